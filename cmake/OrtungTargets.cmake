@@ -1,0 +1,80 @@
+# One way to make a library, one way to make a plugin. Folders use nothing else.
+
+find_program(ORTUNG_CCACHE ccache)
+if(ORTUNG_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ORTUNG_CCACHE})
+endif()
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+set(CMAKE_INSTALL_RPATH $ORIGIN/../lib $ORIGIN $ORIGIN/../..)
+
+# Warnings, and no fused multiply-add: the same bits whatever instruction set is chosen at run time.
+function(ortung_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden
+                        VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
+# ortung_library(container SOURCES a.cpp HEADERS include/a.hpp PUBLIC Eigen3::Eigen PRIVATE x)
+# Makes libortung_container.so, the target ortung::container and its install rules.
+function(ortung_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  set(target ortung_${name})
+  add_library(${target} SHARED ${ARG_SOURCES})
+  add_library(ortung::${name} ALIAS ${target})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${ARG_HEADERS})
+  target_include_directories(${target} PRIVATE src)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  ortung_options(${target})
+  ortung_abi_tag(${name} ${ARG_HEADERS})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+    VERIFY_INTERFACE_HEADER_SETS ON) # every public header compiles alone
+  install(TARGETS ${target} EXPORT ortung_${name} FILE_SET HEADERS FILE_SET abi)
+  install(EXPORT ortung_${name} NAMESPACE ortung:: FILE ortung_${name}.cmake
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung)
+endfunction()
+
+# Writes <ortung/NAME/Abi.hpp>: a fingerprint of the public headers. It is part of every
+# interface name, so a plugin built from other headers is refused without anybody
+# having to remember a version number.
+function(ortung_abi_tag name)
+  foreach(header IN LISTS ARGN)
+    file(SHA256 ${CMAKE_CURRENT_SOURCE_DIR}/${header} hash)
+    string(APPEND all ${hash})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+  endforeach()
+  string(SHA256 tag "${all}")
+  string(SUBSTRING ${tag} 0 8 tag)
+  string(TOUPPER ${name} upper)
+  set(dir ${CMAKE_CURRENT_BINARY_DIR}/include)
+  file(CONFIGURE OUTPUT ${dir}/ortung/${name}/Abi.hpp @ONLY
+    CONTENT "#pragma once\n#define ORTUNG_@upper@_ABI \"@PROJECT_VERSION@-@tag@\"\n")
+  target_sources(ortung_${name} PUBLIC FILE_SET abi TYPE HEADERS BASE_DIRS ${dir}
+                 FILES ${dir}/ortung/${name}/Abi.hpp)
+endfunction()
+
+# ortung_plugin(lrf_data SOURCES x.cpp LINK ortung::container)
+# Makes lib/ortung/plugins/ortung_lrf_data.so, a module nobody links. The file's name begins with
+# the plugin's own, by which the factory finds it first.
+function(ortung_plugin name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(ortung_${name} MODULE ${ARG_SOURCES})
+  target_link_libraries(ortung_${name} PRIVATE ${ARG_LINK})
+  ortung_options(ortung_${name})
+  set_target_properties(ortung_${name} PROPERTIES PREFIX ""
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/ortung/plugins)
+  set_property(GLOBAL APPEND PROPERTY ORTUNG_PLUGIN_TARGETS ortung_${name})
+  install(TARGETS ortung_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/ortung/plugins)
+endfunction()
+
+function(ortung_install_package)
+  include(CMakePackageConfigHelpers)
+  write_basic_package_version_file(ortungConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  configure_package_config_file(cmake/ortungConfig.cmake.in ortungConfig.cmake
+    INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung)
+  install(FILES ${PROJECT_BINARY_DIR}/ortungConfig.cmake ${PROJECT_BINARY_DIR}/ortungConfigVersion.cmake
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung)
+endfunction()

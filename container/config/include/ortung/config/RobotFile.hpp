@@ -1,0 +1,81 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ortung/container/FieldRegion.hpp"
+#include "ortung/container/Parameters.hpp"
+#include "ortung/container/PluginFactory.hpp"
+#include "ortung/container/SensorContainer.hpp"
+#include "ortung/container/TableFile.hpp"
+
+namespace ortung {
+
+/// One [[sensor]] of a robot file: the plugin that makes its data half (and, in the simulator, its
+/// sensor half) and the settings for both.
+struct SensorConfig {
+  std::string plugin;     ///< "lrf", "landmarks", ...
+  Parameters parameters;  ///< the whole [[sensor]] table
+};
+
+/// A robot file (the paper's Parameters module): geometry, sensors, motion.
+/// The same file configures client, server, learner and real robot.
+struct RobotConfig {
+  std::string name;
+  double radius = 0.25;     ///< of the body's circle around the robot's origin [m]
+  std::vector<SensorConfig> sensors;
+  Parameters motion;        ///< [motion], may be empty
+  Parameters mcl;           ///< [mcl], may be empty
+  Parameters drive;         ///< [drive]: limits of the simulated robot, may be empty
+};
+
+/// @throws ConfigError
+ORTUNG_API RobotConfig readRobot(const std::filesystem::path& file);
+ORTUNG_API RobotConfig readRobot(const Parameters& parameters);
+
+/// Features of one device in the container, borrowed.
+struct Device {
+  const SensorConfig* config;
+  std::vector<SensorData*> data;
+};
+
+/// Makes the data of all sensors and adds them to @p container; adds a groundTruth/pose feature
+/// ("reference/groundTruth/pose") if no sensor gives one. @throws ConfigError, PluginError
+ORTUNG_API std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig& robot,
+                                             PluginFactory& factory);
+
+/// Common keys of a [[sensor]]: model, type (with defaults) and pose = { x_m, y_m, theta_deg }.
+/// Data halves call these; both halves of a plugin may.
+ORTUNG_API SensorId sensorIdOf(const Parameters& sensor, const SensorId& defaults);
+
+// --- table files ---------------------------------------------------------------------------
+/// What a table file says of itself.
+struct TableInfo {
+  std::string world;             ///< the world's name
+  std::string worldFingerprint;
+  std::string robot;             ///< the robot's name
+  double headingStep = 0.0;      ///< [rad]
+  FieldRegion region;
+  struct Feature {
+    std::string id;              ///< "model/type/feature"
+    std::string key;             ///< SensorData::learningKey()
+    std::string prefix;          ///< of its arrays' names
+  };
+  std::vector<Feature> features;
+};
+
+/// Writes all learned features of @p container. @throws TableError
+ORTUNG_API void writeTables(const std::filesystem::path& file, const SensorContainer& container,
+                            const TableInfo& info);
+
+/// Reads and checks what a table file says of itself. @throws TableError
+ORTUNG_API TableInfo readTableInfo(const TableFile& file);
+
+/// Gives every localizing feature of @p container its tables.
+/// @throws TableError naming the feature that the file lacks or that was learned for a sensor with
+///   other settings, and both settings
+ORTUNG_API TableInfo loadTables(const std::shared_ptr<const TableFile>& file,
+                                const SensorContainer& container);
+
+}  // namespace ortung

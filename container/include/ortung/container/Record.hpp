@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ortung/container/Export.hpp"
+#include "ortung/container/Message.hpp"
+#include "ortung/container/Source.hpp"
+
+namespace ortung {
+
+/// One reading as a line without its end:
+/// "<stamp us> <model>/<type>/<feature> <number of words> <word> <word> ...".
+/// Appends to @p line. The same line is the log and the wire.
+ORTUNG_API void writeLine(const Message& message, std::string& line);
+
+/// Reads such a line. Nothing for anything else; then @p why (if given) says what is wrong.
+/// Never throws, never allocates more than the line is long.
+ORTUNG_API std::optional<Message> parseLine(std::string_view line, std::string* why = nullptr);
+
+inline constexpr std::size_t kMaxWords = 1u << 24;      ///< words of one reading
+inline constexpr std::string_view kRecordMagic = "# ortung record 1";
+
+/// Writes a record file: kRecordMagic, "# key value" lines (keys: world, robot, note), then readings.
+/// The file appears under its name at commit(), whole.
+class ORTUNG_API RecordWriter {
+ public:
+  /// @throws std::runtime_error if the file can't be written
+  explicit RecordWriter(std::filesystem::path file, const std::string& worldFingerprint = "");
+  ~RecordWriter();  ///< without commit(): removes the temporary file
+  RecordWriter(const RecordWriter&) = delete;
+  RecordWriter& operator=(const RecordWriter&) = delete;
+
+  void write(const Message& message);
+  void commit();
+  std::size_t messages() const { return messages_; }
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path temporary_;
+  std::ofstream out_;
+  std::string line_;
+  std::size_t messages_ = 0;
+  bool committed_ = false;
+};
+
+/// Plays a record file (source kind "record"; part of the container, no plugin needed).
+class ORTUNG_API RecordSource : public Source {
+ public:
+  /// @throws std::runtime_error if it is not a record
+  explicit RecordSource(const std::filesystem::path& file);
+  ~RecordSource() override;
+
+  bool next(Message& message) override;
+  double progress() const override;
+  std::string worldFingerprint() const override { return world_; }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+  std::filesystem::path file_;
+  std::ifstream in_;
+  std::string line_;
+  std::string world_;
+  std::size_t lineNumber_ = 0;
+  double size_ = 0.0;
+  double done_ = 0.0;
+  Timestamp last_;
+};
+
+}  // namespace ortung

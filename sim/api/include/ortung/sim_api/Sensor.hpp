@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+
+#include "ortung/container/Export.hpp"
+#include "ortung/container/Pose2.hpp"
+#include "ortung/container/Random.hpp"
+#include "ortung/container/SensorData.hpp"
+#include "ortung/container/Time.hpp"
+#include "ortung/sim_api/Abi.hpp"
+#include "ortung/sim_api/World.hpp"
+
+namespace ortung {
+
+/// What a sensor may know of the robot that carries it.
+struct RobotState {
+  Pose2 pose;                          ///< true, in the field frame
+  Pose2 odometry;                      ///< what the motion side believes, in the odometry frame
+  double translationalVelocity = 0.0;  ///< [m/s], as odometry measures it
+  double rotationalVelocity = 0.0;     ///< [rad/s], as odometry measures it
+  RobotNumber number = 0;              ///< rays ignore this robot's body
+};
+
+/// The simulation half of a sensor plugin: generates data from the world (paper, section 4).
+/// Its constructor takes the same Parameters as the data half; a parameter nobody reads is an error,
+/// so both halves read all settings of the plugin through one common function.
+class ORTUNG_API Sensor {
+ public:
+  static constexpr const char* kInterface = "ortung.Sensor/" ORTUNG_SIM_API_ABI;
+  virtual ~Sensor();
+
+  /// Writes what the sensor sees into some or all features of its device.
+  /// @param noise nullptr: without noise, as learning needs it
+  /// @param data features made by the data half of the same plugin from the same parameters
+  virtual void generateData(const World& world, const RobotState& robot, Random* noise,
+                            Timestamp now, std::span<SensorData* const> data) = 0;
+
+  /// Time between two readings [s]; 0: every cycle.
+  virtual double period() const { return 0.0; }
+};
+
+}  // namespace ortung

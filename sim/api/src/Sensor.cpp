@@ -1,0 +1,8 @@
+#include "ortung/sim_api/Sensor.hpp"
+
+namespace ortung {
+
+World::~World() = default;
+Sensor::~Sensor() = default;
+
+}  // namespace ortung
