@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "ortung/container/SampleView.hpp"
+
+namespace ortung {
+
+/// The belief as weighted samples (paper, section 5.2): struct of arrays, all of size N.
+struct SampleSet {
+  std::vector<float> x;          ///< [m], field frame
+  std::vector<float> y;          ///< [m]
+  std::vector<float> theta;      ///< [rad], any turn
+  std::vector<float> logWeight;  ///< ln of the weight, up to a common constant
+
+  std::size_t size() const { return x.size(); }
+  void resize(std::size_t n) {
+    x.resize(n);
+    y.resize(n);
+    theta.resize(n);
+    logWeight.resize(n);
+  }
+  SampleView view() const { return {x, y, theta}; }
+};
+
+}  // namespace ortung

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+
+#include "ortung/config/RobotFile.hpp"
+#include "ortung/container/Export.hpp"
+#include "ortung/sim/SimWorld.hpp"
+#include "ortung/sim_api/Sensor.hpp"
+
+namespace ortung {
+
+struct LearnOptions {
+  double cell = 0.1;                  ///< edge of a cell [m]
+  double headingStep = 0.0349065850;  ///< [rad], 2 degrees; must divide a turn
+};
+
+/// Learning was interrupted by its caller.
+class ORTUNG_API LearnCancelled : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~LearnCancelled() override;
+};
+
+/// The model learner (paper, section 5.2): puts each sensor on the centre of every open cell, in as
+/// many headings as it needs, generates noise-free data and calls learnProbability.
+/// @param progress called now and then with the share done, in [0, 1]; returns false to stop
+/// @param region must outlive the container
+/// @throws LearnCancelled
+ORTUNG_API void learn(const SimWorld& world, const FieldRegion& region,
+                      const std::vector<Device>& devices, PluginFactory& factory,
+                      const LearnOptions& options, const std::function<bool(double)>& progress);
+
+}  // namespace ortung
