@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,20 +43,27 @@ class ORTUNG_API RangeScale {
 /// repeated behind the end so that a run of `longestRun` directions never wraps.
 class ORTUNG_API DirectionTable {
  public:
+  static constexpr int kSlack = 64;
+  static constexpr int kMostDirections = 36000;
+
   DirectionTable() = default;
 
   /// @param directions directions a turn, at least 1; direction k is 2 pi k / directions
   void start(const FieldRegion& region, int directions, int longestRun);
-  /// Sets the level of the direction nearest to @p angle.
+  /// Sets the level of the direction nearest to @p angle, unless an angle nearer to that direction
+  /// was learned before. Cells that are not open are ignored.
   void learn(double x, double y, double angle, std::uint8_t level);
-  /// Repeats the beginnings of rows and drops rows in which a direction was never learned.
+  /// Gives directions that no angle fell on the level of a neighbour at most kWidestGap away,
+  /// drops rows that still have holes, and repeats the beginnings of rows behind their ends.
   void finish();
+  static constexpr int kWidestGap = 2;
 
   int directions() const { return directions_; }
   double step() const;  ///< [rad]
   const FieldGrid& grid() const { return grid_; }
   /// Row of levels of the cell that holds the point, or nullptr.
-  /// directions() + longestRun entries can be read, and 64 more bytes belong to the table.
+  /// directions() + longestRun entries can be read, and kSlack more bytes belong to the table, so
+  /// that whole vectors may be loaded.
   const std::uint8_t* row(double x, double y) const {
     const std::ptrdiff_t cell = grid_.cellAt(x, y);
     return cell < 0 ? nullptr : rowOfCell(cell);
@@ -72,9 +80,10 @@ class ORTUNG_API DirectionTable {
   std::size_t stride() const { return stride_; }
 
   void save(TableWriter& file, const std::string& prefix) const;
+  /// @param longestRunOf longest run by number of directions, as given to start()
   /// @throws TableError also for row numbers outside of the table
-  void load(const TableFile& file, const std::string& prefix, const FieldGrid& grid, int directions,
-            int longestRun);
+  void load(const TableFile& file, const std::string& prefix, const FieldGrid& grid,
+            const std::function<int(int)>& longestRunOf);
 
  private:
   FieldGrid grid_;
@@ -82,7 +91,7 @@ class ORTUNG_API DirectionTable {
   std::size_t stride_ = 1;
   std::vector<std::int32_t> ownRowOf_;
   std::vector<std::uint8_t> ownLevels_;
-  std::vector<std::uint8_t> seen_;  ///< while learning: one flag a row and direction
+  std::vector<std::uint8_t> closeness_;  ///< while learning: of the angle learned; 0: none yet
   std::span<const std::int32_t> rowOf_;
   std::span<const std::uint8_t> levels_;
 };

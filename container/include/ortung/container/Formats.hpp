@@ -201,7 +201,7 @@ class ORTUNG_API ScanData : public SensorData {
   bool localizes() const override { return true; }
   double headingSpacing() const override;
   /// Range of each beam [m]; the greatest range where nothing is expected to be seen.
-  /// With an end-point field: empty, since it does not keep ranges.
+  /// With an end-point field: empty, since that does not keep ranges.
   std::vector<double> expectation(const Pose2& pose) const override;
   std::string learningKey() const override;
   void saveTables(TableWriter& file, const std::string& prefix) const override;
@@ -225,6 +225,7 @@ class ORTUNG_API ScanData : public SensorData {
 
   Config config_;
   RangeScale scale_;
+  FieldGrid grid_;  ///< of the tables
   DirectionTable rays_;
   EndPointField endPoints_;
   std::vector<float> ranges_;

@@ -33,13 +33,8 @@ struct Range {
 /// Not thread-safe.
 class ORTUNG_API Parameters {
  public:
-  struct Node;
+  struct Node;  ///< one value
   using List = std::vector<Node>;
-  /// One value with its place in the file.
-  struct Node {
-    std::variant<bool, std::int64_t, double, std::string, List, Parameters> value;
-    int line = 0;
-  };
 
   /// An empty table. @param where what errors call it, e.g. "robots/pioneer.toml"
   explicit Parameters(std::string where = "");
@@ -87,6 +82,12 @@ class ORTUNG_API Parameters {
   const Node& need(const std::string& key) const;
   double toNumber(const std::string& key, const Node& node, const Range& range) const;
   std::shared_ptr<Table> table_;
+};
+
+/// One value with its place in the file.
+struct Parameters::Node {
+  std::variant<bool, std::int64_t, double, std::string, List, Parameters> value;
+  int line = 0;  ///< 0: not from a file
 };
 
 }  // namespace ortung

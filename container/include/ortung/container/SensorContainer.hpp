@@ -42,7 +42,7 @@ class ORTUNG_API SensorContainer {
   SensorData* find(const SensorQuery& query) const;
   /// All matches in the order of insertion.
   std::vector<SensorData*> findAll(const SensorQuery& query) const;
-  SensorData* find(const SensorId& id) const;
+  SensorData* findExactly(const SensorId& id) const;
   std::span<const std::unique_ptr<SensorData>> all() const { return data_; }
 
   /// Sets one feature's reading. Returns false if the container has no such feature.

@@ -1,0 +1,323 @@
+#include <algorithm>
+#include <limits>
+
+#include "CellLookup.hpp"
+#include "FormatTools.hpp"
+#include "ScanCost.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr int kMostBeams = 8192;
+constexpr std::uint8_t kLargestCost = 250;  ///< of one beam: the outlier floor in quantized form
+constexpr std::size_t kSamplesABlock = 64;  ///< rows are looked up and prefetched this many at a time
+constexpr std::size_t kRangeClasses = 8;    ///< of end points: sigma grows with range
+
+}  // namespace
+
+struct ScanData::Prepared {
+  // Against a ray table.
+  std::vector<std::uint8_t> levels;  ///< by direction from the first beam on, padded
+  std::vector<std::uint8_t> caps;
+  std::array<std::uint8_t, kLevelDifferences> costs{};
+  float nats = 0.0F;                 ///< ln p of a cost of 1, exponent included (negative)
+  std::uint32_t floorCost = 0;       ///< of a sample without expectation
+  // Against an end-point field, in the robot frame.
+  struct EndPoint {
+    float x;
+    float y;
+    std::uint32_t rangeClass;
+  };
+  std::vector<EndPoint> endPoints;
+  std::array<std::array<float, 256>, kRangeClasses> logByLevel{};
+};
+
+ScanData::ScanData(SensorId id, const Pose2& mount, const Config& config)
+    : SensorData(std::move(id), mount),
+      config_(config),
+      scale_(config.maxRange, config.model.sigma, config.model.sigmaPerMetre),
+      prepared_(std::make_unique<Prepared>()) {
+  if (config.beams < 1 || config.beams > kMostBeams || !(config.angleStep > 0.0) ||
+      config.beams * config.angleStep > kFullTurn + config.angleStep) {
+    throw std::invalid_argument("a scan has 1 to 8192 beams that span at most a turn");
+  }
+  ranges_.assign(static_cast<std::size_t>(config.beams), std::numeric_limits<float>::quiet_NaN());
+}
+
+ScanData::~ScanData() = default;
+
+ScanData::Reading ScanData::reading() const { return {config_.firstAngle, config_.angleStep, ranges_}; }
+
+void ScanData::encode(std::span<const float> ranges, double maxRange, std::vector<std::uint32_t>& words) {
+  const std::uint32_t nothing = words::fromMetres(maxRange) + 1;
+  words.resize(ranges.size());
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const auto range = static_cast<double>(ranges[i]);
+    if (std::isnan(range)) {
+      words[i] = 0;
+    } else {
+      words[i] = range >= maxRange ? nothing : std::max(words::fromMetres(range), 1U);
+    }
+  }
+}
+
+void ScanData::decode(std::span<const std::uint32_t> words) {
+  checkWordCount(words, ranges_.size());
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const double range = words::toMetres(words[i]);
+    const bool valid = words[i] != 0 && range >= config_.minRange;
+    ranges_[i] = !valid ? std::numeric_limits<float>::quiet_NaN()
+                 : range >= config_.maxRange ? std::numeric_limits<float>::infinity()
+                                             : static_cast<float>(range);
+  }
+  if (isLearned()) prepare();
+}
+
+bool ScanData::isInformative() const {
+  return config_.perception == Perception::kRays ? prepared_->floorCost > 0 : !prepared_->endPoints.empty();
+}
+
+std::string ScanData::wordsHelp() const {
+  return "[distance mm] of each of " + std::to_string(config_.beams) + " beams from " +
+         keyNumber(config_.firstAngle * 180 / std::numbers::pi) + " deg in steps of " +
+         keyNumber(config_.angleStep * 180 / std::numbers::pi) + " deg; 0: not valid; from " +
+         keyNumber(config_.maxRange * 1000) + " on: nothing seen";
+}
+
+double ScanData::headingSpacing() const {
+  const double span = std::min(config_.beams * config_.angleStep, kFullTurn);
+  const double views = std::ceil(kFullTurn / span - 1e-9);
+  // One view more than a turn needs: beams of the views interleave, so fewer directions stay empty.
+  return views == 1.0 ? kFullTurn : kFullTurn / (views + 1.0);
+}
+
+int ScanData::runLength(int directions) const {
+  const double step = kFullTurn / directions;
+  const auto run = static_cast<int>(std::lround((config_.beams - 1) * config_.angleStep / step)) + 1;
+  return std::min(run, directions);
+}
+
+// --- learning ------------------------------------------------------------------------------
+
+void ScanData::startTables(const FieldRegion& region, double headingStep) {
+  grid_ = region.grid;
+  if (config_.perception == Perception::kEndPoints) {
+    endPoints_.start(region.grid, config_.endPointCell, 2 * config_.endPointCell);
+    return;
+  }
+  const int directions = std::max(1, static_cast<int>(std::lround(kFullTurn / headingStep)));
+  rays_.start(region, directions, runLength(directions));
+}
+
+void ScanData::learn(const Pose2& robotInField) {
+  const Pose2 sensor = robotInField * mount();
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const double angle = sensor.theta + config_.firstAngle + static_cast<double>(i) * config_.angleStep;
+    const auto range = static_cast<double>(ranges_[i]);
+    if (std::isnan(range)) continue;
+    if (config_.perception == Perception::kRays) {
+      rays_.learn(sensor.x, sensor.y, angle, scale_.level(range));
+    } else if (std::isfinite(range)) {
+      endPoints_.mark(sensor.x + range * std::cos(angle), sensor.y + range * std::sin(angle));
+    }
+  }
+}
+
+void ScanData::finishTables() {
+  if (config_.perception == Perception::kRays) {
+    rays_.finish();
+  } else {
+    endPoints_.finish();
+  }
+  prepare();
+}
+
+std::string ScanData::learningKey() const {
+  const bool rays = config_.perception == Perception::kRays;
+  std::string key = "scan beams=" + std::to_string(config_.beams) + " first_rad=" + keyNumber(config_.firstAngle) +
+                    " step_rad=" + keyNumber(config_.angleStep) + " max_range_m=" + keyNumber(config_.maxRange) +
+                    " perception=" + (rays ? "rays" : "endpoints");
+  key += rays ? " scale=" + keyNumber(config_.model.sigma) + "," + keyNumber(config_.model.sigmaPerMetre)
+              : " cell_m=" + keyNumber(config_.endPointCell);
+  return key + " " + mountKey(mount());
+}
+
+void ScanData::saveTables(TableWriter& file, const std::string& prefix) const {
+  if (config_.perception == Perception::kRays) {
+    rays_.save(file, prefix);
+  } else {
+    endPoints_.save(file, prefix);
+  }
+}
+
+void ScanData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
+  grid_ = grid;
+  if (config_.perception == Perception::kRays) {
+    rays_.load(file, prefix, grid, [this](int directions) { return runLength(directions); });
+  } else {
+    endPoints_.load(file, prefix);
+  }
+  prepare();
+}
+
+std::vector<double> ScanData::expectation(const Pose2& pose) const {
+  const Pose2 sensor = pose * mount();
+  const std::uint8_t* row =
+      config_.perception == Perception::kRays ? rays_.row(sensor.x, sensor.y) : nullptr;
+  if (row == nullptr) return {};
+  std::vector<double> expected;
+  for (int i = 0; i < config_.beams; ++i) {
+    expected.push_back(scale_.range(row[rays_.directionOf(sensor.theta + config_.firstAngle + i * config_.angleStep)]));
+  }
+  return expected;
+}
+
+// --- weighing ------------------------------------------------------------------------------
+
+void ScanData::prepare() {
+  if (config_.perception == Perception::kRays) {
+    prepareRays();
+  } else {
+    prepareEndPoints();
+  }
+}
+
+/// Brings the reading to the table's directions: for each direction of the run the nearest beam.
+void ScanData::prepareRays() {
+  const SensorModel& model = config_.model;
+  const double unit = -std::log(model.outliers) / kLargestCost;  // nats of a cost of 1
+  const auto quantize = [unit](double logProbability) {
+    return static_cast<std::uint8_t>(std::clamp(std::nearbyint(-logProbability / unit), 0.0, double{kLargestCost}));
+  };
+  for (std::size_t d = 0; d < kLevelDifferences; ++d) {
+    prepared_->costs[d] = quantize(model.logProbability(static_cast<double>(d) / scale_.levelsPerSigma()));
+  }
+  prepared_->costs.back() = kLargestCost;
+  const int run = runLength(rays_.directions());
+  const std::size_t padded = (static_cast<std::size_t>(run) + kScanBlock - 1) / kScanBlock * kScanBlock;
+  prepared_->levels.assign(padded, 0);
+  prepared_->caps.assign(padded, 0);
+  const int thin = config_.usedBeams > 0 ? std::max(1, run / config_.usedBeams) : 1;
+  prepared_->floorCost = 0;
+  for (int j = 0; j < run; j += thin) {
+    const double place = j * rays_.step() / config_.angleStep;
+    const auto beam = std::min<long>(std::lround(place), config_.beams - 1);
+    if (std::abs(place - static_cast<double>(beam)) * config_.angleStep > 0.51 * rays_.step()) continue;
+    const float range = ranges_[static_cast<std::size_t>(beam)];
+    if (std::isnan(range)) continue;
+    const auto at = static_cast<std::size_t>(j);
+    prepared_->levels[at] = scale_.level(static_cast<double>(range));
+    prepared_->caps[at] = std::isinf(range) ? quantize(std::log(model.maxRangeMass)) : kLargestCost;
+    prepared_->floorCost += prepared_->caps[at];
+  }
+  prepared_->nats = static_cast<float>(-unit * model.exponent);
+}
+
+void ScanData::prepareEndPoints() {
+  const SensorModel& model = config_.model;
+  for (std::size_t c = 0; c < kRangeClasses; ++c) {
+    const double range = (static_cast<double>(c) + 0.5) / kRangeClasses * config_.maxRange;
+    // Half a cell's width is not the sensor's fault.
+    const double sigma = std::hypot(model.sigmaAt(range), 0.29 * config_.endPointCell);
+    for (std::size_t level = 0; level < 255; ++level) {
+      const double distance = static_cast<double>(level) * endPoints_.metresPerLevel();
+      prepared_->logByLevel[c][level] = static_cast<float>(model.exponent * model.logProbability(distance / sigma));
+    }
+    prepared_->logByLevel[c][255] = static_cast<float>(model.logFloor());
+  }
+  prepared_->endPoints.clear();
+  const int thin = config_.usedBeams > 0 ? std::max(1, config_.beams / config_.usedBeams) : 1;
+  for (int i = 0; i < config_.beams; i += thin) {
+    const float range = ranges_[static_cast<std::size_t>(i)];
+    if (!std::isfinite(range)) continue;  // a beam that sees nothing has no end
+    const double angle = config_.firstAngle + i * config_.angleStep;
+    const Pose2 end = mount() * Pose2{static_cast<double>(range) * std::cos(angle), static_cast<double>(range) * std::sin(angle), 0};
+    const auto rangeClass = static_cast<std::uint32_t>(static_cast<double>(range) / config_.maxRange * kRangeClasses);
+    prepared_->endPoints.push_back({static_cast<float>(end.x), static_cast<float>(end.y),
+                                    std::min<std::uint32_t>(rangeClass, kRangeClasses - 1)});
+  }
+}
+
+double ScanData::logProbabilityAt(const Pose2& pose) const {
+  const Pose2 sensor = pose * mount();
+  const bool rays = config_.perception == Perception::kRays;
+  const bool expects = rays ? rays_.row(sensor.x, sensor.y) != nullptr : grid_.cellAt(sensor.x, sensor.y) >= 0;
+  if (!expects) return std::numeric_limits<double>::quiet_NaN();
+  const auto x = static_cast<float>(pose.x);
+  const auto y = static_cast<float>(pose.y);
+  const auto theta = static_cast<float>(pose.theta);
+  float logProbability = 0.0F;
+  weigh({{&x, 1}, {&y, 1}, {&theta, 1}}, {&logProbability, 1});
+  return static_cast<double>(logProbability);
+}
+
+void ScanData::weigh(const SampleView& poses, std::span<float> logProbability) const {
+  if (config_.perception == Perception::kRays) {
+    weighRays(poses, logProbability);
+  } else {
+    weighEndPoints(poses, logProbability);
+  }
+}
+
+void ScanData::weighRays(const SampleView& poses, std::span<float> logProbability) const {
+  const ScanReading reading{prepared_->levels, prepared_->caps, prepared_->costs};
+  const ScanCostKernel kernel = scanCostKernel();
+  const CellLookup lookup(grid_);
+  const auto directions = static_cast<float>(rays_.directions());
+  const auto perRadian = static_cast<float>(rays_.directions() / kFullTurn);
+  const auto first = static_cast<float>(config_.firstAngle);
+  const std::uint8_t* rows[kSamplesABlock];
+  std::size_t sampleOf[kSamplesABlock];
+  std::uint32_t costs[kSamplesABlock];
+  std::size_t waiting = 0;
+  const auto flush = [&] {
+    kernel(reading, {rows, waiting}, costs);
+    for (std::size_t k = 0; k < waiting; ++k) {
+      logProbability[sampleOf[k]] += prepared_->nats * static_cast<float>(costs[k]);
+    }
+    waiting = 0;
+  };
+  const float floor = prepared_->nats * static_cast<float>(prepared_->floorCost);
+  forEachSensorPose(poses, mount(), [&](std::size_t i, float x, float y, float theta) {
+    const std::ptrdiff_t cell = lookup(x, y);
+    const std::uint8_t* row = cell < 0 ? nullptr : rays_.rowOfCell(cell);
+    if (row == nullptr) {
+      logProbability[i] += floor;
+      return;
+    }
+    const float place = (theta + first) * perRadian;
+    float direction = std::nearbyintf(place - directions * std::floor(place / directions));
+    direction = direction < directions ? direction : 0.0F;  // also for NaN
+    rows[waiting] = row + static_cast<std::size_t>(direction);
+    for (std::size_t k = 0; k < prepared_->levels.size(); k += 64) __builtin_prefetch(rows[waiting] + k);
+    sampleOf[waiting++] = i;
+    if (waiting == kSamplesABlock) flush();
+  });
+  flush();
+}
+
+void ScanData::weighEndPoints(const SampleView& poses, std::span<float> logProbability) const {
+  const CellLookup region(grid_);
+  const CellLookup lookup(endPoints_.grid());
+  const std::uint8_t* levels = endPoints_.levels().data();
+  const auto& points = prepared_->endPoints;
+  const auto floor = static_cast<float>(config_.model.logFloor());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const float c = std::cos(poses.theta[i]);
+    const float s = std::sin(poses.theta[i]);
+    const float x = poses.x[i];
+    const float y = poses.y[i];
+    float sum = 0.0F;
+    if (region(x, y) < 0) {
+      sum = floor * static_cast<float>(points.size());
+    } else {
+      for (const Prepared::EndPoint& point : points) {
+        const std::ptrdiff_t cell = lookup(x + c * point.x - s * point.y, y + s * point.x + c * point.y);
+        sum += cell < 0 ? floor : prepared_->logByLevel[point.rangeClass][levels[cell]];
+      }
+    }
+    logProbability[i] += sum;
+  }
+}
+
+}  // namespace ortung

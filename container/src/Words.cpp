@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+#include "FormatTools.hpp"
+
+namespace ortung::words {
+namespace {
+
+constexpr double kCentidegrees = 18000.0 / std::numbers::pi;
+
+std::uint32_t clampToWord(double value) {
+  return static_cast<std::uint32_t>(
+      std::clamp(std::nearbyint(value), 0.0, double{std::numeric_limits<std::uint32_t>::max()}));
+}
+
+}  // namespace
+
+std::uint32_t fromMetres(double metres) { return clampToWord(metres * 1000.0); }
+double toMetres(std::uint32_t word) { return word / 1000.0; }
+
+std::uint32_t fromSignedMetres(double metres) { return clampToWord(metres * 1000.0 + kOffset); }
+double toSignedMetres(std::uint32_t word) {
+  return (static_cast<double>(word) - kOffset) / 1000.0;
+}
+
+std::uint32_t fromAngle(double radians) {
+  const double centidegrees = std::nearbyint(std::remainder(radians, 2 * std::numbers::pi) * kCentidegrees);
+  return static_cast<std::uint32_t>(centidegrees + 18000.0) % kAngles;
+}
+double toAngle(std::uint32_t word) { return (static_cast<double>(word) - 18000.0) / kCentidegrees; }
+
+std::uint32_t fromRate(double radiansPerSecond) {
+  return clampToWord(radiansPerSecond * kCentidegrees + kOffset);
+}
+double toRate(std::uint32_t word) { return (static_cast<double>(word) - kOffset) / kCentidegrees; }
+
+}  // namespace ortung::words
+
+namespace ortung {
+
+std::string keyNumber(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::string mountKey(const Pose2& mount) {
+  return "mount=" + keyNumber(mount.x) + "," + keyNumber(mount.y) + "," + keyNumber(mount.theta);
+}
+
+}  // namespace ortung

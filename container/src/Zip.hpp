@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// The store-only part of the zip format (PKWARE APPNOTE 6.3.3), without zip64.
+namespace ortung::zip {
+
+/// CRC-32 of @p bytes (polynomial 0xEDB88320), continuing from @p crc.
+std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t crc = 0);
+
+/// A member's place in the file.
+struct Member {
+  std::string name;
+  std::uint32_t crc = 0;
+  std::uint32_t size = 0;
+  std::uint32_t headerOffset = 0;  ///< of its local header
+};
+
+inline constexpr std::size_t kAlignment = 64;  ///< of every member's data in the file
+
+/// Local header of @p member, padded so that its data begins at a multiple of kAlignment.
+std::string localHeader(const Member& member);
+/// Central directory and its end record; @p offset is where it will stand.
+std::string directory(const std::vector<Member>& members, std::uint32_t offset);
+
+/// A member and its bytes within a file.
+struct Entry {
+  std::string name;
+  std::span<const std::byte> bytes;
+};
+
+/// Reads and checks a whole file: structure, bounds, names and checksums.
+/// Returns why it is refused, or "" with @p entries filled.
+std::string read(std::span<const std::byte> file, std::vector<Entry>& entries);
+
+}  // namespace ortung::zip
