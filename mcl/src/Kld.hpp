@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ortung/container/Export.hpp"
+#include "ortung/mcl/MclConfig.hpp"
+#include "ortung/mcl/PoseEstimate.hpp"
+#include "ortung/mcl/SampleSet.hpp"
+
+namespace ortung {
+
+/// Samples sorted into bins of (x, y, heading), in the order in which bins first occur, so the
+/// result depends on the samples alone.
+class ORTUNG_API PoseBins {
+ public:
+  PoseBins(const MclConfig& config, const SampleView& samples);
+
+  std::size_t count() const { return bins_.size(); }
+  /// Bin of each sample.
+  std::span<const std::uint32_t> binOf() const { return binOf_; }
+  /// For each bin the number of its cluster: bins that touch (also at corners) hang together.
+  std::vector<std::uint32_t> clusters() const;
+
+ private:
+  struct Bin {
+    std::int32_t x;
+    std::int32_t y;
+    std::int32_t turn;
+    bool operator==(const Bin&) const = default;
+  };
+  std::uint32_t insert(const Bin& bin);
+  std::int64_t find(const Bin& bin) const;
+  std::size_t slotOf(const Bin& bin) const;
+
+  int turns_;  ///< bins a turn
+  std::vector<Bin> bins_;
+  std::vector<std::uint32_t> binOf_;
+  std::vector<std::uint32_t> table_;  ///< open addressing: bin + 1, or 0
+};
+
+/// Samples needed so that the sampled distribution is closer than `kldError` to the true one with
+/// probability `kldQuantile`, when it fills @p bins bins (Fox, "Adapting the sample size in
+/// particle filters through KLD-sampling", 2003, eq. 7); within [minSamples, maxSamples].
+ORTUNG_API std::size_t kldSamples(const MclConfig& config, std::size_t bins);
+
+/// The heaviest cluster's mean and covariance.
+ORTUNG_API PoseEstimate estimateOf(const MclConfig& config, const SampleView& samples,
+                                   std::span<const double> weights);
+
+}  // namespace ortung

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ortung/container/Export.hpp"
+
+namespace ortung {
+
+/// Weights of @p logWeights, scaled to sum 1. All-equal weights where none is finite (all lost).
+ORTUNG_API std::vector<double> normalized(std::span<const float> logWeights);
+
+/// 1 / sum w^2 of normalized weights: how many equal samples they are worth.
+ORTUNG_API double effectiveSamples(std::span<const double> weights);
+
+/// Low-variance resampling (Thrun, Burgard, Fox, table 4.4): @p n indices, each i about
+/// n * weights[i] times. @param offset in [0, 1) @pre the weights sum to 1
+ORTUNG_API std::vector<std::uint32_t> lowVariance(std::span<const double> weights, std::size_t n, double offset);
+
+/// Exponent b in (0, 1] for which the weights w^b are worth at least @p least samples:
+/// candidates are drawn by w^b and keep w^(1-b), so that a sharp reading does not leave only one.
+ORTUNG_API double temperFor(std::span<const float> logWeights, double least);
+
+}  // namespace ortung
