@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs what Ortung needs on Debian 12. Does nothing (and needs no rights) if all is there.
+set -euo pipefail
+
+packages=(
+  # tools
+  g++ cmake ninja-build ccache pkg-config binutils
+  # container and mcl: Eigen, and headers that stay hidden behind the file readers
+  libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev
+  # simulator: rays, maps
+  libembree-dev libyaml-cpp-dev libstb-dev libboost-dev libboost-iostreams-dev
+  # readers of foreign logs
+  libmrpt-obs-dev libmrpt-maps-dev
+  # the program: command line, messages, charts of the report
+  libcli11-dev libspdlog-dev libfmt-dev libpng-dev libjs-dygraphs
+  # tests and benchmarks
+  libgtest-dev libbenchmark-dev librapidcheck-dev
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+  [[ $status == "install ok installed" ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  echo "install-deps: all ${#packages[@]} packages are there"
+  exit 0
+fi
+
+as_root=()
+if [[ $(id -u) != 0 ]]; then
+  command -v sudo >/dev/null || { echo "install-deps: needs root or sudo to install: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "install-deps: installing ${missing[*]}"
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -q --no-install-recommends "${missing[@]}"

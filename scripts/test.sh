@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Installs, builds and runs the tests: test.sh [--preset dev|asan|tsan|release] [ctest arguments...]
+# Tests on real recordings use ../shared/data and are skipped where it is absent.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+preset=dev
+if [[ ${1:-} == --preset ]]; then
+  preset=${2:?"--preset needs a name"}
+  shift 2
+fi
+scripts/install-deps.sh
+cmake --preset "$preset" >/dev/null
+cmake --build --preset "$preset" -- -k 0
+ctest --preset "$preset" -j "$(nproc)" "$@"
