@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace ortung {
+
+/// Reads a whole regular file. @throws MapError if it is missing, no file or larger than @p maxBytes
+std::string readBounded(const std::filesystem::path& file, std::size_t maxBytes);
+
+/// The same, unpacking .gz and .xz; @p maxBytes holds before and after unpacking. @throws MapError
+std::string readUnpacked(const std::filesystem::path& file, std::size_t maxBytes);
+
+}  // namespace ortung

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace ortung {
+
+inline constexpr std::size_t kMaxGridCells = std::size_t{1} << 26;
+
+/// A map file that cannot be read; the message begins with the file's name.
+class MapError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class GridCell : std::uint8_t {
+  free,
+  unknownNearFree,  ///< unknown, but so near to a free cell that robots and sensors may be there
+  unknown,
+  occupied
+};
+
+/// An occupancy grid. Cell (column, row) covers [originX + column * cell, ...), row 0 at the bottom.
+struct GridMap {
+  int columns = 0;
+  int rows = 0;
+  double cell = 0.05;    ///< edge of a cell [m]
+  double originX = 0.0;  ///< lower left corner [m]
+  double originY = 0.0;  ///< [m]
+  std::vector<GridCell> cells;  ///< row by row
+
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+  GridCell at(int column, int row) const { return cells[index(column, row)]; }
+};
+
+/// A grid as it stands in the world.
+struct GridBody {
+  GridMap map;
+  double zLow = 0.0;   ///< [m]
+  double zHigh = 1.0;  ///< [m]
+};
+
+/// Reads an occupancy grid: map_server YAML (.yaml, .yml), CARMEN map (.map, .cmf, .carmen, also
+/// with .gz) or MRPT grid map (.gridmap, .gridmap.gz). @throws MapError
+GridMap readGridMap(const std::filesystem::path& file);
+
+// The readers behind it. All throw MapError.
+GridMap readMapServer(const std::filesystem::path& yaml);
+GridMap readCarmenMap(const std::filesystem::path& file);
+GridMap readMrptGridMap(const std::filesystem::path& file);
+
+/// @throws MapError unless size and place of the grid are sane
+void checkGrid(const std::filesystem::path& file, double columns, double rows, double cell,
+               double originX, double originY);
+
+/// Marks unknown cells that are no farther than @p margin from a free one, with only unknown cells
+/// between: SLAM maps have unknown spots where the robot itself stood, but what lies behind a wall
+/// stays unknown.
+void markUnknownNearFree(GridMap& map, double margin);
+
+/// Distance from the centre of each cell to the centre of the nearest occupied one, in cells;
+/// infinity if there is none. Exact.
+std::vector<float> distanceToOccupied(const GridMap& map);
+
+}  // namespace ortung

@@ -1,0 +1,149 @@
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "BoundedFile.hpp"
+#include "GridMap.hpp"
+#include "MapImage.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMaxYamlBytes = std::size_t{64} << 10;
+constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
+
+/// What a map_server YAML says.
+struct MapDescription {
+  std::string image;
+  double resolution = 0.0;  ///< [m]
+  double originX = 0.0;     ///< [m]
+  double originY = 0.0;     ///< [m]
+  bool negate = false;
+  double occupiedAbove = 0.65;
+  double freeBelow = 0.196;
+};
+
+class YamlMap {
+ public:
+  explicit YamlMap(const std::filesystem::path& file) : file_(file) {
+    const std::string text = readBounded(file, kMaxYamlBytes);
+    try {
+      root_ = YAML::Load(text);
+    } catch (const YAML::Exception& error) {
+      throw MapError(file.string() + ": is no YAML: " + error.what());
+    }
+    if (!root_.IsMap()) throw MapError(file.string() + ": expected keys and values of a map_server map");
+  }
+
+  MapDescription read() const {
+    MapDescription map;
+    map.image = text("image");
+    map.resolution = number(need("resolution"), "resolution", 0.001, 100.0);
+    readOrigin(map);
+    map.negate = flag("negate");
+    if (has("occupied_thresh"))
+      map.occupiedAbove = number(root_["occupied_thresh"], "occupied_thresh", 0.0, 1.0);
+    if (has("free_thresh")) map.freeBelow = number(root_["free_thresh"], "free_thresh", 0.0, 1.0);
+    if (map.freeBelow > map.occupiedAbove)
+      refuse(root_["free_thresh"], "free_thresh is above occupied_thresh, expected at most as large");
+    if (has("mode") && text("mode") != "trinary" && text("mode") != "scale")
+      refuse(root_["mode"], "mode is \"" + text("mode") + "\", expected trinary or scale");
+    return map;
+  }
+
+ private:
+  bool has(const char* key) const { return root_[key].IsDefined(); }
+
+  [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
+    const int line = node.Mark().line;
+    throw MapError(file_.string() + (line >= 0 ? ":" + std::to_string(line + 1) : "") + ": " + what);
+  }
+
+  YAML::Node need(const char* key) const {
+    if (!has(key)) throw MapError(file_.string() + ": has no " + key);
+    return root_[key];
+  }
+
+  std::string text(const char* key) const {
+    const YAML::Node node = need(key);
+    if (!node.IsScalar() || node.Scalar().empty() || node.Scalar().find('\0') != std::string::npos)
+      refuse(node, std::string(key) + " is no text");
+    return node.Scalar();
+  }
+
+  double number(const YAML::Node& node, const std::string& name, double low, double high) const {
+    double value = 0.0;
+    const bool isNumber = node.IsScalar() && YAML::convert<double>::decode(node, value);
+    if (isNumber && value >= low && value <= high) return value;
+    std::ostringstream message;
+    message << name << " is " << (node.IsScalar() ? node.Scalar().substr(0, 40) : "no number")
+            << ", expected a number in [" << low << ", " << high << "]";
+    refuse(node, message.str());
+  }
+
+  bool flag(const char* key) const {
+    if (!has(key)) return false;
+    const YAML::Node node = root_[key];
+    const std::string value = node.IsScalar() ? node.Scalar() : "";
+    if (value == "1" || value == "true") return true;
+    if (value != "0" && value != "false") refuse(node, std::string(key) + " must be 0 or 1");
+    return false;
+  }
+
+  void readOrigin(MapDescription& map) const {
+    const YAML::Node origin = need("origin");
+    if (!origin.IsSequence() || origin.size() != 3)
+      refuse(origin, "origin must be [x, y, yaw] of the lower left corner");
+    map.originX = number(origin[0], "x of origin", -1e4, 1e4);
+    map.originY = number(origin[1], "y of origin", -1e4, 1e4);
+    const double yaw = number(origin[2], "yaw of origin", -1e4, 1e4);
+    if (std::abs(yaw) > 1e-9)
+      refuse(origin, "yaw of origin is " + std::to_string(yaw) +
+                         " rad; turned maps are not supported, expected 0");
+  }
+
+  std::filesystem::path file_;
+  YAML::Node root_;
+};
+
+std::filesystem::path findImage(const std::filesystem::path& yaml, const std::string& name) {
+  const std::filesystem::path plain = yaml.parent_path() / name;
+  for (const char* end : {"", ".gz", ".xz"}) {
+    std::filesystem::path file = plain;
+    file += end;
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored)) return file;
+  }
+  throw MapError(yaml.string() + ": the image " + plain.string() +
+                 " does not exist, nor with .gz or .xz added");
+}
+
+}  // namespace
+
+// As map_server: the darker the more occupied (or the lighter, with negate); the image's bottom row
+// is the grid's first.
+GridMap readMapServer(const std::filesystem::path& yaml) {
+  const MapDescription about = YamlMap(yaml).read();
+  const std::filesystem::path file = findImage(yaml, about.image);
+  const MapImage image = decodeImage(file, readUnpacked(file, kMaxImageBytes));
+  checkGrid(yaml, image.width, image.height, about.resolution, about.originX, about.originY);
+
+  GridMap map{image.width, image.height, about.resolution, about.originX, about.originY, {}};
+  map.cells.resize(image.grey.size());
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      const std::size_t pixel = map.index(column, map.rows - 1 - row);
+      const double light = image.grey[pixel] / 255.0;
+      const double occupied = about.negate ? light : 1.0 - light;
+      GridCell cell = GridCell::unknown;
+      if (occupied > about.occupiedAbove) cell = GridCell::occupied;
+      else if (occupied < about.freeBelow) cell = GridCell::free;
+      if (!image.opaque.empty() && image.opaque[pixel] == 0) cell = GridCell::unknown;
+      map.cells[map.index(column, row)] = cell;
+    }
+  }
+  return map;
+}
+
+}  // namespace ortung

@@ -1,0 +1,144 @@
+#include "Mesh.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMaxFaces = std::size_t{1} << 21;
+
+class Builder {
+ public:
+  explicit Builder(Mesh& mesh) : mesh_(mesh) {}
+
+  void addWall(const Point2& a, const Point2& b, double zLow, double zHigh) {
+    addFace({vertex(a, zLow), vertex(b, zLow), vertex(b, zHigh), vertex(a, zHigh)});
+  }
+  /// A convex polygon at height z.
+  void addCap(const std::vector<Point2>& corners, double z) {
+    std::vector<std::array<float, 3>> points;
+    for (const Point2& corner : corners) points.push_back(vertex(corner, z));
+    addFace(points);
+  }
+
+ private:
+  std::array<float, 3> vertex(const Point2& p, double z) const {
+    return {static_cast<float>(p.x - mesh_.middle.x), static_cast<float>(p.y - mesh_.middle.y),
+            static_cast<float>(z)};
+  }
+  void addFace(const std::vector<std::array<float, 3>>& corners) {
+    if (++faces_ > kMaxFaces)
+      throw std::length_error("the world has more than 2^21 walls, which is too many; is a map all "
+                              "noise?");
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    mesh_.vertices.insert(mesh_.vertices.end(), corners.begin(), corners.end());
+    for (std::uint32_t i = 2; i < corners.size(); ++i)
+      mesh_.triangles.push_back({first, first + i - 1, first + i});
+  }
+
+  Mesh& mesh_;
+  std::size_t faces_ = 0;
+};
+
+void addPrimitive(const Primitive& primitive, Builder& builder) {
+  const std::vector<Point2> corners = outlineOf(primitive);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    builder.addWall(corners[i], corners[(i + 1) % corners.size()], primitive.zLow, primitive.zHigh);
+  builder.addCap(corners, primitive.zLow);
+  builder.addCap(corners, primitive.zHigh);
+}
+
+bool isOccupied(const GridMap& map, int column, int row) {
+  return column >= 0 && row >= 0 && column < map.columns && row < map.rows &&
+         map.at(column, row) == GridCell::occupied;
+}
+
+/// Calls found(from, to) for every longest run of i in [0, n) for which isPart(i) holds.
+template <class IsPart, class Found>
+void forRuns(int n, const IsPart& isPart, const Found& found) {
+  int from = -1;
+  for (int i = 0; i <= n; ++i) {
+    const bool inside = i < n && isPart(i);
+    if (inside && from < 0) from = i;
+    if (!inside && from >= 0) {
+      found(from, i);
+      from = -1;
+    }
+  }
+}
+
+// The edges between occupied cells and others, merged along straight lines.
+void addOutlines(const GridBody& body, Builder& builder) {
+  const GridMap& map = body.map;
+  const auto corner = [&](int column, int row) {
+    return Point2{map.originX + column * map.cell, map.originY + row * map.cell};
+  };
+  for (int c = 0; c <= map.columns; ++c)
+    forRuns(map.rows, [&](int r) { return isOccupied(map, c - 1, r) != isOccupied(map, c, r); },
+            [&](int from, int to) {
+              builder.addWall(corner(c, from), corner(c, to), body.zLow, body.zHigh);
+            });
+  for (int r = 0; r <= map.rows; ++r)
+    forRuns(map.columns, [&](int c) { return isOccupied(map, c, r - 1) != isOccupied(map, c, r); },
+            [&](int from, int to) {
+              builder.addWall(corner(from, r), corner(to, r), body.zLow, body.zHigh);
+            });
+}
+
+// Tops and bottoms of the occupied cells, for rays that rise or fall: one rectangle for each run of
+// cells, and one for equal runs in rows that follow each other.
+void addCaps(const GridBody& body, Builder& builder) {
+  const GridMap& map = body.map;
+  const auto rectangle = [&](int from, int to, int low, int high) {
+    const double x0 = map.originX + from * map.cell;
+    const double x1 = map.originX + to * map.cell;
+    const double y0 = map.originY + low * map.cell;
+    const double y1 = map.originY + high * map.cell;
+    for (const double z : {body.zLow, body.zHigh})
+      builder.addCap({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, z);
+  };
+  std::vector<int> begun(static_cast<std::size_t>(map.columns), -1);
+  std::vector<int> end(begun.size(), -1);  // of the run that begins at a column; begun: its first row
+  const auto close = [&](int from, int row) {
+    const auto i = static_cast<std::size_t>(from);
+    if (begun[i] >= 0) rectangle(from, end[i], begun[i], row);
+    begun[i] = -1;
+  };
+  for (int r = 0; r <= map.rows; ++r) {
+    std::vector<int> now(begun.size(), -1);
+    if (r < map.rows)
+      forRuns(map.columns, [&](int c) { return map.at(c, r) == GridCell::occupied; },
+              [&](int from, int to) { now[static_cast<std::size_t>(from)] = to; });
+    for (int c = 0; c < map.columns; ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      if (begun[i] >= 0 && end[i] != now[i]) close(c, r);
+      if (now[i] < 0 || begun[i] >= 0) continue;
+      begun[i] = r;
+      end[i] = now[i];
+    }
+  }
+}
+
+}  // namespace
+
+Mesh makeMesh(const WorldModel& world) {
+  Mesh mesh;
+  mesh.middle = {0.5 * (world.bounds.xLow + world.bounds.xHigh),
+                 0.5 * (world.bounds.yLow + world.bounds.yHigh)};
+  Builder builder(mesh);
+  for (const Primitive& primitive : world.primitives) {
+    if (!primitive.isSolid()) continue;
+    if (primitive.isCircle())
+      mesh.cylinders.push_back({primitive.centre, primitive.halfX, primitive.zLow, primitive.zHigh});
+    else
+      addPrimitive(primitive, builder);
+  }
+  for (const GridBody& body : world.grids) {
+    addOutlines(body, builder);
+    addCaps(body, builder);
+  }
+  return mesh;
+}
+
+}  // namespace ortung

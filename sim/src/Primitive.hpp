@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ortung {
+
+struct Point2 {
+  double x = 0.0;  ///< [m]
+  double y = 0.0;  ///< [m]
+};
+
+/// An upright box around something, in the field frame [m].
+struct Box2 {
+  double xLow = 0.0, xHigh = 0.0, yLow = 0.0, yHigh = 0.0;
+};
+
+/// A shape on the floor, extruded in z. A line (kind "line") is flat: neither rays nor bodies meet it.
+struct Primitive {
+  enum class Shape { rectangle, ellipse, triangle };
+
+  Shape shape = Shape::rectangle;
+  Point2 centre;                   ///< of a triangle: its centroid
+  double halfX = 0.0;              ///< half the size along its own x axis [m]; not of triangles
+  double halfY = 0.0;              ///< [m]
+  double angle = 0.0;              ///< of its own x axis in the field [rad]
+  std::array<Point2, 3> corners{}; ///< of a triangle
+  double zLow = 0.0;               ///< [m]
+  double zHigh = 1.0;              ///< [m]
+  double stroke = 0.0;             ///< of a line along an ellipse: its width [m]; 0: a filled shape
+  double arcFrom = 0.0;            ///< of such a line: where it begins, from its own x axis [rad]
+  double arcTo = 0.0;              ///< [rad]
+  std::string kind;                ///< "wall", "post", ...
+  std::string colour;              ///< "blue", "#0000ff" or empty
+  std::optional<std::uint32_t> identity;
+
+  bool isSolid() const { return kind != "line"; }
+  bool isCircle() const { return shape == Shape::ellipse && halfX == halfY; }
+};
+
+/// Distance of a point to the filled shape [m]; 0 inside and on its edge.
+double distanceTo(const Primitive& primitive, const Point2& point);
+
+Box2 boundsOf(const Primitive& primitive);
+
+/// The shape's corners, counter-clockwise. An ellipse becomes a polygon that leaves it by less than
+/// 0.5 mm (as long as its axes are below 10 km).
+std::vector<Point2> outlineOf(const Primitive& primitive);
+
+}  // namespace ortung

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "Mesh.hpp"
+#include "ortung/sim_api/World.hpp"
+
+namespace ortung {
+
+/// A robot's body, as rays see it.
+struct RobotBody {
+  RobotNumber number = 0;
+  Cylinder cylinder;
+};
+
+/// Casts rays; the only part that knows the ray tracing library.
+/// Casting is thread-safe while nobody calls setRobots().
+class RayCaster {
+ public:
+  /// @throws std::runtime_error when the ray tracing library fails
+  explicit RayCaster(const Mesh& mesh);
+  ~RayCaster();
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
+
+  void setRobots(const std::vector<RobotBody>& robots);
+
+  /// As World::castFan(). @pre all numbers are finite, maxRange is not negative
+  void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const;
+
+  /// Whether anything is met from one point towards another before @p stop metres from it.
+  bool isBlocked(const std::array<double, 3>& from, const std::array<double, 3>& direction,
+                 double stop, RobotNumber ignore) const;
+
+ private:
+  struct Scenes;
+  std::unique_ptr<Scenes> scenes_;
+};
+
+}  // namespace ortung
