@@ -1,7 +1,8 @@
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 

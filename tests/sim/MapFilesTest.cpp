@@ -1,0 +1,255 @@
+// Formats of occupancy grids: what they mean, and how broken ones are refused.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <boost/iostreams/device/back_inserter.hpp>
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filter/lzma.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
+#include <cstdlib>
+
+#include "CarmenBytes.hpp"
+#include "WorldFiles.hpp"
+
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace ortung::test {
+namespace {
+
+namespace io = boost::iostreams;
+
+template <class Filter>
+std::string packed(const std::string& plain) {
+  std::string out;
+  {
+    io::filtering_ostream stream;
+    stream.push(Filter());
+    stream.push(io::back_inserter(out));
+    stream << plain;
+  }
+  return out;
+}
+
+std::string pngOf(int width, int height, int channels, const std::vector<unsigned char>& pixels) {
+  std::string png;
+  stbi_write_png_to_func(
+      [](void* out, void* data, int size) {
+        static_cast<std::string*>(out)->append(static_cast<char*>(data), static_cast<std::size_t>(size));
+      },
+      &png, width, height, channels, pixels.data(), width * channels);
+  return png;
+}
+
+class MapFiles : public ::testing::Test {
+ protected:
+  /// Open cells of a world of this map, one character a cell, rows from top to bottom.
+  std::string openOf(const std::string& map, double cell = 0.5) {
+    const auto world = readWorld(folder.write("world.toml", gridWorld(map, "unknown_margin_m = 0\n")));
+    const FieldRegion region = world->region(cell, 0);
+    std::string picture;
+    for (int row = region.grid.rows - 1; row >= 0; --row) {
+      for (int column = 0; column < region.grid.columns; ++column)
+        picture += region.open[static_cast<std::size_t>(row * region.grid.columns + column)] != 0 ? '.' : '#';
+      picture += row > 0 ? "/" : "";
+    }
+    return picture;
+  }
+  std::string refusal(const std::string& map) {
+    return refusalOf(folder.write("world.toml", gridWorld(map)));
+  }
+  /// The refusal of a map_server map with this YAML and image.
+  std::string refusal(const std::string& yaml, const std::string& image) {
+    folder.write("map.pgm", image);
+    folder.write("map.yaml", yaml);
+    return refusal("map.yaml");
+  }
+
+  TemporaryFolder folder;
+  const std::string image = pgmOf({"..#", ".#.", "...", "#  "});
+};
+
+#define EXPECT_HAS(text, part) EXPECT_NE(std::string(text).find(part), std::string::npos) << (text)
+
+TEST_F(MapFiles, MapServerImagesLieTopDown) {
+  folder.write("map.pgm", image);
+  folder.write("map.yaml", mapYaml());
+  EXPECT_EQ(openOf("map.yaml"), "..#/.#./.../###");
+}
+
+TEST_F(MapFiles, ImagesMayBePacked) {
+  folder.write("a.pgm.gz", packed<io::gzip_compressor>(image));
+  folder.write("b.pgm.xz", packed<io::lzma_compressor>(image));
+  folder.write("a.yaml", mapYaml("a.pgm"));
+  folder.write("b.yaml", mapYaml("b.pgm"));
+  EXPECT_EQ(openOf("a.yaml"), "..#/.#./.../###");
+  EXPECT_EQ(openOf("b.yaml"), "..#/.#./.../###");
+}
+
+TEST_F(MapFiles, ImagesMayBePngOfAnyDepthAndTransparent) {
+  folder.write("grey.png", pngOf(2, 2, 1, {254, 0, 205, 254}));
+  folder.write("rgb.png", pngOf(2, 2, 3, {254, 254, 254, 0, 0, 0, 205, 205, 205, 254, 254, 254}));
+  folder.write("rgba.png", pngOf(2, 1, 4, {254, 254, 254, 255, 254, 254, 254, 0}));
+  folder.write("grey.yaml", mapYaml("grey.png"));
+  folder.write("rgb.yaml", mapYaml("rgb.png"));
+  folder.write("rgba.yaml", mapYaml("rgba.png"));
+  EXPECT_EQ(openOf("grey.yaml"), ".#/#.");
+  EXPECT_EQ(openOf("rgb.yaml"), ".#/#.");
+  EXPECT_EQ(openOf("rgba.yaml"), ".#");
+}
+
+TEST_F(MapFiles, NegatedImagesAreLightWhereOccupied) {
+  folder.write("map.pgm", "P5 2 1 255\n" + std::string("\xff\x00", 2));
+  folder.write("map.yaml", "image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 1\n");
+  EXPECT_EQ(openOf("map.yaml"), "#.");
+}
+
+TEST_F(MapFiles, BrokenYamlIsRefusedWithItsPlace) {
+  EXPECT_HAS(refusal("image: [", image), "is no YAML");
+  EXPECT_HAS(refusal("just text", image), "expected keys and values");
+  EXPECT_HAS(refusal("image: map.pgm\norigin: [0, 0, 0]\n", image), "has no resolution");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0.5]"), image), "yaw of origin is 0.5");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0.5]"), image), "map.yaml:3");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0]"), image), "origin must be [x, y, yaw]");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, .nan, 0]"), image), "y of origin is .nan");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 9999.9, 0]"), image), "beyond 10 km");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0]", "0"), image), "resolution is 0, expected");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0]", "wide"), image), "resolution is wide, expected");
+  EXPECT_HAS(refusal(mapYaml() + "mode: raw\n", image), "mode is \"raw\"");
+  EXPECT_HAS(refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 2\n", image),
+             "negate must be 0 or 1");
+  EXPECT_HAS(refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nfree_thresh: 0.9\n", image),
+             "free_thresh is above");
+  EXPECT_HAS(refusal(std::string(100000, '#'), image), "has 100000 bytes, expected at most");
+  EXPECT_HAS(refusal(std::string(60000, '['), image), "is no YAML");
+}
+
+TEST_F(MapFiles, MissingAndOddFilesAreRefused) {
+  EXPECT_HAS(refusal(mapYaml("gone.pgm"), image), "gone.pgm does not exist, nor with .gz or .xz");
+  EXPECT_HAS(refusal("gone.yaml"), "no such file");
+  EXPECT_HAS(refusal("map.jpg"), "no kind of map");
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe.yaml").c_str(), 0600), 0);
+  EXPECT_HAS(refusal("pipe.yaml"), "is not a regular file");
+  EXPECT_HAS(refusal(mapYaml("."), image), "is not a regular file");
+}
+
+TEST_F(MapFiles, BrokenImagesAreRefused) {
+  EXPECT_HAS(refusal(mapYaml(), "no image"), "no image that can be read");
+  EXPECT_HAS(refusal(mapYaml(), ""), "no image that can be read");
+  EXPECT_HAS(refusal(mapYaml(), image.substr(0, image.size() - 1)), "ends after 11 bytes of pixels, expected 12");
+  EXPECT_HAS(refusal(mapYaml(), "P5 2 1 100\nab"), "white is 100");
+  EXPECT_HAS(refusal(mapYaml(), "P2 1 1 255\n0\n"), "no image that can be read");
+  const std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
+  EXPECT_HAS(refusal(mapYaml(), png.substr(0, png.size() / 2)), "cannot be decoded");
+  folder.write("torn.pgm.gz", packed<io::gzip_compressor>(image).substr(0, 20));
+  EXPECT_HAS(refusal(mapYaml("torn.pgm"), image), "cannot be unpacked");
+  folder.write("odd.pgm.xz", "no xz");
+  EXPECT_HAS(refusal(mapYaml("odd.pgm"), image), "cannot be unpacked");
+}
+
+TEST_F(MapFiles, ImageBombsAreRefusedBeforeDecoding) {
+  EXPECT_HAS(refusal(mapYaml(), "P5 100000 100000 255\nx"), "100000 x 100000 cells, expected 1 to 2^26");
+  // A PNG header of 16000 x 16000 pixels and nothing else.
+  std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
+  png.replace(16, 8, std::string("\0\0\x3e\x80\0\0\x3e\x80", 8));
+  EXPECT_HAS(refusal(mapYaml(), png), "16000 x 16000 cells");
+  // 300 MB of zeros in 300 kB.
+  std::string zeros;
+  {
+    io::filtering_ostream stream;
+    stream.push(io::gzip_compressor());
+    stream.push(io::back_inserter(zeros));
+    const std::string block(1 << 20, '\0');
+    for (int i = 0; i < 300; ++i) stream << block;
+  }
+  folder.write("bomb.pgm.gz", zeros);
+  EXPECT_HAS(refusal(mapYaml("bomb.pgm"), image), "unpacks to more than");
+}
+
+TEST_F(MapFiles, APngWhosePixelsUnpackToFarMoreThanItsSizeIsRefused) {
+  // The compressed pixels of a large image under the header of a small one.
+  const std::string large = pngOf(4000, 4000, 1, std::vector<unsigned char>(16000000, 0));
+  std::string png = large;
+  png.replace(16, 8, std::string("\0\0\0\x02\0\0\0\x02", 8));
+  EXPECT_HAS(refusal(mapYaml(), png), "cannot be decoded");
+}
+
+TEST_F(MapFiles, CarmenMapsRunUpwardsByColumns) {
+  folder.write("a.map", carmenMap(3, 2, 0.5f, {0, 1, 0.1f, -1, 0.5f, 0.2f}));
+  EXPECT_EQ(openOf("a.map"), "##./..#");
+  folder.write("a.map.gz", packed<io::gzip_compressor>(carmenMap(1, 2, 0.5f, {0, 1})));
+  EXPECT_EQ(openOf("a.map.gz"), "#/.");
+}
+
+TEST_F(MapFiles, BrokenCarmenMapsAreRefusedWithTheirPlace) {
+  const auto refusalOfBytes = [&](const std::string& bytes) {
+    folder.write("a.map", bytes);
+    return refusal("a.map");
+  };
+  const std::string good = carmenMap(3, 2, 0.5f, {0, 1, 0, 0, 0, 0});
+  EXPECT_HAS(refusalOfBytes("# only a comment"), "ends within a comment");
+  EXPECT_HAS(refusalOfBytes("BEESOFT"), "expected \"CARMENMAPFILEv020\"");
+  EXPECT_HAS(refusalOfBytes(good.substr(0, 30)), "the file ends");
+  EXPECT_HAS(refusalOfBytes(good.substr(0, good.size() - 3)), "the file ends 3 bytes early");
+  EXPECT_HAS(refusalOfBytes("CARMENMAPFILEv020"), "has no grid");
+  EXPECT_HAS(refusalOfBytes(carmenMap(3, 3, 0.5f, {0, 1, 0, 0, 0, 0})), "ends 12 bytes early");
+  EXPECT_HAS(refusalOfBytes(carmenMap(100000, 100000, 0.5f, {})), "expected 1 to 2^26");
+  EXPECT_HAS(refusalOfBytes(carmenMap(-1, 5, 0.5f, {})), "-1 x 5 cells");
+  EXPECT_HAS(refusalOfBytes(carmenMap(1, 1, 0, {0})), "resolution is 0");
+  EXPECT_HAS(refusalOfBytes(carmenMap(1, 1, std::nanf(""), {0})), "resolution is nan");
+  EXPECT_HAS(refusalOfBytes(carmenMap(1, 1, 0.5f, {7})), "a cell is 7, expected -1");
+  EXPECT_HAS(refusalOfBytes(carmenMap(1, 1, 0.5f, {std::nanf("")})), "a cell is nan");
+}
+
+/// MRPT's grid maps come from a program, here one that says what the test wants.
+class MrptMaps : public MapFiles {
+ protected:
+  void SetUp() override {
+    ::setenv("ORTUNG_LIBEXEC", folder.path().c_str(), 1);
+    folder.write("map.gridmap.gz", "anything");
+  }
+  void TearDown() override { ::unsetenv("ORTUNG_LIBEXEC"); }
+  void reader(const std::string& script) {
+    const auto file = folder.write("ortung-mrpt-reader", "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  }
+};
+
+TEST_F(MrptMaps, ComeFromTheReader) {
+  reader("test \"$1\" = gridmap || exit 9\ntest -f \"$2\" || exit 8\n"
+         "printf 'ortung-gridmap 3 2 0.5 -1 2\\n\\377\\000\\177\\200\\240\\140'");
+  EXPECT_EQ(openOf("map.gridmap.gz"), "#.#/.##");
+}
+
+TEST_F(MrptMaps, AreRefusedWithTheReadersOwnWords) {
+  reader("echo 'no such class' >&2; exit 3");
+  EXPECT_HAS(refusal("map.gridmap.gz"), "ended with status 3: no such class");
+  reader("kill -SEGV $$");
+  EXPECT_HAS(refusal("map.gridmap.gz"), "was ended by signal 11");
+  reader("echo something else");
+  EXPECT_HAS(refusal("map.gridmap.gz"), "answered \"something else\"");
+  reader("printf 'ortung-gridmap 3 2 0.5 -1 2\\nabc'");
+  EXPECT_HAS(refusal("map.gridmap.gz"), "expected a line and 6 cells");
+  reader("printf 'ortung-gridmap 99999 99999 0.5 -1 2\\n'");
+  EXPECT_HAS(refusal("map.gridmap.gz"), "expected 1 to 2^26");
+  reader("printf 'ortung-gridmap 1 1 nan -1 2\\na'");
+  EXPECT_HAS(refusal("map.gridmap.gz"), "ortung-gridmap");
+  reader("cat /dev/zero");
+  EXPECT_HAS(refusal("map.gridmap.gz"), "wrote more than expected");
+}
+
+TEST_F(MrptMaps, NeedTheReader) {
+  const std::string message = refusal("map.gridmap.gz");
+  EXPECT_HAS(message, "need the program ortung-mrpt-reader, which is not in " + folder.path().string());
+  EXPECT_HAS(message, "ORTUNG_LIBEXEC");
+  EXPECT_HAS(refusal("gone.gridmap"), "no such file");
+}
+
+}  // namespace
+}  // namespace ortung::test
