@@ -28,11 +28,7 @@ class YamlMap {
  public:
   explicit YamlMap(const std::filesystem::path& file) : file_(file) {
     const std::string text = readBounded(file, kMaxYamlBytes);
-    try {
-      root_ = YAML::Load(text);
-    } catch (const YAML::Exception& error) {
-      throw MapError(file.string() + ": is no YAML: " + error.what());
-    }
+    root_ = YAML::Load(text);
     if (!root_.IsMap()) throw MapError(file.string() + ": expected keys and values of a map_server map");
   }
 
@@ -46,7 +42,7 @@ class YamlMap {
       map.occupiedAbove = number(root_["occupied_thresh"], "occupied_thresh", 0.0, 1.0);
     if (has("free_thresh")) map.freeBelow = number(root_["free_thresh"], "free_thresh", 0.0, 1.0);
     if (map.freeBelow > map.occupiedAbove)
-      refuse(root_["free_thresh"], "free_thresh is above occupied_thresh, expected at most as large");
+      refuse(root_, "free_thresh is above occupied_thresh, expected at most as large");
     if (has("mode") && text("mode") != "trinary" && text("mode") != "scale")
       refuse(root_["mode"], "mode is \"" + text("mode") + "\", expected trinary or scale");
     return map;
@@ -56,7 +52,7 @@ class YamlMap {
   bool has(const char* key) const { return root_[key].IsDefined(); }
 
   [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
-    const int line = node.Mark().line;
+    const int line = node.IsDefined() ? node.Mark().line : -1;
     throw MapError(file_.string() + (line >= 0 ? ":" + std::to_string(line + 1) : "") + ": " + what);
   }
 
@@ -107,6 +103,14 @@ class YamlMap {
   YAML::Node root_;
 };
 
+MapDescription describe(const std::filesystem::path& yaml) {
+  try {
+    return YamlMap(yaml).read();
+  } catch (const YAML::Exception& error) {
+    throw MapError(yaml.string() + ": is no YAML of a map_server map: " + error.what());
+  }
+}
+
 std::filesystem::path findImage(const std::filesystem::path& yaml, const std::string& name) {
   const std::filesystem::path plain = yaml.parent_path() / name;
   for (const char* end : {"", ".gz", ".xz"}) {
@@ -124,7 +128,7 @@ std::filesystem::path findImage(const std::filesystem::path& yaml, const std::st
 // As map_server: the darker the more occupied (or the lighter, with negate); the image's bottom row
 // is the grid's first.
 GridMap readMapServer(const std::filesystem::path& yaml) {
-  const MapDescription about = YamlMap(yaml).read();
+  const MapDescription about = describe(yaml);
   const std::filesystem::path file = findImage(yaml, about.image);
   const MapImage image = decodeImage(file, readUnpacked(file, kMaxImageBytes));
   checkGrid(yaml, image.width, image.height, about.resolution, about.originX, about.originY);

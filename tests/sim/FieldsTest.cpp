@@ -13,7 +13,7 @@ namespace ortung::test {
 namespace {
 
 std::unique_ptr<SimWorld> field(const std::string& name) {
-  return readWorld(std::filesystem::path(ORTUNG_FIELDS) / (name + ".toml"));
+  return readWorld(std::filesystem::path(ORTUNG_SOURCE_DIR "/maps/fields") / (name + ".toml"));
 }
 
 const Landmark* find(const SimWorld& world, const std::string& kind, std::uint32_t identity) {
@@ -24,7 +24,7 @@ const Landmark* find(const SimWorld& world, const std::string& kind, std::uint32
 
 TEST(Fields, AllLoadAndCanBeDrivenOn) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(ORTUNG_FIELDS)) {
+  for (const auto& entry : std::filesystem::directory_iterator(ORTUNG_SOURCE_DIR "/maps/fields")) {
     const auto world = readWorld(entry.path());
     EXPECT_EQ(world->name(), entry.path().stem());
     EXPECT_NO_THROW(world->region(0.1, 0.25).check()) << entry.path();

@@ -65,8 +65,8 @@ class MapFiles : public ::testing::Test {
     return refusalOf(folder.write("world.toml", gridWorld(map)));
   }
   /// The refusal of a map_server map with this YAML and image.
-  std::string refusal(const std::string& yaml, const std::string& image) {
-    folder.write("map.pgm", image);
+  std::string refusal(const std::string& yaml, const std::string& pgm) {
+    folder.write("map.pgm", pgm);
     folder.write("map.yaml", yaml);
     return refusal("map.yaml");
   }

@@ -140,6 +140,7 @@ TEST(Rays, ThatFallMeetTheTopsOfBodies) {
 
 TEST(Rays, IgnoreLines) {
   const auto world = worldOf(
+      "[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n"
       "[[rectangle]]\nkind = \"line\"\ncenter_m = [3, 0]\nsize_m = [0.1, 9]\n"
       "[[ellipse]]\nkind = \"line\"\ncenter_m = [0, 0]\nsize_m = [2, 2]\nstroke_m = 0.1\n");
   EXPECT_DOUBLE_EQ(rangeAt(*world, 0, 0, 0, 0.0, 8.0), 8.0);
