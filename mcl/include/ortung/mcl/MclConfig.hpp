@@ -20,7 +20,7 @@ struct MclConfig {
   double startCandidates = 20.0;      ///< `start_candidates`: poses tried per sample at a global start
   double injectFast = 0.2;            ///< `inject_fast`: rate of the short-term fit average
   double injectSlow = 0.01;           ///< `inject_slow`: of the long-term one; 0: no injection
-  double injectMost = 0.25;           ///< `inject_most`: greatest share of injected samples
+  double injectMost = 0.1;            ///< `inject_most`: greatest share of injected samples
   double minDistance = 0.05;          ///< `min_distance_m`: weigh only after this much motion,
   double minRotation = 0.03;          ///< `min_rotation_deg`: or this much turning,
   double maxInterval = 0.5;           ///< `max_interval_s`: or this much time
