@@ -1,0 +1,47 @@
+#pragma once
+
+/// What the [[sensor]] tables of all shipped plugins have in common.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "ortung/config/RobotFile.hpp"
+#include "ortung/container/Parameters.hpp"
+#include "ortung/container/Pose2.hpp"
+#include "ortung/container/SensorData.hpp"
+
+namespace ortung {
+
+inline constexpr double kTurn = 2.0 * std::numbers::pi;  ///< [rad]
+
+constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+/// Where a sensor sits on its robot.
+struct Mounting {
+  Pose2 pose;       ///< in the robot frame
+  double z = 0.0;   ///< above the floor [m]
+};
+
+/// Reads pose = { x_m, y_m, z_m, theta_deg }; what is missing is 0, or @p z for the height.
+inline Mounting readMounting(const Parameters& sensor, double z) {
+  const Parameters pose = sensor.table("pose");
+  Mounting mounting;
+  mounting.pose.x = pose.numberOr("x_m", 0.0, {-10.0, 10.0});
+  mounting.pose.y = pose.numberOr("y_m", 0.0, {-10.0, 10.0});
+  mounting.pose.theta = wrapAngle(radians(pose.numberOr("theta_deg", 0.0, {-360.0, 360.0})));
+  mounting.z = pose.numberOr("z_m", z, {0.0, 10.0});
+  return mounting;
+}
+
+/// Reads period_s, the time between two readings [s]; 0: every cycle.
+inline double readPeriod(const Parameters& sensor, double fallback) {
+  return sensor.numberOr("period_s", fallback, {0.0, 3600.0});
+}
+
+/// Reads a share, in [0, 1].
+inline double readShare(const Parameters& sensor, const std::string& key) {
+  return sensor.numberOr(key, 0.0, {0.0, 1.0});
+}
+
+}  // namespace ortung

@@ -1,0 +1,17 @@
+#include "GroundTruthSettings.hpp"
+#include "ortung/container/Formats.hpp"
+#include "ortung/container/Plugin.hpp"
+
+namespace ortung {
+namespace {
+
+DeviceData makeGroundTruth(const Parameters& p) {
+  DeviceData data;
+  data.push_back(std::make_unique<PoseData>(readGroundTruthSettings(p).id));
+  return data;
+}
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("ground_truth_data", ortung::provideData<ortung::makeGroundTruth>("ground_truth"));

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "../common/SensorSettings.hpp"
+#include "ortung/container/Formats.hpp"
+
+namespace ortung {
+
+/// Settings of both halves of the observer of identified landmarks.
+struct LandmarksSettings {
+  SensorId id;  ///< its feature only counts for a list
+  Mounting mounting;
+  bool isList = false;  ///< one LandmarksData; otherwise a distance and a bearing each
+  std::string kind;     ///< of the landmarks in the world, and the beginning of features' names
+  std::vector<std::uint32_t> identities;
+  double minRange = 0.0;          ///< [m]
+  double maxRange = 20.0;         ///< [m]
+  double fieldOfView = kTurn;     ///< [rad]; 2 pi: all around
+  SensorModel range;              ///< [m]
+  SensorModel bearing;            ///< [rad]
+  double period = 0.1;            ///< [s]
+  double slack = 0.3;             ///< what is this near to a landmark does not hide it [m]
+  bool occlusion = true;          ///< whether obstacles hide landmarks
+  double noiseRangeSigma = 0.0;   ///< of simulated distances at distance 0 [m]
+  double noiseRangeSigmaPerMetre = 0.0;
+  double noiseBearingSigma = 0.0; ///< of simulated bearings [rad]
+  double missedShare = 0.0;       ///< of landmarks in sight that are not seen
+  double falseShare = 0.0;        ///< of sightings that are anywhere in the field of view
+};
+
+/// Letters, digits and "_.-", short enough to become part of a feature's name.
+inline void checkKind(const Parameters& p, const std::string& kind) {
+  const bool isName = !kind.empty() && kind.size() <= 32 &&
+                      std::all_of(kind.begin(), kind.end(), [](char c) {
+                        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                               (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-';
+                      });
+  if (!isName) p.fail("kind", "is \"" + kind + "\", must be 1 to 32 of [A-Za-z0-9_.-]");
+}
+
+inline std::vector<std::uint32_t> readIdentities(const Parameters& p) {
+  const std::vector<double> numbers = p.numbersOr("identities", {1, 2, 3, 4}, -1, {0, 1e6});
+  if (numbers.empty() || numbers.size() > 256)
+    p.fail("identities",
+           "has " + std::to_string(numbers.size()) + " numbers, must have 1 to 256");
+  std::vector<std::uint32_t> identities;
+  for (const double number : numbers) {
+    if (number != std::floor(number))
+      p.fail("identities", "has " + std::to_string(number) + ", must have whole numbers");
+    const auto identity = static_cast<std::uint32_t>(number);
+    if (std::find(identities.begin(), identities.end(), identity) != identities.end())
+      p.fail("identities", "has " + std::to_string(identity) + " twice");
+    identities.push_back(identity);
+  }
+  return identities;
+}
+
+/// Reads all settings of both halves. @throws ConfigError
+inline LandmarksSettings readLandmarksSettings(const Parameters& p) {
+  LandmarksSettings s;
+  s.kind = p.textOr("kind", "post");
+  checkKind(p, s.kind);
+  s.isList = p.choiceOr("features", "each", {"each", "list"}) == "list";
+  if (!s.isList && p.has("feature"))
+    p.fail("feature", "is given, but with features = \"each\" the names come from kind");
+  s.id = sensorIdOf(p, {"omnivision", "camera", s.kind + "s"});
+  s.mounting = readMounting(p, 0.5);
+  s.identities = readIdentities(p);
+  s.maxRange = p.numberOr("max_range_m", 20.0, {0.05, 1000.0});
+  s.minRange = p.numberOr("min_range_m", 0.0, {0.0, s.maxRange});
+  s.fieldOfView = radians(p.numberOr("fov_deg", 360.0, {1.0, 360.0}));
+  s.range = SensorModel::read(p, "range_sigma_m", {.sigma = 0.1});
+  s.bearing = SensorModel::read(p, "bearing_sigma_deg", {.sigma = radians(3.0)});
+  s.period = readPeriod(p, 0.1);
+  s.slack = p.numberOr("slack_m", 0.3, {0.0, 10.0});
+  s.occlusion = p.flagOr("occlusion", true);
+  s.noiseRangeSigma = p.numberOr("noise_range_sigma_m", s.range.sigma, {0.0, 100.0});
+  s.noiseRangeSigmaPerMetre =
+      p.numberOr("noise_range_sigma_per_m", s.range.sigmaPerMetre, {0.0, 10.0});
+  s.noiseBearingSigma = p.has("noise_bearing_sigma_deg")
+                            ? radians(p.number("noise_bearing_sigma_deg", {0.0, 180.0}))
+                            : s.bearing.sigma;
+  s.missedShare = readShare(p, "missed_share");
+  s.falseShare = readShare(p, "false_share");
+  return s;
+}
+
+inline constexpr const char* kDistanceEnding = "Distance";
+inline constexpr const char* kBearingEnding = "Bearing";
+
+}  // namespace ortung

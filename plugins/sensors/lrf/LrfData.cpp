@@ -1,0 +1,18 @@
+#include "LrfSettings.hpp"
+#include "ortung/container/Plugin.hpp"
+
+namespace ortung {
+namespace {
+
+DeviceData makeLrf(const Parameters& p) {
+  const LrfSettings settings = readLrfSettings(p);
+  DeviceData data;
+  data.push_back(
+      std::make_unique<ScanData>(settings.id, settings.mounting.pose, settings.scan));
+  return data;
+}
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("lrf_data", ortung::provideData<ortung::makeLrf>("lrf"));

@@ -1,0 +1,17 @@
+#include "OdometrySettings.hpp"
+#include "ortung/container/Formats.hpp"
+#include "ortung/container/Plugin.hpp"
+
+namespace ortung {
+namespace {
+
+DeviceData makeOdometry(const Parameters& p) {
+  DeviceData data;
+  data.push_back(std::make_unique<OdometryData>(readOdometrySettings(p).id));
+  return data;
+}
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("odometry_data", ortung::provideData<ortung::makeOdometry>("odometry"));

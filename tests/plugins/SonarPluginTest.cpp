@@ -1,0 +1,97 @@
+#include <cmath>
+#include <numbers>
+
+#include "FakeWorld.hpp"
+#include "SensorRig.hpp"
+#include "ortung/container/Formats.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
+constexpr double kMillimetre = 0.00051;               // words round to the nearest [m]
+
+TEST(SonarPlugin, PutsItsSonarsOnARing) {
+  SensorRig rig("sonar",
+                "angles_deg = [0, 90]\nring_radius_m = 0.2\npose = { x_m = 0.1, theta_deg = 90 }");
+  ASSERT_EQ(rig.data.size(), 2u);
+  EXPECT_EQ(toText(rig.data[1]->id()), "sonar/ultrasonic/sonar1");
+  EXPECT_NEAR(rig.data[0]->mount().x, 0.1, 1e-12);
+  EXPECT_NEAR(rig.data[0]->mount().y, 0.2, 1e-12);
+  EXPECT_NEAR(rig.data[1]->mount().x, -0.1, 1e-12);
+  EXPECT_NEAR(std::abs(rig.data[1]->mount().theta), std::numbers::pi, 1e-12);
+}
+
+TEST(SonarPlugin, RefusesWrongSettingsByName) {
+  expectRefusal("sonar", "angles = [0]", {"test.toml", "angles"});
+  expectRefusal("sonar", "angles_deg = []", {"angles_deg", "1 to 64"});
+  expectRefusal("sonar", "angles_deg = [400]", {"angles_deg", "400"});
+  expectRefusal("sonar", "opening_deg = 0", {"opening_deg", "0"});
+  expectRefusal("sonar", "max_range_m = 1e9", {"max_range_m"});
+  expectRefusal("sonar", "missed_share = 2", {"missed_share", "2"});
+}
+
+TEST(SonarPlugin, MeasuresTheNearestPointWithinItsCone) {
+  const FakeWorld room(4.0, 40.0);
+  SensorRig rig("sonar", "angles_deg = [0]\nring_radius_m = 0.2\nopening_deg = 20");
+  rig.sense(room, {0.0, 0.0, 0.0});
+  EXPECT_NEAR(rig.get<ConeData>().reading(), 1.8, kMillimetre);
+  // Turned by 8 degrees the wall's foot is still within the cone of 10 degrees: rays are 2 degrees
+  // apart, one of them meets it.
+  rig.sense(room, {0.0, 0.0, 8.0 * kDegree});
+  EXPECT_NEAR(rig.get<ConeData>().reading(), 2.0 - 0.2 * std::cos(8.0 * kDegree), 0.001);
+  // By 40 degrees the nearest is at the cone's edge, 30 degrees off the wall's normal.
+  rig.sense(room, {0.0, 0.0, 40.0 * kDegree});
+  const double away = 2.0 - 0.2 * std::cos(40.0 * kDegree);
+  EXPECT_NEAR(rig.get<ConeData>().reading(), away / std::cos(30.0 * kDegree), 0.001);
+}
+
+TEST(SonarPlugin, SeesNothingBeyondItsRange) {
+  const FakeWorld room(20.0, 20.0);
+  SensorRig rig("sonar", "angles_deg = [0, 180]\nmax_range_m = 3");
+  rig.sense(room, {8.0, 0.0, 0.0});
+  EXPECT_NEAR(rig.get<ConeData>(0).reading(), 1.8, kMillimetre);
+  EXPECT_TRUE(std::isinf(rig.get<ConeData>(1).reading()));
+}
+
+TEST(SonarPlugin, ReportsItsSmallestRangeForWhatIsNearer) {
+  const FakeWorld room(1.0, 1.0);
+  SensorRig rig("sonar", "angles_deg = [0]\nring_radius_m = 0.4\nmin_range_m = 0.17");
+  rig.sense(room, {});
+  EXPECT_NEAR(rig.get<ConeData>().reading(), 0.17, kMillimetre);
+}
+
+TEST(SonarPlugin, HasTheNoiseOfItsModelAndLosesEchoes) {
+  const FakeWorld room(4.4, 4.4);
+  SensorRig rig("sonar",
+                "angles_deg = [0]\nsigma_m = 0.01\nsigma_per_m = 0.02\nmissed_share = 0.25");
+  Random noise(4);
+  Statistics ranges;
+  for (int i = 0; i < 4000; ++i) {
+    rig.sense(room, {}, &noise);
+    const double range = rig.get<ConeData>().reading();
+    if (std::isfinite(range)) ranges.add(range);
+  }
+  EXPECT_NEAR(ranges.count() / 4000.0, 0.75, 0.028);  // 4 sigma of 4000 draws
+  EXPECT_NEAR(ranges.mean(), 2.0, 0.0037);            // 4 * 0.05 / sqrt(3000)
+  EXPECT_NEAR(ranges.sigma(), 0.05, 0.0026);
+}
+
+TEST(SonarPlugin, CastsItsRaysOnceForSonarsAtTheSamePlace) {
+  const FakeWorld room(4.0, 4.0);
+  SensorRig rig("sonar", "angles_deg = [0, 120, 240]");
+  const Pose2 place{0.5, 0.2, 0.3};
+  for (std::size_t i = 0; i < 3; ++i) {
+    RobotState state;
+    state.pose = place * inverse(rig.data[i]->mount());
+    SensorData* one = rig.data[i];
+    rig.sensor->generateData(room, state, nullptr, 1, {&one, 1});
+    EXPECT_EQ(rig.get<ConeData>(i).reading(), rig.get<ConeData>(0).reading());
+  }
+  const std::size_t once = room.rays();
+  rig.sense(room, place);  // three places, and a moment later
+  EXPECT_EQ(room.rays(), 4 * once);
+}
+
+}  // namespace
+}  // namespace ortung

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ortung/sim/SimWorld.hpp"
+
+namespace ortung {
+
+/// A rectangular room around the origin with round posts in it, all of endless height. Everything
+/// is answered in closed form.
+class FakeWorld : public SimWorld {
+ public:
+  struct Post {
+    double x = 0.0;       ///< [m]
+    double y = 0.0;       ///< [m]
+    double radius = 0.1;  ///< [m]
+  };
+
+  FakeWorld(double width, double height) : halfWidth_(width / 2.0), halfHeight_(height / 2.0) {}
+
+  void addPost(const Post& post) { posts_.push_back(post); }
+  void addLandmark(const Landmark& landmark) { landmarks_.push_back(landmark); }
+
+  /// Range along one horizontal ray [m], infinite in no direction of a room.
+  double range(double x, double y, double angle) const {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    double nearest = std::numeric_limits<double>::infinity();
+    if (c != 0.0) nearest = std::min(nearest, ((c > 0.0 ? halfWidth_ : -halfWidth_) - x) / c);
+    if (s != 0.0) nearest = std::min(nearest, ((s > 0.0 ? halfHeight_ : -halfHeight_) - y) / s);
+    for (const Post& post : posts_) nearest = std::min(nearest, rangeOf(post, x, y, c, s));
+    for (const auto& [number, robot] : robots_)
+      if (number != ignored_) nearest = std::min(nearest, rangeOf(robot, x, y, c, s));
+    return nearest;
+  }
+
+  void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const override {
+    ignored_ = ignore;
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const double angle = fan.firstAngle + static_cast<double>(i) * fan.angleStep;
+      const double way = range(fan.x, fan.y, angle) / std::cos(fan.elevation);
+      ranges[i] = static_cast<float>(std::min(way, fan.maxRange));
+    }
+    ignored_ = 0;
+    rays_ += ranges.size();
+  }
+
+  bool isVisible(double x0, double y0, double, double x1, double y1, double, RobotNumber,
+                 double slack) const override {
+    const double way = std::hypot(x1 - x0, y1 - y0);
+    return range(x0, y0, std::atan2(y1 - y0, x1 - x0)) >= way - slack;
+  }
+
+  std::span<const Landmark> landmarks() const override { return landmarks_; }
+
+  bool isFree(double x, double y, double radius) const override {
+    const bool isInside = std::abs(x) + radius <= halfWidth_ && std::abs(y) + radius <= halfHeight_;
+    return isInside && std::none_of(posts_.begin(), posts_.end(), [&](const Post& post) {
+      return std::hypot(x - post.x, y - post.y) < post.radius + radius;
+    });
+  }
+
+  const std::string& name() const override { return name_; }
+  std::string fingerprint() const override { return "0123456789abcdef"; }
+
+  FieldRegion region(double cell, double robotRadius) const override {
+    FieldRegion region;
+    region.grid = {-halfWidth_, -halfHeight_, cell,
+                   static_cast<int>(std::lround(std::ceil(2.0 * halfWidth_ / cell - 1e-9))),
+                   static_cast<int>(std::lround(std::ceil(2.0 * halfHeight_ / cell - 1e-9)))};
+    for (std::size_t i = 0; i < region.grid.size(); ++i) {
+      const double x = region.grid.centreX(i);
+      const double y = region.grid.centreY(i);
+      region.open.push_back(isFree(x, y, 0.0) ? 1 : 0);
+      region.standable.push_back(isFree(x, y, robotRadius) ? 1 : 0);
+    }
+    return region;
+  }
+
+  RobotNumber addRobot(double radius, double) override {
+    const RobotNumber number = ++lastRobot_;
+    robots_[number] = {0.0, 0.0, radius};
+    return number;
+  }
+  void moveRobot(RobotNumber robot, const Pose2& pose) override {
+    robots_.at(robot).x = pose.x;
+    robots_.at(robot).y = pose.y;
+  }
+  void removeRobot(RobotNumber robot) override { robots_.erase(robot); }
+
+  std::size_t rays() const { return rays_; }  ///< cast so far
+
+ private:
+  static double rangeOf(const Post& post, double x, double y, double c, double s) {
+    const double dx = post.x - x;
+    const double dy = post.y - y;
+    const double along = dx * c + dy * s;
+    const double across = dx * s - dy * c;
+    const double inside = post.radius * post.radius - across * across;
+    if (inside < 0.0 || along < 0.0) return std::numeric_limits<double>::infinity();
+    return std::max(along - std::sqrt(inside), 0.0);
+  }
+
+  double halfWidth_;   ///< [m]
+  double halfHeight_;  ///< [m]
+  std::vector<Post> posts_;
+  std::vector<Landmark> landmarks_;
+  std::map<RobotNumber, Post> robots_;
+  RobotNumber lastRobot_ = 0;
+  std::string name_ = "room";
+  mutable RobotNumber ignored_ = 0;
+  mutable std::size_t rays_ = 0;
+};
+
+}  // namespace ortung
