@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ortung/container/Export.hpp"
+#include "ortung/container/FieldRegion.hpp"
+#include "ortung/container/Pose2.hpp"
+#include "ortung/container/Random.hpp"
+#include "ortung/sim/SimWorld.hpp"
+
+namespace ortung {
+
+/// A point on the floor, in the field frame [m].
+struct FloorPoint {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// Where a robot can be and how it gets there: the largest connected part of the floor on which
+/// its body fits, as cells. Not thread-safe.
+class ORTUNG_API RoutePlanner {
+ public:
+  /// @param clearance how far from walls routes stay [m], less where there is no room
+  /// @throws std::invalid_argument if the robot fits nowhere
+  RoutePlanner(const SimWorld& world, double robotRadius, double clearance = 0.1);
+
+  /// A pose from which routes lead everywhere else, every cell and heading as likely.
+  Pose2 randomPose(Random& random) const;
+
+  /// Corners of a short way, without its beginning; the last is the cell of @p to.
+  /// Both ends are moved to the nearest cell of the free space first.
+  std::vector<FloorPoint> route(const FloorPoint& from, const FloorPoint& to) const;
+
+  const FieldGrid& grid() const { return grid_; }
+  /// Indices of the grid's cells that belong to the free space.
+  const std::vector<std::uint32_t>& cells() const { return cells_; }
+  bool contains(double x, double y) const;
+
+ private:
+  void keepLargestPart();
+  std::size_t nearestCell(const FloorPoint& point) const;
+  bool isClear(std::size_t a, std::size_t b) const;
+  std::vector<std::uint32_t> search(std::size_t from, std::size_t to) const;
+  FloorPoint centre(std::size_t cell) const { return {grid_.centreX(cell), grid_.centreY(cell)}; }
+
+  FieldGrid grid_;
+  std::vector<std::uint8_t> free_;  ///< 1 for cells of the free space
+  std::vector<std::uint32_t> cells_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,134 @@
+#include "ortung/sim/Learner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ortung {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad]
+
+/// Features of one device at one place on the robot.
+struct Group {
+  Sensor* sensor;
+  Pose2 robotInSensor;  ///< inverse of the mount
+  std::vector<SensorData*> data;
+};
+
+/// Everything that is learned in the same headings.
+struct Sweep {
+  double spacing;  ///< between headings [rad]
+  std::size_t headings;
+  std::vector<Group> groups;
+};
+
+bool isSame(const Pose2& a, const Pose2& b) {
+  return a.x == b.x && a.y == b.y && a.theta == b.theta;
+}
+
+void addTo(std::vector<Sweep>& sweeps, Sensor& sensor, SensorData& data) {
+  const double spacing = std::clamp(data.headingSpacing(), 1e-4, kTurn);
+  auto sweep = std::find_if(sweeps.begin(), sweeps.end(),
+                            [&](const Sweep& s) { return s.spacing == spacing; });
+  if (sweep == sweeps.end()) {
+    // Headings that are no whole number a turn overlap at its end instead of leaving a gap.
+    const auto headings = static_cast<std::size_t>(std::ceil(kTurn / spacing - 1e-6));
+    sweep = sweeps.insert(sweeps.end(), {spacing, headings, {}});
+  }
+  const Pose2 robotInSensor = inverse(data.mount());
+  auto group = std::find_if(sweep->groups.begin(), sweep->groups.end(), [&](const Group& g) {
+    return g.sensor == &sensor && isSame(g.robotInSensor, robotInSensor);
+  });
+  if (group == sweep->groups.end())
+    group = sweep->groups.insert(sweep->groups.end(), {&sensor, robotInSensor, {}});
+  group->data.push_back(&data);
+}
+
+/// One step of the sweep: the sensors stand at @p sensorInField.
+void learnAt(const SimWorld& world, const Pose2& sensorInField, const std::vector<Group>& groups,
+             Timestamp now) {
+  RobotState state;
+  for (const Group& group : groups) {
+    state.pose = sensorInField * group.robotInSensor;
+    group.sensor->generateData(world, state, nullptr, now, group.data);
+    for (SensorData* data : group.data) data->learnProbability(state.pose);
+  }
+}
+
+/// Counts what is done and asks now and then whether to go on.
+class Progress {
+ public:
+  Progress(std::size_t total, const std::function<bool(double)>& report)
+      : total_(total), report_(report) {}
+
+  void done(std::size_t steps) {
+    done_ += steps;
+    if (done_ < next_) return;
+    next_ = done_ + total_ / 200 + 1;
+    if (report_ && !report_(static_cast<double>(done_) / static_cast<double>(total_)))
+      throw LearnCancelled("learning was cancelled after " +
+                           std::to_string(100 * done_ / total_) + " %");
+  }
+
+ private:
+  std::size_t total_;
+  const std::function<bool(double)>& report_;
+  std::size_t done_ = 0;
+  std::size_t next_ = 0;
+};
+
+void runSweep(const SimWorld& world, const FieldRegion& region, const Sweep& sweep,
+              Timestamp& now, Progress& progress) {
+  for (std::size_t cell = 0; cell < region.open.size(); ++cell) {
+    if (region.open[cell] == 0) continue;
+    for (std::size_t k = 0; k < sweep.headings; ++k) {
+      const double heading = static_cast<double>(k) * sweep.spacing;
+      // Time goes on from pose to pose, so a sensor may keep what it knows of one moment.
+      learnAt(world, {region.grid.centreX(cell), region.grid.centreY(cell), wrapAngle(heading)},
+              sweep.groups, ++now);
+    }
+    progress.done(sweep.headings * sweep.groups.size());
+  }
+}
+
+}  // namespace
+
+LearnCancelled::~LearnCancelled() = default;
+
+void learn(const SimWorld& world, const FieldRegion& region, const std::vector<Device>& devices,
+           PluginFactory& factory, const LearnOptions& options,
+           const std::function<bool(double)>& progress) {
+  region.check();
+  const double turns = kTurn / options.headingStep;
+  if (!(options.headingStep > 0.0 && options.headingStep <= kTurn + 1e-9) ||
+      std::abs(turns - std::round(turns)) > 1e-4 * turns)
+    throw std::invalid_argument("LearnOptions::headingStep is " +
+                                std::to_string(options.headingStep * 360.0 / kTurn) +
+                                " degrees, must divide 360 degrees");
+  std::vector<std::unique_ptr<Sensor>> sensors;
+  std::vector<SensorData*> learning;
+  std::vector<Sweep> sweeps;
+  for (const Device& device : devices) {
+    const auto localizes = [](const SensorData* data) { return data->localizes(); };
+    if (std::none_of(device.data.begin(), device.data.end(), localizes)) continue;
+    sensors.push_back(factory.make<Sensor>(device.config->plugin, device.config->parameters));
+    for (SensorData* data : device.data) {
+      if (!data->localizes()) continue;
+      data->beginLearning(region, options.headingStep);
+      learning.push_back(data);
+      addTo(sweeps, *sensors.back(), *data);
+    }
+  }
+  const auto open = static_cast<std::size_t>(std::count_if(
+      region.open.begin(), region.open.end(), [](std::uint8_t isOpen) { return isOpen != 0; }));
+  std::size_t total = 0;
+  for (const Sweep& sweep : sweeps) total += open * sweep.headings * sweep.groups.size();
+  Progress counter(std::max<std::size_t>(total, 1), progress);
+  Timestamp now = 0;
+  for (const Sweep& sweep : sweeps) runSweep(world, region, sweep, now, counter);
+  for (SensorData* data : learning) data->endLearning();
+  if (progress) progress(1.0);
+}
+
+}  // namespace ortung

@@ -1,0 +1,209 @@
+#include "ortung/sim/Learner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "FakeWorld.hpp"
+#include "ortung/config/TomlFile.hpp"
+#include "ortung/container/Formats.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
+
+/// A robot's container and everything that learning needs.
+struct Learned {
+  Learned(const FakeWorld& world, const std::string& toml, const LearnOptions& options = {})
+      : factory(PluginFactory::standardFolders()), robot(readRobot(parseToml(toml, "robot.toml"))) {
+    region = world.region(options.cell, robot.radius);
+    devices = fillContainer(container, robot, factory);
+    learn(world, region, devices, factory, options, [this](double share) {
+      shares.push_back(share);
+      return true;
+    });
+  }
+
+  const SensorData& find(std::string_view feature) const {
+    return *container.find(SensorQuery{.feature = feature});
+  }
+
+  PluginFactory factory;
+  RobotConfig robot;
+  FieldRegion region;
+  SensorContainer container;
+  std::vector<Device> devices;
+  std::vector<double> shares;
+};
+
+/// The pose of the robot that brings its sensor to @p sensor.
+Pose2 robotFor(const Pose2& sensor, const SensorData& data) { return sensor * inverse(data.mount()); }
+
+FakeWorld makeRoom() {
+  FakeWorld room(6.0, 4.0);
+  room.addPost({1.03, 0.52, 0.1});
+  room.addLandmark({1, "post", 1.03, 0.52, 0.5});
+  room.addLandmark({2, "post", -2.5, 1.5, 0.5});
+  return room;
+}
+
+TEST(Learner, LearnsWhatAScanSeesFromEveryCell) {
+  const FakeWorld room(6.0, 4.0);
+  const Learned learned(room, R"([[sensor]]
+    plugin = "lrf"
+    sigma_m = 0.02
+    sigma_per_m = 0.0
+    pose = { x_m = 0.15, y_m = -0.05, theta_deg = 20 })");
+  const SensorData& scan = learned.find("180DegreeScan");
+  ASSERT_TRUE(scan.isLearned());
+  for (const Pose2& sensor : {Pose2{0.05, 0.05, 0.0}, Pose2{-2.35, 1.25, 2.0}, Pose2{2.85, -1.9, -1.3}}) {
+    const std::vector<double> expected = scan.expectation(robotFor(sensor, scan));
+    ASSERT_EQ(expected.size(), 180u);
+    const FieldGrid& grid = learned.region.grid;
+    const auto cell = static_cast<std::size_t>(grid.cellAt(sensor.x, sensor.y));
+    for (std::size_t i = 0; i < 180; ++i) {
+      const double angle = sensor.theta + (-90.0 + static_cast<double>(i) * 180.0 / 179.0) * kDegree;
+      // A direction of the table stands for 2 degrees, so the truth lies between the ranges there;
+      // 2 cm are more than half a level of ranges: 8 m in 254 levels are 3.2 cm each.
+      double low = 1e9;
+      double high = 0.0;
+      for (double offset = -2.01; offset <= 2.01; offset += 0.1) {
+        const double range = room.range(grid.centreX(cell), grid.centreY(cell), angle + offset * kDegree);
+        low = std::min(low, range);
+        high = std::max(high, range);
+      }
+      EXPECT_GE(expected[i], low - 0.02) << "beam " << i;
+      EXPECT_LE(expected[i], high + 0.02) << "beam " << i;
+    }
+  }
+}
+
+TEST(Learner, LearnsDistancesAndBearingsOfPosts) {
+  const FakeWorld room = makeRoom();
+  const Learned learned(room, R"([[sensor]]
+    plugin = "landmarks"
+    identities = [1, 2]
+    occlusion = false
+    pose = { x_m = 0.3, y_m = 0.1, theta_deg = -45 })");
+  const SensorData& distance = learned.find("post2Distance");
+  const SensorData& bearing = learned.find("post2Bearing");
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    const Pose2 sensor{random.uniform(-1.5, 2.9), random.uniform(-1.9, 1.0), random.uniform(-3.0, 3.0)};
+    const std::ptrdiff_t cell = learned.region.grid.cellAt(sensor.x, sensor.y);
+    if (learned.region.open[static_cast<std::size_t>(cell)] == 0) continue;  // within post 1
+    const double range = std::hypot(-2.5 - sensor.x, 1.5 - sensor.y);
+    // The centre of the cell is at most half a diagonal away, 0.071 m.
+    EXPECT_NEAR(distance.expectation(robotFor(sensor, distance)).at(0), range, 0.073);
+    const double direction = std::atan2(1.5 - sensor.y, -2.5 - sensor.x) - sensor.theta;
+    const double error = bearing.expectation(robotFor(sensor, bearing)).at(0) - direction;
+    EXPECT_NEAR(std::remainder(error, 2.0 * std::numbers::pi), 0.0, 0.073 / range);
+  }
+}
+
+TEST(Learner, LearnsNothingOfAPostThatIsHidden) {
+  const FakeWorld room = makeRoom();
+  const Learned learned(room, R"([[sensor]]
+    plugin = "landmarks"
+    identities = [2])");
+  const SensorData& distance = learned.find("post2Distance");
+  // Straight behind post 1 as seen from post 2.
+  const double direction = std::atan2(0.52 - 1.5, 1.03 + 2.5);
+  const Pose2 behind{1.03 + 0.5 * std::cos(direction), 0.52 + 0.5 * std::sin(direction), 0.0};
+  EXPECT_TRUE(std::isnan(distance.expectation(behind).at(0)));
+  EXPECT_FALSE(std::isnan(distance.expectation({1.0, -1.0, 0.0}).at(0)));
+}
+
+TEST(Learner, SeesAllAroundWithASensorThatLooksOneWay) {
+  const FakeWorld room = makeRoom();
+  const Learned learned(room, R"([[sensor]]
+    plugin = "landmarks"
+    identities = [2]
+    occlusion = false
+    fov_deg = 70)");
+  const SensorData& distance = learned.find("post2Distance");
+  for (const std::size_t cell : {std::size_t{100}, std::size_t{1000}, std::size_t{2300}}) {
+    const double x = learned.region.grid.centreX(cell);
+    const double y = learned.region.grid.centreY(cell);
+    EXPECT_NEAR(distance.expectation({x, y, 0.0}).at(0), std::hypot(-2.5 - x, 1.5 - y), 0.002);
+  }
+}
+
+TEST(Learner, LearnsEverySonarOfARing) {
+  const FakeWorld room(6.0, 4.0);
+  LearnOptions options;
+  options.headingStep = 5.0 * kDegree;
+  const Learned learned(room, R"([[sensor]]
+    plugin = "sonar"
+    angles_deg = [0, 90, 215]
+    max_range_m = 3
+    sigma_m = 0.02
+    sigma_per_m = 0.0)", options);
+  for (const char* feature : {"sonar0", "sonar1", "sonar2"}) {
+    const SensorData& sonar = learned.find(feature);
+    ASSERT_TRUE(sonar.isLearned());
+    // 1.05 m before the wall, facing it; far from any; quantized to half a level, 6 mm.
+    EXPECT_NEAR(sonar.expectation(robotFor({1.95, 0.05, 0.0}, sonar)).at(0), 1.05, 0.008);
+    EXPECT_NEAR(sonar.expectation(robotFor({0.05, 0.95, 90 * kDegree}, sonar)).at(0), 1.05, 0.008);
+    EXPECT_EQ(sonar.expectation(robotFor({0.05, 0.05, 180 * kDegree}, sonar)).at(0), 3.0);
+  }
+}
+
+TEST(Learner, GivesTheTruePoseTheBestProbability) {
+  const FakeWorld room = makeRoom();
+  Learned learned(room, R"([[sensor]]
+    plugin = "lrf"
+    pose = { x_m = 0.2 }
+    [[sensor]]
+    plugin = "landmarks"
+    identities = [1, 2])");
+  const Pose2 truth{-0.85, -0.35, 40 * kDegree};
+  RobotState state;
+  state.pose = truth;
+  for (const Device& device : learned.devices)
+    learned.factory.make<Sensor>(device.config->plugin, device.config->parameters)
+        ->generateData(room, state, nullptr, 1, device.data);
+  const double best = learned.container.getProbability(truth);
+  EXPECT_GT(best, 0.0);
+  for (const Pose2& error : {Pose2{0.5, 0, 0}, Pose2{0, -0.5, 0}, Pose2{0, 0, 0.4}, Pose2{-0.3, 0.3, 0.2}})
+    EXPECT_GT(best, 3.0 * learned.container.getProbability(truth * error));
+}
+
+TEST(Learner, TellsHowFarItIs) {
+  const FakeWorld room(2.0, 2.0);
+  const Learned learned(room, "[[sensor]]\nplugin = 'lrf'");
+  ASSERT_GE(learned.shares.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(learned.shares.begin(), learned.shares.end()));
+  EXPECT_EQ(learned.shares.back(), 1.0);
+}
+
+TEST(Learner, StopsWhenItIsToldTo) {
+  const FakeWorld room(2.0, 2.0);
+  PluginFactory factory(PluginFactory::standardFolders());
+  const RobotConfig robot = readRobot(parseToml("[[sensor]]\nplugin = 'lrf'", "robot.toml"));
+  SensorContainer container;
+  const std::vector<Device> devices = fillContainer(container, robot, factory);
+  const FieldRegion region = room.region(0.1, 0.25);
+  int calls = 0;
+  EXPECT_THROW(learn(room, region, devices, factory, {}, [&](double) { return ++calls < 3; }),
+               LearnCancelled);
+  EXPECT_EQ(calls, 3);
+  EXPECT_FALSE(container.all()[0]->isLearned());
+}
+
+TEST(Learner, RefusesAHeadingStepThatDoesNotDivideATurn) {
+  const FakeWorld room(2.0, 2.0);
+  LearnOptions options;
+  options.headingStep = 7.0 * kDegree;
+  try {
+    const Learned learned(room, "[[sensor]]\nplugin = 'lrf'", options);
+    FAIL() << "7 degrees were accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("7.0"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace ortung

@@ -1,0 +1,70 @@
+#include "ortung/sim/RoutePlanner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "FakeWorld.hpp"
+
+namespace ortung {
+namespace {
+
+/// A room cut in two by a row of posts with one gap at y = @p gap, or none.
+FakeWorld cutRoom(double gap) {
+  FakeWorld room(8.0, 6.0);
+  for (double y = -3.0; y <= 3.0; y += 0.2)
+    if (std::abs(y - gap) > 0.55) room.addPost({1.0, y, 0.15});
+  return room;
+}
+
+TEST(RoutePlanner, GoesStraightWhereNothingIsInTheWay) {
+  const RoutePlanner planner(FakeWorld(8.0, 6.0), 0.25);
+  const std::vector<FloorPoint> route = planner.route({-3.0, -2.0}, {3.0, 2.0});
+  ASSERT_EQ(route.size(), 1u);
+  EXPECT_NEAR(route[0].x, 3.0, 0.11);
+  EXPECT_NEAR(route[0].y, 2.0, 0.11);
+}
+
+TEST(RoutePlanner, FindsTheGapAndKeepsClear) {
+  const FakeWorld room = cutRoom(2.0);
+  const RoutePlanner planner(room, 0.25);
+  const FloorPoint start{0.0, -2.0};
+  const std::vector<FloorPoint> route = planner.route(start, {3.0, -2.0});
+  ASSERT_GE(route.size(), 2u);
+  FloorPoint from = start;
+  double way = 0.0;
+  for (const FloorPoint& to : route) {
+    for (int i = 0; i <= 100; ++i) {
+      const double share = i / 100.0;
+      EXPECT_TRUE(room.isFree(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), 0.25));
+    }
+    way += std::hypot(to.x - from.x, to.y - from.y);
+    from = to;
+  }
+  // By the gap's middle it is hypot(1, 4) + hypot(2, 4); cells cost a little more.
+  EXPECT_LT(way, 1.1 * (std::hypot(1.0, 4.0) + std::hypot(2.0, 4.0)));
+}
+
+TEST(RoutePlanner, KeepsToTheLargestPart) {
+  const FakeWorld room = cutRoom(100.0);
+  const RoutePlanner planner(room, 0.25);
+  EXPECT_TRUE(planner.contains(-2.0, 0.0));
+  EXPECT_FALSE(planner.contains(2.0, 0.0));  // 3 m wide, the other is 5 m
+  Random random(1);
+  for (int i = 0; i < 200; ++i) EXPECT_LT(planner.randomPose(random).x, 1.0);
+}
+
+TEST(RoutePlanner, LeadsBackFromWhereItsMapEnds) {
+  const RoutePlanner planner(FakeWorld(8.0, 6.0), 0.25);
+  const std::vector<FloorPoint> route = planner.route({-3.74, 0.0}, {2.0, 0.0});
+  ASSERT_FALSE(route.empty());
+  EXPECT_TRUE(planner.contains(route.front().x, route.front().y));
+}
+
+TEST(RoutePlanner, RefusesARobotThatFitsNowhere) {
+  EXPECT_THROW(RoutePlanner(FakeWorld(1.0, 1.0), 0.6), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ortung
