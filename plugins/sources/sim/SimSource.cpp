@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "ortung/config/RobotFile.hpp"
+#include "ortung/container/Plugin.hpp"
+#include "ortung/container/PluginFactory.hpp"
+#include "ortung/container/Source.hpp"
+#include "ortung/sim/RoutePlanner.hpp"
+#include "ortung/sim/Simulation.hpp"
+
+namespace ortung {
+namespace {
+
+/// Reads a list of finite numbers separated by @p separator; nothing for anything else.
+std::optional<std::vector<double>> parseNumbers(std::string_view text, char separator) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    double number = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + end, number);
+    if (error != std::errc{} || rest != text.data() + end || !std::isfinite(number))
+      return std::nullopt;
+    numbers.push_back(number);
+    if (end == text.size()) return numbers;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// Options come as text, behind the "?" of the source.
+double numberOption(const Parameters& p, const std::string& key, double fallback, double low,
+                    double high) {
+  if (!p.has(key)) return fallback;
+  const std::string text = p.text(key);
+  const auto numbers = parseNumbers(text, ',');
+  if (!numbers || numbers->size() != 1 || numbers->front() < low || numbers->front() > high) {
+    std::ostringstream range;
+    range << "is \"" << text << "\", must be a number in [" << low << ", " << high << "]";
+    p.fail(key, range.str());
+  }
+  return numbers->front();
+}
+
+std::uint64_t seedOption(const Parameters& p) {
+  if (!p.has("seed")) return 1;
+  const std::string text = p.text("seed");
+  std::uint64_t seed = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (text.empty() || error != std::errc{} || rest != text.data() + text.size())
+    p.fail("seed", "is \"" + text + "\", must be a whole number in [0, 2^64)");
+  return seed;
+}
+
+std::optional<Pose2> startOption(const Parameters& p) {
+  if (!p.has("start")) return std::nullopt;
+  const std::string text = p.text("start");
+  const auto numbers = parseNumbers(text, ',');
+  if (!numbers || numbers->size() != 3)
+    p.fail("start", "is \"" + text + "\", must be x,y,theta in metres and degrees");
+  return Pose2{(*numbers)[0], (*numbers)[1],
+               wrapAngle((*numbers)[2] * std::numbers::pi / 180.0)};
+}
+
+std::vector<FloorPoint> waypointsOption(const Parameters& p) {
+  std::vector<FloorPoint> points;
+  if (!p.has("waypoints")) return points;
+  const std::string text = p.text("waypoints");
+  std::string_view rest = text;
+  while (true) {
+    const std::size_t end = std::min(rest.find(';'), rest.size());
+    const auto numbers = parseNumbers(rest.substr(0, end), ',');
+    if (!numbers || numbers->size() != 2)
+      p.fail("waypoints", "has \"" + std::string(rest.substr(0, end)) +
+                              "\", must be x,y;x,y;... in metres");
+    points.push_back({(*numbers)[0], (*numbers)[1]});
+    if (end == rest.size()) return points;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+/// Moments at which the robot is carried elsewhere.
+std::vector<Timestamp> kidnapsOption(const Parameters& p) {
+  std::vector<Timestamp> moments;
+  if (!p.has("kidnap")) return moments;
+  const std::string text = p.text("kidnap");
+  const auto numbers = parseNumbers(text, ',');
+  if (!numbers) p.fail("kidnap", "is \"" + text + "\", must be times in seconds, t,t,...");
+  for (const double seconds : *numbers) {
+    const bool isLater = moments.empty() || fromSeconds(seconds) > moments.back();
+    if (!(seconds >= 0.0 && seconds <= 1e6 && isLater))
+      p.fail("kidnap", "is \"" + text + "\", must be rising times in [0, 1e6] s");
+    moments.push_back(fromSeconds(seconds));
+  }
+  return moments;
+}
+
+/// What a simulated run is: the options of the source's text.
+struct Run {
+  Timestamp duration;
+  Simulation::Config simulation;
+  std::optional<Pose2> start;
+  std::vector<FloorPoint> waypoints;
+  std::optional<double> speed;  ///< [m/s]
+  std::vector<Timestamp> kidnaps;
+
+  static Run read(const Parameters& p) {
+    Run run;
+    run.duration = fromSeconds(numberOption(p, "duration", 60.0, 0.0, 1e6));
+    run.simulation.cycle = numberOption(p, "cycle_ms", 10.0, 0.1, 1000.0) / 1000.0;
+    run.simulation.seed = seedOption(p);
+    run.simulation.noise = p.choiceOr("noise", "on", {"on", "off"}) == "on";
+    run.start = startOption(p);
+    run.waypoints = waypointsOption(p);
+    if (p.has("speed")) run.speed = numberOption(p, "speed", 0.0, 0.0, 20.0);
+    run.kidnaps = kidnapsOption(p);
+    return run;
+  }
+};
+
+std::filesystem::path robotFileOf(const Parameters& p) {
+  const std::string file = p.textOr("robot_file", "");
+  if (file.empty())
+    p.fail("robot_file", "is missing; the simulator needs a robot file, e.g. robots/pioneer.toml");
+  return file;
+}
+
+/// Source "sim": a robot that drives about a simulated world.
+class SimSource : public Source {
+ public:
+  explicit SimSource(const Parameters& p)
+      : worldFile_(p.text("path")),
+        robotFile_(robotFileOf(p)),
+        run_(Run::read(p)),
+        factory_(PluginFactory::standardFolders()),
+        simulation_(readWorld(worldFile_), run_.simulation),
+        config_(readRobot(robotFile_)),
+        planner_(simulation_.world(), config_.radius),
+        placing_(simulation_.random(kPlacing)) {
+    const Pose2 start = run_.start ? *run_.start : planner_.randomPose(placing_);
+    robot_ = &simulation_.addRobot(config_, factory_, start);
+    DriverLimits limits = DriverLimits::of(robot_->driveConfig());
+    if (run_.speed) limits.speed = std::min(limits.speed, *run_.speed);
+    robot_->setDriver(run_.waypoints.empty()
+                          ? makeWanderer(planner_, limits, simulation_.random(kWandering))
+                          : makeFollower(run_.waypoints, limits));
+  }
+  ~SimSource() override = default;
+
+  bool next(Message& message) override {
+    while (sent_ == frame_.size()) {
+      if (simulation_.now() > run_.duration) return false;
+      kidnap();
+      simulation_.step();
+      frame_ = simulation_.readings(0);
+      sent_ = 0;
+    }
+    message = frame_[sent_++];
+    return true;
+  }
+
+  double progress() const override {
+    const double done = toSeconds(simulation_.now()) / toSeconds(std::max(run_.duration, Timestamp{1}));
+    return std::min(done, 1.0);
+  }
+  std::string worldFingerprint() const override { return simulation_.world().fingerprint(); }
+  std::string robotToml() const override {
+    std::ifstream in(robotFile_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+ private:
+  static constexpr std::uint64_t kPlacing = 0;
+  static constexpr std::uint64_t kWandering = 1;
+
+  void kidnap() {
+    if (kidnapped_ == run_.kidnaps.size() || simulation_.now() < run_.kidnaps[kidnapped_]) return;
+    ++kidnapped_;
+    simulation_.place(*robot_, planner_.randomPose(placing_));
+  }
+
+  std::filesystem::path worldFile_;
+  std::filesystem::path robotFile_;
+  Run run_;
+  PluginFactory factory_;
+  Simulation simulation_;
+  RobotConfig config_;
+  RoutePlanner planner_;
+  Random placing_;
+  SimRobot* robot_ = nullptr;  ///< the simulation's
+  std::span<const Message> frame_;
+  std::size_t sent_ = 0;
+  std::size_t kidnapped_ = 0;
+};
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("sim_source", ortung::provide<ortung::Source, ortung::SimSource>("sim"));
