@@ -1,0 +1,131 @@
+#include "ortung/realsensors/LogSource.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "ortung/container/Formats.hpp"
+#include "ortung/realsensors/LogFile.hpp"
+
+namespace ortung {
+
+LogSource::~LogSource() = default;
+
+bool LogSource::next(Message& message) {
+  if (at_ == entries_.size()) return false;
+  const Entry& entry = entries_[at_++];
+  message.stamp = entry.stamp;
+  message.id = features_[entry.feature];
+  const auto first = words_.begin() + static_cast<std::ptrdiff_t>(entry.firstWord);
+  message.words.assign(first, first + entry.count);
+  return true;
+}
+
+double LogSource::progress() const {
+  return entries_.empty() ? 1.0 : static_cast<double>(at_) / static_cast<double>(entries_.size());
+}
+
+std::uint32_t LogSource::addFeature(SensorId id) {
+  features_.push_back(std::move(id));
+  return static_cast<std::uint32_t>(features_.size() - 1);
+}
+
+void LogSource::add(std::uint32_t feature, Timestamp stamp, std::span<const std::uint32_t> words) {
+  entries_.push_back({stamp, feature, static_cast<std::uint32_t>(words.size()), words_.size()});
+  words_.insert(words_.end(), words.begin(), words.end());
+}
+
+void LogSource::finish(const std::string& where) {
+  if (entries_.empty()) {
+    throw std::runtime_error(where + ": found no reading, expected at least one");
+  }
+  const auto moment = [](const Entry& e) { return std::pair(e.stamp, e.feature); };
+  std::stable_sort(entries_.begin(), entries_.end(),
+                   [&](const Entry& a, const Entry& b) { return moment(a) < moment(b); });
+  const auto same = [&](const Entry& a, const Entry& b) { return moment(a) == moment(b); };
+  const auto kept = std::unique(entries_.rbegin(), entries_.rend(), same);
+  entries_.erase(entries_.begin(), kept.base());
+}
+
+std::optional<double> optionNumber(const Parameters& options, const std::string& key,
+                                   const Range& range) {
+  if (!options.has(key)) return std::nullopt;
+  const std::string text = options.text(key);
+  const auto value = parseNumber(text);
+  if (!value || *value < range.low || *value > range.high) {
+    options.fail(key, "found " + quoted(text) + ", expected a number in [" + tomlNumber(range.low) +
+                          ", " + tomlNumber(range.high) + "]");
+  }
+  return value;
+}
+
+double optionNumber(const Parameters& options, const std::string& key, double fallback,
+                    const Range& range) {
+  return optionNumber(options, key, range).value_or(fallback);
+}
+
+std::vector<std::uint32_t> PoseOdometry::words(Timestamp stamp, const Pose2& pose) {
+  constexpr double kShortest = 1e-3;  // [s]; over less, jitter of the clock makes huge velocities
+  const double seconds = last_ ? toSeconds(stamp - last_->first) : 0.0;
+  if (seconds >= kShortest) {
+    const Pose2 change = inverse(last_->second) * pose;
+    translational_ = change.x / seconds;
+    rotational_ = change.theta / seconds;
+  }
+  last_ = {stamp, pose};
+  return OdometryData::encode({pose, translational_, rotational_, {}});
+}
+
+Pose2 alongArc(const Pose2& pose, double v, double w, double seconds) {
+  const double turn = w * seconds;
+  const double way = v * seconds;
+  if (std::abs(turn) < 1e-6) {  // the chord: exact to turn^2 / 24 of the way
+    return pose * Pose2{way * std::cos(turn / 2), way * std::sin(turn / 2), turn};
+  }
+  const double radius = way / turn;
+  return pose * Pose2{radius * std::sin(turn), radius * (1.0 - std::cos(turn)), wrapAngle(turn)};
+}
+
+std::string tomlNumber(double value) {
+  std::array<char, 400> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr;
+  std::string result(text.data(), end);
+  if (std::isfinite(value) && result.find('.') == std::string::npos) result += ".0";
+  return result;
+}
+
+std::string tomlText(const std::string& text) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += {'\\', c};
+    } else if (byte < 32 || byte == 127) {
+      result += std::string("\\u00") + kDigits[byte >> 4] + kDigits[byte & 15];
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+void writeWhole(const std::filesystem::path& file, const std::string& bytes) {
+  std::filesystem::path temporary = file;
+  temporary += ".part";
+  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(temporary, file, error);
+  if (!out || error) {
+    std::filesystem::remove(temporary, error);
+    throw std::runtime_error(file.string() + ": cannot be written");
+  }
+}
+
+}  // namespace ortung

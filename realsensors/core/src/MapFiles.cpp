@@ -1,0 +1,106 @@
+#include "ortung/realsensors/MapFiles.hpp"
+
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <stdexcept>
+
+#include "ortung/realsensors/LogFile.hpp"
+#include "ortung/realsensors/LogSource.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::uint64_t kMaxYamlBytes = 64u << 10;
+constexpr std::uint64_t kMaxImageBytes = 512u << 20;
+
+/// The text behind "image:", quotes and blanks taken off; empty if there is none.
+std::string imageName(const std::string& line) {
+  const std::string key = "image:";
+  if (line.compare(0, key.size(), key) != 0) return "";
+  const char* const blanks = " \t\r\"'";
+  const std::size_t begin = line.find_first_not_of(blanks, key.size());
+  if (begin == std::string::npos) return "";
+  return line.substr(begin, line.find_last_not_of(blanks) - begin + 1);
+}
+
+bool isImage(const std::string& bytes) {
+  return bytes.starts_with("P5") || bytes.starts_with("P2") || bytes.starts_with("\x89PNG");
+}
+
+std::filesystem::path beside(const std::filesystem::path& world, const std::string& ending) {
+  std::filesystem::path file = world;
+  return file.replace_extension(ending);
+}
+
+void writeWorldText(const std::filesystem::path& world, const std::filesystem::path& map) {
+  writeWhole(world, "name = " + tomlText(world.stem().string()) +
+                        "\n\n[[grid]]\nmap = " + tomlText(map.filename().string()) + "\n");
+}
+
+/// Copies a map that needs no other file; its endings (".gridmap.gz") tell its kind and stay.
+void copyMap(const std::filesystem::path& world, const std::filesystem::path& map) {
+  std::string ending = map.extension().string();
+  if (ending == ".gz") ending = map.stem().extension().string() + ending;
+  const auto copy = beside(world, ending);
+  std::ifstream in(map, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  if (!in || !bytes) throw std::runtime_error(map.string() + ": cannot be read");
+  writeWhole(copy, bytes.str());
+  writeWorldText(world, copy);
+}
+
+/// Copies a map_server YAML and its image. The image's name in it becomes that of the copy.
+void copyMapServer(const std::filesystem::path& world, const std::filesystem::path& map) {
+  std::istringstream yaml(readLogBytes(map, kMaxYamlBytes));
+  std::filesystem::path image;
+  std::filesystem::path copy;
+  std::string text;
+  for (std::string line; std::getline(yaml, line);) {
+    if (const std::string name = imageName(line); !name.empty()) {
+      const auto found = findLogFile(map.parent_path() / name);
+      if (!found) {
+        throw std::runtime_error(map.string() + ": found no image " + quoted(name) +
+                                 " beside it, expected one");
+      }
+      image = *found;
+      auto plain = image;
+      if (plain.extension() == ".gz" || plain.extension() == ".xz") plain.replace_extension();
+      copy = beside(world, plain.extension().string());
+      line = "image: " + copy.filename().string();
+    }
+    text += line + "\n";
+  }
+  if (image.empty()) {
+    throw std::runtime_error(map.string() + ": found no line 'image: ...', expected one");
+  }
+  const std::string bytes = readLogBytes(image, kMaxImageBytes);
+  if (!isImage(bytes)) {
+    throw std::runtime_error(image.string() + ": found no PGM or PNG image, expected one");
+  }
+  writeWhole(copy, bytes);
+  writeWhole(beside(world, ".yaml"), text);
+  writeWorldText(world, beside(world, ".yaml"));
+}
+
+}  // namespace
+
+void writeGridWorld(const std::filesystem::path& world, const std::filesystem::path& map) {
+  const bool isYaml = map.extension() == ".yaml" || map.extension() == ".yml";
+  isYaml ? copyMapServer(world, map) : copyMap(world, map);
+}
+
+std::filesystem::path fileOption(const Parameters& options, const std::string& key,
+                                 const std::filesystem::path& folder) {
+  if (!options.has(key)) return {};
+  const std::string name = options.text(key);
+  for (const std::filesystem::path& file : {folder / name, std::filesystem::path(name)}) {
+    if (const auto found = findLogFile(file)) return *found;
+  }
+  options.fail(key, "found no file " + quoted(name) + " in " + folder.string() +
+                        " nor from here, expected one (it may end in .xz or .gz)");
+}
+
+}  // namespace ortung

@@ -1,0 +1,115 @@
+#include "ortung/realsensors/ScanLog.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "ortung/container/Formats.hpp"
+#include "ortung/realsensors/MapFiles.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kDefaultPeriod = 1.0;    // [s] between scans whose stamps are lost
+
+double medianPeriod(const std::vector<Timestamp>& stamps) {
+  std::vector<Timestamp> steps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
+  if (steps.empty()) return kDefaultPeriod;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return toSeconds(*middle);
+}
+
+}  // namespace
+
+ScanLogSource::ScanLogSource(const Parameters& options)
+    : path_(options.text("path")),
+      scannerOptions_(options),
+      period_(optionNumber(options, "period_s", {1e-3, 3600})),
+      scanClock_(optionNumber(options, "jitter_s", 1.0, {0, 3600})),
+      odometryClock_(scanClock_),
+      truthClock_(scanClock_) {
+  options.textOr("robot_file", "");  // the log knows its own scanner
+}
+
+ScanLogSource::~ScanLogSource() = default;
+
+void ScanLogSource::useScanner(const LogFile& file, const Scanner& scanner) {
+  scanner_ = scannerOptions_.apply(scanner, file.place());
+}
+
+void ScanLogSource::addScan(const LogFile& file, Timestamp stamp, std::size_t first,
+                            const std::optional<Pose2>& odometry) {
+  for (int beam = 0; beam < scanner_->beams; ++beam) {
+    const double range = file.number(first + static_cast<std::size_t>(beam), "a range [m]",
+                                     {-kMaxLogMetres, kMaxLogMetres});
+    scanWords_.push_back(range > 0 ? words::fromMetres(range) : 0);  // 0: no valid measurement
+  }
+  if (!scanStamps_.empty() && stamp == lastRaw_) ++standing_;
+  lastRaw_ = stamp;
+  scanStamps_.push_back(scanClock_(file, stamp));
+  if (odometry) scanOdometry_.push_back({scanStamps_.back(), *odometry});
+}
+
+void ScanLogSource::addOdometry(const LogFile& file, Timestamp stamp, const Pose2& pose) {
+  odometry_.push_back({odometryClock_(file, stamp), pose});
+}
+
+void ScanLogSource::addTruth(const LogFile& file, Timestamp stamp, const Pose2& pose) {
+  truth_.push_back({truthClock_(file, stamp), pose});
+}
+
+/// Some logs lost the digits of their stamps; the order of their lines is what is left.
+void ScanLogSource::setInLineOrder(const std::string& where) {
+  const auto wrong = [&](const std::string& what, std::size_t found) {
+    throw std::runtime_error(where + ": found " + std::to_string(found) + " " + what + " for " +
+                             std::to_string(scanStamps_.size()) +
+                             " scans, expected one a scan, since the stamps of the scans are not"
+                             " used (they stand still, or the option period_s is set)");
+  };
+  if (!truth_.empty() && truth_.size() != scanStamps_.size()) wrong("reference poses", truth_.size());
+  if (!scanOdometry_.empty() && scanOdometry_.size() != scanStamps_.size()) {
+    wrong("poses of odometry", scanOdometry_.size());
+  }
+  if (!odometry_.empty()) wrong("poses of an odometry of its own", odometry_.size());
+  const Timestamp first = scanStamps_.front();
+  const double period = period_.value_or(kDefaultPeriod);
+  for (std::size_t i = 0; i < scanStamps_.size(); ++i) {
+    scanStamps_[i] = first + fromSeconds(period * static_cast<double>(i));
+    if (!scanOdometry_.empty()) scanOdometry_[i].stamp = scanStamps_[i];
+    if (!truth_.empty()) truth_[i].stamp = scanStamps_[i];
+  }
+}
+
+void ScanLogSource::finishLog(const std::string& where) {
+  if (scanStamps_.empty()) throw std::runtime_error(where + ": found no scan, expected at least one");
+  if (period_ || standing_ * 10 > scanStamps_.size()) setInLineOrder(where);
+  const auto odometryId = addFeature({"odometry", "odometry", "pose"});
+  const auto scanId = addFeature({"laser", "LRF", "scan"});
+  const auto truthId = addFeature({"reference", "groundTruth", "pose"});
+  PoseOdometry odometry;  // one of both only: their frames differ
+  for (const auto& [stamp, pose] : odometry_.empty() ? scanOdometry_ : odometry_) {
+    add(odometryId, stamp, odometry.words(stamp, pose));
+  }
+  const auto beams = static_cast<std::size_t>(scanner_->beams);
+  for (std::size_t i = 0; i < scanStamps_.size(); ++i) {
+    add(scanId, scanStamps_[i], std::span(scanWords_).subspan(i * beams, beams));
+  }
+  for (const auto& [stamp, pose] : truth_) add(truthId, stamp, PoseData::encode(pose));
+  scanWords_ = {};
+  finish(where);
+}
+
+std::string ScanLogSource::robotToml() const {
+  return robotHead(path_) + scannerToml(*scanner_, medianPeriod(scanStamps_));
+}
+
+void ScanLogSource::writeWorld(const std::filesystem::path& file) const {
+  if (map_.empty()) {
+    throw std::runtime_error(path_ + ": found no map, expected one; the option map=FILE names it");
+  }
+  writeGridWorld(file, map_);
+}
+
+}  // namespace ortung

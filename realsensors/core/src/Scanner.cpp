@@ -1,0 +1,69 @@
+#include "ortung/realsensors/Scanner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+#include "ortung/realsensors/LogSource.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kUsefulRange = 30.0;  // [m]; beyond, old SICK scanners see little and spread much
+constexpr int kMaxBeams = 8192;
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+double radians(double degree) { return degree * std::numbers::pi / 180.0; }
+
+}  // namespace
+
+ScannerOptions::ScannerOptions(const Parameters& options)
+    : x_(optionNumber(options, "laser_x", {-10, 10})),
+      y_(optionNumber(options, "laser_y", {-10, 10})),
+      yaw_(optionNumber(options, "laser_yaw_deg", {-360, 360})),
+      maxRange_(optionNumber(options, "max_range_m", {0.1, 1000})) {}
+
+Scanner ScannerOptions::apply(Scanner scanner, const std::string& where) const {
+  if (scanner.beams < 1 || scanner.beams > kMaxBeams) {
+    throw std::runtime_error(where + ": found " + std::to_string(scanner.beams) +
+                             " beams, expected 1 to " + std::to_string(kMaxBeams));
+  }
+  const double sweep = scanner.angleStep * scanner.beams;
+  if (!(scanner.angleStep > 0) || !(sweep < kTurn + 1e-3) || !(std::abs(scanner.firstAngle) <= kTurn)) {
+    throw std::runtime_error(where + ": found " + std::to_string(scanner.beams) +
+                             " beams that begin at " + tomlNumber(scanner.firstAngle) + " rad, " +
+                             tomlNumber(scanner.angleStep) +
+                             " rad apart, expected a positive step, and a turn at most");
+  }
+  scanner.angleStep = std::min(scanner.angleStep, kTurn / scanner.beams);  // rounded in the log
+  if (x_) scanner.mount.x = *x_;
+  if (y_) scanner.mount.y = *y_;
+  if (yaw_) scanner.mount.theta = wrapAngle(radians(*yaw_));
+  const double range = std::clamp(scanner.maxRange.value_or(kUsefulRange), 0.1, kUsefulRange);
+  scanner.maxRange = maxRange_.value_or(range);
+  return scanner;
+}
+
+std::string robotHead(const std::string& path) {
+  std::filesystem::path file = std::filesystem::path(path).lexically_normal();
+  if (!file.has_filename()) file = file.parent_path();
+  const std::string name = file.stem().string();
+  return "name = " + tomlText(name.empty() ? "robot" : name) +
+         "\nradius_m = 0.25\n\n[[sensor]]\nplugin = \"odometry\"\n";
+}
+
+std::string scannerToml(const Scanner& scanner, double period) {
+  return "\n[[sensor]]\nplugin = \"lrf\"\nmodel = \"laser\"\ntype = \"LRF\"\nfeature = \"scan\"\n"
+         "pose = { x_m = " + tomlNumber(scanner.mount.x) + ", y_m = " +
+         tomlNumber(scanner.mount.y) + ", theta_deg = " +
+         tomlNumber(degrees(scanner.mount.theta)) + " }\nbeams = " +
+         std::to_string(scanner.beams) + "\nfirst_angle_deg = " +
+         tomlNumber(degrees(scanner.firstAngle)) + "\nangle_step_deg = " +
+         tomlNumber(degrees(scanner.angleStep)) + "\nmax_range_m = " +
+         tomlNumber(*scanner.maxRange) + "\nperiod_s = " + tomlNumber(period) + "\n";
+}
+
+}  // namespace ortung

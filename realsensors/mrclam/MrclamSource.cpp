@@ -1,0 +1,255 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "ortung/container/Formats.hpp"
+#include "ortung/container/Plugin.hpp"
+#include "ortung/realsensors/LogFile.hpp"
+#include "ortung/realsensors/LogSource.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr int kRobots = 5;              // subjects 1 to 5 are robots, the others landmarks
+constexpr double kMaxSubject = 1e6;
+constexpr double kMargin = 1.5;         // [m] that the field reaches beyond the landmarks
+constexpr double kTruthMargin = 0.5;    // [m] and beyond where the robot went
+constexpr double kMaxRange = 10.0;      // [m]; the farthest reading of all runs is 9.6
+constexpr double kMaxVelocity = 100.0;  // [m/s], [rad/s]
+
+struct Place {
+  double x = 0.0;  ///< [m]
+  double y = 0.0;  ///< [m]
+};
+
+/// A box that grows to hold points.
+struct Box {
+  double xLow = 1e9, xHigh = -1e9, yLow = 1e9, yHigh = -1e9;  ///< [m]
+  void hold(double x, double y, double margin) {
+    xLow = std::min(xLow, x - margin);
+    xHigh = std::max(xHigh, x + margin);
+    yLow = std::min(yLow, y - margin);
+    yHigh = std::max(yHigh, y + margin);
+  }
+};
+
+/// One robot of a run of UTIAS MRCLAM (Leung et al., IJRR 30(8), 2011): commanded velocities, ranges
+/// and bearings of identified landmarks, Vicon poses. The folder holds the run's .dat files.
+class MrclamSource : public LogSource {
+ public:
+  explicit MrclamSource(const Parameters& options)
+      : folder_(options.text("path")),
+        robot_(static_cast<int>(optionNumber(options, "robot", 1, {1, kRobots}))),
+        latency_(optionNumber(options, "latency_s", 0.0, {-1.0, 1.0})),
+        jitter_(optionNumber(options, "jitter_s", 0.0, {0.0, 3600.0})),
+        each_(options.choiceOr("features", "list", {"list", "each"}) == "each") {
+    options.textOr("robot_file", "");
+    readLandmarks();
+    readBarcodes();
+    odometryId_ = addFeature({"odometry", "odometry", "pose"});
+    addLandmarkFeatures();
+    truthId_ = addFeature({"reference", "groundTruth", "pose"});
+    readOdometry();
+    readMeasurements();
+    readTruth();
+    finish(folder_.string());
+  }
+
+  std::string robotToml() const override;
+  void writeWorld(const std::filesystem::path& file) const override;
+
+ private:
+  std::filesystem::path robotFile(const char* what) const {
+    return folder_ / ("Robot" + std::to_string(robot_) + "_" + what + ".dat");
+  }
+  void readLandmarks();
+  void readBarcodes();
+  void addLandmarkFeatures();
+  void readOdometry();
+  void readMeasurements();
+  void addSightings(Timestamp stamp, const LandmarksData::Reading& sightings);
+  void readTruth();
+  void readVicon();
+  void readStanding();
+  void addTruth(Timestamp stamp, const Pose2& pose);
+
+  std::filesystem::path folder_;
+  int robot_;
+  double latency_;  ///< of the camera [s]
+  double jitter_;   ///< how far stamps may fall back [s]
+  bool each_;       ///< whether every landmark has features of its own
+  std::map<std::uint32_t, Place> landmarks_;            ///< by subject
+  std::map<std::int64_t, std::uint32_t> subjects_;      ///< by barcode
+  std::uint32_t odometryId_ = 0;
+  std::uint32_t truthId_ = 0;
+  std::uint32_t listId_ = 0;
+  std::map<std::uint32_t, std::uint32_t> distanceIds_;  ///< feature by subject; the bearing follows
+  Box field_;
+};
+
+void MrclamSource::readLandmarks() {
+  LogFile file(folder_ / "Landmark_Groundtruth.dat");
+  while (file.nextRecord()) {
+    file.needFields(5, "subject, x, y and their standard deviations [m]");
+    const auto subject = static_cast<std::uint32_t>(
+        file.integer(0, "a landmark's subject", {kRobots + 1, kMaxSubject}));
+    const Range metres{-kMaxLogMetres, kMaxLogMetres};
+    const Place place{file.number(1, "x [m]", metres), file.number(2, "y [m]", metres)};
+    if (!landmarks_.emplace(subject, place).second) {
+      file.fail("subject " + std::to_string(subject) + " twice", "each once");
+    }
+    field_.hold(place.x, place.y, kMargin);
+  }
+  if (landmarks_.empty()) file.fail("no landmark", "at least one");
+}
+
+void MrclamSource::readBarcodes() {
+  LogFile file(folder_ / "Barcodes.dat");
+  while (file.nextRecord()) {
+    file.needFields(2, "subject and barcode");
+    const auto subject =
+        static_cast<std::uint32_t>(file.integer(0, "a subject", {1, kMaxSubject}));
+    const std::int64_t barcode = file.integer(1, "a barcode", {0, kMaxSubject});
+    if (!subjects_.emplace(barcode, subject).second) {
+      file.fail("barcode " + std::to_string(barcode) + " twice", "each once");
+    }
+  }
+}
+
+void MrclamSource::addLandmarkFeatures() {
+  if (!each_) {
+    listId_ = addFeature({"camera", "landmarks", "posts"});
+    return;
+  }
+  for (const auto& [subject, place] : landmarks_) {
+    const std::string name = "post" + std::to_string(subject);
+    distanceIds_[subject] = addFeature({"camera", "landmarks", name + "Distance"});
+    addFeature({"camera", "landmarks", name + "Bearing"});
+  }
+}
+
+/// A line's velocities hold until the next line, so they are those of the time behind it.
+void MrclamSource::readOdometry() {
+  LogFile file(robotFile("Odometry"));
+  LogClock clock(jitter_);
+  OdometryData::Reading state;
+  Timestamp last = 0;
+  bool first = true;
+  const Range velocities{-kMaxVelocity, kMaxVelocity};
+  while (file.nextRecord()) {
+    file.needFields(3, "time [s], velocities [m/s] [rad/s]");
+    const Timestamp stamp = clock(file, file.stamp(0));
+    if (!first) {
+      state.pose = alongArc(state.pose, state.translationalVelocity, state.rotationalVelocity,
+                            toSeconds(stamp - last));
+    }
+    state.translationalVelocity = file.number(1, "a velocity [m/s]", velocities);
+    state.rotationalVelocity = file.number(2, "a velocity [rad/s]", velocities);
+    add(odometryId_, stamp, OdometryData::encode(state));
+    last = stamp;
+    first = false;
+  }
+}
+
+void MrclamSource::readMeasurements() {
+  LogFile file(robotFile("Measurement"));
+  LandmarksData::Reading sightings;
+  std::optional<Timestamp> image;
+  while (file.nextRecord()) {
+    file.needFields(4, "time [s], barcode, range [m], bearing [rad]");
+    const Timestamp stamp = file.stamp(0);
+    if (image && stamp < *image) file.fail("a time before that of the line above", "rising times");
+    if (image && stamp > *image) {
+      addSightings(*image, sightings);
+      sightings.clear();
+    }
+    image = stamp;
+    const auto subject = subjects_.find(file.integer(1, "a barcode", {0, kMaxSubject}));
+    const double range = file.number(2, "a range [m]", {0.0, 1000.0});
+    const double bearing = file.number(3, "a bearing [rad]", {-10.0, 10.0});
+    // Barcodes of nobody are misread ones; other robots are no landmarks.
+    if (subject == subjects_.end() || !landmarks_.contains(subject->second)) continue;
+    sightings.push_back({subject->second, range, wrapAngle(bearing)});
+  }
+  if (image) addSightings(*image, sightings);
+}
+
+void MrclamSource::addSightings(Timestamp stamp, const LandmarksData::Reading& sightings) {
+  const Timestamp taken = stamp - fromSeconds(latency_);
+  if (!each_) {
+    add(listId_, taken, LandmarksData::encode(sightings));
+    return;
+  }
+  for (const auto& sighting : sightings) {
+    const std::uint32_t feature = distanceIds_.at(sighting.identity);
+    add(feature, taken, ScalarData::encode(sighting.range));
+    add(feature + 1, taken, BearingData::encode(sighting.bearing));
+  }
+}
+
+void MrclamSource::readTruth() {
+  if (findLogFile(robotFile("Groundtruth"))) {
+    readVicon();
+  } else if (findLogFile(robotFile("SparseGroundtruth"))) {
+    readStanding();
+  }
+}
+
+void MrclamSource::addTruth(Timestamp stamp, const Pose2& pose) {
+  field_.hold(pose.x, pose.y, kTruthMargin);
+  add(truthId_, stamp, PoseData::encode(pose));
+}
+
+void MrclamSource::readVicon() {
+  LogFile file(robotFile("Groundtruth"));
+  LogClock clock(jitter_);
+  while (file.nextRecord()) {
+    file.needFields(4, "time [s], x [m], y [m], theta [rad]");
+    addTruth(clock(file, file.stamp(0)), file.pose(1));
+  }
+}
+
+/// The robot stood from tmin to tmax; several lines of one t are poses from this time.
+void MrclamSource::readStanding() {
+  LogFile file(robotFile("SparseGroundtruth"));
+  std::optional<Timestamp> last;
+  while (file.nextRecord()) {
+    file.needFields(7, "time, first, last time [s], x [m], y [m], theta [rad], landmarks seen");
+    const Timestamp stamp = file.stamp(0);
+    const Timestamp begin = file.stamp(1);
+    const Timestamp end = file.stamp(2);
+    if (begin > stamp || stamp > end) file.fail("a time outside of its span", "first <= time <= last");
+    if (last && stamp < *last) file.fail("a time before that of the line above", "rising times");
+    last = stamp;
+    for (const Timestamp t : {begin, stamp, end}) addTruth(t, file.pose(3));
+  }
+}
+
+std::string MrclamSource::robotToml() const {
+  std::string identities;
+  for (const auto& [subject, place] : landmarks_) {
+    identities += (identities.empty() ? "" : ", ") + std::to_string(subject);
+  }
+  return "# iRobot Create with a camera (UTIAS MRCLAM). Noise: see realsensors/README.md.\n"
+         "name = \"mrclam" + std::to_string(robot_) + "\"\nradius_m = 0.17\n"
+         "\n[[sensor]]\nplugin = \"odometry\"\n"
+         "\n[[sensor]]\nplugin = \"landmarks\"\nmodel = \"camera\"\ntype = \"landmarks\"\n" +
+         std::string(each_ ? "features = \"each\"\n" : "feature = \"posts\"\nfeatures = \"list\"\n") +
+         "kind = \"post\"\nidentities = [" + identities + "]\nmax_range_m = " + tomlNumber(kMaxRange) +
+         "\nfov_deg = 70.0\n";
+}
+
+void MrclamSource::writeWorld(const std::filesystem::path& file) const {
+  std::string text = "name = " + tomlText(file.stem().string()) + "\n";
+  for (const auto& [subject, place] : landmarks_) {
+    text += "\n[[landmark]]\nkind = \"post\"\nidentity = " + std::to_string(subject) +
+            "\nposition_m = [" + tomlNumber(place.x) + ", " + tomlNumber(place.y) + "]\n";
+  }
+  writeWhole(file, text);
+}
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("mrclam_source", ortung::provide<ortung::Source, ortung::MrclamSource>("mrclam"));

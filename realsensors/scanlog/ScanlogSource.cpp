@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "ortung/container/Plugin.hpp"
+#include "ortung/realsensors/LogFile.hpp"
+#include "ortung/realsensors/MapFiles.hpp"
+#include "ortung/realsensors/ScanLog.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kBeforeRanges = 5;  // time, three of odometry, number of beams
+constexpr int kFoldersAbove = 2;          // how far up a map is looked for
+
+/// The number right behind @p key in a comment, e.g. "x=" in "sensor at x=+0.78 m".
+std::optional<double> numberBehind(const std::string& text, const std::string& key) {
+  const std::size_t at = text.find(key);
+  if (at == std::string::npos) return std::nullopt;
+  const std::size_t begin = text.find_first_not_of(' ', at + key.size());
+  if (begin == std::string::npos) return std::nullopt;
+  const std::size_t end = text.find_first_not_of("0123456789+-.eE", begin);
+  return parseNumber(std::string_view(text).substr(begin, end - begin));
+}
+
+/// A folder of plain text files: scans ("time odom_x odom_y odom_theta n r1 ... rn"), a reference
+/// (gt or ref: "time x y theta ..."), odometry of its own if one asks for it, and a map (YAML).
+/// Where the beams go stands in the comment above the scans.
+class ScanlogSource : public ScanLogSource {
+ public:
+  explicit ScanlogSource(const Parameters& options)
+      : ScanLogSource(options), folder_(options.text("path")) {
+    readScans();
+    readOdometry(options);
+    readTruth(options);
+    useMap(fileOption(options, "map", folder_));
+    if (map().empty()) findMap();
+    finishLog(folder_.string());
+  }
+
+ private:
+  void readScans();
+  Scanner scannerOf(const LogFile& file, const std::string& comment) const;
+  void readOdometry(const Parameters& options);
+  void readTruth(const Parameters& options);
+  void findMap();
+
+  std::filesystem::path folder_;
+};
+
+Scanner ScanlogSource::scannerOf(const LogFile& file, const std::string& comment) const {
+  Scanner scanner;
+  scanner.beams = static_cast<int>(file.integer(kBeforeRanges - 1, "a number of beams", {1, 8192}));
+  const std::string listed = "ANGLES ";
+  const auto step = numberBehind(comment, "+ k*");
+  if (const std::size_t at = comment.find(listed); at != std::string::npos) {
+    const auto first = numberBehind(comment, listed);
+    const std::size_t blank = comment.find(' ', at + listed.size());
+    const auto increment = blank == std::string::npos
+                               ? std::nullopt
+                               : numberBehind(comment.substr(blank), " ");
+    if (!first || !increment) file.fail("no two numbers behind 'ANGLES' in the comment above", "first angle and step [rad]");
+    scanner.firstAngle = *first;
+    scanner.angleStep = *increment;
+  } else if (step && comment.find("angle -pi/2 +") != std::string::npos) {
+    scanner.firstAngle = -std::numbers::pi / 2;
+    scanner.angleStep = *step;
+  } else {
+    file.fail("no angles of the beams in the comments above",
+              "'ANGLES FIRST STEP' or 'at angle -pi/2 + k*STEP' [rad]");
+  }
+  if (comment.find(" at x=") != std::string::npos) {
+    scanner.mount = {numberBehind(comment, " at x=").value_or(0.0),
+                     numberBehind(comment, " y=").value_or(0.0),
+                     wrapAngle(numberBehind(comment, " yaw=").value_or(0.0))};
+  }
+  scanner.maxRange = numberBehind(comment, "max range ");
+  return scanner;
+}
+
+void ScanlogSource::readScans() {
+  LogFile file(folder_ / "scans.txt");
+  std::string comment;
+  while (file.nextLine()) {
+    if (file.isComment()) {
+      if (!scanner()) (comment += file.line()) += ' ';
+      continue;
+    }
+    if (file.size() < kBeforeRanges) file.needFields(kBeforeRanges + 1, "time, odometry, n, ranges");
+    if (!scanner()) useScanner(file, scannerOf(file, comment));
+    const auto beams = file.integer(kBeforeRanges - 1, "a number of beams", {1, 8192});
+    if (beams != scanner()->beams) {
+      file.fail(std::to_string(beams) + " beams", std::to_string(scanner()->beams) + " as above");
+    }
+    file.needFields(kBeforeRanges + static_cast<std::size_t>(beams), "time, odometry, n, n ranges");
+    addScan(file, file.stamp(0), kBeforeRanges, file.pose(1));
+  }
+}
+
+/// By default the odometry that stands beside each scan is all: it is of the very same time. A file
+/// of its own is denser, but may have another start, so it takes the place of the other.
+void ScanlogSource::readOdometry(const Parameters& options) {
+  const auto path = fileOption(options, "odom", folder_);
+  if (path.empty()) return;
+  LogFile file(path);
+  while (file.nextRecord()) {
+    file.needFields(4, "time [s], x [m], y [m], theta [rad]");
+    addOdometry(file, file.stamp(0), file.pose(1));
+  }
+}
+
+void ScanlogSource::readTruth(const Parameters& options) {
+  if (options.textOr("gt", "") == "none") return;
+  auto path = fileOption(options, "gt", folder_);
+  if (path.empty()) {
+    // Who adds a reference to a truth does so because the truth is wanting.
+    for (const char* name : {"gt.txt", "ref.txt"}) {
+      if (findLogFile(folder_ / name)) path = folder_ / name;
+    }
+    if (path.empty()) return;
+  }
+  LogFile file(path);
+  while (file.nextRecord()) {
+    if (file.size() < 4) file.needFields(4, "time [s], x [m], y [m], theta [rad]");
+    addTruth(file, file.stamp(0), file.pose(1));
+  }
+}
+
+/// map.yaml or the only YAML file, in the folder or up to two above.
+void ScanlogSource::findMap() {
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::absolute(folder_, error).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  for (int i = 0; i <= kFoldersAbove && map().empty(); ++i, folder = folder.parent_path()) {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+      if (entry.path().extension() == ".yaml") found.push_back(entry.path());
+    }
+    const auto standard = std::find(found.begin(), found.end(), folder / "map.yaml");
+    if (standard != found.end()) useMap(*standard);
+    else if (found.size() == 1) useMap(found.front());
+  }
+}
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("scanlog_source", ortung::provide<ortung::Source, ortung::ScanlogSource>("scanlog"));
