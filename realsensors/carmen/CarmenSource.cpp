@@ -85,7 +85,7 @@ class CarmenSource : public ScanLogSource {
 
 bool CarmenSource::nextMessage(LogFile& file) const {
   if (!file.nextRecord()) return false;
-  if (!isMessageName(file.text(0))) file.fail(quoted(file.text(0)), "the name of a CARMEN message");
+  if (!isMessageName(file.text(0))) file.fail(inQuotes(file.text(0)), "the name of a CARMEN message");
   return true;
 }
 

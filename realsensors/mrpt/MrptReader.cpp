@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -88,8 +87,14 @@ void printGrid(mrpt::serialization::CArchive& archive, std::FILE* out) {
   if (std::fflush(out) != 0) throw std::runtime_error("the output cannot be written");
 }
 
-/// The first line of what MRPT says, which is a stack trace.
-std::string firstLine(const char* text) { return std::string(text, std::strcspn(text, "\r\n")); }
+/// One line out of what MRPT says, which is a stack trace.
+std::string oneLine(const std::string& text) {
+  const std::string mark = "Message:";
+  const std::size_t at = text.find(mark);
+  const std::size_t begin = at == std::string::npos ? 0 : text.find_first_not_of(" \r\n", at + mark.size());
+  if (begin == std::string::npos) return "unknown error";
+  return text.substr(begin, text.find_first_of("\r\n", begin) - begin);
+}
 
 int run(const std::string& what, const std::string& file, std::FILE* out) {
   try {
@@ -101,7 +106,7 @@ int run(const std::string& what, const std::string& file, std::FILE* out) {
     what == "rawlog" ? printRawlog(archive, out) : printGrid(archive, out);
     return 0;
   } catch (const std::exception& error) {
-    const std::string text = firstLine(error.what());
+    const std::string text = oneLine(error.what());
     std::fprintf(stderr, "%s: %s\n", file.c_str(), text.c_str());
     std::fprintf(out, "# error %s\n", text.c_str());
     std::fflush(out);

@@ -15,6 +15,7 @@
 namespace ortung {
 namespace {
 
+constexpr Timestamp kMaxShift = 1000000;  // [us]
 constexpr double kMaxSeconds = 1e10;
 constexpr std::int32_t kMaxIdentity = 1000000;
 
@@ -40,15 +41,34 @@ void RawlogPrinter::print(const mrpt::serialization::CSerializable& object) {
   if (const auto* actions = dynamic_cast<const mrpt::obs::CActionCollection*>(&object)) {
     move(*actions);
   } else if (const auto* frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object)) {
-    ++steps_;
-    for (const auto& observation : *frame) {
-      if (observation) print(*observation);
-    }
+    printFrame(*frame);
   } else if (const auto* one = dynamic_cast<const mrpt::obs::CObservation*>(&object)) {
     ++steps_;
     print(*one);
   } else {
     ++skipped_[object.GetRuntimeClass()->className];
+  }
+}
+
+/// A frame belongs to increments of odometry, unless it has odometry of its own. What has no stamp
+/// in it was seen when the others were. Clocks too coarse for the frames must not merge them.
+void RawlogPrinter::printFrame(const mrpt::obs::CSensoryFrame& frame) {
+  ++steps_;
+  const auto before = time_;
+  bool hasOdometry = false;
+  shift_ = 0;
+  for (const auto& observation : frame) {
+    if (!observation) continue;
+    if (observation->timestamp != INVALID_TIMESTAMP) time_ = stampOf(*observation);
+    if (IS_CLASS(*observation, mrpt::obs::CObservationOdometry)) hasOdometry = true;
+  }
+  if (before && time_ <= before && *before - *time_ < kMaxShift) {
+    shift_ = *before - *time_ + 1;
+    *time_ += shift_;
+  }
+  isChained_ = !hasOdometry;
+  for (const auto& observation : frame) {
+    if (observation) print(*observation);
   }
 }
 
@@ -73,7 +93,7 @@ void RawlogPrinter::print(const mrpt::obs::CObservation& observation) {
     ++skipped_[observation.GetRuntimeClass()->className];
     return;
   }
-  if (hasActions_) printOdometry(stampOf(observation), odometry_);
+  if (isChained_) printOdometry(stampOf(observation), pose_);
 }
 
 void RawlogPrinter::printScan(const mrpt::obs::CObservation2DRangeScan& scan) {
@@ -144,14 +164,13 @@ void RawlogPrinter::move(const mrpt::obs::CActionCollection& actions) {
     const auto& change = movement->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry
                              ? movement->rawOdometryIncrementReading
                              : movement->poseChange->getMeanVal();
-    odometry_ = odometry_ * flat(change);
-    hasActions_ = true;
+    pose_ = pose_ * flat(change);
   }
 }
 
 void RawlogPrinter::printOdometry(Timestamp stamp, const Pose2& pose) {
   if (!isFinite(pose)) throw std::runtime_error("found odometry that is not finite");
-  write(stamp, {"odometry", "odometry", "pose"}, OdometryData::encode({pose, 0.0, 0.0, {}}));
+  write(stamp, {"odometry", "odometry", "pose"}, odometry_.words(stamp, pose));
 }
 
 void RawlogPrinter::write(Timestamp stamp, SensorId id, std::span<const std::uint32_t> words) {
@@ -171,12 +190,14 @@ void RawlogPrinter::comment(const std::string& text) {
   std::fprintf(out_, "# %s\n", text.c_str());
 }
 
-/// Simulated logs have no stamps; their frames are taken to be a second apart.
+/// Some simulated logs have no stamps at all; their frames are taken to be a second apart.
 Timestamp RawlogPrinter::stampOf(const mrpt::obs::CObservation& observation) {
-  if (observation.timestamp == INVALID_TIMESTAMP) return fromSeconds(static_cast<double>(steps_));
+  if (observation.timestamp == INVALID_TIMESTAMP) {
+    return time_.value_or(fromSeconds(static_cast<double>(steps_)));
+  }
   const double seconds = mrpt::Clock::toDouble(observation.timestamp);
   if (!(std::abs(seconds) < kMaxSeconds)) throw std::runtime_error("found an impossible time stamp");
-  return fromSeconds(seconds);
+  return fromSeconds(seconds) + shift_;
 }
 
 }  // namespace ortung

@@ -11,12 +11,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
 
 #include "ortung/container/Message.hpp"
 #include "ortung/container/Pose2.hpp"
+#include "ortung/realsensors/LogSource.hpp"
 
 namespace ortung {
 
@@ -33,6 +35,7 @@ class RawlogPrinter {
   void finish();
 
  private:
+  void printFrame(const mrpt::obs::CSensoryFrame& frame);
   void print(const mrpt::obs::CObservation& observation);
   void printScan(const mrpt::obs::CObservation2DRangeScan& scan);
   void printBeacons(const mrpt::obs::CObservationBeaconRanges& beacons);
@@ -46,13 +49,16 @@ class RawlogPrinter {
   std::FILE* out_;
   std::string line_;
   Message message_;
-  Pose2 odometry_;
-  bool hasActions_ = false;
+  Pose2 pose_;               ///< by the increments so far
+  PoseOdometry odometry_;
+  bool isChained_ = false;     ///< whether odometry comes as increments
   std::string laser_;          ///< label of the scanner whose scans are printed
   std::size_t beams_ = 0;
   std::set<std::string> told_; ///< comments that stand only once
   std::map<std::string, std::size_t> skipped_;
   std::size_t steps_ = 0;      ///< frames so far: the time of a log without stamps
+  std::optional<Timestamp> time_;  ///< of what has none itself
+  Timestamp shift_ = 0;        ///< that makes frames of one stamp differ [us]
   std::size_t readings_ = 0;
 };
 

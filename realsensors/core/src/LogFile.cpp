@@ -63,7 +63,7 @@ std::string readLogBytes(const std::filesystem::path& file, std::uint64_t maxByt
   return bytes;
 }
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   constexpr const char* kDigits = "0123456789abcdef";
   std::string result = "'";
   for (const char c : text.substr(0, kShown)) {
@@ -160,7 +160,7 @@ double LogFile::number(std::size_t field, const char* what, const Range& range) 
   const auto value = field < fields_.size() ? parseNumber(fields_[field]) : std::nullopt;
   if (!value || *value < range.low || *value > range.high) {
     const std::string found = field < fields_.size()
-                                  ? quoted(fields_[field]) + " in field " + std::to_string(field + 1)
+                                  ? inQuotes(fields_[field]) + " in field " + std::to_string(field + 1)
                                   : std::to_string(fields_.size()) + " fields";
     fail(found, what + (", a number" + rangeText(range)));
   }
@@ -170,7 +170,7 @@ double LogFile::number(std::size_t field, const char* what, const Range& range) 
 std::int64_t LogFile::integer(std::size_t field, const char* what, const Range& range) const {
   const double value = number(field, what, range);
   if (value != std::floor(value) || std::abs(value) > 9e15) {
-    fail(quoted(text(field)) + " in field " + std::to_string(field + 1),
+    fail(inQuotes(text(field)) + " in field " + std::to_string(field + 1),
          what + (", a whole number" + rangeText(range)));
   }
   return static_cast<std::int64_t>(value);

@@ -62,7 +62,7 @@ void copyMapServer(const std::filesystem::path& world, const std::filesystem::pa
     if (const std::string name = imageName(line); !name.empty()) {
       const auto found = findLogFile(map.parent_path() / name);
       if (!found) {
-        throw std::runtime_error(map.string() + ": found no image " + quoted(name) +
+        throw std::runtime_error(map.string() + ": found no image " + inQuotes(name) +
                                  " beside it, expected one");
       }
       image = *found;
@@ -99,7 +99,7 @@ std::filesystem::path fileOption(const Parameters& options, const std::string& k
   for (const std::filesystem::path& file : {folder / name, std::filesystem::path(name)}) {
     if (const auto found = findLogFile(file)) return *found;
   }
-  options.fail(key, "found no file " + quoted(name) + " in " + folder.string() +
+  options.fail(key, "found no file " + inQuotes(name) + " in " + folder.string() +
                         " nor from here, expected one (it may end in .xz or .gz)");
 }
 

@@ -12,15 +12,6 @@ namespace {
 
 constexpr double kDefaultPeriod = 1.0;    // [s] between scans whose stamps are lost
 
-double medianPeriod(const std::vector<Timestamp>& stamps) {
-  std::vector<Timestamp> steps;
-  for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
-  if (steps.empty()) return kDefaultPeriod;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return toSeconds(*middle);
-}
-
 }  // namespace
 
 ScanLogSource::ScanLogSource(const Parameters& options)

@@ -15,7 +15,10 @@ constexpr double kUsefulRange = 30.0;  // [m]; beyond, old SICK scanners see lit
 constexpr int kMaxBeams = 8192;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+/// Millionths are enough, and logs have not more.
+double degrees(double radians) {
+  return std::round(radians * 180.0 / std::numbers::pi * 1e6) / 1e6;
+}
 double radians(double degree) { return degree * std::numbers::pi / 180.0; }
 
 }  // namespace
@@ -47,6 +50,15 @@ Scanner ScannerOptions::apply(Scanner scanner, const std::string& where) const {
   return scanner;
 }
 
+double medianPeriod(const std::vector<Timestamp>& stamps) {
+  std::vector<Timestamp> steps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
+  if (steps.empty()) return 1.0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return toSeconds(*middle);
+}
+
 std::string robotHead(const std::string& path) {
   std::filesystem::path file = std::filesystem::path(path).lexically_normal();
   if (!file.has_filename()) file = file.parent_path();
@@ -56,13 +68,14 @@ std::string robotHead(const std::string& path) {
 }
 
 std::string scannerToml(const Scanner& scanner, double period) {
+  const double step = std::min(degrees(scanner.angleStep), 360.0 / scanner.beams);
   return "\n[[sensor]]\nplugin = \"lrf\"\nmodel = \"laser\"\ntype = \"LRF\"\nfeature = \"scan\"\n"
          "pose = { x_m = " + tomlNumber(scanner.mount.x) + ", y_m = " +
          tomlNumber(scanner.mount.y) + ", theta_deg = " +
          tomlNumber(degrees(scanner.mount.theta)) + " }\nbeams = " +
          std::to_string(scanner.beams) + "\nfirst_angle_deg = " +
          tomlNumber(degrees(scanner.firstAngle)) + "\nangle_step_deg = " +
-         tomlNumber(degrees(scanner.angleStep)) + "\nmax_range_m = " +
+         tomlNumber(step) + "\nmax_range_m = " +
          tomlNumber(*scanner.maxRange) + "\nperiod_s = " + tomlNumber(period) + "\n";
 }
 

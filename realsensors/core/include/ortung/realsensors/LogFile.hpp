@@ -30,7 +30,7 @@ ORTUNG_API std::string readLogBytes(const std::filesystem::path& file,
                                     std::uint64_t maxBytes = kMaxLogBytes);
 
 /// Text in quotes for an error: bytes nobody can print escaped, cut after 40.
-ORTUNG_API std::string quoted(std::string_view text);
+ORTUNG_API std::string inQuotes(std::string_view text);
 
 /// The finite number that the whole of @p text is, or nothing.
 ORTUNG_API std::optional<double> parseNumber(std::string_view text);

@@ -2,10 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ortung/container/Export.hpp"
 #include "ortung/container/Parameters.hpp"
 #include "ortung/container/Pose2.hpp"
+#include "ortung/container/Time.hpp"
 
 namespace ortung {
 
@@ -32,6 +34,9 @@ class ORTUNG_API ScannerOptions {
  private:
   std::optional<double> x_, y_, yaw_, maxRange_;
 };
+
+/// Time between two scans, in the middle of all [s]; 1 if there are less than two.
+ORTUNG_API double medianPeriod(const std::vector<Timestamp>& stamps);
 
 /// Robot file up to its first sensor, named after the log at @p path; with odometry.
 ORTUNG_API std::string robotHead(const std::string& path);
