@@ -59,7 +59,6 @@ class CarmenSource : public ScanLogSource {
     while (nextMessage(file)) {
       if (file.text(0) == "ODOM") readOdometry(file);
       if (file.text(0) == laser_) laser_ == "FLASER" ? readFront(file) : readNewer(file);
-      if (file.text(0) != "NEFF") afterLaser_ = file.text(0) == laser_;
     }
     useMap(fileOption(options, "map", std::filesystem::path(path_).parent_path()));
     finishLog(path_);
@@ -78,7 +77,7 @@ class CarmenSource : public ScanLogSource {
   bool isChained_ = false;    ///< ODOM lines continue from corrected poses
   bool isCorrected_ = false;  ///< the laser's poses are not odometry
   double offset_ = 0.0;       ///< of the laser along the robot's x axis [m]
-  bool afterLaser_ = false;
+  std::optional<Pose2> laserPose_;  ///< of a scan since the last ODOM line
   ChainedOdometry chain_;
   std::optional<Pose2> odometry_;  ///< of the last ODOM line
 };
@@ -89,23 +88,27 @@ bool CarmenSource::nextMessage(LogFile& file) const {
   return true;
 }
 
-/// "ODOM x y theta 0 0 0 0 HOST 0" right behind a scan: odometry is set to the corrected pose.
+/// Behind a scan, corrected logs have "ODOM x y theta 0 0 0 0 HOST 0" with the scan's own pose:
+/// odometry is set to the corrected pose. The time is not always 0: some are any number.
 bool CarmenSource::isReset(const LogFile& file) const {
-  return afterLaser_ && parseNumber(file.text(7)) == 0.0;
+  const Pose2 pose = file.pose(1);
+  return isChained_ && laserPose_ && pose.x == laserPose_->x && pose.y == laserPose_->y &&
+         pose.theta == laserPose_->theta;
 }
 
 /// What kind of log it is can only be told from the whole.
 void CarmenSource::survey() {
   LogFile file(path_);
   std::size_t lasers = 0;
+  bool afterLaser = false;
   std::string others;
   while (nextMessage(file)) {
     const std::string_view name = file.text(0);
-    if (name == "ODOM" && isReset(file)) isChained_ = true;
+    if (name == "ODOM" && afterLaser && parseNumber(file.text(7)) == 0.0) isChained_ = true;
     if (name == "PARAM" && file.text(1) == "robot_frontlaser_offset") {
       offset_ = file.number(2, "the offset of the front laser [m]", {-10, 10});
     }
-    if (name != "NEFF") afterLaser_ = name == laser_;
+    if (name != "NEFF") afterLaser = name == laser_;
     if (name.find("LASER") != std::string_view::npos && name != laser_ && others.size() < 100 &&
         others.find(name) == std::string::npos) {
       (others += ' ') += name;
@@ -117,7 +120,6 @@ void CarmenSource::survey() {
     const double limit = std::abs(offset_) + kCorrectedFrom;
     if (distance(file.pose(first), file.pose(first + 3)) > limit) isCorrected_ = true;
   }
-  afterLaser_ = false;
   isCorrected_ = isCorrected_ || isChained_;
   if (lasers == 0) {
     throw std::runtime_error(file.path().string() + ": found no " + laser_ + " message" +
@@ -135,6 +137,7 @@ void CarmenSource::readOdometry(const LogFile& file) {
     chain_.move(pose);
     odometry_ = pose;
   }
+  laserPose_.reset();
 }
 
 void CarmenSource::readFront(const LogFile& file) {
@@ -152,6 +155,7 @@ void CarmenSource::readFront(const LogFile& file) {
   const Timestamp stamp = file.stamp(poses + 6);
   addScan(file, stamp, 2, isChained_ ? chain_.pose() : file.pose(poses + 3));
   if (isCorrected_) addTruth(file, stamp, file.pose(poses));
+  laserPose_ = file.pose(poses);
 }
 
 /// RAWLASER1 and ROBOTLASER1: type, first angle, field of view, step, greatest range, accuracy,

@@ -80,13 +80,10 @@ std::vector<std::uint32_t> PoseOdometry::words(Timestamp stamp, const Pose2& pos
 }
 
 Pose2 alongArc(const Pose2& pose, double v, double w, double seconds) {
-  const double turn = w * seconds;
-  const double way = v * seconds;
-  if (std::abs(turn) < 1e-6) {  // the chord: exact to turn^2 / 24 of the way
-    return pose * Pose2{way * std::cos(turn / 2), way * std::sin(turn / 2), turn};
-  }
-  const double radius = way / turn;
-  return pose * Pose2{radius * std::sin(turn), radius * (1.0 - std::cos(turn)), wrapAngle(turn)};
+  // The chord of the arc leads in the direction that the robot has half way.
+  const double half = w * seconds / 2;
+  const double chord = v * seconds * (std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half);
+  return pose * Pose2{chord * std::cos(half), chord * std::sin(half), wrapAngle(2 * half)};
 }
 
 std::string tomlNumber(double value) {
