@@ -257,7 +257,7 @@ std::string MrclamSource::robotToml() const {
     identities += (identities.empty() ? "" : ", ") + std::to_string(subject);
   }
   return "# iRobot Create with a camera (UTIAS MRCLAM). Noise: see realsensors/README.md.\n"
-         "name = \"mrclam" + std::to_string(robot_) + "\"\nradius_m = 0.17\n"
+         "[robot]\nname = \"mrclam" + std::to_string(robot_) + "\"\nradius_m = 0.17\n"
          "\n[[sensor]]\nplugin = \"odometry\"\n"
          "\n[[sensor]]\nplugin = \"landmarks\"\nmodel = \"camera\"\ntype = \"landmarks\"\n" +
          std::string(each_ ? "features = \"each\"\n" : "feature = \"posts\"\nfeatures = \"list\"\n") +
@@ -266,7 +266,9 @@ std::string MrclamSource::robotToml() const {
 }
 
 void MrclamSource::writeWorld(const std::filesystem::path& file) const {
-  std::string text = "name = " + tomlText(file.stem().string()) + "\n";
+  std::string text = "[world]\nname = " + tomlText(file.stem().string()) + "\nx_m = [" +
+                     tomlNumber(field_.xLow) + ", " + tomlNumber(field_.xHigh) + "]\ny_m = [" +
+                     tomlNumber(field_.yLow) + ", " + tomlNumber(field_.yHigh) + "]\n";
   for (const auto& [subject, place] : landmarks_) {
     text += "\n[[landmark]]\nkind = \"post\"\nidentity = " + std::to_string(subject) +
             "\nposition_m = [" + tomlNumber(place.x) + ", " + tomlNumber(place.y) + "]\n";

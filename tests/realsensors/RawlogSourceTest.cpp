@@ -130,7 +130,7 @@ TEST(RawlogData, GivesRangesOfBeaconsAndTheirRobotFile) {
   EXPECT_NE(source->robotToml().find("identities = [1, 2, 3]"), std::string::npos);
   const TemporaryFolder folder;
   source->writeWorld(folder.path() / "uwb.toml");
-  EXPECT_EQ(readBytes(folder.path() / "uwb.toml"), "name = \"uwb\"\n\n[[grid]]\nmap = \"uwb.gridmap.gz\"\n");
+  EXPECT_EQ(readBytes(folder.path() / "uwb.toml"), "[world]\nname = \"uwb\"\n\n[[grid]]\nmap = \"uwb.gridmap.gz\"\n");
   EXPECT_EQ(readBytes(folder.path() / "uwb.gridmap.gz"),
             readBytes(data / "raw/uwb_ro-localization_demo_map.gridmap.gz"));
 }

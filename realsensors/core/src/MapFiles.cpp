@@ -35,7 +35,7 @@ std::filesystem::path beside(const std::filesystem::path& world, const std::stri
 }
 
 void writeWorldText(const std::filesystem::path& world, const std::filesystem::path& map) {
-  writeWhole(world, "name = " + tomlText(world.stem().string()) +
+  writeWhole(world, "[world]\nname = " + tomlText(world.stem().string()) +
                         "\n\n[[grid]]\nmap = " + tomlText(map.filename().string()) + "\n");
 }
 

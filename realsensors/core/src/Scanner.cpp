@@ -63,7 +63,7 @@ std::string robotHead(const std::string& path) {
   std::filesystem::path file = std::filesystem::path(path).lexically_normal();
   if (!file.has_filename()) file = file.parent_path();
   const std::string name = file.stem().string();
-  return "name = " + tomlText(name.empty() ? "robot" : name) +
+  return "[robot]\nname = " + tomlText(name.empty() ? "robot" : name) +
          "\nradius_m = 0.25\n\n[[sensor]]\nplugin = \"odometry\"\n";
 }
 
