@@ -18,7 +18,7 @@ constexpr double kTruthMargin = 0.5;    // [m] and beyond where the robot went
 constexpr double kMaxRange = 10.0;      // [m]; the farthest reading of all runs is 9.6
 constexpr double kMaxVelocity = 100.0;  // [m/s], [rad/s]
 
-// Measured against Vicon over all robots of run 6 (README.md of this folder). Ranges err alike from
+// Measured against Vicon over all robots of run 6 (realsensors/README.md). Ranges err alike from
 // image to image, and old runs hold 10 % of outliers.
 constexpr const char* kNoise = R"(range_sigma_m = 0.03
 range_sigma_per_m = 0.035
@@ -26,12 +26,12 @@ bearing_sigma_deg = 1.0
 outliers = 0.1
 
 [motion]
-turn_per_turn = 0.2
-turn_per_m = 0.5
-way_per_m = 0.1
-way_per_turn = 0.05
+turn_per_turn = 0.15
+turn_per_m = 0.12
+way_per_m = 0.03
+way_per_turn = 0.035
 floor_m = 0.002
-floor_deg = 0.2
+floor_deg = 0.1
 )";
 
 struct Place {
