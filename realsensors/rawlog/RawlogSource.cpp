@@ -44,6 +44,7 @@ class RawlogSource : public LogSource {
     }
     const auto folder = std::filesystem::path(path_).parent_path();
     map_ = fileOption(options, "map", folder);
+    beaconFile_ = fileOption(options, "beacons", folder);
     const auto truth = fileOption(options, "gt", folder);
     for (const SensorId& id : {kOdometry, kScan, kLandmarks}) features_[toText(id)] = addFeature(id);
     readOutput(runHelper(findHelper("ortung-mrpt-reader"),
@@ -70,6 +71,7 @@ class RawlogSource : public LogSource {
   ScannerOptions scannerOptions_;
   double jitter_;
   std::filesystem::path map_;
+  std::filesystem::path beaconFile_;  ///< where the beacons are
   std::map<std::string, std::uint32_t> features_;
   std::size_t lineNumber_ = 0;
   std::size_t readings_ = 0;
@@ -230,7 +232,7 @@ void RawlogSource::writeWorld(const std::filesystem::path& file) const {
   if (map_.empty()) {
     throw std::runtime_error(path_ + ": a rawlog holds no map; the option map=FILE names one");
   }
-  writeGridWorld(file, map_);
+  writeGridWorld(file, map_, beaconFile_.empty() ? "" : landmarksToml(beaconFile_, "beacon"));
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST(RawlogData, GivesRangesOfBeaconsAndTheirRobotFile) {
   ORTUNG_NEED_READER();
   ORTUNG_NEED_DATA(data, "mrpt_uwb_ro");
   const auto source = makeSource("rawlog:" + (data / "raw/uwb_ro-localization_demo.rawlog").string() +
-                                 "?gt=../ref.txt&map=uwb_ro-localization_demo_map.gridmap.gz");
+                                 "?gt=../ref.txt&map=uwb_ro-localization_demo_map.gridmap.gz&beacons=../beacons.txt");
   const auto messages = readAll(*source);
   EXPECT_EQ(only(messages, "laser/LRF/scan").size(), 343u);
   EXPECT_EQ(only(messages, "reference/groundTruth/pose").size(), 342u);
@@ -130,7 +130,9 @@ TEST(RawlogData, GivesRangesOfBeaconsAndTheirRobotFile) {
   EXPECT_NE(source->robotToml().find("identities = [1, 2, 3]"), std::string::npos);
   const TemporaryFolder folder;
   source->writeWorld(folder.path() / "uwb.toml");
-  EXPECT_EQ(readBytes(folder.path() / "uwb.toml"), "[world]\nname = \"uwb\"\n\n[[grid]]\nmap = \"uwb.gridmap.gz\"\n");
+  const std::string head = "[world]\nname = \"uwb\"\n\n[[grid]]\nmap = \"uwb.gridmap.gz\"\n"
+                           "\n[[landmark]]\nkind = \"beacon\"\nidentity = 1\nposition_m = [-1.79, -4.55, 1.94]\n";
+  EXPECT_EQ(readBytes(folder.path() / "uwb.toml").substr(0, head.size()), head);
   EXPECT_EQ(readBytes(folder.path() / "uwb.gridmap.gz"),
             readBytes(data / "raw/uwb_ro-localization_demo_map.gridmap.gz"));
 }

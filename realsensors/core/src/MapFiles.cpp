@@ -34,13 +34,15 @@ std::filesystem::path beside(const std::filesystem::path& world, const std::stri
   return file.replace_extension(ending);
 }
 
-void writeWorldText(const std::filesystem::path& world, const std::filesystem::path& map) {
+void writeWorldText(const std::filesystem::path& world, const std::filesystem::path& map,
+                    const std::string& more) {
   writeWhole(world, "[world]\nname = " + tomlText(world.stem().string()) +
-                        "\n\n[[grid]]\nmap = " + tomlText(map.filename().string()) + "\n");
+                        "\n\n[[grid]]\nmap = " + tomlText(map.filename().string()) + "\n" + more);
 }
 
 /// Copies a map that needs no other file; its endings (".gridmap.gz") tell its kind and stay.
-void copyMap(const std::filesystem::path& world, const std::filesystem::path& map) {
+void copyMap(const std::filesystem::path& world, const std::filesystem::path& map,
+             const std::string& more) {
   std::string ending = map.extension().string();
   if (ending == ".gz") ending = map.stem().extension().string() + ending;
   const auto copy = beside(world, ending);
@@ -49,11 +51,12 @@ void copyMap(const std::filesystem::path& world, const std::filesystem::path& ma
   bytes << in.rdbuf();
   if (!in || !bytes) throw std::runtime_error(map.string() + ": cannot be read");
   writeWhole(copy, bytes.str());
-  writeWorldText(world, copy);
+  writeWorldText(world, copy, more);
 }
 
 /// Copies a map_server YAML and its image. The image's name in it becomes that of the copy.
-void copyMapServer(const std::filesystem::path& world, const std::filesystem::path& map) {
+void copyMapServer(const std::filesystem::path& world, const std::filesystem::path& map,
+                   const std::string& more) {
   std::istringstream yaml(readLogBytes(map, kMaxYamlBytes));
   std::filesystem::path image;
   std::filesystem::path copy;
@@ -82,14 +85,31 @@ void copyMapServer(const std::filesystem::path& world, const std::filesystem::pa
   }
   writeWhole(copy, bytes);
   writeWhole(beside(world, ".yaml"), text);
-  writeWorldText(world, beside(world, ".yaml"));
+  writeWorldText(world, beside(world, ".yaml"), more);
 }
 
 }  // namespace
 
-void writeGridWorld(const std::filesystem::path& world, const std::filesystem::path& map) {
+void writeGridWorld(const std::filesystem::path& world, const std::filesystem::path& map,
+                    const std::string& more) {
   const bool isYaml = map.extension() == ".yaml" || map.extension() == ".yml";
-  isYaml ? copyMapServer(world, map) : copyMap(world, map);
+  isYaml ? copyMapServer(world, map, more) : copyMap(world, map, more);
+}
+
+std::string landmarksToml(const std::filesystem::path& path, const std::string& kind) {
+  LogFile file(path);
+  std::string text;
+  const Range metres{-kMaxLogMetres, kMaxLogMetres};
+  while (file.nextRecord()) {
+    if (file.size() < 3) file.needFields(3, "identity, x, y [m]");
+    text += "\n[[landmark]]\nkind = " + tomlText(kind) + "\nidentity = " +
+            std::to_string(file.integer(0, "an identity", {0, 1e6})) + "\nposition_m = [" +
+            tomlNumber(file.number(1, "x [m]", metres)) + ", " +
+            tomlNumber(file.number(2, "y [m]", metres));
+    if (file.size() > 3) text += ", " + tomlNumber(file.number(3, "z [m]", metres));
+    text += "]\n";
+  }
+  return text;
 }
 
 std::filesystem::path fileOption(const Parameters& options, const std::string& key,

@@ -64,7 +64,7 @@ std::string robotHead(const std::string& path) {
   if (!file.has_filename()) file = file.parent_path();
   const std::string name = file.stem().string();
   return "[robot]\nname = " + tomlText(name.empty() ? "robot" : name) +
-         "\nradius_m = 0.25\n\n[[sensor]]\nplugin = \"odometry\"\n";
+         "\nradius_m = 0.15  # small: what was seen of people is in maps made of scans, too\n\n[[sensor]]\nplugin = \"odometry\"\n";
 }
 
 std::string scannerToml(const Scanner& scanner, double period) {
