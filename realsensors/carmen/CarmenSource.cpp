@@ -74,9 +74,9 @@ class CarmenSource : public ScanLogSource {
 
   std::string path_;
   std::string laser_;
-  bool isChained_ = false;    ///< ODOM lines continue from corrected poses
-  bool isCorrected_ = false;  ///< the laser's poses are not odometry
-  double offset_ = 0.0;       ///< of the laser along the robot's x axis [m]
+  bool isChained_ = false;          ///< ODOM lines continue from corrected poses
+  bool isCorrected_ = false;        ///< the laser's poses are not odometry
+  double offset_ = 0.0;             ///< of the laser along the robot's x axis [m]
   std::optional<Pose2> laserPose_;  ///< of a scan since the last ODOM line
   ChainedOdometry chain_;
   std::optional<Pose2> odometry_;  ///< of the last ODOM line
@@ -84,7 +84,8 @@ class CarmenSource : public ScanLogSource {
 
 bool CarmenSource::nextMessage(LogFile& file) const {
   if (!file.nextRecord()) return false;
-  if (!isMessageName(file.text(0))) file.fail(inQuotes(file.text(0)), "the name of a CARMEN message");
+  if (!isMessageName(file.text(0)))
+    file.fail(inQuotes(file.text(0)), "the name of a CARMEN message");
   return true;
 }
 
@@ -159,8 +160,8 @@ void CarmenSource::readFront(const LogFile& file) {
 }
 
 /// RAWLASER1 and ROBOTLASER1: type, first angle, field of view, step, greatest range, accuracy,
-/// remission mode, n, n ranges, m, m remissions; then the latter's poses of laser and robot and five
-/// numbers; time, host, time.
+/// remission mode, n, n ranges, m, m remissions; then the latter's poses of laser and robot and
+/// five numbers; time, host, time.
 void CarmenSource::readNewer(const LogFile& file) {
   constexpr std::size_t kRanges = 9;
   const int beams = static_cast<int>(file.integer(8, "a number of beams", kBeams));

@@ -11,7 +11,7 @@
 namespace ortung {
 namespace {
 
-constexpr int kRobots = 5;              // subjects 1 to 5 are robots, the others landmarks
+constexpr int kRobots = 5;  // subjects 1 to 5 are robots, the others landmarks
 constexpr double kMaxSubject = 1e6;
 constexpr double kMargin = 1.5;         // [m] that the field reaches beyond the landmarks
 constexpr double kTruthMargin = 0.5;    // [m] and beyond where the robot went
@@ -50,8 +50,8 @@ struct Box {
   }
 };
 
-/// One robot of a run of UTIAS MRCLAM (Leung et al., IJRR 30(8), 2011): commanded velocities, ranges
-/// and bearings of identified landmarks, Vicon poses. The folder holds the run's .dat files.
+/// One robot of a run of UTIAS MRCLAM (Leung et al., IJRR 30(8), 2011): commanded velocities,
+/// ranges and bearings of identified landmarks, Vicon poses. The folder holds the run's .dat files.
 class MrclamSource : public LogSource {
  public:
   explicit MrclamSource(const Parameters& options)
@@ -92,17 +92,17 @@ class MrclamSource : public LogSource {
 
   std::filesystem::path folder_;
   int robot_;
-  double latency_;  ///< of the camera [s]
-  double jitter_;   ///< how far stamps may fall back [s]
-  bool each_;       ///< whether every landmark has features of its own
-  std::map<std::uint32_t, Place> landmarks_;            ///< by subject
-  std::map<std::int64_t, std::uint32_t> subjects_;      ///< by barcode
+  double latency_;                            ///< of the camera [s]
+  double jitter_;                             ///< how far stamps may fall back [s]
+  bool each_;                                 ///< whether every landmark has features of its own
+  std::map<std::uint32_t, Place> landmarks_;  ///< by subject
+  std::map<std::int64_t, std::uint32_t> subjects_;  ///< by barcode
   std::uint32_t odometryId_ = 0;
   std::uint32_t truthId_ = 0;
   std::uint32_t listId_ = 0;
   std::map<std::uint32_t, std::uint32_t> distanceIds_;  ///< feature by subject; the bearing follows
-  Timestamp first_ = 0;  ///< of odometry
-  Timestamp last_ = 0;   ///< of odometry
+  Timestamp first_ = 0;                                 ///< of odometry
+  Timestamp last_ = 0;                                  ///< of odometry
   Box field_;
 };
 
@@ -126,8 +126,7 @@ void MrclamSource::readBarcodes() {
   LogFile file(folder_ / "Barcodes.dat");
   while (file.nextRecord()) {
     file.needFields(2, "subject and barcode");
-    const auto subject =
-        static_cast<std::uint32_t>(file.integer(0, "a subject", {1, kMaxSubject}));
+    const auto subject = static_cast<std::uint32_t>(file.integer(0, "a subject", {1, kMaxSubject}));
     const std::int64_t barcode = file.integer(1, "a barcode", {0, kMaxSubject});
     if (!subjects_.emplace(barcode, subject).second) {
       file.fail("barcode " + std::to_string(barcode) + " twice", "each once");
@@ -151,7 +150,8 @@ void MrclamSource::addLandmarkFeatures() {
 void MrclamSource::readOdometry() {
   if (!findLogFile(robotFile("Odometry"))) {
     throw std::runtime_error(robotFile("Odometry").string() + ": found no odometry of robot " +
-                             std::to_string(robot_) + " in this run, expected one (it may end in"
+                             std::to_string(robot_) +
+                             " in this run, expected one (it may end in"
                              " .xz or .gz); the option robot chooses another robot");
   }
   LogFile file(robotFile("Odometry"));
@@ -244,7 +244,8 @@ void MrclamSource::readStanding() {
     const Timestamp stamp = file.stamp(0);
     const Timestamp begin = file.stamp(1);
     const Timestamp end = file.stamp(2);
-    if (begin > stamp || stamp > end) file.fail("a time outside of its span", "first <= time <= last");
+    if (begin > stamp || stamp > end)
+      file.fail("a time outside of its span", "first <= time <= last");
     if (last && stamp < *last) file.fail("a time before that of the line above", "rising times");
     last = stamp;
     for (const Timestamp t : {begin, stamp, end}) addTruth(t, file.pose(3));
@@ -257,12 +258,15 @@ std::string MrclamSource::robotToml() const {
     identities += (identities.empty() ? "" : ", ") + std::to_string(subject);
   }
   return "# iRobot Create with a camera (UTIAS MRCLAM). Noise: see realsensors/README.md.\n"
-         "[robot]\nname = \"mrclam" + std::to_string(robot_) + "\"\nradius_m = 0.17\n"
+         "[robot]\nname = \"mrclam" +
+         std::to_string(robot_) +
+         "\"\nradius_m = 0.17\n"
          "\n[[sensor]]\nplugin = \"odometry\"\n"
          "\n[[sensor]]\nplugin = \"landmarks\"\nmodel = \"camera\"\ntype = \"landmarks\"\n" +
-         std::string(each_ ? "features = \"each\"\n" : "feature = \"posts\"\nfeatures = \"list\"\n") +
-         "kind = \"post\"\nidentities = [" + identities + "]\nmax_range_m = " + tomlNumber(kMaxRange) +
-         "\nfov_deg = 70.0\n" + kNoise;
+         std::string(each_ ? "features = \"each\"\n"
+                           : "feature = \"posts\"\nfeatures = \"list\"\n") +
+         "kind = \"post\"\nidentities = [" + identities +
+         "]\nmax_range_m = " + tomlNumber(kMaxRange) + "\nfov_deg = 70.0\n" + kNoise;
 }
 
 void MrclamSource::writeWorld(const std::filesystem::path& file) const {

@@ -1,5 +1,5 @@
-/// ortung-mrpt-reader: prints MRPT's binary files as text, for those who do not want to link MRPT nor
-/// to trust its readers, which believe every length that a file states.
+/// ortung-mrpt-reader: prints MRPT's binary files as text, for those who do not want to link MRPT
+/// nor to trust its readers, which believe every length that a file states.
 ///   ortung-mrpt-reader rawlog FILE    readings as lines of a record (see RawlogPrinter.hpp)
 ///   ortung-mrpt-reader gridmap FILE   "ortung-gridmap WIDTH HEIGHT RESOLUTION ORIGIN_X ORIGIN_Y",
 ///                                     then a byte a cell, 255 free, 0 occupied, bottom row first
@@ -23,8 +23,8 @@
 namespace ortung {
 namespace {
 
-constexpr rlim_t kMaxMemory = 4ull << 30;   // bytes of address space; MRPT's libraries take 1.2 GB
-constexpr rlim_t kMaxSeconds = 300;         // of the processor
+constexpr rlim_t kMaxMemory = 4ull << 30;  // bytes of address space; MRPT's libraries take 1.2 GB
+constexpr rlim_t kMaxSeconds = 300;        // of the processor
 constexpr std::size_t kMaxCells = 1u << 26;
 
 void limitOurselves() {
@@ -67,22 +67,24 @@ void printGrid(mrpt::serialization::CArchive& archive, std::FILE* out) {
   const std::size_t width = map.getSizeX();
   const std::size_t height = map.getSizeY();
   if (width == 0 || height == 0 || width > kMaxCells / height) {
-    throw std::runtime_error("found a grid of " + std::to_string(width) + " x " + std::to_string(height) +
-                             " cells, expected at most 2^26");
+    throw std::runtime_error("found a grid of " + std::to_string(width) + " x " +
+                             std::to_string(height) + " cells, expected at most 2^26");
   }
   const double origin[2] = {map.getXMin(), map.getYMin()};
   const double resolution = map.getResolution();
   if (!(resolution > 0) || !std::isfinite(origin[0]) || !std::isfinite(origin[1])) {
     throw std::runtime_error("found a grid without a place or with cells of no size");
   }
-  std::fprintf(out, "ortung-gridmap %zu %zu %.9g %.9g %.9g\n", width, height, resolution, origin[0], origin[1]);
+  std::fprintf(out, "ortung-gridmap %zu %zu %.9g %.9g %.9g\n", width, height, resolution, origin[0],
+               origin[1]);
   std::string row(width, '\0');
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < width; ++x) {
       const float free = map.getCell(static_cast<int>(x), static_cast<int>(y));
       row[x] = static_cast<char>(std::lround(255.0F * std::clamp(free, 0.0F, 1.0F)));
     }
-    if (std::fwrite(row.data(), 1, width, out) != width) throw std::runtime_error("the output cannot be written");
+    if (std::fwrite(row.data(), 1, width, out) != width)
+      throw std::runtime_error("the output cannot be written");
   }
   if (std::fflush(out) != 0) throw std::runtime_error("the output cannot be written");
 }
@@ -91,7 +93,8 @@ void printGrid(mrpt::serialization::CArchive& archive, std::FILE* out) {
 std::string oneLine(const std::string& text) {
   const std::string mark = "Message:";
   const std::size_t at = text.find(mark);
-  const std::size_t begin = at == std::string::npos ? 0 : text.find_first_not_of(" \r\n", at + mark.size());
+  const std::size_t begin =
+      at == std::string::npos ? 0 : text.find_first_not_of(" \r\n", at + mark.size());
   if (begin == std::string::npos) return "unknown error";
   return text.substr(begin, text.find_first_of("\r\n", begin) - begin);
 }

@@ -73,7 +73,8 @@ void RawlogPrinter::printFrame(const mrpt::obs::CSensoryFrame& frame) {
 }
 
 void RawlogPrinter::finish() {
-  for (const auto& [what, count] : skipped_) comment("skipped " + std::to_string(count) + " " + what);
+  for (const auto& [what, count] : skipped_)
+    comment("skipped " + std::to_string(count) + " " + what);
   comment("end " + std::to_string(readings_));
   if (std::fflush(out_) != 0) throw std::runtime_error("the output cannot be written");
 }
@@ -140,11 +141,13 @@ void RawlogPrinter::printLandmarks(const mrpt::obs::CObservationBearingRange& la
   LandmarksData::Reading sightings;
   for (const auto& sensed : landmarks.sensedData) {
     const bool isKnown = sensed.landmarkID >= 0 && sensed.landmarkID <= kMaxIdentity;
-    if (!isKnown || !isLength(sensed.range) || !std::isfinite(sensed.yaw) || std::abs(sensed.yaw) > 100) {
+    if (!isKnown || !isLength(sensed.range) || !std::isfinite(sensed.yaw) ||
+        std::abs(sensed.yaw) > 100) {
       ++skipped_["sightings of no known landmark"];
       continue;
     }
-    sightings.push_back({static_cast<std::uint32_t>(sensed.landmarkID), sensed.range, wrapAngle(sensed.yaw)});
+    sightings.push_back(
+        {static_cast<std::uint32_t>(sensed.landmarkID), sensed.range, wrapAngle(sensed.yaw)});
   }
   if (told_.insert("landmarks").second) {
     const Pose2 mount = flat(landmarks.sensorLocationOnRobot);
@@ -156,7 +159,8 @@ void RawlogPrinter::printLandmarks(const mrpt::obs::CObservationBearingRange& la
 
 void RawlogPrinter::move(const mrpt::obs::CActionCollection& actions) {
   for (const auto& action : actions) {
-    const auto* movement = dynamic_cast<const mrpt::obs::CActionRobotMovement2D*>(action.get_ptr().get());
+    const auto* movement =
+        dynamic_cast<const mrpt::obs::CActionRobotMovement2D*>(action.get_ptr().get());
     if (!movement) {
       ++skipped_["actions that are no movement in the plane"];
       continue;
@@ -186,9 +190,7 @@ void RawlogPrinter::write(Timestamp stamp, SensorId id, std::span<const std::uin
   ++readings_;
 }
 
-void RawlogPrinter::comment(const std::string& text) {
-  std::fprintf(out_, "# %s\n", text.c_str());
-}
+void RawlogPrinter::comment(const std::string& text) { std::fprintf(out_, "# %s\n", text.c_str()); }
 
 /// Some simulated logs have no stamps at all; their frames are taken to be a second apart.
 Timestamp RawlogPrinter::stampOf(const mrpt::obs::CObservation& observation) {
@@ -196,7 +198,8 @@ Timestamp RawlogPrinter::stampOf(const mrpt::obs::CObservation& observation) {
     return time_.value_or(fromSeconds(static_cast<double>(steps_)));
   }
   const double seconds = mrpt::Clock::toDouble(observation.timestamp);
-  if (!(std::abs(seconds) < kMaxSeconds)) throw std::runtime_error("found an impossible time stamp");
+  if (!(std::abs(seconds) < kMaxSeconds))
+    throw std::runtime_error("found an impossible time stamp");
   return fromSeconds(seconds) + shift_;
 }
 

@@ -49,16 +49,16 @@ class RawlogPrinter {
   std::FILE* out_;
   std::string line_;
   Message message_;
-  Pose2 pose_;               ///< by the increments so far
+  Pose2 pose_;  ///< by the increments so far
   PoseOdometry odometry_;
-  bool isChained_ = false;     ///< whether odometry comes as increments
-  std::string laser_;          ///< label of the scanner whose scans are printed
+  bool isChained_ = false;  ///< whether odometry comes as increments
+  std::string laser_;       ///< label of the scanner whose scans are printed
   std::size_t beams_ = 0;
-  std::set<std::string> told_; ///< comments that stand only once
+  std::set<std::string> told_;  ///< comments that stand only once
   std::map<std::string, std::size_t> skipped_;
-  std::size_t steps_ = 0;      ///< frames so far: the time of a log without stamps
+  std::size_t steps_ = 0;          ///< frames so far: the time of a log without stamps
   std::optional<Timestamp> time_;  ///< of what has none itself
-  Timestamp shift_ = 0;        ///< that makes frames of one stamp differ [us]
+  Timestamp shift_ = 0;            ///< that makes frames of one stamp differ [us]
   std::size_t readings_ = 0;
 };
 

@@ -46,7 +46,8 @@ class RawlogSource : public LogSource {
     map_ = fileOption(options, "map", folder);
     beaconFile_ = fileOption(options, "beacons", folder);
     const auto truth = fileOption(options, "gt", folder);
-    for (const SensorId& id : {kOdometry, kScan, kLandmarks}) features_[toText(id)] = addFeature(id);
+    for (const SensorId& id : {kOdometry, kScan, kLandmarks})
+      features_[toText(id)] = addFeature(id);
     readOutput(runHelper(findHelper("ortung-mrpt-reader"),
                          {"rawlog", std::filesystem::absolute(path_).string()}, path_, kMaxOutput));
     if (!truth.empty()) readTruth(truth);
@@ -155,16 +156,20 @@ void RawlogSource::checkWords(const Message& message) const {
     expected = static_cast<std::size_t>(scanner_->beams);
   }
   if (message.words.size() != expected || (message.id == kLandmarks && expected % 3 != 0)) {
-    fail(std::to_string(message.words.size()) + " words of " + toText(message.id), std::to_string(expected));
+    fail(std::to_string(message.words.size()) + " words of " + toText(message.id),
+         std::to_string(expected));
   }
 }
 
 void RawlogSource::noteIdentities(const Message& message) {
   if (message.id == kLandmarks) {
-    for (std::size_t i = 0; i < message.words.size(); i += 3) landmarkIdentities_.insert(message.words[i]);
+    for (std::size_t i = 0; i < message.words.size(); i += 3)
+      landmarkIdentities_.insert(message.words[i]);
   } else if (message.id.feature.starts_with("beacon")) {
-    const auto number = parseNumber(message.id.feature.substr(6, message.id.feature.find("Distance") - 6));
-    if (!number || *number < 0 || *number > 1e6) fail(inQuotes(message.id.feature), "beaconNDistance");
+    const auto number =
+        parseNumber(message.id.feature.substr(6, message.id.feature.find("Distance") - 6));
+    if (!number || *number < 0 || *number > 1e6)
+      fail(inQuotes(message.id.feature), "beaconNDistance");
     beaconIdentities_.insert(static_cast<std::uint32_t>(*number));
   }
 }
@@ -177,7 +182,8 @@ void RawlogSource::readMessage(const std::string& line) {
   noteIdentities(*message);
   auto feature = features_.find(toText(message->id));
   if (feature == features_.end()) {
-    if (features_.size() == kMaxFeatures) fail("more features", "at most " + std::to_string(kMaxFeatures));
+    if (features_.size() == kMaxFeatures)
+      fail("more features", "at most " + std::to_string(kMaxFeatures));
     feature = features_.emplace(toText(message->id), addFeature(message->id)).first;
   }
   if (message->id == kScan) scanStamps_.push_back(message->stamp);
@@ -205,9 +211,11 @@ std::string observerToml(const Observer& observer, const std::string& names,
   const double turn = 2.0 * std::numbers::pi;
   const double sight = observer.fieldOfView > 0 ? std::min(observer.fieldOfView, turn) : turn;
   return "\n[[sensor]]\nplugin = \"landmarks\"\n" + names + "identities = [" + list +
-         "]\npose = { x_m = " + tomlNumber(observer.mount.x) + ", y_m = " + tomlNumber(observer.mount.y) +
+         "]\npose = { x_m = " + tomlNumber(observer.mount.x) +
+         ", y_m = " + tomlNumber(observer.mount.y) +
          ", theta_deg = " + tomlNumber(observer.mount.theta * 180.0 / std::numbers::pi) +
-         " }\nmax_range_m = " + tomlNumber(observer.maxRange > 0 ? std::min(observer.maxRange, 1000.0) : 30.0) +
+         " }\nmax_range_m = " +
+         tomlNumber(observer.maxRange > 0 ? std::min(observer.maxRange, 1000.0) : 30.0) +
          "\nfov_deg = " + tomlNumber(std::max(1.0, sight * 180.0 / std::numbers::pi)) + "\n";
 }
 
@@ -215,9 +223,10 @@ std::string RawlogSource::robotToml() const {
   std::string text = robotHead(path_);
   if (scanner_) text += scannerToml(*scanner_, medianPeriod(scanStamps_));
   if (!beaconIdentities_.empty()) {
-    text += observerToml(beacons_.value_or(Observer()),
-                         "model = \"uwb\"\ntype = \"landmarks\"\nfeatures = \"each\"\nkind = \"beacon\"\n",
-                         beaconIdentities_);
+    text += observerToml(
+        beacons_.value_or(Observer()),
+        "model = \"uwb\"\ntype = \"landmarks\"\nfeatures = \"each\"\nkind = \"beacon\"\n",
+        beaconIdentities_);
   }
   if (!landmarkIdentities_.empty()) {
     text += observerToml(landmarks_.value_or(Observer()),

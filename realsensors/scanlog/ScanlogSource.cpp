@@ -57,10 +57,11 @@ Scanner ScanlogSource::scannerOf(const LogFile& file, const std::string& comment
   if (const std::size_t at = comment.find(listed); at != std::string::npos) {
     const auto first = numberBehind(comment, listed);
     const std::size_t blank = comment.find(' ', at + listed.size());
-    const auto increment = blank == std::string::npos
-                               ? std::nullopt
-                               : numberBehind(comment.substr(blank), " ");
-    if (!first || !increment) file.fail("no two numbers behind 'ANGLES' in the comment above", "first angle and step [rad]");
+    const auto increment =
+        blank == std::string::npos ? std::nullopt : numberBehind(comment.substr(blank), " ");
+    if (!first || !increment)
+      file.fail("no two numbers behind 'ANGLES' in the comment above",
+                "first angle and step [rad]");
     scanner.firstAngle = *first;
     scanner.angleStep = *increment;
   } else if (step && comment.find("angle -pi/2 +") != std::string::npos) {
@@ -87,7 +88,8 @@ void ScanlogSource::readScans() {
       if (!scanner()) (comment += file.line()) += ' ';
       continue;
     }
-    if (file.size() < kBeforeRanges) file.needFields(kBeforeRanges + 1, "time, odometry, n, ranges");
+    if (file.size() < kBeforeRanges)
+      file.needFields(kBeforeRanges + 1, "time, odometry, n, ranges");
     if (!scanner()) useScanner(file, scannerOf(file, comment));
     const auto beams = file.integer(kBeforeRanges - 1, "a number of beams", {1, 8192});
     if (beams != scanner()->beams) {
@@ -138,8 +140,10 @@ void ScanlogSource::findMap() {
       if (entry.path().extension() == ".yaml") found.push_back(entry.path());
     }
     const auto standard = std::find(found.begin(), found.end(), folder / "map.yaml");
-    if (standard != found.end()) useMap(*standard);
-    else if (found.size() == 1) useMap(found.front());
+    if (standard != found.end())
+      useMap(*standard);
+    else if (found.size() == 1)
+      useMap(found.front());
   }
 }
 

@@ -33,11 +33,12 @@ TEST_F(CarmenSource, TakesTheOdometryOfARawLogAsItStands) {
                           odometry("1 0 0", "0.9") + scan("1.5 81.91", "1.1 0 0", "1 0 0", "1.0") +
                           scan("0 2", "1.6 0 0", "1.5 0 0", "2.0");
   const auto source = makeSource(text(log));
-  EXPECT_EQ(asText(readAll(*source)),
-            (Texts{"1000000 odometry/odometry/pose 2147484648 2147483648 18000 2147483648 2147483648",
-                   "1000000 laser/LRF/scan 1500 81910",
-                   "2000000 odometry/odometry/pose 2147485148 2147483648 18000 2147484148 2147483648",
-                   "2000000 laser/LRF/scan 0 2000"}));
+  EXPECT_EQ(
+      asText(readAll(*source)),
+      (Texts{"1000000 odometry/odometry/pose 2147484648 2147483648 18000 2147483648 2147483648",
+             "1000000 laser/LRF/scan 1500 81910",
+             "2000000 odometry/odometry/pose 2147485148 2147483648 18000 2147484148 2147483648",
+             "2000000 laser/LRF/scan 0 2000"}));
   EXPECT_NE(source->robotToml().find("x_m = 0.1, y_m = 0.0, theta_deg = 0.0 }\nbeams = 2\n"
                                      "first_angle_deg = -90.0\nangle_step_deg = 90.0\n"),
             std::string::npos)
@@ -51,18 +52,20 @@ TEST_F(CarmenSource, RebuildsOdometryBetweenTheCorrectionsOfACorrectedLog) {
       odometry("0 0 0", "0.5") + odometry("1 0 0", "1.0") +
       scan("1 1", "0.9 0 1.5707963", "0.9 0 1.5707963", "1.0") + odometry("0.9 0 1.5707963", "0") +
       "NEFF 15\n" + odometry("0.9 0.5 1.5707963", "2.0") +
-      scan("2 2", "0.8 0.4 1.5707963", "0.8 0.4 1.5707963", "2.0") + odometry("0.8 0.4 1.5707963", "5.33") + odometry("0.8 0.7 1.5707963", "3.0") +
+      scan("2 2", "0.8 0.4 1.5707963", "0.8 0.4 1.5707963", "2.0") +
+      odometry("0.8 0.4 1.5707963", "5.33") + odometry("0.8 0.7 1.5707963", "3.0") +
       scan("3 3", "0.8 0.7 1.5707963", "0.8 0.7 1.5707963", "3.0");
-  EXPECT_EQ(asText(readAll(text(log))),
-            (Texts{"1000000 odometry/odometry/pose 2147484648 2147483648 18000 2147483648 2147483648",
-                   "1000000 laser/LRF/scan 1000 1000",
-                   "1000000 reference/groundTruth/pose 2147484548 2147483648 27000",
-                   "2000000 odometry/odometry/pose 2147485148 2147483648 18000 2147484148 2147483648",
-                   "2000000 laser/LRF/scan 2000 2000",
-                   "2000000 reference/groundTruth/pose 2147484448 2147484048 27000",
-                   "3000000 odometry/odometry/pose 2147485448 2147483648 18000 2147483948 2147483648",
-                   "3000000 laser/LRF/scan 3000 3000",
-                   "3000000 reference/groundTruth/pose 2147484448 2147484348 27000"}));
+  EXPECT_EQ(
+      asText(readAll(text(log))),
+      (Texts{"1000000 odometry/odometry/pose 2147484648 2147483648 18000 2147483648 2147483648",
+             "1000000 laser/LRF/scan 1000 1000",
+             "1000000 reference/groundTruth/pose 2147484548 2147483648 27000",
+             "2000000 odometry/odometry/pose 2147485148 2147483648 18000 2147484148 2147483648",
+             "2000000 laser/LRF/scan 2000 2000",
+             "2000000 reference/groundTruth/pose 2147484448 2147484048 27000",
+             "3000000 odometry/odometry/pose 2147485448 2147483648 18000 2147483948 2147483648",
+             "3000000 laser/LRF/scan 3000 3000",
+             "3000000 reference/groundTruth/pose 2147484448 2147484348 27000"}));
 }
 
 TEST_F(CarmenSource, TakesPosesFarFromOdometryForCorrectedOnes) {
@@ -73,35 +76,49 @@ TEST_F(CarmenSource, TakesPosesFarFromOdometryForCorrectedOnes) {
 TEST_F(CarmenSource, ReadsTheNewerLaserMessages) {
   const std::string scanner = "0 -1.5 3.0 1.0 20 0.01 0 3 1 2 3 1 99 ";
   const std::string raw = odometry("1 0 0", "0.5") + "RAWLASER1 " + scanner + "1.0 host 1.0\n";
-  EXPECT_EQ(asText(readAll(text(raw, "?laser=RAWLASER1"))),
-            (Texts{"1000000 odometry/odometry/pose 2147484648 2147483648 18000 2147483648 2147483648",
-                   "1000000 laser/LRF/scan 1000 2000 3000"}));
-  const auto robot =
-      makeSource(text("ROBOTLASER1 " + scanner + "2.2 0 0.5 2 0 0 0 0 1 1 1 1.0 host 1.0\n", "?laser=ROBOTLASER1"));
+  EXPECT_EQ(
+      asText(readAll(text(raw, "?laser=RAWLASER1"))),
+      (Texts{"1000000 odometry/odometry/pose 2147484648 2147483648 18000 2147483648 2147483648",
+             "1000000 laser/LRF/scan 1000 2000 3000"}));
+  const auto robot = makeSource(text(
+      "ROBOTLASER1 " + scanner + "2.2 0 0.5 2 0 0 0 0 1 1 1 1.0 host 1.0\n", "?laser=ROBOTLASER1"));
   EXPECT_NE(robot->robotToml().find("x_m = 0.2"), std::string::npos) << robot->robotToml();
   EXPECT_NE(robot->robotToml().find("max_range_m = 20.0"), std::string::npos);
-  EXPECT_EQ(errorOf(text(raw)), path() + ": found no FLASER message but RAWLASER1, expected one; the option"
-                                         " laser names another");
+  EXPECT_EQ(errorOf(text(raw)),
+            path() +
+                ": found no FLASER message but RAWLASER1, expected one; the option"
+                " laser names another");
 }
 
 TEST_F(CarmenSource, NamesFileAndLineOfWhatIsWrong) {
   const std::string good = scan("1 1", "0 0 0", "0 0 0", "1");
-  EXPECT_EQ(errorOf(text(good + "hello\n")), path() + ":2: found 'hello', expected the name of a CARMEN message");
+  EXPECT_EQ(errorOf(text(good + "hello\n")),
+            path() + ":2: found 'hello', expected the name of a CARMEN message");
   EXPECT_EQ(errorOf(text(good + "FLASER 2 1 1 0 0 0 0 0 0 2 host\n")),
-            path() + ":2: found 12 fields, expected 13: FLASER, n, n ranges, pose, odometry, time, host, time");
-  EXPECT_EQ(errorOf(text("FLASER 99999999999 1\n")),
-            path() + ":1: found '99999999999' in field 2, expected a number of beams, a number in [1, 8192]");
+            path() +
+                ":2: found 12 fields, expected 13: FLASER, n, n ranges, pose, odometry, time, "
+                "host, time");
+  EXPECT_EQ(
+      errorOf(text("FLASER 99999999999 1\n")),
+      path() +
+          ":1: found '99999999999' in field 2, expected a number of beams, a number in [1, 8192]");
   EXPECT_EQ(errorOf(text(good + "ODOM 1 2 3\n")),
-            path() + ":2: found 4 fields, expected 10: ODOM, pose, velocities, acceleration, time, host, time");
-  EXPECT_EQ(errorOf(text(good + scan("1 nan", "0 0 0", "0 0 0", "2"))),
-            path() + ":2: found 'nan' in field 4, expected a range [m], a number in [-1000000, 1000000]");
+            path() +
+                ":2: found 4 fields, expected 10: ODOM, pose, velocities, acceleration, time, "
+                "host, time");
+  EXPECT_EQ(
+      errorOf(text(good + scan("1 nan", "0 0 0", "0 0 0", "2"))),
+      path() + ":2: found 'nan' in field 4, expected a range [m], a number in [-1000000, 1000000]");
   EXPECT_EQ(errorOf(text(scan("1 1", "0 0 0", "0 0 0", "9") + good)),
-            path() + ":2: found time 1 s after 9 s, expected time to run forwards, or back by at most"
-                     " jitter_s=1 s");
+            path() +
+                ":2: found time 1 s after 9 s, expected time to run forwards, or back by at most"
+                " jitter_s=1 s");
   EXPECT_EQ(errorOf(text(good + good.substr(0, 18))),
-            path() + ":2: found 7 fields, expected x [m], a number in [-1000000, 1000000] (the file ends"
-                     " within this line)");
-  EXPECT_EQ(errorOf(text("")), path() + ": found no FLASER message, expected one; the option laser names another");
+            path() +
+                ":2: found 7 fields, expected x [m], a number in [-1000000, 1000000] (the file ends"
+                " within this line)");
+  EXPECT_EQ(errorOf(text("")),
+            path() + ": found no FLASER message, expected one; the option laser names another");
 }
 
 TEST_F(CarmenSource, HasNoWorldOfItsOwn) {
@@ -110,7 +127,8 @@ TEST_F(CarmenSource, HasNoWorldOfItsOwn) {
             path() + ": found no map, expected one; the option map=FILE names it");
 }
 
-/// How far words of lengths, in millimetres, and of angles may differ by rounding in the text files.
+/// How far words of lengths, in millimetres, and of angles may differ by rounding in the text
+/// files.
 void expectSame(const Message& a, const Message& b, const std::string& where) {
   ASSERT_EQ(a.stamp, b.stamp) << where;
   ASSERT_EQ(toText(a.id), toText(b.id)) << where;
@@ -120,7 +138,8 @@ void expectSame(const Message& a, const Message& b, const std::string& where) {
     return;
   }
   for (std::size_t i = 0; i < 3; ++i) {  // x, y, angle; velocities differ by what these differ
-    const auto difference = static_cast<std::int64_t>(a.words[i]) - static_cast<std::int64_t>(b.words[i]);
+    const auto difference =
+        static_cast<std::int64_t>(a.words[i]) - static_cast<std::int64_t>(b.words[i]);
     EXPECT_LE(std::abs(difference), 1) << where << " word " << i;
   }
 }

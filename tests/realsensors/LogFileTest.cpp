@@ -1,7 +1,6 @@
-#include "ortung/realsensors/LogFile.hpp"
-
 #include "LogTesting.hpp"
 #include "ortung/realsensors/ChildProcess.hpp"
+#include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 
 namespace ortung {
@@ -26,8 +25,10 @@ TEST(LogFile, FindsThePlainFileThenTheCompressedOnes) {
   EXPECT_EQ(linesOf(folder.path() / "a.txt"), std::vector<std::string>{"plain"});
   EXPECT_EQ(linesOf(folder.path() / "a.txt.gz"), std::vector<std::string>{"packed"});
   const auto missing = (folder.path() / "b.txt").string();
-  EXPECT_EQ(errorOf([&] { LogFile file(missing); }),
-            missing + ": found no such file, nor one with .xz or .gz behind its name, expected one of them");
+  EXPECT_EQ(
+      errorOf([&] { LogFile file(missing); }),
+      missing +
+          ": found no such file, nor one with .xz or .gz behind its name, expected one of them");
 }
 
 TEST(LogFile, LeavesOutCommentsAndEmptyLinesButCountsThem) {
@@ -47,7 +48,8 @@ TEST(LogFile, LeavesOutCommentsAndEmptyLinesButCountsThem) {
 TEST(LogFile, TakesOnlyWholeFiniteNumbers) {
   EXPECT_EQ(parseNumber("+1.5e2"), 150.0);
   EXPECT_EQ(parseNumber("-.5"), -0.5);
-  for (const char* text : {"", "+", "+-1", "nan", "inf", "-inf", "1e999", "1x", "0x10", "1,5", " 1", "1 "}) {
+  for (const char* text :
+       {"", "+", "+-1", "nan", "inf", "-inf", "1e999", "1x", "0x10", "1,5", " 1", "1 "}) {
     EXPECT_EQ(parseNumber(text), std::nullopt) << "'" << text << "'";
   }
 }
@@ -59,9 +61,13 @@ TEST(LogFile, NamesPlaceFoundAndExpectedInErrors) {
   ASSERT_TRUE(file.nextRecord());
   EXPECT_EQ(errorOf([&] { file.number(1, "a range [m]"); }),
             path + ":1: found 'nan' in field 2, expected a range [m], a number");
-  EXPECT_EQ(errorOf([&] { file.number(3, "a range [m]", {0, 90}); }),
+  EXPECT_EQ(errorOf([&] {
+              file.number(3, "a range [m]", {0, 90});
+            }),
             path + ":1: found '300' in field 4, expected a range [m], a number in [0, 90]");
-  EXPECT_EQ(errorOf([&] { file.integer(2, "a count", {0, 90}); }),
+  EXPECT_EQ(errorOf([&] {
+              file.integer(2, "a count", {0, 90});
+            }),
             path + ":1: found '2.5' in field 3, expected a count, a whole number in [0, 90]");
   EXPECT_EQ(errorOf([&] { file.number(9, "a range [m]"); }),
             path + ":1: found 4 fields, expected a range [m], a number");
@@ -77,7 +83,8 @@ TEST(LogFile, EscapesWhatNobodyCanPrint) {
 
 TEST(LogFile, RefusesLinesAndFilesBeyondTheirLimits) {
   const TemporaryFolder folder;
-  const auto longLine = folder.write("long", "1\n" + std::string(kMaxLogLine + 1, '2') + "\n").string();
+  const auto longLine =
+      folder.write("long", "1\n" + std::string(kMaxLogLine + 1, '2') + "\n").string();
   EXPECT_EQ(errorOf([&] { linesOf(longLine); }),
             longLine + ":2: found a line of more than 1048576 bytes, expected a shorter one");
   EXPECT_EQ(linesOf(folder.write("fits", std::string(kMaxLogLine, '2'))).size(), 1u);
@@ -97,10 +104,12 @@ TEST(LogFile, SaysWhereCompressedFilesAreCutOffOrDamaged) {
     const TemporaryFolder folder;
     const std::string whole = ending == ".xz" ? compressedXz(text) : compressedGz(text);
     const auto path = (folder.path() / ("a" + ending)).string();
-    for (const std::size_t kept : {std::size_t{0}, std::size_t{5}, whole.size() / 2, whole.size() - 1}) {
+    for (const std::size_t kept :
+         {std::size_t{0}, std::size_t{5}, whole.size() / 2, whole.size() - 1}) {
       folder.write("a" + ending, whole.substr(0, kept));
       const std::string error = errorOf([&] { linesOf(path); });
-      EXPECT_TRUE(error.starts_with(path + ": found damaged or cut off data after decompressed byte "))
+      EXPECT_TRUE(
+          error.starts_with(path + ": found damaged or cut off data after decompressed byte "))
           << ending << " " << kept << ": " << error;
     }
     std::string broken = whole;
@@ -123,8 +132,9 @@ TEST(LogClock, KeepsStampsRisingAndRefusesGreatStepsBack) {
   EXPECT_EQ(clock(file, 700000), 1000002);
   EXPECT_EQ(clock(file, 2000000), 2000000);
   EXPECT_EQ(errorOf([&] { clock(file, 1400000); }),
-            path + ":1: found time 1.4 s after 2 s, expected time to run forwards, or back by at most"
-                   " jitter_s=0.5 s");
+            path +
+                ":1: found time 1.4 s after 2 s, expected time to run forwards, or back by at most"
+                " jitter_s=0.5 s");
 }
 
 TEST(AlongArc, FollowsTheCircle) {
@@ -155,11 +165,18 @@ TEST(RunHelper, ReturnsWhatTheProgramPrints) {
 }
 
 TEST(RunHelper, NamesSignalStatusAndLimit) {
-  EXPECT_EQ(errorOf([] { runHelper("/bin/sh", {"-c", "kill -SEGV $$"}, "log", 100); }),
-            "log: sh was ended by signal 11 (Segmentation fault); the file is damaged or too large");
-  EXPECT_EQ(errorOf([] { runHelper("/bin/sh", {"-c", "echo '# error torn'; exit 3"}, "log", 100); }),
+  EXPECT_EQ(
+      errorOf([] {
+        runHelper("/bin/sh", {"-c", "kill -SEGV $$"}, "log", 100);
+      }),
+      "log: sh was ended by signal 11 (Segmentation fault); the file is damaged or too large");
+  EXPECT_EQ(errorOf([] {
+              runHelper("/bin/sh", {"-c", "echo '# error torn'; exit 3"}, "log", 100);
+            }),
             "log: sh ended with status 3: torn");
-  EXPECT_EQ(errorOf([] { runHelper("/bin/sh", {"-c", "while :; do echo aaaaaaaaa; done"}, "log", 100); }),
+  EXPECT_EQ(errorOf([] {
+              runHelper("/bin/sh", {"-c", "while :; do echo aaaaaaaaa; done"}, "log", 100);
+            }),
             "log: found more than 100 bytes of readings, expected no more");
   EXPECT_EQ(errorOf([] { runHelper("/nowhere/x", {}, "log", 100); }),
             "log: /nowhere/x does not start: No such file or directory");

@@ -40,7 +40,8 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-std::filesystem::path TemporaryFolder::write(const std::string& name, const std::string& bytes) const {
+std::filesystem::path TemporaryFolder::write(const std::string& name,
+                                             const std::string& bytes) const {
   const auto file = path_ / name;
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << bytes;
@@ -116,11 +117,21 @@ std::string mutated(const std::string& bytes, std::mt19937& random) {
   for (unsigned i = 0; i < 1 + random() % 4 && !result.empty(); ++i) {
     const std::size_t at = random() % result.size();
     switch (random() % 5) {
-      case 0: result[at] = static_cast<char>(random()); break;
-      case 1: result[at] = kTypical[random() % kTypical.size()]; break;
-      case 2: result.insert(at, 1 + random() % 3, kTypical[random() % kTypical.size()]); break;
-      case 3: result.erase(at, 1 + random() % 20); break;
-      default: result.resize(at); break;
+      case 0:
+        result[at] = static_cast<char>(random());
+        break;
+      case 1:
+        result[at] = kTypical[random() % kTypical.size()];
+        break;
+      case 2:
+        result.insert(at, 1 + random() % 3, kTypical[random() % kTypical.size()]);
+        break;
+      case 3:
+        result.erase(at, 1 + random() % 20);
+        break;
+      default:
+        result.resize(at);
+        break;
     }
   }
   return result;

@@ -32,23 +32,26 @@ class MrclamSource : public ::testing::Test {
 
 TEST_F(MrclamSource, IntegratesTheCommandedVelocitiesAlongArcs) {
   // A quarter of a circle of radius 2 / pi = 0.637 m to the left, then 0.5 m straight on.
-  EXPECT_EQ(asText(only(readAll(text()), "odometry/odometry/pose")),
-            (Texts{"10000000 odometry/odometry/pose 2147483648 2147483648 18000 2147484648 2147492648",
-                   "11000000 odometry/odometry/pose 2147484285 2147484285 27000 2147484148 2147483648",
-                   "12000000 odometry/odometry/pose 2147484285 2147484785 27000 2147483648 2147483648"}));
+  EXPECT_EQ(
+      asText(only(readAll(text()), "odometry/odometry/pose")),
+      (Texts{"10000000 odometry/odometry/pose 2147483648 2147483648 18000 2147484648 2147492648",
+             "11000000 odometry/odometry/pose 2147484285 2147484285 27000 2147484148 2147483648",
+             "12000000 odometry/odometry/pose 2147484285 2147484785 27000 2147483648 2147483648"}));
 }
 
 TEST_F(MrclamSource, GroupsLandmarksByImageAndLeavesOutRobotsAndMisreadBarcodes) {
-  EXPECT_EQ(asText(only(readAll(text()), "camera/landmarks/posts")),
-            (Texts{"10500000 camera/landmarks/posts 6 2000 20865 7 1500 15135",
-                   "11250000 camera/landmarks/posts", "11500000 camera/landmarks/posts 7 1250 35189"}));
+  EXPECT_EQ(
+      asText(only(readAll(text()), "camera/landmarks/posts")),
+      (Texts{"10500000 camera/landmarks/posts 6 2000 20865 7 1500 15135",
+             "11250000 camera/landmarks/posts", "11500000 camera/landmarks/posts 7 1250 35189"}));
 }
 
 TEST_F(MrclamSource, GivesEachLandmarkItsOwnFeaturesIfAsked) {
   const auto messages = readAll(text("&features=each"));
   EXPECT_TRUE(only(messages, "camera/landmarks/posts").empty());
   EXPECT_EQ(asText(only(messages, "camera/landmarks/post7Distance")),
-            (Texts{"10500000 camera/landmarks/post7Distance 1500", "11500000 camera/landmarks/post7Distance 1250"}));
+            (Texts{"10500000 camera/landmarks/post7Distance 1500",
+                   "11500000 camera/landmarks/post7Distance 1250"}));
   EXPECT_EQ(asText(only(messages, "camera/landmarks/post6Bearing")),
             (Texts{"10500000 camera/landmarks/post6Bearing 20865"}));
 }
@@ -56,10 +59,12 @@ TEST_F(MrclamSource, GivesEachLandmarkItsOwnFeaturesIfAsked) {
 TEST_F(MrclamSource, MergesItsStreamsInTheOrderOfTime) {
   std::vector<Timestamp> stamps;
   for (const Message& message : readAll(text())) stamps.push_back(message.stamp);
-  EXPECT_EQ(stamps, (std::vector<Timestamp>{10000000, 10500000, 11000000, 11250000, 11500000, 12000000}));
+  EXPECT_EQ(stamps,
+            (std::vector<Timestamp>{10000000, 10500000, 11000000, 11250000, 11500000, 12000000}));
   stamps.clear();
   for (const Message& message : readAll(text("&latency_s=0.6"))) stamps.push_back(message.stamp);
-  EXPECT_EQ(stamps, (std::vector<Timestamp>{9900000, 10000000, 10650000, 10900000, 11000000, 12000000}));
+  EXPECT_EQ(stamps,
+            (std::vector<Timestamp>{9900000, 10000000, 10650000, 10900000, 11000000, 12000000}));
 }
 
 TEST_F(MrclamSource, TakesViconPosesWhileTheRobotRan) {
@@ -69,7 +74,8 @@ TEST_F(MrclamSource, TakesViconPosesWhileTheRobotRan) {
 }
 
 TEST_F(MrclamSource, TakesPosesOfStandingForTheirWholeSpan) {
-  folder_.write("Robot2_SparseGroundtruth.dat", "11.1 11.0 11.5 1.0 2.0 0.0 3\n11.8 11.8 11.8 1.5 2.0 0.0 3\n");
+  folder_.write("Robot2_SparseGroundtruth.dat",
+                "11.1 11.0 11.5 1.0 2.0 0.0 3\n11.8 11.8 11.8 1.5 2.0 0.0 3\n");
   EXPECT_EQ(asText(only(readAll(text()), "reference/groundTruth/pose")),
             (Texts{"11000000 reference/groundTruth/pose 2147484648 2147485648 18000",
                    "11100000 reference/groundTruth/pose 2147484648 2147485648 18000",
@@ -78,14 +84,17 @@ TEST_F(MrclamSource, TakesPosesOfStandingForTheirWholeSpan) {
 }
 
 TEST_F(MrclamSource, SaysWhichRobotHasNoOdometry) {
-  EXPECT_EQ(errorOf("mrclam:" + path() + "?robot=4"),
-            path() + "/Robot4_Odometry.dat: found no odometry of robot 4 in this run, expected one (it may"
-                     " end in .xz or .gz); the option robot chooses another robot");
+  EXPECT_EQ(
+      errorOf("mrclam:" + path() + "?robot=4"),
+      path() +
+          "/Robot4_Odometry.dat: found no odometry of robot 4 in this run, expected one (it may"
+          " end in .xz or .gz); the option robot chooses another robot");
 }
 
 TEST_F(MrclamSource, RefusesOptionsItDoesNotKnowOrThatAreOutOfRange) {
   EXPECT_NE(errorOf(text("&robots=1")).find("robots is not known here"), std::string::npos);
-  EXPECT_NE(errorOf("mrclam:" + path() + "?robot=6").find("robot found '6', expected a number in [1.0, 5.0]"),
+  EXPECT_NE(errorOf("mrclam:" + path() + "?robot=6")
+                .find("robot found '6', expected a number in [1.0, 5.0]"),
             std::string::npos);
   EXPECT_NE(errorOf("mrclam:" + path() + "?robot=one").find("found 'one'"), std::string::npos);
 }
@@ -96,20 +105,25 @@ TEST_F(MrclamSource, NamesFileAndLineOfWhatIsWrong) {
     return errorOf(text());
   };
   const std::string odometry = path() + "/Robot2_Odometry.dat";
-  EXPECT_EQ(with("Robot2_Odometry.dat", "10 1 0\n11 nan 0\n"),
-            odometry + ":2: found 'nan' in field 2, expected a velocity [m/s], a number in [-100, 100]");
+  EXPECT_EQ(
+      with("Robot2_Odometry.dat", "10 1 0\n11 nan 0\n"),
+      odometry + ":2: found 'nan' in field 2, expected a velocity [m/s], a number in [-100, 100]");
   EXPECT_EQ(with("Robot2_Odometry.dat", "10 1 0\n11 1\n"),
             odometry + ":2: found 2 fields, expected 3: time [s], velocities [m/s] [rad/s]");
   EXPECT_EQ(with("Robot2_Odometry.dat", "10 1 0\n9.5 1 0\n"),
-            odometry + ":2: found time 9.5 s after 10 s, expected time to run forwards, or back by at most"
-                       " jitter_s=0 s");
+            odometry +
+                ":2: found time 9.5 s after 10 s, expected time to run forwards, or back by at most"
+                " jitter_s=0 s");
   EXPECT_EQ(with("Robot2_Odometry.dat", "10 1 0\n11 1 0.\n12 0.0"),
-            odometry + ":3: found 2 fields, expected 3: time [s], velocities [m/s] [rad/s] (the file ends"
-                       " within this line)");
+            odometry +
+                ":3: found 2 fields, expected 3: time [s], velocities [m/s] [rad/s] (the file ends"
+                " within this line)");
   folder_.write("Robot2_Odometry.dat", kOdometry);
   const std::string measurement = path() + "/Robot2_Measurement.dat";
   EXPECT_EQ(with("Robot2_Measurement.dat", "FLASER 1 2 3\n"),
-            measurement + ":1: found 'FLASER' in field 1, expected a time [s], a number in [-10000000000, 10000000000]");
+            measurement +
+                ":1: found 'FLASER' in field 1, expected a time [s], a number in [-10000000000, "
+                "10000000000]");
   EXPECT_EQ(with("Robot2_Measurement.dat", "11 63 1 0\n10 63 1 0\n"),
             measurement + ":2: found a time before that of the line above, expected rising times");
   folder_.write("Robot2_Measurement.dat", kMeasurement);
@@ -131,7 +145,8 @@ TEST(MrclamData, HasAllReadingsOfTheRealRuns) {
   for (const auto& [name, robot, odometry, images, truth] :
        {KnownRun{"ds6", 1, 61785, 1234, 48561}, KnownRun{"ds6", 3, 61158, 2745, 56224},
         KnownRun{"ds1", 5, 100726, 5453, 0}, KnownRun{"ds2", 1, 121742, 5146, 0}}) {
-    const auto messages = readAll("mrclam:" + (data / name).string() + "?robot=" + std::to_string(robot));
+    const auto messages =
+        readAll("mrclam:" + (data / name).string() + "?robot=" + std::to_string(robot));
     EXPECT_EQ(only(messages, "odometry/odometry/pose").size(), odometry) << name << robot;
     EXPECT_EQ(only(messages, "camera/landmarks/posts").size(), images) << name << robot;
     if (truth == 0) continue;  // not counted
@@ -144,13 +159,15 @@ TEST(MrclamData, SeesLandmarksWhereViconSaysTheyAre) {
   std::map<std::uint32_t, std::pair<double, double>> places;
   LogFile landmarks(data / "Landmark_Groundtruth.dat");
   while (landmarks.nextRecord()) {
-    places[static_cast<std::uint32_t>(landmarks.number(0, "id"))] = {landmarks.number(1, "x"), landmarks.number(2, "y")};
+    places[static_cast<std::uint32_t>(landmarks.number(0, "id"))] = {landmarks.number(1, "x"),
+                                                                     landmarks.number(2, "y")};
   }
   for (int robot = 1; robot <= 5; ++robot) {
     PoseData truth({"reference", "groundTruth", "pose"});
     std::size_t near = 0;
     std::size_t all = 0;
-    for (const Message& message : readAll("mrclam:" + data.string() + "?robot=" + std::to_string(robot))) {
+    for (const Message& message :
+         readAll("mrclam:" + data.string() + "?robot=" + std::to_string(robot))) {
       if (message.id == truth.id()) truth.setData(message.stamp, message.words);
       if (message.id.feature != "posts" || message.stamp - truth.stamp() > 100000) continue;
       for (std::size_t i = 0; i < message.words.size(); i += 3) {

@@ -11,7 +11,8 @@ using namespace ortung::testing;
 
 constexpr int kRounds = 400;
 
-/// Readings must be whole words of known features in the order of time, errors must name the folder.
+/// Readings must be whole words of known features in the order of time, errors must name the
+/// folder.
 void expectReadOrRefused(const std::string& source, const std::string& folder, int& read) {
   try {
     Timestamp last = INT64_MIN;
@@ -35,24 +36,32 @@ struct Log {
 };
 
 Log mrclam() {
-  return {"mrclam", "", {{"Barcodes.dat", "1 5\n6 63\n7 81\n"},
-                         {"Landmark_Groundtruth.dat", "6 1 2 0 0\n7 3 -1 0 0\n"},
-                         {"Robot1_Odometry.dat", "10 1 1.5\n11 0.5 0\n12 0 0\n"},
-                         {"Robot1_Measurement.dat", "10.5 5 1 0.1\n10.5 63 2 0.5\n11.5 81 1.25 3\n"},
-                         {"Robot1_SparseGroundtruth.dat", "11.1 11 11.5 1 2 0 3\n11.8 11.8 11.8 1.5 2 0 3\n"}}};
+  return {"mrclam",
+          "",
+          {{"Barcodes.dat", "1 5\n6 63\n7 81\n"},
+           {"Landmark_Groundtruth.dat", "6 1 2 0 0\n7 3 -1 0 0\n"},
+           {"Robot1_Odometry.dat", "10 1 1.5\n11 0.5 0\n12 0 0\n"},
+           {"Robot1_Measurement.dat", "10.5 5 1 0.1\n10.5 63 2 0.5\n11.5 81 1.25 3\n"},
+           {"Robot1_SparseGroundtruth.dat", "11.1 11 11.5 1 2 0 3\n11.8 11.8 11.8 1.5 2 0 3\n"}}};
 }
 
 Log scanlog() {
-  return {"scanlog", "", {{"scans.txt", "# ANGLES -1.5 0.5 ; sensor at x=0.78 y=0 yaw=0, max range 80.0\n"
-                                        "1 0 0 0 3 1.25 0 81.91\n2 0.5 0 0.1 3 1.5 2 1\n3 1 0 0.1 3 1 2 1\n"},
-                          {"gt.txt", "1 4 -5 3\n2 4.5 -5 3.1 0.99\n3 5 -5 3\n"},
-                          {"map.yaml", "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n"}}};
+  return {"scanlog",
+          "",
+          {{"scans.txt",
+            "# ANGLES -1.5 0.5 ; sensor at x=0.78 y=0 yaw=0, max range 80.0\n"
+            "1 0 0 0 3 1.25 0 81.91\n2 0.5 0 0.1 3 1.5 2 1\n3 1 0 0.1 3 1 2 1\n"},
+           {"gt.txt", "1 4 -5 3\n2 4.5 -5 3.1 0.99\n3 5 -5 3\n"},
+           {"map.yaml", "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n"}}};
 }
 
 Log carmen() {
-  return {"carmen", "a.log", {{"a.log", "PARAM robot_frontlaser_offset 0.1 h 0\nODOM 0 0 0 0 0 0 0.5 h 0.5\n"
-                                        "FLASER 2 1 1 0.9 0 1.5 0.9 0 1.5 1 h 1\nODOM 0.9 0 1.5 0 0 0 0 h 0\nNEFF 15\n"
-                                        "ODOM 0.9 0.5 1.5 0 0 0 2 h 2\nFLASER 2 2 2 0.8 0.4 1.5 0.8 0.4 1.5 2 h 2\n"}}};
+  return {"carmen",
+          "a.log",
+          {{"a.log",
+            "PARAM robot_frontlaser_offset 0.1 h 0\nODOM 0 0 0 0 0 0 0.5 h 0.5\n"
+            "FLASER 2 1 1 0.9 0 1.5 0.9 0 1.5 1 h 1\nODOM 0.9 0 1.5 0 0 0 0 h 0\nNEFF 15\n"
+            "ODOM 0.9 0.5 1.5 0 0 0 2 h 2\nFLASER 2 2 2 0.8 0.4 1.5 0.8 0.4 1.5 2 h 2\n"}}};
 }
 
 TEST(MutatedLogs, AreReadOrRefused) {
@@ -65,7 +74,8 @@ TEST(MutatedLogs, AreReadOrRefused) {
       for (const auto& [name, bytes] : log.files) {
         folder.write(name, victim-- == 0 ? mutated(bytes, random) : bytes);
       }
-      expectReadOrRefused(log.kind + ":" + (folder.path() / log.path).string(), folder.path().string(), read);
+      expectReadOrRefused(log.kind + ":" + (folder.path() / log.path).string(),
+                          folder.path().string(), read);
       if (::testing::Test::HasFailure()) FAIL() << log.kind << " round " << round;
     }
     std::printf("%s: %d of %d damaged logs could be read\n", log.kind.c_str(), read, kRounds);
@@ -77,7 +87,8 @@ TEST(MutatedLogs, AreReadOrRefused) {
 TEST(MutatedLogs, CompressedOnesAreReadOrRefused) {
   std::mt19937 random(7);
   std::string text = "# ANGLES -1.5 0.5\n";
-  for (int i = 1; i < 200; ++i) text += std::to_string(i) + " 0 0 0 3 " + std::to_string(i * 37 % 11) + " 2 3\n";
+  for (int i = 1; i < 200; ++i)
+    text += std::to_string(i) + " 0 0 0 3 " + std::to_string(i * 37 % 11) + " 2 3\n";
   for (const std::string ending : {".xz", ".gz"}) {
     const std::string whole = ending == ".xz" ? compressedXz(text) : compressedGz(text);
     int read = 0;
@@ -86,12 +97,14 @@ TEST(MutatedLogs, CompressedOnesAreReadOrRefused) {
       folder.write("scans.txt" + ending, mutated(whole, random));
       expectReadOrRefused("scanlog:" + folder.path().string(), folder.path().string(), read);
     }
-    EXPECT_LT(read, kRounds / 10) << ending;  // both have checksums; some header bytes do not matter
+    EXPECT_LT(read, kRounds / 10)
+        << ending;  // both have checksums; some header bytes do not matter
   }
 }
 
 TEST(MutatedLogs, RawlogsAreReadOrRefused) {
-  if (!errorOf([] { findHelper("ortung-mrpt-reader"); }).empty()) GTEST_SKIP() << "ortung-mrpt-reader was not built";
+  if (!errorOf([] { findHelper("ortung-mrpt-reader"); }).empty())
+    GTEST_SKIP() << "ortung-mrpt-reader was not built";
   ORTUNG_NEED_DATA(data, "mrpt_localization_demo/raw/localization_demo.rawlog");
   // The bytes below the compression, or its checksum would catch everything.
   const TemporaryFolder folder;

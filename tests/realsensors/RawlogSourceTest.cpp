@@ -30,22 +30,26 @@ class RawlogSource : public ::testing::Test {
 const std::string kScanner = "# scanner 0.78 0 0 -1.5 1.5 80 3\n";
 
 TEST_F(RawlogSource, TakesTheReadersLines) {
-  const auto source = makeSource(printing("# ortung-mrpt-reader 1\n" + kScanner +
-                                          "2000000 laser/LRF/scan 3 1 2 3\n"
-                                          "1000000 odometry/odometry/pose 5 1 2 3 4 5\n"
-                                          "# beacons 0.16 0 0 300\n"
-                                          "2000000 uwb/landmarks/beacon4Distance 1 5000\n# end 3\n"));
+  const auto source =
+      makeSource(printing("# ortung-mrpt-reader 1\n" + kScanner +
+                          "2000000 laser/LRF/scan 3 1 2 3\n"
+                          "1000000 odometry/odometry/pose 5 1 2 3 4 5\n"
+                          "# beacons 0.16 0 0 300\n"
+                          "2000000 uwb/landmarks/beacon4Distance 1 5000\n# end 3\n"));
   EXPECT_EQ(asText(readAll(*source)),
             (Texts{"1000000 odometry/odometry/pose 1 2 3 4 5", "2000000 laser/LRF/scan 1 2 3",
                    "2000000 uwb/landmarks/beacon4Distance 5000"}));
   const std::string toml = source->robotToml();
   EXPECT_NE(toml.find("plugin = \"lrf\""), std::string::npos);
-  EXPECT_NE(toml.find("kind = \"beacon\"\nidentities = [4]\npose = { x_m = 0.16"), std::string::npos) << toml;
+  EXPECT_NE(toml.find("kind = \"beacon\"\nidentities = [4]\npose = { x_m = 0.16"),
+            std::string::npos)
+      << toml;
 }
 
 TEST_F(RawlogSource, TakesTheReaderForHostile) {
   const std::string where = " of what ortung-mrpt-reader prints, expected ";
-  EXPECT_EQ(errorOf(printing("")), path() + ": found its end in line 0" + where + "a last line '# end COUNT'");
+  EXPECT_EQ(errorOf(printing("")),
+            path() + ": found its end in line 0" + where + "a last line '# end COUNT'");
   EXPECT_EQ(errorOf(printing(kScanner + "1 laser/LRF/scan 3 1 2 3\n")),
             path() + ": found its end in line 2" + where + "a last line '# end COUNT'");
   EXPECT_EQ(errorOf(printing(kScanner + "1 laser/LRF/scan 3 1 2 3\n# end 2\n")),
@@ -61,16 +65,21 @@ TEST_F(RawlogSource, TakesTheReaderForHostile) {
   EXPECT_EQ(errorOf(printing("# scanner 0 0 0\n")),
             path() + ": found a comment of another length in line 1" + where + "7 numbers");
   const std::string junk = errorOf(printing("hello\n"));
-  EXPECT_TRUE(junk.starts_with(path() + ": found 'hello' in line 1" + where + "a line of a record (")) << junk;
+  EXPECT_TRUE(
+      junk.starts_with(path() + ": found 'hello' in line 1" + where + "a line of a record ("))
+      << junk;
 }
 
 TEST_F(RawlogSource, NamesTheSignalThatEndedTheReader) {
-  EXPECT_EQ(errorOf(text("kill -SEGV $$\n")),
-            path() + ": ortung-mrpt-reader was ended by signal 11 (Segmentation fault); the file is damaged"
-                     " or too large");
+  EXPECT_EQ(
+      errorOf(text("kill -SEGV $$\n")),
+      path() +
+          ": ortung-mrpt-reader was ended by signal 11 (Segmentation fault); the file is damaged"
+          " or too large");
   EXPECT_EQ(errorOf(text("kill -XCPU $$\n")),
-            path() + ": ortung-mrpt-reader was ended by signal 24 (CPU time limit exceeded); the file is"
-                     " damaged or too large");
+            path() +
+                ": ortung-mrpt-reader was ended by signal 24 (CPU time limit exceeded); the file is"
+                " damaged or too large");
   EXPECT_EQ(errorOf(text("echo '# error torn object'; exit 1\n")),
             path() + ": ortung-mrpt-reader ended with status 1: torn object");
 }
@@ -88,7 +97,8 @@ bool hasReader() {
 #define ORTUNG_NEED_READER() \
   if (!hasReader()) GTEST_SKIP() << "ortung-mrpt-reader was not built (ORTUNG_MRPT)"
 
-void expectSameScansAndNearOdometry(const std::vector<Message>& rawlog, const std::vector<Message>& text) {
+void expectSameScansAndNearOdometry(const std::vector<Message>& rawlog,
+                                    const std::vector<Message>& text) {
   const auto scans = only(text, "laser/LRF/scan");
   ASSERT_EQ(only(rawlog, "laser/LRF/scan").size(), scans.size());
   const auto rawScans = only(rawlog, "laser/LRF/scan");
@@ -99,7 +109,9 @@ void expectSameScansAndNearOdometry(const std::vector<Message>& rawlog, const st
   for (std::size_t i = 0; i < raw.size(); ++i) {
     EXPECT_LE(std::abs(raw[i].stamp - odometry[i].stamp), 1);  // the text cut off digits
     for (std::size_t k = 0; k < 3; ++k) {                      // and has five of each length
-      EXPECT_LE(std::abs(static_cast<std::int64_t>(raw[i].words[k]) - static_cast<std::int64_t>(odometry[i].words[k])), 1)
+      EXPECT_LE(std::abs(static_cast<std::int64_t>(raw[i].words[k]) -
+                         static_cast<std::int64_t>(odometry[i].words[k])),
+                1)
           << i << " word " << k;
     }
   }
@@ -108,18 +120,21 @@ void expectSameScansAndNearOdometry(const std::vector<Message>& rawlog, const st
 TEST(RawlogData, IsTheSameAsItsNeutralText) {
   ORTUNG_NEED_READER();
   ORTUNG_NEED_DATA(demo, "mrpt_localization_demo");
-  expectSameScansAndNearOdometry(readAll("rawlog:" + (demo / "raw/localization_demo.rawlog").string()),
-                                 readAll("scanlog:" + demo.string()));
+  expectSameScansAndNearOdometry(
+      readAll("rawlog:" + (demo / "raw/localization_demo.rawlog").string()),
+      readAll("scanlog:" + demo.string()));
   ORTUNG_NEED_DATA(telecom, "mrpt_sena_telecom");
-  expectSameScansAndNearOdometry(readAll("rawlog:" + (telecom / "raw/sena_telecom_one_loop.rawlog").string()),
-                                 readAll("scanlog:" + telecom.string()));
+  expectSameScansAndNearOdometry(
+      readAll("rawlog:" + (telecom / "raw/sena_telecom_one_loop.rawlog").string()),
+      readAll("scanlog:" + telecom.string()));
 }
 
 TEST(RawlogData, GivesRangesOfBeaconsAndTheirRobotFile) {
   ORTUNG_NEED_READER();
   ORTUNG_NEED_DATA(data, "mrpt_uwb_ro");
-  const auto source = makeSource("rawlog:" + (data / "raw/uwb_ro-localization_demo.rawlog").string() +
-                                 "?gt=../ref.txt&map=uwb_ro-localization_demo_map.gridmap.gz&beacons=../beacons.txt");
+  const auto source = makeSource(
+      "rawlog:" + (data / "raw/uwb_ro-localization_demo.rawlog").string() +
+      "?gt=../ref.txt&map=uwb_ro-localization_demo_map.gridmap.gz&beacons=../beacons.txt");
   const auto messages = readAll(*source);
   EXPECT_EQ(only(messages, "laser/LRF/scan").size(), 343u);
   EXPECT_EQ(only(messages, "reference/groundTruth/pose").size(), 342u);
@@ -130,8 +145,9 @@ TEST(RawlogData, GivesRangesOfBeaconsAndTheirRobotFile) {
   EXPECT_NE(source->robotToml().find("identities = [1, 2, 3]"), std::string::npos);
   const TemporaryFolder folder;
   source->writeWorld(folder.path() / "uwb.toml");
-  const std::string head = "[world]\nname = \"uwb\"\n\n[[grid]]\nmap = \"uwb.gridmap.gz\"\n"
-                           "\n[[landmark]]\nkind = \"beacon\"\nidentity = 1\nposition_m = [-1.79, -4.55, 1.94]\n";
+  const std::string head =
+      "[world]\nname = \"uwb\"\n\n[[grid]]\nmap = \"uwb.gridmap.gz\"\n"
+      "\n[[landmark]]\nkind = \"beacon\"\nidentity = 1\nposition_m = [-1.79, -4.55, 1.94]\n";
   EXPECT_EQ(readBytes(folder.path() / "uwb.toml").substr(0, head.size()), head);
   EXPECT_EQ(readBytes(folder.path() / "uwb.gridmap.gz"),
             readBytes(data / "raw/uwb_ro-localization_demo_map.gridmap.gz"));
@@ -144,13 +160,16 @@ TEST(RawlogData, KeepsAllFramesOfALogWithACoarseClock) {
   EXPECT_EQ(only(messages, "camera/landmarks/posts").size(), 250u);
   EXPECT_EQ(only(messages, "odometry/odometry/pose").size(), 250u);
   EXPECT_EQ(only(readAll("rawlog:" + (data / "RO-SLAM_demo.rawlog").string()),
-                 "uwb/landmarks/beacon8Distance").size(), 100u);
+                 "uwb/landmarks/beacon8Distance")
+                .size(),
+            100u);
 }
 
 TEST(MrptReader, PrintsAGridMapFromItsBottomRow) {
   ORTUNG_NEED_READER();
   ORTUNG_NEED_DATA(data, "mrpt_uwb_ro/raw/uwb_ro-localization_demo_map.gridmap.gz");
-  const std::string bytes = runHelper(findHelper("ortung-mrpt-reader"), {"gridmap", data.string()}, "grid", 1 << 22);
+  const std::string bytes =
+      runHelper(findHelper("ortung-mrpt-reader"), {"gridmap", data.string()}, "grid", 1 << 22);
   const std::string header = "ortung-gridmap 700 650 0.0399999991 -10 -10\n";
   ASSERT_EQ(bytes.substr(0, header.size()), header);
   ASSERT_EQ(bytes.size(), header.size() + 700 * 650);

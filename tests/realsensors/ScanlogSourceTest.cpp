@@ -10,7 +10,8 @@ namespace {
 using namespace ortung::testing;
 using Texts = std::vector<std::string>;
 
-const std::string kHead = "# t odom n r; ANGLES -1.5 0.5 ; sensor at x=0.780 y=-0.100 yaw=0.500, max range 80.0\n";
+const std::string kHead =
+    "# t odom n r; ANGLES -1.5 0.5 ; sensor at x=0.780 y=-0.100 yaw=0.500, max range 80.0\n";
 const std::string kScans = kHead + "1.0 0.0 0.0 0.0 3 1.25 0 81.91\n2.0 0.5 0.0 0.1 3 1.5 2 -1\n";
 
 class ScanlogSource : public ::testing::Test {
@@ -23,30 +24,34 @@ class ScanlogSource : public ::testing::Test {
 
 TEST_F(ScanlogSource, GivesScansWithTheirOdometryAndReference) {
   folder_.write("gt.txt", "# t x y theta\n1.0 4.0 -5.0 3.0\n2.0 4.5 -5.0 3.1 0.99\n");
-  EXPECT_EQ(asText(readAll(text())),
-            (Texts{"1000000 odometry/odometry/pose 2147483648 2147483648 18000 2147483648 2147483648",
-                   "1000000 laser/LRF/scan 1250 0 81910",
-                   "1000000 reference/groundTruth/pose 2147487648 2147478648 35189",
-                   "2000000 odometry/odometry/pose 2147484148 2147483648 18573 2147484148 2147484221",
-                   "2000000 laser/LRF/scan 1500 2000 0",
-                   "2000000 reference/groundTruth/pose 2147488148 2147478648 35762"}));
+  EXPECT_EQ(
+      asText(readAll(text())),
+      (Texts{"1000000 odometry/odometry/pose 2147483648 2147483648 18000 2147483648 2147483648",
+             "1000000 laser/LRF/scan 1250 0 81910",
+             "1000000 reference/groundTruth/pose 2147487648 2147478648 35189",
+             "2000000 odometry/odometry/pose 2147484148 2147483648 18573 2147484148 2147484221",
+             "2000000 laser/LRF/scan 1500 2000 0",
+             "2000000 reference/groundTruth/pose 2147488148 2147478648 35762"}));
 }
 
 TEST_F(ScanlogSource, ReadsTheScannerFromTheCommentAboveTheScans) {
   const std::string toml = makeSource(text())->robotToml();
-  EXPECT_NE(toml.find("pose = { x_m = 0.78, y_m = -0.1, theta_deg = 28.64789 }\nbeams = 3\n"
-                      "first_angle_deg = -85.943669\nangle_step_deg = 28.64789\nmax_range_m = 30.0\n"
-                      "period_s = 1.0\n"),
-            std::string::npos)
+  EXPECT_NE(
+      toml.find("pose = { x_m = 0.78, y_m = -0.1, theta_deg = 28.64789 }\nbeams = 3\n"
+                "first_angle_deg = -85.943669\nangle_step_deg = 28.64789\nmax_range_m = 30.0\n"
+                "period_s = 1.0\n"),
+      std::string::npos)
       << toml;
 }
 
 TEST_F(ScanlogSource, ReadsTheOtherWayToWriteAngles) {
-  folder_.write("scans.txt", "# beam k (0-based) at angle -pi/2 + k*0.5 rad, counter-clockwise\n1 0 0 0 1 5\n");
+  folder_.write("scans.txt",
+                "# beam k (0-based) at angle -pi/2 + k*0.5 rad, counter-clockwise\n1 0 0 0 1 5\n");
   const std::string toml = makeSource(text())->robotToml();
-  EXPECT_NE(toml.find("x_m = 0.0, y_m = 0.0, theta_deg = 0.0 }\nbeams = 1\nfirst_angle_deg = -90.0\n"
-                      "angle_step_deg = 28.64789\n"),
-            std::string::npos)
+  EXPECT_NE(
+      toml.find("x_m = 0.0, y_m = 0.0, theta_deg = 0.0 }\nbeams = 1\nfirst_angle_deg = -90.0\n"
+                "angle_step_deg = 28.64789\n"),
+      std::string::npos)
       << toml;
 }
 
@@ -68,19 +73,24 @@ TEST_F(ScanlogSource, PrefersAReferenceThatSomebodyAddedToTheTruth) {
 
 TEST_F(ScanlogSource, UsesAFileOfOdometryInPlaceOfTheScansOwn) {
   folder_.write("odom.txt", "0.5 0 0 0\n1.5 0.25 0 0\n");
-  EXPECT_EQ(asText(only(readAll(text("?odom=odom.txt")), "odometry/odometry/pose")),
-            (Texts{"500000 odometry/odometry/pose 2147483648 2147483648 18000 2147483648 2147483648",
-                   "1500000 odometry/odometry/pose 2147483898 2147483648 18000 2147483898 2147483648"}));
+  EXPECT_EQ(
+      asText(only(readAll(text("?odom=odom.txt")), "odometry/odometry/pose")),
+      (Texts{"500000 odometry/odometry/pose 2147483648 2147483648 18000 2147483648 2147483648",
+             "1500000 odometry/odometry/pose 2147483898 2147483648 18000 2147483898 2147483648"}));
 }
 
 TEST_F(ScanlogSource, PutsUpWithAJitteringClock) {
-  folder_.write("scans.txt", kHead + "1 0 0 0 3 1 1 1\n2 0 0 0 3 1 1 1\n1.5 0 0 0 3 2 2 2\n2.5 0 0 0 3 3 3 3\n");
-  EXPECT_EQ(asText(only(readAll(text()), "laser/LRF/scan")),
-            (Texts{"1000000 laser/LRF/scan 1000 1000 1000", "2000000 laser/LRF/scan 1000 1000 1000",
-                   "2000001 laser/LRF/scan 2000 2000 2000", "2500000 laser/LRF/scan 3000 3000 3000"}));
-  EXPECT_EQ(errorOf(text("?jitter_s=0.1")),
-            path() + "/scans.txt:4: found time 1.5 s after 2 s, expected time to run forwards, or back by at"
-                     " most jitter_s=0.1 s");
+  folder_.write("scans.txt",
+                kHead + "1 0 0 0 3 1 1 1\n2 0 0 0 3 1 1 1\n1.5 0 0 0 3 2 2 2\n2.5 0 0 0 3 3 3 3\n");
+  EXPECT_EQ(
+      asText(only(readAll(text()), "laser/LRF/scan")),
+      (Texts{"1000000 laser/LRF/scan 1000 1000 1000", "2000000 laser/LRF/scan 1000 1000 1000",
+             "2000001 laser/LRF/scan 2000 2000 2000", "2500000 laser/LRF/scan 3000 3000 3000"}));
+  EXPECT_EQ(
+      errorOf(text("?jitter_s=0.1")),
+      path() +
+          "/scans.txt:4: found time 1.5 s after 2 s, expected time to run forwards, or back by at"
+          " most jitter_s=0.1 s");
 }
 
 TEST_F(ScanlogSource, GoesByTheOrderOfLinesWhereStampsStandStill) {
@@ -91,14 +101,18 @@ TEST_F(ScanlogSource, GoesByTheOrderOfLinesWhereStampsStandStill) {
     for (const Message& message : only(readAll(text(options)), id)) stamps.push_back(message.stamp);
     return stamps;
   };
-  for (const char* id : {"laser/LRF/scan", "odometry/odometry/pose", "reference/groundTruth/pose"}) {
+  for (const char* id :
+       {"laser/LRF/scan", "odometry/odometry/pose", "reference/groundTruth/pose"}) {
     EXPECT_EQ(stampsOf("", id), (std::vector<Timestamp>{7000000, 8000000, 9000000})) << id;
-    EXPECT_EQ(stampsOf("?period_s=0.2", id), (std::vector<Timestamp>{7000000, 7200000, 7400000})) << id;
+    EXPECT_EQ(stampsOf("?period_s=0.2", id), (std::vector<Timestamp>{7000000, 7200000, 7400000}))
+        << id;
   }
   folder_.write("gt.txt", "7 1 0 0\n7 2 0 0\n");
-  EXPECT_EQ(errorOf(text()), path() + ": found 2 reference poses for 3 scans, expected one a scan, since the"
-                                      " stamps of the scans are not used (they stand still, or the option"
-                                      " period_s is set)");
+  EXPECT_EQ(errorOf(text()),
+            path() +
+                ": found 2 reference poses for 3 scans, expected one a scan, since the"
+                " stamps of the scans are not used (they stand still, or the option"
+                " period_s is set)");
 }
 
 TEST_F(ScanlogSource, NamesFileAndLineOfWhatIsWrong) {
@@ -108,23 +122,34 @@ TEST_F(ScanlogSource, NamesFileAndLineOfWhatIsWrong) {
   };
   const std::string file = path() + "/scans.txt";
   EXPECT_EQ(with(kHead), path() + ": found no scan, expected at least one");
-  EXPECT_EQ(with("1 0 0 0 1 5\n"), file + ":1: found no angles of the beams in the comments above, expected"
-                                          " 'ANGLES FIRST STEP' or 'at angle -pi/2 + k*STEP' [rad]");
-  EXPECT_EQ(with("# ANGLES 0\n1 0 0 0 1 5\n"), file + ":2: found no two numbers behind 'ANGLES' in the"
-                                                      " comment above, expected first angle and step [rad]");
-  EXPECT_EQ(with("# ANGLES 0 3\n1 0 0 0 3 5 5 5\n"),
-            file + ":2: found 3 beams that begin at 0.0 rad, 3.0 rad apart, expected a positive step, and a"
-                   " turn at most");
+  EXPECT_EQ(with("1 0 0 0 1 5\n"),
+            file +
+                ":1: found no angles of the beams in the comments above, expected"
+                " 'ANGLES FIRST STEP' or 'at angle -pi/2 + k*STEP' [rad]");
+  EXPECT_EQ(with("# ANGLES 0\n1 0 0 0 1 5\n"),
+            file +
+                ":2: found no two numbers behind 'ANGLES' in the"
+                " comment above, expected first angle and step [rad]");
+  EXPECT_EQ(
+      with("# ANGLES 0 3\n1 0 0 0 3 5 5 5\n"),
+      file +
+          ":2: found 3 beams that begin at 0.0 rad, 3.0 rad apart, expected a positive step, and a"
+          " turn at most");
   EXPECT_EQ(with(kHead + "1 0 0 0 3 5 5\n"),
             file + ":2: found 7 fields, expected 8: time, odometry, n, n ranges");
-  EXPECT_EQ(with(kHead + "1 0 0 0 3 5 5 5\n2 0 0 0 2 5 5\n"), file + ":3: found 2 beams, expected 3 as above");
-  EXPECT_EQ(with(kHead + "1 0 0 0 3 5 inf 5\n"),
-            file + ":2: found 'inf' in field 7, expected a range [m], a number in [-1000000, 1000000]");
-  EXPECT_EQ(with(kHead + "1 0 0 0 3000000000 5\n"),
-            file + ":2: found '3000000000' in field 5, expected a number of beams, a number in [1, 8192]");
+  EXPECT_EQ(with(kHead + "1 0 0 0 3 5 5 5\n2 0 0 0 2 5 5\n"),
+            file + ":3: found 2 beams, expected 3 as above");
+  EXPECT_EQ(
+      with(kHead + "1 0 0 0 3 5 inf 5\n"),
+      file + ":2: found 'inf' in field 7, expected a range [m], a number in [-1000000, 1000000]");
+  EXPECT_EQ(
+      with(kHead + "1 0 0 0 3000000000 5\n"),
+      file +
+          ":2: found '3000000000' in field 5, expected a number of beams, a number in [1, 8192]");
   std::filesystem::remove(file);
-  EXPECT_EQ(errorOf(text()),
-            file + ": found no such file, nor one with .xz or .gz behind its name, expected one of them");
+  EXPECT_EQ(
+      errorOf(text()),
+      file + ": found no such file, nor one with .xz or .gz behind its name, expected one of them");
 }
 
 TEST_F(ScanlogSource, WritesAWorldWithACopyOfItsMap) {
@@ -134,7 +159,8 @@ TEST_F(ScanlogSource, WritesAWorldWithACopyOfItsMap) {
   folder_.write("out/keep", "");
   const auto source = makeSource("scanlog:" + path() + "/log");  // the map lies one folder above
   source->writeWorld(folder_.path() / "out/hall.toml");
-  EXPECT_EQ(readBytes(folder_.path() / "out/hall.toml"), "[world]\nname = \"hall\"\n\n[[grid]]\nmap = \"hall.yaml\"\n");
+  EXPECT_EQ(readBytes(folder_.path() / "out/hall.toml"),
+            "[world]\nname = \"hall\"\n\n[[grid]]\nmap = \"hall.yaml\"\n");
   EXPECT_EQ(readBytes(folder_.path() / "out/hall.yaml"),
             "image: hall.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n");
   EXPECT_EQ(readBytes(folder_.path() / "out/hall.pgm"), "P5\n2 1\n255\nab");
@@ -153,7 +179,8 @@ TEST_F(ScanlogSource, SaysWhatIsWrongWithAMap) {
   EXPECT_EQ(errorWith(""), path() + "/b.pgm: found no PGM or PNG image, expected one");
   folder_.write("c.yaml", "resolution: 1\n");
   EXPECT_EQ(errorWith("?map=c.yaml"), path() + "/c.yaml: found no line 'image: ...', expected one");
-  EXPECT_NE(errorOf(text("?map=d.yaml")).find("map found no file 'd.yaml' in " + path()), std::string::npos);
+  EXPECT_NE(errorOf(text("?map=d.yaml")).find("map found no file 'd.yaml' in " + path()),
+            std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(world));
 }
 
@@ -166,10 +193,12 @@ struct KnownLog {
 TEST(ScanlogData, HasAllReadingsOfTheRealLogs) {
   for (const auto& [name, scans, truth, duration] :
        {KnownLog{"carmen/intel", 910, 910, 2650.86}, KnownLog{"carmen/aces", 440, 440, 1318.06},
-        KnownLog{"carmen/freiburg-101", 292, 292, 918.935}, KnownLog{"carmen/belgioioso", 395, 395, 394.0},
+        KnownLog{"carmen/freiburg-101", 292, 292, 918.935},
+        KnownLog{"carmen/belgioioso", 395, 395, 394.0},
         KnownLog{"crob_lab_jarvis/complex_path_fast/security", 618, 618, 73.8219},
         KnownLog{"crob_lab_jarvis/complex_path_fast/nav350", 590, 590, 73.7512},
-        KnownLog{"mrpt_localization_demo", 37, 37, 9.28335}, KnownLog{"mrpt_sena_telecom", 225, 225, 59.0749},
+        KnownLog{"mrpt_localization_demo", 37, 37, 9.28335},
+        KnownLog{"mrpt_sena_telecom", 225, 225, 59.0749},
         KnownLog{"mrpt_uwb_ro", 342, 342, 362.081}}) {
     ORTUNG_NEED_DATA(data, name);
     const auto messages = readAll("scanlog:" + data.string());
@@ -198,23 +227,25 @@ struct Map {
     auto image = yaml;
     pixels = readBytes(image.replace_extension(".pgm"));
     std::sscanf(pixels.c_str(), "P5 %d %d", &width, &height);
-    pixels = pixels.substr(pixels.size() - static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    pixels = pixels.substr(pixels.size() -
+                           static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   }
   /// 0 occupied, 254 free, 205 unknown, -1 outside
   int at(double px, double py) const {
     const int column = static_cast<int>(std::floor((px - x) / resolution));
     const int row = height - 1 - static_cast<int>(std::floor((py - y) / resolution));
     if (column < 0 || row < 0 || column >= width || row >= height) return -1;
-    return static_cast<unsigned char>(pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                             static_cast<std::size_t>(column)]);
+    return static_cast<unsigned char>(
+        pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(column)]);
   }
 };
 
 TEST(ScanlogData, KeepsTheRobotInTheFreeSpaceOfTheWrittenWorld) {
   const TemporaryFolder folder;
-  for (const char* name : {"carmen/intel", "carmen/aces", "carmen/belgioioso", "carmen/freiburg-101",
-                           "crob_lab_jarvis/complex_path_fast/security", "mrpt_localization_demo",
-                           "mrpt_sena_telecom", "mrpt_uwb_ro"}) {
+  for (const char* name : {"carmen/intel", "carmen/aces", "carmen/belgioioso",
+                           "carmen/freiburg-101", "crob_lab_jarvis/complex_path_fast/security",
+                           "mrpt_localization_demo", "mrpt_sena_telecom", "mrpt_uwb_ro"}) {
     ORTUNG_NEED_DATA(data, name);
     const auto source = makeSource("scanlog:" + data.string());
     source->writeWorld(folder.path() / "w.toml");
@@ -236,8 +267,9 @@ TEST(ScanlogData, KeepsTheRobotInTheFreeSpaceOfTheWrittenWorld) {
 
 TEST(ScanlogData, HitsTheWallsOfTheWrittenWorldWithItsBeams) {
   const TemporaryFolder folder;
-  for (const char* name : {"carmen/intel", "carmen/freiburg-101", "crob_lab_jarvis/complex_path_fast/security",
-                           "mrpt_localization_demo", "mrpt_sena_telecom", "mrpt_uwb_ro"}) {
+  for (const char* name :
+       {"carmen/intel", "carmen/freiburg-101", "crob_lab_jarvis/complex_path_fast/security",
+        "mrpt_localization_demo", "mrpt_sena_telecom", "mrpt_uwb_ro"}) {
     ORTUNG_NEED_DATA(data, name);
     const auto source = makeSource("scanlog:" + data.string());
     source->writeWorld(folder.path() / "w.toml");
@@ -258,7 +290,9 @@ TEST(ScanlogData, HitsTheWallsOfTheWrittenWorldWithItsBeams) {
       for (std::size_t k = 0; k < scan.size(); k += 7) {
         const double range = words::toMetres(scan[k]);
         if (range < 0.3 || range > 15) continue;
-        const double angle = laser.theta + (value("first_angle_deg") + value("angle_step_deg") * static_cast<double>(k)) * M_PI / 180;
+        const double angle = laser.theta + (value("first_angle_deg") +
+                                            value("angle_step_deg") * static_cast<double>(k)) *
+                                               M_PI / 180;
         bool hit = false;
         for (int dx = -2; dx <= 2; ++dx) {
           for (int dy = -2; dy <= 2; ++dy) {

@@ -1,7 +1,8 @@
-/// Worlds and robot files that the sources write fit their readings: the simulator and the container
-/// read them, and the robot was where they say that it can be.
+/// Worlds and robot files that the sources write fit their readings: the simulator and the
+/// container read them, and the robot was where they say that it can be.
 
-#include <fstream>
+#include <cctype>
+#include <ostream>
 
 #include "LogTesting.hpp"
 #include "ortung/config/RobotFile.hpp"
@@ -20,6 +21,19 @@ struct Case {
   const char* options;
   double standable;  ///< share of the reference that must be where the robot fits
 };
+
+void PrintTo(const Case& log, std::ostream* out) {
+  *out << log.kind << ":" << log.path << log.options;
+}
+
+/// "mrclam_utias_mrclam_ds6"
+std::string nameOf(const ::testing::TestParamInfo<Case>& info) {
+  std::string name = std::string(info.param.kind) + "_" + info.param.path;
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  }
+  return name;
+}
 
 /// One log of the shared data.
 class WrittenWorlds : public ::testing::TestWithParam<Case> {};
@@ -84,11 +98,13 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"scanlog", "mrpt_sena_telecom", "", 1.0}, Case{"scanlog", "mrpt_uwb_ro", "", 1.0},
         Case{"carmen", "carmen/aces/aces-corrected.log.gz", "?map=map.yaml", 1.0},
         Case{"rawlog", "mrpt_uwb_ro/raw/uwb_ro-localization_demo.rawlog",
-             "?map=uwb_ro-localization_demo_map.gridmap.gz&gt=../ref.txt&beacons=../beacons.txt", 1.0},
+             "?map=uwb_ro-localization_demo_map.gridmap.gz&gt=../ref.txt&beacons=../beacons.txt",
+             1.0},
         Case{"mrclam", "utias_mrclam/ds1", "?robot=3", 1.0},
         Case{"mrclam", "utias_mrclam/ds2", "?robot=3&features=each", 1.0},
         Case{"mrclam", "utias_mrclam/ds3", "?robot=3", 1.0},
-        Case{"mrclam", "utias_mrclam/ds6", "", 1.0}));
+        Case{"mrclam", "utias_mrclam/ds6", "", 1.0}),
+    nameOf);
 
 }  // namespace
 }  // namespace ortung

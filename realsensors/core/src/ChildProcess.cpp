@@ -53,7 +53,8 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   pid_t child = 0;
   const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) failWith(about, program + " does not start: " + std::generic_category().message(error));
+  if (error != 0)
+    failWith(about, program + " does not start: " + std::generic_category().message(error));
   return child;
 }
 
@@ -151,7 +152,8 @@ std::string runHelper(const std::filesystem::path& program,
   input.close();
   const int status = waitFor(child);
   if (tooMuch) {
-    failWith(about, "found more than " + std::to_string(maxBytes) + " bytes of readings, expected no more");
+    failWith(about, "found more than " + std::to_string(maxBytes) +
+                        " bytes of readings, expected no more");
   }
   check(status, program.string(), bytes, about);
   return bytes;

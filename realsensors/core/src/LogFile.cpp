@@ -111,7 +111,8 @@ struct LogFile::Stream {
 LogFile::LogFile(const std::filesystem::path& path, std::uint64_t maxBytes) {
   const auto found = findLogFile(path);
   if (!found) {
-    throw std::runtime_error(path.string() + ": found no such file, nor one with .xz or .gz behind"
+    throw std::runtime_error(path.string() +
+                             ": found no such file, nor one with .xz or .gz behind"
                              " its name, expected one of them");
   }
   path_ = *found;
@@ -160,9 +161,9 @@ std::string_view LogFile::text(std::size_t field) const {
 double LogFile::number(std::size_t field, const char* what, const Range& range) const {
   const auto value = field < fields_.size() ? parseNumber(fields_[field]) : std::nullopt;
   if (!value || *value < range.low || *value > range.high) {
-    const std::string found = field < fields_.size()
-                                  ? inQuotes(fields_[field]) + " in field " + std::to_string(field + 1)
-                                  : std::to_string(fields_.size()) + " fields";
+    const std::string found =
+        field < fields_.size() ? inQuotes(fields_[field]) + " in field " + std::to_string(field + 1)
+                               : std::to_string(fields_.size()) + " fields";
     fail(found, what + (", a number" + rangeText(range)));
   }
   return *value;
@@ -196,8 +197,7 @@ void LogFile::needFields(std::size_t count, const char* what) const {
 std::string LogFile::place() const { return path_.string() + ":" + std::to_string(lineNumber_); }
 
 void LogFile::fail(const std::string& found, const std::string& expected) const {
-  throw std::runtime_error(place() + ": found " + found +
-                           ", expected " + expected +
+  throw std::runtime_error(place() + ": found " + found + ", expected " + expected +
                            (torn_ ? " (the file ends within this line)" : ""));
 }
 

@@ -56,8 +56,8 @@ std::optional<double> optionNumber(const Parameters& options, const std::string&
   const std::string text = options.text(key);
   const auto value = parseNumber(text);
   if (!value || *value < range.low || *value > range.high) {
-    options.fail(key, "found " + inQuotes(text) + ", expected a number in [" + tomlNumber(range.low) +
-                          ", " + tomlNumber(range.high) + "]");
+    options.fail(key, "found " + inQuotes(text) + ", expected a number in [" +
+                          tomlNumber(range.low) + ", " + tomlNumber(range.high) + "]");
   }
   return value;
 }

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <fstream>
 #include <sstream>
-#include <string>
 #include <stdexcept>
+#include <string>
 
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
@@ -102,9 +102,9 @@ std::string landmarksToml(const std::filesystem::path& path, const std::string& 
   const Range metres{-kMaxLogMetres, kMaxLogMetres};
   while (file.nextRecord()) {
     if (file.size() < 3) file.needFields(3, "identity, x, y [m]");
-    text += "\n[[landmark]]\nkind = " + tomlText(kind) + "\nidentity = " +
-            std::to_string(file.integer(0, "an identity", {0, 1e6})) + "\nposition_m = [" +
-            tomlNumber(file.number(1, "x [m]", metres)) + ", " +
+    text += "\n[[landmark]]\nkind = " + tomlText(kind) +
+            "\nidentity = " + std::to_string(file.integer(0, "an identity", {0, 1e6})) +
+            "\nposition_m = [" + tomlNumber(file.number(1, "x [m]", metres)) + ", " +
             tomlNumber(file.number(2, "y [m]", metres));
     if (file.size() > 3) text += ", " + tomlNumber(file.number(3, "z [m]", metres));
     text += "]\n";

@@ -10,7 +10,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kDefaultPeriod = 1.0;    // [s] between scans whose stamps are lost
+constexpr double kDefaultPeriod = 1.0;  // [s] between scans whose stamps are lost
 
 }  // namespace
 
@@ -59,7 +59,8 @@ void ScanLogSource::setInLineOrder(const std::string& where) {
                              " scans, expected one a scan, since the stamps of the scans are not"
                              " used (they stand still, or the option period_s is set)");
   };
-  if (!truth_.empty() && truth_.size() != scanStamps_.size()) wrong("reference poses", truth_.size());
+  if (!truth_.empty() && truth_.size() != scanStamps_.size())
+    wrong("reference poses", truth_.size());
   if (!scanOdometry_.empty() && scanOdometry_.size() != scanStamps_.size()) {
     wrong("poses of odometry", scanOdometry_.size());
   }
@@ -74,7 +75,8 @@ void ScanLogSource::setInLineOrder(const std::string& where) {
 }
 
 void ScanLogSource::finishLog(const std::string& where) {
-  if (scanStamps_.empty()) throw std::runtime_error(where + ": found no scan, expected at least one");
+  if (scanStamps_.empty())
+    throw std::runtime_error(where + ": found no scan, expected at least one");
   if (period_ || standing_ * 10 > scanStamps_.size()) setInLineOrder(where);
   const auto odometryId = addFeature({"odometry", "odometry", "pose"});
   const auto scanId = addFeature({"laser", "LRF", "scan"});

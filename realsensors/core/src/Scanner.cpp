@@ -35,7 +35,8 @@ Scanner ScannerOptions::apply(Scanner scanner, const std::string& where) const {
                              " beams, expected 1 to " + std::to_string(kMaxBeams));
   }
   const double sweep = scanner.angleStep * scanner.beams;
-  if (!(scanner.angleStep > 0) || !(sweep < kTurn + 1e-3) || !(std::abs(scanner.firstAngle) <= kTurn)) {
+  if (!(scanner.angleStep > 0) || !(sweep < kTurn + 1e-3) ||
+      !(std::abs(scanner.firstAngle) <= kTurn)) {
     throw std::runtime_error(where + ": found " + std::to_string(scanner.beams) +
                              " beams that begin at " + tomlNumber(scanner.firstAngle) + " rad, " +
                              tomlNumber(scanner.angleStep) +
@@ -64,19 +65,21 @@ std::string robotHead(const std::string& path) {
   if (!file.has_filename()) file = file.parent_path();
   const std::string name = file.stem().string();
   return "[robot]\nname = " + tomlText(name.empty() ? "robot" : name) +
-         "\nradius_m = 0.15  # small: what was seen of people is in maps made of scans, too\n\n[[sensor]]\nplugin = \"odometry\"\n";
+         "\nradius_m = 0.15  # small: what was seen of people is in maps made of scans, "
+         "too\n\n[[sensor]]\nplugin = \"odometry\"\n";
 }
 
 std::string scannerToml(const Scanner& scanner, double period) {
   const double step = std::min(degrees(scanner.angleStep), 360.0 / scanner.beams);
   return "\n[[sensor]]\nplugin = \"lrf\"\nmodel = \"laser\"\ntype = \"LRF\"\nfeature = \"scan\"\n"
-         "pose = { x_m = " + tomlNumber(scanner.mount.x) + ", y_m = " +
-         tomlNumber(scanner.mount.y) + ", theta_deg = " +
-         tomlNumber(degrees(scanner.mount.theta)) + " }\nbeams = " +
-         std::to_string(scanner.beams) + "\nfirst_angle_deg = " +
-         tomlNumber(degrees(scanner.firstAngle)) + "\nangle_step_deg = " +
-         tomlNumber(step) + "\nmax_range_m = " +
-         tomlNumber(*scanner.maxRange) + "\nperiod_s = " + tomlNumber(period) + "\n";
+         "pose = { x_m = " +
+         tomlNumber(scanner.mount.x) + ", y_m = " + tomlNumber(scanner.mount.y) +
+         ", theta_deg = " + tomlNumber(degrees(scanner.mount.theta)) +
+         " }\nbeams = " + std::to_string(scanner.beams) +
+         "\nfirst_angle_deg = " + tomlNumber(degrees(scanner.firstAngle)) +
+         "\nangle_step_deg = " + tomlNumber(step) +
+         "\nmax_range_m = " + tomlNumber(*scanner.maxRange) + "\nperiod_s = " + tomlNumber(period) +
+         "\n";
 }
 
 }  // namespace ortung

@@ -20,7 +20,7 @@ ORTUNG_API std::filesystem::path findHelper(const std::string& name);
 ///   signal, or ends with a status other than 0; then with the text of its last line if that begins
 ///   with "# error "
 ORTUNG_API std::string runHelper(const std::filesystem::path& program,
-                                 const std::vector<std::string>& arguments, const std::string& about,
-                                 std::uint64_t maxBytes);
+                                 const std::vector<std::string>& arguments,
+                                 const std::string& about, std::uint64_t maxBytes);
 
 }  // namespace ortung

@@ -16,10 +16,10 @@
 
 namespace ortung {
 
-inline constexpr std::size_t kMaxLogLine = 1u << 20;        ///< bytes of one line
-inline constexpr std::uint64_t kMaxLogBytes = 1ull << 31;   ///< of a file, decompressed
-inline constexpr double kMaxLogSeconds = 1e10;              ///< of a time stamp, either sign
-inline constexpr double kMaxLogMetres = 1e6;                ///< of a coordinate, either sign
+inline constexpr std::size_t kMaxLogLine = 1u << 20;       ///< bytes of one line
+inline constexpr std::uint64_t kMaxLogBytes = 1ull << 31;  ///< of a file, decompressed
+inline constexpr double kMaxLogSeconds = 1e10;             ///< of a time stamp, either sign
+inline constexpr double kMaxLogMetres = 1e6;               ///< of a coordinate, either sign
 
 /// The file itself, or the same name with .xz or .gz behind it; nothing if there is none of them.
 ORTUNG_API std::optional<std::filesystem::path> findLogFile(const std::filesystem::path& path);

@@ -67,7 +67,8 @@ class ORTUNG_API PoseOdometry {
 /// @param v [m/s] @param w [rad/s] @param seconds [s]
 ORTUNG_API Pose2 alongArc(const Pose2& pose, double v, double w, double seconds);
 
-/// "1.5", as short as it reads back the same; always with a point, so that TOML takes it for a float.
+/// "1.5", as short as it reads back the same; always with a point, so that TOML takes it for a
+/// float.
 ORTUNG_API std::string tomlNumber(double value);
 /// A TOML string with everything escaped that must be.
 ORTUNG_API std::string tomlText(const std::string& text);

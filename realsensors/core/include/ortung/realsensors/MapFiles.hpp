@@ -16,8 +16,8 @@ namespace ortung {
 ORTUNG_API void writeGridWorld(const std::filesystem::path& world, const std::filesystem::path& map,
                                const std::string& more = "");
 
-/// [[landmark]] tables of a world for the landmarks of a text file with lines "identity x y [z] ..."
-/// [m]. @param kind e.g. "beacon"
+/// [[landmark]] tables of a world for the landmarks of a text file with lines "identity x y [z]
+/// ..." [m]. @param kind e.g. "beacon"
 /// @throws std::runtime_error
 ORTUNG_API std::string landmarksToml(const std::filesystem::path& file, const std::string& kind);
 

@@ -17,8 +17,8 @@ namespace ortung {
 /// Features: odometry/odometry/pose, laser/LRF/scan, reference/groundTruth/pose.
 ///
 /// Options: those of ScannerOptions; jitter_s: how far stamps may fall back (default 1); period_s:
-/// ignore the stamps of scans and set them this far apart, in the order of lines. Scans whose stamps
-/// stand still are set in the order of lines anyway, one second apart.
+/// ignore the stamps of scans and set them this far apart, in the order of lines. Scans whose
+/// stamps stand still are set in the order of lines anyway, one second apart.
 class ORTUNG_API ScanLogSource : public LogSource {
  public:
   ~ScanLogSource() override;

@@ -13,10 +13,10 @@ namespace ortung {
 
 /// Where a laser scanner sits and where its beams go. Angles counter-clockwise.
 struct Scanner {
-  Pose2 mount;              ///< in the robot frame
-  int beams = 0;            ///< 1 to 8192
-  double firstAngle = 0.0;  ///< of beam 0 in the sensor's frame [rad]
-  double angleStep = 0.0;   ///< [rad], positive; beams * angleStep <= 2 pi
+  Pose2 mount;                     ///< in the robot frame
+  int beams = 0;                   ///< 1 to 8192
+  double firstAngle = 0.0;         ///< of beam 0 in the sensor's frame [rad]
+  double angleStep = 0.0;          ///< [rad], positive; beams * angleStep <= 2 pi
   std::optional<double> maxRange;  ///< from which on nothing was seen, if it is known [m]
 };
 
