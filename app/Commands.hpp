@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// One struct of arguments and one function a subcommand. The functions print results to stdout
+/// and throw what went wrong; main() turns that into a message and an exit code.
+namespace ortung::app {
+
+struct LearnArguments {
+  std::filesystem::path world;
+  std::filesystem::path robot;
+  std::filesystem::path out;
+  double cell = 0.1;            ///< [m]
+  double headingStepDeg = 2.0;  ///< [degrees]
+  bool progress = false;
+};
+int runLearn(const LearnArguments& arguments);
+
+/// What eval and localize have in common.
+struct LocalizationArguments {
+  std::string source;            ///< "KIND:PATH?key=value"
+  std::filesystem::path robot;
+  std::filesystem::path tables;
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> particles;
+  std::optional<unsigned> threads;
+  std::string start = "global";  ///< or "truth" or "x,y,theta_deg"
+  std::string startSigma = "0.3,10";
+  std::string motion;            ///< "turn_per_turn,turn_per_m,way_per_m,way_per_turn" or ""
+  bool anyWorld = false;
+  bool progress = false;
+};
+
+struct EvalArguments {
+  LocalizationArguments localization;
+  std::filesystem::path json;    ///< "" for none, as the next two
+  std::filesystem::path report;
+  std::filesystem::path record;
+  std::string convergedWithin = "0.5,15";
+  std::string commandLine;       ///< for the report
+};
+int runEval(const EvalArguments& arguments);
+
+struct LocalizeArguments {
+  LocalizationArguments localization;
+  std::filesystem::path out;     ///< "": stdout
+};
+int runLocalize(const LocalizeArguments& arguments);
+
+struct ImportArguments {
+  std::string kind;
+  std::string source;
+  std::filesystem::path out;
+  std::filesystem::path world;      ///< "" for none, as the next
+  std::filesystem::path robotFile;
+  std::vector<std::string> options; ///< "key=value"
+  std::filesystem::path withRobot;  ///< robot file for sources that need one; "" for none
+  bool force = false;
+  bool progress = false;
+};
+int runImport(const ImportArguments& arguments);
+
+struct ShowArguments {
+  std::filesystem::path tables;
+  std::filesystem::path robot;
+  std::string feature;
+  std::filesystem::path out;
+  std::filesystem::path record;     ///< "" for none
+  std::string source;               ///< "" for none
+  double at = 0.0;                  ///< of the reading [s] after the first one
+  std::optional<double> headingDeg; ///< [degrees]
+  std::size_t beam = 0;
+  bool logarithmic = false;
+  bool progress = false;
+};
+int runShow(const ShowArguments& arguments);
+
+struct CheckArguments {
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path world;   ///< "" for none, as the next
+  std::filesystem::path robot;
+};
+int runCheck(const CheckArguments& arguments);
+
+int runPlugins();
+
+}  // namespace ortung::app
