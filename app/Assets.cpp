@@ -1,0 +1,41 @@
+#include "Assets.hpp"
+
+#include <cstddef>
+
+// Names that `ld -b binary` gives to the ends of a file.
+#define ORTUNG_ASSET(name)                     \
+  extern "C" const char _binary_##name##_start[]; \
+  extern "C" const char _binary_##name##_end[]
+ORTUNG_ASSET(dygraph_min_js);
+ORTUNG_ASSET(dygraph_min_css);
+ORTUNG_ASSET(synchronizer_js);
+ORTUNG_ASSET(report_css);
+ORTUNG_ASSET(report_js);
+#undef ORTUNG_ASSET
+
+namespace ortung::app::assets {
+namespace {
+
+std::string_view between(const char* begin, const char* end) {
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+}  // namespace
+
+std::string_view dygraphsScript() {
+  return between(_binary_dygraph_min_js_start, _binary_dygraph_min_js_end);
+}
+std::string_view dygraphsStyle() {
+  return between(_binary_dygraph_min_css_start, _binary_dygraph_min_css_end);
+}
+std::string_view synchronizerScript() {
+  return between(_binary_synchronizer_js_start, _binary_synchronizer_js_end);
+}
+std::string_view reportStyle() {
+  return between(_binary_report_css_start, _binary_report_css_end);
+}
+std::string_view reportScript() {
+  return between(_binary_report_js_start, _binary_report_js_end);
+}
+
+}  // namespace ortung::app::assets

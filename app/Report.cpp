@@ -1,0 +1,202 @@
+#include "Report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "Assets.hpp"
+#include "Numbers.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr std::size_t kMaxChartPoints = 8000;  ///< more than a screen has columns
+
+/// Appends a number as JSON.
+void append(std::string& json, double value) {
+  if (std::isfinite(value)) {
+    fmt::format_to(std::back_inserter(json), "{:.5g},", value);
+  } else {
+    json += "null,";
+  }
+}
+
+/// A JSON array of one number for each element.
+template <class Element, class Number>
+std::string jsonArray(const std::vector<Element>& elements, Number number) {
+  std::string json = "[";
+  for (const Element& element : elements) append(json, number(element));
+  if (json.back() == ',') json.pop_back();
+  return json + "]";
+}
+
+/// One element of every bucket, the one with the greatest value, so that no peak gets lost.
+template <class Element, class Value>
+std::vector<Element> thin(const std::vector<Element>& elements, Value value) {
+  const std::size_t bucket = elements.size() / kMaxChartPoints + 1;
+  std::vector<Element> kept;
+  for (std::size_t i = 0; i < elements.size(); i += bucket) {
+    const auto begin = elements.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = elements.begin() +
+                     static_cast<std::ptrdiff_t>(std::min(i + bucket, elements.size()));
+    kept.push_back(*std::max_element(begin, end, [&](const Element& a, const Element& b) {
+      return value(a) < value(b);
+    }));
+  }
+  return kept;
+}
+
+/// Standard deviations that the filter claims, at the time of each point.
+struct Sigmas {
+  std::vector<double> position;  ///< [m]
+  std::vector<double> heading;   ///< [rad]
+};
+
+Sigmas sigmasAt(const std::vector<EvaluationPoint>& points,
+                const std::vector<PoseEstimate>& estimates) {
+  Sigmas sigmas;
+  std::size_t at = 0;
+  for (const EvaluationPoint& point : points) {
+    while (at < estimates.size() && estimates[at].stamp < point.stamp) ++at;
+    const bool known = at < estimates.size() && estimates[at].stamp == point.stamp;
+    const auto& covariance = known ? estimates[at].covariance : std::array<double, 9>{NAN};
+    sigmas.position.push_back(std::sqrt(covariance[0] + covariance[4]));
+    sigmas.heading.push_back(known ? std::sqrt(covariance[8]) : NAN);
+  }
+  return sigmas;
+}
+
+/// What report.js draws.
+std::string chartData(const RunResult& run) {
+  const auto points = thin(run.figures.points, [](const auto& p) { return p.positionError; });
+  const auto estimates = thin(run.estimates, [](const auto& e) { return e.samples; });
+  const Sigmas sigmas = sigmasAt(points, run.estimates);
+  const auto time = [&](Timestamp stamp) { return toSeconds(stamp) - toSeconds(run.first); };
+  const auto same = [](double value) { return value; };
+  std::string json = "{";
+  const auto member = [&](const char* name, const std::string& array) {
+    json += fmt::format("\"{}\":{},", name, array);
+  };
+  using Point = EvaluationPoint;
+  member("time", jsonArray(points, [&](const Point& p) { return time(p.stamp); }));
+  member("position", jsonArray(points, [](const Point& p) { return p.positionError; }));
+  member("positionSigma", jsonArray(sigmas.position, same));
+  member("heading", jsonArray(points, [](const Point& p) { return degrees(p.headingError); }));
+  member("headingSigma", jsonArray(sigmas.heading, [](double s) { return degrees(s); }));
+  member("truthX", jsonArray(points, [](const Point& p) { return p.truth.x; }));
+  member("truthY", jsonArray(points, [](const Point& p) { return p.truth.y; }));
+  member("estimateX", jsonArray(points, [](const Point& p) { return p.estimate.x; }));
+  member("estimateY", jsonArray(points, [](const Point& p) { return p.estimate.y; }));
+  member("samplesTime", jsonArray(estimates, [&](const auto& e) { return time(e.stamp); }));
+  member("samples", jsonArray(estimates, [](const auto& e) { return double(e.samples); }));
+  const auto& converged = run.figures.convergedAfter;
+  return json + "\"converged\":" + (converged ? fmt::format("{:.3f}", *converged) : "null") + "}";
+}
+
+std::string card(const Figure& figure) {
+  return fmt::format(R"(<div class="card"><b>{}</b><span>{}</span></div>)",
+                     escapeHtml(figure.value), escapeHtml(figure.name));
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return fmt::format("<tr><th>{}</th><td>{}</td></tr>", escapeHtml(name), escapeHtml(value));
+}
+
+std::string legend(bool hasTruth) {
+  std::string html = R"(<p class="legend"><span class="key estimate"></span>estimate)";
+  if (hasTruth) {
+    html += R"( <span class="key truth"></span>ground truth <span class="key start"></span>start)"
+            R"( <span class="key end"></span>end)";
+  }
+  return html + R"( <span class="key tight"></span>too tight for the robot)"
+                R"( <span class="key solid"></span>solid</p>)";
+}
+
+std::string charts(bool hasTruth) {
+  std::string html = R"(<section class="charts">)";
+  if (hasTruth) {
+    html += R"(<h2>Position error <small>m, with the filter's own 1 sigma</small></h2><div id="position" class="chart"></div>)"
+            R"(<h2>Heading error <small>degrees, with the filter's own 1 sigma</small></h2><div id="heading" class="chart"></div>)";
+  } else {
+    html += R"(<p class="note">The source gave no ground truth, so there are no errors to show.</p>)";
+  }
+  return html + R"(<h2>Samples</h2><div id="samples" class="chart"></div>)"
+                R"(<p class="note">Time is in seconds since the first reading. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";
+}
+
+std::string settings(const RunResult& run) {
+  const FieldGrid& grid = run.tableInfo.region.grid;
+  return row("Source", run.figures.source) + row("Robot", run.robot) + row("Tables", run.tables) +
+         row("World", run.tableInfo.world + " (" + run.tableInfo.worldFingerprint + ")") +
+         row("Cells", fmt::format("{} x {} of {:g} m", grid.columns, grid.rows, grid.cell)) +
+         row("Most samples", fmt::format("{}", run.particles)) +
+         row("Seed", fmt::format("{}", run.seed));
+}
+
+std::string head(const std::string& title) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+      "img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">"
+      "<title>{}</title>\n<style>{}\n{}</style></head>\n",
+      escapeHtml(title), assets::dygraphsStyle(), assets::reportStyle());
+}
+
+std::string body(const RunResult& run) {
+  const bool hasTruth = !run.figures.points.empty();
+  const std::vector<Figure> figures = figuresOf(run);
+  std::string cards;
+  for (const char* name : {"Position error, RMS", "Position error, median", "Heading error, RMS",
+                           "Converged after", "Time an update, median"}) {
+    for (const Figure& figure : figures) {
+      if (figure.name == name) cards += card(figure);
+    }
+  }
+  std::string rows;
+  for (const Figure& figure : figures) rows += row(figure.name, figure.value);
+  return fmt::format(
+      "<body><header><h1>Localization run</h1><p>{}</p></header>\n"
+      "<section class=\"cards\">{}</section>\n"
+      "<section class=\"map\"><h2>Map and paths</h2>{}{}</section>\n{}\n"
+      "<section class=\"tables\"><div><h2>Figures</h2><table>{}</table>"
+      "<p class=\"note\">Errors are over the time after convergence.</p></div>"
+      "<div><h2>Run</h2><table>{}</table><h2>Command line</h2><pre>{}</pre></div></section>\n"
+      "<footer>Made by ortung. {}</footer>\n",
+      escapeHtml(run.figures.source), cards, mapSvg(run), legend(hasTruth), charts(hasTruth), rows,
+      settings(run), escapeHtml(run.commandLine), escapeHtml(assets::kDygraphsNotice));
+}
+
+}  // namespace
+
+std::string escapeHtml(std::string_view text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&': escaped += "&amp;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      case '"': escaped += "&quot;"; break;
+      case '\'': escaped += "&#39;"; break;
+      default: escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string toHtml(const RunResult& run) {
+  std::string html = head("ortung: " + run.figures.source) + body(run);
+  // Only numbers are in the data, so it can't end its element early.
+  html += "<script type=\"application/json\" id=\"data\">" + chartData(run) + "</script>\n";
+  for (const std::string_view script :
+       {assets::dygraphsScript(), assets::synchronizerScript(), assets::reportScript()}) {
+    html.append("<script>").append(script).append("</script>\n");
+  }
+  return html + "</body></html>\n";
+}
+
+}  // namespace ortung::app

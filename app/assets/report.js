@@ -1,0 +1,77 @@
+(function () {
+  'use strict';
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const style = getComputedStyle(document.documentElement);
+  const estimate = style.getPropertyValue('--estimate').trim();
+
+  function place(id, x, y) {
+    const mark = document.getElementById(id);
+    if (x === null || y === null) return;
+    mark.setAttribute('cx', x);
+    mark.setAttribute('cy', y);
+    mark.setAttribute('visibility', 'visible');
+  }
+
+  // Index of the last element of the sorted list that is not above the value.
+  function lastUpTo(list, value) {
+    let low = 0;
+    let high = list.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (list[middle] <= value) low = middle + 1; else high = middle;
+    }
+    return low - 1;
+  }
+
+  function showMoment(event, time) {
+    const i = lastUpTo(data.time, time + 1e-6);
+    if (i < 0) return;
+    place('truth-now', data.truthX[i], data.truthY[i]);
+    place('estimate-now', data.estimateX[i], data.estimateY[i]);
+  }
+
+  function hideMoment() {
+    for (const id of ['truth-now', 'estimate-now']) {
+      document.getElementById(id).setAttribute('visibility', 'hidden');
+    }
+  }
+
+  function shadeUntilConverged(canvas, area, graph) {
+    if (data.converged === null) return;
+    const right = Math.min(graph.toDomXCoord(data.converged), area.x + area.w);
+    if (right <= area.x) return;
+    canvas.fillStyle = 'rgba(102, 115, 134, 0.13)';
+    canvas.fillRect(area.x, area.y, right - area.x, area.h);
+  }
+
+  const all = data.time.concat(data.samplesTime);
+  const range = [Math.min(...data.time.slice(0, 1), ...data.samplesTime.slice(0, 1), 0),
+                 Math.max(...data.time.slice(-1), ...data.samplesTime.slice(-1), 0.001)];
+  const graphs = [];
+
+  function chart(id, rows, labels, options) {
+    const element = document.getElementById(id);
+    if (!element || all.length === 0) return;
+    graphs.push(new Dygraph(element, rows, Object.assign({
+      labels: labels, dateWindow: range, includeZero: true, strokeWidth: 1.5, axisLineColor: '#b8c1cc',
+      gridLineColor: '#e8ecf0', gridLineWidth: 1, legend: 'follow', highlightCircleSize: 3,
+      underlayCallback: shadeUntilConverged, highlightCallback: showMoment,
+      unhighlightCallback: hideMoment,
+      axes: { x: { valueFormatter: function (t) { return t.toFixed(2) + ' s'; } } }
+    }, options)));
+  }
+
+  function errorChart(id, values, sigmas) {
+    const rows = data.time.map(function (t, i) { return [t, sigmas[i], values[i]]; });
+    chart(id, rows, ['time', '1 sigma', 'error'], {
+      colors: ['#9aa6b4', estimate],
+      series: { '1 sigma': { fillGraph: true, strokeWidth: 0.5 } }
+    });
+  }
+
+  errorChart('position', data.position, data.positionSigma);
+  errorChart('heading', data.heading, data.headingSigma);
+  chart('samples', data.samplesTime.map(function (t, i) { return [t, data.samples[i]]; }),
+        ['time', 'samples'], { colors: ['#3f7d58'], fillGraph: true, stepPlot: true });
+  if (graphs.length > 1) Dygraph.synchronize(graphs, { range: false });
+})();
