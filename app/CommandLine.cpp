@@ -1,0 +1,244 @@
+#include "CommandLine.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "Commands.hpp"
+#include "Console.hpp"
+
+// The only file that knows CLI11, which takes long to compile.
+namespace ortung::app {
+namespace {
+
+/// A finite number within bounds; CLI11's own Range lets NaN pass.
+CLI::Validator within(double low, double high) {
+  const std::string what = fmt::format("a number from {:g} to {:g}", low, high);
+  return CLI::Validator(
+      [low, high, what](std::string& text) -> std::string {
+        double number = 0.0;
+        const char* end = text.data() + text.size();
+        const auto [behind, error] = std::from_chars(text.data(), end, number);
+        const bool fits = error == std::errc() && behind == end && number >= low && number <= high;
+        return fits ? "" : fmt::format("is '{}', expected {}", text, what);
+      },
+      "");
+}
+
+/// One subcommand: declares its options for @p arguments and returns what runs it.
+template <class Arguments>
+using Runner = int (*)(const Arguments&);
+
+class Builder {
+ public:
+  explicit Builder(ParsedCommand& parsed) : parsed_(parsed) {}
+
+  template <class Arguments>
+  std::shared_ptr<Arguments> command(CLI::App& app, const char* name, const char* description,
+                                     const char* example, Runner<Arguments> run) {
+    auto arguments = std::make_shared<Arguments>();
+    current_ = app.add_subcommand(name, description);
+    current_->footer(std::string("Example:\n  ") + example);
+    current_->callback([parsed = &parsed_, arguments, name, run] {
+      parsed->name = name;
+      parsed->run = [arguments, run] { return run(*arguments); };
+    });
+    return arguments;
+  }
+  template <class Value>
+  CLI::Option* option(const char* names, Value& value, const char* description) {
+    return current_->add_option(names, value, description);
+  }
+  void flag(const char* name, bool& value, const char* description) {
+    current_->add_flag(name, value, description);
+  }
+  CLI::App& app() { return *current_; }
+
+ private:
+  ParsedCommand& parsed_;
+  CLI::App* current_ = nullptr;
+};
+
+constexpr const char* kProgress = "Draw a progress bar even if stderr is no terminal";
+constexpr const char* kSource =
+    "KIND:PATH?key=value, e.g. record:run.rec; `ortung plugins` lists the kinds";
+
+void addLearn(Builder& build, CLI::App& app) {
+  const auto a = build.command<LearnArguments>(
+      app, "learn", "Learn what a robot's sensors read all over a world",
+      "ortung learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml --out f2000.ortung",
+      runLearn);
+  build.option("--world", a->world, "World file (TOML)")->required();
+  build.option("--robot", a->robot, "Robot file (TOML)")->required();
+  build.option("--out", a->out, "Table file to write")->required();
+  build.option("--cell", a->cell, "Edge of a cell [m]")->check(within(0.01, 10.0))->capture_default_str();
+  build.option("--heading-step", a->headingStepDeg, "Resolution of directions [degrees]; divides a turn")
+      ->check(within(0.1, 90.0))->capture_default_str();
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addLocalization(Builder& build, LocalizationArguments& a) {
+  build.option("--source", a.source, kSource)->required();
+  build.option("--robot", a.robot, "Robot file (TOML)")->required();
+  build.option("--tables", a.tables, "Table file of `ortung learn`")->required();
+  build.option("--seed", a.seed, "Seed of all random numbers")->capture_default_str();
+  build.option("--particles", a.particles, "Most samples; default: the robot file's")
+      ->check(within(1, 1e7));
+  build.option("--threads", a.threads, "Threads; the result does not depend on it")
+      ->check(within(1, 256));
+  build.option("--start", a.start, "global, truth (the first ground truth) or x,y,theta_deg")
+      ->capture_default_str();
+  build.option("--start-sigma", a.startSigma, "Standard deviations m,deg of a known start")
+      ->capture_default_str();
+  build.option("--motion", a.motion,
+               "Odometry noise turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
+  build.flag("--any-world", a.anyWorld, "Go on although the source comes from another world than the tables");
+  build.flag("--progress", a.progress, kProgress);
+}
+
+void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
+  const auto a = build.command<EvalArguments>(
+      app, "eval", "Localize and compare with ground truth",
+      "ortung eval --source record:run.rec --robot robot.toml --tables hall.ortung --report run.html",
+      runEval);
+  a->commandLine = commandLine;
+  addLocalization(build, a->localization);
+  build.option("--json", a->json, "Write the figures as JSON");
+  build.option("--report", a->report, "Write a page with map, charts and figures");
+  build.option("--record", a->record, "Write all readings as a record");
+  build.option("--converged-within", a->convergedWithin, "Error m,deg below which the filter has converged")
+      ->capture_default_str();
+}
+
+void addLocalize(Builder& build, CLI::App& app) {
+  const auto a = build.command<LocalizeArguments>(
+      app, "localize", "Localize and write poses with covariance",
+      "ortung localize --source record:run.rec --robot robot.toml --tables hall.ortung --out poses.txt",
+      runLocalize);
+  addLocalization(build, a->localization);
+  build.option("--out", a->out, "File to write; default: stdout");
+}
+
+void addImport(Builder& build, CLI::App& app) {
+  const auto a = build.command<ImportArguments>(
+      app, "import", "Turn a foreign log into a record",
+      "ortung import mrclam data/ds6 --out ds6-3.rec --robot 3 --world ds6.toml --robot-file ds6-3.toml",
+      runImport);
+  build.option("kind", a->kind, "Kind of source; `ortung plugins` lists them")->required();
+  build.option("source", a->source, "File or folder to read")->required();
+  build.option("--out", a->out, "Record file to write")->required();
+  build.option("--world", a->world, "Also write the world file, and the maps that it names beside it");
+  build.option("--robot-file", a->robotFile, "Also write a robot file that fits");
+  build.option("--option", a->options, "key=value, an option of the source; may be given again")
+      ->expected(1)->take_all();
+  for (const char* key : {"robot", "laser_x"}) {
+    const bool isRobot = std::string_view(key) == "robot";
+    build.app().add_option_function<std::string>(
+        isRobot ? "--robot" : "--laser-x",
+        [a, key](const std::string& value) { a->options.push_back(fmt::format("{}={}", key, value)); },
+        isRobot ? "Number of the robot; short for --option robot=N"
+                : "Place of the laser on the robot's x axis [m]; short for --option laser_x=M");
+  }
+  build.option("--with-robot", a->withRobot, "Robot file to read, for sources that need one (sim)");
+  build.flag("--force", a->force, "Replace world and robot files that exist");
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addShow(Builder& build, CLI::App& app) {
+  const auto a = build.command<ShowArguments>(
+      app, "show", "Draw a feature's expectation, or the probability of a reading, over the field",
+      "ortung show hall.ortung --robot robot.toml --feature 'LMS200/LRF/*' --record run.rec --at 12.5 --out heat.png",
+      runShow);
+  build.option("tables", a->tables, "Table file of `ortung learn`")->required();
+  build.option("--robot", a->robot, "Robot file (TOML)")->required();
+  build.option("--feature", a->feature, "model/type/feature; * for any")->required();
+  build.option("--out", a->out, "Picture to write (PNG)")->required();
+  build.option("--record", a->record, "Record with the reading to weigh");
+  build.option("--source", a->source, "Or any source with the reading to weigh");
+  build.option("--at", a->at, "Time of the reading after the first one [s]")
+      ->check(within(0.0, 1e9))->capture_default_str();
+  build.option("--heading", a->headingDeg,
+               "Heading of the robot [degrees]; default: 0 without a reading, else the best of all")
+      ->check(within(-360.0, 360.0));
+  build.option("--beam", a->beam, "Which of the feature's values, from 0")->check(within(0, 8191))
+      ->capture_default_str();
+  build.flag("--log", a->logarithmic, "Grey even in the logarithm of the probability");
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addCheck(Builder& build, CLI::App& app) {
+  const auto a = build.command<CheckArguments>(
+      app, "check", "Say what worlds, robots, tables and records contain, and what is wrong with them",
+      "ortung check hall.ortung --world hall.toml --robot robot.toml", runCheck);
+  build.option("files", a->files, "Files; their contents say what they are")->required();
+  build.option("--world", a->world, "World that the tables must have been learned in");
+  build.option("--robot", a->robot, "Robot that the tables must have been learned for");
+}
+
+struct NoArguments {};
+
+void addPlugins(Builder& build, CLI::App& app) {
+  build.command<NoArguments>(app, "plugins",
+                             "List the plugins that were found; exit code 1 if one is broken",
+                             "ORTUNG_PLUGIN_PATH=~/my-plugins ortung plugins",
+                             [](const NoArguments&) { return runPlugins(); });
+}
+
+/// One line instead of CLI11's two.
+/// @param first the first word behind the program's name, or ""
+int printError(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
+  constexpr int kWrongUsage = 2;
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  std::string name = "ortung";
+  for (const CLI::App* sub : app.get_subcommands()) name += " " + sub->get_name();
+  setCommandName(name);
+  const bool unknown = app.get_subcommands().empty() && !first.empty() && first[0] != '-';
+  const std::string what = unknown ? "there is no subcommand '" + first + "'" : error.what();
+  fail(what + "; see `" + name + " --help`");
+  return kWrongUsage;
+}
+
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%") == std::string::npos;
+  if (plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+ParsedCommand parseCommandLine(int argc, char** argv) {
+  ParsedCommand parsed;
+  std::string commandLine = "ortung";
+  for (int i = 1; i < argc; ++i) commandLine += " " + quoted(argv[i]);
+
+  CLI::App app("Ortung: learn what sensors see, and localize with it.", "ortung");
+  app.set_version_flag("--version", "ortung " ORTUNG_VERSION);
+  app.require_subcommand(1);
+  app.footer("Example:\n  ortung learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml "
+             "--out f2000.ortung");
+  Builder build(parsed);
+  addLearn(build, app);
+  addEval(build, app, commandLine);
+  addLocalize(build, app);
+  addImport(build, app);
+  addShow(build, app);
+  addCheck(build, app);
+  addPlugins(build, app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    parsed.run = nullptr;
+    parsed.exitCode = printError(app, error, argc > 1 ? argv[1] : "");
+  }
+  return parsed;
+}
+
+}  // namespace ortung::app

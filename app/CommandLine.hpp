@@ -1,0 +1,17 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace ortung::app {
+
+/// What the command line asks for.
+struct ParsedCommand {
+  std::string name;           ///< of the subcommand
+  std::function<int()> run;   ///< empty: help or an error was printed, end with exitCode
+  int exitCode = 0;
+};
+
+ParsedCommand parseCommandLine(int argc, char** argv);
+
+}  // namespace ortung::app

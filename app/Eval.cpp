@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "Commands.hpp"
+#include "Console.hpp"
+#include "Localization.hpp"
+#include "Numbers.hpp"
+#include "OutputFile.hpp"
+#include "Progress.hpp"
+#include "Report.hpp"
+#include "RunResult.hpp"
+
+namespace ortung::app {
+namespace {
+
+Evaluation::Options readOptions(const EvalArguments& arguments) {
+  const std::vector<double> within =
+      parseNumbers(arguments.convergedWithin, "--converged-within", {"m", "deg"});
+  if (!(within[0] > 0.0 && within[1] > 0.0)) {
+    throw UsageError("--converged-within is '" + arguments.convergedWithin +
+                     "', expected numbers above 0");
+  }
+  Evaluation::Options options;
+  options.convergedMetres = within[0];
+  options.convergedRadians = radians(within[1]);
+  return options;
+}
+
+/// Before the work, not after it.
+void checkOutputs(const EvalArguments& arguments) {
+  for (const auto* file : {&arguments.json, &arguments.report, &arguments.record}) {
+    if (!file->empty()) checkOutput(*file);
+  }
+}
+
+/// Runs MCL over the whole source.
+RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& options,
+                   Localization& localization) {
+  Evaluation evaluation(options);
+  RunResult run;
+  bool any = false;
+  localization.onMoment([&](const Feeder& feeder) {
+    if (!any) run.first = feeder.stamp();
+    any = true;
+    evaluation.addTime(feeder.stamp());
+    if (feeder.truth()) evaluation.addTruth(feeder.stamp(), *feeder.truth());
+  });
+  Progress progress("localizing", arguments.localization.progress);
+  while (const std::optional<EvaluationStep> step = localization.next()) {
+    evaluation.addStep(*step);
+    run.estimates.push_back(step->estimate);
+    progress.update(localization.feeder().progress());
+  }
+  run.figures = evaluation.result(arguments.localization.source);
+  return run;
+}
+
+/// Says what keeps the figures from meaning anything.
+void warnOfGaps(const RunResult& run) {
+  if (run.figures.steps == 0) {
+    throw std::runtime_error(run.figures.source +
+                             ": gave no reading of any feature that the tables know, so there is "
+                             "nothing to localize with");
+  }
+  if (run.figures.comparedSteps > 0) return;
+  warn(run.figures.source + " gave no ground truth for any update (a feature of type "
+                            "groundTruth), so there are no errors; `ortung localize` gives poses");
+}
+
+}  // namespace
+
+int runEval(const EvalArguments& arguments) {
+  const Evaluation::Options options = readOptions(arguments);
+  checkOutputs(arguments);
+  Localization localization(arguments.localization);
+  std::optional<RecordWriter> record;
+  if (!arguments.record.empty()) {
+    record.emplace(arguments.record, localization.source().worldFingerprint());
+    localization.feeder().recordInto(*record);
+  }
+  RunResult run = evaluate(arguments, options, localization);
+  run.seed = localization.config().seed;
+  run.particles = localization.config().maxSamples;
+  run.robot = arguments.localization.robot.string();
+  run.tables = arguments.localization.tables.string();
+  run.tableInfo = localization.robot().tables;
+  run.commandLine = arguments.commandLine;
+  localization.feeder().warnOfUnknown();
+  warnOfGaps(run);
+  if (record) record->commit();
+  if (!arguments.json.empty()) writeFile(arguments.json, toJson(run));
+  if (!arguments.report.empty()) writeFile(arguments.report, toHtml(run));
+  fmt::print("{}", toText(run));
+  return 0;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,35 @@
+#include <exception>
+#include <new>
+
+#include "CommandLine.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+
+namespace {
+
+constexpr int kBadInput = 1;
+constexpr int kWrongUsage = 2;
+constexpr int kSignalled = 128;
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace ortung::app;
+  setCommandName("ortung");
+  try {
+    const ParsedCommand command = parseCommandLine(argc, argv);
+    if (!command.run) return command.exitCode;
+    setCommandName("ortung " + command.name);
+    catchInterrupts();
+    return command.run();
+  } catch (const UsageError& error) {
+    fail(error.what());
+    return kWrongUsage;
+  } catch (const std::bad_alloc&) {
+    fail("not enough memory");
+  } catch (const std::exception& error) {
+    // Work that was stopped by a signal may call that by many names.
+    fail(interruptSignal() != 0 ? Interrupted().what() : error.what());
+  }
+  return interruptSignal() != 0 ? kSignalled + interruptSignal() : kBadInput;
+}
