@@ -1,0 +1,44 @@
+#include <csignal>
+
+#include "Workspace.hpp"
+
+namespace ortung::test {
+namespace {
+
+using Learn = Workspace;
+
+TEST_F(Learn, SaysHowMuchItLearnedAndRepeatsItBitForBit) {
+  const std::vector<std::string> command = {"learn",   "--world", path("hall.toml"), "--robot",
+                                            path("robot.toml"), "--out",   path("hall.ortung")};
+  const Outcome outcome = ortung(command);
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  // 6 x 4 m in cells of 0.1 m.
+  EXPECT_NE(outcome.out.find("60 x 40 cells of 0.1 m"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("1 features of scout in hall"), std::string::npos) << outcome.out;
+  const std::string first = read("hall.ortung");
+  ASSERT_EQ(ortung(command).exitCode, 0);
+  EXPECT_EQ(read("hall.ortung"), first);
+}
+
+TEST_F(Learn, LeavesTheOldFileWholeWhenInterrupted) {
+  write("hall.ortung", "the old file");
+  Program program({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"), "--out",
+                   path("hall.ortung"), "--cell", "0.01", "--heading-step", "0.5", "--progress"});
+  ASSERT_TRUE(program.waitForError("learning ["));
+  program.signal(SIGINT);
+  const Outcome outcome = program.finish();
+  EXPECT_EQ(outcome.exitCode, 130) << outcome.err;
+  EXPECT_NE(outcome.err.find("ortung learn: interrupted"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(read("hall.ortung"), "the old file");
+  EXPECT_EQ(files(), (std::vector<std::string>{"hall.ortung", "hall.toml", "robot.toml"}));
+}
+
+TEST_F(Learn, RefusesAnOutputItCannotWriteBeforeItWorks) {
+  const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"),
+                                  "--out", path("none/hall.ortung")});
+  expectRefused(outcome, 1, "ortung learn: " + path("none/hall.ortung"), {"there is no folder"});
+}
+
+}  // namespace
+}  // namespace ortung::test

@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "Workspace.hpp"
+
+namespace ortung::test {
+namespace {
+
+/// eval and localize on a recorded run.
+class Localization : public Workspace {
+ protected:
+  Localization() {
+    learnTables();
+    recordRun();
+  }
+  Outcome run(const std::string& command, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {command,    "--source", "record:" + path("run.rec"),
+                                          "--robot",  path("robot.toml"), "--tables",
+                                          path("hall.ortung")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return ortung(arguments);
+  }
+};
+
+TEST_F(Localization, EvalTracksFromAKnownStartAndWritesAllItsFiles) {
+  const Outcome outcome = run("eval", {"--start", "truth", "--json", path("o.json"), "--report",
+                                       path("o.html"), "--record", path("o.rec")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(read("o.json"));
+  EXPECT_GT(json["steps"].get<int>(), 30);
+  EXPECT_NEAR(json["duration_s"].get<double>(), 20.0, 0.2);
+  EXPECT_LT(json["position_rmse_m"].get<double>(), 0.15);  // cells are 0.1 m, noise 0.05 m
+  EXPECT_LT(json["heading_rmse_deg"].get<double>(), 5.0);
+  EXPECT_NE(outcome.out.find("Position error, RMS"), std::string::npos);
+  EXPECT_TRUE(read("o.html").starts_with("<!DOCTYPE html>"));
+  EXPECT_EQ(read("o.rec"), read("run.rec"));
+}
+
+TEST_F(Localization, SameSeedGivesTheSamePosesWhateverTheThreads) {
+  const Outcome one = run("localize", {"--seed", "5", "--threads", "1"});
+  const Outcome two = run("localize", {"--seed", "5", "--threads", "2"});
+  ASSERT_EQ(one.exitCode, 0) << one.err;
+  EXPECT_EQ(one.out, two.out);
+  EXPECT_NE(one.out, run("localize", {"--seed", "6"}).out);
+}
+
+TEST_F(Localization, LocalizeWritesTimedPosesWithCovariance) {
+  const Outcome outcome = run("localize", {"--out", path("poses.txt")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  std::istringstream lines(read("poses.txt"));
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_TRUE(line.starts_with("# stamp_us x_m y_m theta_rad")) << line;
+  long long last = -1;
+  std::size_t count = 0;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    long long stamp = 0;
+    double number = 0.0;
+    std::size_t numbers = 0;
+    words >> stamp;
+    EXPECT_GT(stamp, last);
+    last = stamp;
+    while (words >> number) ++numbers;
+    EXPECT_EQ(numbers, 11u) << line;  // pose, six of the covariance, share, samples
+    ++count;
+  }
+  EXPECT_GT(count, 30u);
+}
+
+TEST_F(Localization, LocalizeNeverLooksAtGroundTruth) {
+  const std::string with = run("localize").out;
+  std::istringstream lines(read("run.rec"));
+  std::string blind;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("/groundTruth/") == std::string::npos) blind += line + "\n";
+  }
+  write("run.rec", blind);
+  EXPECT_EQ(run("localize").out, with);
+}
+
+TEST_F(Localization, EvalWithoutGroundTruthSaysSoAndWritesNull) {
+  std::istringstream lines(read("run.rec"));
+  std::string blind;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("/groundTruth/") == std::string::npos) blind += line + "\n";
+  }
+  write("run.rec", blind);
+  const Outcome outcome = run("eval", {"--json", path("o.json"), "--report", path("o.html")});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.err.find("no ground truth"), std::string::npos) << outcome.err;
+  const auto json = nlohmann::json::parse(read("o.json"));
+  EXPECT_TRUE(json["position_rmse_m"].is_null());
+  EXPECT_EQ(json["compared_steps"], 0);
+  expectRefused(run("eval", {"--start", "truth"}), 1, "ortung eval: record:", {"no ground truth"});
+}
+
+TEST_F(Localization, FeaturesTheRobotLacksAreNamedOnce) {
+  std::string text = read("run.rec");
+  const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+  const std::string stamp = last.substr(0, last.find(' '));
+  for (int i = 0; i < 3; ++i) text += stamp + " gps/GNSS/fix 1 7\n";
+  write("run.rec", text);
+  const Outcome outcome = run("localize", {"--out", path("poses.txt")});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.err.find("gps/GNSS/fix (3 readings)"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Localization, TornRecordIsRefusedAndOldResultsStay) {
+  write("o.json", "old");
+  std::string text = read("run.rec");
+  write("run.rec", text.substr(0, text.size() - 5));
+  expectRefused(run("eval", {"--json", path("o.json"), "--record", path("o.rec")}), 1,
+                "ortung eval: " + path("run.rec") + ":", {"torn"});
+  EXPECT_EQ(read("o.json"), "old");
+  EXPECT_FALSE(std::filesystem::exists(path("o.rec")));
+}
+
+TEST_F(Localization, ForeignLineIsRefusedWithItsNumber) {
+  std::string text = read("run.rec");
+  write("run.rec", text.insert(text.find('\n', 40) + 1, "FLASER 180 1.0 2.0\n"));
+  expectRefused(run("eval"), 1, "ortung eval: " + path("run.rec") + ":", {"FLASER"});
+}
+
+TEST_F(Localization, ReadingThatIsNoNumberIsRefused) {
+  std::string text = read("run.rec");
+  text.replace(text.rfind(' '), text.npos, " nan\n");
+  write("run.rec", text);
+  expectRefused(run("eval"), 1, "ortung eval: " + path("run.rec") + ":", {"'nan'"});
+}
+
+TEST_F(Localization, ReadingOfAnotherShapeIsRefusedWithTimeAndFeature) {
+  std::string text = read("run.rec");
+  const std::size_t scan = text.find("LMS200/LRF/180DegreeScan");
+  const std::size_t end = text.find('\n', scan);
+  write("run.rec", text.replace(scan, end - scan, "LMS200/LRF/180DegreeScan 2 1000 1000"));
+  expectRefused(run("eval"), 1, "ortung eval: record:", {" us: ", "LMS200/LRF/180DegreeScan", "60"});
+}
+
+TEST_F(Localization, TruncatedTablesAreRefused) {
+  std::string bytes = read("hall.ortung");
+  write("hall.ortung", bytes.substr(0, bytes.size() / 2));
+  expectRefused(run("eval"), 1, "ortung eval: " + path("hall.ortung"), {});
+  bytes[bytes.size() / 3] = static_cast<char>(bytes[bytes.size() / 3] ^ 1);
+  write("hall.ortung", bytes);
+  expectRefused(run("eval"), 1, "ortung eval: " + path("hall.ortung"), {});
+}
+
+TEST_F(Localization, TablesOfAnotherRobotAreRefusedWithBothSettings) {
+  replace("robot.toml", "fov_deg = 180", "fov_deg = 200");
+  expectRefused(run("eval"), 1, "ortung eval: " + path("hall.ortung"), {"LMS200/LRF/180DegreeScan"});
+  EXPECT_EQ(run("eval", {"--any-world"}).exitCode, 1);
+}
+
+TEST_F(Localization, TablesOfAnotherWorldAreRefusedUnlessAskedFor) {
+  replace("hall.toml", "center_m = [2.4, -1.0]", "center_m = [2.3, -1.0]");
+  learnTables();
+  expectRefused(run("eval"), 1, "ortung eval: record:" + path("run.rec"), {"was learned in the world", "--any-world"});
+  const Outcome outcome = run("eval", {"--any-world"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.err.find("warning"), std::string::npos);
+}
+
+TEST_F(Localization, SourcesWithUnknownKindOrOptionAreRefused) {
+  const auto with = [&](const std::string& source) {
+    return ortung({"eval", "--source", source, "--robot", path("robot.toml"), "--tables", path("hall.ortung")});
+  };
+  expectRefused(with(path("run.rec")), 2, "ortung eval: source", {"KIND:PATH"});
+  expectRefused(with("telepathy:x"), 1, "ortung eval: ", {"telepathy"});
+  expectRefused(with("record:" + path("run.rec") + "?speed=2"), 2, "ortung eval: record:", {"speed"});
+  expectRefused(with("sim:" + path("hall.toml") + "?sped=2"), 1, "ortung eval: sim:", {"sped"});
+}
+
+}  // namespace
+}  // namespace ortung::test

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace ortung::test {
+
+/// What a program left behind.
+struct Outcome {
+  int exitCode = -1;  ///< 128 + signal if one killed it
+  std::string out;
+  std::string err;
+};
+
+/// A running program whose output is read through pipes.
+class Program {
+ public:
+  /// @param environment "KEY=value" additions
+  explicit Program(const std::vector<std::string>& arguments,
+                   const std::vector<std::string>& environment = {});
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  /// Reads until stderr contains @p text; false if it ended before.
+  bool waitForError(const std::string& text);
+  void signal(int number) const;
+  Outcome finish();
+
+ private:
+  bool readSome();
+  pid_t process_ = -1;
+  int out_ = -1;
+  int err_ = -1;
+  Outcome outcome_;
+};
+
+/// Runs `ortung` to its end.
+Outcome ortung(const std::vector<std::string>& arguments,
+               const std::vector<std::string>& environment = {});
+
+}  // namespace ortung::test

@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include "Workspace.hpp"
+
+namespace ortung::test {
+namespace {
+
+class Show : public Workspace {
+ protected:
+  Show() { learnTables(); }
+  Outcome show(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"show", path("hall.ortung"), "--robot", path("robot.toml"),
+                                          "--out", path("heat.png")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return ortung(arguments);
+  }
+  bool isPng() const { return read("heat.png").starts_with("\x89PNG"); }
+};
+
+TEST_F(Show, DrawsAnExpectationAndPrintsItsLegend) {
+  const Outcome outcome = show({"--feature", "LMS200/LRF/*", "--beam", "30", "--heading", "90"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_TRUE(isPng());
+  EXPECT_NE(outcome.out.find("expectation of LMS200/LRF/180DegreeScan [30]"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(" m\n"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Show, DrawsWhereAReadingIsProbableWithTheTruePose) {
+  recordRun();
+  const Outcome outcome = show({"--feature", "*/LRF/*", "--record", path("run.rec"), "--at", "5"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_TRUE(isPng());
+  EXPECT_NE(outcome.out.find("true pose: "), std::string::npos) << outcome.out;
+}
+
+TEST_F(Show, RefusesWhatItCannotDraw) {
+  expectRefused(show({"--feature", "*/sonar/*"}), 1, "ortung show: " + path("robot.toml"),
+                {"*/sonar/*", "LMS200/LRF/180DegreeScan"});
+  expectRefused(show({"--feature", "LMS200/LRF"}), 2, "ortung show: --feature", {});
+  expectRefused(show({"--feature", "*/LRF/*", "--beam", "60"}), 1, "ortung show: ", {"--beam is 60", "60 values"});
+  recordRun();
+  expectRefused(show({"--feature", "*/LRF/*", "--record", path("run.rec"), "--at", "100"}), 1,
+                "ortung show: record:", {"ends after"});
+  EXPECT_FALSE(std::filesystem::exists(path("heat.png")));
+}
+
+}  // namespace
+}  // namespace ortung::test
