@@ -29,7 +29,8 @@ std::string drain(const std::filesystem::path& file, std::streambuf& stream, std
     if (n <= 0) return all;
     all.append(block.data(), static_cast<std::size_t>(n));
     if (all.size() > maxBytes)
-      refuse(file, "unpacks to more than " + std::to_string(maxBytes) + " bytes, which is not read");
+      refuse(file,
+             "unpacks to more than " + std::to_string(maxBytes) + " bytes, which is not read");
   }
 }
 
@@ -43,8 +44,8 @@ std::string readBounded(const std::filesystem::path& file, std::size_t maxBytes)
   const auto size = std::filesystem::file_size(file, error);
   if (error) refuse(file, error.message());
   if (size > maxBytes)
-    refuse(file, "has " + std::to_string(size) + " bytes, expected at most " +
-                     std::to_string(maxBytes));
+    refuse(file,
+           "has " + std::to_string(size) + " bytes, expected at most " + std::to_string(maxBytes));
   std::string bytes(static_cast<std::size_t>(size), '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));

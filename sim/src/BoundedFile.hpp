@@ -6,7 +6,8 @@
 
 namespace ortung {
 
-/// Reads a whole regular file. @throws MapError if it is missing, no file or larger than @p maxBytes
+/// Reads a whole regular file. @throws MapError if it is missing, no file or larger than @p
+/// maxBytes
 std::string readBounded(const std::filesystem::path& file, std::size_t maxBytes);
 
 /// The same, unpacking .gz and .xz; @p maxBytes holds before and after unpacking. @throws MapError

@@ -28,7 +28,10 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return number_; }
-  void set(int number) { close(); number_ = number; }
+  void set(int number) {
+    close();
+    number_ = number;
+  }
   void close() {
     if (number_ >= 0) ::close(number_);
     number_ = -1;
@@ -123,8 +126,9 @@ std::string waitFor(pid_t child, std::chrono::steady_clock::time_point deadline)
 
 }  // namespace
 
-ChildResult runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                     std::size_t maxOutput, std::chrono::milliseconds limit) {
+ChildResult runChild(const std::filesystem::path& program,
+                     const std::vector<std::string>& arguments, std::size_t maxOutput,
+                     std::chrono::milliseconds limit) {
   Pipe output;
   Pipe errors;
   ChildResult result;

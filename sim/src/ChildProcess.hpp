@@ -16,7 +16,8 @@ struct ChildResult {
 
 /// Runs a program without a shell and with nothing on its standard input, and waits for it.
 /// It is killed when it writes more than @p maxOutput or takes longer than @p limit.
-ChildResult runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                     std::size_t maxOutput, std::chrono::milliseconds limit);
+ChildResult runChild(const std::filesystem::path& program,
+                     const std::vector<std::string>& arguments, std::size_t maxOutput,
+                     std::chrono::milliseconds limit);
 
 }  // namespace ortung

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "RayCaster.hpp"
+#include "RoundGeometry.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr std::size_t kPacket = 16;
+constexpr unsigned kPacket = 16;
 
 struct Release {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -22,7 +23,7 @@ using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
 using Geometry = std::unique_ptr<RTCGeometryTy, Release>;
 
-/// What the filter below gets to know of a ray; Embree hands back the pointer to `base`.
+/// What the callbacks below get to know of a ray; Embree hands them the pointer to `base`.
 struct Context {
   RTCIntersectContext base;
   RobotNumber ignore;
@@ -36,52 +37,52 @@ Context makeContext(RobotNumber ignore) {
   return context;
 }
 
-// Takes back hits of the robot that the rays come from.
-void ignoreOwnBody(const RTCFilterFunctionNArguments* args) {
-  const auto* context = reinterpret_cast<const Context*>(args->context);
-  const auto* numbers = static_cast<const std::vector<RobotNumber>*>(args->geometryUserPtr);
+bool isIgnored(const RoundGeometry& round, unsigned body, const RTCIntersectContext* context) {
+  const RobotNumber robot = round.robot(body);
+  return robot != 0 && robot == reinterpret_cast<const Context*>(context)->ignore;
+}
+
+FloatRay rayOf(RTCRayN* ray, unsigned n, unsigned i) {
+  return {{RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i)},
+          {RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i)},
+          RTCRayN_tnear(ray, n, i),
+          RTCRayN_tfar(ray, n, i)};
+}
+
+void boundRound(const RTCBoundsFunctionArguments* args) {
+  const auto box = static_cast<const RoundGeometry*>(args->geometryUserPtr)->boundsOf(args->primID);
+  *args->bounds_o = {box[0][0], box[0][1], box[0][2], 0.0f, box[1][0], box[1][1], box[1][2], 0.0f};
+}
+
+void intersectRound(const RTCIntersectFunctionNArguments* args) {
+  const auto& round = *static_cast<const RoundGeometry*>(args->geometryUserPtr);
+  if (isIgnored(round, args->primID, args->context)) return;
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
-    if ((*numbers)[RTCHitN_primID(args->hit, args->N, i)] == context->ignore) args->valid[i] = 0;
+    const auto t = round.hit(args->primID, rayOf(ray, args->N, i));
+    if (!t) continue;
+    RTCRayN_tfar(ray, args->N, i) = *t;
+    RTCHitN_geomID(hit, args->N, i) = args->geomID;
+    RTCHitN_primID(hit, args->N, i) = args->primID;
   }
 }
 
-void* buffer(const Geometry& geometry, RTCBufferType type, RTCFormat format, std::size_t bytes,
-             std::size_t count) {
-  void* memory = rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, bytes, count);
+void occludeRound(const RTCOccludedFunctionNArguments* args) {
+  const auto& round = *static_cast<const RoundGeometry*>(args->geometryUserPtr);
+  if (isIgnored(round, args->primID, args->context)) return;
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] != 0 && round.hit(args->primID, rayOf(args->ray, args->N, i)))
+      RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
+}
+
+template <class Items>
+void fill(const Geometry& geometry, RTCBufferType type, RTCFormat format, const Items& items) {
+  void* memory =
+      rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, sizeof(items[0]), items.size());
   if (memory == nullptr) throw std::runtime_error("Embree: no memory for the world's geometry");
-  return memory;
-}
-
-Geometry makeTriangles(RTCDevice device, const Mesh& mesh) {
-  Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertices = static_cast<std::array<float, 3>*>(buffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
-  std::copy(mesh.vertices.begin(), mesh.vertices.end(), vertices);
-  auto* indices = static_cast<std::array<std::uint32_t, 3>*>(
-      buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-             mesh.triangles.size()));
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(), indices);
-  return geometry;
-}
-
-// A cylinder is a cone curve of one segment, which Embree meets exactly, not as a polygon.
-Geometry makeCylinders(RTCDevice device, const Point2& middle, const std::vector<Cylinder>& cylinders) {
-  Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE));
-  auto* ends = static_cast<std::array<float, 4>*>(buffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 2 * cylinders.size()));
-  auto* segments = static_cast<std::uint32_t*>(buffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(std::uint32_t), cylinders.size()));
-  for (std::size_t i = 0; i < cylinders.size(); ++i) {
-    const Cylinder& c = cylinders[i];
-    const auto x = static_cast<float>(c.centre.x - middle.x);
-    const auto y = static_cast<float>(c.centre.y - middle.y);
-    const auto radius = static_cast<float>(c.radius);
-    ends[2 * i] = {x, y, static_cast<float>(c.zLow), radius};
-    ends[2 * i + 1] = {x, y, static_cast<float>(c.zHigh), radius};
-    segments[i] = static_cast<std::uint32_t>(2 * i);
-  }
-  return geometry;
+  std::copy(items.begin(), items.end(), static_cast<typename Items::value_type*>(memory));
 }
 
 void attach(RTCScene scene, const Geometry& geometry) {
@@ -89,14 +90,51 @@ void attach(RTCScene scene, const Geometry& geometry) {
   rtcAttachGeometry(scene, geometry.get());
 }
 
+void attachTriangles(RTCDevice device, RTCScene scene, const Triangles& triangles) {
+  if (triangles.corners.empty()) return;
+  const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  fill(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, triangles.vertices);
+  fill(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.corners);
+  attach(scene, geometry);
+}
+
+void attachRound(RTCDevice device, RTCScene scene, RoundGeometry& round) {
+  if (round.size() == 0) return;
+  const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(round.size()));
+  rtcSetGeometryUserData(geometry.get(), &round);
+  rtcSetGeometryBoundsFunction(geometry.get(), boundRound, nullptr);
+  rtcSetGeometryIntersectFunction(geometry.get(), intersectRound);
+  rtcSetGeometryOccludedFunction(geometry.get(), occludeRound);
+  attach(scene, geometry);
+}
+
+/// Cosines and sines of 0, step, 2 step, ... by turning on: the error stays at some 1e-15.
+struct Turns {
+  std::array<double, kPacket> cosine;
+  std::array<double, kPacket> sine;
+  explicit Turns(double step) {
+    const double c = std::cos(step);
+    const double s = std::sin(step);
+    cosine[0] = 1.0;
+    sine[0] = 0.0;
+    for (unsigned i = 1; i < kPacket; ++i) {
+      cosine[i] = cosine[i - 1] * c - sine[i - 1] * s;
+      sine[i] = sine[i - 1] * c + cosine[i - 1] * s;
+    }
+  }
+};
+
 }  // namespace
 
 struct RayCaster::Scenes {
   Device device;
   Point2 middle;
-  Scene walls;
-  Scene robots;                      ///< null while there are none
-  std::vector<RobotNumber> numbers;  ///< of the robots' cylinders
+  RoundGeometry round;
+  RoundGeometry robotBodies;
+  Scene upright;  ///< what level rays can meet
+  Scene caps;     ///< null if there are none
+  Scene robots;   ///< null if there are none
 
   Scene makeScene() const {
     Scene scene(rtcNewScene(device.get()));
@@ -109,9 +147,10 @@ struct RayCaster::Scenes {
     if (error != RTC_ERROR_NONE)
       throw std::runtime_error("Embree cannot build the world, error " + std::to_string(error));
   }
-  /// Whether there are robots that rays of @p ignore can hit.
-  bool hasOthers(RobotNumber ignore) const {
-    return robots && !(numbers.size() == 1 && numbers[0] == ignore);
+  /// The scenes that matter to a ray.
+  std::array<RTCScene, 3> scenesFor(bool isLevel, RobotNumber ignore) const {
+    const bool alone = robotBodies.size() == 1 && robotBodies.robot(0) == ignore;
+    return {upright.get(), isLevel ? nullptr : caps.get(), alone ? nullptr : robots.get()};
   }
 };
 
@@ -120,76 +159,62 @@ RayCaster::RayCaster(const Mesh& mesh) : scenes_(std::make_unique<Scenes>()) {
   scenes_->device.reset(rtcNewDevice("threads=1"));
   if (!scenes_->device) throw std::runtime_error("Embree cannot be started");
   scenes_->middle = mesh.middle;
-  scenes_->walls = scenes_->makeScene();
-  if (!mesh.triangles.empty())
-    attach(scenes_->walls.get(), makeTriangles(scenes_->device.get(), mesh));
-  if (!mesh.cylinders.empty())
-    attach(scenes_->walls.get(), makeCylinders(scenes_->device.get(), mesh.middle, mesh.cylinders));
-  scenes_->commit(scenes_->walls);
+  scenes_->round = RoundGeometry(mesh.round, mesh.middle);
+  scenes_->upright = scenes_->makeScene();
+  attachTriangles(scenes_->device.get(), scenes_->upright.get(), mesh.walls);
+  attachRound(scenes_->device.get(), scenes_->upright.get(), scenes_->round);
+  scenes_->commit(scenes_->upright);
+  if (mesh.caps.corners.empty()) return;
+  scenes_->caps = scenes_->makeScene();
+  attachTriangles(scenes_->device.get(), scenes_->caps.get(), mesh.caps);
+  scenes_->commit(scenes_->caps);
 }
 
 RayCaster::~RayCaster() = default;
 
-void RayCaster::setRobots(const std::vector<RobotBody>& robots) {
+void RayCaster::setRobots(const std::vector<RoundBody>& robots) {
   scenes_->robots.reset();
-  scenes_->numbers.clear();
+  scenes_->robotBodies = RoundGeometry(robots, scenes_->middle);
   if (robots.empty()) return;
-  std::vector<Cylinder> cylinders;
-  for (const RobotBody& robot : robots) {
-    cylinders.push_back(robot.cylinder);
-    scenes_->numbers.push_back(robot.number);
-  }
-  const Geometry geometry = makeCylinders(scenes_->device.get(), scenes_->middle, cylinders);
-  rtcSetGeometryUserData(geometry.get(), &scenes_->numbers);
-  rtcSetGeometryIntersectFilterFunction(geometry.get(), ignoreOwnBody);
-  rtcSetGeometryOccludedFilterFunction(geometry.get(), ignoreOwnBody);
   Scene scene = scenes_->makeScene();
-  attach(scene.get(), geometry);
+  attachRound(scenes_->device.get(), scene.get(), scenes_->robotBodies);
   scenes_->commit(scene);
   scenes_->robots = std::move(scene);
 }
 
 void RayCaster::castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const {
-  const auto x = static_cast<float>(fan.x - scenes_->middle.x);
-  const auto y = static_cast<float>(fan.y - scenes_->middle.y);
+  const auto scenes = scenes_->scenesFor(fan.elevation == 0.0, ignore);
   const double level = std::cos(fan.elevation);
-  const auto rise = static_cast<float>(std::sin(fan.elevation));
-  const bool withRobots = scenes_->hasOthers(ignore);
+  const Turns turns(fan.angleStep);  // the same within all packets
   Context context = makeContext(ignore);
-
-  // The angles within a packet are the same in all packets, so only its first ray needs sin and cos.
-  std::array<double, kPacket> cosines;
-  std::array<double, kPacket> sines;
-  for (std::size_t i = 0; i < kPacket; ++i) {
-    cosines[i] = level * std::cos(static_cast<double>(i) * fan.angleStep);
-    sines[i] = level * std::sin(static_cast<double>(i) * fan.angleStep);
-  }
   alignas(64) std::array<int, kPacket> valid;
   alignas(64) RTCRayHit16 packet;
+  for (unsigned i = 0; i < kPacket; ++i) {
+    packet.ray.org_x[i] = static_cast<float>(fan.x - scenes_->middle.x);
+    packet.ray.org_y[i] = static_cast<float>(fan.y - scenes_->middle.y);
+    packet.ray.org_z[i] = static_cast<float>(fan.z);
+    packet.ray.dir_z[i] = static_cast<float>(std::sin(fan.elevation));
+    packet.ray.tnear[i] = 0.0f;
+    packet.ray.time[i] = 0.0f;
+    packet.ray.mask[i] = ~0u;
+    packet.ray.id[i] = 0;
+    packet.ray.flags[i] = 0;
+  }
   for (std::size_t first = 0; first < ranges.size(); first += kPacket) {
-    const std::size_t n = std::min(kPacket, ranges.size() - first);
+    const std::size_t n = std::min<std::size_t>(kPacket, ranges.size() - first);
     const double angle = fan.firstAngle + static_cast<double>(first) * fan.angleStep;
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    for (std::size_t i = 0; i < kPacket; ++i) {
+    const double c = level * std::cos(angle);
+    const double s = level * std::sin(angle);
+    for (unsigned i = 0; i < kPacket; ++i) {
       valid[i] = i < n ? -1 : 0;
-      packet.ray.org_x[i] = x;
-      packet.ray.org_y[i] = y;
-      packet.ray.org_z[i] = static_cast<float>(fan.z);
-      packet.ray.dir_x[i] = static_cast<float>(c * cosines[i] - s * sines[i]);
-      packet.ray.dir_y[i] = static_cast<float>(s * cosines[i] + c * sines[i]);
-      packet.ray.dir_z[i] = rise;
-      packet.ray.tnear[i] = 0.0f;
+      packet.ray.dir_x[i] = static_cast<float>(c * turns.cosine[i] - s * turns.sine[i]);
+      packet.ray.dir_y[i] = static_cast<float>(s * turns.cosine[i] + c * turns.sine[i]);
       packet.ray.tfar[i] = static_cast<float>(fan.maxRange);
-      packet.ray.time[i] = 0.0f;
-      packet.ray.mask[i] = ~0u;
-      packet.ray.id[i] = 0;
-      packet.ray.flags[i] = 0;
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect16(valid.data(), scenes_->walls.get(), &context.base, &packet);
-    if (withRobots) rtcIntersect16(valid.data(), scenes_->robots.get(), &context.base, &packet);
+    for (const RTCScene scene : scenes)
+      if (scene != nullptr) rtcIntersect16(valid.data(), scene, &context.base, &packet);
     std::copy_n(packet.ray.tfar, n, ranges.begin() + static_cast<std::ptrdiff_t>(first));
   }
 }
@@ -206,11 +231,11 @@ bool RayCaster::isBlocked(const std::array<double, 3>& from, const std::array<do
   ray.tfar = static_cast<float>(stop);
   ray.mask = ~0u;
   Context context = makeContext(ignore);
-  rtcOccluded1(scenes_->walls.get(), &context.base, &ray);
-  const auto met = [&] { return ray.tfar < 0.0f; };  // Embree says so by -infinity
-  if (!met() && scenes_->hasOthers(ignore))
-    rtcOccluded1(scenes_->robots.get(), &context.base, &ray);
-  return met();
+  for (const RTCScene scene : scenes_->scenesFor(direction[2] == 0.0, ignore)) {
+    if (scene != nullptr) rtcOccluded1(scene, &context.base, &ray);
+    if (ray.tfar < 0.0f) return true;  // Embree says so by -infinity
+  }
+  return false;
 }
 
 }  // namespace ortung

@@ -71,8 +71,13 @@ std::string describe(const GridBody& body) {
 }
 
 std::string describe(const Landmark& mark) {
-  return Line("landmark").add(mark.kind).add(std::to_string(mark.identity)).add(mark.x).add(mark.y)
-      .add(mark.z).text();
+  return Line("landmark")
+      .add(mark.kind)
+      .add(std::to_string(mark.identity))
+      .add(mark.x)
+      .add(mark.y)
+      .add(mark.z)
+      .text();
 }
 
 }  // namespace

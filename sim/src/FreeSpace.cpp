@@ -63,8 +63,9 @@ bool FreeSpace::touches(const Grid& grid, double x, double y, double radius) {
   const double column = std::floor((x - map.originX) / map.cell);
   const double row = std::floor((y - map.originY) / map.cell);
   if (column >= 0 && row >= 0 && column < map.columns && row < map.rows) {
-    const double between = map.cell * static_cast<double>(grid.toOccupied[map.index(
-                                          static_cast<int>(column), static_cast<int>(row))]);
+    const double between =
+        map.cell * static_cast<double>(
+                       grid.toOccupied[map.index(static_cast<int>(column), static_cast<int>(row))]);
     // From centre to centre; point and surface are each within half a diagonal of theirs.
     if (between - map.cell * std::sqrt(2.0) > radius + kHair) return false;
     if (between + map.cell * std::sqrt(0.5) < radius) return true;
@@ -111,8 +112,9 @@ void FreeSpace::block(const FieldGrid& grid, double radius, std::vector<std::uin
         cellsWithin(box.yLow - radius, box.yHigh + radius, grid.originY, grid.cell, grid.rows);
     for (int row = rows.from; row < rows.to; ++row) {
       for (int column = columns.from; column < columns.to; ++column) {
-        const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-                              static_cast<std::size_t>(column);
+        const std::size_t i =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+            static_cast<std::size_t>(column);
         if (mask[i] != 0 && distanceTo(*body, {grid.centreX(i), grid.centreY(i)}) <= radius)
           mask[i] = 0;
       }
@@ -134,7 +136,7 @@ FieldRegion FreeSpace::region(double cell, double robotRadius) const {
     region.open[i] = isInField(x, y, 0.0) && isFreeOfGrids(x, y, 0.0) ? 1 : 0;
     region.standable[i] =
         region.open[i] != 0 && isInField(x, y, robotRadius) && isFreeOfGrids(x, y, robotRadius) ? 1
-                                                                                               : 0;
+                                                                                                : 0;
   }
   block(region.grid, 0.0, region.open);
   block(region.grid, robotRadius, region.standable);

@@ -71,8 +71,8 @@ class Envelope {
     return (b - a) / (2.0 * (q - p));
   }
 
-  std::vector<int> place_;     ///< column of each parabola
-  std::vector<double> from_;   ///< where it begins to be the lowest
+  std::vector<int> place_;    ///< column of each parabola
+  std::vector<double> from_;  ///< where it begins to be the lowest
   std::size_t count_ = 0;
 };
 

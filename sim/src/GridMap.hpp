@@ -24,13 +24,14 @@ enum class GridCell : std::uint8_t {
   occupied
 };
 
-/// An occupancy grid. Cell (column, row) covers [originX + column * cell, ...), row 0 at the bottom.
+/// An occupancy grid. Cell (column, row) covers [originX + column * cell, ...), row 0 at the
+/// bottom.
 struct GridMap {
   int columns = 0;
   int rows = 0;
-  double cell = 0.05;    ///< edge of a cell [m]
-  double originX = 0.0;  ///< lower left corner [m]
-  double originY = 0.0;  ///< [m]
+  double cell = 0.05;           ///< edge of a cell [m]
+  double originX = 0.0;         ///< lower left corner [m]
+  double originY = 0.0;         ///< [m]
   std::vector<GridCell> cells;  ///< row by row
 
   std::size_t index(int column, int row) const {

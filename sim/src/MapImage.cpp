@@ -10,7 +10,8 @@
 namespace ortung {
 namespace {
 
-/// The greatest single allocation that the decoder gets: a few kilobytes of PNG can demand gigabytes.
+/// The greatest single allocation that the decoder gets: a few kilobytes of PNG can demand
+/// gigabytes.
 thread_local std::size_t mostBytes = 0;
 
 void* boundedMalloc(std::size_t size) { return size <= mostBytes ? std::malloc(size) : nullptr; }
@@ -49,7 +50,8 @@ std::optional<PnmHeader> readPnmHeader(const std::string& bytes) {
   std::size_t at = 2;
   long value = 0;
   for (int field = 0; field < 3; ++field) {
-    while (at < bytes.size() && (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
+    while (at < bytes.size() &&
+           (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
       if (bytes[at] == '#')
         while (at < bytes.size() && bytes[at] != '\n' && bytes[at] != '\r') ++at;
       else
@@ -106,8 +108,10 @@ MapImage decodeImage(const std::filesystem::path& file, const std::string& bytes
   int channels = 0;
   mostBytes = std::size_t{1} << 20;
   if (!stbi_info_from_memory(data, length, &width, &height, &channels))
-    throw MapError(file.string() + ": is no image that can be read, expected PNG, or PGM or PPM in "
-                                   "binary (P5, P6): " + stbi_failure_reason());
+    throw MapError(file.string() +
+                   ": is no image that can be read, expected PNG, or PGM or PPM in "
+                   "binary (P5, P6): " +
+                   stbi_failure_reason());
   checkGrid(file, width, height, 1e-3, 0.0, 0.0);
   if (bytes.starts_with('P')) checkPnm(file, bytes, width, height, channels);
 
@@ -115,7 +119,8 @@ MapImage decodeImage(const std::filesystem::path& file, const std::string& bytes
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   mostBytes = n * 8 + (std::size_t{1} << 20) + bytes.size();  // 4 channels of 16 bits
   const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(
-      stbi_load_from_memory(data, length, &width, &height, &channels, hasAlpha ? 2 : 1), &std::free);
+      stbi_load_from_memory(data, length, &width, &height, &channels, hasAlpha ? 2 : 1),
+      &std::free);
   if (!pixels)
     throw MapError(file.string() + ": the image cannot be decoded: " + stbi_failure_reason());
   return split(pixels.get(), width, height, hasAlpha);

@@ -29,7 +29,8 @@ class YamlMap {
   explicit YamlMap(const std::filesystem::path& file) : file_(file) {
     const std::string text = readBounded(file, kMaxYamlBytes);
     root_ = YAML::Load(text);
-    if (!root_.IsMap()) throw MapError(file.string() + ": expected keys and values of a map_server map");
+    if (!root_.IsMap())
+      throw MapError(file.string() + ": expected keys and values of a map_server map");
   }
 
   MapDescription read() const {
@@ -53,7 +54,8 @@ class YamlMap {
 
   [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
     const int line = node.IsDefined() ? node.Mark().line : -1;
-    throw MapError(file_.string() + (line >= 0 ? ":" + std::to_string(line + 1) : "") + ": " + what);
+    throw MapError(file_.string() + (line >= 0 ? ":" + std::to_string(line + 1) : "") + ": " +
+                   what);
   }
 
   YAML::Node need(const char* key) const {
@@ -141,8 +143,10 @@ GridMap readMapServer(const std::filesystem::path& yaml) {
       const double light = image.grey[pixel] / 255.0;
       const double occupied = about.negate ? light : 1.0 - light;
       GridCell cell = GridCell::unknown;
-      if (occupied > about.occupiedAbove) cell = GridCell::occupied;
-      else if (occupied < about.freeBelow) cell = GridCell::free;
+      if (occupied > about.occupiedAbove)
+        cell = GridCell::occupied;
+      else if (occupied < about.freeBelow)
+        cell = GridCell::free;
       if (!image.opaque.empty() && image.opaque[pixel] == 0) cell = GridCell::unknown;
       map.cells[map.index(column, row)] = cell;
     }

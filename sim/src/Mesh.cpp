@@ -13,13 +13,16 @@ class Builder {
   explicit Builder(Mesh& mesh) : mesh_(mesh) {}
 
   void addWall(const Point2& a, const Point2& b, double zLow, double zHigh) {
-    addFace({vertex(a, zLow), vertex(b, zLow), vertex(b, zHigh), vertex(a, zHigh)});
+    addFace({vertex(a, zLow), vertex(b, zLow), vertex(b, zHigh), vertex(a, zHigh)}, mesh_.walls);
   }
-  /// A convex polygon at height z.
-  void addCap(const std::vector<Point2>& corners, double z) {
-    std::vector<std::array<float, 3>> points;
-    for (const Point2& corner : corners) points.push_back(vertex(corner, z));
-    addFace(points);
+  /// A triangle or rectangle as bottom and top. Nothing looks up from below the floor.
+  void addCaps(const std::vector<Point2>& corners, double zLow, double zHigh) {
+    for (const double z : {zLow, zHigh}) {
+      if (z <= 0.0) continue;
+      std::vector<std::array<float, 3>> points;
+      for (const Point2& corner : corners) points.push_back(vertex(corner, z));
+      addFace(points, mesh_.caps);
+    }
   }
 
  private:
@@ -27,14 +30,14 @@ class Builder {
     return {static_cast<float>(p.x - mesh_.middle.x), static_cast<float>(p.y - mesh_.middle.y),
             static_cast<float>(z)};
   }
-  void addFace(const std::vector<std::array<float, 3>>& corners) {
+  void addFace(const std::vector<std::array<float, 3>>& corners, Triangles& into) {
     if (++faces_ > kMaxFaces)
-      throw std::length_error("the world has more than 2^21 walls, which is too many; is a map all "
-                              "noise?");
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    mesh_.vertices.insert(mesh_.vertices.end(), corners.begin(), corners.end());
+      throw std::length_error(
+          "the world has more than 2^21 walls, which is too many; is a map all noise?");
+    const auto first = static_cast<std::uint32_t>(into.vertices.size());
+    into.vertices.insert(into.vertices.end(), corners.begin(), corners.end());
     for (std::uint32_t i = 2; i < corners.size(); ++i)
-      mesh_.triangles.push_back({first, first + i - 1, first + i});
+      into.corners.push_back({first, first + i - 1, first + i});
   }
 
   Mesh& mesh_;
@@ -42,11 +45,10 @@ class Builder {
 };
 
 void addPrimitive(const Primitive& primitive, Builder& builder) {
-  const std::vector<Point2> corners = outlineOf(primitive);
+  const std::vector<Point2> corners = cornersOf(primitive);
   for (std::size_t i = 0; i < corners.size(); ++i)
     builder.addWall(corners[i], corners[(i + 1) % corners.size()], primitive.zLow, primitive.zHigh);
-  builder.addCap(corners, primitive.zLow);
-  builder.addCap(corners, primitive.zHigh);
+  builder.addCaps(corners, primitive.zLow, primitive.zHigh);
 }
 
 bool isOccupied(const GridMap& map, int column, int row) {
@@ -75,15 +77,17 @@ void addOutlines(const GridBody& body, Builder& builder) {
     return Point2{map.originX + column * map.cell, map.originY + row * map.cell};
   };
   for (int c = 0; c <= map.columns; ++c)
-    forRuns(map.rows, [&](int r) { return isOccupied(map, c - 1, r) != isOccupied(map, c, r); },
-            [&](int from, int to) {
-              builder.addWall(corner(c, from), corner(c, to), body.zLow, body.zHigh);
-            });
+    forRuns(
+        map.rows, [&](int r) { return isOccupied(map, c - 1, r) != isOccupied(map, c, r); },
+        [&](int from, int to) {
+          builder.addWall(corner(c, from), corner(c, to), body.zLow, body.zHigh);
+        });
   for (int r = 0; r <= map.rows; ++r)
-    forRuns(map.columns, [&](int c) { return isOccupied(map, c, r - 1) != isOccupied(map, c, r); },
-            [&](int from, int to) {
-              builder.addWall(corner(from, r), corner(to, r), body.zLow, body.zHigh);
-            });
+    forRuns(
+        map.columns, [&](int c) { return isOccupied(map, c, r - 1) != isOccupied(map, c, r); },
+        [&](int from, int to) {
+          builder.addWall(corner(from, r), corner(to, r), body.zLow, body.zHigh);
+        });
 }
 
 // Tops and bottoms of the occupied cells, for rays that rise or fall: one rectangle for each run of
@@ -95,11 +99,11 @@ void addCaps(const GridBody& body, Builder& builder) {
     const double x1 = map.originX + to * map.cell;
     const double y0 = map.originY + low * map.cell;
     const double y1 = map.originY + high * map.cell;
-    for (const double z : {body.zLow, body.zHigh})
-      builder.addCap({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, z);
+    builder.addCaps({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, body.zLow, body.zHigh);
   };
   std::vector<int> begun(static_cast<std::size_t>(map.columns), -1);
-  std::vector<int> end(begun.size(), -1);  // of the run that begins at a column; begun: its first row
+  std::vector<int> end(begun.size(),
+                       -1);  // of the run that begins at a column; begun: its first row
   const auto close = [&](int from, int row) {
     const auto i = static_cast<std::size_t>(from);
     if (begun[i] >= 0) rectangle(from, end[i], begun[i], row);
@@ -108,8 +112,9 @@ void addCaps(const GridBody& body, Builder& builder) {
   for (int r = 0; r <= map.rows; ++r) {
     std::vector<int> now(begun.size(), -1);
     if (r < map.rows)
-      forRuns(map.columns, [&](int c) { return map.at(c, r) == GridCell::occupied; },
-              [&](int from, int to) { now[static_cast<std::size_t>(from)] = to; });
+      forRuns(
+          map.columns, [&](int c) { return map.at(c, r) == GridCell::occupied; },
+          [&](int from, int to) { now[static_cast<std::size_t>(from)] = to; });
     for (int c = 0; c < map.columns; ++c) {
       const auto i = static_cast<std::size_t>(c);
       if (begun[i] >= 0 && end[i] != now[i]) close(c, r);
@@ -129,8 +134,9 @@ Mesh makeMesh(const WorldModel& world) {
   Builder builder(mesh);
   for (const Primitive& primitive : world.primitives) {
     if (!primitive.isSolid()) continue;
-    if (primitive.isCircle())
-      mesh.cylinders.push_back({primitive.centre, primitive.halfX, primitive.zLow, primitive.zHigh});
+    if (primitive.shape == Primitive::Shape::ellipse)
+      mesh.round.push_back({primitive.centre, primitive.halfX, primitive.halfY, primitive.angle,
+                            primitive.zLow, primitive.zHigh});
     else
       addPrimitive(primitive, builder);
   }

@@ -8,24 +8,32 @@
 
 namespace ortung {
 
-/// An upright cylinder.
-struct Cylinder {
-  Point2 centre;        ///< [m]
-  double radius = 0.0;  ///< [m]
-  double zLow = 0.0;    ///< [m]
-  double zHigh = 0.0;   ///< [m]
+/// An upright cylinder with an elliptic base, in the field frame.
+struct RoundBody {
+  Point2 centre;          ///< [m]
+  double halfX = 0.0;     ///< half the axis along its own x axis [m]
+  double halfY = 0.0;     ///< [m]
+  double angle = 0.0;     ///< of its own x axis [rad]
+  double zLow = 0.0;      ///< [m]
+  double zHigh = 0.0;     ///< [m]
+  RobotNumber robot = 0;  ///< whose body it is; 0: no robot's
+};
+
+struct Triangles {
+  std::vector<std::array<float, 3>> vertices;         ///< [m], relative to the mesh's middle
+  std::vector<std::array<std::uint32_t, 3>> corners;  ///< of vertices
 };
 
 /// What rays can hit, relative to a middle of its own, so that single precision serves far from the
 /// field's origin too.
 struct Mesh {
-  Point2 middle;                                       ///< [m], field frame
-  std::vector<std::array<float, 3>> vertices;          ///< [m], relative to middle
-  std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices of vertices
-  std::vector<Cylinder> cylinders;                     ///< field frame
+  Point2 middle;    ///< [m], field frame
+  Triangles walls;  ///< upright
+  Triangles caps;   ///< level, so that only rays that rise or fall meet them
+  std::vector<RoundBody> round;
 };
 
-/// Extrudes everything solid: circles to cylinders, all else to triangles.
+/// Extrudes everything solid: circles and ellipses to round bodies, all else to triangles.
 /// @throws std::length_error when there are more than 2^21 walls
 Mesh makeMesh(const WorldModel& world);
 

@@ -82,7 +82,7 @@ GridMap readMrptGridMap(const std::filesystem::path& file) {
   map.cells.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const int free = static_cast<unsigned char>(child.output[end + 1 + i]);
-    map.cells[i] = free < kUnknownFrom  ? GridCell::occupied
+    map.cells[i] = free < kUnknownFrom ? GridCell::occupied
                    : free > kUnknownTo ? GridCell::free
                                        : GridCell::unknown;
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace ortung {
 namespace {
@@ -66,31 +65,13 @@ double distanceToEllipse(double a, double b, double x, double y) {
   return std::hypot(x - a * a * x / (t + a * a), y - b * b * y / (t + b * b));
 }
 
-// Corners lie outside the ellipse by as much as the middles of the edges lie inside it.
-std::vector<Point2> ellipseOutline(const Primitive& ellipse) {
-  const double longest = std::max(ellipse.halfX, ellipse.halfY);
-  constexpr double kTolerance = 0.0004;  // [m], both ways together 0.8 mm
-  const double half = std::acos(std::max(0.0, 1.0 - 2.0 * kTolerance / longest));
-  const int n = std::clamp(static_cast<int>(std::ceil(std::numbers::pi / half)), 24, 16384);
-  const double scale = 2.0 / (1.0 + std::cos(std::numbers::pi / n));
-  std::vector<Point2> corners;
-  corners.reserve(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) {
-    const double phi = 2.0 * std::numbers::pi * i / n;
-    corners.push_back(toField(ellipse, {scale * ellipse.halfX * std::cos(phi),
-                                        scale * ellipse.halfY * std::sin(phi)}));
-  }
-  return corners;
-}
-
 }  // namespace
 
 double distanceTo(const Primitive& primitive, const Point2& point) {
   if (primitive.shape == Primitive::Shape::triangle)
     return distanceToTriangle(primitive.corners, point);
   const Point2 local = toLocal(primitive, point);
-  if (primitive.isCircle())
-    return std::max(0.0, std::hypot(local.x, local.y) - primitive.halfX);
+  if (primitive.isCircle()) return std::max(0.0, std::hypot(local.x, local.y) - primitive.halfX);
   if (primitive.shape == Primitive::Shape::ellipse)
     return distanceToEllipse(primitive.halfX, primitive.halfY, local.x, local.y);
   return std::hypot(std::max(0.0, std::abs(local.x) - primitive.halfX),
@@ -114,13 +95,9 @@ Box2 boundsOf(const Primitive& primitive) {
           primitive.centre.y + height};
 }
 
-std::vector<Point2> outlineOf(const Primitive& primitive) {
-  if (primitive.shape == Primitive::Shape::ellipse) return ellipseOutline(primitive);
-  if (primitive.shape == Primitive::Shape::triangle) {
-    std::vector<Point2> corners(primitive.corners.begin(), primitive.corners.end());
-    if (side(corners[0], corners[1], corners[2]) < 0.0) std::swap(corners[1], corners[2]);
-    return corners;
-  }
+std::vector<Point2> cornersOf(const Primitive& primitive) {
+  if (primitive.shape == Primitive::Shape::triangle)
+    return {primitive.corners.begin(), primitive.corners.end()};
   const double hx = primitive.halfX;
   const double hy = primitive.halfY;
   return {toField(primitive, {-hx, -hy}), toField(primitive, {hx, -hy}),

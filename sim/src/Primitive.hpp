@@ -18,23 +18,24 @@ struct Box2 {
   double xLow = 0.0, xHigh = 0.0, yLow = 0.0, yHigh = 0.0;
 };
 
-/// A shape on the floor, extruded in z. A line (kind "line") is flat: neither rays nor bodies meet it.
+/// A shape on the floor, extruded in z. A line (kind "line") is flat: neither rays nor bodies meet
+/// it.
 struct Primitive {
   enum class Shape { rectangle, ellipse, triangle };
 
   Shape shape = Shape::rectangle;
-  Point2 centre;                   ///< of a triangle: its centroid
-  double halfX = 0.0;              ///< half the size along its own x axis [m]; not of triangles
-  double halfY = 0.0;              ///< [m]
-  double angle = 0.0;              ///< of its own x axis in the field [rad]
-  std::array<Point2, 3> corners{}; ///< of a triangle
-  double zLow = 0.0;               ///< [m]
-  double zHigh = 1.0;              ///< [m]
-  double stroke = 0.0;             ///< of a line along an ellipse: its width [m]; 0: a filled shape
-  double arcFrom = 0.0;            ///< of such a line: where it begins, from its own x axis [rad]
-  double arcTo = 0.0;              ///< [rad]
-  std::string kind;                ///< "wall", "post", ...
-  std::string colour;              ///< "blue", "#0000ff" or empty
+  Point2 centre;                    ///< of a triangle: its centroid
+  double halfX = 0.0;               ///< half the size along its own x axis [m]; not of triangles
+  double halfY = 0.0;               ///< [m]
+  double angle = 0.0;               ///< of its own x axis in the field [rad]
+  std::array<Point2, 3> corners{};  ///< of a triangle
+  double zLow = 0.0;                ///< [m]
+  double zHigh = 1.0;               ///< [m]
+  double stroke = 0.0;   ///< of a line along an ellipse: its width [m]; 0: a filled shape
+  double arcFrom = 0.0;  ///< of such a line: where it begins, from its own x axis [rad]
+  double arcTo = 0.0;    ///< [rad]
+  std::string kind;      ///< "wall", "post", ...
+  std::string colour;    ///< "blue", "#0000ff" or empty
   std::optional<std::uint32_t> identity;
 
   bool isSolid() const { return kind != "line"; }
@@ -46,8 +47,7 @@ double distanceTo(const Primitive& primitive, const Point2& point);
 
 Box2 boundsOf(const Primitive& primitive);
 
-/// The shape's corners, counter-clockwise. An ellipse becomes a polygon that leaves it by less than
-/// 0.5 mm (as long as its axes are below 10 km).
-std::vector<Point2> outlineOf(const Primitive& primitive);
+/// The corners of a rectangle or triangle, in order.
+std::vector<Point2> cornersOf(const Primitive& primitive);
 
 }  // namespace ortung

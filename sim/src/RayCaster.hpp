@@ -9,12 +9,6 @@
 
 namespace ortung {
 
-/// A robot's body, as rays see it.
-struct RobotBody {
-  RobotNumber number = 0;
-  Cylinder cylinder;
-};
-
 /// Casts rays; the only part that knows the ray tracing library.
 /// Casting is thread-safe while nobody calls setRobots().
 class RayCaster {
@@ -25,7 +19,7 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  void setRobots(const std::vector<RobotBody>& robots);
+  void setRobots(const std::vector<RoundBody>& robots);
 
   /// As World::castFan(). @pre all numbers are finite, maxRange is not negative
   void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const;

@@ -21,7 +21,9 @@ namespace {
 constexpr std::size_t kMaxRobots = 4096;
 constexpr Range kRobotSize{0.01, 100.0};  ///< [m]
 
-bool isWithin(double value, const Range& range) { return value >= range.low && value <= range.high; }
+bool isWithin(double value, const Range& range) {
+  return value >= range.low && value <= range.high;
+}
 
 bool isSane(const RayFan& fan) {
   for (const double value : {fan.x, fan.y, fan.z, fan.firstAngle, fan.angleStep, fan.elevation})
@@ -49,7 +51,8 @@ class ModelledWorld final : public SimWorld {
 
   void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const override {
     if (!isSane(fan)) {
-      std::fill(ranges.begin(), ranges.end(), fan.maxRange > 0.0 ? static_cast<float>(fan.maxRange) : 0.0f);
+      std::fill(ranges.begin(), ranges.end(),
+                fan.maxRange > 0.0 ? static_cast<float>(fan.maxRange) : 0.0f);
       return;
     }
     placeRobots();
@@ -74,14 +77,15 @@ class ModelledWorld final : public SimWorld {
     if (robots_.size() >= kMaxRobots)
       throw std::invalid_argument("there are " + std::to_string(kMaxRobots) +
                                   " robots already, which is the most");
-    robots_[++lastNumber_] = {{{}, radius, 0.0, height}, false};
+    ++lastNumber_;
+    robots_[lastNumber_] = {{{}, radius, radius, 0.0, 0.0, height, lastNumber_}, false};
     return lastNumber_;
   }
 
   void moveRobot(RobotNumber robot, const Pose2& pose) override {
     if (!isFinite(pose)) throw std::invalid_argument("a robot's pose that is not finite");
     Robot& moved = find(robot)->second;
-    moved.cylinder.centre = {pose.x, pose.y};
+    moved.body.centre = {pose.x, pose.y};
     moved.isPlaced = true;
     stale_.store(true, std::memory_order_release);
   }
@@ -93,7 +97,7 @@ class ModelledWorld final : public SimWorld {
 
  private:
   struct Robot {
-    Cylinder cylinder;
+    RoundBody body;
     bool isPlaced = false;
   };
 
@@ -110,9 +114,9 @@ class ModelledWorld final : public SimWorld {
     if (!stale_.load(std::memory_order_acquire)) return;
     const std::lock_guard lock(placing_);
     if (!stale_.load(std::memory_order_relaxed)) return;
-    std::vector<RobotBody> bodies;
+    std::vector<RoundBody> bodies;
     for (const auto& [number, robot] : robots_)
-      if (robot.isPlaced) bodies.push_back({number, robot.cylinder});
+      if (robot.isPlaced) bodies.push_back(robot.body);
     rays_.setRobots(bodies);
     stale_.store(false, std::memory_order_release);
   }

@@ -26,7 +26,8 @@ bool isWord(const std::string& text) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  return !text.empty() && text.size() <= kMaxNameLength && std::all_of(text.begin(), text.end(), fits);
+  return !text.empty() && text.size() <= kMaxNameLength &&
+         std::all_of(text.begin(), text.end(), fits);
 }
 
 void checkPrintable(const Parameters& table, const std::string& key, const std::string& text) {
@@ -197,8 +198,9 @@ Extent extentOf(const WorldModel& world) {
 void readBounds(const Parameters& file, const Parameters& table, WorldModel& world) {
   const Extent extent = extentOf(world);
   if (extent.isEmpty())
-    throw ConfigError(file.where() + ": the world is empty, expected at least one [[rectangle]], "
-                                     "[[ellipse]], [[triangle]], [[grid]] or [[landmark]]");
+    throw ConfigError(file.where() +
+                      ": the world is empty, expected at least one [[rectangle]], "
+                      "[[ellipse]], [[triangle]], [[grid]] or [[landmark]]");
   const Box2& box = extent.box();
   const auto x = table.numbersOr("x_m", {box.xLow, box.xHigh}, 2, kCoordinate);
   const auto y = table.numbersOr("y_m", {box.yLow, box.yHigh}, 2, kCoordinate);

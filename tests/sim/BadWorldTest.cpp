@@ -2,15 +2,16 @@
 #include <gtest/gtest.h>
 
 #include "WorldFiles.hpp"
+#include "ortung/container/Random.hpp"
 
 namespace ortung::test {
 namespace {
 
-#define EXPECT_REFUSED(toml, part)                                                              \
-  do {                                                                                          \
-    const std::string message = refusalOf(std::string(toml));                                   \
+#define EXPECT_REFUSED(toml, part)                                                                \
+  do {                                                                                            \
+    const std::string message = refusalOf(std::string(toml));                                     \
     EXPECT_NE(message.find(part), std::string::npos) << (message.empty() ? "accepted" : message); \
-    EXPECT_NE(message.find("world.toml"), std::string::npos) << message;                        \
+    EXPECT_NE(message.find("world.toml"), std::string::npos) << message;                          \
   } while (false)
 
 const std::string kBox = "[[rectangle]]\ncenter_m = [3, 0]\nsize_m = [1, 2]\n";
@@ -74,8 +75,9 @@ TEST(BadWorld, KindsThatAreMostLikelyMisspelt) {
 
 TEST(BadWorld, LinesWithHeight) {
   EXPECT_REFUSED(kBox + "kind = \"line\"\nz_m = [0, 1]\n", "flat");
-  EXPECT_REFUSED("[[ellipse]]\nkind = \"line\"\ncenter_m = [3, 0]\nsize_m = [1, 2]\narc_deg = [90, 0]\n",
-                 "arc_deg");
+  EXPECT_REFUSED(
+      "[[ellipse]]\nkind = \"line\"\ncenter_m = [3, 0]\nsize_m = [1, 2]\narc_deg = [90, 0]\n",
+      "arc_deg");
 }
 
 TEST(BadWorld, LandmarksThatCannotBeToldApart) {
@@ -94,10 +96,10 @@ TEST(BadWorld, TooManyOfAnything) {
 
 TEST(BadWorld, MapsThatAreAllNoiseAreRefusedBeforeTheyTakeAllMemory) {
   const TemporaryFolder folder;
-  std::string chess = "P5 3000 3000 255\n";
-  for (int y = 0; y < 3000; ++y)
-    for (int x = 0; x < 3000; ++x) chess += (x / 2 + y / 2) % 2 != 0 ? '\0' : '\xfe';
-  folder.write("map.pgm", chess);
+  std::string noise = "P5 3000 3000 255\n";
+  Random random(5);
+  for (int i = 0; i < 3000 * 3000; ++i) noise += random.uniform() < 0.5 ? '\0' : '\xfe';
+  folder.write("map.pgm", noise);
   folder.write("map.yaml", mapYaml("map.pgm", "[0, 0, 0]", "0.05"));
   const std::string message = refusalOf(folder.write("world.toml", gridWorld()));
   EXPECT_NE(message.find("more than 2^21 walls"), std::string::npos) << message;
@@ -105,7 +107,8 @@ TEST(BadWorld, MapsThatAreAllNoiseAreRefusedBeforeTheyTakeAllMemory) {
 
 TEST(Landmarks, ComeFromPrimitivesAndMarksInOrderOfKindAndIdentity) {
   const auto world = worldOf(
-      "[[ellipse]]\nkind = \"post\"\nidentity = 2\ncenter_m = [1, 2]\nsize_m = [0.2, 0.2]\nz_m = [0, 2]\n"
+      "[[ellipse]]\nkind = \"post\"\nidentity = 2\ncenter_m = [1, 2]\nsize_m = [0.2, 0.2]\nz_m = "
+      "[0, 2]\n"
       "[[triangle]]\nkind = \"post\"\nidentity = 1\ncorners_m = [0, 0, 3, 0, 0, 3]\n"
       "[[landmark]]\nkind = \"barcode\"\nidentity = 72\nposition_m = [-1, -2, 0.4]\n");
   const auto marks = world->landmarks();
@@ -121,7 +124,8 @@ TEST(Landmarks, ComeFromPrimitivesAndMarksInOrderOfKindAndIdentity) {
 }
 
 TEST(WorldBounds, AreTheBoxAroundEverythingUnlessGiven) {
-  const auto world = worldOf(kBox + "[[ellipse]]\ncenter_m = [-2, 3]\nsize_m = [2, 4]\nangle_deg = 90\n");
+  const auto world =
+      worldOf(kBox + "[[ellipse]]\ncenter_m = [-2, 3]\nsize_m = [2, 4]\nangle_deg = 90\n");
   const FieldGrid grid = world->region(0.5, 0.1).grid;
   EXPECT_NEAR(grid.originX, -4, 1e-12);
   EXPECT_NEAR(grid.originY, -1, 1e-12);

@@ -14,7 +14,8 @@ std::string bytesOf(T value) {
   return bytes;
 }
 
-/// A CARMEN map with a creator chunk before the grid. Cells: columns from left to right, each upwards.
+/// A CARMEN map with a creator chunk before the grid. Cells: columns from left to right, each
+/// upwards.
 inline std::string carmenMap(std::int32_t columns, std::int32_t rows, float resolution,
                              const std::vector<float>& cells) {
   std::string grid = "GRIDMAP   " + bytesOf(columns) + bytesOf(rows) + bytesOf(resolution);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <numbers>
+#include <numeric>
 
 #include "WorldFiles.hpp"
 
@@ -46,10 +46,10 @@ TEST(Fields, F2000HasPostsAndGoalsWhereTheRulesPutThem) {
   }
   EXPECT_DOUBLE_EQ(find(*world, "goal", 1)->x, -6);
   EXPECT_DOUBLE_EQ(find(*world, "goal", 2)->x, 6);
-  EXPECT_NEAR(rangeAt(*world, 0, 0, 0), 6.5, 1e-5);                     // the back of the goal
-  EXPECT_NEAR(rangeAt(*world, 0, 2, 0), 7, 1e-5);                       // the wall beside it
-  EXPECT_NEAR(rangeAt(*world, 0, 0, std::numbers::pi / 2), 5, 1e-5);    // the wall
-  EXPECT_EQ(rangeAt(*world, 0, 2, 0, 0.6, 8), 8.0);                     // over the wall
+  EXPECT_NEAR(rangeAt(*world, 0, 0, 0), 6.5, 1e-5);                   // the back of the goal
+  EXPECT_NEAR(rangeAt(*world, 0, 2, 0), 7, 1e-5);                     // the wall beside it
+  EXPECT_NEAR(rangeAt(*world, 0, 0, std::numbers::pi / 2), 5, 1e-5);  // the wall
+  EXPECT_EQ(rangeAt(*world, 0, 2, 0, 0.6, 8), 8.0);                   // over the wall
 }
 
 TEST(Fields, Soccer18x12HasWallsAtItsLines) {
@@ -83,9 +83,10 @@ TEST(SharedMaps, AllLoadWithRoomToStand) {
     const auto standable = std::accumulate(region.standable.begin(), region.standable.end(), 0);
     const auto open = std::accumulate(region.open.begin(), region.open.end(), 0);
     EXPECT_GT(standable, 1000) << entry.path();
-    std::cout << entry.path().parent_path().filename().string() << ": " << read.count() << " s to read, "
-              << (all - read).count() << " s for the region; " << region.grid.size() << " cells, "
-              << open << " open, " << standable << " standable\n";
+    std::cout << entry.path().parent_path().filename().string() << ": " << read.count()
+              << " s to read, " << (all - read).count() << " s for the region; "
+              << region.grid.size() << " cells, " << open << " open, " << standable
+              << " standable\n";
     ++count;
   }
   EXPECT_GE(count, 1);

@@ -37,7 +37,8 @@ TEST(Fingerprint, DoesNotDependOnNamesCommentsOrder) {
   const std::string print = fingerprintOf(kBounds + kBox + kPost);
   EXPECT_EQ(fingerprintOf(kBounds + kPost + kBox), print);
   EXPECT_EQ(fingerprintOf("# a remark\n" + kBounds + "name = \"other\"\n" + kBox +
-                          "name = \"box\"\n" + kPost), print);
+                          "name = \"box\"\n" + kPost),
+            print);
 }
 
 TEST(Fingerprint, ChangesWithEverythingThatShapesWhatSensorsSee) {
@@ -49,11 +50,16 @@ TEST(Fingerprint, ChangesWithEverythingThatShapesWhatSensorsSee) {
       fingerprintOf(kBounds + kBox + "kind = \"wall\"\n"),
       fingerprintOf(kBounds + kBox + "colour = \"blue\"\n"),
       fingerprintOf(kBounds + kBox + "identity = 3\n"),
-      fingerprintOf(kBounds + "[[rectangle]]\ncenter_m = [3, 0.001]\nsize_m = [1, 2]\nangle_deg = 10\n"),
-      fingerprintOf(kBounds + "[[rectangle]]\ncenter_m = [3, 0]\nsize_m = [1, 2.001]\nangle_deg = 10\n"),
-      fingerprintOf(kBounds + "[[rectangle]]\ncenter_m = [3, 0]\nsize_m = [1, 2]\nangle_deg = 10.1\n"),
-      fingerprintOf(kBounds + kBox + "[[landmark]]\nkind = \"tag\"\nidentity = 1\nposition_m = [1, 1]\n"),
-      fingerprintOf(kBounds + kBox + "[[landmark]]\nkind = \"tag\"\nidentity = 2\nposition_m = [1, 1]\n"),
+      fingerprintOf(kBounds +
+                    "[[rectangle]]\ncenter_m = [3, 0.001]\nsize_m = [1, 2]\nangle_deg = 10\n"),
+      fingerprintOf(kBounds +
+                    "[[rectangle]]\ncenter_m = [3, 0]\nsize_m = [1, 2.001]\nangle_deg = 10\n"),
+      fingerprintOf(kBounds +
+                    "[[rectangle]]\ncenter_m = [3, 0]\nsize_m = [1, 2]\nangle_deg = 10.1\n"),
+      fingerprintOf(kBounds + kBox +
+                    "[[landmark]]\nkind = \"tag\"\nidentity = 1\nposition_m = [1, 1]\n"),
+      fingerprintOf(kBounds + kBox +
+                    "[[landmark]]\nkind = \"tag\"\nidentity = 2\nposition_m = [1, 1]\n"),
       fingerprintOf(kBounds + "[[ellipse]]\ncenter_m = [3, 0]\nsize_m = [1, 2]\nangle_deg = 10\n")};
   EXPECT_EQ(prints.size(), 13u);
 }

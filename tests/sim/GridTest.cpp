@@ -29,7 +29,8 @@ std::vector<std::string> randomRows(std::size_t columns, std::size_t rows, Rando
 }
 
 /// Where a ray enters the first occupied cell, by asking all of them.
-double bruteForce(const std::vector<std::string>& rows, double x, double y, double angle, double most) {
+double bruteForce(const std::vector<std::string>& rows, double x, double y, double angle,
+                  double most) {
   const double dx = std::cos(angle);
   const double dy = std::sin(angle);
   double nearest = most;
@@ -93,8 +94,14 @@ TEST(Grid, RaysThatFallMeetTheTopsOfOccupiedCells) {
   const auto world = gridOf({"....", ".##.", ".##.", ".#..", "...."}, "z_m = [0, 0.5]\n");
   for (const auto& [x, y] : {std::pair{0.3, 0.3}, {0.3, 0.6}, {0.7, 0.9}, {0.3, 0.9}}) {
     float range = 0;  // from 2 m to one side and 2 m above the top, down by 45 degrees
-    world->castFan({.x = x - 2, .y = y, .z = 2.5, .firstAngle = 0, .angleStep = 0,
-                    .elevation = -std::numbers::pi / 4, .maxRange = 20}, 0, {&range, 1});
+    world->castFan({.x = x - 2,
+                    .y = y,
+                    .z = 2.5,
+                    .firstAngle = 0,
+                    .angleStep = 0,
+                    .elevation = -std::numbers::pi / 4,
+                    .maxRange = 20},
+                   0, {&range, 1});
     EXPECT_NEAR(static_cast<double>(range), std::sqrt(8.0), 1e-4) << x << " " << y;
   }
 }
@@ -116,7 +123,8 @@ TEST(Grid, CirclesAreFreeExactlyWhereNoOccupiedCellIsWithinTheirRadius) {
     const double x = random.uniform(0, 30 * kCell);
     const double y = random.uniform(0, 30 * kCell);
     const double radius = random.uniform(0, 0.8);
-    double nearest = std::min(std::min(x, 30 * kCell - x), std::min(y, 30 * kCell - y));  // the edge
+    double nearest =
+        std::min(std::min(x, 30 * kCell - x), std::min(y, 30 * kCell - y));  // the edge
     for (std::size_t r = 0; r < 30; ++r)
       for (std::size_t c = 0; c < 30; ++c) {
         if (rows[29 - r][c] != '#') continue;

@@ -41,7 +41,8 @@ std::string pngOf(int width, int height, int channels, const std::vector<unsigne
   std::string png;
   stbi_write_png_to_func(
       [](void* out, void* data, int size) {
-        static_cast<std::string*>(out)->append(static_cast<char*>(data), static_cast<std::size_t>(size));
+        static_cast<std::string*>(out)->append(static_cast<char*>(data),
+                                               static_cast<std::size_t>(size));
       },
       &png, width, height, channels, pixels.data(), width * channels);
   return png;
@@ -51,12 +52,15 @@ class MapFiles : public ::testing::Test {
  protected:
   /// Open cells of a world of this map, one character a cell, rows from top to bottom.
   std::string openOf(const std::string& map, double cell = 0.5) {
-    const auto world = readWorld(folder.write("world.toml", gridWorld(map, "unknown_margin_m = 0\n")));
+    const auto world =
+        readWorld(folder.write("world.toml", gridWorld(map, "unknown_margin_m = 0\n")));
     const FieldRegion region = world->region(cell, 0);
     std::string picture;
     for (int row = region.grid.rows - 1; row >= 0; --row) {
       for (int column = 0; column < region.grid.columns; ++column)
-        picture += region.open[static_cast<std::size_t>(row * region.grid.columns + column)] != 0 ? '.' : '#';
+        picture += region.open[static_cast<std::size_t>(row * region.grid.columns + column)] != 0
+                       ? '.'
+                       : '#';
       picture += row > 0 ? "/" : "";
     }
     return picture;
@@ -120,12 +124,14 @@ TEST_F(MapFiles, BrokenYamlIsRefusedWithItsPlace) {
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, .nan, 0]"), image), "y of origin is .nan");
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 9999.9, 0]"), image), "beyond 10 km");
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0]", "0"), image), "resolution is 0, expected");
-  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0]", "wide"), image), "resolution is wide, expected");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0]", "wide"), image),
+             "resolution is wide, expected");
   EXPECT_HAS(refusal(mapYaml() + "mode: raw\n", image), "mode is \"raw\"");
   EXPECT_HAS(refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 2\n", image),
              "negate must be 0 or 1");
-  EXPECT_HAS(refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nfree_thresh: 0.9\n", image),
-             "free_thresh is above");
+  EXPECT_HAS(
+      refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nfree_thresh: 0.9\n", image),
+      "free_thresh is above");
   EXPECT_HAS(refusal(std::string(100000, '#'), image), "has 100000 bytes, expected at most");
   EXPECT_HAS(refusal(std::string(60000, '['), image), "is no YAML");
 }
@@ -142,7 +148,8 @@ TEST_F(MapFiles, MissingAndOddFilesAreRefused) {
 TEST_F(MapFiles, BrokenImagesAreRefused) {
   EXPECT_HAS(refusal(mapYaml(), "no image"), "no image that can be read");
   EXPECT_HAS(refusal(mapYaml(), ""), "no image that can be read");
-  EXPECT_HAS(refusal(mapYaml(), image.substr(0, image.size() - 1)), "ends after 11 bytes of pixels, expected 12");
+  EXPECT_HAS(refusal(mapYaml(), image.substr(0, image.size() - 1)),
+             "ends after 11 bytes of pixels, expected 12");
   EXPECT_HAS(refusal(mapYaml(), "P5 2 1 100\nab"), "white is 100");
   EXPECT_HAS(refusal(mapYaml(), "P2 1 1 255\n0\n"), "no image that can be read");
   const std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
@@ -154,7 +161,8 @@ TEST_F(MapFiles, BrokenImagesAreRefused) {
 }
 
 TEST_F(MapFiles, ImageBombsAreRefusedBeforeDecoding) {
-  EXPECT_HAS(refusal(mapYaml(), "P5 100000 100000 255\nx"), "100000 x 100000 cells, expected 1 to 2^26");
+  EXPECT_HAS(refusal(mapYaml(), "P5 100000 100000 255\nx"),
+             "100000 x 100000 cells, expected 1 to 2^26");
   // A PNG header of 16000 x 16000 pixels and nothing else.
   std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
   png.replace(16, 8, std::string("\0\0\x3e\x80\0\0\x3e\x80", 8));
@@ -222,8 +230,9 @@ class MrptMaps : public MapFiles {
 };
 
 TEST_F(MrptMaps, ComeFromTheReader) {
-  reader("test \"$1\" = gridmap || exit 9\ntest -f \"$2\" || exit 8\n"
-         "printf 'ortung-gridmap 3 2 0.5 -1 2\\n\\377\\000\\177\\200\\240\\140'");
+  reader(
+      "test \"$1\" = gridmap || exit 9\ntest -f \"$2\" || exit 8\n"
+      "printf 'ortung-gridmap 3 2 0.5 -1 2\\n\\377\\000\\177\\200\\240\\140'");
   EXPECT_EQ(openOf("map.gridmap.gz"), "#.#/.##");
 }
 
@@ -246,7 +255,8 @@ TEST_F(MrptMaps, AreRefusedWithTheReadersOwnWords) {
 
 TEST_F(MrptMaps, NeedTheReader) {
   const std::string message = refusal("map.gridmap.gz");
-  EXPECT_HAS(message, "need the program ortung-mrpt-reader, which is not in " + folder.path().string());
+  EXPECT_HAS(message,
+             "need the program ortung-mrpt-reader, which is not in " + folder.path().string());
   EXPECT_HAS(message, "ORTUNG_LIBEXEC");
   EXPECT_HAS(refusal("gone.gridmap"), "no such file");
 }

@@ -14,11 +14,22 @@ std::string mutated(std::string bytes, Random& random) {
     const auto at = static_cast<std::size_t>(random.below(bytes.size()));
     const auto length = static_cast<std::size_t>(1 + random.below(8));
     switch (random.below(5)) {
-      case 0: bytes[at] = static_cast<char>(random.next()); break;
-      case 1: bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8))); break;
-      case 2: bytes.erase(at, length); break;
-      case 3: bytes.insert(at, bytes.substr(static_cast<std::size_t>(random.below(bytes.size())), length)); break;
-      default: bytes.resize(at); break;
+      case 0:
+        bytes[at] = static_cast<char>(random.next());
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8)));
+        break;
+      case 2:
+        bytes.erase(at, length);
+        break;
+      case 3:
+        bytes.insert(at,
+                     bytes.substr(static_cast<std::size_t>(random.below(bytes.size())), length));
+        break;
+      default:
+        bytes.resize(at);
+        break;
     }
   }
   return bytes;
@@ -29,8 +40,14 @@ bool survives(const std::filesystem::path& file) {
   try {
     const auto world = readWorld(file);
     std::vector<float> ranges(20);
-    world->castFan({.x = 0.1, .y = 0.1, .z = 0.2, .firstAngle = 0, .angleStep = 0.3, .elevation = 0,
-                    .maxRange = 8}, 0, ranges);
+    world->castFan({.x = 0.1,
+                    .y = 0.1,
+                    .z = 0.2,
+                    .firstAngle = 0,
+                    .angleStep = 0.3,
+                    .elevation = 0,
+                    .maxRange = 8},
+                   0, ranges);
     for (const float range : ranges) EXPECT_TRUE(range >= 0 && range <= 8);
     world->isFree(0.1, 0.1, 0.2);
     return true;
@@ -84,38 +101,40 @@ position_m = [1, 1, 0.5]
 
 TEST(Mutations, OfAWorldFileNeverCrash) {
   const TemporaryFolder folder;
-  mutate(folder, "world.toml", kWorld, 1, 3000);
+  mutate(folder, "world.toml", kWorld, 1, 1500);
 }
 
 TEST(Mutations, OfAMapYamlNeverCrash) {
   const TemporaryFolder folder;
   folder.write("world.toml", gridWorld());
   folder.write("map.pgm", pgmOf({"..#", ".#.", "...", "#  "}));
-  mutate(folder, "map.yaml", mapYaml(), 2, 3000);
+  mutate(folder, "map.yaml", mapYaml(), 2, 1500);
 }
 
 TEST(Mutations, OfAPgmNeverCrash) {
   const TemporaryFolder folder;
   folder.write("world.toml", gridWorld());
   folder.write("map.yaml", mapYaml());
-  mutate(folder, "map.pgm", pgmOf({"..#", ".#.", "...", "#  "}), 3, 3000);
+  mutate(folder, "map.pgm", pgmOf({"..#", ".#.", "...", "#  "}), 3, 1500);
 }
 
 TEST(Mutations, OfAPngNeverCrash) {
   // 3 x 2 grey pixels, deflated without compression.
   const std::string png(
       "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x03\0\0\0\x02\x08\0\0\0\0\xb8\x1f\x39\xc6\0\0\0\x13IDAT"
-      "\x78\x01\x01\x08\0\xf7\xff\0\xfe\xfe\0\0\xcd\xfe\xfe\0\0\0\0\0\0\0\0\0\0\0\0IEND\xae\x42\x60\x82", 76);
+      "\x78\x01\x01\x08\0\xf7\xff\0\xfe\xfe\0\0\xcd\xfe\xfe\0\0\0\0\0\0\0\0\0\0\0\0IEND\xae\x42\x60"
+      "\x82",
+      76);
   const TemporaryFolder folder;
   folder.write("world.toml", gridWorld());
   folder.write("map.yaml", mapYaml());
-  mutate(folder, "map.pgm", png, 4, 3000);
+  mutate(folder, "map.pgm", png, 4, 1500);
 }
 
 TEST(Mutations, OfACarmenMapNeverCrash) {
   const TemporaryFolder folder;
   folder.write("world.toml", gridWorld("a.map"));
-  mutate(folder, "a.map", carmenMap(3, 2, 0.5f, {0, 1, 0.1f, -1, 0.5f, 0.2f}), 5, 3000);
+  mutate(folder, "a.map", carmenMap(3, 2, 0.5f, {0, 1, 0.1f, -1, 0.5f, 0.2f}), 5, 1500);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Ranges against closed form: single precision of Embree leaves some micrometres at these distances.
+// Ranges against closed form: single precision of Embree leaves some micrometres at these
+// distances.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,15 +33,22 @@ TEST(Rays, MeasureARectangularRoomInAllDirections) {
   std::vector<float> ranges(3600);
   const double x = 0.7;
   const double y = -0.4;
-  world->castFan({.x = x, .y = y, .z = 0.3, .firstAngle = -kPi, .angleStep = 2 * kPi / 3600,
-                  .elevation = 0, .maxRange = 20}, 0, ranges);
+  world->castFan({.x = x,
+                  .y = y,
+                  .z = 0.3,
+                  .firstAngle = -kPi,
+                  .angleStep = 2 * kPi / 3600,
+                  .elevation = 0,
+                  .maxRange = 20},
+                 0, ranges);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double angle = -kPi + 2 * kPi * static_cast<double>(i) / 3600;
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     const double toX = c > 0 ? (3 - x) / c : (-3 - x) / c;  // infinite along the wall
     const double toY = s > 0 ? (2 - y) / s : (-2 - y) / s;
-    ASSERT_NEAR(static_cast<double>(ranges[i]), std::min(std::abs(toX), std::abs(toY)), kExact) << i;
+    ASSERT_NEAR(static_cast<double>(ranges[i]), std::min(std::abs(toX), std::abs(toY)), kExact)
+        << i;
   }
 }
 
@@ -53,7 +61,12 @@ TEST(Rays, GiveTheGreatestRangeWhereThereIsNothing) {
 TEST(Rays, DoNotDependOnHowManyThereAre) {
   const auto world = worldOf(kRoom);
   std::vector<float> all(50);
-  const RayFan fan{.x = 0.1, .y = 0.2, .z = 0.3, .firstAngle = 0.5, .angleStep = 0.1, .elevation = 0,
+  const RayFan fan{.x = 0.1,
+                   .y = 0.2,
+                   .z = 0.3,
+                   .firstAngle = 0.5,
+                   .angleStep = 0.1,
+                   .elevation = 0,
                    .maxRange = 20};
   world->castFan(fan, 0, all);
   for (std::size_t n = 1; n < all.size(); ++n) {
@@ -89,8 +102,7 @@ TEST(Rays, MeetACircleExactly) {
 }
 
 TEST(Rays, MeetAnEllipseWithinHalfAMillimetre) {
-  const auto world = worldOf(
-      "[[ellipse]]\ncenter_m = [5, 0]\nsize_m = [3, 1]\nangle_deg = 30\n");
+  const auto world = worldOf("[[ellipse]]\ncenter_m = [5, 0]\nsize_m = [3, 1]\nangle_deg = 30\n");
   for (int i = -60; i <= 60; ++i) {
     // In the ellipse's own frame, stretched to a unit circle: |p + t d| = 1.
     const double angle = i * 1e-3;
@@ -132,8 +144,14 @@ TEST(Rays, ThatFallMeetTheTopsOfBodies) {
   // From 1.5 m height down by 1 m over 3 m.
   for (const double angle : {0.0, kPi / 2}) {
     float range = 0;
-    world->castFan({.x = 0, .y = 0, .z = 1.5, .firstAngle = angle, .angleStep = 0,
-                    .elevation = -std::atan2(1.0, 3.0), .maxRange = 20}, 0, {&range, 1});
+    world->castFan({.x = 0,
+                    .y = 0,
+                    .z = 1.5,
+                    .firstAngle = angle,
+                    .angleStep = 0,
+                    .elevation = -std::atan2(1.0, 3.0),
+                    .maxRange = 20},
+                   0, {&range, 1});
     EXPECT_NEAR(static_cast<double>(range), std::sqrt(10.0), 1e-4) << angle;
   }
 }
@@ -222,7 +240,8 @@ TEST(Visibility, OfAPostIsNotHiddenByThePostItself) {
   const Landmark& post = world->landmarks()[0];
   EXPECT_FALSE(world->isVisible(0, 0, 0.3, post.x, post.y, post.z, 0, 0));
   EXPECT_TRUE(world->isVisible(0, 0, 0.3, post.x, post.y, post.z, 0, 0.2));
-  EXPECT_TRUE(world->isVisible(5, 0, 0.5, post.x, post.y, post.z, 0, 0.2));  // nearer than the slack
+  EXPECT_TRUE(
+      world->isVisible(5, 0, 0.5, post.x, post.y, post.z, 0, 0.2));  // nearer than the slack
   EXPECT_FALSE(world->isVisible(std::nan(""), 0, 0.5, post.x, post.y, post.z, 0, 0.2));
 }
 

@@ -35,8 +35,9 @@ z_m = [2.5, 3]
 )";
 
 TEST(Region, ASquareFieldWithoutObstaclesLosesARobotsRadiusAtItsEdges) {
-  const auto world = worldOf("[world]\nx_m = [0, 2]\ny_m = [0, 1]\n"
-                             "[[rectangle]]\ncenter_m = [1, -5]\nsize_m = [1, 1]\n");
+  const auto world = worldOf(
+      "[world]\nx_m = [0, 2]\ny_m = [0, 1]\n"
+      "[[rectangle]]\ncenter_m = [1, -5]\nsize_m = [1, 1]\n");
   const FieldRegion region = world->region(0.1, 0.25);
   EXPECT_EQ(region.grid, (FieldGrid{0, 0, 0.1, 20, 10}));
   EXPECT_EQ(std::accumulate(region.open.begin(), region.open.end(), 0), 200);
@@ -59,8 +60,9 @@ TEST(Region, AgreesWithIsFreeInEveryCell) {
 }
 
 TEST(Region, KeepsRobotsExactlyTheirRadiusAwayFromAnEllipse) {
-  const auto world = worldOf("[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n"
-                             "[[ellipse]]\ncenter_m = [0, 0]\nsize_m = [4, 1]\n");
+  const auto world = worldOf(
+      "[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n"
+      "[[ellipse]]\ncenter_m = [0, 0]\nsize_m = [4, 1]\n");
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
     // A point at a known distance: out along the normal at a point of the ellipse.
@@ -76,8 +78,9 @@ TEST(Region, KeepsRobotsExactlyTheirRadiusAwayFromAnEllipse) {
 }
 
 TEST(Region, KeepsRobotsExactlyTheirRadiusAwayFromATriangle) {
-  const auto world = worldOf("[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n"
-                             "[[triangle]]\ncorners_m = [0, 0, 4, 0, 0, 3]\n");
+  const auto world = worldOf(
+      "[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n"
+      "[[triangle]]\ncorners_m = [0, 0, 4, 0, 0, 3]\n");
   EXPECT_TRUE(world->isFree(2, -1, 0.999));
   EXPECT_FALSE(world->isFree(2, -1, 1.001));
   EXPECT_TRUE(world->isFree(-3, -4, 4.999));  // 3-4-5 to the corner
@@ -99,8 +102,9 @@ TEST(Region, RefusesBadSizes) {
   EXPECT_THROW(world->region(0.1, -1), std::invalid_argument);
   EXPECT_THROW(world->region(0.1, std::nan("")), std::invalid_argument);
   EXPECT_FALSE(world->isFree(std::nan(""), 0, 0));
-  const auto huge = worldOf("[[landmark]]\nkind = \"a\"\nidentity = 1\nposition_m = [-10000, -10000]\n"
-                            "[[landmark]]\nkind = \"a\"\nidentity = 2\nposition_m = [10000, 10000]\n");
+  const auto huge = worldOf(
+      "[[landmark]]\nkind = \"a\"\nidentity = 1\nposition_m = [-10000, -10000]\n"
+      "[[landmark]]\nkind = \"a\"\nidentity = 2\nposition_m = [10000, 10000]\n");
   EXPECT_THROW(huge->region(0.1, 0.2), std::invalid_argument);
 }
 

@@ -62,15 +62,21 @@ inline std::string refusalOf(const std::string& toml) {
 inline double rangeAt(const World& world, double x, double y, double angle, double z = 0.3,
                       double maxRange = 50.0, RobotNumber ignore = 0) {
   float range = -1.0f;
-  world.castFan({.x = x, .y = y, .z = z, .firstAngle = angle, .angleStep = 0.01, .elevation = 0.0,
-                 .maxRange = maxRange}, ignore, {&range, 1});
+  world.castFan({.x = x,
+                 .y = y,
+                 .z = z,
+                 .firstAngle = angle,
+                 .angleStep = 0.01,
+                 .elevation = 0.0,
+                 .maxRange = maxRange},
+                ignore, {&range, 1});
   return static_cast<double>(range);
 }
 
 /// A binary PGM; rows from top to bottom: '#' occupied (0), '.' free (254), ' ' unknown (205).
 inline std::string pgmOf(const std::vector<std::string>& rows) {
-  std::string image = "P5\n" + std::to_string(rows[0].size()) + " " + std::to_string(rows.size()) +
-                      "\n255\n";
+  std::string image =
+      "P5\n" + std::to_string(rows[0].size()) + " " + std::to_string(rows.size()) + "\n255\n";
   for (const std::string& row : rows)
     for (const char c : row) image += c == '#' ? '\0' : c == '.' ? '\xfe' : '\xcd';
   return image;
