@@ -15,17 +15,14 @@ constexpr std::chrono::seconds kLimit{120};
 constexpr int kUnknownFrom = 100;  ///< of 255: p(free) between these says nothing
 constexpr int kUnknownTo = 155;
 
+/// Beside the running program or where it was installed, unless the environment says where.
 std::vector<std::filesystem::path> readerFolders() {
-  std::vector<std::filesystem::path> folders;
-  if (const char* folder = std::getenv("ORTUNG_LIBEXEC"); folder != nullptr && *folder != '\0')
-    folders.emplace_back(folder);
+  const char* folder = std::getenv("ORTUNG_LIBEXEC");
+  if (folder != nullptr && *folder != '\0') return {folder};
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  if (!error) {
-    folders.push_back(program);
-    folders.push_back(program.parent_path() / "libexec" / "ortung");
-  }
-  return folders;
+  if (error) return {};
+  return {program, program.parent_path() / "libexec" / "ortung"};
 }
 
 std::filesystem::path findReader(const std::filesystem::path& file) {

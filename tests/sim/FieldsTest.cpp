@@ -92,5 +92,34 @@ TEST(SharedMaps, AllLoadWithRoomToStand) {
   EXPECT_GE(count, 1);
 }
 
+// The grid map of MRPT's own demo, against the picture that was made of it in the same place.
+TEST(SharedMaps, MrptsGridMapIsThatOfItsPicture) {
+  const std::filesystem::path data = std::filesystem::path(ORTUNG_SHARED_DATA) / "mrpt_uwb_ro";
+  const auto gridmap = data / "raw" / "uwb_ro-localization_demo_map.gridmap.gz";
+  if (!std::filesystem::exists(gridmap)) GTEST_SKIP() << "there is no " << gridmap;
+  const auto reader = std::filesystem::path(ORTUNG_PROGRAM).parent_path() / "ortung-mrpt-reader";
+  if (!std::filesystem::exists(reader)) GTEST_SKIP() << reader << " was not built";
+  const TemporaryFolder folder;
+  const auto read = [&](const std::filesystem::path& map) {
+    const auto file = folder.write("world.toml", "[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n" +
+                                                     gridWorld(map, "unknown_margin_m = 0\n"));
+    return readWorld(file)->region(0.04, 0).open;
+  };
+  const auto fromMrpt = read(gridmap);
+  const auto fromPicture = read(data / "map.yaml");
+  ASSERT_EQ(fromMrpt.size(), fromPicture.size());
+  std::size_t open = 0;
+  std::size_t missing = 0;
+  std::size_t more = 0;
+  for (std::size_t i = 0; i < fromMrpt.size(); ++i) {
+    open += fromPicture[i];
+    missing += fromPicture[i] > fromMrpt[i] ? 1 : 0;
+    more += fromMrpt[i] > fromPicture[i] ? 1 : 0;
+  }
+  EXPECT_GT(open, 10000u);
+  EXPECT_EQ(missing, 0u);
+  EXPECT_LT(more, open / 5);  // the picture's threshold of free cells is the stricter one
+}
+
 }  // namespace
 }  // namespace ortung::test
