@@ -28,6 +28,10 @@ void ConeData::decode(std::span<const std::uint32_t> words) {
   } else {
     reading_ = range >= config_.maxRange ? std::numeric_limits<double>::infinity() : range;
   }
+  if (isLearned()) prepare();
+}
+
+void ConeData::prepare() {
   for (int level = 0; level < 256; ++level) {
     logByLevel_[static_cast<std::size_t>(level)] = logProbabilityOf(static_cast<std::uint8_t>(level));
   }
@@ -62,7 +66,10 @@ void ConeData::learn(const Pose2& robotInField) {
   if (!std::isnan(reading_)) table_.learn(sensor.x, sensor.y, sensor.theta, scale_.level(reading_));
 }
 
-void ConeData::finishTables() { table_.finish(); }
+void ConeData::finishTables() {
+  table_.finish();
+  prepare();
+}
 
 std::vector<double> ConeData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
@@ -99,6 +106,7 @@ void ConeData::saveTables(TableWriter& file, const std::string& prefix) const { 
 void ConeData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
   table_.load(file, prefix, grid, [](int) { return 1; });
   headingStep_ = table_.step();
+  prepare();
 }
 
 }  // namespace ortung

@@ -69,8 +69,12 @@ int DirectionTable::directionOf(double angle) const {
 void DirectionTable::learn(double x, double y, double angle, std::uint8_t level) {
   const std::ptrdiff_t cell = grid_.cellAt(x, y);
   if (cell < 0 || ownRowOf_[static_cast<std::size_t>(cell)] < 0) return;
-  const int direction = directionOf(angle);
-  const double offset = std::abs(std::remainder(angle - direction * step(), kTurn)) / step();  // 0 to 0.5
+  // As directionOf(), and how far off it is; the learner's innermost loop.
+  const double steps = angle * (directions_ / kTurn);
+  const double nearest = std::nearbyint(steps);
+  const double offset = std::abs(steps - nearest);  // 0 to 0.5
+  const auto remainder = static_cast<int>(static_cast<std::int64_t>(nearest) % directions_);
+  const int direction = remainder < 0 ? remainder + directions_ : remainder;
   const auto closeness = static_cast<std::uint8_t>(std::clamp(255.0 - 500.0 * offset, 1.0, 255.0));
   const std::size_t place = static_cast<std::size_t>(ownRowOf_[static_cast<std::size_t>(cell)]) * stride_ +
                             static_cast<std::size_t>(direction);

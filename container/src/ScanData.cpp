@@ -16,6 +16,8 @@ constexpr std::size_t kRangeClasses = 8;    ///< of end points: sigma grows with
 }  // namespace
 
 struct ScanData::Prepared {
+  // While learning rays.
+  std::vector<std::uint8_t> levelOfWord;
   // Against a ray table.
   std::vector<std::uint8_t> levels;  ///< by direction from the first beam on, padded
   std::vector<std::uint8_t> caps;
@@ -107,16 +109,23 @@ void ScanData::startTables(const FieldRegion& region, double headingStep) {
   }
   const int directions = std::max(1, static_cast<int>(std::lround(kFullTurn / headingStep)));
   rays_.start(region, directions, runLength(directions));
+  // The last word is beyond the greatest range, and stands for all that are.
+  prepared_->levelOfWord.resize(words::fromMetres(config_.maxRange) + 2);
+  for (std::uint32_t word = 0; word < prepared_->levelOfWord.size(); ++word) {
+    prepared_->levelOfWord[word] = scale_.level(words::toMetres(word));
+  }
 }
 
 void ScanData::learn(const Pose2& robotInField) {
   const Pose2 sensor = robotInField * mount();
+  const std::span<const std::uint32_t> words = getData();
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
     const double angle = sensor.theta + config_.firstAngle + static_cast<double>(i) * config_.angleStep;
     const auto range = static_cast<double>(ranges_[i]);
     if (std::isnan(range)) continue;
     if (config_.perception == Perception::kRays) {
-      rays_.learn(sensor.x, sensor.y, angle, scale_.level(range));
+      const std::size_t word = std::min<std::size_t>(words[i], prepared_->levelOfWord.size() - 1);
+      rays_.learn(sensor.x, sensor.y, angle, prepared_->levelOfWord[word]);
     } else if (std::isfinite(range)) {
       endPoints_.mark(sensor.x + range * std::cos(angle), sensor.y + range * std::sin(angle));
     }
@@ -126,6 +135,7 @@ void ScanData::learn(const Pose2& robotInField) {
 void ScanData::finishTables() {
   if (config_.perception == Perception::kRays) {
     rays_.finish();
+    prepared_->levelOfWord = {};
   } else {
     endPoints_.finish();
   }

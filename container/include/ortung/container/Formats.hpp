@@ -267,6 +267,7 @@ class ORTUNG_API ConeData : public SensorData {
   void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
   double logProbabilityAt(const Pose2& pose) const override;
   void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  void prepare();
   float logProbabilityOf(std::uint8_t level) const;
 
   Config config_;
