@@ -82,11 +82,11 @@ void runSweep(const SimWorld& world, const FieldRegion& region, const Sweep& swe
               Timestamp& now, Progress& progress) {
   for (std::size_t cell = 0; cell < region.open.size(); ++cell) {
     if (region.open[cell] == 0) continue;
+    ++now;  // a sensor may keep what it knows of one moment: turning on the spot takes no time
     for (std::size_t k = 0; k < sweep.headings; ++k) {
       const double heading = static_cast<double>(k) * sweep.spacing;
-      // Time goes on from pose to pose, so a sensor may keep what it knows of one moment.
       learnAt(world, {region.grid.centreX(cell), region.grid.centreY(cell), wrapAngle(heading)},
-              sweep.groups, ++now);
+              sweep.groups, now);
     }
     progress.done(sweep.headings * sweep.groups.size());
   }

@@ -77,20 +77,42 @@ TEST(SonarPlugin, HasTheNoiseOfItsModelAndLosesEchoes) {
   EXPECT_NEAR(ranges.sigma(), 0.05, 0.0026);
 }
 
-TEST(SonarPlugin, CastsItsRaysOnceForSonarsAtTheSamePlace) {
+TEST(SonarPlugin, LooksAroundOnceForSonarsThatTurnAtTheSamePlace) {
   const FakeWorld room(4.0, 4.0);
   SensorRig rig("sonar", "angles_deg = [0, 120, 240]");
-  const Pose2 place{0.5, 0.2, 0.3};
-  for (std::size_t i = 0; i < 3; ++i) {
-    RobotState state;
-    state.pose = place * inverse(rig.data[i]->mount());
-    SensorData* one = rig.data[i];
-    rig.sensor->generateData(room, state, nullptr, 1, {&one, 1});
-    EXPECT_EQ(rig.get<ConeData>(i).reading(), rig.get<ConeData>(0).reading());
+  std::size_t once = 0;
+  for (const double heading : {0.3, 0.3 + 10.0 * kDegree, 0.3 - 90.0 * kDegree}) {
+    SensorRig alone("sonar", "angles_deg = [0]");  // looks at each heading anew
+    const Pose2 place{0.5, 0.2, heading};
+    alone.sense(room, place * inverse(alone.data[0]->mount()));
+    if (once == 0) once = room.rays();
+    for (std::size_t i = 0; i < 3; ++i) {
+      RobotState state;
+      state.pose = place * inverse(rig.data[i]->mount());
+      SensorData* one = rig.data[i];
+      rig.sensor->generateData(room, state, nullptr, 1, {&one, 1});
+      EXPECT_NEAR(rig.get<ConeData>(i).reading(), alone.get<ConeData>().reading(), 0.0011);
+    }
   }
-  const std::size_t once = room.rays();
-  rig.sense(room, place);  // three places, and a moment later
-  EXPECT_EQ(room.rays(), 4 * once);
+  EXPECT_EQ(room.rays(), 4 * once);  // three alone, the ring's once
+}
+
+TEST(SonarPlugin, SeesTheSameWithNoiseOfZeroAsWithoutNoise) {
+  FakeWorld room(4.0, 4.0);
+  room.addPost({0.9, 0.4, 0.1});
+  SensorRig rig("sonar", "angles_deg = [0, 45, 90]\nnoise_sigma_m = 0\nnoise_sigma_per_m = 0");
+  for (double heading = -3.0; heading < 3.0; heading += 0.37) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      SensorData* one = rig.data[i];
+      RobotState state;
+      state.pose = {0.1, -0.2, heading};
+      Random noise(1);
+      rig.sensor->generateData(room, state, &noise, ++rig.now, {&one, 1});
+      const double noisy = rig.get<ConeData>(i).reading();
+      rig.sensor->generateData(room, state, nullptr, rig.now, {&one, 1});
+      EXPECT_NEAR(rig.get<ConeData>(i).reading(), noisy, 0.0011);
+    }
+  }
 }
 
 }  // namespace

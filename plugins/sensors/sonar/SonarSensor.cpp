@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "SonarSettings.hpp"
@@ -14,41 +13,110 @@ namespace {
 /// Rays within the cone at one elevation.
 struct Slice {
   double elevation = 0.0;  ///< [rad]
-  double halfWidth = 0.0;  ///< [rad]
-  std::size_t rays = 1;
+  int toEachSide = 0;      ///< rays beside the one in the middle
 };
 
-/// Cuts the cone into fans: one level, the others evenly above and below it, each as wide as a
-/// cone of circular section is there.
-std::vector<Slice> cutCone(double openingAngle) {
-  constexpr int kAbove = 2;  // fans above the level one, and below it
-  const double half = openingAngle / 2.0;
-  const double spacing = std::min(radians(2.0), half / 5.0);
-  std::vector<Slice> slices;
-  for (int i = -kAbove; i <= kAbove; ++i) {
-    Slice slice;
-    slice.elevation = half * i / kAbove;
-    slice.halfWidth = std::sqrt(std::max(half * half - slice.elevation * slice.elevation, 0.0));
-    const double steps = std::ceil(slice.halfWidth / spacing);
-    slice.rays = 2 * static_cast<std::size_t>(steps) + 1;  // odd: one of them is in the middle
-    slices.push_back(slice);
+/// A cone of rays: slices at elevations within it, each as wide as a circular cone is there.
+struct Cone {
+  explicit Cone(double openingAngle) {
+    constexpr int kFewest = 5;  // rays between middle and edge
+    const double half = openingAngle / 2.0;
+    const double toEachSide = std::max(std::ceil(half / radians(2.0)), double{kFewest});
+    step = half / toEachSide;
+    slices.push_back({0.0, static_cast<int>(toEachSide)});
+    // At 0.6 of the way up, the cone is 0.8 as wide.
+    for (const double share : {-0.6, 0.6})
+      slices.push_back({share * half, static_cast<int>(std::floor(0.8 * toEachSide + 1e-9))});
   }
-  return slices;
-}
+  double step;  ///< between rays of a slice [rad]
+  std::vector<Slice> slices;
+};
+
+/// What a cone meets in all directions from one place at one moment. The learner puts all sonars of
+/// a ring there, one after the other, and turns them on the spot.
+class Panorama {
+ public:
+  Panorama(const Cone& cone, double z, double maxRange) : cone_(cone), z_(z), maxRange_(maxRange) {
+    nearest_.resize(static_cast<std::size_t>(std::ceil(kTurn / cone.step - 1e-9)));
+    ranges_.resize(nearest_.size());
+  }
+
+  bool isOf(const World& world, const Pose2& sonar, Timestamp now) const {
+    constexpr double kSame = 1e-9;  // [m]: what a chain of frames leaves of rounding
+    return world_ == &world && now_ == now && std::abs(place_.x - sonar.x) < kSame &&
+           std::abs(place_.y - sonar.y) < kSame;
+  }
+
+  /// Looks around; the heading of @p sonar is met exactly.
+  void look(const World& world, const Pose2& sonar, RobotNumber robot, Timestamp now) {
+    world_ = &world;
+    now_ = now;
+    place_ = sonar;
+    std::fill(nearest_.begin(), nearest_.end(), static_cast<float>(maxRange_));
+    for (const Slice& slice : cone_.slices) {
+      world.castFan({.x = sonar.x,
+                     .y = sonar.y,
+                     .z = z_,
+                     .firstAngle = sonar.theta,
+                     .angleStep = cone_.step,
+                     .elevation = slice.elevation,
+                     .maxRange = maxRange_},
+                    robot, ranges_);
+      spread(slice.toEachSide);
+    }
+  }
+
+  double nearest(double heading) const {
+    const double turns = (heading - place_.theta) / kTurn;
+    const double ahead = (turns - std::floor(turns)) * kTurn;
+    const auto index = static_cast<std::size_t>(std::lround(ahead / cone_.step));
+    return static_cast<double>(nearest_[index % nearest_.size()]);
+  }
+
+ private:
+  /// Each ray counts in all directions whose cone it lies in.
+  void spread(int toEachSide) {
+    const auto n = static_cast<int>(ranges_.size());
+    for (int i = 0; i < n; ++i) {
+      const float range = ranges_[static_cast<std::size_t>(i)];
+      if (static_cast<double>(range) >= maxRange_) continue;
+      for (int k = i - toEachSide; k <= i + toEachSide; ++k) {
+        float& nearest = nearest_[static_cast<std::size_t>((k % n + n) % n)];
+        nearest = std::min(nearest, range);
+      }
+    }
+  }
+
+  const Cone& cone_;
+  double z_;         ///< [m]
+  double maxRange_;  ///< [m]
+  const World* world_ = nullptr;
+  Timestamp now_ = 0;
+  Pose2 place_;
+  std::vector<float> nearest_;  ///< by direction [m]
+  std::vector<float> ranges_;   ///< of one slice [m]
+};
 
 class SonarSensor : public Sensor {
  public:
   explicit SonarSensor(const Parameters& p)
-      : settings_(readSonarSettings(p)), slices_(cutCone(settings_.cone.openingAngle)) {
-    for (const Slice& slice : slices_) ranges_.resize(std::max(ranges_.size(), slice.rays));
-  }
+      : settings_(readSonarSettings(p)),
+        cone_(settings_.cone.openingAngle),
+        panorama_(cone_, settings_.z, settings_.cone.maxRange),
+        ranges_(static_cast<std::size_t>(2 * cone_.slices.front().toEachSide + 1)) {}
 
   void generateData(const World& world, const RobotState& robot, Random* noise, Timestamp now,
                     std::span<SensorData* const> data) override {
     for (SensorData* one : data) {
       // The data half has put each sonar to its place on the ring.
-      double range = nearestAt(world, robot.pose * one->mount(), robot.number, now);
-      if (noise != nullptr) range = measured(range, *noise);
+      const Pose2 sonar = robot.pose * one->mount();
+      double range = 0.0;
+      if (noise == nullptr) {
+        if (!panorama_.isOf(world, sonar, now)) panorama_.look(world, sonar, robot.number, now);
+        range = seen(panorama_.nearest(sonar.theta));
+      } else {
+        range = measured(seen(nearest(world, sonar, robot.number)), *noise);
+      }
       if (std::isfinite(range)) range = std::max({range, settings_.minRange, 0.001});
       const std::uint32_t word = ConeData::encode(range, settings_.cone.maxRange);
       one->setData(now, {&word, 1});
@@ -58,36 +126,29 @@ class SonarSensor : public Sensor {
   double period() const override { return settings_.period; }
 
  private:
-  /// As nearest(), but remembers the last answer: the learner puts all sonars of a ring to the same
-  /// place, one after the other.
-  double nearestAt(const World& world, const Pose2& sonar, RobotNumber robot, Timestamp now) {
-    constexpr double kSame = 1e-9;  // [m] and [rad]: what a chain of frames leaves of rounding
-    const bool isKnown = last_ && last_->now == now && last_->world == &world &&
-                         std::abs(last_->sonar.x - sonar.x) < kSame &&
-                         std::abs(last_->sonar.y - sonar.y) < kSame &&
-                         std::abs(wrapAngle(last_->sonar.theta - sonar.theta)) < kSame;
-    if (!isKnown) last_ = {now, &world, sonar, nearest(world, sonar, robot)};
-    return last_->range;
-  }
-
-  /// Nearest surface within the cone [m], or infinity.
+  /// Nearest surface within the cone, or the greatest range [m].
   double nearest(const World& world, const Pose2& sonar, RobotNumber robot) {
-    double range = settings_.cone.maxRange;
-    for (const Slice& slice : slices_) {
-      const std::span<float> rays(ranges_.data(), slice.rays);
-      const double step =
-          slice.rays > 1 ? 2.0 * slice.halfWidth / static_cast<double>(slice.rays - 1) : 0.0;
+    auto range = static_cast<float>(settings_.cone.maxRange);
+    for (const Slice& slice : cone_.slices) {
+      const std::span<float> rays(ranges_.data(), static_cast<std::size_t>(2 * slice.toEachSide + 1));
       world.castFan({.x = sonar.x,
                      .y = sonar.y,
                      .z = settings_.z,
-                     .firstAngle = sonar.theta - slice.halfWidth,
-                     .angleStep = step,
+                     .firstAngle = sonar.theta - slice.toEachSide * cone_.step,
+                     .angleStep = cone_.step,
                      .elevation = slice.elevation,
                      .maxRange = settings_.cone.maxRange},
                     robot, rays);
-      range = std::min(range, static_cast<double>(*std::min_element(rays.begin(), rays.end())));
+      range = std::min(range, *std::min_element(rays.begin(), rays.end()));
     }
-    return range < settings_.cone.maxRange ? range : std::numeric_limits<double>::infinity();
+    return static_cast<double>(range);
+  }
+
+  /// Infinity for nothing within range.
+  double seen(double range) const {
+    // The greatest range may have come back through a float.
+    const bool isNothing = range >= settings_.cone.maxRange * (1.0 - 1e-7);
+    return isNothing ? std::numeric_limits<double>::infinity() : range;
   }
 
   double measured(double range, Random& noise) const {
@@ -99,16 +160,10 @@ class SonarSensor : public Sensor {
     return range + sigma * noise.gaussian();
   }
 
-  struct Answer {
-    Timestamp now;
-    const World* world;
-    Pose2 sonar;
-    double range;
-  };
   SonarSettings settings_;
-  std::optional<Answer> last_;
-  std::vector<Slice> slices_;
-  std::vector<float> ranges_;
+  Cone cone_;
+  Panorama panorama_;
+  std::vector<float> ranges_;  ///< of one slice [m]
 };
 
 }  // namespace
