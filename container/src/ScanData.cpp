@@ -13,11 +13,42 @@ constexpr std::uint8_t kLargestCost = 250;  ///< of one beam: the outlier floor 
 constexpr std::size_t kSamplesABlock = 64;  ///< rows are looked up and prefetched this many at a time
 constexpr std::size_t kRangeClasses = 8;    ///< of end points: sigma grows with range
 
+/// Headings whose scans together span a turn.
+int fewestViews(const ScanData::Config& config) {
+  const double span = std::min(config.beams * config.angleStep, kFullTurn);
+  const auto views = static_cast<int>(std::ceil(kFullTurn / span - 1e-9));
+  // One view more than a turn needs: beams of the views interleave, so fewer directions stay empty.
+  return views == 1 ? 1 : views + 1;
+}
+
+/// Whether the beams of so many evenly spaced views fall on every one of @p directions a turn.
+bool meetAll(const ScanData::Config& config, int views, int directions) {
+  std::vector<bool> met(static_cast<std::size_t>(directions), false);
+  for (int view = 0; view < views; ++view) {
+    for (int beam = 0; beam < config.beams; ++beam) {
+      const double turns = static_cast<double>(view) / views + (config.firstAngle + beam * config.angleStep) / kFullTurn;
+      const long direction = std::lround((turns - std::floor(turns)) * directions);
+      met[static_cast<std::size_t>(direction % directions)] = true;
+    }
+  }
+  return std::find(met.begin(), met.end(), false) == met.end();
+}
+
+/// Headings that learn every direction of a table, also where beams are sparser than its directions.
+int viewsFor(const ScanData::Config& config, int directions) {
+  int views = fewestViews(config);
+  if (config.angleStep <= 1.01 * kFullTurn / directions) return views;  // the table fills single holes
+  views = std::max(views, directions / config.beams);
+  while (views < directions && !meetAll(config, views, directions)) views += 1 + views / 8;
+  return std::min(views, directions);
+}
+
 }  // namespace
 
 struct ScanData::Prepared {
   // While learning rays.
   std::vector<std::uint8_t> levelOfWord;
+  int views = 0;  ///< headings a turn; 0: not known yet
   // Against a ray table.
   std::vector<std::uint8_t> levels;  ///< by direction from the first beam on, padded
   std::vector<std::uint8_t> caps;
@@ -87,10 +118,8 @@ std::string ScanData::wordsHelp() const {
 }
 
 double ScanData::headingSpacing() const {
-  const double span = std::min(config_.beams * config_.angleStep, kFullTurn);
-  const double views = std::ceil(kFullTurn / span - 1e-9);
-  // One view more than a turn needs: beams of the views interleave, so fewer directions stay empty.
-  return views == 1.0 ? kFullTurn : kFullTurn / (views + 1.0);
+  if (prepared_->views > 0) return kFullTurn / prepared_->views;
+  return kFullTurn / fewestViews(config_);
 }
 
 int ScanData::runLength(int directions) const {
@@ -109,6 +138,7 @@ void ScanData::startTables(const FieldRegion& region, double headingStep) {
   }
   const int directions = std::max(1, static_cast<int>(std::lround(kFullTurn / headingStep)));
   rays_.start(region, directions, runLength(directions));
+  prepared_->views = viewsFor(config_, directions);
   // The last word is beyond the greatest range, and stands for all that are.
   prepared_->levelOfWord.resize(words::fromMetres(config_.maxRange) + 2);
   for (std::uint32_t word = 0; word < prepared_->levelOfWord.size(); ++word) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -76,6 +77,28 @@ TEST(Learner, LearnsWhatAScanSeesFromEveryCell) {
       }
       EXPECT_GE(expected[i], low - 0.02) << "beam " << i;
       EXPECT_LE(expected[i], high + 0.02) << "beam " << i;
+    }
+  }
+}
+
+TEST(Learner, FillsEveryDirectionFromSparseBeams) {
+  const FakeWorld room(6.0, 4.0);
+  for (const char* beams : {"beams = 16\nfov_deg = 180", "beams = 20\nfov_deg = 360", "beams = 1",
+                            "beams = 7\nangle_step_deg = 0.5", "beams = 682\nfov_deg = 240"}) {
+    const Learned learned(room, std::string("[[sensor]]\nplugin = 'lrf'\nfeature = 'scan'\n"
+                                            "sigma_m = 0.02\nsigma_per_m = 0.0\n") + beams,
+                          {.cell = 0.2});
+    const SensorData& scan = learned.find("scan");
+    // Straight at the walls from the middle of a cell, whatever the beams: beam 0 of each heading.
+    const double first = dynamic_cast<const ScanData&>(scan).config().firstAngle;
+    for (int degrees = 0; degrees < 360; degrees += 2) {
+      const double angle = degrees * kDegree;
+      const std::vector<double> expected = scan.expectation({0.1, 0.1, angle - first});
+      ASSERT_FALSE(expected.empty()) << beams;
+      const auto between = std::minmax({room.range(0.1, 0.1, angle - 1.01 * kDegree), room.range(0.1, 0.1, angle),
+                                        room.range(0.1, 0.1, angle + 1.01 * kDegree)});
+      EXPECT_GE(expected[0], between.first - 0.02) << beams << " at " << degrees;
+      EXPECT_LE(expected[0], between.second + 0.02) << beams << " at " << degrees;
     }
   }
 }
