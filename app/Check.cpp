@@ -56,16 +56,17 @@ std::string landmarksOf(const SimWorld& world) {
   return text;
 }
 
-void checkWorldFile(const fs::path& file) {
-  constexpr double kCell = 0.1;    // of `ortung learn`
-  constexpr double kRadius = 0.25;
+void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
+  constexpr double kCell = 0.1;  // of `ortung learn`
+  const double radius =
+      arguments.robot.empty() ? RobotConfig().radius : readRobot(arguments.robot).radius;
   const std::unique_ptr<SimWorld> world = readWorld(file);
-  const FieldRegion region = world->region(kCell, kRadius);
+  const FieldRegion region = world->region(kCell, radius);
   fmt::print("{}: world '{}', fingerprint {}\n  {}\n  {} x {} cells of {} m, {} open, {} where a robot "
-             "of radius {} m can stand\n  {}\n",
+             "of radius {:g} m can stand\n  {}\n",
              printable(file.string()), printable(world->name()), world->fingerprint(),
              bounds(region.grid), region.grid.columns, region.grid.rows, kCell, countOf(region.open),
-             countOf(region.standable), kRadius, printable(landmarksOf(*world)));
+             countOf(region.standable), radius, printable(landmarksOf(*world)));
 }
 
 void checkRobotFile(const fs::path& file) {
@@ -141,7 +142,7 @@ void checkRecord(const fs::path& file, const CheckArguments& arguments) {
 
 void checkFile(const fs::path& file, const CheckArguments& arguments) {
   switch (kindOf(file)) {
-    case Kind::kWorld: return checkWorldFile(file);
+    case Kind::kWorld: return checkWorldFile(file, arguments);
     case Kind::kRobot: return checkRobotFile(file);
     case Kind::kTables: return checkTables(file, arguments);
     case Kind::kRecord: return checkRecord(file, arguments);

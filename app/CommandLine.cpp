@@ -156,7 +156,9 @@ void addShow(Builder& build, CLI::App& app) {
       runShow);
   build.option("tables", a->tables, "Table file of `ortung learn`")->required();
   build.option("--robot", a->robot, "Robot file (TOML)")->required();
-  build.option("--feature", a->feature, "model/type/feature; * for any")->required();
+  build.option("--feature", a->features,
+               "model/type/feature, * for any; given again: the product of all that match")
+      ->required()->expected(1)->take_all();
   build.option("--out", a->out, "Picture to write (PNG)")->required();
   build.option("--record", a->record, "Record with the reading to weigh");
   build.option("--source", a->source, "Or any source with the reading to weigh");

@@ -67,7 +67,7 @@ int runImport(const ImportArguments& arguments);
 struct ShowArguments {
   std::filesystem::path tables;
   std::filesystem::path robot;
-  std::string feature;
+  std::vector<std::string> features;  ///< "model/type/feature", any of them
   std::filesystem::path out;
   std::filesystem::path record;     ///< "" for none
   std::string source;               ///< "" for none

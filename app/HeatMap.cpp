@@ -161,7 +161,8 @@ Picture draw(const HeatMap& map) {
   const int legendTop = top + grid.rows * zoom + kMargin;
   const int width = std::max(grid.columns * zoom, kWantedWidth / 2) + 2 * kMargin;
   Picture picture(width, legendTop + kBarHeight + 2 * kLineHeight, kPaper);
-  picture.text(kMargin, kMargin, kLetters, kBlack, map.caption);
+  const bool fits = Picture::textWidth(kLetters, map.caption) <= width - 2 * kMargin;
+  picture.text(kMargin, kMargin, fits ? kLetters : 1, kBlack, map.caption);
   CellPainter painter(picture, map, top);
   painter.paint();
   if (map.truth && isFinite(*map.truth)) painter.mark(*map.truth);

@@ -123,8 +123,8 @@ std::string charts(bool hasTruth) {
   } else {
     html += R"(<p class="note">The source gave no ground truth, so there are no errors to show.</p>)";
   }
-  return html + R"(<h2>Samples</h2><div id="samples" class="chart"></div>)"
-                R"(<p class="note">Time is in seconds since the first reading. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";
+  return html + R"(<h2>Samples <small>logarithmic</small></h2><div id="samples" class="chart"></div>)"
+                R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";
 }
 
 std::string settings(const RunResult& run) {

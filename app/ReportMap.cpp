@@ -16,7 +16,9 @@ constexpr Colour kSolid{58, 66, 80};
 constexpr Colour kNotStandable{226, 231, 238};
 constexpr Colour kStandable{255, 255, 255};
 constexpr int kMaxPixels = 4096;     ///< of the map's longer side
-constexpr double kJump = 1.0;        ///< a path is not drawn over longer steps [m]
+// A path is not drawn over steps that are longer and faster than this: nobody drove them.
+constexpr double kJump = 1.0;        ///< [m]
+constexpr double kJumpSpeed = 3.0;   ///< [m/s]
 constexpr std::size_t kMaxPoints = 20000;
 
 std::string base64(std::span<const std::byte> bytes) {
@@ -51,12 +53,15 @@ std::string maskPng(const FieldRegion& region) {
 /// Collects the commands of an SVG path.
 class Path {
  public:
-  void add(const Pose2& pose) {
+  void add(Timestamp stamp, const Pose2& pose) {
     if (!isFinite(pose)) return;
-    const bool jumps = empty_ || distance(last_, pose) > kJump;
+    const double way = distance(last_, pose);
+    const double seconds = toSeconds(stamp) - toSeconds(lastStamp_);
+    const bool jumps = empty_ || (way > kJump && way > kJumpSpeed * seconds);
     // "h0" makes a lonely point visible: its round cap is drawn.
     text_ += fmt::format(fmt::runtime(jumps ? "M{:.3f} {:.3f}h0" : "L{:.3f} {:.3f}"), pose.x, pose.y);
     last_ = pose;
+    lastStamp_ = stamp;
     empty_ = false;
   }
   const std::string& text() const { return text_; }
@@ -64,6 +69,7 @@ class Path {
  private:
   std::string text_;
   Pose2 last_;
+  Timestamp lastStamp_ = 0;
   bool empty_ = true;
 };
 
@@ -99,10 +105,12 @@ std::string mapSvg(const RunResult& run) {
   Path truth;
   Path estimate;
   const std::size_t everyPoint = points.size() / kMaxPoints + 1;
-  for (std::size_t i = 0; i < points.size(); i += everyPoint) truth.add(points[i].truth);
+  for (std::size_t i = 0; i < points.size(); i += everyPoint) {
+    truth.add(points[i].stamp, points[i].truth);
+  }
   const std::size_t everyEstimate = run.estimates.size() / kMaxPoints + 1;
   for (std::size_t i = 0; i < run.estimates.size(); i += everyEstimate) {
-    estimate.add(run.estimates[i].pose);
+    estimate.add(run.estimates[i].stamp, run.estimates[i].pose);
   }
 
   std::string svg = fmt::format(

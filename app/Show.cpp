@@ -1,8 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "Commands.hpp"
@@ -20,24 +23,49 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<SensorData*> featuresOf(const Robot& robot, const ShowArguments& arguments) {
-  SensorQuery query;
+SensorQuery readQuery(const std::string& feature) {
   try {
-    query = parseSensorQuery(arguments.feature);
+    return parseSensorQuery(feature);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--feature: {}", error.what()));
   }
+}
+
+/// All features with a perceptual model, in the container's order.
+std::vector<SensorData*> localizingFeatures(const Robot& robot) {
   std::vector<SensorData*> features;
-  for (SensorData* feature : robot.container.findAll(query)) {
-    if (feature->localizes()) features.push_back(feature);
-  }
-  if (!features.empty()) return features;
-  std::string known;
   for (const auto& feature : robot.container.all()) {
-    if (feature->localizes()) known += (known.empty() ? "" : ", ") + toText(feature->id());
+    if (feature->localizes()) features.push_back(feature.get());
   }
-  throw std::runtime_error(fmt::format("{}: no feature with a perceptual model matches '{}', expected one of {}",
-                                       arguments.robot.string(), arguments.feature, known));
+  return features;
+}
+
+std::string namesOf(const std::vector<SensorData*>& features) {
+  std::string names;
+  for (const SensorData* feature : features) {
+    names += (names.empty() ? "" : ", ") + toText(feature->id());
+  }
+  return names;
+}
+
+/// The features that the arguments name. @throws std::runtime_error where nothing matches
+std::vector<SensorData*> featuresOf(const Robot& robot, const ShowArguments& arguments) {
+  const std::vector<SensorData*> all = localizingFeatures(robot);
+  std::set<const SensorData*> wanted;
+  for (const std::string& text : arguments.features) {
+    const std::vector<SensorData*> matches = robot.container.findAll(readQuery(text));
+    const bool any = std::any_of(matches.begin(), matches.end(), [](auto* f) { return f->localizes(); });
+    if (!any) {
+      throw std::runtime_error(
+          fmt::format("{}: no feature with a perceptual model matches '{}', expected one of {}",
+                      arguments.robot.string(), text, namesOf(all)));
+    }
+    wanted.insert(matches.begin(), matches.end());
+  }
+  std::vector<SensorData*> features;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(features),
+               [&](const SensorData* feature) { return wanted.contains(feature); });
+  return features;
 }
 
 /// What one of a feature's values is, by its format.
@@ -152,7 +180,7 @@ HeatMap probabilityMap(const Robot& robot, std::vector<SensorData*> features,
   if (features.empty()) {
     throw std::runtime_error(fmt::format(
         "{}: no feature that matches '{}' has a reading that says anything by {} s; try a later --at",
-        sourceText(arguments), arguments.feature, arguments.at));
+        sourceText(arguments), fmt::join(arguments.features, "', '"), arguments.at));
   }
   const FieldRegion& region = robot.tables.region;
   HeatMap map;
@@ -174,9 +202,8 @@ HeatMap probabilityMap(const Robot& robot, std::vector<SensorData*> features,
       best = std::fmax(best, std::exp(static_cast<double>(cells.logProbability[k])));
     }
   }
-  map.caption = fmt::format("p({}{})", arguments.feature,
-                            features.size() > 1 ? fmt::format(", {} features", features.size()) : "");
-  map.caption += fmt::format(" at {:g} s", arguments.at);
+  map.caption = fmt::format("p({}) at {:g} s", fmt::join(arguments.features, ", "), arguments.at);
+  if (features.size() > 1) map.caption += fmt::format(", {} features", features.size());
   map.logarithmic = arguments.logarithmic;
   return map;
 }
@@ -206,9 +233,8 @@ int runShow(const ShowArguments& arguments) {
   HeatMap map;
   if (sourceText(arguments).empty()) {
     if (features.size() > 1) {
-      throw UsageError(fmt::format("--feature '{}' matches {} features, expected one: {}, {} ...",
-                                   arguments.feature, features.size(), toText(features[0]->id()),
-                                   toText(features[1]->id())));
+      throw UsageError(fmt::format("--feature matches {} features, expected one (or a reading, by "
+                                   "--record): {}", features.size(), namesOf(features)));
     }
     map = expectationMap(*robot, *features[0], arguments);
   } else {

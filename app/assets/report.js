@@ -61,10 +61,21 @@
     }, options)));
   }
 
+  // Top of an error's axis: errors before convergence would flatten all others.
+  function topAfterConvergence(values, sigmas) {
+    if (data.converged === null) return null;
+    let top = 0;
+    data.time.forEach(function (t, i) {
+      if (t >= data.converged) top = Math.max(top, values[i], Math.min(sigmas[i] || 0, 3 * values[i]));
+    });
+    return top > 0 ? 1.15 * top : null;
+  }
+
   function errorChart(id, values, sigmas) {
+    const top = topAfterConvergence(values, sigmas);
     const rows = data.time.map(function (t, i) { return [t, sigmas[i], values[i]]; });
     chart(id, rows, ['time', '1 sigma', 'error'], {
-      colors: ['#9aa6b4', estimate],
+      colors: ['#9aa6b4', estimate], valueRange: [0, top],
       series: { '1 sigma': { fillGraph: true, strokeWidth: 0.5 } }
     });
   }
@@ -72,6 +83,6 @@
   errorChart('position', data.position, data.positionSigma);
   errorChart('heading', data.heading, data.headingSigma);
   chart('samples', data.samplesTime.map(function (t, i) { return [t, data.samples[i]]; }),
-        ['time', 'samples'], { colors: ['#3f7d58'], fillGraph: true, stepPlot: true });
+        ['time', 'samples'], { colors: ['#3f7d58'], stepPlot: true, logscale: true, includeZero: false });
   if (graphs.length > 1) Dygraph.synchronize(graphs, { range: false });
 })();

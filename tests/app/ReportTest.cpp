@@ -97,12 +97,14 @@ TEST(Report, MapHasBothPathsBreaksThemAtJumpsAndLiesRightSideUp) {
   RunResult run = syntheticRun();
   run.estimates.resize(2);
   run.estimates[0].pose = {1.0, 2.0, 0.0};
-  run.estimates[1].pose = {-3.0, 2.0, 0.0};  // 4 m away: not driven
+  run.estimates[1].pose = {-3.0, 2.0, 0.0};  // 4 m in 0.1 s: not driven
   const std::string svg = mapSvg(run);
   EXPECT_NE(svg.find("M1.000 2.000h0M-3.000 2.000h0"), std::string::npos);
   EXPECT_NE(svg.find("viewBox=\"-4.000 -3.000 8.000"), std::string::npos);
   EXPECT_NE(svg.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);  // PNG's signature
   EXPECT_EQ(countOf(svg, "class=\"truth\""), 1u);
+  run.estimates[1].stamp = fromSeconds(4.0);  // 1 m/s: a log with rare scans
+  EXPECT_NE(mapSvg(run).find("M1.000 2.000h0L-3.000 2.000"), std::string::npos);
 }
 
 }  // namespace

@@ -33,6 +33,17 @@ TEST_F(Show, DrawsWhereAReadingIsProbableWithTheTruePose) {
   EXPECT_NE(outcome.out.find("true pose: "), std::string::npos) << outcome.out;
 }
 
+TEST_F(Show, TakesTheProductOfSeveralFeatures) {
+  write("robot.toml", read("robot.toml") + "[[sensor]]\nplugin = \"lrf\"\nmodel = \"rear\"\nbeams = 30\n" +
+                          "pose = { x_m = 0, y_m = 0, theta_deg = 180 }\n");
+  learnTables();
+  recordRun();
+  const Outcome outcome = show({"--feature", "LMS200/*/*", "--feature", "rear/*/*", "--record", path("run.rec")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("2 features"), std::string::npos) << outcome.out;
+  expectRefused(show({"--feature", "*/LRF/*"}), 2, "ortung show: --feature matches 2 features", {"rear/LRF"});
+}
+
 TEST_F(Show, RefusesWhatItCannotDraw) {
   expectRefused(show({"--feature", "*/sonar/*"}), 1, "ortung show: " + path("robot.toml"),
                 {"*/sonar/*", "LMS200/LRF/180DegreeScan"});
