@@ -67,8 +67,8 @@ class Progress {
     if (done_ < next_) return;
     next_ = done_ + total_ / 200 + 1;
     if (report_ && !report_(static_cast<double>(done_) / static_cast<double>(total_)))
-      throw LearnCancelled("learning was cancelled after " +
-                           std::to_string(100 * done_ / total_) + " %");
+      throw LearnCancelled("learning was cancelled after " + std::to_string(100 * done_ / total_) +
+                           " %");
   }
 
  private:
@@ -78,8 +78,8 @@ class Progress {
   std::size_t next_ = 0;
 };
 
-void runSweep(const SimWorld& world, const FieldRegion& region, const Sweep& sweep,
-              Timestamp& now, Progress& progress) {
+void runSweep(const SimWorld& world, const FieldRegion& region, const Sweep& sweep, Timestamp& now,
+              Progress& progress) {
   for (std::size_t cell = 0; cell < region.open.size(); ++cell) {
     if (region.open[cell] == 0) continue;
     ++now;  // a sensor may keep what it knows of one moment: turning on the spot takes no time

@@ -75,7 +75,8 @@ void Simulation::place(SimRobot& robot, const Pose2& pose) {
 bool Simulation::fits(const Pose2& pose, double radius, const SimRobot* self) const {
   if (!world_->isFree(pose.x, pose.y, radius)) return false;
   for (const std::unique_ptr<SimRobot>& other : robots_)
-    if (other.get() != self && distance(pose, other->state().pose) < radius + other->config().radius)
+    if (other.get() != self &&
+        distance(pose, other->state().pose) < radius + other->config().radius)
       return false;
   return true;
 }

@@ -163,7 +163,7 @@ TEST(LandmarksPlugin, SpreadsFalseSightingsOverItsField) {
     ranges.add(rig.get<ScalarData>(0).reading().value());
     EXPECT_LE(std::abs(rig.get<BearingData>(1).reading().value()), 60.01 * kDegree);
   }
-  EXPECT_NEAR(ranges.mean(), 5.0, 0.26);                     // uniform in [0, 10]
+  EXPECT_NEAR(ranges.mean(), 5.0, 0.26);  // uniform in [0, 10]
   EXPECT_NEAR(ranges.sigma(), 10.0 / std::sqrt(12.0), 0.15);
 }
 

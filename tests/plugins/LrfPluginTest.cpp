@@ -66,7 +66,8 @@ TEST(LrfPlugin, MeasuresARoomAsGeometryDoes) {
   const ScanData::Reading scan = rig.get<ScanData>().reading();
   for (int i = 0; i < 180; ++i) {
     const double angle = 1.1 + (30.0 - 90.0 + i * 180.0 / 179.0) * kDegree;
-    EXPECT_NEAR(scan.ranges[static_cast<std::size_t>(i)], room.range(x, y, angle), kMillimetre) << i;
+    EXPECT_NEAR(scan.ranges[static_cast<std::size_t>(i)], room.range(x, y, angle), kMillimetre)
+        << i;
   }
 }
 
@@ -113,7 +114,8 @@ TEST(LrfPlugin, LosesTheShareOfBeamsThatWasAskedFor) {
   int lost = 0;
   for (int i = 0; i < 50; ++i) {
     rig.sense(room, {0.5, 0.5, 0.1 * i}, &noise);
-    for (const float range : rig.get<ScanData>().reading().ranges) lost += std::isnan(range) ? 1 : 0;
+    for (const float range : rig.get<ScanData>().reading().ranges)
+      lost += std::isnan(range) ? 1 : 0;
   }
   EXPECT_NEAR(lost / 9000.0, 0.2, 0.017);  // 4 sigma of 9000 draws
 }

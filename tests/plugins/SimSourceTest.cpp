@@ -77,18 +77,24 @@ TEST(SimSource, FillsTheContainerOfItsRobot) {
   SimRun run(Options{{"duration", "0.5"}});
   SensorContainer container;
   fillContainer(container, readRobot(std::filesystem::path(kRobot)), run.factory);
-  for (const Message& message : run.all()) EXPECT_TRUE(container.set(message)) << toText(message.id);
+  for (const Message& message : run.all())
+    EXPECT_TRUE(container.set(message)) << toText(message.id);
   for (const auto& data : container.all()) EXPECT_GT(data->sequence(), 0u) << toText(data->id());
 }
 
 TEST(SimSource, GivesTheSameBitsForTheSameSeed) {
-  EXPECT_EQ(SimRun(Options{{"duration", "3"}, {"seed", "5"}}).all(), SimRun(Options{{"duration", "3"}, {"seed", "5"}}).all());
-  EXPECT_NE(SimRun(Options{{"duration", "3"}, {"seed", "5"}}).all(), SimRun(Options{{"duration", "3"}, {"seed", "6"}}).all());
+  EXPECT_EQ(SimRun(Options{{"duration", "3"}, {"seed", "5"}}).all(),
+            SimRun(Options{{"duration", "3"}, {"seed", "5"}}).all());
+  EXPECT_NE(SimRun(Options{{"duration", "3"}, {"seed", "5"}}).all(),
+            SimRun(Options{{"duration", "3"}, {"seed", "6"}}).all());
 }
 
 TEST(SimSource, FollowsWaypointsFromItsStart) {
-  SimRun run(Options{{"duration", "20"}, {"noise", "off"}, {"start", "-2,1,90"}, {"waypoints", "0,1;0,-2"},
-           {"speed", "0.5"}});
+  SimRun run(Options{{"duration", "20"},
+                     {"noise", "off"},
+                     {"start", "-2,1,90"},
+                     {"waypoints", "0,1;0,-2"},
+                     {"speed", "0.5"}});
   const std::vector<Pose2> poses = posesOf(run.all(), "groundTruth");
   ASSERT_GT(poses.size(), 100u);
   EXPECT_NEAR(poses.front().x, -2.0, 0.001);
@@ -156,7 +162,8 @@ TEST(SimSource, NeedsARobotFileAndRoomAtTheStart) {
 class RobotFileTest : public testing::TestWithParam<const char*> {};
 
 TEST_P(RobotFileTest, RunsInTheSimulator) {
-  SimRun run(Options{{"duration", "0.2"}}, std::string(ORTUNG_SOURCE_DIR "/maps/robots/") + GetParam());
+  SimRun run(Options{{"duration", "0.2"}},
+             std::string(ORTUNG_SOURCE_DIR "/maps/robots/") + GetParam());
   EXPECT_GT(run.all().size(), 5u);
   EXPECT_NE(run.source->robotToml().find("[[sensor]]"), std::string::npos);
 }

@@ -1,11 +1,10 @@
-#include "ortung/sim/Drive.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "SensorRig.hpp"
+#include "ortung/sim/Drive.hpp"
 
 namespace ortung {
 namespace {
@@ -81,8 +80,8 @@ TEST(DriveConfig, DriftsAsMuchInManyStepsAsInFew) {
     Statistics ways;
     Statistics turns;
     measureMany(config, 4.0, 0.0, steps, ways, turns);
-    EXPECT_NEAR(ways.mean(), 4.0, 0.004);        // 4 sigma / sqrt(2000)
-    EXPECT_NEAR(ways.sigma(), 0.04, 0.003);      // 0.02 sqrt(4)
+    EXPECT_NEAR(ways.mean(), 4.0, 0.004);                       // 4 sigma / sqrt(2000)
+    EXPECT_NEAR(ways.sigma(), 0.04, 0.003);                     // 0.02 sqrt(4)
     EXPECT_NEAR(turns.sigma(), 2.0 * kDegree, 0.15 * kDegree);  // 1 sqrt(4)
   }
   Statistics ways;

@@ -1,5 +1,3 @@
-#include "ortung/sim/Learner.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "FakeWorld.hpp"
 #include "ortung/config/TomlFile.hpp"
 #include "ortung/container/Formats.hpp"
+#include "ortung/sim/Learner.hpp"
 
 namespace ortung {
 namespace {
@@ -40,7 +39,9 @@ struct Learned {
 };
 
 /// The pose of the robot that brings its sensor to @p sensor.
-Pose2 robotFor(const Pose2& sensor, const SensorData& data) { return sensor * inverse(data.mount()); }
+Pose2 robotFor(const Pose2& sensor, const SensorData& data) {
+  return sensor * inverse(data.mount());
+}
 
 FakeWorld makeRoom() {
   FakeWorld room(6.0, 4.0);
@@ -59,19 +60,22 @@ TEST(Learner, LearnsWhatAScanSeesFromEveryCell) {
     pose = { x_m = 0.15, y_m = -0.05, theta_deg = 20 })");
   const SensorData& scan = learned.find("180DegreeScan");
   ASSERT_TRUE(scan.isLearned());
-  for (const Pose2& sensor : {Pose2{0.05, 0.05, 0.0}, Pose2{-2.35, 1.25, 2.0}, Pose2{2.85, -1.9, -1.3}}) {
+  for (const Pose2& sensor :
+       {Pose2{0.05, 0.05, 0.0}, Pose2{-2.35, 1.25, 2.0}, Pose2{2.85, -1.9, -1.3}}) {
     const std::vector<double> expected = scan.expectation(robotFor(sensor, scan));
     ASSERT_EQ(expected.size(), 180u);
     const FieldGrid& grid = learned.region.grid;
     const auto cell = static_cast<std::size_t>(grid.cellAt(sensor.x, sensor.y));
     for (std::size_t i = 0; i < 180; ++i) {
-      const double angle = sensor.theta + (-90.0 + static_cast<double>(i) * 180.0 / 179.0) * kDegree;
+      const double angle =
+          sensor.theta + (-90.0 + static_cast<double>(i) * 180.0 / 179.0) * kDegree;
       // A direction of the table stands for 2 degrees, so the truth lies between the ranges there;
       // 2 cm are more than half a level of ranges: 8 m in 254 levels are 3.2 cm each.
       double low = 1e9;
       double high = 0.0;
       for (double offset = -2.01; offset <= 2.01; offset += 0.1) {
-        const double range = room.range(grid.centreX(cell), grid.centreY(cell), angle + offset * kDegree);
+        const double range =
+            room.range(grid.centreX(cell), grid.centreY(cell), angle + offset * kDegree);
         low = std::min(low, range);
         high = std::max(high, range);
       }
@@ -85,8 +89,10 @@ TEST(Learner, FillsEveryDirectionFromSparseBeams) {
   const FakeWorld room(6.0, 4.0);
   for (const char* beams : {"beams = 16\nfov_deg = 180", "beams = 20\nfov_deg = 360", "beams = 1",
                             "beams = 7\nangle_step_deg = 0.5", "beams = 682\nfov_deg = 240"}) {
-    const Learned learned(room, std::string("[[sensor]]\nplugin = 'lrf'\nfeature = 'scan'\n"
-                                            "sigma_m = 0.02\nsigma_per_m = 0.0\n") + beams,
+    const Learned learned(room,
+                          std::string("[[sensor]]\nplugin = 'lrf'\nfeature = 'scan'\n"
+                                      "sigma_m = 0.02\nsigma_per_m = 0.0\n") +
+                              beams,
                           {.cell = 0.2});
     const SensorData& scan = learned.find("scan");
     // Straight at the walls from the middle of a cell, whatever the beams: beam 0 of each heading.
@@ -95,8 +101,9 @@ TEST(Learner, FillsEveryDirectionFromSparseBeams) {
       const double angle = degrees * kDegree;
       const std::vector<double> expected = scan.expectation({0.1, 0.1, angle - first});
       ASSERT_FALSE(expected.empty()) << beams;
-      const auto between = std::minmax({room.range(0.1, 0.1, angle - 1.01 * kDegree), room.range(0.1, 0.1, angle),
-                                        room.range(0.1, 0.1, angle + 1.01 * kDegree)});
+      const auto between =
+          std::minmax({room.range(0.1, 0.1, angle - 1.01 * kDegree), room.range(0.1, 0.1, angle),
+                       room.range(0.1, 0.1, angle + 1.01 * kDegree)});
       EXPECT_GE(expected[0], between.first - 0.02) << beams << " at " << degrees;
       EXPECT_LE(expected[0], between.second + 0.02) << beams << " at " << degrees;
     }
@@ -114,7 +121,8 @@ TEST(Learner, LearnsDistancesAndBearingsOfPosts) {
   const SensorData& bearing = learned.find("post2Bearing");
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const Pose2 sensor{random.uniform(-1.5, 2.9), random.uniform(-1.9, 1.0), random.uniform(-3.0, 3.0)};
+    const Pose2 sensor{random.uniform(-1.5, 2.9), random.uniform(-1.9, 1.0),
+                       random.uniform(-3.0, 3.0)};
     const std::ptrdiff_t cell = learned.region.grid.cellAt(sensor.x, sensor.y);
     if (learned.region.open[static_cast<std::size_t>(cell)] == 0) continue;  // within post 1
     const double range = std::hypot(-2.5 - sensor.x, 1.5 - sensor.y);
@@ -163,7 +171,8 @@ TEST(Learner, LearnsEverySonarOfARing) {
     angles_deg = [0, 90, 215]
     max_range_m = 3
     sigma_m = 0.02
-    sigma_per_m = 0.0)", options);
+    sigma_per_m = 0.0)",
+                        options);
   for (const char* feature : {"sonar0", "sonar1", "sonar2"}) {
     const SensorData& sonar = learned.find(feature);
     ASSERT_TRUE(sonar.isLearned());
@@ -190,7 +199,8 @@ TEST(Learner, GivesTheTruePoseTheBestProbability) {
         ->generateData(room, state, nullptr, 1, device.data);
   const double best = learned.container.getProbability(truth);
   EXPECT_GT(best, 0.0);
-  for (const Pose2& error : {Pose2{0.5, 0, 0}, Pose2{0, -0.5, 0}, Pose2{0, 0, 0.4}, Pose2{-0.3, 0.3, 0.2}})
+  for (const Pose2& error :
+       {Pose2{0.5, 0, 0}, Pose2{0, -0.5, 0}, Pose2{0, 0, 0.4}, Pose2{-0.3, 0.3, 0.2}})
     EXPECT_GT(best, 3.0 * learned.container.getProbability(truth * error));
 }
 

@@ -1,11 +1,10 @@
-#include "ortung/sim/RoutePlanner.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
 #include "FakeWorld.hpp"
+#include "ortung/sim/RoutePlanner.hpp"
 
 namespace ortung {
 namespace {
@@ -37,7 +36,8 @@ TEST(RoutePlanner, FindsTheGapAndKeepsClear) {
   for (const FloorPoint& to : route) {
     for (int i = 0; i <= 100; ++i) {
       const double share = i / 100.0;
-      EXPECT_TRUE(room.isFree(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), 0.25));
+      EXPECT_TRUE(
+          room.isFree(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), 0.25));
     }
     way += std::hypot(to.x - from.x, to.y - from.y);
     from = to;

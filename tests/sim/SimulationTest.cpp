@@ -1,5 +1,3 @@
-#include "ortung/sim/Simulation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "FakeWorld.hpp"
 #include "ortung/config/TomlFile.hpp"
 #include "ortung/container/Formats.hpp"
+#include "ortung/sim/Simulation.hpp"
 
 namespace ortung {
 namespace {
@@ -27,7 +26,9 @@ constexpr const char* kRobot = R"(
   period_s = 0.1
 )";
 
-RobotConfig robotConfig(const char* toml = kRobot) { return readRobot(parseToml(toml, "robot.toml")); }
+RobotConfig robotConfig(const char* toml = kRobot) {
+  return readRobot(parseToml(toml, "robot.toml"));
+}
 
 std::unique_ptr<FakeWorld> field() {
   auto world = std::make_unique<FakeWorld>(18.0, 12.0);
@@ -138,7 +139,8 @@ TEST(Simulation, KeepsRobotsApart) {
   Simulation simulation(std::make_unique<FakeWorld>(6.0, 4.0), {});
   SimRobot& one = simulation.addRobot(robotConfig(), factory, {-2.0, 0.0, 0.0});
   SimRobot& other = simulation.addRobot(robotConfig(), factory, {2.0, 0.1, 3.0});
-  EXPECT_THROW(simulation.addRobot(robotConfig(), factory, {-1.8, 0.0, 0.0}), std::invalid_argument);
+  EXPECT_THROW(simulation.addRobot(robotConfig(), factory, {-1.8, 0.0, 0.0}),
+               std::invalid_argument);
   one.drive().setTranslationalVelocity(0.5);
   other.drive().setTranslationalVelocity(0.5);
   for (int cycle = 0; cycle < 800; ++cycle) {

@@ -61,8 +61,8 @@ class FakeWorld : public SimWorld {
   bool isFree(double x, double y, double radius) const override {
     const bool isInside = std::abs(x) + radius <= halfWidth_ && std::abs(y) + radius <= halfHeight_;
     return isInside && std::none_of(posts_.begin(), posts_.end(), [&](const Post& post) {
-      return std::hypot(x - post.x, y - post.y) < post.radius + radius;
-    });
+             return std::hypot(x - post.x, y - post.y) < post.radius + radius;
+           });
   }
 
   const std::string& name() const override { return name_; }

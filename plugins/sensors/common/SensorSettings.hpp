@@ -19,8 +19,8 @@ constexpr double radians(double degrees) { return degrees * std::numbers::pi / 1
 
 /// Where a sensor sits on its robot.
 struct Mounting {
-  Pose2 pose;       ///< in the robot frame
-  double z = 0.0;   ///< above the floor [m]
+  Pose2 pose;      ///< in the robot frame
+  double z = 0.0;  ///< above the floor [m]
 };
 
 /// Reads pose = { x_m, y_m, z_m, theta_deg }; what is missing is 0, or @p z for the height.

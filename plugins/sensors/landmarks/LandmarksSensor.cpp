@@ -54,8 +54,8 @@ class LandmarksSensor : public Sensor {
     const double dy = landmark->y - sensor.y;
     const Sighting sighting{identity, std::hypot(dx, dy),
                             wrapAngle(std::atan2(dy, dx) - sensor.theta)};
-    const bool isInView = settings_.fieldOfView >= kTurn ||
-                          std::abs(sighting.bearing) <= settings_.fieldOfView / 2.0;
+    const bool isInView =
+        settings_.fieldOfView >= kTurn || std::abs(sighting.bearing) <= settings_.fieldOfView / 2.0;
     if (!isInView || sighting.range < settings_.minRange || sighting.range > settings_.maxRange)
       return std::nullopt;
     if (settings_.occlusion &&
@@ -80,8 +80,7 @@ class LandmarksSensor : public Sensor {
     const double sigma =
         settings_.noiseRangeSigma + settings_.noiseRangeSigmaPerMetre * sighting.range;
     sighting.range = std::max(sighting.range + sigma * noise.gaussian(), 0.0);
-    sighting.bearing =
-        wrapAngle(sighting.bearing + settings_.noiseBearingSigma * noise.gaussian());
+    sighting.bearing = wrapAngle(sighting.bearing + settings_.noiseBearingSigma * noise.gaussian());
     return sighting;
   }
 
@@ -101,8 +100,8 @@ class LandmarksSensor : public Sensor {
     const char* ending = std::from_chars(feature.data(), end, identity).ptr;
     for (const Sighting& sighting : seen_) {
       if (sighting.identity != identity) continue;
-      const bool isDistance = std::string_view(ending, static_cast<std::size_t>(end - ending)) ==
-                              kDistanceEnding;
+      const bool isDistance =
+          std::string_view(ending, static_cast<std::size_t>(end - ending)) == kDistanceEnding;
       words_.push_back(isDistance ? words::fromMetres(sighting.range)
                                   : words::fromAngle(sighting.bearing));
     }

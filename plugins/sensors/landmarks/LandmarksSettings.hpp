@@ -16,36 +16,35 @@ struct LandmarksSettings {
   bool isList = false;  ///< one LandmarksData; otherwise a distance and a bearing each
   std::string kind;     ///< of the landmarks in the world, and the beginning of features' names
   std::vector<std::uint32_t> identities;
-  double minRange = 0.0;          ///< [m]
-  double maxRange = 20.0;         ///< [m]
-  double fieldOfView = kTurn;     ///< [rad]; 2 pi: all around
-  SensorModel range;              ///< [m]
-  SensorModel bearing;            ///< [rad]
-  double period = 0.1;            ///< [s]
-  double slack = 0.3;             ///< what is this near to a landmark does not hide it [m]
-  bool occlusion = true;          ///< whether obstacles hide landmarks
-  double noiseRangeSigma = 0.0;   ///< of simulated distances at distance 0 [m]
+  double minRange = 0.0;         ///< [m]
+  double maxRange = 20.0;        ///< [m]
+  double fieldOfView = kTurn;    ///< [rad]; 2 pi: all around
+  SensorModel range;             ///< [m]
+  SensorModel bearing;           ///< [rad]
+  double period = 0.1;           ///< [s]
+  double slack = 0.3;            ///< what is this near to a landmark does not hide it [m]
+  bool occlusion = true;         ///< whether obstacles hide landmarks
+  double noiseRangeSigma = 0.0;  ///< of simulated distances at distance 0 [m]
   double noiseRangeSigmaPerMetre = 0.0;
-  double noiseBearingSigma = 0.0; ///< of simulated bearings [rad]
-  double missedShare = 0.0;       ///< of landmarks in sight that are not seen
-  double falseShare = 0.0;        ///< of sightings that are anywhere in the field of view
+  double noiseBearingSigma = 0.0;  ///< of simulated bearings [rad]
+  double missedShare = 0.0;        ///< of landmarks in sight that are not seen
+  double falseShare = 0.0;         ///< of sightings that are anywhere in the field of view
 };
 
 /// Letters, digits and "_.-", short enough to become part of a feature's name.
 inline void checkKind(const Parameters& p, const std::string& kind) {
-  const bool isName = !kind.empty() && kind.size() <= 32 &&
-                      std::all_of(kind.begin(), kind.end(), [](char c) {
-                        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                               (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-';
-                      });
+  const bool isName =
+      !kind.empty() && kind.size() <= 32 && std::all_of(kind.begin(), kind.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '.' || c == '-';
+      });
   if (!isName) p.fail("kind", "is \"" + kind + "\", must be 1 to 32 of [A-Za-z0-9_.-]");
 }
 
 inline std::vector<std::uint32_t> readIdentities(const Parameters& p) {
   const std::vector<double> numbers = p.numbersOr("identities", {1, 2, 3, 4}, -1, {0, 1e6});
   if (numbers.empty() || numbers.size() > 256)
-    p.fail("identities",
-           "has " + std::to_string(numbers.size()) + " numbers, must have 1 to 256");
+    p.fail("identities", "has " + std::to_string(numbers.size()) + " numbers, must have 1 to 256");
   std::vector<std::uint32_t> identities;
   for (const double number : numbers) {
     if (number != std::floor(number))

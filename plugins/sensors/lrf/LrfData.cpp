@@ -7,8 +7,7 @@ namespace {
 DeviceData makeLrf(const Parameters& p) {
   const LrfSettings settings = readLrfSettings(p);
   DeviceData data;
-  data.push_back(
-      std::make_unique<ScanData>(settings.id, settings.mounting.pose, settings.scan));
+  data.push_back(std::make_unique<ScanData>(settings.id, settings.mounting.pose, settings.scan));
   return data;
 }
 

@@ -130,7 +130,8 @@ class SonarSensor : public Sensor {
   double nearest(const World& world, const Pose2& sonar, RobotNumber robot) {
     auto range = static_cast<float>(settings_.cone.maxRange);
     for (const Slice& slice : cone_.slices) {
-      const std::span<float> rays(ranges_.data(), static_cast<std::size_t>(2 * slice.toEachSide + 1));
+      const std::span<float> rays(ranges_.data(),
+                                  static_cast<std::size_t>(2 * slice.toEachSide + 1));
       world.castFan({.x = sonar.x,
                      .y = sonar.y,
                      .z = settings_.z,

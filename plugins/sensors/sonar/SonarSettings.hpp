@@ -10,16 +10,16 @@ namespace ortung {
 
 /// Settings of both halves of a ring of ultrasonic sensors.
 struct SonarSettings {
-  SensorId id;               ///< its feature is the beginning of the features' names
-  double z = 0.0;            ///< above the floor [m]
-  std::vector<Pose2> mounts; ///< of each sonar in the robot frame
+  SensorId id;                ///< its feature is the beginning of the features' names
+  double z = 0.0;             ///< above the floor [m]
+  std::vector<Pose2> mounts;  ///< of each sonar in the robot frame
   ConeData::Config cone;
-  double minRange = 0.0;            ///< nearer echoes come back as this [m]
-  double period = 0.1;              ///< [s]
-  double noiseSigma = 0.0;          ///< of simulated ranges at range 0 [m]
+  double minRange = 0.0;    ///< nearer echoes come back as this [m]
+  double period = 0.1;      ///< [s]
+  double noiseSigma = 0.0;  ///< of simulated ranges at range 0 [m]
   double noiseSigmaPerMetre = 0.0;
-  double missedShare = 0.0;         ///< of echoes that do not come back
-  double falseShare = 0.0;          ///< of readings that are too short, anywhere before the echo
+  double missedShare = 0.0;  ///< of echoes that do not come back
+  double falseShare = 0.0;   ///< of readings that are too short, anywhere before the echo
 };
 
 /// Reads all settings of both halves. @throws ConfigError
@@ -34,7 +34,8 @@ inline SonarSettings readSonarSettings(const Parameters& p) {
     p.fail("angles_deg", "has " + std::to_string(angles.size()) + " numbers, must have 1 to 64");
   for (const double degrees : angles) {
     const double angle = radians(degrees);
-    s.mounts.push_back(ring.pose * Pose2{radius * std::cos(angle), radius * std::sin(angle), angle});
+    s.mounts.push_back(ring.pose *
+                       Pose2{radius * std::cos(angle), radius * std::sin(angle), angle});
   }
   s.cone.openingAngle = radians(p.numberOr("opening_deg", 20.0, {0.1, 120.0}));
   s.cone.maxRange = p.numberOr("max_range_m", 3.0, {0.05, 100.0});

@@ -63,8 +63,7 @@ std::optional<Pose2> startOption(const Parameters& p) {
   const auto numbers = parseNumbers(text, ',');
   if (!numbers || numbers->size() != 3)
     p.fail("start", "is \"" + text + "\", must be x,y,theta in metres and degrees");
-  return Pose2{(*numbers)[0], (*numbers)[1],
-               wrapAngle((*numbers)[2] * std::numbers::pi / 180.0)};
+  return Pose2{(*numbers)[0], (*numbers)[1], wrapAngle((*numbers)[2] * std::numbers::pi / 180.0)};
 }
 
 std::vector<FloorPoint> waypointsOption(const Parameters& p) {
@@ -76,8 +75,8 @@ std::vector<FloorPoint> waypointsOption(const Parameters& p) {
     const std::size_t end = std::min(rest.find(';'), rest.size());
     const auto numbers = parseNumbers(rest.substr(0, end), ',');
     if (!numbers || numbers->size() != 2)
-      p.fail("waypoints", "has \"" + std::string(rest.substr(0, end)) +
-                              "\", must be x,y;x,y;... in metres");
+      p.fail("waypoints",
+             "has \"" + std::string(rest.substr(0, end)) + "\", must be x,y;x,y;... in metres");
     points.push_back({(*numbers)[0], (*numbers)[1]});
     if (end == rest.size()) return points;
     rest.remove_prefix(end + 1);
@@ -165,7 +164,8 @@ class SimSource : public Source {
   }
 
   double progress() const override {
-    const double done = toSeconds(simulation_.now()) / toSeconds(std::max(run_.duration, Timestamp{1}));
+    const double done =
+        toSeconds(simulation_.now()) / toSeconds(std::max(run_.duration, Timestamp{1}));
     return std::min(done, 1.0);
   }
   std::string worldFingerprint() const override { return simulation_.world().fingerprint(); }

@@ -28,19 +28,19 @@ class ORTUNG_API Drive {
 
 /// [drive] of a robot file.
 struct DriveConfig {
-  double maxSpeed = 0.8;             ///< `max_speed_m_s`
-  double maxTurn = 2.0943951024;     ///< `max_turn_deg_s`, 120 degrees [rad/s]
-  double acceleration = 1.0;         ///< `acceleration_m_s2`
+  double maxSpeed = 0.8;                   ///< `max_speed_m_s`
+  double maxTurn = 2.0943951024;           ///< `max_turn_deg_s`, 120 degrees [rad/s]
+  double acceleration = 1.0;               ///< `acceleration_m_s2`
   double turnAcceleration = 6.2831853072;  ///< `turn_acceleration_deg_s2`, 360 degrees [rad/s^2]
-  double bodyHeight = 0.5;           ///< `body_height_m`: what other robots' rays hit
+  double bodyHeight = 0.5;                 ///< `body_height_m`: what other robots' rays hit
 
   // Odometry walks away from the truth at random; variances add up over way and turn.
-  double distanceSigma = 0.02;       ///< `odometry_distance_sigma_m`: after 1 m driven [m]
+  double distanceSigma = 0.02;         ///< `odometry_distance_sigma_m`: after 1 m driven [m]
   double headingSigma = 0.0174532925;  ///< `odometry_heading_sigma_deg`: after 1 m driven [rad]
-  double turnSigma = 0.0698131701;   ///< `odometry_turn_sigma_deg`: after a whole turn [rad]
+  double turnSigma = 0.0698131701;     ///< `odometry_turn_sigma_deg`: after a whole turn [rad]
   // Systematic error: odometry measures this times the truth.
-  double distanceScale = 1.0;        ///< `odometry_distance_scale`
-  double turnScale = 1.0;            ///< `odometry_turn_scale`
+  double distanceScale = 1.0;  ///< `odometry_distance_scale`
+  double turnScale = 1.0;      ///< `odometry_turn_scale`
 
   /// @throws ConfigError also for keys it does not know
   ORTUNG_API static DriveConfig read(const Parameters& drive);

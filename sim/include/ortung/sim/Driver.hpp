@@ -35,8 +35,8 @@ struct DriverLimits {
 /// Drives for ever from one random place to another, preferring where it has not been, and so
 /// covers everything it can reach.
 /// @param planner borrowed
-ORTUNG_API std::unique_ptr<Driver> makeWanderer(const RoutePlanner& planner, const DriverLimits& limits,
-                                                const Random& random);
+ORTUNG_API std::unique_ptr<Driver> makeWanderer(const RoutePlanner& planner,
+                                                const DriverLimits& limits, const Random& random);
 
 /// Drives straight from point to point and stands still at the last.
 ORTUNG_API std::unique_ptr<Driver> makeFollower(std::vector<FloorPoint> points,

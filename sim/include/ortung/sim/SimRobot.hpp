@@ -22,8 +22,8 @@ class ORTUNG_API SimRobot {
   /// @param random of this robot alone
   /// @param noise whether sensors and odometry have noise
   /// @throws ConfigError, PluginError
-  SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start, RobotNumber number,
-           const Random& random, bool noise);
+  SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start,
+           RobotNumber number, const Random& random, bool noise);
   ~SimRobot();
   SimRobot(const SimRobot&) = delete;
   SimRobot& operator=(const SimRobot&) = delete;

@@ -17,9 +17,9 @@ namespace ortung {
 class ORTUNG_API Simulation {
  public:
   struct Config {
-    double cycle = 0.01;     ///< [s]
+    double cycle = 0.01;  ///< [s]
     std::uint64_t seed = 1;
-    bool noise = true;       ///< of sensors and odometry
+    bool noise = true;  ///< of sensors and odometry
     /// @throws std::invalid_argument naming the field, its value and the range
     void check() const;
   };
