@@ -180,7 +180,7 @@ class ORTUNG_API ScanData : public SensorData {
     Perception perception = Perception::kRays;
     int usedBeams = 0;           ///< thin to about this many; 0: all that differ in the table
     double endPointCell = 0.05;  ///< edge of an end-point field's cell [m]
-    SensorModel model{.sigma = 0.05, .sigmaPerMetre = 0.01, .exponent = 0.2};
+    SensorModel model{.sigma = 0.05, .sigmaPerMetre = 0.01, .exponent = 0.06};
   };
   struct Reading {
     double firstAngle = 0.0;    ///< [rad]
