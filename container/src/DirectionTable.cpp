@@ -62,8 +62,8 @@ double DirectionTable::step() const { return kTurn / directions_; }
 
 int DirectionTable::directionOf(double angle) const {
   const double turns = angle / kTurn;
-  const long direction = std::lround((turns - std::floor(turns)) * directions_);
-  return static_cast<int>(direction % directions_);
+  const double direction = std::nearbyint((turns - std::floor(turns)) * directions_);
+  return direction < directions_ ? static_cast<int>(direction) : 0;  // also for NaN
 }
 
 void DirectionTable::learn(double x, double y, double angle, std::uint8_t level) {

@@ -34,15 +34,15 @@ class LineTransform {
     for (int q = 0; q < n; ++q) {
       while (border_[at(k + 1)] < static_cast<double>(q)) ++k;
       const int v = parabola_[at(k)];
-      set(q, static_cast<double>((q - v) * (q - v)) + in_[at(v)]);
+      set(q, square(q - v) + in_[at(v)]);
     }
   }
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  static double square(double cells) { return cells * cells; }  // in long corridors too large for an int
   double cross(int q, int v) const {
-    return ((in_[at(q)] + static_cast<double>(q * q)) - (in_[at(v)] + static_cast<double>(v * v))) /
-           static_cast<double>(2 * (q - v));
+    return ((in_[at(q)] + square(q)) - (in_[at(v)] + square(v))) / (2.0 * (q - v));
   }
   std::vector<double> in_;
   std::vector<int> parabola_;

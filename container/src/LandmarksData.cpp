@@ -96,20 +96,25 @@ std::vector<double> LandmarksData::expectation(const Pose2& pose) const {
 
 double LandmarksData::logProbabilityAt(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
-  double sum = std::numeric_limits<double>::quiet_NaN();
+  const double floor = config_.range.logFloor() + config_.bearing.logFloor();
+  double sum = 0.0;
+  bool expects = false;
   for (const Sighting& sighting : reading_) {
     const std::ptrdiff_t index = indexOf(sighting.identity);
     if (index < 0) continue;
     const Landmark& landmark = landmarks_[static_cast<std::size_t>(index)];
     const double range = landmark.range.at(sensor.x, sensor.y);
-    if (std::isnan(range)) continue;
+    expects = expects || !std::isnan(range);
+    if (std::isnan(range)) {
+      sum += floor;  // seen from where nobody ever saw it
+      continue;
+    }
     const double bearing = landmark.bearing.at(sensor.x, sensor.y) - sensor.theta;
-    const double p =
+    sum +=
         rangeGaussian_(static_cast<float>((sighting.range - range) / config_.range.sigmaAt(sighting.range))) +
         bearingGaussian_(static_cast<float>(wrapAngle(sighting.bearing - bearing) / config_.bearing.sigma));
-    sum = std::isnan(sum) ? p : sum + p;
   }
-  return sum;
+  return expects ? sum : std::numeric_limits<double>::quiet_NaN();
 }
 
 void LandmarksData::weigh(const SampleView& poses, std::span<float> logProbability) const {

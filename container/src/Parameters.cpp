@@ -27,6 +27,12 @@ std::string toText(const Range& range) {
   return "in [" + toText(range.low) + ", " + toText(range.high) + "]";
 }
 
+/// "a number", and within which bounds if there are any.
+std::string numberWithin(const Range& range) {
+  const bool bounded = std::isfinite(range.low) || std::isfinite(range.high);
+  return bounded ? "a number " + toText(range) : "a number";
+}
+
 const char* kindOf(const Parameters::Node& node) {
   static constexpr const char* kKinds[] = {"a flag (true/false)", "a whole number", "a number",
                                            "a text",              "a list",         "a table"};
@@ -88,9 +94,9 @@ double Parameters::toNumber(const std::string& key, const Node& node, const Rang
   } else if (const auto* real = std::get_if<double>(&node.value)) {
     value = *real;
   } else {
-    fail(key, std::string("is ") + kindOf(node) + ", expected a number " + toText(range));
+    fail(key, std::string("is ") + kindOf(node) + ", expected " + numberWithin(range));
   }
-  if (!std::isfinite(value)) fail(key, "is not finite, expected a number " + toText(range));
+  if (!std::isfinite(value)) fail(key, "is not finite, expected " + numberWithin(range));
   if (value < range.low || value > range.high) {
     fail(key, "is " + toText(value) + ", must be " + toText(range));
   }

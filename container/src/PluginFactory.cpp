@@ -46,6 +46,24 @@ void checkInfo(const std::filesystem::path& file, const PluginInfo& info) {
   }
 }
 
+/// Makes a plugin; what its constructor throws comes with the plugin's name.
+void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
+  const std::string who = std::string("plugin '") + entry.name + "': ";
+  try {
+    return entry.create(parameters);
+  } catch (const ConfigError&) {
+    throw;  // names file, line and key already
+  } catch (const PluginError&) {
+    throw;
+  } catch (const std::invalid_argument&) {
+    throw;  // for the reader of the robot file, who knows its line
+  } catch (const std::exception& error) {
+    throw PluginError(who + error.what());
+  } catch (...) {
+    throw PluginError(who + "threw something that is no std::exception");
+  }
+}
+
 }  // namespace
 
 PluginError::~PluginError() = default;
@@ -84,9 +102,11 @@ void PluginFactory::load(const std::filesystem::path& file) {
   libraries_.push_back({file, info});
 }
 
-/// Loads the libraries ortung_PART*.so of all folders, in the order of the alphabet.
-void PluginFactory::loadWhere(const std::string& part) {
+/// Loads the libraries ortung_PART*.so of all folders, in the order of the alphabet. Returns why some
+/// could not be loaded: a broken library must not hide the plugins of its neighbours.
+std::vector<std::string> PluginFactory::loadWhere(const std::string& part) {
   const std::string prefix = "ortung_" + part;
+  std::vector<std::string> complaints;
   for (const auto& folder : folders_) {
     std::vector<std::filesystem::path> files;
     std::error_code none;
@@ -95,8 +115,15 @@ void PluginFactory::loadWhere(const std::string& part) {
       if (name.starts_with(prefix) && entry.path().extension() == ".so") files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
-    for (const auto& file : files) load(file);
+    for (const auto& file : files) {
+      try {
+        load(file);
+      } catch (const PluginError& error) {
+        complaints.push_back(error.what());
+      }
+    }
   }
+  return complaints;
 }
 
 std::vector<PluginFactory::Found> PluginFactory::list() {
@@ -155,22 +182,25 @@ void* PluginFactory::create(const std::string& interface, const std::string& nam
                          std::all_of(name.begin(), name.end(), [](char c) {
                            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
                          });
+  std::vector<std::string> complaints;
   if (entry == nullptr && plainName) {
-    loadWhere(name + "_");
+    complaints = loadWhere(name + "_");
     entry = findEntry(interface, name);
   }
-  if (entry == nullptr) {
-    loadWhere("");
+  if (entry == nullptr && complaints.empty()) {
+    complaints = loadWhere("");
     entry = findEntry(interface, name);
   }
   if (entry == nullptr) {
     std::string folders;
     for (const auto& folder : folders_) folders += (folders.empty() ? "" : ", ") + folder.string();
-    throw PluginError("there is no plugin '" + name + "' of kind " + interfaceKind(interface) +
-                      " in " + (folders.empty() ? "the (empty) search path" : folders) +
-                      "; `ortung plugins` lists what there is");
+    std::string message = "there is no plugin '" + name + "' of kind " + interfaceKind(interface) + " in " +
+                          (folders.empty() ? "the (empty) search path" : folders) +
+                          "; `ortung plugins` lists what there is";
+    for (const std::string& complaint : complaints) message += "; not loaded: " + complaint;
+    throw PluginError(message);
   }
-  return entry->create(parameters);
+  return createNamed(*entry, parameters);
 }
 
 std::vector<std::unique_ptr<SensorData>> PluginFactory::makeData(const std::string& name,

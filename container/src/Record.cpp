@@ -45,6 +45,23 @@ std::string quoted(std::string_view token) {
   return text + (token.size() > 40 ? "...'" : "'");
 }
 
+/// Like std::getline, but gives up on a line longer than kLongestLine, so that no file can eat the
+/// memory: then the line is longer than that, and the stream stays where it is.
+bool readLine(std::istream& in, std::string& line) {
+  line.clear();
+  char piece[4096];
+  while (line.size() <= kLongestLine) {
+    in.getline(piece, sizeof piece);
+    const auto count = static_cast<std::size_t>(in.gcount());
+    const bool filled = in.fail() && !in.eof() && !in.bad() && count > 0;  // no end of line within the piece
+    const bool ended = !in.fail() && !in.eof();                            // the end of line counts, too
+    line.append(piece, ended ? count - 1 : count);
+    if (!filled) return !line.empty() || ended;
+    in.clear(in.rdstate() & ~std::ios::failbit);
+  }
+  return true;
+}
+
 void syncFile(const std::filesystem::path& path, int flags) {
   const int file = ::open(path.c_str(), flags);
   if (file < 0) return;
@@ -153,9 +170,8 @@ RecordSource::RecordSource(const std::filesystem::path& file)
   }
   lineNumber_ = 1;
   done_ = static_cast<double>(sizeof magic);
-  while (in_.peek() == '#' && std::getline(in_, line_)) {
-    ++lineNumber_;
-    done_ += static_cast<double>(line_.size() + 1);
+  while (in_.peek() == '#' && readLine(in_, line_)) {
+    countLine();
     if (line_.starts_with(kWorldKey)) world_ = line_.substr(kWorldKey.size());
   }
 }
@@ -166,12 +182,16 @@ void RecordSource::fail(const std::string& what) const {
   throw std::runtime_error(file_.string() + ":" + std::to_string(lineNumber_) + ": " + what);
 }
 
+void RecordSource::countLine() {
+  ++lineNumber_;
+  done_ += static_cast<double>(line_.size() + 1);
+  if (line_.size() > kLongestLine) fail("the line is longer than 64 MiB");
+  if (in_.eof()) fail("the last line is torn: it has no end (was the recorder killed?)");
+}
+
 bool RecordSource::next(Message& message) {
-  while (std::getline(in_, line_)) {
-    ++lineNumber_;
-    done_ += static_cast<double>(line_.size() + 1);
-    if (in_.eof()) fail("the last line is torn: it has no end (was the recorder killed?)");
-    if (line_.size() > kLongestLine) fail("the line is longer than 64 MiB");
+  while (readLine(in_, line_)) {
+    countLine();
     if (line_.starts_with('#')) continue;
     std::string why;
     auto parsed = parseLine(line_, &why);

@@ -342,13 +342,15 @@ void ScanData::weighEndPoints(const SampleView& poses, std::span<float> logProba
   const std::uint8_t* levels = endPoints_.levels().data();
   const auto& points = prepared_->endPoints;
   const auto floor = static_cast<float>(config_.model.logFloor());
+  const auto mountX = static_cast<float>(mount().x);
+  const auto mountY = static_cast<float>(mount().y);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const float c = std::cos(poses.theta[i]);
     const float s = std::sin(poses.theta[i]);
     const float x = poses.x[i];
     const float y = poses.y[i];
     float sum = 0.0F;
-    if (region(x, y) < 0) {
+    if (region(x + c * mountX - s * mountY, y + s * mountX + c * mountY) < 0) {
       sum = floor * static_cast<float>(points.size());
     } else {
       for (const Prepared::EndPoint& point : points) {

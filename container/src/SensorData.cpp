@@ -11,6 +11,7 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kLongestName = 64;
+constexpr double kSmallestHeadingStep = 1e-4;  ///< [rad], as for table files
 
 bool isNameCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -68,8 +69,8 @@ void SensorData::setData(Timestamp stamp, std::span<const std::uint32_t> words) 
 
 void SensorData::beginLearning(const FieldRegion& region, double headingStep) {
   region.check();
-  if (!(headingStep > 0.0) || headingStep > 2 * std::numbers::pi) {
-    throw std::invalid_argument(toText(id_) + ": the heading step must be in (0, 2 pi]");
+  if (!(headingStep > kSmallestHeadingStep) || headingStep > 2 * std::numbers::pi) {
+    throw std::invalid_argument(toText(id_) + ": the heading step must be in (0.0001, 2 pi]");
   }
   learned_ = false;
   startTables(region, headingStep);

@@ -121,6 +121,9 @@ TableFile::TableFile(const std::filesystem::path& file) : impl_(std::make_unique
       impl_->texts.push_back(entry);
       continue;
     }
+    if (reinterpret_cast<std::uintptr_t>(entry.bytes.data()) % zip::kAlignment != 0) {
+      throw TableError(file.string() + ": member " + entry.name + " is not aligned to 64 bytes");
+    }
     auto array = parseNpy(entry);
     if (!array) throw TableError(file.string() + ": member " + entry.name + " is no array of a kind that is used here");
     impl_->arrays.push_back(std::move(*array));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "Zip.hpp"
 #include "ortung/container/TableFile.hpp"
@@ -41,6 +42,7 @@ struct TableWriter::Impl {
   std::FILE* out = nullptr;
   std::uint64_t offset = 0;
   std::vector<zip::Member> members;
+  std::set<std::string> names;
 
   void put(const void* bytes, std::size_t size) {
     if (size > 0 && std::fwrite(bytes, 1, size, out) != size) {
@@ -49,6 +51,9 @@ struct TableWriter::Impl {
     offset += size;
   }
   void add(const std::string& name, const std::string& header, std::span<const std::byte> bytes) {
+    if (!names.insert(name).second) throw TableError(file.string() + ": member " + name + " is written twice");
+    if (names.size() > zip::kMostMembers) throw TableError(file.string() + ": more than 65535 tables");
+    if (name.size() > zip::kLongestName) throw TableError(file.string() + ": the name " + name + " is too long");
     const std::uint64_t size = header.size() + bytes.size();
     if (offset + size > std::numeric_limits<std::uint32_t>::max() - (1u << 20)) {
       throw TableError(file.string() + ": tables of more than 4 GiB; choose larger cells or fewer directions");
@@ -93,7 +98,13 @@ void TableWriter::commit() {
   if (!flushed) throw TableError(impl_->file.string() + ": writing failed (is the disk full?)");
   std::fclose(impl_->out);
   impl_->out = nullptr;
-  std::filesystem::rename(impl_->temporary, impl_->file);
+  std::error_code problem;
+  std::filesystem::rename(impl_->temporary, impl_->file, problem);
+  if (problem) {
+    std::error_code ignored;
+    std::filesystem::remove(impl_->temporary, ignored);
+    throw TableError(impl_->file.string() + ": can't be put in place: " + problem.message());
+  }
   const std::filesystem::path folder = impl_->file.parent_path();
   const int handle = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (handle >= 0) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <set>
 
 namespace ortung::zip {
 namespace {
@@ -52,7 +53,7 @@ Number take(std::span<const std::byte> bytes, std::size_t offset) {
 }
 
 std::optional<std::string> takeName(std::span<const std::byte> bytes, std::size_t offset, std::size_t size) {
-  if (size == 0 || size > 200 || offset > bytes.size() || size > bytes.size() - offset) return std::nullopt;
+  if (size == 0 || size > kLongestName || offset > bytes.size() || size > bytes.size() - offset) return std::nullopt;
   std::string name(reinterpret_cast<const char*>(bytes.data()) + offset, size);
   for (const char c : name) {
     const bool fine = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -62,7 +63,9 @@ std::optional<std::string> takeName(std::span<const std::byte> bytes, std::size_
   return name;
 }
 
-std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& entry, std::size_t& next) {
+/// @param free in: where the member before ends; out: where this one does
+std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& entry, std::size_t& next,
+                       std::size_t& free) {
   if (at > file.size() || file.size() - at < kDirectorySize ||
       take<std::uint32_t>(file, at) != kDirectoryMagic) {
     return "its directory is damaged";
@@ -77,7 +80,8 @@ std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& e
   const auto name = takeName(file, at + kDirectorySize, nameSize);
   if (!name) return "a member has a bad name";
   if (method != 0 || packed != size) return "member " + *name + " is compressed, expected it stored";
-  if (local > file.size() || file.size() - local < kLocalSize ||
+  // Members that overlap would make a small file take long to check.
+  if (local < free || local > file.size() || file.size() - local < kLocalSize ||
       take<std::uint32_t>(file, local) != kLocalMagic) {
     return "member " + *name + " is damaged";
   }
@@ -87,6 +91,7 @@ std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& e
   entry = {*name, file.subspan(data, size)};
   if (crc32(entry.bytes) != crc) return "the checksum of member " + *name + " is wrong";
   next = at + kDirectorySize + nameSize + skip;
+  free = data + size;
   return "";
 }
 
@@ -172,12 +177,12 @@ std::string read(std::span<const std::byte> file, std::vector<Entry>& entries) {
   const std::size_t count = take<std::uint16_t>(file, end + 10);
   std::size_t at = take<std::uint32_t>(file, end + 16);
   if (at > end || take<std::uint32_t>(file, end + 12) != end - at) return "its directory is damaged";
+  std::size_t free = 0;
+  std::set<std::string> names;
   for (std::size_t i = 0; i < count; ++i) {
     Entry entry;
-    if (const std::string why = readMember(file, at, entry, at); !why.empty()) return why;
-    for (const Entry& other : entries) {
-      if (other.name == entry.name) return "member " + entry.name + " occurs twice";
-    }
+    if (const std::string why = readMember(file, at, entry, at, free); !why.empty()) return why;
+    if (!names.insert(entry.name).second) return "member " + entry.name + " occurs twice";
     entries.push_back(std::move(entry));
   }
   return at == end ? "" : "its directory is damaged";

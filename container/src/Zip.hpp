@@ -20,6 +20,8 @@ struct Member {
   std::uint32_t headerOffset = 0;  ///< of its local header
 };
 
+inline constexpr std::size_t kMostMembers = 65535;
+inline constexpr std::size_t kLongestName = 300;
 inline constexpr std::size_t kAlignment = 64;  ///< of every member's data in the file
 
 /// Local header of @p member, padded so that its data begins at a multiple of kAlignment.

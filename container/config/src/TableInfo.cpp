@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "ortung/config/RobotFile.hpp"
 
@@ -66,9 +67,12 @@ void writeTables(const std::filesystem::path& file, const SensorContainer& conta
                                           static_cast<std::size_t>(grid.columns)};
   writer.add<std::uint8_t>("open", shape, info.region.open);
   writer.add<std::uint8_t>("standable", shape, info.region.standable);
+  std::set<std::string> prefixes;
   for (const auto& data : container.all()) {
     if (!data->isLearned()) continue;
-    const std::string prefix = data->id().model + "." + data->id().type + "." + data->id().feature + ".";
+    std::string prefix = data->id().model + "." + data->id().type + "." + data->id().feature + ".";
+    // "a.b/c/d" and "a/b.c/d" look alike here.
+    while (!prefixes.insert(prefix).second) prefix = "_" + prefix;
     data->saveTables(writer, prefix);
     meta["features"].push_back({{"id", toText(data->id())}, {"key", data->learningKey()}, {"prefix", prefix}});
   }

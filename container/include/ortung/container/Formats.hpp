@@ -40,7 +40,7 @@ class ORTUNG_API ScalarData : public SensorData {
   struct Config {
     double maxRange = 20.0;      ///< expectations beyond it are not kept [m]
     double fieldOfView = 0.0;    ///< of the sensor [rad]; 0 or 2 pi: all around
-    SensorModel model;
+    SensorModel model{};
   };
   using Reading = std::optional<double>;
 
@@ -119,7 +119,7 @@ class ORTUNG_API LandmarksData : public SensorData {
     std::vector<std::uint32_t> identities;  ///< landmarks that can be told apart; not empty, unique
     double maxRange = 20.0;                 ///< [m]
     double fieldOfView = 0.0;               ///< [rad]; 0 or 2 pi: all around
-    SensorModel range;
+    SensorModel range{};
     SensorModel bearing{.sigma = 0.02};
   };
   struct Sighting {

@@ -79,7 +79,7 @@ class ORTUNG_API PluginFactory {
   void* create(const std::string& interface, const std::string& name,
                const Parameters& parameters);
   const PluginEntry* findEntry(const std::string& interface, const std::string& name) const;
-  void loadWhere(const std::string& part);
+  std::vector<std::string> loadWhere(const std::string& part);
 
   std::vector<std::filesystem::path> folders_;
   std::vector<Library> libraries_;

@@ -52,7 +52,7 @@ class ORTUNG_API RecordWriter {
 /// Plays a record file (source kind "record"; part of the container, no plugin needed).
 class ORTUNG_API RecordSource : public Source {
  public:
-  /// @throws std::runtime_error if it is not a record
+  /// @throws std::runtime_error if it is not a record, or torn within its head
   explicit RecordSource(const std::filesystem::path& file);
   ~RecordSource() override;
 
@@ -61,6 +61,7 @@ class ORTUNG_API RecordSource : public Source {
   std::string worldFingerprint() const override { return world_; }
 
  private:
+  void countLine();
   [[noreturn]] void fail(const std::string& what) const;
   std::filesystem::path file_;
   std::ifstream in_;

@@ -1,0 +1,237 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+
+#include "Files.hpp"
+#include "Seeded.hpp"
+#include "ortung/container/Random.hpp"
+#include "ortung/container/Record.hpp"
+
+namespace ortung {
+namespace {
+
+using test::messageOf;
+using test::TemporaryFolder;
+using test::writeBytes;
+
+const std::string kMagic = std::string(kRecordMagic) + "\n";
+
+std::string lineOf(const Message& message) {
+  std::string line;
+  writeLine(message, line);
+  return line;
+}
+
+std::string whyNot(const std::string& line) {
+  std::string why;
+  EXPECT_FALSE(parseLine(line, &why).has_value()) << line;
+  return why;
+}
+
+TEST(RecordLine, IsReadableByPeople) {
+  EXPECT_EQ(lineOf({1700000000123456, {"LMS200", "LRF", "scan"}, {1, 4294967295, 0}}),
+            "1700000000123456 LMS200/LRF/scan 3 1 4294967295 0");
+  EXPECT_EQ(lineOf({-5, {"a", "b", "c"}, {}}), "-5 a/b/c 0");
+}
+
+rc::Gen<std::string> anyName() {
+  static const std::string kLetters = "abzAZ09_.-";
+  return rc::gen::suchThat(rc::gen::container<std::string>(rc::gen::elementOf(kLetters)),
+                           [](const std::string& s) { return !s.empty() && s.size() <= 64; });
+}
+
+RC_GTEST_PROP(RecordLineProperty, AnyMessageComesBack, ()) {
+  const Message message{*rc::gen::arbitrary<std::int64_t>(),
+                        {*anyName(), *anyName(), *anyName()},
+                        *rc::gen::arbitrary<std::vector<std::uint32_t>>()};
+  std::string why = "untouched";
+  const auto parsed = parseLine(lineOf(message), &why);
+  RC_ASSERT(parsed.has_value());
+  RC_ASSERT(*parsed == message);
+}
+
+TEST(RecordLine, ExtremesOfTimeComeBack) {
+  for (const Timestamp t :
+       {std::numeric_limits<Timestamp>::min(), std::numeric_limits<Timestamp>::max()}) {
+    const Message message{t, {"a", "b", "c"}, {}};
+    EXPECT_EQ(parseLine(lineOf(message)), message);
+  }
+}
+
+TEST(RecordLine, SaysWhatIsWrong) {
+  EXPECT_EQ(whyNot(""), "found '', expected a time stamp in microseconds");
+  EXPECT_EQ(whyNot("NaN a/b/c 0"), "found 'NaN', expected a time stamp in microseconds");
+  EXPECT_EQ(whyNot("1.5 a/b/c 0"), "found '1.5', expected a time stamp in microseconds");
+  EXPECT_EQ(whyNot("9223372036854775808 a/b/c 0"),
+            "found '9223372036854775808', expected a time stamp in microseconds");
+  EXPECT_EQ(whyNot("1"), "found '': a feature's name is model/type/feature, with two '/'");
+  EXPECT_EQ(whyNot("1 a/b 0"), "found 'a/b': a feature's name is model/type/feature, with two '/'");
+  EXPECT_EQ(whyNot("1 a/b/c"), "found '', expected a number of words");
+  EXPECT_EQ(whyNot("1 a/b/c -1"), "found '-1', expected a number of words");
+  EXPECT_EQ(whyNot("1 a/b/c 99999999 1"), "found '99999999', expected a number of words");
+  EXPECT_EQ(whyNot("1 a/b/c 100 1"), "the line is torn: it announces 100 words");
+  EXPECT_EQ(whyNot("1 a/b/c 2 17"), "found 1 words, expected 2 as the line announces");
+  EXPECT_EQ(whyNot("1 a/b/c 1 1 1"), "found 2 words, expected 1 as the line announces");
+  EXPECT_EQ(whyNot("1 a/b/c 1 nan"), "found 'nan', expected an unsigned 32-bit word");
+  EXPECT_EQ(whyNot("1 a/b/c 1 -1"), "found '-1', expected an unsigned 32-bit word");
+  EXPECT_EQ(whyNot("1 a/b/c 1 4294967296"), "found '4294967296', expected an unsigned 32-bit word");
+  EXPECT_EQ(whyNot("1 a/b/c 1  5"), "found '', expected an unsigned 32-bit word");
+  EXPECT_EQ(whyNot("1 a/b/c 1 5\r"), "found '5?', expected an unsigned 32-bit word");
+  EXPECT_EQ(whyNot(std::string("\x1b[2J\x80", 5)),
+            "found '?[2J?', expected a time stamp in microseconds");
+  EXPECT_EQ(whyNot(std::string(100, '9')),
+            "found '" + std::string(40, '9') + "...', expected a time stamp in microseconds");
+}
+
+TEST(RecordLine, SurvivesAHundredThousandMutations) {
+  const std::string seed =
+      lineOf({123456789, {"LMS200", "LRF", "scan"}, {1, 22, 333, 4444, 55555, 4294967295}});
+  static const std::string kNasty = " /-+.0123456789eEnaNx\n\t\"#";
+  Random random(1);
+  int taken = 0;
+  for (int i = 0; i < 100000; ++i) {
+    std::string line = seed;
+    for (std::uint64_t k = 1 + random.below(4); k > 0 && !line.empty(); --k) {
+      const std::size_t at = random.below(line.size());
+      switch (random.below(5)) {
+        case 0:
+          line[at] = static_cast<char>(random.below(256));
+          break;
+        case 1:
+          line[at] = kNasty[random.below(kNasty.size())];
+          break;
+        case 2:
+          line.erase(at, 1 + random.below(8));
+          break;
+        case 3:
+          line.insert(at, line.substr(random.below(line.size()), random.below(12)));
+          break;
+        default:
+          line.resize(at);
+          break;
+      }
+    }
+    std::string why;
+    const auto parsed = parseLine(line, &why);
+    ASSERT_EQ(parsed.has_value(), why.empty()) << line;
+    if (!parsed) continue;
+    ++taken;
+    ASSERT_EQ(parseLine(lineOf(*parsed)), parsed) << line;
+  }
+  EXPECT_GT(taken, 1000) << "the mutations should not all be refused";
+}
+
+TEST(Record, ComesBackWithItsWorld) {
+  const TemporaryFolder folder;
+  const std::vector<Message> messages = {
+      {-3, {"a", "b", "c"}, {1, 2}}, {5, {"a", "b", "d"}, {}}, {5, {"a", "b", "c"}, {7}}};
+  RecordWriter writer(folder / "run.rec", "0123456789abcdef");
+  for (const Message& m : messages) writer.write(m);
+  EXPECT_EQ(writer.messages(), 3u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.rec")) << "not before commit()";
+  writer.commit();
+  RecordSource source(folder / "run.rec");
+  EXPECT_EQ(source.worldFingerprint(), "0123456789abcdef");
+  for (const Message& expected : messages) {
+    Message found;
+    ASSERT_TRUE(source.next(found));
+    EXPECT_EQ(found, expected);
+  }
+  Message none;
+  EXPECT_FALSE(source.next(none));
+  EXPECT_DOUBLE_EQ(source.progress(), 1.0);
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(Record, WithoutCommitTheOldFileStaysAndNothingElse) {
+  const TemporaryFolder folder;
+  writeBytes(folder / "run.rec", "old");
+  { RecordWriter(folder / "run.rec").write({1, {"a", "b", "c"}, {1}}); }
+  EXPECT_EQ(test::readBytes(folder / "run.rec"), "old");
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(Record, SkipsCommentsAnywhere) {
+  const TemporaryFolder folder;
+  writeBytes(folder / "x",
+             kMagic + "# robot pioneer\n# world abc\n1 a/b/c 0\n# note lunch\n2 a/b/c 0\n");
+  RecordSource source(folder / "x");
+  EXPECT_EQ(source.worldFingerprint(), "abc");
+  Message m;
+  EXPECT_TRUE(source.next(m));
+  EXPECT_TRUE(source.next(m));
+  EXPECT_EQ(m.stamp, 2);
+  EXPECT_FALSE(source.next(m));
+}
+
+/// What reading all of a record with this content says.
+std::string complaint(const TemporaryFolder& folder, const std::string& content) {
+  const auto file = folder / "x.rec";
+  writeBytes(file, content);
+  const std::string message = messageOf<std::runtime_error>([&] {
+    RecordSource source(file);
+    Message m;
+    while (source.next(m)) {
+    }
+  });
+  const std::string name = file.string();
+  return message.starts_with(name) ? message.substr(name.size()) : message;
+}
+
+TEST(Record, NamesFileLineAndWhatIsWrong) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(complaint(folder, ""), ":1: found '', expected '# ortung record 1'");
+  EXPECT_EQ(complaint(folder, "PARAM x\n"), ":1: found 'PARAM x', expected '# ortung record 1'");
+  EXPECT_EQ(complaint(folder, "# ortung record 2\n"),
+            ":1: found '# ortung record 2', expected '# ortung record 1'");
+  EXPECT_EQ(complaint(folder, kMagic + "1 a/b/c 0\n2 a/b/c 1 7"),
+            ":3: the last line is torn: it has no end (was the recorder killed?)");
+  EXPECT_EQ(complaint(folder, kMagic + "# world x\n1 a/b/c 1 NaN\n"),
+            ":3: found 'NaN', expected an unsigned 32-bit word");
+  EXPECT_EQ(complaint(folder, kMagic + "1 a/b/c 0\nFLASER 180 1.2\n"),
+            ":3: found 'FLASER', expected a time stamp in microseconds");
+  EXPECT_EQ(complaint(folder, kMagic + "1 a/b/c 0\n\n"),
+            ":3: found '', expected a time stamp in microseconds");
+  EXPECT_EQ(complaint(folder, kMagic + "5 a/b/c 0\n# x\n4 a/b/c 0\n"),
+            ":4: time runs backwards: found 4 us after 5 us");
+}
+
+TEST(Record, SeesThatItWasTornWithinItsHead) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(complaint(folder, kMagic + "# world 0123"),
+            ":2: the last line is torn: it has no end (was the recorder killed?)");
+}
+
+TEST(Record, RefusesMissingFilesAndFolders) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { RecordSource(folder / "none"); }),
+            (folder / "none").string() + ": can't be read");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { RecordSource(folder.path()); }),
+            folder.path().string() + ": can't be read");
+  EXPECT_THROW(RecordWriter(folder / "no" / "where.rec"), std::runtime_error);
+}
+
+// 4 GiB of nothing in a sparse file: reading must give up at 64 MiB, not eat the memory.
+TEST(Record, GivesUpOnAnEndlessLine) {
+  const TemporaryFolder folder;
+  writeBytes(folder / "x.rec", kMagic);
+  std::filesystem::resize_file(folder / "x.rec", std::uintmax_t{4} << 30);
+  RecordSource source(folder / "x.rec");
+  Message m;
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { source.next(m); }),
+            (folder / "x.rec").string() + ":2: the line is longer than 64 MiB");
+}
+
+TEST(Record, EveryTruncationOfAFileIsToldOrEndsAtALine) {
+  const TemporaryFolder folder;
+  const std::string whole = kMagic + "# world abc\n1 a/b/c 2 3 4\n2 a/b/d 0\n30 a/b/c 1 123\n";
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const std::string told = complaint(folder, whole.substr(0, size));
+    const bool endsAtALine = size >= kMagic.size() && whole[size - 1] == '\n';
+    EXPECT_EQ(told == "(nothing was thrown)", endsAtALine) << size << ": " << told;
+  }
+}
+
+}  // namespace
+}  // namespace ortung

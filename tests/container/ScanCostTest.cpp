@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "ScanCost.hpp"
+#include "ortung/container/Random.hpp"
+
+namespace ortung {
+namespace {
+
+struct Problem {
+  std::vector<std::uint8_t> levels;
+  std::vector<std::uint8_t> caps;
+  std::vector<std::uint8_t> table;  ///< rows lie in it at odd places
+  std::vector<const std::uint8_t*> rows;
+  ScanReading reading;
+};
+
+/// Random numbers of three kinds: any, near each other, and the extremes only.
+Problem makeProblem(std::size_t blocks, std::size_t rows, std::uint64_t seed) {
+  Random random(seed);
+  const auto kind = random.below(3);
+  const auto byte = [&]() -> std::uint8_t {
+    if (kind == 0) return static_cast<std::uint8_t>(random.below(256));
+    if (kind == 1) return static_cast<std::uint8_t>(100 + random.below(40));
+    return random.below(2) == 0 ? 0 : 255;
+  };
+  Problem p;
+  const std::size_t n = blocks * kScanBlock;
+  p.levels.resize(n);
+  p.caps.resize(n);
+  p.table.resize(n + rows * 7 + 1);
+  std::generate(p.levels.begin(), p.levels.end(), byte);
+  std::generate(p.table.begin(), p.table.end(), byte);
+  for (std::uint8_t& cap : p.caps)
+    cap = random.below(4) == 0 ? 0 : static_cast<std::uint8_t>(random.below(256));
+  for (std::size_t i = 0; i < rows; ++i) p.rows.push_back(p.table.data() + 1 + 7 * i);
+  p.reading = {p.levels, p.caps, {}};
+  for (std::uint8_t& cost : p.reading.costs) cost = static_cast<std::uint8_t>(random.below(256));
+  std::sort(p.reading.costs.begin(), p.reading.costs.end());
+  return p;
+}
+
+/// The formula of the header, word for word.
+std::vector<std::uint32_t> reference(const Problem& p) {
+  std::vector<std::uint32_t> sums;
+  for (const std::uint8_t* row : p.rows) {
+    std::uint32_t sum = 0;
+    for (std::size_t j = 0; j < p.levels.size(); ++j) {
+      const int difference = std::abs(static_cast<int>(row[j]) - static_cast<int>(p.levels[j]));
+      sum += std::min<std::uint32_t>(
+          p.caps[j], p.reading.costs[static_cast<std::size_t>(std::min(31, difference))]);
+    }
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+void expectEqualsReference(ScanCostKernel kernel) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Problem p = makeProblem(1 + seed % 9, seed % 67, seed);
+    std::vector<std::uint32_t> costs(p.rows.size());
+    kernel(p.reading, p.rows, costs.data());
+    ASSERT_EQ(costs, reference(p)) << "seed " << seed;
+  }
+}
+
+TEST(ScanCost, PortableEqualsTheFormula) {
+  expectEqualsReference(scanCostKernel(InstructionSet::kPortable));
+}
+
+TEST(ScanCost, Avx2EqualsTheFormula) {
+  const ScanCostKernel kernel = scanCostKernel(InstructionSet::kAvx2);
+  if (kernel == nullptr) GTEST_SKIP() << "this machine has no AVX2";
+  expectEqualsReference(kernel);
+}
+
+TEST(ScanCost, Avx512EqualsTheFormula) {
+  const ScanCostKernel kernel = scanCostKernel(InstructionSet::kAvx512);
+  if (kernel == nullptr) GTEST_SKIP() << "this machine has no AVX-512";
+  expectEqualsReference(kernel);
+}
+
+TEST(ScanCost, TheFastestKernelEqualsTheFormula) { expectEqualsReference(scanCostKernel()); }
+
+// 8192 beams of the greatest cost: the largest sum that can occur.
+TEST(ScanCost, DoesNotOverflow) {
+  Problem p = makeProblem(128, 1, 1);
+  std::fill(p.levels.begin(), p.levels.end(), 0);
+  std::fill(p.table.begin(), p.table.end(), 255);
+  std::fill(p.caps.begin(), p.caps.end(), 255);
+  p.reading.costs.fill(255);
+  for (const InstructionSet set :
+       {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+    const ScanCostKernel kernel = scanCostKernel(set);
+    if (kernel == nullptr) continue;
+    std::uint32_t cost = 0;
+    kernel(p.reading, p.rows, &cost);
+    EXPECT_EQ(cost, 8192u * 255u);
+  }
+}
+
+}  // namespace
+}  // namespace ortung

@@ -1,0 +1,45 @@
+#!/bin/sh
+# includes.sh ROOT  each folder includes only what lies below it; foreign libraries stay in one place.
+cd "$1" || exit 2
+status=0
+
+# deny "FOLDERS" PATTERN [ALLOWED]  no file of FOLDERS, but those whose path matches ALLOWED, includes PATTERN.
+deny() {
+  for folder in $1; do
+    [ -d "$folder" ] || continue
+    found=$(grep -rnE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($2)" "$folder" \
+              --include=*.hpp --include=*.h --include=*.cpp | grep -vE "^(${3:-nothing/is/allowed})")
+    if [ -n "$found" ]; then
+      echo "$found"
+      echo "-> $folder must not include the above"
+      status=1
+    fi
+  done
+}
+
+foreign='mrpt|opencv|embree|GL/|box2d|boost|spdlog|fmt/|CLI/'
+deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|client)|$foreign"
+deny 'container' 'toml\+\+|toml\.|nlohmann|ortung/config' 'container/config/'
+deny 'mcl' "ortung/(sim|sim_api|realsensors|server|client|config)|toml|nlohmann|$foreign"
+deny 'sim/api' "ortung/(mcl|sim|realsensors|config|server|client)/|toml|nlohmann|$foreign"
+deny 'sim' 'ortung/(mcl|realsensors)|mrpt|opencv'
+deny 'plugins' 'ortung/(mcl|realsensors)|mrpt|opencv|embree|GL/|box2d'
+deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
+deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
+
+# Public headers name no library but the standard one and Eigen.
+for folder in container/include container/config/include mcl/include sim/include sim/api/include; do
+  deny "$folder" "toml|nlohmann|$foreign"
+done
+
+# A library that is large or strange is included from one folder only.
+for library in embree GL/ box2d; do
+  folders=$(grep -rlE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($library)" container mcl sim plugins realsensors app \
+              --include=*.hpp --include=*.cpp 2>/dev/null | xargs -r -n1 dirname | sort -u)
+  if [ "$(echo "$folders" | grep -c .)" -gt 1 ]; then
+    echo "$library is included in more than one folder:"
+    echo "$folders"
+    status=1
+  fi
+done
+exit $status

@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ortung/container/Random.hpp"
+#include "ortung/mcl/Evaluation.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+EvaluationStep step(double seconds, const Pose2& pose, double ms = 1.0) {
+  EvaluationStep s;
+  s.estimate.stamp = fromSeconds(seconds);
+  s.estimate.pose = pose;
+  s.estimate.samples = 100;
+  s.estimate.covariance = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  s.updateMilliseconds = ms;
+  return s;
+}
+
+/// Truth stands at the origin for 100 s; the estimate at second t is off by error(t).
+template <class Error>
+EvaluationResult resultOf(const Error& error, double from = 0.0, double to = 100.0) {
+  Evaluation evaluation;
+  for (int t = 0; t <= 100; ++t) {
+    evaluation.addTime(fromSeconds(t));
+    evaluation.addTruth(fromSeconds(t), {});
+    if (t >= from && t <= to) evaluation.addStep(step(t, error(t)));
+  }
+  return evaluation.result("test:x");
+}
+
+TEST(Interpolate, GoesStraightAndTheShortWayRound) {
+  const std::vector<std::pair<Timestamp, Pose2>> truth = {{0, {0, 0, kPi - 0.1}},
+                                                          {1000000, {1, 2, -kPi + 0.3}}};
+  const auto middle = interpolate(truth, 250000, 1.0);
+  ASSERT_TRUE(middle.has_value());
+  EXPECT_NEAR(middle->x, 0.25, 1e-12);
+  EXPECT_NEAR(middle->y, 0.5, 1e-12);
+  EXPECT_NEAR(middle->theta, kPi, 1e-12);
+  EXPECT_EQ(interpolate(truth, 1000000, 1.0)->x, 1.0);
+  EXPECT_EQ(interpolate(truth, 0, 1.0)->x, 0.0);
+  EXPECT_FALSE(interpolate(truth, -1, 1.0).has_value());
+  EXPECT_FALSE(interpolate(truth, 1000001, 1.0).has_value());
+  EXPECT_FALSE(interpolate(truth, 500000, 0.9).has_value()) << "the gap is too long";
+  EXPECT_FALSE(interpolate({}, 0, 1.0).has_value());
+}
+
+TEST(Evaluation, ConvergesWhenTheErrorStaysSmallForFiveSeconds) {
+  // Small at 3..5 s (too short), then from 10 s on.
+  const auto result = resultOf([](int t) {
+    return Pose2{(t >= 3 && t <= 5) || t >= 10 ? 0.1 : 2.0, 0, 0};
+  });
+  ASSERT_TRUE(result.convergedAfter.has_value());
+  EXPECT_DOUBLE_EQ(*result.convergedAfter, 10.0);
+  EXPECT_NEAR(result.positionRmse, 0.1, 1e-12) << "over the time after convergence only";
+  EXPECT_EQ(result.lostShare, 0.0);
+}
+
+TEST(Evaluation, HeadingCountsForConvergence) {
+  const auto result = resultOf([](int t) { return Pose2{0, 0, t < 20 ? kPi : 0.2}; });
+  ASSERT_TRUE(result.convergedAfter.has_value());
+  EXPECT_DOUBLE_EQ(*result.convergedAfter, 20.0);
+  EXPECT_NEAR(result.headingRmse, 0.2, 1e-12);
+}
+
+TEST(Evaluation, NeverConvergedHasNoErrors) {
+  const auto result = resultOf([](int) { return Pose2{3, 0, 0}; });
+  EXPECT_FALSE(result.convergedAfter.has_value());
+  for (const double figure : {result.positionRmse, result.positionMedian, result.positionP95,
+                              result.headingRmse, result.lostShare, result.neesMean}) {
+    EXPECT_TRUE(std::isnan(figure));
+  }
+  EXPECT_EQ(result.points.size(), 101u);
+}
+
+// Errors 0.00, 0.01, ..., 1.00 m in mixed order after 6 s of no error: known quantiles.
+TEST(Evaluation, GivesMedianP95RmseAndLostShare) {
+  Evaluation evaluation;
+  std::vector<double> errors(101);
+  for (std::size_t i = 0; i <= 100; ++i) errors[i] = 0.01 * static_cast<double>((37 * i) % 101);
+  for (int t = 0; t < 20; ++t) errors.push_back(3.0);
+  // The quiet beginning lasts 6 s at 100 Hz less one: it weighs nothing beside its count.
+  for (std::size_t i = 0; i < errors.size() + 6; ++i) {
+    const auto t = static_cast<double>(i);
+    evaluation.addTime(fromSeconds(t));
+    evaluation.addTruth(fromSeconds(t), {});
+    evaluation.addStep(step(t, {i < 6 ? 0.0 : errors[i - 6], 0, 0}));
+  }
+  const auto result = evaluation.result("x");
+  ASSERT_EQ(result.convergedAfter, 0.0);
+  // 127 sorted values: seven times 0 (six and the list's own), 0.01 ... 1.00, twenty times 3.
+  EXPECT_NEAR(result.positionMedian, 0.57, 1e-12);  // number 63: 63 - 6 = 57
+  EXPECT_NEAR(result.positionP95, 3.0, 1e-12);      // number 119.7
+  double squares = 20 * 9.0;
+  for (int i = 0; i <= 100; ++i) squares += 1e-4 * i * i;
+  EXPECT_NEAR(result.positionRmse, std::sqrt(squares / 127), 1e-12);
+  EXPECT_NEAR(result.lostShare, 20.0 / 127, 1e-12);
+}
+
+TEST(Evaluation, QuantilesLieBetweenOrderStatistics) {
+  Evaluation evaluation;
+  for (int t = 0; t < 11; ++t) {
+    evaluation.addTime(fromSeconds(t));
+    evaluation.addTruth(fromSeconds(t), {});
+    evaluation.addStep(step(t, {0.01 * t, 0, 0}, 10.0 - t));
+  }
+  const auto result = evaluation.result("x");
+  EXPECT_NEAR(result.positionP95, 0.095, 1e-12);
+  EXPECT_NEAR(result.updateMsP50, 5.0, 1e-12);
+  EXPECT_NEAR(result.updateMsP99, 9.9, 1e-12);
+  EXPECT_NEAR(result.realtimeFactor, 10.0 / 0.055, 1e-9);
+  EXPECT_NEAR(result.particlesMean, 100.0, 1e-9);
+  EXPECT_EQ(result.duration, 10.0);
+}
+
+TEST(Evaluation, StepsWithoutTruthAreNotCompared) {
+  Evaluation evaluation;
+  for (int t = 0; t <= 100; ++t) {
+    evaluation.addTime(fromSeconds(t));
+    if (t < 40 || t > 60) evaluation.addTruth(fromSeconds(t), {});
+    // Within the gap the estimate is far off, which nobody can know.
+    evaluation.addStep(step(t, {t >= 40 && t <= 60 ? 9.0 : 0.0, 0, 0}));
+  }
+  const auto result = evaluation.result("x");
+  EXPECT_EQ(result.steps, 101u);
+  EXPECT_EQ(result.comparedSteps, 80u);
+  EXPECT_EQ(result.positionRmse, 0.0);
+}
+
+TEST(Evaluation, ErrorsOfAConsistentFilterHaveANeesOfThree) {
+  Random random(1);
+  Evaluation evaluation;
+  const double sx = 0.02;
+  const double sy = 0.05;
+  const double st = 0.03;
+  const double r = 0.7;  // correlation of x and y
+  for (int i = 0; i < 20000; ++i) {
+    const double t = 0.01 * i;
+    const double a = random.gaussian();
+    const double b = r * a + std::sqrt(1 - r * r) * random.gaussian();
+    EvaluationStep s =
+        step(t, Pose2{3 + sx * a, -1 + sy * b, wrapAngle(kPi + st * random.gaussian())});
+    s.estimate.covariance = {sx * sx, r * sx * sy, 0, r * sx * sy, sy * sy, 0, 0, 0, st * st};
+    evaluation.addTime(fromSeconds(t));
+    evaluation.addTruth(fromSeconds(t), {3, -1, kPi});
+    evaluation.addStep(s);
+  }
+  // The sum of three squares of normal numbers: mean 3, variance 6.
+  EXPECT_NEAR(evaluation.result("x").neesMean, 3.0, 5 * std::sqrt(6.0 / 20000));
+}
+
+TEST(Evaluation, CovarianceThatCannotBeInvertedIsLeftOut) {
+  Evaluation evaluation;
+  for (int t = 0; t <= 10; ++t) {
+    EvaluationStep s = step(t, {0.1, 0, 0});
+    s.estimate.covariance = {};
+    if (t == 10) s.estimate.covariance = {0.01, 0, 0, 0, 1, 0, 0, 0, 1};
+    evaluation.addTime(fromSeconds(t));
+    evaluation.addTruth(fromSeconds(t), {});
+    evaluation.addStep(s);
+  }
+  EXPECT_NEAR(evaluation.result("x").neesMean, 1.0, 1e-9) << "only the last: (0.1 / 0.1)^2";
+}
+
+TEST(Evaluation, RefusesTimeThatRunsBackwards) {
+  Evaluation evaluation;
+  evaluation.addTruth(5, {});
+  evaluation.addTruth(5, {});
+  EXPECT_THROW(evaluation.addTruth(4, {}), std::invalid_argument);
+  evaluation.addStep(step(1, {}));
+  EXPECT_THROW(evaluation.addStep(step(0.5, {})), std::invalid_argument);
+}
+
+TEST(Evaluation, OfNothingIsEmpty) {
+  const auto result = Evaluation().result("x");
+  EXPECT_EQ(result.steps, 0u);
+  EXPECT_EQ(result.duration, 0.0);
+  EXPECT_FALSE(result.convergedAfter.has_value());
+}
+
+TEST(Evaluation, WithoutReadingTimesCountsFromTheFirstStep) {
+  Evaluation evaluation;
+  for (int t = 50; t <= 60; ++t) {
+    evaluation.addTruth(fromSeconds(t), {});
+    evaluation.addStep(step(t, {}));
+  }
+  EXPECT_EQ(evaluation.result("x").convergedAfter, 0.0);
+}
+
+}  // namespace
+}  // namespace ortung

@@ -1,0 +1,395 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "FakeRun.hpp"
+#include "Files.hpp"
+#include "ortung/mcl/Mcl.hpp"
+
+namespace ortung {
+namespace {
+
+using test::FakeRun;
+using test::kPi;
+
+/// Learned once; every test begins its own run.
+FakeRun& run() {
+  static FakeRun one;
+  return one;
+}
+
+double errorOf(const Mcl& mcl, const Pose2& truth) { return distance(mcl.estimate().pose, truth); }
+
+/// All samples and estimates of a run, as bits.
+std::string bitsOf(const MclConfig& config, std::uint64_t noise) {
+  const auto mcl = run().mcl(config);
+  mcl->startGlobal();
+  run().begin(FakeRun::onCircle(1, 0.5, 0.3), noise);
+  std::string bits;
+  const auto add = [&bits](const void* data, std::size_t size) {
+    bits.append(static_cast<const char*>(data), size);
+  };
+  for (int i = 0; i < 25; ++i) {
+    run().drive();
+    if (i == 12)
+      run().truth =
+          FakeRun::onCircle(-2, -0.5, 2);  // kidnapped: injection must be reproducible, too
+    mcl->update(run().container);
+    add(&mcl->estimate().pose, sizeof(Pose2));
+    add(mcl->estimate().covariance.data(), sizeof(double) * 9);
+    for (const auto* values :
+         {&mcl->samples().x, &mcl->samples().y, &mcl->samples().theta, &mcl->samples().logWeight}) {
+      add(values->data(), values->size() * sizeof(float));
+    }
+  }
+  return bits;
+}
+
+TEST(Mcl, GivesTheSameBitsForASeedWhateverTheThreads) {
+  MclConfig config = run().config();
+  config.maxSamples = 20000;  // several chunks for each thread
+  config.minSamples = 9000;
+  config.startCandidates = 4;
+  const Timestamp stamp = run().stamp;
+  const std::string one = bitsOf(config, 3);
+  run().stamp = stamp;
+  EXPECT_EQ(one, bitsOf(config, 3)) << "two runs";
+  for (const unsigned threads : {2u, 3u, 7u}) {
+    config.threads = threads;
+    run().stamp = stamp;
+    EXPECT_EQ(one, bitsOf(config, 3)) << threads << " threads";
+  }
+  config.seed = 2;
+  run().stamp = stamp;
+  EXPECT_NE(one, bitsOf(config, 3)) << "another seed";
+}
+
+TEST(Mcl, ConvergesFromAnywhereForEverySeed) {
+  Random random(17);
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    MclConfig config = run().config();
+    config.seed = seed;
+    const auto mcl = run().mcl(config);
+    mcl->startGlobal();
+    run().begin(FakeRun::onCircle(random.uniform(-2.3, 2.3), random.uniform(-0.8, 0.8),
+                                  random.uniform(-kPi, kPi)),
+                seed);
+    for (int i = 0; i < 60; ++i) {
+      run().drive();
+      mcl->update(run().container);
+    }
+    // The sensors' noise is a few centimetres; cells are 0.1 m wide.
+    EXPECT_LT(errorOf(*mcl, run().truth), 0.15) << "seed " << seed;
+    EXPECT_LT(std::abs(wrapAngle(mcl->estimate().pose.theta - run().truth.theta)), 0.1)
+        << "seed " << seed;
+    EXPECT_GT(mcl->estimate().share, 0.5) << "seed " << seed;
+    EXPECT_EQ(mcl->estimate().stamp, run().stamp);
+    EXPECT_EQ(mcl->estimate().samples, mcl->samples().size());
+  }
+}
+
+TEST(Mcl, NeedsFewerSamplesOnceItKnows) {
+  const auto mcl = run().mcl(run().config());
+  mcl->startGlobal();
+  EXPECT_EQ(mcl->samples().size(), run().config().maxSamples);
+  run().begin(FakeRun::onCircle(1, 0, 0), 1);
+  for (int i = 0; i < 40; ++i) {
+    run().drive();
+    mcl->update(run().container);
+  }
+  EXPECT_LT(mcl->samples().size(), run().config().maxSamples / 2);
+  EXPECT_GE(mcl->samples().size(), run().config().minSamples);
+}
+
+TEST(Mcl, TracksFromAKnownStart) {
+  const auto mcl = run().mcl(run().config());
+  run().begin(FakeRun::onCircle(-1, 0.5, 1), 5);
+  mcl->startAt(run().truth, 0.1, 0.05);
+  double worst = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    run().drive();
+    if (mcl->update(run().container)) worst = std::max(worst, errorOf(*mcl, run().truth));
+  }
+  EXPECT_LT(worst, 0.2);
+}
+
+// In an empty rectangle a wrong pose may explain half of the beams, so not every seed recovers;
+// other localizers recover in none to two of ten runs.
+TEST(Mcl, RecoversFromMostKidnaps) {
+  int recovered = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    MclConfig config = run().config();
+    config.seed = seed;
+    const auto mcl = run().mcl(config);
+    run().begin(FakeRun::onCircle(1, 0.5, 0), seed);
+    mcl->startAt(run().truth, 0.1, 0.05);
+    for (int i = 0; i < 30; ++i) {
+      run().drive();
+      mcl->update(run().container);
+    }
+    ASSERT_LT(errorOf(*mcl, run().truth), 0.2);
+    run().truth = FakeRun::onCircle(-2, -0.5, 2.5);
+    for (int i = 0; i < 200; ++i) {
+      run().drive();
+      mcl->update(run().container);
+    }
+    recovered += errorOf(*mcl, run().truth) < 0.2 ? 1 : 0;
+  }
+  EXPECT_GE(recovered, 7);
+}
+
+TEST(Mcl, DoesNotWeighTheSameReadingTwiceNorAStandingRobotTooOften) {
+  const auto mcl = run().mcl(run().config());
+  run().begin(FakeRun::onCircle(1, 0.5, 0), 1);
+  mcl->startAt(run().truth, 0.1, 0.05);
+  run().drive();
+  EXPECT_TRUE(mcl->update(run().container));
+  EXPECT_FALSE(mcl->update(run().container)) << "nothing new";
+  run().stamp += 1000;
+  run().readAll();
+  EXPECT_FALSE(mcl->update(run().container)) << "new, but from the same place a millisecond later";
+  run().stamp += fromSeconds(0.6);
+  run().readAll();
+  EXPECT_TRUE(mcl->update(run().container)) << "after max_interval_s";
+}
+
+TEST(Mcl, WithoutAnyReadingHasNoNews) {
+  SensorContainer empty;
+  const auto mcl = run().mcl(run().config());
+  mcl->startGlobal();
+  EXPECT_FALSE(mcl->update(empty));
+  EXPECT_EQ(mcl->estimate().samples, 0u);
+}
+
+/// A device with a feature that says nothing new about the pose, to see where the samples are.
+struct Moving {
+  explicit Moving(const FieldRegion& region) : motion_region(region) {
+    container.add(std::make_unique<OdometryData>(SensorId{"base", "odometry", "pose"}));
+    for (const std::string name : {"early", "late"}) {
+      SensorData& data = container.add(std::make_unique<ScalarData>(
+          SensorId{"cam", "camera", name}, Pose2{}, ScalarData::Config{.model = {.sigma = 100}}));
+      test::learnEverywhere(data, region, 1.0,
+                            [](const Pose2&) { return ScalarData::encode(1.0); });
+    }
+  }
+  void odometry(double seconds, const OdometryData::Reading& reading) {
+    container.set(
+        {fromSeconds(seconds), {"base", "odometry", "pose"}, OdometryData::encode(reading)});
+  }
+  void feature(const std::string& name, double seconds) {
+    container.set({fromSeconds(seconds), {"cam", "camera", name}, ScalarData::encode(1.0)});
+  }
+  std::unique_ptr<Mcl> mcl() const {
+    MclConfig config;
+    config.maxSamples = config.minSamples = 600;
+    return std::make_unique<Mcl>(config, motion_region,
+                                 std::make_unique<OdometryMotion>(OdometryNoise{0, 0, 0, 0, 0, 0}));
+  }
+  const FieldRegion& motion_region;
+  SensorContainer container;
+};
+
+TEST(Mcl, MovesTheSamplesToTheTimeOfEachReading) {
+  const FieldRegion region = test::Room{20, 20}.region(0.5, 0.2);
+  Moving robot(region);
+  const auto mcl = robot.mcl();
+  mcl->startAt({1, 0, 0}, 0.0, 0.0);
+  robot.odometry(0.0, {{0, 0, 0}, 1.0, 0.0, {}});
+  robot.feature("early", 0.0);
+  ASSERT_TRUE(mcl->update(robot.container));
+  EXPECT_NEAR(mcl->estimate().pose.x, 1.0, 1e-5);
+  // One metre later; a reading from 0.1 s before and one from 0.05 s after the newest odometry.
+  robot.odometry(1.0, {{1, 0, 0}, 1.0, 0.0, {}});
+  robot.feature("early", 0.9);
+  ASSERT_TRUE(mcl->update(robot.container));
+  EXPECT_EQ(mcl->estimate().stamp, 900000);
+  EXPECT_NEAR(mcl->estimate().pose.x, 1.9, 1e-4);
+  robot.feature("late", 1.05);
+  ASSERT_TRUE(mcl->update(robot.container));
+  EXPECT_EQ(mcl->estimate().stamp, 1050000);
+  EXPECT_NEAR(mcl->estimate().pose.x, 2.05, 1e-4);
+  // Two readings of different times at once: in the order of their time.
+  robot.odometry(2.0, {{2, 0, 0}, 1.0, 0.0, {}});
+  robot.feature("late", 1.8);
+  robot.feature("early", 1.95);
+  ASSERT_TRUE(mcl->update(robot.container));
+  EXPECT_EQ(mcl->estimate().stamp, 1950000);
+  EXPECT_NEAR(mcl->estimate().pose.x, 2.95, 1e-4);
+}
+
+TEST(Mcl, FollowsAnArcBetweenOdometryReadings) {
+  const FieldRegion region = test::Room{20, 20}.region(0.5, 0.2);
+  Moving robot(region);
+  const auto mcl = robot.mcl();
+  mcl->startAt({0, 0, 0}, 0.0, 0.0);
+  robot.odometry(0.0, {{0, 0, 0}, 1.0, 2.0, {}});
+  robot.feature("early", 0.0);
+  mcl->update(robot.container);
+  robot.feature("early", 0.2);
+  mcl->update(robot.container);
+  // A circle of radius v / w = 0.5 m, 0.4 rad on.
+  EXPECT_NEAR(mcl->estimate().pose.x, 0.5 * std::sin(0.4), 0.002);
+  EXPECT_NEAR(mcl->estimate().pose.y, 0.5 * (1 - std::cos(0.4)), 0.002);
+  EXPECT_NEAR(mcl->estimate().pose.theta, 0.4, 2e-4);
+}
+
+/// A plugin's own format that answers with whatever it is told to.
+struct Hostile : SensorData {
+  explicit Hostile(std::function<float(std::size_t)> a)
+      : SensorData({"evil", "test", "x"}), answer(std::move(a)) {}
+  std::string wordsHelp() const override { return ""; }
+  bool localizes() const override { return true; }
+  void decode(std::span<const std::uint32_t>) override {}
+  void weigh(const SampleView&, std::span<float> logProbability) const override {
+    for (std::size_t i = 0; i < logProbability.size(); ++i) logProbability[i] += answer(i);
+  }
+  std::function<float(std::size_t)> answer;
+};
+
+void expectSane(const Mcl& mcl) {
+  const PoseEstimate& e = mcl.estimate();
+  EXPECT_TRUE(isFinite(e.pose));
+  EXPECT_TRUE(e.share > 0.0 && e.share <= 1.0 + 1e-9) << e.share;
+  for (const double c : e.covariance) EXPECT_TRUE(std::isfinite(c));
+  for (const auto* values : {&mcl.samples().x, &mcl.samples().y, &mcl.samples().theta}) {
+    for (const float v : *values) ASSERT_TRUE(std::isfinite(v));
+  }
+}
+
+TEST(Mcl, SurvivesFeaturesThatAnswerNonsense) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::function<float(std::size_t)>> answers = {
+      [=](std::size_t) { return -infinity; },
+      [=](std::size_t) { return nan; },
+      [=](std::size_t i) { return i % 2 ? nan : -1.0F; },
+      [=](std::size_t i) { return i % 2 ? -infinity : -1.0F; },
+      [=](std::size_t i) { return i % 3 ? infinity : -1.0F; },
+      [=](std::size_t i) { return i % 2 ? -3e38F : -2e38F; },
+      [=](std::size_t i) { return i == 0 ? -5.0F : nan; },
+  };
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    SensorContainer container;
+    SensorData& data = container.add(std::make_unique<Hostile>(answers[k]));
+    data.beginLearning(run().region, 0.1);
+    data.endLearning();
+    for (const bool global : {true, false}) {
+      const auto mcl = run().mcl(run().config());
+      if (global)
+        mcl->startGlobal();
+      else
+        mcl->startAt({1, 1, 1}, 0.1, 0.1);
+      for (int i = 1; i < 20; ++i) {
+        container.set({i * 1000000, {"evil", "test", "x"}, {}});
+        ASSERT_TRUE(mcl->update(container)) << k;
+        expectSane(*mcl);
+      }
+    }
+  }
+}
+
+// A moment in which nothing fits must not leave the filter blind for what comes after it.
+TEST(Mcl, SeesAgainAfterAllWeightsWereZero) {
+  FakeRun own;
+  auto& evil = static_cast<Hostile&>(
+      own.container.add(std::make_unique<Hostile>([](std::size_t) { return -1.0F; })));
+  evil.beginLearning(own.region, 0.1);
+  evil.endLearning();
+  MclConfig config = own.config();
+  config.injectSlow = 0.0;
+  const auto mcl = own.mcl(config);
+  own.begin(FakeRun::onCircle(1, 0.5, 0.2), 1);
+  mcl->startAt(own.truth, 0.5, 0.3);
+  for (int i = 0; i < 60; ++i) {
+    own.drive();
+    const float value = i < 5 ? -std::numeric_limits<float>::infinity() : -1.0F;
+    evil.answer = [value](std::size_t) { return value; };
+    own.container.set({own.stamp, {"evil", "test", "x"}, {}});
+    mcl->update(own.container);
+    expectSane(*mcl);
+  }
+  EXPECT_LT(errorOf(*mcl, own.truth), 0.15);
+  EXPECT_LT(mcl->estimate().covariance[0], 0.01)
+      << "0.25 at the start: what came after must have counted";
+}
+
+// Nor may one answer that is no number stop the filter from noticing that it is lost.
+TEST(Mcl, RecoversFromAKidnapAfterNonsense) {
+  FakeRun own;
+  auto& evil = static_cast<Hostile&>(
+      own.container.add(std::make_unique<Hostile>([](std::size_t) { return -1.0F; })));
+  evil.beginLearning(own.region, 0.1);
+  evil.endLearning();
+  const auto mcl = own.mcl(own.config());
+  own.begin(FakeRun::onCircle(1, 0.5, 0.2), 1);
+  mcl->startAt(own.truth, 0.1, 0.1);
+  for (int i = 0; i < 150; ++i) {
+    own.drive();
+    if (i == 20) {
+      evil.answer = [](std::size_t k) {
+        return k % 5 ? std::numeric_limits<float>::quiet_NaN() : -1.0F;
+      };
+      own.container.set({own.stamp, {"evil", "test", "x"}, {}});
+    }
+    if (i == 40) own.truth = FakeRun::onCircle(-2, -0.5, 2.5);
+    mcl->update(own.container);
+    expectSane(*mcl);
+  }
+  EXPECT_LT(errorOf(*mcl, own.truth), 0.2);
+}
+
+TEST(MclConfig, IsCheckedFieldByField) {
+  const auto complaint = [](auto change) {
+    MclConfig c;
+    change(c);
+    return test::messageOf<std::invalid_argument>([&] { c.check(); });
+  };
+  EXPECT_EQ(complaint([](MclConfig&) {}), "(nothing was thrown)");
+  EXPECT_EQ(complaint([](MclConfig& c) { c.maxSamples = 0; }),
+            "MclConfig.maxSamples is 0.000000, must be in [1, 5000000]");
+  EXPECT_EQ(complaint([](MclConfig& c) { c.minSamples = c.maxSamples + 1; }),
+            "MclConfig.minSamples is 20001.000000, must be in [1, maxSamples]");
+  for (const double bad : {-1.0, static_cast<double>(NAN)}) {
+    EXPECT_NE(complaint([&](MclConfig& c) { c.resampleBelow = bad; }).find("resampleBelow"),
+              std::string::npos);
+    EXPECT_NE(complaint([&](MclConfig& c) { c.kldError = bad; }).find("kldError"),
+              std::string::npos);
+    EXPECT_NE(complaint([&](MclConfig& c) { c.binMetres = bad; }).find("binMetres"),
+              std::string::npos);
+    EXPECT_NE(complaint([&](MclConfig& c) { c.binRadians = bad; }).find("binRadians"),
+              std::string::npos);
+    EXPECT_NE(complaint([&](MclConfig& c) { c.injectMost = bad; }).find("injectMost"),
+              std::string::npos);
+    EXPECT_NE(complaint([&](MclConfig& c) { c.maxInterval = bad; }).find("maxInterval"),
+              std::string::npos);
+  }
+  EXPECT_NE(complaint([](MclConfig& c) { c.threads = 0; }).find("threads"), std::string::npos);
+}
+
+TEST(MclConfig, IsReadFromAFilesSection) {
+  Parameters p("r.toml");
+  p.set("particles", 3000.0);
+  p.set("bin_deg", 5.0);
+  const MclConfig c = MclConfig::read(p);
+  EXPECT_EQ(c.maxSamples, 3000u);
+  EXPECT_NEAR(c.binRadians, kPi / 36, 1e-12);
+  p.set("min_particles", 4000.0);
+  EXPECT_EQ(test::messageOf<ConfigError>([&] { MclConfig::read(p); }),
+            "r.toml: min_particles is 4000, must be in [1, 3000]");
+  Parameters misspelt("r.toml");
+  misspelt.set("particels", 3000.0);
+  EXPECT_EQ(test::messageOf<ConfigError>([&] { MclConfig::read(misspelt); }),
+            "r.toml: particels is not known here");
+}
+
+TEST(Mcl, RefusesARegionWithoutAPlaceToStand) {
+  FieldRegion nowhere = run().region;
+  std::fill(nowhere.standable.begin(), nowhere.standable.end(), std::uint8_t{0});
+  EXPECT_THROW(Mcl(MclConfig(), nowhere, std::make_unique<OdometryMotion>()),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ortung

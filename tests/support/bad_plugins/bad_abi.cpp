@@ -1,0 +1,4 @@
+#include "ortung/container/Plugin.hpp"
+
+extern "C" ORTUNG_API constinit const ortung::PluginInfo ortungPlugins = {
+    99, sizeof(ortung::PluginInfo), ortung::kBuildTag, "bad_abi", "0", nullptr, 0};

@@ -1,0 +1,2 @@
+int aLibraryWithoutPlugins();
+int aLibraryWithoutPlugins() { return 0; }
