@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <string_view>
 
-#if defined(__x86_64__)
+#ifdef ORTUNG_X86
 #include <immintrin.h>
 #endif
 
@@ -26,10 +25,10 @@ void portable(const ScanReading& reading, std::span<const std::uint8_t* const> r
   }
 }
 
-#if defined(__x86_64__)
+#ifdef ORTUNG_X86
 
 // A shuffle looks up 16 entries at once; two and a blend make the table of 32.
-__attribute__((target("avx2"))) void avx2(const ScanReading& reading,
+ORTUNG_AVX2 void avx2(const ScanReading& reading,
                                           std::span<const std::uint8_t* const> rows, std::uint32_t* costs) {
   const auto* table = reinterpret_cast<const __m128i*>(reading.costs.data());
   const __m256i low = _mm256_broadcastsi128_si256(_mm_loadu_si128(table));
@@ -59,7 +58,7 @@ __attribute__((target("avx2"))) void avx2(const ScanReading& reading,
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-__attribute__((target("avx512f,avx512bw"))) void avx512(const ScanReading& reading,
+ORTUNG_AVX512 void avx512(const ScanReading& reading,
                                                         std::span<const std::uint8_t* const> rows,
                                                         std::uint32_t* costs) {
   const auto* table = reinterpret_cast<const __m128i*>(reading.costs.data());
@@ -90,23 +89,14 @@ __attribute__((target("avx512f,avx512bw"))) void avx512(const ScanReading& readi
 }  // namespace
 
 ScanCostKernel scanCostKernel(InstructionSet set) {
-  if (set == InstructionSet::kPortable) return portable;
-#if defined(__x86_64__)
-  if (set == InstructionSet::kAvx2 && __builtin_cpu_supports("avx2")) return avx2;
-  if (set == InstructionSet::kAvx512 && __builtin_cpu_supports("avx512bw")) return avx512;
+  if (!hasInstructionSet(set)) return nullptr;
+#ifdef ORTUNG_X86
+  if (set == InstructionSet::kAvx2) return avx2;
+  if (set == InstructionSet::kAvx512) return avx512;
 #endif
-  return nullptr;
+  return portable;
 }
 
-ScanCostKernel scanCostKernel() {
-  static const ScanCostKernel kChosen = [] {
-    const char* variable = std::getenv("ORTUNG_SIMD");
-    const std::string_view most = variable == nullptr ? "avx512" : variable;
-    ScanCostKernel kernel = most == "avx512" ? scanCostKernel(InstructionSet::kAvx512) : nullptr;
-    if (kernel == nullptr && most != "portable") kernel = scanCostKernel(InstructionSet::kAvx2);
-    return kernel == nullptr ? portable : kernel;
-  }();
-  return kChosen;
-}
+ScanCostKernel scanCostKernel() { return scanCostKernel(instructionSet()); }
 
 }  // namespace ortung

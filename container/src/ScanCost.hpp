@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "InstructionSet.hpp"
 #include "ortung/container/Export.hpp"
 
 /// Cost of a scan against rows of expected levels: the inner loop of weighting.
@@ -25,12 +26,10 @@ struct ScanReading {
 using ScanCostKernel = void (*)(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
                                 std::uint32_t* costs);
 
-enum class InstructionSet { kPortable, kAvx2, kAvx512 };
-
 /// The kernel for an instruction set, or nullptr if this machine (or build) does not have it.
 ORTUNG_API ScanCostKernel scanCostKernel(InstructionSet set);
 
-/// The fastest kernel of this machine; $ORTUNG_SIMD (portable, avx2, avx512) lowers the choice.
+/// The kernel for instructionSet().
 ORTUNG_API ScanCostKernel scanCostKernel();
 
 }  // namespace ortung
