@@ -1,4 +1,4 @@
-#include "InstructionSet.hpp"
+#include "ortung/container/InstructionSet.hpp"
 
 #include <atomic>
 #include <cstdlib>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "InstructionSet.hpp"
 #include "ortung/container/Export.hpp"
+#include "ortung/container/InstructionSet.hpp"
 
 /// Cost of a scan against rows of expected levels: the inner loop of weighting.
 namespace ortung {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "BenchField.hpp"
-#include "InstructionSet.hpp"
+#include "ortung/container/InstructionSet.hpp"
 #include "ortung/container/Random.hpp"
 #include "ortung/mcl/OdometryMotion.hpp"
 
