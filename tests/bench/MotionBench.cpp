@@ -26,10 +26,7 @@ void measure(benchmark::State& state, double n, const char* baseline, bool isBas
     return;
   }
   if (!isBaseline) useInstructionSet(set);
-  work();
-  const Stopwatch watch;
-  for (auto _ : state) work();
-  const double each = watch.nanoseconds() / static_cast<double>(state.iterations()) / n;
+  const double each = fastest(state, work) / n;
   useInstructionSet(std::nullopt);
   state.counters["ns/each"] = each;
   if (isBaseline) {
