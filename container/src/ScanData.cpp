@@ -333,7 +333,7 @@ void ScanData::weighRays(const SampleView& poses, std::span<float> logProbabilit
   const ScanReading reading{prepared_->levels, prepared_->caps, prepared_->costs};
   const ScanCostKernel kernel = scanCostKernel();
   const float floor = prepared_->nats * static_cast<float>(prepared_->floorCost);
-  const std::size_t run = prepared_->levels.size();
+  const auto run = static_cast<std::size_t>(runLength(rays_.directions()));
   const std::int32_t* rowOf = rays_.rowIndex().data();
   const std::uint8_t* levels = rays_.levels().data();
   RayPlaces places;
@@ -365,6 +365,7 @@ void ScanData::weighRays(const SampleView& poses, std::span<float> logProbabilit
       const std::uint8_t* from =
           levels + static_cast<std::size_t>(row) * rays_.stride() + static_cast<std::size_t>(places.direction[k]);
       for (std::size_t line = 0; line < run; line += kCacheLine) __builtin_prefetch(from + line);
+      __builtin_prefetch(from + run - 1);
       block.rows[block.size] = from;
       block.sampleOf[block.size++] = static_cast<std::uint32_t>(first + k);
     }
