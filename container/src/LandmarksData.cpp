@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "CellLookup.hpp"
 #include "FormatTools.hpp"
+#include "TableWeigher.hpp"
 
 namespace ortung {
 namespace {
@@ -113,24 +113,30 @@ double LandmarksData::logProbabilityAt(const Pose2& pose) const {
 }
 
 void LandmarksData::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  const auto floor = static_cast<float>(config_.range.logFloor() + config_.bearing.logFloor());
-  const auto perBearingSigma = static_cast<float>(1.0 / config_.bearing.sigma);
+  struct Known {
+    const Landmark* landmark;
+    float range;
+    float bearing;
+    float perRangeSigma;
+  };
+  std::vector<Known> known;
   for (const Sighting& sighting : reading_) {
     const std::ptrdiff_t index = indexOf(sighting.identity);
     if (index < 0) continue;
-    const Landmark& landmark = landmarks_[static_cast<std::size_t>(index)];
-    const auto range = static_cast<float>(sighting.range);
-    const auto bearing = static_cast<float>(sighting.bearing);
-    const auto perSigma = static_cast<float>(1.0 / config_.range.sigmaAt(sighting.range));
-    forEachSensorPose(poses, mount(), [&](std::size_t i, float x, float y, float theta) {
-      const float expectedRange = landmark.range.at(x, y);
-      const float residual = angleDifference(bearing + theta, landmark.bearing.at(x, y));
-      logProbability[i] += std::isnan(expectedRange)
-                               ? floor
-                               : rangeGaussian_((range - expectedRange) * perSigma) +
-                                     bearingGaussian_(residual * perBearingSigma);
-    });
+    known.push_back({&landmarks_[static_cast<std::size_t>(index)], static_cast<float>(sighting.range),
+                     static_cast<float>(sighting.bearing),
+                     static_cast<float>(1.0 / config_.range.sigmaAt(sighting.range))});
   }
+  const auto perBearingSigma = static_cast<float>(1.0 / config_.bearing.sigma);
+  TableWeigher weigher(landmarks_.front().range.cells().grid());
+  forEachPoseBlock<TableWeigher::kBlock>(poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+    float* out = logProbability.data() + first;
+    weigher.start(sensor, n);
+    for (const Known& k : known) {
+      weigher.addDistance(k.landmark->range, rangeGaussian_, k.range, k.perRangeSigma, out);
+      weigher.addBearing(k.landmark->bearing, bearingGaussian_, k.bearing, perBearingSigma, out);
+    }
+  });
 }
 
 std::string LandmarksData::learningKey() const {

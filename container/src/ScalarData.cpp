@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "CellLookup.hpp"
 #include "FormatTools.hpp"
+#include "TableWeigher.hpp"
 
 namespace ortung {
 
@@ -46,10 +46,10 @@ void ScalarData::weigh(const SampleView& poses, std::span<float> logProbability)
   const auto reading = static_cast<float>(*reading_);
   // Sigma at the reading's range, not the expectation's: the same for all samples.
   const auto perSigma = static_cast<float>(1.0 / config_.model.sigmaAt(*reading_));
-  const auto floor = static_cast<float>(config_.model.logFloor());
-  forEachSensorPose(poses, mount(), [&](std::size_t i, float x, float y, float) {
-    const float expected = table_.at(x, y);
-    logProbability[i] += std::isnan(expected) ? floor : gaussian_((reading - expected) * perSigma);
+  TableWeigher weigher(table_.cells().grid());
+  forEachPoseBlock<TableWeigher::kBlock>(poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+    weigher.start(sensor, n);
+    weigher.addDistance(table_, gaussian_, reading, perSigma, logProbability.data() + first);
   });
 }
 
