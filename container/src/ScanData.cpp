@@ -382,16 +382,18 @@ void ScanData::weighEndPoints(const SampleView& poses, std::span<float> logProba
   const std::uint8_t* levels = endPoints_.levels().data();
   const std::size_t count = prepared_->endX.size();
   const auto floor = static_cast<float>(config_.model.logFloor());
+  const auto mountX = static_cast<float>(mount().x);
+  const auto mountY = static_cast<float>(mount().y);
   constexpr std::size_t kPointsABlock = 64;
   std::array<std::int32_t, kPointsABlock> cells;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const float x = poses.x[i];
     const float y = poses.y[i];
-    if (region.index(x, y) < 0) {
+    const auto [sine, cosine] = sinCos(poses.theta[i]);
+    if (region.index(x + cosine * mountX - sine * mountY, y + sine * mountX + cosine * mountY) < 0) {
       logProbability[i] += floor * static_cast<float>(count);
       continue;
     }
-    const auto [sine, cosine] = sinCos(poses.theta[i]);
     std::array<float, 4> sums{};  // four, so that additions need not wait for each other
     for (std::size_t begin = 0; begin < count; begin += kPointsABlock) {
       const std::size_t n = std::min(kPointsABlock, count - begin);
