@@ -50,10 +50,11 @@ void BearingData::weigh(const SampleView& poses, std::span<float> logProbability
   const auto reading = static_cast<float>(*reading_);
   const auto perSigma = static_cast<float>(1.0 / config_.model.sigma);
   TableWeigher weigher(table_.cells().grid());
-  forEachPoseBlock<TableWeigher::kBlock>(poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-    weigher.start(sensor, n);
-    weigher.addBearing(table_, gaussian_, reading, perSigma, logProbability.data() + first);
-  });
+  forEachPoseBlock<TableWeigher::kBlock>(
+      poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+        weigher.start(sensor, n);
+        weigher.addBearing(table_, gaussian_, reading, perSigma, logProbability.data() + first);
+      });
 }
 
 std::string BearingData::learningKey() const {
@@ -64,7 +65,8 @@ void BearingData::saveTables(TableWriter& file, const std::string& prefix) const
   table_.cells().save(file, prefix + "direction");
 }
 
-void BearingData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
+void BearingData::useTables(const TableFile& file, const std::string& prefix,
+                            const FieldGrid& grid) {
   table_.cells().load(file, prefix + "direction", grid);
 }
 

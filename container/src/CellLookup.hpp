@@ -86,9 +86,11 @@ void forEachPoseBlock(const SampleView& robots, const Pose2& mount, Visit visit)
 template <class Visit>
 void forEachSensorPose(const SampleView& robots, const Pose2& mount, Visit visit) {
   constexpr std::size_t kBlock = 64;
-  forEachPoseBlock<kBlock>(robots, mount, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) visit(first + i, sensor.x[i], sensor.y[i], sensor.theta[i]);
-  });
+  forEachPoseBlock<kBlock>(robots, mount,
+                           [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+                             for (std::size_t i = 0; i < n; ++i)
+                               visit(first + i, sensor.x[i], sensor.y[i], sensor.theta[i]);
+                           });
 }
 
 }  // namespace ortung

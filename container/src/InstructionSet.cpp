@@ -13,7 +13,8 @@ std::atomic<int> forced = kNotForced;
 InstructionSet choose() {
   const char* variable = std::getenv("ORTUNG_SIMD");
   const std::string_view most = variable == nullptr ? "avx512" : variable;
-  if (most == "avx512" && hasInstructionSet(InstructionSet::kAvx512)) return InstructionSet::kAvx512;
+  if (most == "avx512" && hasInstructionSet(InstructionSet::kAvx512))
+    return InstructionSet::kAvx512;
   if (most != "portable" && hasInstructionSet(InstructionSet::kAvx2)) return InstructionSet::kAvx2;
   return InstructionSet::kPortable;
 }

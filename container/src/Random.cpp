@@ -120,23 +120,29 @@ ORTUNG_INLINE void gaussianGroups(std::uint64_t seed, std::uint64_t stream, std:
 using Groups = void (*)(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
                         std::size_t groups, float* out);
 
-void uniformPortable(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n, float* out) {
+void uniformPortable(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n,
+                     float* out) {
   uniformGroups(seed, stream, block, n, out);
 }
-void gaussianPortable(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n, float* out) {
+void gaussianPortable(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n,
+                      float* out) {
   gaussianGroups(seed, stream, block, n, out);
 }
 #ifdef ORTUNG_X86
-ORTUNG_AVX2 void uniformAvx2(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n, float* out) {
+ORTUNG_AVX2 void uniformAvx2(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                             std::size_t n, float* out) {
   uniformGroups(seed, stream, block, n, out);
 }
-ORTUNG_AVX2 void gaussianAvx2(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n, float* out) {
+ORTUNG_AVX2 void gaussianAvx2(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                              std::size_t n, float* out) {
   gaussianGroups(seed, stream, block, n, out);
 }
-ORTUNG_AVX512 void uniformAvx512(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n, float* out) {
+ORTUNG_AVX512 void uniformAvx512(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                                 std::size_t n, float* out) {
   uniformGroups(seed, stream, block, n, out);
 }
-ORTUNG_AVX512 void gaussianAvx512(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n, float* out) {
+ORTUNG_AVX512 void gaussianAvx512(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                                  std::size_t n, float* out) {
   gaussianGroups(seed, stream, block, n, out);
 }
 #else
@@ -146,15 +152,20 @@ constexpr Groups gaussianAvx2 = gaussianPortable, gaussianAvx512 = gaussianPorta
 
 Groups pick(Groups portable, Groups avx2, Groups avx512) {
   switch (instructionSet()) {
-    case InstructionSet::kAvx512: return avx512;
-    case InstructionSet::kAvx2: return avx2;
-    case InstructionSet::kPortable: break;
+    case InstructionSet::kAvx512:
+      return avx512;
+    case InstructionSet::kAvx2:
+      return avx2;
+    case InstructionSet::kPortable:
+      break;
   }
   return portable;
 }
 
-/// Fills @p out from number @p first of the stream on: whole groups in place, its ends from a spare.
-void fill(Groups make, std::uint64_t seed, std::uint64_t stream, std::uint64_t first, std::span<float> out) {
+/// Fills @p out from number @p first of the stream on: whole groups in place, its ends from a
+/// spare.
+void fill(Groups make, std::uint64_t seed, std::uint64_t stream, std::uint64_t first,
+          std::span<float> out) {
   std::array<float, kNumbersAGroup> spare;
   while (!out.empty()) {
     const std::size_t skipped = first % kNumbersABlock;

@@ -19,11 +19,13 @@ std::size_t usedLength(const ScanReading& reading) {
 }
 
 std::uint8_t costOf(const ScanReading& reading, int difference, std::uint8_t cap) {
-  const auto index = static_cast<std::size_t>(std::min(std::abs(difference), static_cast<int>(kLevelDifferences) - 1));
+  const auto index = static_cast<std::size_t>(
+      std::min(std::abs(difference), static_cast<int>(kLevelDifferences) - 1));
   return std::min(reading.costs[index], cap);
 }
 
-void addOneByOne(const ScanReading& reading, const std::uint8_t* row, std::size_t n, std::uint32_t& cost) {
+void addOneByOne(const ScanReading& reading, const std::uint8_t* row, std::size_t n,
+                 std::uint32_t& cost) {
   for (std::size_t j = 0; j < n; ++j) {
     cost += costOf(reading, int{row[j]} - int{reading.levels[j]}, reading.caps[j]);
   }
@@ -62,7 +64,8 @@ class CostTables {
   std::array<std::array<std::uint8_t, 2 * kLevels>, kMost> tables_;
 };
 
-void portable(const ScanReading& reading, std::span<const std::uint8_t* const> rows, std::uint32_t* costs) {
+void portable(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
+              std::uint32_t* costs) {
   constexpr std::size_t kWorthTables = 16;
   constexpr std::size_t kPart = 512;  // readings whose tables are looked up at once
   const std::size_t n = usedLength(reading);
@@ -91,8 +94,8 @@ void portable(const ScanReading& reading, std::span<const std::uint8_t* const> r
 #ifdef ORTUNG_X86
 
 // A shuffle looks up 16 entries at once; two and a blend make the table of 32.
-ORTUNG_AVX2 void avx2(const ScanReading& reading,
-                                          std::span<const std::uint8_t* const> rows, std::uint32_t* costs) {
+ORTUNG_AVX2 void avx2(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
+                      std::uint32_t* costs) {
   const auto* table = reinterpret_cast<const __m128i*>(reading.costs.data());
   const __m256i low = _mm256_broadcastsi128_si256(_mm_loadu_si128(table));
   const __m256i high = _mm256_broadcastsi128_si256(_mm_loadu_si128(table + 1));
@@ -103,16 +106,20 @@ ORTUNG_AVX2 void avx2(const ScanReading& reading,
     __m256i sum = _mm256_setzero_si256();
     for (std::size_t j = 0; j < n; j += 32) {
       const __m256i e = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(rows[i] + j));
-      const __m256i z = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.levels.data() + j));
-      const __m256i cap = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.caps.data() + j));
+      const __m256i z =
+          _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.levels.data() + j));
+      const __m256i cap =
+          _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.caps.data() + j));
       const __m256i distance = _mm256_or_si256(_mm256_subs_epu8(e, z), _mm256_subs_epu8(z, e));
       const __m256i index = _mm256_min_epu8(distance, last);
       const __m256i cost =
           _mm256_blendv_epi8(_mm256_shuffle_epi8(low, index), _mm256_shuffle_epi8(high, index),
                              _mm256_cmpgt_epi8(index, fifteen));
-      sum = _mm256_add_epi64(sum, _mm256_sad_epu8(_mm256_min_epu8(cost, cap), _mm256_setzero_si256()));
+      sum = _mm256_add_epi64(sum,
+                             _mm256_sad_epu8(_mm256_min_epu8(cost, cap), _mm256_setzero_si256()));
     }
-    const __m128i half = _mm_add_epi64(_mm256_castsi256_si128(sum), _mm256_extracti128_si256(sum, 1));
+    const __m128i half =
+        _mm_add_epi64(_mm256_castsi256_si128(sum), _mm256_extracti128_si256(sum, 1));
     costs[i] = static_cast<std::uint32_t>(_mm_cvtsi128_si64(half) + _mm_extract_epi64(half, 1));
   }
 }
@@ -121,9 +128,8 @@ ORTUNG_AVX2 void avx2(const ScanReading& reading,
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-ORTUNG_AVX512 void avx512(const ScanReading& reading,
-                                                        std::span<const std::uint8_t* const> rows,
-                                                        std::uint32_t* costs) {
+ORTUNG_AVX512 void avx512(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
+                          std::uint32_t* costs) {
   const auto* table = reinterpret_cast<const __m128i*>(reading.costs.data());
   const __m512i low = _mm512_broadcast_i32x4(_mm_loadu_si128(table));
   const __m512i high = _mm512_broadcast_i32x4(_mm_loadu_si128(table + 1));
@@ -135,9 +141,10 @@ ORTUNG_AVX512 void avx512(const ScanReading& reading,
     const __m512i cap = _mm512_loadu_si512(reading.caps.data() + j);
     const __m512i distance = _mm512_or_si512(_mm512_subs_epu8(e, z), _mm512_subs_epu8(z, e));
     const __m512i index = _mm512_min_epu8(distance, last);
-    const __m512i cost = _mm512_mask_shuffle_epi8(_mm512_shuffle_epi8(low, index),
-                                                  _mm512_cmpgt_epu8_mask(index, fifteen), high, index);
-    return _mm512_add_epi64(sum, _mm512_sad_epu8(_mm512_min_epu8(cost, cap), _mm512_setzero_si512()));
+    const __m512i cost = _mm512_mask_shuffle_epi8(
+        _mm512_shuffle_epi8(low, index), _mm512_cmpgt_epu8_mask(index, fifteen), high, index);
+    return _mm512_add_epi64(sum,
+                            _mm512_sad_epu8(_mm512_min_epu8(cost, cap), _mm512_setzero_si512()));
   };
   const std::size_t whole = n / 64 * 64;
   const __mmask64 rest = (1ULL << (n - whole)) - 1;  // bytes behind are not fetched

@@ -29,8 +29,8 @@ class TableWeigher {
   }
 
   /// Adds ln p of a distance to out[0 .. n). @param perSigma of the reading [1/m]
-  void addDistance(const PositionTable& table, const GaussianTable& gaussian, float reading, float perSigma,
-                   float* out) {
+  void addDistance(const PositionTable& table, const GaussianTable& gaussian, float reading,
+                   float perSigma, float* out) {
     const auto metresPerLevel = static_cast<float>(table.metresPerLevel());
     take(table.cells());
     for (std::size_t k = 0; k < n_; ++k) {
@@ -41,17 +41,21 @@ class TableWeigher {
   }
 
   /// Adds ln p of a bearing in the sensor's frame. @param perSigma [1/rad]
-  void addBearing(const BearingTable& table, const GaussianTable& gaussian, float reading, float perSigma,
-                  float* out) {
+  void addBearing(const BearingTable& table, const GaussianTable& gaussian, float reading,
+                  float perSigma, float* out) {
     constexpr float kTurn = 2 * std::numbers::pi_v<float>;
     constexpr float kMostTurns = 1e6F;
-    const auto turnsPerLevel = static_cast<float>(BearingTable::kRadiansPerLevel / (2 * std::numbers::pi));
+    const auto turnsPerLevel =
+        static_cast<float>(BearingTable::kRadiansPerLevel / (2 * std::numbers::pi));
     take(table.cells());
     for (std::size_t k = 0; k < n_; ++k) {
-      const float turns = (reading + poses_.theta[k]) * (1.0F / kTurn) - static_cast<float>(levels_[k]) * turnsPerLevel;
-      const int usual = static_cast<int>(turns > -kMostTurns) & static_cast<int>(turns < kMostTurns);
+      const float turns = (reading + poses_.theta[k]) * (1.0F / kTurn) -
+                          static_cast<float>(levels_[k]) * turnsPerLevel;
+      const int usual =
+          static_cast<int>(turns > -kMostTurns) & static_cast<int>(turns < kMostTurns);
       const float bounded = usual != 0 ? turns : 0.0F;
-      const auto nearest = static_cast<float>(static_cast<std::int32_t>(bounded + (bounded < 0.0F ? -0.5F : 0.5F)));
+      const auto nearest =
+          static_cast<float>(static_cast<std::int32_t>(bounded + (bounded < 0.0F ? -0.5F : 0.5F)));
       setPlace(k, (bounded - nearest) * kTurn * perSigma);
     }
     add(gaussian, out);
@@ -60,11 +64,13 @@ class TableWeigher {
  private:
   void take(const CellTable& table) {
     const std::uint16_t* levels = table.levels().data();
-    for (std::size_t k = 0; k < n_; ++k) levels_[k] = cells_[k] < 0 ? CellTable::kNone : levels[cells_[k]];
+    for (std::size_t k = 0; k < n_; ++k)
+      levels_[k] = cells_[k] < 0 ? CellTable::kNone : levels[cells_[k]];
   }
   /// Nothing expected is as bad as the worst residual.
   void setPlace(std::size_t k, float sigmas) {
-    places_[k] = levels_[k] == CellTable::kNone ? GaussianTable::kFloorPlace : GaussianTable::placeOf(sigmas);
+    places_[k] = levels_[k] == CellTable::kNone ? GaussianTable::kFloorPlace
+                                                : GaussianTable::placeOf(sigmas);
   }
   void add(const GaussianTable& gaussian, float* out) const {
     for (std::size_t k = 0; k < n_; ++k) out[k] += gaussian.atPlace(places_[k]);

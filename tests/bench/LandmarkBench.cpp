@@ -16,14 +16,15 @@ struct Post {
   double y;
 };
 constexpr Post kPosts[] = {{-9, -6}, {-9, 6}, {9, -6}, {9, 6}, {-9, 0}, {9, 0}};
-constexpr double kFarthest = 30.0;  // [m]
+constexpr double kFarthest = 30.0;      // [m]
 constexpr double kBearingNoise = 0.09;  // [rad]
 constexpr double kRangeNoise = 0.2;     // [m]
 
 LandmarksData::Sighting sight(std::size_t post, const Pose2& from) {
   const double dx = kPosts[post].x - from.x;
   const double dy = kPosts[post].y - from.y;
-  return {static_cast<std::uint32_t>(post), std::hypot(dx, dy), wrapAngle(std::atan2(dy, dx) - from.theta)};
+  return {static_cast<std::uint32_t>(post), std::hypot(dx, dy),
+          wrapAngle(std::atan2(dy, dx) - from.theta)};
 }
 
 /// Calls read(pose) and then learnProbability(pose) at all open cells, then reads at kRobot.
@@ -48,11 +49,13 @@ void addSeparateFeatures(SensorContainer& container) {
     ScalarData::Config distance;
     distance.maxRange = kFarthest;
     distance.model.sigma = kRangeNoise;
-    learn(container.add(std::make_unique<ScalarData>(SensorId{"Bench", "Camera", name + "Distance"}, Pose2{}, distance)),
+    learn(container.add(std::make_unique<ScalarData>(SensorId{"Bench", "Camera", name + "Distance"},
+                                                     Pose2{}, distance)),
           [post](const Pose2& pose) { return ScalarData::encode(sight(post, pose).range); });
     BearingData::Config bearing;
     bearing.model.sigma = kBearingNoise;
-    learn(container.add(std::make_unique<BearingData>(SensorId{"Bench", "Camera", name + "Bearing"}, Pose2{}, bearing)),
+    learn(container.add(std::make_unique<BearingData>(SensorId{"Bench", "Camera", name + "Bearing"},
+                                                      Pose2{}, bearing)),
           [post](const Pose2& pose) { return BearingData::encode(sight(post, pose).bearing); });
   }
 }
@@ -63,11 +66,14 @@ void addLandmarks(SensorContainer& container) {
   config.maxRange = kFarthest;
   config.range.sigma = kRangeNoise;
   config.bearing.sigma = kBearingNoise;
-  for (std::size_t post = 0; post < std::size(kPosts); ++post) config.identities.push_back(static_cast<std::uint32_t>(post));
-  learn(container.add(std::make_unique<LandmarksData>(SensorId{"Bench", "Camera", "Landmarks"}, Pose2{}, config)),
+  for (std::size_t post = 0; post < std::size(kPosts); ++post)
+    config.identities.push_back(static_cast<std::uint32_t>(post));
+  learn(container.add(std::make_unique<LandmarksData>(SensorId{"Bench", "Camera", "Landmarks"},
+                                                      Pose2{}, config)),
         [](const Pose2& pose) {
           LandmarksData::Reading reading;
-          for (std::size_t post = 0; post < std::size(kPosts); ++post) reading.push_back(sight(post, pose));
+          for (std::size_t post = 0; post < std::size(kPosts); ++post)
+            reading.push_back(sight(post, pose));
           return LandmarksData::encode(reading);
         });
 }
@@ -96,11 +102,13 @@ void measure(benchmark::State& state, bool isNaive, Weigh weigh) {
   const bool spread = state.range(0) == 0;
   const SampleSet samples = cloud(spread, kSamples);
   std::vector<float> logProbability(kSamples);
-  const double each = fastest(state, [&] {
-                        weigh(samples.view(), logProbability);
-                        benchmark::DoNotOptimize(logProbability.data());
-                        benchmark::ClobberMemory();
-                      }) / static_cast<double>(kSamples);
+  const double each = fastest(state,
+                              [&] {
+                                weigh(samples.view(), logProbability);
+                                benchmark::DoNotOptimize(logProbability.data());
+                                benchmark::ClobberMemory();
+                              }) /
+                      static_cast<double>(kSamples);
   const std::string where = spread ? "spread" : "concentrated";
   state.SetLabel(where);
   state.counters["ns/sample"] = each;
@@ -114,14 +122,16 @@ BENCHMARK(direct)->DenseRange(0, 1);
 void separateFeatures(benchmark::State& state) {
   SensorContainer container;
   addSeparateFeatures(container);
-  measure(state, false, [&](const SampleView& s, std::span<float> out) { container.getProbability(s, out); });
+  measure(state, false,
+          [&](const SampleView& s, std::span<float> out) { container.getProbability(s, out); });
 }
 BENCHMARK(separateFeatures)->DenseRange(0, 1);
 
 void landmarks(benchmark::State& state) {
   SensorContainer container;
   addLandmarks(container);
-  measure(state, false, [&](const SampleView& s, std::span<float> out) { container.getProbability(s, out); });
+  measure(state, false,
+          [&](const SampleView& s, std::span<float> out) { container.getProbability(s, out); });
 }
 BENCHMARK(landmarks)->DenseRange(0, 1);
 

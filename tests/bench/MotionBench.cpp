@@ -90,12 +90,14 @@ void moveNaively(benchmark::State& state) {
   const double turn0 = std::atan2(kChange.y, kChange.x);
   measure(state, static_cast<double>(kSamples), "motion", true, [&] {
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const double heading = static_cast<double>(samples.theta[i]) + turn0 + 0.005 * gaussian(generator);
+      const double heading =
+          static_cast<double>(samples.theta[i]) + turn0 + 0.005 * gaussian(generator);
       const double way = way0 + 0.006 * gaussian(generator);
       const double sideways = 0.003 * gaussian(generator);
       samples.x[i] += static_cast<float>(way * std::cos(heading) - sideways * std::sin(heading));
       samples.y[i] += static_cast<float>(way * std::sin(heading) + sideways * std::cos(heading));
-      samples.theta[i] = static_cast<float>(heading + kChange.theta - turn0 + 0.005 * gaussian(generator));
+      samples.theta[i] =
+          static_cast<float>(heading + kChange.theta - turn0 + 0.005 * gaussian(generator));
     }
     benchmark::ClobberMemory();
   });

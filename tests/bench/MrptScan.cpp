@@ -17,8 +17,8 @@ struct MrptScan::Impl {
 MrptScan::MrptScan() : impl_(std::make_unique<Impl>()) {
   mrpt::maps::COccupancyGridMap2D& map = impl_->map;
   const double margin = 0.5;  // for the walls
-  map.setSize(-kLength / 2 - margin, kLength / 2 + margin, -kWidth / 2 - margin, kWidth / 2 + margin,
-              static_cast<float>(kCell));
+  map.setSize(-kLength / 2 - margin, kLength / 2 + margin, -kWidth / 2 - margin,
+              kWidth / 2 + margin, static_cast<float>(kCell));
   for (unsigned row = 0; row < map.getSizeY(); ++row) {
     for (unsigned column = 0; column < map.getSizeX(); ++column) {
       const bool solid = isInsideSolid(static_cast<double>(map.idx2x(static_cast<int>(column))),

@@ -25,7 +25,8 @@ NaiveScan::NaiveScan(double headingStepDegrees)
   std::size_t place = 0;
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
     for (int degree = 0; degree < kDegrees; ++degree) {
-      const double range = castRay(grid.centreX(cell), grid.centreY(cell), degree * kRadiansADegree);
+      const double range =
+          castRay(grid.centreX(cell), grid.centreY(cell), degree * kRadiansADegree);
       turn[static_cast<std::size_t>(degree)] = scale_.level(range);
     }
     for (int heading = 0; heading < headings_; ++heading) {
@@ -38,8 +39,9 @@ NaiveScan::NaiveScan(double headingStepDegrees)
   for (std::size_t e = 0; e < kLevels; ++e) {
     for (std::size_t m = 0; m < kLevels; ++m) {
       const double levels = static_cast<double>(e) - static_cast<double>(m);
-      sensorModel_[e * kLevels + m] = static_cast<float>(
-          kDefaults.model.exponent * kDefaults.model.logProbability(levels / scale_.levelsPerSigma()));
+      sensorModel_[e * kLevels + m] =
+          static_cast<float>(kDefaults.model.exponent *
+                             kDefaults.model.logProbability(levels / scale_.levelsPerSigma()));
     }
   }
 }

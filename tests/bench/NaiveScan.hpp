@@ -9,8 +9,8 @@
 
 namespace ortung::bench {
 
-/// The paper's tables read straightforwardly: one expectation a cell, heading and beam, and a sensor
-/// table over (expected, measured). Ranges in the same levels of one byte as ours.
+/// The paper's tables read straightforwardly: one expectation a cell, heading and beam, and a
+/// sensor table over (expected, measured). Ranges in the same levels of one byte as ours.
 class NaiveScan {
  public:
   explicit NaiveScan(double headingStepDegrees);

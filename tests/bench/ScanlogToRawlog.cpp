@@ -1,9 +1,8 @@
-/// scanlog2rawlog --stamps LOG.rawlog: prints the time [s] of every step that MRPT's programs make of
-/// a log of actions and observations.
-/// scanlog2rawlog OUT.rawlog < scans.txt: brings a neutral text log of scans with odometry
-/// (t odom_x odom_y odom_theta n r1..rn; the first comment line names the beams' step as
-/// "k*STEP rad", beam 0 looks at -90 degrees) to MRPT's rawlog format, so that MRPT's own
-/// programs can be compared on it.
+/// scanlog2rawlog --stamps LOG.rawlog: prints the time [s] of every step that MRPT's programs make
+/// of a log of actions and observations. scanlog2rawlog OUT.rawlog < scans.txt: brings a neutral
+/// text log of scans with odometry (t odom_x odom_y odom_theta n r1..rn; the first comment line
+/// names the beams' step as "k*STEP rad", beam 0 looks at -90 degrees) to MRPT's rawlog format, so
+/// that MRPT's own programs can be compared on it.
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
@@ -25,8 +24,8 @@
 namespace {
 
 constexpr double kFirstAngle = -std::numbers::pi / 2;  // [rad]
-constexpr float kMaxRange = 30.0F;   // SICK scanners say 32.8 and more for "nothing" [m]
-constexpr float kNoise = 0.02F;      // [m]
+constexpr float kMaxRange = 30.0F;  // SICK scanners say 32.8 and more for "nothing" [m]
+constexpr float kNoise = 0.02F;     // [m]
 constexpr std::size_t kMostBeams = 8192;
 
 struct Scan {

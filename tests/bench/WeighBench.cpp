@@ -24,11 +24,13 @@ using Weigh = std::function<void(const SampleView&, std::span<float>)>;
 void measure(benchmark::State& state, const std::string& name, bool spread, const Weigh& weigh) {
   const SampleSet samples = cloud(spread, kSamples);
   std::vector<float> logProbability(kSamples, 0.0F);
-  const double perSample = fastest(state, [&] {
-                             weigh(samples.view(), logProbability);
-                             benchmark::DoNotOptimize(logProbability.data());
-                             benchmark::ClobberMemory();
-                           }) / static_cast<double>(kSamples);
+  const double perSample = fastest(state,
+                                   [&] {
+                                     weigh(samples.view(), logProbability);
+                                     benchmark::DoNotOptimize(logProbability.data());
+                                     benchmark::ClobberMemory();
+                                   }) /
+                           static_cast<double>(kSamples);
   state.counters["ns/sample"] = perSample;
   const std::string where = spread ? "spread" : "concentrated";
   remember(name + "/" + where, perSample);
@@ -56,15 +58,17 @@ void weighNaively(benchmark::State& state, bool spread) {
     return made;
   }();
   state.counters["table_MB"] = static_cast<double>(scan.bytes()) / 1e6;
-  measure(state, "naive", spread,
-          [](const SampleView& samples, std::span<float> out) { scan.getProbability(samples, out); });
+  measure(state, "naive", spread, [](const SampleView& samples, std::span<float> out) {
+    scan.getProbability(samples, out);
+  });
 }
 
 #ifdef ORTUNG_BENCH_MRPT
 void weighByMrpt(benchmark::State& state, bool spread) {
   static const MrptScan scan;
-  measure(state, "mrpt", spread,
-          [](const SampleView& samples, std::span<float> out) { scan.getProbability(samples, out); });
+  measure(state, "mrpt", spread, [](const SampleView& samples, std::span<float> out) {
+    scan.getProbability(samples, out);
+  });
 }
 #endif
 
@@ -113,7 +117,8 @@ void registerAll() {
     add("mrpt_likelihood_field", [spread](benchmark::State& state) { weighByMrpt(state, spread); });
 #endif
     for (const Ours& ours : kOurs) {
-      add(ours.name, [&ours, spread](benchmark::State& state) { weighByOurs(state, ours, spread); });
+      add(ours.name,
+          [&ours, spread](benchmark::State& state) { weighByOurs(state, ours, spread); });
     }
   }
 }
@@ -123,8 +128,10 @@ void registerAll() {
 
 int main(int count, char** arguments) {
   ortung::bench::registerAll();
-  std::printf("a scan of %d beams, %zu samples; times are of one call for all samples,\nns/sample is the fastest call's\n",
-              ortung::bench::kBeams, ortung::bench::kSamples);
+  std::printf(
+      "a scan of %d beams, %zu samples; times are of one call for all samples,\nns/sample is the "
+      "fastest call's\n",
+      ortung::bench::kBeams, ortung::bench::kSamples);
   benchmark::Initialize(&count, arguments);
   if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 1;
   benchmark::RunSpecifiedBenchmarks();
