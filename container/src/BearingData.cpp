@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "CellLookup.hpp"
 #include "FormatTools.hpp"
+#include "TableWeigher.hpp"
 
 namespace ortung {
 
@@ -49,12 +49,12 @@ double BearingData::logProbabilityAt(const Pose2& pose) const {
 void BearingData::weigh(const SampleView& poses, std::span<float> logProbability) const {
   const auto reading = static_cast<float>(*reading_);
   const auto perSigma = static_cast<float>(1.0 / config_.model.sigma);
-  const auto floor = static_cast<float>(config_.model.logFloor());
-  forEachSensorPose(poses, mount(), [&](std::size_t i, float x, float y, float theta) {
-    const float direction = table_.at(x, y);
-    const float residual = angleDifference(reading + theta, direction);
-    logProbability[i] += std::isnan(direction) ? floor : gaussian_(residual * perSigma);
-  });
+  TableWeigher weigher(table_.cells().grid());
+  forEachPoseBlock<TableWeigher::kBlock>(
+      poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+        weigher.start(sensor, n);
+        weigher.addBearing(table_, gaussian_, reading, perSigma, logProbability.data() + first);
+      });
 }
 
 std::string BearingData::learningKey() const {
@@ -65,7 +65,8 @@ void BearingData::saveTables(TableWriter& file, const std::string& prefix) const
   table_.cells().save(file, prefix + "direction");
 }
 
-void BearingData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
+void BearingData::useTables(const TableFile& file, const std::string& prefix,
+                            const FieldGrid& grid) {
   table_.cells().load(file, prefix + "direction", grid);
 }
 

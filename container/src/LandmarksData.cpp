@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "CellLookup.hpp"
 #include "FormatTools.hpp"
+#include "TableWeigher.hpp"
 
 namespace ortung {
 namespace {
@@ -22,7 +22,8 @@ LandmarksData::LandmarksData(SensorId id, const Pose2& mount, Config config)
   if (sorted.empty() || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
     throw std::invalid_argument("the landmarks' identities must be at least one and unique");
   }
-  for (std::size_t i = 0; i < sorted.size(); ++i) landmarks_.push_back({PositionTable(config_.maxRange), {}});
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    landmarks_.push_back({PositionTable(config_.maxRange), {}});
 }
 
 LandmarksData::~LandmarksData() = default;
@@ -118,29 +119,38 @@ double LandmarksData::logProbabilityAt(const Pose2& pose) const {
 }
 
 void LandmarksData::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  const auto floor = static_cast<float>(config_.range.logFloor() + config_.bearing.logFloor());
-  const auto perBearingSigma = static_cast<float>(1.0 / config_.bearing.sigma);
+  struct Known {
+    const Landmark* landmark;
+    float range;
+    float bearing;
+    float perRangeSigma;
+  };
+  std::vector<Known> known;
   for (const Sighting& sighting : reading_) {
     const std::ptrdiff_t index = indexOf(sighting.identity);
     if (index < 0) continue;
-    const Landmark& landmark = landmarks_[static_cast<std::size_t>(index)];
-    const auto range = static_cast<float>(sighting.range);
-    const auto bearing = static_cast<float>(sighting.bearing);
-    const auto perSigma = static_cast<float>(1.0 / config_.range.sigmaAt(sighting.range));
-    forEachSensorPose(poses, mount(), [&](std::size_t i, float x, float y, float theta) {
-      const float expectedRange = landmark.range.at(x, y);
-      const float residual = angleDifference(bearing + theta, landmark.bearing.at(x, y));
-      logProbability[i] += std::isnan(expectedRange)
-                               ? floor
-                               : rangeGaussian_((range - expectedRange) * perSigma) +
-                                     bearingGaussian_(residual * perBearingSigma);
-    });
+    known.push_back({&landmarks_[static_cast<std::size_t>(index)],
+                     static_cast<float>(sighting.range), static_cast<float>(sighting.bearing),
+                     static_cast<float>(1.0 / config_.range.sigmaAt(sighting.range))});
   }
+  const auto perBearingSigma = static_cast<float>(1.0 / config_.bearing.sigma);
+  TableWeigher weigher(landmarks_.front().range.cells().grid());
+  forEachPoseBlock<TableWeigher::kBlock>(
+      poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+        float* out = logProbability.data() + first;
+        weigher.start(sensor, n);
+        for (const Known& k : known) {
+          weigher.addDistance(k.landmark->range, rangeGaussian_, k.range, k.perRangeSigma, out);
+          weigher.addBearing(k.landmark->bearing, bearingGaussian_, k.bearing, perBearingSigma,
+                             out);
+        }
+      });
 }
 
 std::string LandmarksData::learningKey() const {
   std::string key = "landmarks max_range_m=" + keyNumber(config_.maxRange) +
-                    " fov_rad=" + keyNumber(config_.fieldOfView) + " " + mountKey(mount()) + " identities=";
+                    " fov_rad=" + keyNumber(config_.fieldOfView) + " " + mountKey(mount()) +
+                    " identities=";
   for (const std::uint32_t identity : config_.identities) key += std::to_string(identity) + ",";
   key.pop_back();
   return key;
@@ -154,7 +164,8 @@ void LandmarksData::saveTables(TableWriter& file, const std::string& prefix) con
   }
 }
 
-void LandmarksData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
+void LandmarksData::useTables(const TableFile& file, const std::string& prefix,
+                              const FieldGrid& grid) {
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const std::string name = prefix + std::to_string(config_.identities[i]);
     landmarks_[i].range.cells().load(file, name + ".distance", grid);

@@ -1,12 +1,15 @@
 #include <limits>
 
-#include "CellLookup.hpp"
 #include "FormatTools.hpp"
+#include "TableWeigher.hpp"
 
 namespace ortung {
 
 ScalarData::ScalarData(SensorId id, const Pose2& mount, const Config& config)
-    : SensorData(std::move(id), mount), config_(config), gaussian_(config.model), table_(config.maxRange) {}
+    : SensorData(std::move(id), mount),
+      config_(config),
+      gaussian_(config.model),
+      table_(config.maxRange) {}
 
 ScalarData::~ScalarData() = default;
 
@@ -20,7 +23,9 @@ void ScalarData::decode(std::span<const std::uint32_t> words) {
   reading_ = words.empty() ? Reading() : Reading(words::toMetres(words[0]));
 }
 
-std::string ScalarData::wordsHelp() const { return "[distance mm], or none: looked and saw nothing"; }
+std::string ScalarData::wordsHelp() const {
+  return "[distance mm], or none: looked and saw nothing";
+}
 double ScalarData::headingSpacing() const { return spacingOf(config_.fieldOfView); }
 
 void ScalarData::startTables(const FieldRegion& region, double) { table_.start(region.grid); }
@@ -46,23 +51,25 @@ void ScalarData::weigh(const SampleView& poses, std::span<float> logProbability)
   const auto reading = static_cast<float>(*reading_);
   // Sigma at the reading's range, not the expectation's: the same for all samples.
   const auto perSigma = static_cast<float>(1.0 / config_.model.sigmaAt(*reading_));
-  const auto floor = static_cast<float>(config_.model.logFloor());
-  forEachSensorPose(poses, mount(), [&](std::size_t i, float x, float y, float) {
-    const float expected = table_.at(x, y);
-    logProbability[i] += std::isnan(expected) ? floor : gaussian_((reading - expected) * perSigma);
-  });
+  TableWeigher weigher(table_.cells().grid());
+  forEachPoseBlock<TableWeigher::kBlock>(
+      poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+        weigher.start(sensor, n);
+        weigher.addDistance(table_, gaussian_, reading, perSigma, logProbability.data() + first);
+      });
 }
 
 std::string ScalarData::learningKey() const {
-  return "distance max_range_m=" + keyNumber(config_.maxRange) + " fov_rad=" + keyNumber(config_.fieldOfView) + " " +
-         mountKey(mount());
+  return "distance max_range_m=" + keyNumber(config_.maxRange) +
+         " fov_rad=" + keyNumber(config_.fieldOfView) + " " + mountKey(mount());
 }
 
 void ScalarData::saveTables(TableWriter& file, const std::string& prefix) const {
   table_.cells().save(file, prefix + "distance");
 }
 
-void ScalarData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
+void ScalarData::useTables(const TableFile& file, const std::string& prefix,
+                           const FieldGrid& grid) {
   table_.cells().load(file, prefix + "distance", grid);
 }
 

@@ -1,56 +1,125 @@
 #include "ScanCost.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
-#include <string_view>
 
-#if defined(__x86_64__)
+#ifdef ORTUNG_X86
 #include <immintrin.h>
 #endif
 
 namespace ortung {
 namespace {
 
-void portable(const ScanReading& reading, std::span<const std::uint8_t* const> rows, std::uint32_t* costs) {
-  const std::size_t n = reading.levels.size();
-  const std::uint8_t* levels = reading.levels.data();
-  const std::uint8_t* caps = reading.caps.data();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::uint32_t sum = 0;
-    for (std::size_t j = 0; j < n; ++j) {
-      const int difference = std::abs(int{rows[i][j]} - int{levels[j]});
-      const std::uint8_t cost = reading.costs[static_cast<std::size_t>(std::min(difference, 31))];
-      sum += std::min(cost, caps[j]);
-    }
-    costs[i] = sum;
+/// Readings up to the last that counts: what is behind need not be fetched.
+std::size_t usedLength(const ScanReading& reading) {
+  std::size_t n = reading.caps.size();
+  while (n > 0 && reading.caps[n - 1] == 0) --n;
+  return n;
+}
+
+std::uint8_t costOf(const ScanReading& reading, int difference, std::uint8_t cap) {
+  const auto index = static_cast<std::size_t>(
+      std::min(std::abs(difference), static_cast<int>(kLevelDifferences) - 1));
+  return std::min(reading.costs[index], cap);
+}
+
+void addOneByOne(const ScanReading& reading, const std::uint8_t* row, std::size_t n,
+                 std::uint32_t& cost) {
+  for (std::size_t j = 0; j < n; ++j) {
+    cost += costOf(reading, int{row[j]} - int{reading.levels[j]}, reading.caps[j]);
   }
 }
 
-#if defined(__x86_64__)
+/// Costs by signed difference of levels, for each cap that occurs: one lookup a reading, and no
+/// branch. Readings have two or three caps.
+class CostTables {
+ public:
+  explicit CostTables(const ScanReading& reading) : reading_(reading) {}
+
+  /// Costs by expected level for reading @p j, or nullptr if there are too many caps.
+  const std::uint8_t* byLevel(std::size_t j) {
+    const std::uint8_t cap = reading_.caps[j];
+    std::size_t i = 0;
+    while (i < count_ && capOf_[i] != cap) ++i;
+    if (i == kMost) return nullptr;
+    if (i == count_) make(cap);
+    return tables_[i].data() + kLevels - reading_.levels[j];
+  }
+
+ private:
+  static constexpr std::size_t kMost = 4;
+  static constexpr int kLevels = 256;
+
+  void make(std::uint8_t cap) {
+    for (int d = -kLevels; d < kLevels; ++d) {
+      tables_[count_][static_cast<std::size_t>(d + kLevels)] = costOf(reading_, d, cap);
+    }
+    capOf_[count_++] = cap;
+  }
+
+  const ScanReading& reading_;
+  std::size_t count_ = 0;
+  std::array<std::uint8_t, kMost> capOf_{};
+  std::array<std::array<std::uint8_t, 2 * kLevels>, kMost> tables_;
+};
+
+void portable(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
+              std::uint32_t* costs) {
+  constexpr std::size_t kWorthTables = 16;
+  constexpr std::size_t kPart = 512;  // readings whose tables are looked up at once
+  const std::size_t n = usedLength(reading);
+  std::fill_n(costs, rows.size(), 0U);
+  std::array<const std::uint8_t*, kPart> tables;
+  CostTables made(reading);
+  bool tabled = rows.size() >= kWorthTables;
+  for (std::size_t begin = 0; tabled && begin < n; begin += kPart) {
+    const std::size_t size = std::min(kPart, n - begin);
+    for (std::size_t j = 0; j < size; ++j) {
+      tables[j] = made.byLevel(begin + j);
+      tabled = tabled && tables[j] != nullptr;
+    }
+    for (std::size_t i = 0; tabled && i < rows.size(); ++i) {
+      const std::uint8_t* row = rows[i] + begin;
+      std::uint32_t sum = 0;
+      for (std::size_t j = 0; j < size; ++j) sum += tables[j][row[j]];
+      costs[i] += sum;
+    }
+  }
+  if (tabled) return;
+  std::fill_n(costs, rows.size(), 0U);
+  for (std::size_t i = 0; i < rows.size(); ++i) addOneByOne(reading, rows[i], n, costs[i]);
+}
+
+#ifdef ORTUNG_X86
 
 // A shuffle looks up 16 entries at once; two and a blend make the table of 32.
-__attribute__((target("avx2"))) void avx2(const ScanReading& reading,
-                                          std::span<const std::uint8_t* const> rows, std::uint32_t* costs) {
+ORTUNG_AVX2 void avx2(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
+                      std::uint32_t* costs) {
   const auto* table = reinterpret_cast<const __m128i*>(reading.costs.data());
   const __m256i low = _mm256_broadcastsi128_si256(_mm_loadu_si128(table));
   const __m256i high = _mm256_broadcastsi128_si256(_mm_loadu_si128(table + 1));
   const __m256i last = _mm256_set1_epi8(31);
   const __m256i fifteen = _mm256_set1_epi8(15);
-  const std::size_t n = reading.levels.size();
+  const std::size_t n = usedLength(reading);  // up to 31 more are read, whose caps are 0
   for (std::size_t i = 0; i < rows.size(); ++i) {
     __m256i sum = _mm256_setzero_si256();
     for (std::size_t j = 0; j < n; j += 32) {
       const __m256i e = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(rows[i] + j));
-      const __m256i z = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.levels.data() + j));
-      const __m256i cap = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.caps.data() + j));
+      const __m256i z =
+          _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.levels.data() + j));
+      const __m256i cap =
+          _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.caps.data() + j));
       const __m256i distance = _mm256_or_si256(_mm256_subs_epu8(e, z), _mm256_subs_epu8(z, e));
       const __m256i index = _mm256_min_epu8(distance, last);
       const __m256i cost =
           _mm256_blendv_epi8(_mm256_shuffle_epi8(low, index), _mm256_shuffle_epi8(high, index),
                              _mm256_cmpgt_epi8(index, fifteen));
-      sum = _mm256_add_epi64(sum, _mm256_sad_epu8(_mm256_min_epu8(cost, cap), _mm256_setzero_si256()));
+      sum = _mm256_add_epi64(sum,
+                             _mm256_sad_epu8(_mm256_min_epu8(cost, cap), _mm256_setzero_si256()));
     }
-    const __m128i half = _mm_add_epi64(_mm256_castsi256_si128(sum), _mm256_extracti128_si256(sum, 1));
+    const __m128i half =
+        _mm_add_epi64(_mm256_castsi256_si128(sum), _mm256_extracti128_si256(sum, 1));
     costs[i] = static_cast<std::uint32_t>(_mm_cvtsi128_si64(half) + _mm_extract_epi64(half, 1));
   }
 }
@@ -59,27 +128,30 @@ __attribute__((target("avx2"))) void avx2(const ScanReading& reading,
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-__attribute__((target("avx512f,avx512bw"))) void avx512(const ScanReading& reading,
-                                                        std::span<const std::uint8_t* const> rows,
-                                                        std::uint32_t* costs) {
+ORTUNG_AVX512 void avx512(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
+                          std::uint32_t* costs) {
   const auto* table = reinterpret_cast<const __m128i*>(reading.costs.data());
   const __m512i low = _mm512_broadcast_i32x4(_mm_loadu_si128(table));
   const __m512i high = _mm512_broadcast_i32x4(_mm_loadu_si128(table + 1));
   const __m512i last = _mm512_set1_epi8(31);
   const __m512i fifteen = _mm512_set1_epi8(15);
-  const std::size_t n = reading.levels.size();
+  const std::size_t n = usedLength(reading);
+  const auto add = [&](__m512i sum, __m512i e, std::size_t j) ORTUNG_AVX512 {
+    const __m512i z = _mm512_loadu_si512(reading.levels.data() + j);
+    const __m512i cap = _mm512_loadu_si512(reading.caps.data() + j);
+    const __m512i distance = _mm512_or_si512(_mm512_subs_epu8(e, z), _mm512_subs_epu8(z, e));
+    const __m512i index = _mm512_min_epu8(distance, last);
+    const __m512i cost = _mm512_mask_shuffle_epi8(
+        _mm512_shuffle_epi8(low, index), _mm512_cmpgt_epu8_mask(index, fifteen), high, index);
+    return _mm512_add_epi64(sum,
+                            _mm512_sad_epu8(_mm512_min_epu8(cost, cap), _mm512_setzero_si512()));
+  };
+  const std::size_t whole = n / 64 * 64;
+  const __mmask64 rest = (1ULL << (n - whole)) - 1;  // bytes behind are not fetched
   for (std::size_t i = 0; i < rows.size(); ++i) {
     __m512i sum = _mm512_setzero_si512();
-    for (std::size_t j = 0; j < n; j += 64) {
-      const __m512i e = _mm512_loadu_si512(rows[i] + j);
-      const __m512i z = _mm512_loadu_si512(reading.levels.data() + j);
-      const __m512i cap = _mm512_loadu_si512(reading.caps.data() + j);
-      const __m512i distance = _mm512_or_si512(_mm512_subs_epu8(e, z), _mm512_subs_epu8(z, e));
-      const __m512i index = _mm512_min_epu8(distance, last);
-      const __m512i cost = _mm512_mask_shuffle_epi8(_mm512_shuffle_epi8(low, index),
-                                                    _mm512_cmpgt_epu8_mask(index, fifteen), high, index);
-      sum = _mm512_add_epi64(sum, _mm512_sad_epu8(_mm512_min_epu8(cost, cap), _mm512_setzero_si512()));
-    }
+    for (std::size_t j = 0; j < whole; j += 64) sum = add(sum, _mm512_loadu_si512(rows[i] + j), j);
+    if (rest != 0) sum = add(sum, _mm512_maskz_loadu_epi8(rest, rows[i] + whole), whole);
     costs[i] = static_cast<std::uint32_t>(_mm512_reduce_add_epi64(sum));
   }
 }
@@ -90,23 +162,14 @@ __attribute__((target("avx512f,avx512bw"))) void avx512(const ScanReading& readi
 }  // namespace
 
 ScanCostKernel scanCostKernel(InstructionSet set) {
-  if (set == InstructionSet::kPortable) return portable;
-#if defined(__x86_64__)
-  if (set == InstructionSet::kAvx2 && __builtin_cpu_supports("avx2")) return avx2;
-  if (set == InstructionSet::kAvx512 && __builtin_cpu_supports("avx512bw")) return avx512;
+  if (!hasInstructionSet(set)) return nullptr;
+#ifdef ORTUNG_X86
+  if (set == InstructionSet::kAvx2) return avx2;
+  if (set == InstructionSet::kAvx512) return avx512;
 #endif
-  return nullptr;
+  return portable;
 }
 
-ScanCostKernel scanCostKernel() {
-  static const ScanCostKernel kChosen = [] {
-    const char* variable = std::getenv("ORTUNG_SIMD");
-    const std::string_view most = variable == nullptr ? "avx512" : variable;
-    ScanCostKernel kernel = most == "avx512" ? scanCostKernel(InstructionSet::kAvx512) : nullptr;
-    if (kernel == nullptr && most != "portable") kernel = scanCostKernel(InstructionSet::kAvx2);
-    return kernel == nullptr ? portable : kernel;
-  }();
-  return kChosen;
-}
+ScanCostKernel scanCostKernel() { return scanCostKernel(instructionSet()); }
 
 }  // namespace ortung

@@ -6,12 +6,14 @@
 #include <span>
 
 #include "ortung/container/Export.hpp"
+#include "ortung/container/InstructionSet.hpp"
 
 /// Cost of a scan against rows of expected levels: the inner loop of weighting.
 namespace ortung {
 
-inline constexpr std::size_t kScanBlock = 64;        ///< readings are padded to a multiple of this
-inline constexpr std::size_t kLevelDifferences = 32; ///< the sensor model's table; the last entry is the floor
+inline constexpr std::size_t kScanBlock = 64;  ///< readings are padded to a multiple of this
+inline constexpr std::size_t kLevelDifferences =
+    32;  ///< the sensor model's table; the last entry is the floor
 
 /// A reading in the terms of a row of expected levels, beam j of the row's run at index j.
 struct ScanReading {
@@ -22,15 +24,13 @@ struct ScanReading {
 
 /// costs[i] = sum over beams j of min(caps[j], reading.costs[min(31, |rows[i][j] - levels[j]|)]).
 /// Rows must be readable for levels.size() bytes. All kernels give the same sums.
-using ScanCostKernel = void (*)(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
-                                std::uint32_t* costs);
-
-enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+using ScanCostKernel = void (*)(const ScanReading& reading,
+                                std::span<const std::uint8_t* const> rows, std::uint32_t* costs);
 
 /// The kernel for an instruction set, or nullptr if this machine (or build) does not have it.
 ORTUNG_API ScanCostKernel scanCostKernel(InstructionSet set);
 
-/// The fastest kernel of this machine; $ORTUNG_SIMD (portable, avx2, avx512) lowers the choice.
+/// The kernel for instructionSet().
 ORTUNG_API ScanCostKernel scanCostKernel();
 
 }  // namespace ortung

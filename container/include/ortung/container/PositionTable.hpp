@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ class ORTUNG_API CellTable {
     return cell < 0 ? kNone : levels_[static_cast<std::size_t>(cell)];
   }
   const FieldGrid& grid() const { return grid_; }
+  std::span<const std::uint16_t> levels() const { return levels_; }
   void save(TableWriter& file, const std::string& name) const;  ///< shape (rows, columns)
   void load(const TableFile& file, const std::string& name, const FieldGrid& grid);
 
@@ -41,6 +43,7 @@ class ORTUNG_API PositionTable {
   void learn(double x, double y, double range);
   /// Expected distance [m], or NaN.
   float at(double x, double y) const;
+  double metresPerLevel() const { return metresPerLevel_; }
   CellTable& cells() { return cells_; }
   const CellTable& cells() const { return cells_; }
 
@@ -53,6 +56,7 @@ class ORTUNG_API PositionTable {
 /// One level is 2 pi / 65535.
 class ORTUNG_API BearingTable {
  public:
+  static constexpr double kRadiansPerLevel = 2 * std::numbers::pi / 65535;
   void start(const FieldGrid& grid) { cells_.start(grid); }
   void learn(double x, double y, double directionInField);
   /// Expected direction in the field frame [rad], or NaN.

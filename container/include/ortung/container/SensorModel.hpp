@@ -35,14 +35,19 @@ class ORTUNG_API GaussianTable {
  public:
   explicit GaussianTable(const SensorModel& model);
   /// ln p^exponent of a residual of @p sigmas standard deviations, which may be negative.
-  float operator()(float sigmas) const {
+  float operator()(float sigmas) const { return atPlace(placeOf(sigmas)); }
+
+  /// In two steps, for loops: where a residual is in the table, and what is there.
+  static int placeOf(float sigmas) {
     const float place = (sigmas < 0 ? -sigmas : sigmas) * kPerSigma;
-    return place < kSize - 1 ? values_[static_cast<int>(place + 0.5F)] : values_[kSize - 1];
+    return static_cast<int>((place < kFloorPlace ? place : kFloorPlace) + 0.5F);
   }
+  float atPlace(int place) const { return values_[static_cast<std::size_t>(place)]; }
+  static constexpr int kFloorPlace = 1023;  ///< 8 sigma; from here on, only the floor is left
 
  private:
   static constexpr float kPerSigma = 128.0F;
-  static constexpr int kSize = 1024;  ///< 8 sigma; beyond, only the floor is left
+  static constexpr int kSize = kFloorPlace + 1;
   std::vector<float> values_;
 };
 
