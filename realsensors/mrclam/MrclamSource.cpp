@@ -32,6 +32,7 @@ min_distance_m = 0.02
 min_rotation_deg = 1
 max_interval_s = 0.3
 )";
+
 struct Place {
   double x = 0.0;  ///< [m]
   double y = 0.0;  ///< [m]
