@@ -1,19 +1,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "CellLookup.hpp"
 #include "FormatTools.hpp"
-#include "ScanCost.hpp"
+#include "ScanPrepared.hpp"
 
 namespace ortung {
 namespace {
 
 constexpr int kMostBeams = 8192;
-constexpr std::uint8_t kLargestCost = 250;  ///< of one beam: the outlier floor in quantized form
-constexpr std::size_t kSamplesABlock =
-    64;                                   ///< rows are looked up and prefetched this many at a time
-constexpr std::size_t kCacheLine = 64;    ///< [bytes]
-constexpr std::size_t kRangeClasses = 8;  ///< of end points: sigma grows with range
 
 /// Headings whose scans together span a turn.
 int fewestViews(const ScanData::Config& config) {
@@ -49,23 +43,6 @@ int viewsFor(const ScanData::Config& config, int directions) {
 }
 
 }  // namespace
-
-struct ScanData::Prepared {
-  // While learning rays.
-  std::vector<std::uint8_t> levelOfWord;
-  int views = 0;  ///< headings a turn; 0: not known yet
-  // Against a ray table.
-  std::vector<std::uint8_t> levels;  ///< by direction from the first beam on, padded
-  std::vector<std::uint8_t> caps;
-  std::array<std::uint8_t, kLevelDifferences> costs{};
-  float nats = 0.0F;            ///< ln p of a cost of 1, exponent included (negative)
-  std::uint32_t floorCost = 0;  ///< of a sample without expectation
-  // Against an end-point field, in the robot frame.
-  std::vector<float> endX;  ///< [m]
-  std::vector<float> endY;  ///< [m]
-  std::vector<std::uint32_t> endClass;
-  std::array<std::array<float, 256>, kRangeClasses> logByLevel{};
-};
 
 ScanData::ScanData(SensorId id, const Pose2& mount, const Config& config)
     : SensorData(std::move(id), mount),
@@ -222,224 +199,6 @@ std::vector<double> ScanData::expectation(const Pose2& pose) const {
         row[rays_.directionOf(sensor.theta + config_.firstAngle + i * config_.angleStep)]));
   }
   return expected;
-}
-
-// --- weighing ------------------------------------------------------------------------------
-
-void ScanData::prepare() {
-  if (config_.perception == Perception::kRays) {
-    prepareRays();
-  } else {
-    prepareEndPoints();
-  }
-}
-
-/// Brings the reading to the table's directions: for each direction of the run the nearest beam.
-void ScanData::prepareRays() {
-  const SensorModel& model = config_.model;
-  const double unit = -std::log(model.outliers) / kLargestCost;  // nats of a cost of 1
-  const auto quantize = [unit](double logProbability) {
-    return static_cast<std::uint8_t>(
-        std::clamp(std::nearbyint(-logProbability / unit), 0.0, double{kLargestCost}));
-  };
-  for (std::size_t d = 0; d < kLevelDifferences; ++d) {
-    prepared_->costs[d] =
-        quantize(model.logProbability(static_cast<double>(d) / scale_.levelsPerSigma()));
-  }
-  prepared_->costs.back() = kLargestCost;
-  const int run = runLength(rays_.directions());
-  const std::size_t padded =
-      (static_cast<std::size_t>(run) + kScanBlock - 1) / kScanBlock * kScanBlock;
-  prepared_->levels.assign(padded, 0);
-  prepared_->caps.assign(padded, 0);
-  const int thin = config_.usedBeams > 0 ? std::max(1, run / config_.usedBeams) : 1;
-  prepared_->floorCost = 0;
-  for (int j = 0; j < run; j += thin) {
-    const double place = j * rays_.step() / config_.angleStep;
-    const auto beam = std::min<long>(std::lround(place), config_.beams - 1);
-    if (std::abs(place - static_cast<double>(beam)) * config_.angleStep > 0.51 * rays_.step())
-      continue;
-    const float range = ranges_[static_cast<std::size_t>(beam)];
-    if (std::isnan(range)) continue;
-    const auto at = static_cast<std::size_t>(j);
-    prepared_->levels[at] = scale_.level(static_cast<double>(range));
-    prepared_->caps[at] = std::isinf(range) ? quantize(std::log(model.maxRangeMass)) : kLargestCost;
-    prepared_->floorCost += prepared_->caps[at];
-  }
-  prepared_->nats = static_cast<float>(-unit * model.exponent);
-}
-
-void ScanData::prepareEndPoints() {
-  const SensorModel& model = config_.model;
-  for (std::size_t c = 0; c < kRangeClasses; ++c) {
-    const double range = (static_cast<double>(c) + 0.5) / kRangeClasses * config_.maxRange;
-    // Half a cell's width is not the sensor's fault.
-    const double sigma = std::hypot(model.sigmaAt(range), 0.29 * config_.endPointCell);
-    for (std::size_t level = 0; level < 255; ++level) {
-      const double distance = static_cast<double>(level) * endPoints_.metresPerLevel();
-      prepared_->logByLevel[c][level] =
-          static_cast<float>(model.exponent * model.logProbability(distance / sigma));
-    }
-    prepared_->logByLevel[c][255] = static_cast<float>(model.logFloor());
-  }
-  prepared_->endX.clear();
-  prepared_->endY.clear();
-  prepared_->endClass.clear();
-  const int thin = config_.usedBeams > 0 ? std::max(1, config_.beams / config_.usedBeams) : 1;
-  for (int i = 0; i < config_.beams; i += thin) {
-    const float range = ranges_[static_cast<std::size_t>(i)];
-    if (!std::isfinite(range)) continue;  // a beam that sees nothing has no end
-    const double angle = config_.firstAngle + i * config_.angleStep;
-    const Pose2 end = mount() * Pose2{static_cast<double>(range) * std::cos(angle),
-                                      static_cast<double>(range) * std::sin(angle), 0};
-    const auto rangeClass =
-        static_cast<std::uint32_t>(static_cast<double>(range) / config_.maxRange * kRangeClasses);
-    prepared_->endX.push_back(static_cast<float>(end.x));
-    prepared_->endY.push_back(static_cast<float>(end.y));
-    prepared_->endClass.push_back(std::min<std::uint32_t>(rangeClass, kRangeClasses - 1));
-  }
-}
-
-double ScanData::logProbabilityAt(const Pose2& pose) const {
-  const Pose2 sensor = pose * mount();
-  const bool rays = config_.perception == Perception::kRays;
-  const bool expects =
-      rays ? rays_.row(sensor.x, sensor.y) != nullptr : grid_.cellAt(sensor.x, sensor.y) >= 0;
-  if (!expects) return std::numeric_limits<double>::quiet_NaN();
-  const auto x = static_cast<float>(pose.x);
-  const auto y = static_cast<float>(pose.y);
-  const auto theta = static_cast<float>(pose.theta);
-  float logProbability = 0.0F;
-  weigh({{&x, 1}, {&y, 1}, {&theta, 1}}, {&logProbability, 1});
-  return static_cast<double>(logProbability);
-}
-
-void ScanData::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  if (config_.perception == Perception::kRays) {
-    weighRays(poses, logProbability);
-  } else {
-    weighEndPoints(poses, logProbability);
-  }
-}
-
-namespace {
-
-/// Where samples look into the ray table, a block of them at a time: without branches and calls, so
-/// that the compiler vectorizes it.
-struct RayPlaces {
-  std::array<std::int32_t, kSamplesABlock> cell;  ///< -1: outside of the table
-  std::array<std::int32_t, kSamplesABlock> direction;
-
-  void find(const FieldGrid& grid, int directions, float firstAngle, const SensorPoses& poses,
-            std::size_t n) {
-    const CellLookup lookup(grid);
-    const auto turn = static_cast<float>(directions);
-    const auto perRadian = static_cast<float>(directions / kFullTurn);
-    constexpr float kMostTurns = 1e6F;  // beyond, single precision knows no direction
-    for (std::size_t i = 0; i < n; ++i) cell[i] = lookup.index(poses.x[i], poses.y[i]);
-    for (std::size_t i = 0; i < n; ++i) {
-      const float place = (poses.theta[i] + firstAngle) * perRadian;
-      const bool usual =
-          static_cast<int>(place > -kMostTurns) & static_cast<int>(place < kMostTurns);
-      const float bounded = usual ? place : 0.0F;  // also for NaN
-      const float turns = bounded / turn;
-      const auto towardsZero = static_cast<std::int32_t>(turns);
-      const std::int32_t whole =
-          towardsZero - static_cast<std::int32_t>(turns < static_cast<float>(towardsZero));
-      const auto nearest =
-          static_cast<std::int32_t>(bounded - turn * static_cast<float>(whole) + 0.5F);
-      direction[i] = nearest < directions ? nearest : 0;
-    }
-  }
-};
-
-}  // namespace
-
-void ScanData::weighRays(const SampleView& poses, std::span<float> logProbability) const {
-  const ScanReading reading{prepared_->levels, prepared_->caps, prepared_->costs};
-  const ScanCostKernel kernel = scanCostKernel();
-  const float floor = prepared_->nats * static_cast<float>(prepared_->floorCost);
-  const auto run = static_cast<std::size_t>(runLength(rays_.directions()));
-  const std::int32_t* rowOf = rays_.rowIndex().data();
-  const std::uint8_t* levels = rays_.levels().data();
-  RayPlaces places;
-  // Two blocks take turns: the rows of one are on their way while the other's costs are added up.
-  struct Block {
-    std::array<const std::uint8_t*, kSamplesABlock> rows;
-    std::array<std::uint32_t, kSamplesABlock> sampleOf;
-    std::size_t size = 0;
-  };
-  std::array<Block, 2> blocks;
-  const auto add = [&](const Block& block) {
-    std::array<std::uint32_t, kSamplesABlock> costs;
-    kernel(reading, {block.rows.data(), block.size}, costs.data());
-    for (std::size_t k = 0; k < block.size; ++k) {
-      logProbability[block.sampleOf[k]] += prepared_->nats * static_cast<float>(costs[k]);
-    }
-  };
-  std::size_t current = 0;
-  forEachPoseBlock<kSamplesABlock>(
-      poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-        places.find(grid_, rays_.directions(), static_cast<float>(config_.firstAngle), sensor, n);
-        Block& block = blocks[current];
-        block.size = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-          const std::int32_t row = places.cell[k] < 0 ? -1 : rowOf[places.cell[k]];
-          if (row < 0) {
-            logProbability[first + k] += floor;
-            continue;
-          }
-          const std::uint8_t* from = levels + static_cast<std::size_t>(row) * rays_.stride() +
-                                     static_cast<std::size_t>(places.direction[k]);
-          for (std::size_t line = 0; line < run; line += kCacheLine)
-            __builtin_prefetch(from + line);
-          __builtin_prefetch(from + run - 1);
-          block.rows[block.size] = from;
-          block.sampleOf[block.size++] = static_cast<std::uint32_t>(first + k);
-        }
-        current = 1 - current;
-        add(blocks[current]);
-        blocks[current].size = 0;
-      });
-  add(blocks[1 - current]);
-}
-
-void ScanData::weighEndPoints(const SampleView& poses, std::span<float> logProbability) const {
-  const CellLookup region(grid_);
-  const CellLookup lookup(endPoints_.grid());
-  const std::uint8_t* levels = endPoints_.levels().data();
-  const std::size_t count = prepared_->endX.size();
-  const auto floor = static_cast<float>(config_.model.logFloor());
-  const auto mountX = static_cast<float>(mount().x);
-  const auto mountY = static_cast<float>(mount().y);
-  constexpr std::size_t kPointsABlock = 64;
-  std::array<std::int32_t, kPointsABlock> cells;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const float x = poses.x[i];
-    const float y = poses.y[i];
-    const auto [sine, cosine] = sinCos(poses.theta[i]);
-    if (region.index(x + cosine * mountX - sine * mountY, y + sine * mountX + cosine * mountY) <
-        0) {
-      logProbability[i] += floor * static_cast<float>(count);
-      continue;
-    }
-    std::array<float, 4> sums{};  // four, so that additions need not wait for each other
-    for (std::size_t begin = 0; begin < count; begin += kPointsABlock) {
-      const std::size_t n = std::min(kPointsABlock, count - begin);
-      const float* px = prepared_->endX.data() + begin;
-      const float* py = prepared_->endY.data() + begin;
-      for (std::size_t k = 0; k < n; ++k) {  // vectorizes
-        cells[k] =
-            lookup.index(x + cosine * px[k] - sine * py[k], y + sine * px[k] + cosine * py[k]);
-      }
-      const std::uint32_t* rangeClass = prepared_->endClass.data() + begin;
-      for (std::size_t k = 0; k < n; ++k) {
-        sums[k % 4] +=
-            cells[k] < 0 ? floor : prepared_->logByLevel[rangeClass[k]][levels[cells[k]]];
-      }
-    }
-    logProbability[i] += (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  }
 }
 
 }  // namespace ortung
