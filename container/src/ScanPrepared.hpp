@@ -23,9 +23,9 @@ struct ScanData::Prepared {
   float nats = 0.0F;            ///< ln p of a cost of 1, exponent included (negative)
   std::uint32_t floorCost = 0;  ///< of a sample without expectation
   // Against an end-point field, in the robot frame.
-  std::vector<float> endX;  ///< [m]
-  std::vector<float> endY;  ///< [m]
-  std::vector<std::uint32_t> endClass;
+  std::vector<float> endX;           ///< [m]
+  std::vector<float> endY;           ///< [m]
+  std::vector<const float*> endLog;  ///< entry of logByLevel for its range
   std::array<std::array<float, 256>, kRangeClasses> logByLevel{};
 };
 

@@ -76,7 +76,7 @@ void ScanData::prepareEndPoints() {
   }
   prepared_->endX.clear();
   prepared_->endY.clear();
-  prepared_->endClass.clear();
+  prepared_->endLog.clear();
   const int thin = config_.usedBeams > 0 ? std::max(1, config_.beams / config_.usedBeams) : 1;
   for (int i = 0; i < config_.beams; i += thin) {
     const float range = ranges_[static_cast<std::size_t>(i)];
@@ -88,7 +88,8 @@ void ScanData::prepareEndPoints() {
         static_cast<std::uint32_t>(static_cast<double>(range) / config_.maxRange * kRangeClasses);
     prepared_->endX.push_back(static_cast<float>(end.x));
     prepared_->endY.push_back(static_cast<float>(end.y));
-    prepared_->endClass.push_back(std::min<std::uint32_t>(rangeClass, kRangeClasses - 1));
+    prepared_->endLog.push_back(
+        prepared_->logByLevel[std::min<std::size_t>(rangeClass, kRangeClasses - 1)].data());
   }
 }
 
@@ -215,7 +216,11 @@ void ScanData::weighEndPoints(const SampleView& poses, std::span<float> logProba
       logProbability[i] += floor * static_cast<float>(count);
       continue;
     }
-    std::array<float, 4> sums{};  // four, so that additions need not wait for each other
+    // Even and odd points apart, and those again: additions need not wait for each other.
+    float sum0 = 0.0F;
+    float sum1 = 0.0F;
+    float sum2 = 0.0F;
+    float sum3 = 0.0F;
     for (std::size_t begin = 0; begin < count; begin += kPointsABlock) {
       const std::size_t n = std::min(kPointsABlock, count - begin);
       const float* px = prepared_->endX.data() + begin;
@@ -224,13 +229,20 @@ void ScanData::weighEndPoints(const SampleView& poses, std::span<float> logProba
         cells[k] =
             lookup.index(x + cosine * px[k] - sine * py[k], y + sine * px[k] + cosine * py[k]);
       }
-      const std::uint32_t* rangeClass = prepared_->endClass.data() + begin;
-      for (std::size_t k = 0; k < n; ++k) {
-        sums[k % 4] +=
-            cells[k] < 0 ? floor : prepared_->logByLevel[rangeClass[k]][levels[cells[k]]];
+      const float* const* logByLevel = prepared_->endLog.data() + begin;
+      const auto at = [&](std::size_t k) {
+        return cells[k] < 0 ? floor : logByLevel[k][levels[cells[k]]];
+      };
+      std::size_t k = 0;
+      for (; k + 4 <= n; k += 4) {
+        sum0 += at(k);
+        sum1 += at(k + 1);
+        sum2 += at(k + 2);
+        sum3 += at(k + 3);
       }
+      for (; k < n; ++k) sum0 += at(k);
     }
-    logProbability[i] += (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    logProbability[i] += (sum0 + sum1) + (sum2 + sum3);
   }
 }
 
