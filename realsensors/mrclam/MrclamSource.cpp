@@ -24,7 +24,7 @@ constexpr double kMaxVelocity = 100.0;  // [m/s], [rad/s]
 constexpr const char* kNoise = R"(range_sigma_m = 0.08
 range_sigma_per_m = 0.03
 bearing_sigma_deg = 0.7
-outliers = 0.05
+outliers = 0.1
 exponent = 0.3
 
 [mcl]
