@@ -12,6 +12,7 @@ namespace ortung {
 namespace {
 
 constexpr const char* kSymbol = "ortungPlugins";
+constexpr const char* kSourceKind = "ortung.Source";
 
 /// dlopen of a truncated library kills the process (SIGBUS), so look at its skeleton first.
 void checkIsWhole(const std::filesystem::path& file) {
@@ -58,6 +59,7 @@ void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
   } catch (const std::invalid_argument&) {
     throw;  // for the reader of the robot file, who knows its line
   } catch (const std::exception& error) {
+    if (interfaceKind(entry.interface) == kSourceKind) throw;  // names the file it reads
     throw PluginError(who + error.what());
   } catch (...) {
     throw PluginError(who + "threw something that is no std::exception");
@@ -184,8 +186,9 @@ void* PluginFactory::create(const std::string& interface, const std::string& nam
                          });
   std::vector<std::string> complaints;
   if (entry == nullptr && plainName) {
+    // A broken library of this very name is not passed over for another one further on.
     complaints = loadWhere(name + "_");
-    entry = findEntry(interface, name);
+    if (complaints.empty()) entry = findEntry(interface, name);
   }
   if (entry == nullptr && complaints.empty()) {
     complaints = loadWhere("");
