@@ -106,10 +106,12 @@ TEST(PluginFactory, TakesNoPathForAName) {
 
 TEST(PluginFactory, NamesThePluginWhoseConstructorThrows) {
   Only only("strange");
-  EXPECT_EQ(messageOf<PluginError>([&] { only.factory.makeData("throws_runtime", Parameters()); }),
-            "plugin 'throws_runtime': no light in the lamp");
+  EXPECT_EQ(messageOf<PluginError>([&] { only.factory.makeData("throws_logic", Parameters()); }),
+            "plugin 'throws_logic': vector::_M_range_check");
   EXPECT_EQ(messageOf<PluginError>([&] { only.factory.makeData("throws_number", Parameters()); }),
             "plugin 'throws_number': threw something that is no std::exception");
+  EXPECT_EQ(messageOf<PluginError>([&] { only.factory.makeData("throws_runtime", Parameters()); }),
+            "plugin 'throws_runtime': no light in the lamp");
   EXPECT_EQ(messageOf<std::invalid_argument>(
                 [&] { only.factory.makeData("throws_argument", Parameters()); }),
             "beams without a step");
@@ -180,6 +182,19 @@ TEST(PluginFactory, ABrokenNeighbourDoesNotHideThePluginThatIsThere) {
   EXPECT_NE(told.find("there is no plugin 'lrf'"), std::string::npos) << told;
   EXPECT_NE(told.find("has plugin ABI 99"), std::string::npos)
       << "what could not be loaded is told: " << told;
+}
+
+// Not even for one of the same name in another folder: whoever put it there wants to know.
+TEST(PluginFactory, ABrokenLibraryOfThePluginsNameIsTold) {
+  const TemporaryFolder broken;
+  const TemporaryFolder whole;
+  std::filesystem::create_symlink(pathOf("bad_abi"), broken / "ortung_good_data.so");
+  std::filesystem::create_symlink(pathOf("good"), whole / "ortung_good_data.so");
+  PluginFactory factory({broken.path(), whole.path()});
+  const std::string told = messageOf<PluginError>([&] { factory.makeData("good", Parameters()); });
+  EXPECT_NE(told.find((broken / "ortung_good_data.so").string() + ": has plugin ABI 99"),
+            std::string::npos)
+      << told;
 }
 
 TEST(PluginFactory, SearchesTheFoldersOfTheEnvironmentFirst) {
