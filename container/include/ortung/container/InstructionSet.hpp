@@ -26,8 +26,12 @@ ORTUNG_API void useInstructionSet(std::optional<InstructionSet> set);
 #if defined(__x86_64__) && defined(__GNUC__)
 #define ORTUNG_X86 1
 #define ORTUNG_AVX2 __attribute__((target("avx2")))
+#if defined(__clang__)
+#define ORTUNG_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
+#else
 #define ORTUNG_AVX512 \
   __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
+#endif
 #define ORTUNG_INLINE inline __attribute__((always_inline))
 #else
 #define ORTUNG_INLINE inline
