@@ -125,6 +125,27 @@ struct Turns {
   }
 };
 
+/// Moves hits on outlines of maps on to the surface behind. A cell of a map made from scans says that
+/// the surface was somewhere in it, so its middle is the best guess, not its near side.
+void moveToSurfaces(const std::vector<Mesh::Depth>& depths, double maxRange, std::size_t n,
+                    RTCRayHit16& packet) {
+  constexpr unsigned kWalls = 0;  // attached to the scene before all else
+  for (std::size_t i = 0; i < n; ++i) {
+    if (packet.hit.geomID[i] != kWalls) continue;
+    double depth = 0.0;
+    for (const Mesh::Depth& map : depths) {
+      if (packet.hit.primID[i] >= map.firstTriangle) depth = map.depth;
+    }
+    const auto across = static_cast<double>(std::abs(packet.ray.dir_x[i] * packet.hit.Ng_x[i] +
+                                                     packet.ray.dir_y[i] * packet.hit.Ng_y[i]));
+    const auto normal = static_cast<double>(std::hypot(packet.hit.Ng_x[i], packet.hit.Ng_y[i]));
+    // Along a wall the way to the surface behind is long: at most two depths of it count.
+    const double way = across > 0.5 * normal ? depth * normal / across : 2.0 * depth;
+    packet.ray.tfar[i] =
+        static_cast<float>(std::min(maxRange, static_cast<double>(packet.ray.tfar[i]) + way));
+  }
+}
+
 }  // namespace
 
 struct RayCaster::Scenes {
@@ -135,6 +156,7 @@ struct RayCaster::Scenes {
   Scene upright;  ///< what level rays can meet
   Scene caps;     ///< null if there are none
   Scene robots;   ///< null if there are none
+  std::vector<Mesh::Depth> depths;
 
   Scene makeScene() const {
     Scene scene(rtcNewScene(device.get()));
@@ -159,6 +181,7 @@ RayCaster::RayCaster(const Mesh& mesh) : scenes_(std::make_unique<Scenes>()) {
   scenes_->device.reset(rtcNewDevice("threads=1"));
   if (!scenes_->device) throw std::runtime_error("Embree cannot be started");
   scenes_->middle = mesh.middle;
+  scenes_->depths = mesh.depths;
   scenes_->round = RoundGeometry(mesh.round, mesh.middle);
   scenes_->upright = scenes_->makeScene();
   attachTriangles(scenes_->device.get(), scenes_->upright.get(), mesh.walls);
@@ -213,8 +236,11 @@ void RayCaster::castFan(const RayFan& fan, RobotNumber ignore, std::span<float> 
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    for (const RTCScene scene : scenes)
+    for (const RTCScene scene : scenes) {
       if (scene != nullptr) rtcIntersect16(valid.data(), scene, &context.base, &packet);
+      if (scene == scenes.front() && !scenes_->depths.empty())
+        moveToSurfaces(scenes_->depths, fan.maxRange, n, packet);
+    }
     std::copy_n(packet.ray.tfar, n, ranges.begin() + static_cast<std::ptrdiff_t>(first));
   }
 }

@@ -43,6 +43,7 @@ struct GridMap {
 
 /// A grid as it stands in the world.
 struct GridBody {
+  double surfaceDepth = 0.0;  ///< rays end this far behind the outline of occupied cells [m]
   GridMap map;
   double zLow = 0.0;   ///< [m]
   double zHigh = 1.0;  ///< [m]

@@ -1,5 +1,6 @@
 #include "Mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -140,7 +141,10 @@ Mesh makeMesh(const WorldModel& world) {
     else
       addPrimitive(primitive, builder);
   }
+  const bool anyDepth = std::any_of(world.grids.begin(), world.grids.end(),
+                                    [](const GridBody& body) { return body.surfaceDepth > 0.0; });
   for (const GridBody& body : world.grids) {
+    if (anyDepth) mesh.depths.push_back({mesh.walls.corners.size(), body.surfaceDepth});
     addOutlines(body, builder);
     addCaps(body, builder);
   }

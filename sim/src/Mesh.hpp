@@ -31,6 +31,12 @@ struct Mesh {
   Triangles walls;  ///< upright
   Triangles caps;   ///< level, so that only rays that rise or fall meet them
   std::vector<RoundBody> round;
+  /// Triangles of `walls` from this one on are outlines of maps whose surfaces lie `depth` behind.
+  struct Depth {
+    std::size_t firstTriangle = 0;
+    double depth = 0.0;  ///< [m]
+  };
+  std::vector<Depth> depths;  ///< one a map, in the order of triangles; empty if all are 0
 };
 
 /// Extrudes everything solid: circles and ellipses to round bodies, all else to triangles.

@@ -131,6 +131,7 @@ GridBody readGrid(const Parameters& table, const std::filesystem::path& folder) 
   body.zLow = z.low;
   body.zHigh = z.high;
   const double margin = table.numberOr("unknown_margin_m", 0.5, {0.0, 100.0});
+  const double depthInCells = table.numberOr("surface_depth_cells", 0.0, {0.0, 1.0});
   checkPrintable(table, "name", table.textOr("name", ""));
   const std::string map = table.text("map");
   if (map.empty() || map.find('\0') != std::string::npos) table.fail("map", "names no file");
@@ -139,6 +140,7 @@ GridBody readGrid(const Parameters& table, const std::filesystem::path& folder) 
   } catch (const MapError& error) {
     table.fail("map", error.what());
   }
+  body.surfaceDepth = depthInCells * body.map.cell;
   markUnknownNearFree(body.map, margin);
   return body;
 }

@@ -37,7 +37,8 @@ std::filesystem::path beside(const std::filesystem::path& world, const std::stri
 void writeWorldText(const std::filesystem::path& world, const std::filesystem::path& map,
                     const std::string& more) {
   writeWhole(world, "[world]\nname = " + tomlText(world.stem().string()) +
-                        "\n\n[[grid]]\nmap = " + tomlText(map.filename().string()) + "\n" + more);
+                        "\n\n[[grid]]\nmap = " + tomlText(map.filename().string()) +
+                        "\nsurface_depth_cells = 0.5\n" + more);
 }
 
 /// Copies a map that needs no other file; its endings (".gridmap.gz") tell its kind and stay.
