@@ -13,7 +13,7 @@
 #include "Localization.hpp"
 #include "Numbers.hpp"
 #include "ortung/config/TomlFile.hpp"
-#include "ortung/mcl/OdometryMotion.hpp"
+#include "ortung/container/OdometryMotion.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
 namespace ortung::app {

@@ -9,7 +9,7 @@
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Numbers.hpp"
-#include "ortung/mcl/OdometryMotion.hpp"
+#include "ortung/container/OdometryMotion.hpp"
 
 namespace ortung::app {
 namespace {

@@ -8,7 +8,7 @@
 #include "BenchField.hpp"
 #include "ortung/container/InstructionSet.hpp"
 #include "ortung/container/Random.hpp"
-#include "ortung/mcl/OdometryMotion.hpp"
+#include "ortung/container/OdometryMotion.hpp"
 
 namespace ortung::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include "Resampling.hpp"
 #include "ortung/container/SensorContainer.hpp"
 #include "ortung/mcl/Mcl.hpp"
-#include "ortung/mcl/OdometryMotion.hpp"
+#include "ortung/container/OdometryMotion.hpp"
 
 namespace ortung::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "ortung/container/Formats.hpp"
 #include "ortung/mcl/Mcl.hpp"
-#include "ortung/mcl/OdometryMotion.hpp"
+#include "ortung/container/OdometryMotion.hpp"
 
 int main() {
   using namespace ortung;

@@ -6,7 +6,7 @@
 
 #include "FakeRoom.hpp"
 #include "ortung/mcl/Mcl.hpp"
-#include "ortung/mcl/OdometryMotion.hpp"
+#include "ortung/container/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ortung/mcl/OdometryMotion.hpp"
+#include "ortung/container/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {
