@@ -7,8 +7,8 @@ packages=(
   g++ cmake ninja-build ccache pkg-config binutils
   # container and mcl: Eigen, and headers that stay hidden behind the file readers
   libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev
-  # simulator: rays, maps
-  libembree-dev libyaml-cpp-dev libstb-dev libboost-dev libboost-iostreams-dev
+  # simulator: rays, rigid bodies, maps
+  libembree-dev libbox2d-dev libyaml-cpp-dev libstb-dev libboost-dev libboost-iostreams-dev
   # readers of foreign logs
   libmrpt-obs-dev libmrpt-maps-dev
   # the program: command line, messages, charts of the report

@@ -13,7 +13,7 @@ constexpr double kFacing = 0.35;   // beyond this error of heading it turns on t
 /// Turns to a point and drives there.
 class Steering {
  public:
-  explicit Steering(const DriverLimits& limits) : limits_(limits) {}
+  explicit Steering(const DriveLimits& limits) : limits_(limits) {}
 
   /// Returns whether the robot has arrived; otherwise commands the drive.
   bool steer(const Pose2& pose, const FloorPoint& to, Drive& drive) const {
@@ -38,12 +38,12 @@ class Steering {
   double speed() const { return limits_.speed; }
 
  private:
-  DriverLimits limits_;
+  DriveLimits limits_;
 };
 
 class Follower : public Driver {
  public:
-  Follower(std::vector<FloorPoint> points, const DriverLimits& limits)
+  Follower(std::vector<FloorPoint> points, const DriveLimits& limits)
       : points_(std::move(points)), steering_(limits) {}
 
   void command(const Pose2& pose, Timestamp, Drive& drive) override {
@@ -59,7 +59,7 @@ class Follower : public Driver {
 
 class Wanderer : public Driver {
  public:
-  Wanderer(const RoutePlanner& planner, const DriverLimits& limits, const Random& random)
+  Wanderer(const RoutePlanner& planner, const DriveLimits& limits, const Random& random)
       : planner_(planner), steering_(limits), random_(random) {
     const FieldGrid& grid = planner.grid();
     perBlock_ = std::max(static_cast<int>(std::lround(kBlock / grid.cell)), 1);
@@ -158,16 +158,12 @@ class Wanderer : public Driver {
 
 Driver::~Driver() = default;
 
-DriverLimits DriverLimits::of(const DriveConfig& drive) {
-  return {drive.maxSpeed, drive.acceleration, drive.maxTurn, drive.turnAcceleration};
-}
-
-std::unique_ptr<Driver> makeWanderer(const RoutePlanner& planner, const DriverLimits& limits,
+std::unique_ptr<Driver> makeWanderer(const RoutePlanner& planner, const DriveLimits& limits,
                                      const Random& random) {
   return std::make_unique<Wanderer>(planner, limits, random);
 }
 
-std::unique_ptr<Driver> makeFollower(std::vector<FloorPoint> points, const DriverLimits& limits) {
+std::unique_ptr<Driver> makeFollower(std::vector<FloorPoint> points, const DriveLimits& limits) {
   return std::make_unique<Follower>(std::move(points), limits);
 }
 

@@ -1,4 +1,4 @@
-#include "Primitive.hpp"
+#include "ortung/sim/Primitive.hpp"
 
 #include <algorithm>
 #include <cmath>

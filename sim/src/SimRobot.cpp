@@ -10,7 +10,10 @@ namespace {
 // Streams of a robot's random numbers; sensors have those from kFirstSensor on, so that a sensor
 // more does not change what the others measure.
 constexpr std::uint64_t kOdometryStream = 0;
+constexpr std::uint64_t kSlipStream = 1;
 constexpr std::uint64_t kFirstSensor = 16;
+
+constexpr const char* kDefaultDrive = "differential";
 
 bool isGroundTruth(const SensorData& data) { return data.id().type == "groundTruth"; }
 
@@ -26,14 +29,14 @@ struct SimRobot::Mounted {
 };
 
 SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start,
-                   RobotNumber number, const Random& random, bool noise)
+                   const Random& random, bool noise)
     : config_(config),
-      driveConfig_(DriveConfig::read(config_.drive)),
-      drive_(std::make_unique<DifferentialDrive>(driveConfig_)),
+      bodyHeight_(config_.drive.numberOr("body_height_m", 0.5, {0.01, 10.0})),
+      drive_(factory.make<Drive>(config_.drive.textOr("plugin", kDefaultDrive), config_.drive)),
       odometryRandom_(random.fork(kOdometryStream)),
+      slipRandom_(random.fork(kSlipStream)),
       noise_(noise) {
   state_.pose = start;
-  state_.number = number;
   const std::vector<Device> devices = fillContainer(container_, config_, factory);
   bool hasTruth = false;
   for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -84,22 +87,21 @@ void SimRobot::addGroundTruth(Timestamp now) {
 
 Pose2 SimRobot::plan(Timestamp now, double dt) {
   if (driver_) driver_->command(state_.pose, now, *drive_);
-  change_ = drive_->relocate(dt);
+  change_ = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
   return state_.pose * change_;
 }
 
 void SimRobot::move() {
   state_.pose = state_.pose * change_;
-  state_.odometry =
-      state_.odometry * driveConfig_.measure(change_, noise_ ? &odometryRandom_ : nullptr);
-  const double scale = noise_ ? driveConfig_.distanceScale : 1.0;
-  const double turnScale = noise_ ? driveConfig_.turnScale : 1.0;
-  state_.translationalVelocity = drive_->translationalVelocity() * scale;
-  state_.rotationalVelocity = drive_->rotationalVelocity() * turnScale;
+  state_.odometry = state_.odometry * drive_->measure(change_, noise_ ? &odometryRandom_ : nullptr);
+  const Twist measured = drive_->measuredVelocity(noise_);
+  state_.translationalVelocity = measured.x;
+  state_.rotationalVelocity = measured.theta;
+  state_.motionData = drive_->motionData();
 }
 
 void SimRobot::block() {
-  drive_->block();
+  drive_->setVelocity({0.0, 0.0, drive_->velocity().theta});
   change_ = {0.0, 0.0, change_.theta};  // a round body can always turn
   move();
 }

@@ -37,7 +37,12 @@ class ModelledWorld final : public SimWorld {
       : model_(std::move(model)),
         fingerprint_(fingerprintOf(model_)),
         space_(model_),
-        rays_(makeMesh(model_)) {}
+        rays_(makeMesh(model_)),
+        lines_(linesOf(model_)) {
+    for (const Primitive& primitive : model_.primitives)
+      if (primitive.isSolid()) objects_.push_back(objectOf(primitive));
+    fixedObjects_ = objects_.size();
+  }
 
   const std::string& name() const override { return model_.name; }
   std::string fingerprint() const override { return fingerprint_; }
@@ -45,6 +50,9 @@ class ModelledWorld final : public SimWorld {
     return space_.region(cell, robotRadius);
   }
   std::span<const Landmark> landmarks() const override { return model_.landmarks; }
+  std::span<const FieldLine> lines() const override { return lines_; }
+  std::span<const WorldObject> objects() const override { return objects_; }
+  const PhysicsConfig& physics() const override { return model_.physics; }
   bool isFree(double x, double y, double radius) const override {
     return space_.isFree(x, y, radius);
   }
@@ -125,6 +133,9 @@ class ModelledWorld final : public SimWorld {
   std::string fingerprint_;
   FreeSpace space_;
   mutable RayCaster rays_;
+  std::vector<FieldLine> lines_;
+  std::vector<WorldObject> objects_;  ///< first what is fixed, then what moves
+  std::size_t fixedObjects_ = 0;
   std::map<RobotNumber, Robot> robots_;
   RobotNumber lastNumber_ = 0;
   mutable std::atomic<bool> stale_{false};

@@ -40,12 +40,11 @@ SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory
     throw std::invalid_argument("robot " + config.name + ": start " + toText(start) +
                                 " has no room for a robot of radius " +
                                 std::to_string(config.radius) + " m");
-  const DriveConfig drive = DriveConfig::read(config.drive);
   const Random random(config_.seed, kRobots * (robots_.size() + 1));
-  const RobotNumber number = world_->addRobot(config.radius, drive.bodyHeight);
-  world_->moveRobot(number, start);
-  robots_.push_back(
-      std::make_unique<SimRobot>(config, factory, start, number, random, config_.noise));
+  auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
+  robot->setNumber(world_->addRobot(config.radius, robot->bodyHeight()));
+  world_->moveRobot(robot->state().number, start);
+  robots_.push_back(std::move(robot));
   readings_.emplace_back();
   return *robots_.back();
 }

@@ -18,6 +18,9 @@ constexpr Range kSize{0.001, 2e4};          ///< [m]
 constexpr Range kHeight{-100.0, 1000.0};    ///< [m]
 constexpr Range kAngle{-3600.0, 3600.0};    ///< [degree]
 constexpr Range kIdentity{0.0, 4294967295.0};
+constexpr Range kMass{0.001, 1e5};  ///< [kg]
+constexpr double kBallMass = 0.43;  ///< of a football of size 5 [kg]
+constexpr std::size_t kMaxMovables = 256;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -62,8 +65,27 @@ std::string readKind(const Parameters& table, bool hasIdentity) {
                          "[A-Za-z0-9_-]{1,64}");
 }
 
+/// A ball rolls unless the file says otherwise; all else stands unless it says so.
+void readMechanics(const Parameters& table, Primitive& primitive) {
+  if (table.has("friction")) primitive.friction = table.number("friction", {0.0, 10.0});
+  if (table.has("restitution")) primitive.restitution = table.number("restitution", {0.0, 1.0});
+  const bool isBall = primitive.kind == "ball";
+  primitive.isMovable = table.flagOr("movable", isBall);
+  if (!primitive.isMovable) {
+    if (table.has("mass_kg")) table.fail("mass_kg", "does not fit what is not movable");
+    return;
+  }
+  if (primitive.identity)
+    table.fail("identity", "does not fit what is movable: landmarks stay where they are");
+  if (!isBall && !table.has("mass_kg"))
+    table.fail("mass_kg", "is missing, which everything movable needs but a ball");
+  primitive.mass =
+      isBall ? table.numberOr("mass_kg", kBallMass, kMass) : table.number("mass_kg", kMass);
+}
+
 void readCommon(const Parameters& table, Primitive& primitive) {
-  checkPrintable(table, "name", table.textOr("name", ""));
+  primitive.name = table.textOr("name", "");
+  checkPrintable(table, "name", primitive.name);
   if (table.has("identity"))
     primitive.identity = static_cast<std::uint32_t>(table.integer("identity", kIdentity));
   primitive.kind = readKind(table, primitive.identity.has_value());
@@ -79,6 +101,7 @@ void readCommon(const Parameters& table, Primitive& primitive) {
   const Heights z = readHeights(table);
   primitive.zLow = z.low;
   primitive.zHigh = z.high;
+  readMechanics(table, primitive);
 }
 
 void readBox(const Parameters& table, Primitive& primitive) {
@@ -245,6 +268,15 @@ WorldModel readWorldModel(const std::filesystem::path& file) {
     world.landmarks.push_back(readLandmark(table));
   const auto grids = readTables(toml, "grid", kMaxGrids);
   for (const auto& table : grids) world.grids.push_back(readGrid(table, file.parent_path()));
+  const auto fixed = std::stable_partition(world.primitives.begin(), world.primitives.end(),
+                                           [](const Primitive& p) { return !p.isMovable; });
+  world.movables.assign(std::make_move_iterator(fixed),
+                        std::make_move_iterator(world.primitives.end()));
+  world.primitives.erase(fixed, world.primitives.end());
+  if (world.movables.size() > kMaxMovables)
+    throw ConfigError(file.string() + ": " + std::to_string(world.movables.size()) +
+                      " primitives are movable, expected at most 256");
+  world.physics = PhysicsConfig::read(toml.table("physics"));
   addLandmarks(toml, world);
   readBounds(toml, about, world);
   toml.refuseUnread();

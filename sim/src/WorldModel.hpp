@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "GridMap.hpp"
-#include "Primitive.hpp"
+#include "ortung/sim/PhysicsConfig.hpp"
+#include "ortung/sim/Primitive.hpp"
 #include "ortung/sim_api/World.hpp"
 
 namespace ortung {
@@ -13,11 +14,13 @@ namespace ortung {
 /// Bodies that begin above this height do not hinder robots [m].
 inline constexpr double kTallestRobot = 2.0;
 
-/// Everything in a world that does not move.
+/// Everything that a world file says.
 struct WorldModel {
   std::string name;
-  Box2 bounds;  ///< the field: robots stay within
-  std::vector<Primitive> primitives;
+  PhysicsConfig physics;
+  Box2 bounds;                        ///< the field: robots stay within
+  std::vector<Primitive> primitives;  ///< what does not move
+  std::vector<Primitive> movables;    ///< where they are at the beginning
   std::vector<GridBody> grids;
   std::vector<Landmark> landmarks;  ///< of primitives with an identity, and marks without body
 };
@@ -25,8 +28,15 @@ struct WorldModel {
 /// Reads a world file and the maps that it names. @throws ConfigError
 WorldModel readWorldModel(const std::filesystem::path& file);
 
+/// What sensors may see of lines painted on the floor.
+std::vector<FieldLine> linesOf(const WorldModel& world);
+/// What sensors may see of a body at its place in the world.
+WorldObject objectOf(const Primitive& primitive);
+
 /// 16 hexadecimal digits over shapes, kinds, colours, heights, grids, landmarks and bounds,
-/// whatever their order and names. Lengths count in micrometres, so that no rounding shows.
+/// whatever their order and names; of what
+/// does not move alone, since tables know nothing else. Lengths count in micrometres, so that no
+/// rounding shows.
 std::string fingerprintOf(const WorldModel& world);
 
 }  // namespace ortung

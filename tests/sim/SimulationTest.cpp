@@ -45,8 +45,7 @@ struct Wandering {
         simulation(std::move(world), config) {
     Random random = simulation.random(0);
     robot = &simulation.addRobot(robotConfig(), factory, planner.randomPose(random));
-    robot->setDriver(
-        makeWanderer(planner, DriverLimits::of(robot->driveConfig()), simulation.random(1)));
+    robot->setDriver(makeWanderer(planner, robot->drive().limits(), simulation.random(1)));
   }
 
   PluginFactory factory;

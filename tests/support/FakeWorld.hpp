@@ -66,6 +66,7 @@ class FakeWorld : public SimWorld {
   }
 
   const std::string& name() const override { return name_; }
+  const PhysicsConfig& physics() const override { return physics_; }
   std::string fingerprint() const override { return "0123456789abcdef"; }
 
   FieldRegion region(double cell, double robotRadius) const override {
@@ -113,6 +114,7 @@ class FakeWorld : public SimWorld {
   std::map<RobotNumber, Post> robots_;
   RobotNumber lastRobot_ = 0;
   std::string name_ = "room";
+  PhysicsConfig physics_;
   mutable RobotNumber ignored_ = 0;
   mutable std::size_t rays_ = 0;
 };

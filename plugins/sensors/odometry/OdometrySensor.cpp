@@ -12,8 +12,11 @@ class OdometrySensor : public Sensor {
 
   void generateData(const World&, const RobotState& robot, Random*, Timestamp now,
                     std::span<SensorData* const> data) override {
-    const std::vector<std::uint32_t> words = OdometryData::encode(
-        {robot.odometry, robot.translationalVelocity, robot.rotationalVelocity, {}});
+    const std::vector<std::uint32_t> words =
+        OdometryData::encode({robot.odometry,
+                              robot.translationalVelocity,
+                              robot.rotationalVelocity,
+                              {robot.motionData.begin(), robot.motionData.end()}});
     for (SensorData* one : data) one->setData(now, words);
   }
 

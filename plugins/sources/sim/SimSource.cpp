@@ -143,7 +143,7 @@ class SimSource : public Source {
         placing_(simulation_.random(kPlacing)) {
     const Pose2 start = run_.start ? *run_.start : planner_.randomPose(placing_);
     robot_ = &simulation_.addRobot(config_, factory_, start);
-    DriverLimits limits = DriverLimits::of(robot_->driveConfig());
+    DriveLimits limits = robot_->drive().limits();
     if (run_.speed) limits.speed = std::min(limits.speed, *run_.speed);
     robot_->setDriver(run_.waypoints.empty()
                           ? makeWanderer(planner_, limits, simulation_.random(kWandering))

@@ -9,8 +9,8 @@
 #include "ortung/container/Message.hpp"
 #include "ortung/container/Random.hpp"
 #include "ortung/container/SensorContainer.hpp"
-#include "ortung/sim/Drive.hpp"
 #include "ortung/sim/Driver.hpp"
+#include "ortung/sim_api/Drive.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {
@@ -23,7 +23,7 @@ class ORTUNG_API SimRobot {
   /// @param noise whether sensors and odometry have noise
   /// @throws ConfigError, PluginError
   SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start,
-           RobotNumber number, const Random& random, bool noise);
+           const Random& random, bool noise);
   ~SimRobot();
   SimRobot(const SimRobot&) = delete;
   SimRobot& operator=(const SimRobot&) = delete;
@@ -44,8 +44,10 @@ class ORTUNG_API SimRobot {
   /// Carries the robot elsewhere, unnoticed by its odometry.
   void place(const Pose2& pose) { state_.pose = pose; }
 
+  /// By which rays know its body.
+  void setNumber(RobotNumber number) { state_.number = number; }
   const RobotConfig& config() const { return config_; }
-  const DriveConfig& driveConfig() const { return driveConfig_; }
+  double bodyHeight() const { return bodyHeight_; }  ///< [m]
   SensorContainer& container() { return container_; }
   Drive& drive() { return *drive_; }
   const RobotState& state() const { return state_; }
@@ -56,7 +58,7 @@ class ORTUNG_API SimRobot {
   void addGroundTruth(Timestamp now);
 
   RobotConfig config_;
-  DriveConfig driveConfig_;
+  double bodyHeight_ = 0.5;  ///< `body_height_m` of [drive]: what other robots' rays hit [m]
   SensorContainer container_;
   std::vector<Mounted> sensors_;
   SensorData* truth_ = nullptr;  ///< ground truth that no sensor gives, or null
@@ -65,6 +67,7 @@ class ORTUNG_API SimRobot {
   RobotState state_;
   Pose2 change_;  ///< of pose, as planned, in the robot's frame
   Random odometryRandom_;
+  Random slipRandom_;
   bool noise_;
   std::vector<Message> frame_;
 };

@@ -6,6 +6,7 @@
 
 #include "ortung/container/Export.hpp"
 #include "ortung/container/FieldRegion.hpp"
+#include "ortung/sim/PhysicsConfig.hpp"
 #include "ortung/sim_api/World.hpp"
 
 namespace ortung {
@@ -16,6 +17,7 @@ class ORTUNG_API SimWorld : public World {
  public:
   ~SimWorld() override;
   virtual const std::string& name() const = 0;
+  virtual const PhysicsConfig& physics() const = 0;
 
   /// 16 hexadecimal digits over everything that shapes what sensors see: not names, not comments,
   /// not the order in the file.

@@ -15,15 +15,17 @@ namespace ortung {
 /// What a sensor may know of the robot that carries it.
 struct RobotState {
   Pose2 pose;                          ///< true, in the field frame
+  Twist velocity;                      ///< true, in the field frame
   Pose2 odometry;                      ///< what the motion side believes, in the odometry frame
   double translationalVelocity = 0.0;  ///< [m/s], as odometry measures it
   double rotationalVelocity = 0.0;     ///< [rad/s], as odometry measures it
-  RobotNumber number = 0;              ///< rays ignore this robot's body
+  std::span<const std::uint32_t> motionData;  ///< of the drive's inner state, for odometry
+  RobotNumber number = 0;                     ///< rays ignore this robot's body
 };
 
 /// The simulation half of a sensor plugin: generates data from the world (paper, section 4).
-/// Its constructor takes the same Parameters as the data half; a parameter nobody reads is an error,
-/// so both halves read all settings of the plugin through one common function.
+/// Its constructor takes the same Parameters as the data half; a parameter nobody reads is an
+/// error, so both halves read all settings of the plugin through one common function.
 class ORTUNG_API Sensor {
  public:
   static constexpr const char* kInterface = "ortung.Sensor/" ORTUNG_SIM_API_ABI;

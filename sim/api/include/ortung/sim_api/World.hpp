@@ -8,6 +8,7 @@
 #include "ortung/container/Export.hpp"
 #include "ortung/container/FieldRegion.hpp"
 #include "ortung/container/Pose2.hpp"
+#include "ortung/sim_api/Twist.hpp"
 
 namespace ortung {
 
@@ -34,6 +35,40 @@ struct Landmark {
 /// Which robot's own body rays ignore; 0: none.
 using RobotNumber = std::uint32_t;
 
+/// A line painted on the floor: straight, or along an ellipse. A filled spot is an arc whose width
+/// is twice its radius. The border of a painted triangle is three straight lines of width 0.
+struct FieldLine {
+  enum class Shape { straight, arc };
+  Shape shape = Shape::straight;
+  double x0 = 0.0, y0 = 0.0;  ///< one end of a straight line's middle [m]
+  double x1 = 0.0, y1 = 0.0;  ///< the other end [m]
+  double x = 0.0, y = 0.0;    ///< middle of the ellipse along which an arc runs [m]
+  double radiusX = 0.0;       ///< of the arc's middle line along the ellipse's own x axis [m]
+  double radiusY = 0.0;       ///< [m]
+  double angle = 0.0;         ///< of the ellipse's own x axis in the field [rad]
+  double from = 0.0;          ///< parameter t of (radiusX cos t, radiusY sin t), where it begins
+  double to = 0.0;            ///< and ends [rad]; from < to
+  double width = 0.0;         ///< [m]
+  std::string colour;         ///< "white", "#rrggbb" or empty
+};
+
+/// A body that a sensor may recognise: a ball, a robot, a post, an obstacle, ...
+struct WorldObject {
+  std::string kind;        ///< "ball", "robot", "goal", "post", "wall", "obstacle", ...
+  std::string name;        ///< as in the world file, or the robot's
+  std::string colour;      ///< "blue", "#rrggbb" or empty
+  Pose2 pose;              ///< of its middle, in the field frame
+  Twist velocity;          ///< in the field frame
+  double radius = 0.0;     ///< of the circle around its middle that holds it all [m]
+  double halfX = 0.0;      ///< half its extent along its own axes [m]
+  double halfY = 0.0;      ///< [m]
+  double zLow = 0.0;       ///< [m]
+  double zHigh = 0.0;      ///< [m]
+  bool isRound = false;    ///< an ellipse; else what fits into a rectangle of the extent
+  bool isMovable = false;  ///< or fixed
+  RobotNumber robot = 0;   ///< which robot it is; 0: none
+};
+
 /// What a sensor plugin may ask of the world. Embree stays behind it.
 /// Queries are thread-safe while nobody moves the world.
 class ORTUNG_API World {
@@ -50,6 +85,13 @@ class ORTUNG_API World {
                          RobotNumber ignore, double slack) const = 0;
 
   virtual std::span<const Landmark> landmarks() const = 0;
+
+  /// All lines painted on the floor, in no order that means anything.
+  virtual std::span<const FieldLine> lines() const { return {}; }
+
+  /// All bodies but walls from maps: first what is fixed, then what moves, where it is now. While
+  /// tables are learned there is nothing that moves.
+  virtual std::span<const WorldObject> objects() const { return {}; }
 
   /// Whether a circle on the floor touches nothing solid and lies within the field.
   virtual bool isFree(double x, double y, double radius) const = 0;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "ortung/container/Export.hpp"
+
 namespace ortung {
 
 struct Point2 {
@@ -36,18 +38,24 @@ struct Primitive {
   double arcTo = 0.0;    ///< [rad]
   std::string kind;      ///< "wall", "post", ...
   std::string colour;    ///< "blue", "#0000ff" or empty
+  std::string name;      ///< anything, or empty
   std::optional<std::uint32_t> identity;
+
+  bool isMovable = false;             ///< a body of its own, or part of the world
+  double mass = 0.0;                  ///< of what is movable [kg]
+  std::optional<double> friction;     ///< against other bodies; none: the world's
+  std::optional<double> restitution;  ///< likewise
 
   bool isSolid() const { return kind != "line"; }
   bool isCircle() const { return shape == Shape::ellipse && halfX == halfY; }
 };
 
 /// Distance of a point to the filled shape [m]; 0 inside and on its edge.
-double distanceTo(const Primitive& primitive, const Point2& point);
+ORTUNG_API double distanceTo(const Primitive& primitive, const Point2& point);
 
-Box2 boundsOf(const Primitive& primitive);
+ORTUNG_API Box2 boundsOf(const Primitive& primitive);
 
 /// The corners of a rectangle or triangle, in order.
-std::vector<Point2> cornersOf(const Primitive& primitive);
+ORTUNG_API std::vector<Point2> cornersOf(const Primitive& primitive);
 
 }  // namespace ortung

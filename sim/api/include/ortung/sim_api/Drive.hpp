@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "ortung/container/Export.hpp"
+#include "ortung/container/Parameters.hpp"
+#include "ortung/container/Pose2.hpp"
+#include "ortung/container/Random.hpp"
+#include "ortung/sim_api/Abi.hpp"
+#include "ortung/sim_api/Twist.hpp"
+
+namespace ortung {
+
+/// What a drive can do at most; drivers and players plan with it.
+struct DriveLimits {
+  double speed = 0.8;             ///< [m/s]
+  double turn = 2.0;              ///< [rad/s]
+  double acceleration = 1.0;      ///< [m/s^2]
+  double turnAcceleration = 6.0;  ///< [rad/s^2]
+};
+
+/// The simulation half of a motion plugin: how a robot's base answers to commands (paper, section
+/// 4). Its other half, which MCL uses, is MotionModel. Its constructor takes [drive] of the robot
+/// file, of which the simulator itself reads `plugin` and `body_height_m`.
+///
+/// In each cycle the simulator calls relocate(), lets the physics try to move the body that way,
+/// calls setVelocity() if something was in the way, and then measure() with what became of it.
+/// Not thread-safe.
+class ORTUNG_API Drive {
+ public:
+  static constexpr const char* kInterface = "ortung.Drive/" ORTUNG_SIM_API_ABI;
+  virtual ~Drive();
+
+  // --- commands; a drive keeps to its own limits. All numbers are finite. ---
+  virtual void setTranslationalVelocity(double metresPerSecond) = 0;
+  virtual void setRotationalVelocity(double radiansPerSecond) = 0;
+  /// The command vector of this kind of drive, e.g. the speeds of its wheels.
+  /// @pre command.size() == commandSize()
+  virtual void setCommand(std::span<const double> command) = 0;
+  virtual std::size_t commandSize() const = 0;
+  /// One line on what the numbers of the command vector mean, with units.
+  virtual std::string commandHelp() const = 0;
+  virtual DriveLimits limits() const = 0;
+
+  // --- for the physics ---
+  /// Moves on by @p dt [s]: the change of pose, in the robot's old frame, if nothing is in the way.
+  /// @param noise of the motion itself (slipping wheels); nullptr: none
+  virtual Pose2 relocate(double dt, Random* noise) = 0;
+  /// Velocity at the end of the last relocate(), or what setVelocity() said after it.
+  virtual Twist velocity() const = 0;
+  /// Something pushed or held the robot, so that it now moves like this.
+  virtual void setVelocity(const Twist& velocity) = 0;
+
+  // --- for odometry ---
+  /// What odometry measures of the last cycle's true change of pose, in the robot's old frame.
+  /// @param noise nullptr: @p trueChange itself
+  virtual Pose2 measure(const Pose2& trueChange, Random* noise) = 0;
+  /// The velocity that odometry tells; without noise the true one.
+  virtual Twist measuredVelocity(bool noise) const;
+  /// Data about the drive's inner state for the client, at most 16 words (OdometryData).
+  virtual std::span<const std::uint32_t> motionData() const;
+  /// One line on what those words mean.
+  virtual std::string motionDataHelp() const;
+};
+
+}  // namespace ortung

@@ -1,0 +1,93 @@
+// What sensors may see of a world: lines and bodies.
+#include <algorithm>
+#include <cmath>
+
+#include "WorldModel.hpp"
+
+namespace ortung {
+namespace {
+
+FieldLine straight(const Point2& from, const Point2& to, double width, const std::string& colour) {
+  FieldLine line;
+  line.x0 = from.x;
+  line.y0 = from.y;
+  line.x1 = to.x;
+  line.y1 = to.y;
+  line.width = width;
+  line.colour = colour;
+  return line;
+}
+
+/// A rectangle is a line along its longer sides.
+FieldLine lineOf(const Primitive& rectangle) {
+  const bool isAlongX = rectangle.halfX >= rectangle.halfY;
+  const double half = isAlongX ? rectangle.halfX : rectangle.halfY;
+  const double angle = rectangle.angle + (isAlongX ? 0.0 : std::acos(0.0));
+  const double dx = half * std::cos(angle);
+  const double dy = half * std::sin(angle);
+  return straight({rectangle.centre.x - dx, rectangle.centre.y - dy},
+                  {rectangle.centre.x + dx, rectangle.centre.y + dy},
+                  2.0 * (isAlongX ? rectangle.halfY : rectangle.halfX), rectangle.colour);
+}
+
+/// The stroke of an ellipse lies within its size; a filled one is all stroke.
+FieldLine arcOf(const Primitive& ellipse) {
+  const double smaller = std::min(ellipse.halfX, ellipse.halfY);
+  const double width = ellipse.stroke > 0.0 ? std::min(ellipse.stroke, smaller) : smaller;
+  FieldLine arc;
+  arc.shape = FieldLine::Shape::arc;
+  arc.x = ellipse.centre.x;
+  arc.y = ellipse.centre.y;
+  arc.radiusX = ellipse.halfX - width / 2.0;
+  arc.radiusY = ellipse.halfY - width / 2.0;
+  arc.angle = ellipse.angle;
+  arc.from = ellipse.arcFrom;
+  arc.to = ellipse.arcTo;
+  arc.width = width;
+  arc.colour = ellipse.colour;
+  return arc;
+}
+
+}  // namespace
+
+std::vector<FieldLine> linesOf(const WorldModel& world) {
+  std::vector<FieldLine> lines;
+  for (const Primitive& primitive : world.primitives) {
+    if (primitive.isSolid()) continue;
+    if (primitive.shape == Primitive::Shape::rectangle) lines.push_back(lineOf(primitive));
+    if (primitive.shape == Primitive::Shape::ellipse) lines.push_back(arcOf(primitive));
+    if (primitive.shape != Primitive::Shape::triangle) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      lines.push_back(
+          straight(primitive.corners[i], primitive.corners[(i + 1) % 3], 0.0, primitive.colour));
+  }
+  return lines;
+}
+
+WorldObject objectOf(const Primitive& primitive) {
+  WorldObject object;
+  object.kind = primitive.kind;
+  object.name = primitive.name;
+  object.colour = primitive.colour;
+  object.pose = {primitive.centre.x, primitive.centre.y, wrapAngle(primitive.angle)};
+  object.isRound = primitive.shape == Primitive::Shape::ellipse;
+  object.isMovable = primitive.isMovable;
+  object.zLow = primitive.zLow;
+  object.zHigh = primitive.zHigh;
+  object.halfX = primitive.halfX;
+  object.halfY = primitive.halfY;
+  object.radius = object.isRound ? std::max(primitive.halfX, primitive.halfY)
+                                 : std::hypot(primitive.halfX, primitive.halfY);
+  if (primitive.shape != Primitive::Shape::triangle) return object;
+  object.pose.theta = 0.0;
+  for (const Point2& corner : primitive.corners) {
+    const double dx = corner.x - primitive.centre.x;
+    const double dy = corner.y - primitive.centre.y;
+    object.radius = std::max(object.radius, std::hypot(dx, dy));
+    object.halfX = std::max(object.halfX, std::abs(dx));
+    object.halfY = std::max(object.halfY, std::abs(dy));
+  }
+  return object;
+}
+
+}  // namespace ortung
