@@ -182,6 +182,41 @@ void addCheck(Builder& build, CLI::App& app) {
   build.option("--robot", a->robot, "Robot that the tables must have been learned for");
 }
 
+void addServing(Builder& build, ServingArguments& a) {
+  build.option("--listen", a.listen, "[ADDRESS:]PORT for clients; 0: a free port; see docs/protocol.md");
+  build.option("--allow-control", a.control,
+               "Name of a client that may pause, step, reset, ... the world; 'all' for all; may be given again")
+      ->expected(1)->take_all();
+  build.option("--token-file", a.tokens,
+               "File with a line 'NAME TOKEN' for each client that may come in, * for any name");
+  build.option("--idle", a.idle, "Clients that keep silent for so long are dropped [s]")
+      ->check(within(1.0, 1e6))->capture_default_str();
+  build.option("--speed", a.speed, "Times real time")->check(within(0.001, 1000.0))->capture_default_str();
+  build.flag("--free-run", a.freeRun, "As fast as possible instead of in real time");
+  build.flag("--lockstep", a.lockstep, "The world goes on only when all lockstep clients ask for it");
+}
+
+void addSim(Builder& build, CLI::App& app) {
+  const auto a = build.command<SimArguments>(
+      app, "sim", "Simulate a world and serve it to clients",
+      "ortung sim maps/fields/f2000.toml --listen 7777", runSim);
+  build.option("world", a->world, "World file (TOML)")->required();
+  build.option("--seed", a->seed, "Seed of all random numbers")->capture_default_str();
+  build.option("--cycle-ms", a->cycleMs, "Time between two steps of the simulation [ms]")
+      ->check(within(0.1, 1000.0))->capture_default_str();
+  build.flag("--no-noise", a->noNoise, "Sensors and odometry without noise");
+  addServing(build, a->serving);
+}
+
+void addServe(Builder& build, CLI::App& app) {
+  const auto a = build.command<ServeArguments>(
+      app, "serve", "Serve a record to clients as if it were a simulation",
+      "ortung serve run.rec --listen 7777", runServe);
+  build.option("record", a->record, "Record file")->required();
+  build.flag("--repeat", a->repeats, "Start over at the end");
+  addServing(build, a->serving);
+}
+
 struct NoArguments {};
 
 void addPlugins(Builder& build, CLI::App& app) {
@@ -233,6 +268,8 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   addImport(build, app);
   addShow(build, app);
   addCheck(build, app);
+  addSim(build, app);
+  addServe(build, app);
   addPlugins(build, app);
   try {
     app.parse(argc, argv);

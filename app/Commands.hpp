@@ -86,6 +86,33 @@ struct CheckArguments {
 };
 int runCheck(const CheckArguments& arguments);
 
+/// What sim and serve have in common when they serve clients.
+struct ServingArguments {
+  std::string listen;                  ///< "[ADDRESS:]PORT"
+  std::vector<std::string> control;    ///< names of clients that may control, "*": all
+  std::filesystem::path tokens;        ///< file with a line "NAME TOKEN" for each; "" for none
+  double idle = 30.0;                  ///< [s] without a line from a client
+  double speed = 1.0;                  ///< times real time
+  bool freeRun = false;
+  bool lockstep = false;
+};
+
+struct ServeArguments {
+  std::filesystem::path record;
+  bool repeats = false;
+  ServingArguments serving;
+};
+int runServe(const ServeArguments& arguments);
+
+struct SimArguments {
+  std::filesystem::path world;
+  std::uint64_t seed = 1;
+  double cycleMs = 10.0;
+  bool noNoise = false;
+  ServingArguments serving;
+};
+int runSim(const SimArguments& arguments);
+
 int runPlugins();
 
 }  // namespace ortung::app

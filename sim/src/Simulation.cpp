@@ -1,5 +1,6 @@
 #include "ortung/sim/Simulation.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -40,13 +41,23 @@ SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory
     throw std::invalid_argument("robot " + config.name + ": start " + toText(start) +
                                 " has no room for a robot of radius " +
                                 std::to_string(config.radius) + " m");
-  const Random random(config_.seed, kRobots * (robots_.size() + 1));
+  const Random random(config_.seed, kRobots * (added_ + 1));
   auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
   robot->setNumber(world_->addRobot(config.radius, robot->bodyHeight()));
   world_->moveRobot(robot->state().number, start);
   robots_.push_back(std::move(robot));
   readings_.emplace_back();
+  ++added_;
   return *robots_.back();
+}
+
+void Simulation::removeRobot(const SimRobot& robot) {
+  const auto found = std::find_if(robots_.begin(), robots_.end(),
+                                  [&](const auto& other) { return other.get() == &robot; });
+  if (found == robots_.end()) return;
+  world_->removeRobot(robot.state().number);
+  readings_.erase(readings_.begin() + (found - robots_.begin()));
+  robots_.erase(found);
 }
 
 void Simulation::step() {

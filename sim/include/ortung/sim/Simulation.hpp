@@ -31,6 +31,8 @@ class ORTUNG_API Simulation {
 
   /// @throws std::invalid_argument if the robot does not fit there; ConfigError, PluginError
   SimRobot& addRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start);
+  /// Takes a robot off the field, and all that is known of it.
+  void removeRobot(const SimRobot& robot);
 
   /// One cycle: all robots sense at now(), are commanded, and move until the next cycle.
   void step();
@@ -53,6 +55,7 @@ class ORTUNG_API Simulation {
   std::unique_ptr<SimWorld> world_;
   std::vector<std::unique_ptr<SimRobot>> robots_;
   std::vector<std::span<const Message>> readings_;
+  std::uint64_t added_ = 0;  ///< robots there ever were: each has random numbers of its own
   Timestamp now_ = 0;
   Timestamp cycle_ = 0;
 };

@@ -1,0 +1,15 @@
+#include "Commands.hpp"
+#include "Console.hpp"
+#include "Serving.hpp"
+#include "ortung/server/ServedRecord.hpp"
+
+namespace ortung::app {
+
+int runServe(const ServeArguments& arguments) {
+  if (arguments.serving.listen.empty()) throw UsageError("--listen [ADDRESS:]PORT is missing");
+  ServedRecord record(arguments.record, arguments.repeats);
+  serve(record, arguments.serving);
+  return 0;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,84 @@
+#include "Serving.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "ortung/server/MessageBoard.hpp"
+
+namespace ortung::app {
+namespace {
+
+/// Fills in address and port of "[ADDRESS:]PORT".
+void readListen(const std::string& text, BoardConfig& config) {
+  const std::size_t colon = text.rfind(':');
+  std::string port = text;
+  if (colon != text.npos) {
+    config.address = text.substr(0, colon);
+    port = text.substr(colon + 1);
+    if (config.address.starts_with('[') && config.address.ends_with(']'))  // [::1]:7777
+      config.address = config.address.substr(1, config.address.size() - 2);
+  }
+  const char* end = port.data() + port.size();
+  const auto [rest, error] = std::from_chars(port.data(), end, config.port);
+  if (port.empty() || error != std::errc() || rest != end)
+    throw UsageError(
+        fmt::format("--listen is '{}', expected [ADDRESS:]PORT with a port from 0 to "
+                    "65535, e.g. 7777",
+                    text));
+}
+
+std::vector<BoardToken> readTokens(const std::filesystem::path& file) {
+  std::vector<BoardToken> tokens;
+  if (file.empty()) return tokens;
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file.string() + ": can't be read");
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::istringstream words(line);
+    BoardToken token;
+    if (!(words >> token.name) || token.name.starts_with('#')) continue;
+    std::string more;
+    if (!(words >> token.token) || (words >> more) || token.token.size() < 8)
+      throw std::runtime_error(fmt::format(
+          "{}:{}: expected a client's name (or *) and its token of at least 8 characters",
+          file.string(), number));
+    tokens.push_back(token);
+  }
+  if (tokens.empty()) throw std::runtime_error(file.string() + ": has no tokens");
+  return tokens;
+}
+
+}  // namespace
+
+void serve(ServedWorld& world, const ServingArguments& arguments) {
+  BoardConfig config;
+  readListen(arguments.listen, config);
+  config.tokens = readTokens(arguments.tokens);
+  for (const std::string& name : arguments.control)
+    config.control.push_back(name == "all" ? "*" : name);
+  config.speed = arguments.speed;
+  if (arguments.freeRun && arguments.lockstep)
+    throw UsageError("--free-run and --lockstep exclude each other: in lockstep, clients decide");
+  if (arguments.freeRun) config.pace = Pace::kFree;
+  if (arguments.lockstep) config.pace = Pace::kLockstep;
+  config.limits.idle = arguments.idle;
+  config.log = [](const std::string& text) { warn(printable(text)); };
+  try {
+    MessageBoard board(world, config);
+    fmt::print("listening on {} port {}\n", config.address, board.port());
+    std::fflush(stdout);
+    board.run([] { return interruptSignal() == 0; });
+    const BoardStatistics statistics = board.statistics();
+    note(fmt::format("{} cycles, {} missed", statistics.cycles, statistics.missedCycles));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ortung/container/Export.hpp"
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung {
+
+/// What a client may take, at most. Whoever asks for more is told so.
+struct BoardLimits {
+  std::size_t line = 64u << 10;           ///< of a client [bytes]
+  std::size_t configuration = 64u << 10;  ///< of a robot [bytes]
+  std::size_t robots = 4;                 ///< a client
+  std::size_t sensors = 16;               ///< a robot
+  std::size_t features = 1024;            ///< a robot
+  std::size_t sessions = 256;             ///< clients at a time
+  std::size_t output = 1u << 20;          ///< waiting to be read by a client [bytes]; more: dropped
+  std::size_t orders = 64;                ///< of a client, waiting for the world
+  std::size_t errors = 100;               ///< of a client in a row; more: dropped
+  double handshake = 5.0;                 ///< from connecting to HELLO [s]
+  double idle = 30.0;                     ///< without a line from a client, subscribers apart [s]
+  double stall = 10.0;                    ///< with output that a client does not read [s]
+};
+
+/// How time passes.
+enum class Pace {
+  kRealTime,  ///< `speed` times as fast as the clock on the wall
+  kFree,      ///< as fast as the computer can
+  kLockstep,  ///< only when all lockstep clients have asked for the next cycle
+};
+
+/// A token that lets a client in.
+struct BoardToken {
+  std::string name;  ///< of the client that it belongs to; "*": any
+  std::string token;
+};
+
+struct BoardConfig {
+  std::string address = "127.0.0.1";  ///< to listen on; others than loopback need tokens
+  std::uint16_t port = 0;             ///< 0: the system chooses
+  std::vector<BoardToken> tokens;     ///< none: everybody may come in
+  std::vector<std::string> control;   ///< clients who may control the simulation; "*": all
+  Pace pace = Pace::kRealTime;
+  double speed = 1.0;
+  BoardLimits limits;
+  /// Told what happens, one line each, from any thread; may be empty.
+  std::function<void(const std::string&)> log;
+};
+
+struct BoardStatistics {
+  std::uint64_t cycles = 0;
+  std::uint64_t missedCycles = 0;  ///< that began later than the next one should have, in real time
+  std::size_t clients = 0;
+  std::size_t robots = 0;
+};
+
+/// The server of a world: clients connect over TCP and speak the protocol of docs/protocol.md.
+///
+/// One thread, that of run(), owns the world; one more talks to all clients. They exchange orders
+/// and readings, so no client can make the world wait.
+class ORTUNG_API MessageBoard {
+ public:
+  /// Listens from now on.
+  /// @param world borrowed
+  /// @throws std::invalid_argument for a configuration that makes no sense
+  /// @throws std::runtime_error if it can't listen there
+  MessageBoard(ServedWorld& world, const BoardConfig& config);
+  ~MessageBoard();
+  MessageBoard(const MessageBoard&) = delete;
+  MessageBoard& operator=(const MessageBoard&) = delete;
+
+  std::uint16_t port() const;
+
+  /// Serves until stop() is called or @p goesOn, asked ten times a second, says no; then all
+  /// clients are told goodbye. Once only.
+  void run(const std::function<bool()>& goesOn = {});
+  void stop();  ///< thread-safe
+
+  BoardStatistics statistics() const;  ///< thread-safe
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ortung/container/PluginFactory.hpp"
+#include "ortung/container/Record.hpp"
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung {
+
+/// A record for the message board, as if it were a simulator: a cycle is a moment of the record,
+/// and every robot gets those of its readings that its configuration has. Commands of motion and
+/// manipulators are taken and come to nothing.
+class ORTUNG_API ServedRecord : public ServedWorld {
+ public:
+  /// @param repeats whether it starts over at the end, time going on
+  /// @throws std::runtime_error if it is no record
+  explicit ServedRecord(std::filesystem::path file, bool repeats = false);
+  ~ServedRecord() override;
+
+  WorldDescription describe() const override;
+  std::vector<std::string> plugins() const override { return plugins_; }
+  Timestamp now() const override { return now_; }
+  bool isAtEnd() const override { return isAtEnd_; }
+  void step() override;
+  std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) override;
+  void removeRobot(RobotId robot) override;
+  std::span<const Message> readings(RobotId robot) const override;
+  void setTranslationalVelocity(RobotId robot, double) override { check(robot); }
+  void setRotationalVelocity(RobotId robot, double) override { check(robot); }
+  void setMotion(RobotId robot, std::span<const double>) override { check(robot); }
+  void setManipulator(RobotId robot, const std::string&, double) override { check(robot); }
+  void reset(std::optional<std::uint64_t> seed) override;
+  void placeRobot(RobotId robot, const Pose2& pose) override;
+  void placeObject(const std::string& object, const Pose2& pose) override;
+
+ private:
+  struct Guest;
+  void open();
+  void readAhead();
+  void check(RobotId robot) const;
+
+  std::filesystem::path file_;
+  bool repeats_;
+  PluginFactory factory_;
+  std::vector<std::string> plugins_;
+  std::unique_ptr<RecordSource> source_;
+  std::unique_ptr<FrameReader> reader_;
+  std::vector<Message> ahead_;  ///< the moment that the next step gives
+  Timestamp now_ = 0;
+  Timestamp shift_ = 0;  ///< by which stamps are later than the record's, in a repetition
+  bool isAtEnd_ = false;
+  std::map<RobotId, std::unique_ptr<Guest>> guests_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "ortung/container/PluginFactory.hpp"
+#include "ortung/server/ServedWorld.hpp"
+#include "ortung/sim/Simulation.hpp"
+
+namespace ortung {
+
+/// A simulated world for the message board. Its robots start and wander as those of the source
+/// `sim` do: the first robot of a server started with the same seed does the same, bit for bit.
+class ORTUNG_API ServedSimulation : public ServedWorld {
+ public:
+  /// @throws ConfigError
+  ServedSimulation(std::filesystem::path worldFile, const Simulation::Config& config);
+  ~ServedSimulation() override;
+
+  WorldDescription describe() const override;
+  std::vector<std::string> plugins() const override { return plugins_; }
+  Timestamp now() const override { return simulation_->now(); }
+  void step() override { simulation_->step(); }
+  std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) override;
+  void removeRobot(RobotId robot) override;
+  std::span<const Message> readings(RobotId robot) const override;
+  void setTranslationalVelocity(RobotId robot, double metresPerSecond) override;
+  void setRotationalVelocity(RobotId robot, double radiansPerSecond) override;
+  void setMotion(RobotId robot, std::span<const double> command) override;
+  void setManipulator(RobotId robot, const std::string& manipulator, double state) override;
+  void reset(std::optional<std::uint64_t> seed) override;
+  void placeRobot(RobotId robot, const Pose2& pose) override;
+  void placeObject(const std::string& object, const Pose2& pose) override;
+
+ private:
+  struct Guest;
+  Guest& guest(RobotId robot) const;
+  SimRobot& commanded(RobotId robot);
+  SimRobot& find(RobotId robot) const;
+  SimRobot& enter(RobotId robot, Guest& guest);
+  const RoutePlanner& planner(double radius);
+
+  std::filesystem::path worldFile_;
+  Simulation::Config config_;
+  PluginFactory factory_;
+  std::vector<std::string> plugins_;
+  std::unique_ptr<Simulation> simulation_;
+  std::map<double, std::unique_ptr<RoutePlanner>> planners_;  ///< by radius [m]
+  std::map<RobotId, std::unique_ptr<Guest>> guests_;          ///< in the order of their coming
+  std::uint64_t entered_ = 0;  ///< robots since the last reset: each has chances of its own
+};
+
+}  // namespace ortung

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ortung/config/RobotFile.hpp"
+#include "ortung/container/Export.hpp"
+#include "ortung/container/Message.hpp"
+#include "ortung/container/Pose2.hpp"
+#include "ortung/container/Time.hpp"
+
+namespace ortung {
+
+/// Number by which clients name a robot; never used again within one server.
+using RobotId = std::uint32_t;
+
+/// A request that can't be granted: becomes "ERR code text" on the wire.
+class ORTUNG_API ServeError : public std::runtime_error {
+ public:
+  ServeError(std::string code, const std::string& text)
+      : std::runtime_error(text), code_(std::move(code)) {}
+  ~ServeError() override;
+  const std::string& code() const { return code_; }
+
+ private:
+  std::string code_;
+};
+
+/// What a client wants on the field.
+struct RobotWish {
+  std::string name;
+  RobotConfig config;
+  std::optional<Pose2> start;  ///< in the field frame; nothing: where there is room
+  bool wanders = false;        ///< the server drives it about until the first command
+};
+
+/// One feature of a robot that takes part.
+struct ServedFeature {
+  SensorId id;
+  std::string wordsHelp;  ///< one line on what the words mean
+};
+
+struct WorldDescription {
+  std::string name;
+  std::string fingerprint;  ///< "" if it is not known
+  std::string kind;         ///< "simulation" or "record"
+};
+
+/// What the message board serves: a simulation, or a record as if it were one.
+/// Owned by one thread; refusals are ServeErrors (or the errors of configurations and plugins).
+class ORTUNG_API ServedWorld {
+ public:
+  virtual ~ServedWorld();
+
+  virtual WorldDescription describe() const = 0;
+  /// Names of the plugins that clients may use in the configurations of robots.
+  virtual std::vector<std::string> plugins() const = 0;
+  /// Stamp of the readings that the next step gives.
+  virtual Timestamp now() const = 0;
+  /// Whether there is nothing left to step to.
+  virtual bool isAtEnd() const { return false; }
+  /// One cycle. @throws std::runtime_error if the world can't go on
+  virtual void step() = 0;
+
+  /// @returns its features in the order of its readings
+  virtual std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) = 0;
+  virtual void removeRobot(RobotId robot) = 0;
+  /// What the robot's sensors gave in the last cycle; valid until the next call of anything.
+  virtual std::span<const Message> readings(RobotId robot) const = 0;
+
+  virtual void setTranslationalVelocity(RobotId robot, double metresPerSecond) = 0;
+  virtual void setRotationalVelocity(RobotId robot, double radiansPerSecond) = 0;
+  /// The motion plugin's own command.
+  virtual void setMotion(RobotId robot, std::span<const double> command) = 0;
+  virtual void setManipulator(RobotId robot, const std::string& manipulator, double state) = 0;
+
+  /// Starts over: time, chance and robots as at their beginning.
+  virtual void reset(std::optional<std::uint64_t> seed) = 0;
+  virtual void placeRobot(RobotId robot, const Pose2& pose) = 0;
+  virtual void placeObject(const std::string& object, const Pose2& pose) = 0;
+};
+
+}  // namespace ortung

@@ -1,0 +1,231 @@
+#include "Conversation.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ortung::server {
+
+Outlet::~Outlet() = default;
+
+Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worldKeeper)
+    : config(boardConfig),
+      description(world.describe()),
+      plugins(world.plugins()),
+      keeper(worldKeeper) {}
+Host::~Host() = default;
+
+Conversation::Conversation(Host& host, ClientId id, std::unique_ptr<Outlet> outlet)
+    : host_(host), id_(id), outlet_(std::move(outlet)) {}
+
+Conversation::~Conversation() = default;
+
+const std::vector<Conversation::Command>& Conversation::commands() {
+  using C = Conversation;
+  constexpr Role all = Role::kViewer;
+  constexpr Role player = Role::kPlayer;
+  constexpr Role control = Role::kOperator;
+  static const std::vector<Command> list = {
+      {"HELLO", all, &C::hello, "ortung/1 [name=NAME] [token=TOKEN] [role=viewer|player|operator]"},
+      {"TIME", all, &C::time, "the clock of the stamps when this came and when the reply left"},
+      {"STATUS", all, &C::status, "how the world is doing"},
+      {"LIST", all, &C::list, "worlds|plugins|clients|robots"},
+      {"DESCRIBE", all, &C::describe, "world|robot [robot=N]"},
+      {"CREATE", player, &C::create,
+       "NAME [x_m=X y_m=Y theta_deg=T] [drive=wander], then a robot file, then a line with a dot"},
+      {"REMOVE", player, &C::remove, "[robot=N]"},
+      {"VELOCITY", player, &C::velocity, "[v_m_s=V] [w_rad_s=W] [robot=N]"},
+      {"MOTION", player, &C::motion, "NUMBER ... [robot=N], the motion plugin's own command"},
+      {"MANIPULATOR", player, &C::manipulator, "NAME STATE [robot=N]"},
+      {"UPDATE", all, &C::update, "[MODEL/TYPE/FEATURE ...] [robot=N] [form=binary], what is new"},
+      {"READ", all, &C::read, "the same, also what was sent before"},
+      {"SUBSCRIBE", all, &C::subscribe,
+       "[period_s=S] [MODEL/TYPE/FEATURE ...] [robot=N] [form=binary]"},
+      {"UNSUBSCRIBE", all, &C::unsubscribe, ""},
+      {"LOCKSTEP", player, &C::lockstep, "on|off, the world waits for every NEXT of this client"},
+      {"NEXT", player, &C::next, "[cycles=N] and as UPDATE; answered when they are over"},
+      {"SAY", all, &C::say, "TEXT to all other clients"},
+      {"SCORE", all, &C::score, "[left=N right=N], which is for operators"},
+      {"PAUSE", control, &C::pause, ""},
+      {"RESUME", control, &C::resume, ""},
+      {"STEP", control, &C::step, "[cycles=N] of a paused world"},
+      {"SPEED", control, &C::speed, "FACTOR of real time, 0: as fast as possible"},
+      {"RESET", control, &C::reset, "[seed=N], the world starts over"},
+      {"PLACE", control, &C::place, "robot=N|object=NAME x_m=X y_m=Y [theta_deg=T]"},
+      {"HELP", all, &C::help, "this list"},
+      {"BYE", all, &C::bye, ""}};
+  return list;
+}
+
+const char* Conversation::toText(Role role) {
+  constexpr std::array<const char*, 3> kNames = {"viewer", "player", "operator"};
+  return kNames[static_cast<std::size_t>(role)];
+}
+
+// --- input
+
+void Conversation::receive(std::string_view bytes) {
+  received_ = wallTime();
+  input_ += bytes;
+  if (isReceiving_) return;  // an order was executed at once and made room for more
+  isReceiving_ = true;
+  while (wantsInput() && takeLine()) {
+  }
+  isReceiving_ = false;
+  if (isOver_) {
+    input_.clear();
+    taken_ = searched_ = 0;
+    return;
+  }
+  if (taken_ == input_.size() || taken_ > (1u << 14)) {
+    input_.erase(0, taken_);
+    searched_ -= taken_;
+    taken_ = 0;
+  }
+}
+
+bool Conversation::takeLine() {
+  const std::size_t end = input_.find('\n', searched_);
+  const std::size_t length = std::min(end, input_.size()) - taken_;
+  if (length > host_.config.limits.line) {
+    dismiss("ERR line a line is longer than " + std::to_string(host_.config.limits.line) +
+            " bytes");
+    return false;
+  }
+  if (end == input_.npos) {
+    searched_ = input_.size();
+    return false;
+  }
+  std::string line = input_.substr(taken_, length);
+  taken_ = searched_ = end + 1;
+  if (line.ends_with('\r')) line.pop_back();
+  handleLine(line);
+  return true;
+}
+
+bool Conversation::looksLikeHttp(std::string_view line) const {
+  return line.find(" HTTP/") != line.npos || line.starts_with("Host:");
+}
+
+void Conversation::handleLine(std::string_view line) {
+  if (configuration_) {
+    handleConfigurationLine(line);
+    return;
+  }
+  if (!hasJoined_ && looksLikeHttp(line)) {
+    dismiss("ERR http this is no web server");
+    return;
+  }
+  if (line.empty()) return;
+  Request request(line);
+  if (!request.fault().empty()) {
+    error(request.tag(), "ERR syntax " + request.fault());
+    return;
+  }
+  try {
+    dispatch(request);
+  } catch (...) {
+    error(request.tag(), currentErrorText());
+  }
+}
+
+void Conversation::dispatch(Request& request) {
+  const auto& all = commands();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Command& command) {
+    return command.name == request.command();
+  });
+  if (found == all.end())
+    throw ServeError("unknown",
+                     "there is no command " + printable(request.command()) + "; HELP lists them");
+  const bool isGreeting =
+      request.command() == "HELLO" || request.command() == "HELP" || request.command() == "BYE";
+  if (!hasJoined_ && !isGreeting) throw ServeError("hello", "say HELLO ortung/1 first");
+  if (!isGreeting && role_ < found->role)
+    throw ServeError("role", request.command() + " needs the role " + toText(found->role) +
+                                 ", this client is a " + toText(role_));
+  (this->*found->handle)(request);
+}
+
+// --- output
+
+void Conversation::reply(const std::string& tag, std::string_view text, std::string_view body) {
+  if (isOver_) return;
+  std::string out;
+  out.reserve(tag.size() + text.size() + body.size() + 2);
+  if (!tag.empty()) out.append(tag).append(" ");
+  out.append(text).append("\n").append(body);
+  if (outlet_->outstanding() > host_.config.limits.output) {
+    dismiss("ERR slow more than " + std::to_string(host_.config.limits.output) +
+            " bytes wait to be read");
+    return;
+  }
+  outlet_->send(out);
+  if (!text.starts_with("ERR")) errors_ = 0;
+}
+
+void Conversation::error(const std::string& tag, std::string_view text) {
+  reply(tag, text);
+  if (++errors_ >= host_.config.limits.errors) dismiss("ERR errors too many in a row");
+}
+
+/// Has the world's thread execute @p run, and then @p then here; by default that sends the reply.
+void Conversation::order(const std::string& tag, WorldKeeper::Order run, Then then) {
+  ++pending_;
+  auto done = [weak = weak_from_this(), host = &host_, tag,
+               then = std::move(then)](std::string text) {
+    host->post([weak, tag, then, text = std::move(text)] {
+      const auto self = weak.lock();
+      if (!self) return;
+      --self->pending_;
+      if (text.starts_with("ERR "))
+        self->error(tag, text);
+      else if (then)
+        then(*self, tag, text);
+      else
+        self->reply(tag, text);
+      if (self->isReceiving_) return;
+      self->receive({});
+      if (self->wantsInput()) self->outlet_->resume();
+    });
+  };
+  host_.keeper.give(std::move(run), std::move(done));
+}
+
+/// Says something that needs no order, but not before what was asked for earlier.
+void Conversation::answer(const std::string& tag, std::function<void(Conversation&)> say) {
+  if (pending_ == 0) {
+    say(*this);
+    return;
+  }
+  order(
+      tag, [](WorldKeeper&, WorldKeeper::Done&) { return std::optional<std::string>(""); },
+      [say = std::move(say)](Conversation& self, const std::string&, const std::string&) {
+        say(self);
+      });
+}
+
+void Conversation::tell(std::string_view text) {
+  if (hasJoined_ && !isOver_) reply("*", text);
+}
+
+void Conversation::dismiss(std::string_view text) {
+  if (isOver_) return;
+  outlet_->send("* " + std::string(text) + "\n");
+  hangUp();
+  outlet_->finish();
+}
+
+void Conversation::hangUp() {
+  if (isOver_) return;
+  isOver_ = true;
+  if (subscription_) host_.countSubscribers(-1);
+  subscription_.reset();
+  if (!hasJoined_) return;
+  host_.keeper.give(
+      [id = id_](WorldKeeper& keeper, WorldKeeper::Done&) {
+        keeper.leave(id);
+        return std::optional<std::string>("");
+      },
+      {});
+}
+
+}  // namespace ortung::server

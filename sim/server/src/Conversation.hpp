@@ -1,0 +1,178 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "Request.hpp"
+#include "RobotReadings.hpp"
+#include "WorldKeeper.hpp"
+#include "ortung/server/MessageBoard.hpp"
+
+namespace ortung::server {
+
+/// Where the server's words to one client go.
+class Outlet {
+ public:
+  virtual ~Outlet();
+  virtual void send(std::string_view text) = 0;
+  /// Bytes sent that the client has not read yet.
+  virtual std::size_t outstanding() const = 0;
+  /// Ends the connection once everything is sent.
+  virtual void finish() = 0;
+  /// There is room for input again.
+  virtual void resume() = 0;
+};
+
+/// What all conversations share. Lives as long as they do.
+class Host {
+ public:
+  Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worldKeeper);
+  virtual ~Host();
+
+  /// Has @p task run on the thread of the conversations; thread-safe.
+  virtual void post(std::function<void()> task) = 0;
+  /// Tells all other clients.
+  virtual void broadcast(ClientId from, std::string_view text) = 0;
+  /// Somebody has begun or ended to subscribe.
+  virtual void countSubscribers(int change) = 0;
+
+  const BoardConfig config;
+  const WorldDescription description;
+  const std::vector<std::string> plugins;
+  WorldKeeper& keeper;
+};
+
+/// What the server and one client say to each other: the protocol of docs/protocol.md, whatever
+/// carries the bytes. All calls come from one thread.
+class Conversation : public std::enable_shared_from_this<Conversation> {
+ public:
+  Conversation(Host& host, ClientId id, std::unique_ptr<Outlet> outlet);
+  ~Conversation();
+
+  /// Takes bytes from the client.
+  void receive(std::string_view bytes);
+  /// Whether more bytes should be read: not while the client's orders wait for the world.
+  bool wantsInput() const { return !isOver_ && pending_ < host_.config.limits.orders; }
+  /// A cycle has ended: sends what is subscribed.
+  void onCycle();
+  /// Something another client or the server says to all.
+  void tell(std::string_view text);
+  /// Ends it with a last word, "ERR code text" or "BYE".
+  void dismiss(std::string_view text);
+  /// The connection is gone: the client's robots leave the field.
+  void hangUp();
+
+  bool isOver() const { return isOver_; }
+  bool hasJoined() const { return hasJoined_; }
+  bool isSubscribed() const { return subscription_.has_value(); }
+  bool isWaiting() const { return waiting_ > 0 || pending_ > 0; }
+  Outlet& outlet() { return *outlet_; }
+
+ private:
+  enum class Role { kViewer, kPlayer, kOperator };
+  struct Command {
+    const char* name;
+    Role role;  ///< the least that may use it
+    void (Conversation::*handle)(Request&);
+    const char* help;
+  };
+  static const std::vector<Command>& commands();
+  static const char* toText(Role role);
+
+  /// A robot as this client sees it.
+  struct View {
+    std::shared_ptr<RobotReadings> readings;
+    std::vector<std::uint64_t> sent;
+  };
+  struct Subscription {
+    RobotId robot;
+    Choice choice;
+    Timestamp period;
+    Timestamp due;
+  };
+  struct Configuration {  ///< on its way
+    std::string tag;
+    RobotWish wish;
+    std::string text;
+    std::string fault;
+  };
+  using Then = std::function<void(Conversation&, const std::string& tag, std::string text)>;
+
+  // lines and replies (Conversation.cpp)
+  bool takeLine();
+  void handleLine(std::string_view line);
+  void handleConfigurationLine(std::string_view line);
+  void dispatch(Request& request);
+  void reply(const std::string& tag, std::string_view text, std::string_view body = {});
+  void error(const std::string& tag, std::string_view text);
+  void order(const std::string& tag, WorldKeeper::Order run, Then then = {});
+  void answer(const std::string& tag, std::function<void(Conversation&)> say);
+  bool looksLikeHttp(std::string_view line) const;
+
+  // ConversationRobots.cpp
+  void create(Request& request);
+  void finishConfiguration();
+  void remove(Request& request);
+  void velocity(Request& request);
+  void motion(Request& request);
+  void manipulator(Request& request);
+  void update(Request& request);
+  void read(Request& request);
+  void subscribe(Request& request);
+  void unsubscribe(Request& request);
+  void lockstep(Request& request);
+  void next(Request& request);
+  RobotId takeRobot(Request& request) const;
+  Choice takeChoice(Request& request, bool again) const;
+  void fetch(Request& request, bool again);
+  void sendReadings(const std::string& tag, const char* command, RobotId robot,
+                    const Choice& choice);
+  void foreignReadings(const std::string& tag, const char* command, RobotId robot,
+                       const Choice& choice);
+
+  // ConversationTalk.cpp
+  void hello(Request& request);
+  void bye(Request& request);
+  void help(Request& request);
+  void time(Request& request);
+  void status(Request& request);
+  void list(Request& request);
+  void describe(Request& request);
+  void say(Request& request);
+  void score(Request& request);
+
+  // ConversationControl.cpp
+  void pause(Request& request);
+  void resume(Request& request);
+  void step(Request& request);
+  void speed(Request& request);
+  void reset(Request& request);
+  void place(Request& request);
+
+  Host& host_;
+  const ClientId id_;
+  std::unique_ptr<Outlet> outlet_;
+  std::string input_;
+  std::size_t taken_ = 0;  ///< bytes of input_ that are done with
+  std::size_t searched_ = 0;
+  Timestamp received_ = 0;  ///< when the present input came, on the computer's clock
+  std::string name_;
+  Role role_ = Role::kViewer;
+  bool hasJoined_ = false;
+  bool isOver_ = false;
+  bool isReceiving_ = false;
+  std::size_t pending_ = 0;         ///< orders that the world has not executed
+  int waiting_ = 0;         ///< requests that wait for cycles
+  std::size_t errors_ = 0;  ///< in a row
+  std::optional<Configuration> configuration_;
+  std::map<RobotId, View> views_;
+  std::set<RobotId> owned_;
+  std::optional<Subscription> subscription_;
+};
+
+}  // namespace ortung::server

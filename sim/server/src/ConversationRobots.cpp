@@ -1,0 +1,331 @@
+// What a client does with its robots: configuration, commands, readings, lockstep.
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "Conversation.hpp"
+#include "ortung/config/NetworkRobot.hpp"
+
+namespace ortung::server {
+namespace {
+
+constexpr double kMostSpeed = 1e3;  ///< of any command [m/s, rad/s]; drives have their own limits
+constexpr double kLongestPeriod = 3600.0;  // [s]
+constexpr std::int64_t kMostCycles = 1'000'000;
+constexpr std::int64_t kLastRobot = 0xFFFFFFFF;
+
+using Reply = std::optional<std::string>;
+
+}  // namespace
+
+/// robot=N, or the client's first.
+RobotId Conversation::takeRobot(Request& request) const {
+  if (const auto robot = request.takeInteger("robot", 1, kLastRobot))
+    return static_cast<RobotId>(*robot);
+  if (owned_.empty()) throw ServeError("no-robot", "this client has no robot; CREATE makes one");
+  return *owned_.begin();
+}
+
+// --- creating and removing
+
+void Conversation::create(Request& request) {
+  Configuration configuration;
+  configuration.tag = request.tag();
+  // The robot file is on its way whatever is wrong with this line.
+  try {
+    RobotWish& wish = configuration.wish;
+    wish.name = request.takeWord("a name for the robot");
+    if (!isName(wish.name))
+      throw ServeError("syntax", "a robot's name is 1 to 32 of [A-Za-z0-9_-]");
+    wish.start = request.takePose();
+    const std::string drive = request.takeText("drive").value_or("commands");
+    if (drive != "commands" && drive != "wander")
+      throw ServeError("syntax",
+                       "drive is '" + printable(drive) + "', expected commands or wander");
+    wish.wanders = drive == "wander";
+    request.refuseRest();
+  } catch (const ServeError&) {
+    configuration.fault = currentErrorText();
+  }
+  configuration_ = std::move(configuration);
+}
+
+void Conversation::handleConfigurationLine(std::string_view line) {
+  if (line == ".") {
+    finishConfiguration();
+    return;
+  }
+  if (line.starts_with('.')) line.remove_prefix(1);  // as in mail: a text's own dot is doubled
+  std::string& text = configuration_->text;
+  if (text.size() + line.size() + 1 > host_.config.limits.configuration) {
+    if (configuration_->fault.empty())
+      configuration_->fault = "ERR limit a robot file has at most " +
+                              std::to_string(host_.config.limits.configuration) + " bytes";
+    text.clear();
+    return;
+  }
+  text.append(line).append("\n");
+}
+
+void Conversation::finishConfiguration() {
+  Configuration configuration = std::move(*configuration_);
+  configuration_.reset();
+  const std::string& tag = configuration.tag;
+  if (!configuration.fault.empty()) {
+    error(tag, configuration.fault);
+    return;
+  }
+  try {
+    RobotConfig& config = configuration.wish.config;
+    config = readNetworkRobot(configuration.text, "robot file", host_.plugins);
+    if (config.sensors.size() > host_.config.limits.sensors)
+      throw ServeError("limit", "the robot has " + std::to_string(config.sensors.size()) +
+                                    " sensors, at most " +
+                                    std::to_string(host_.config.limits.sensors) + " are permitted");
+    config.name = configuration.wish.name;
+  } catch (...) {
+    error(tag, currentErrorText());
+    return;
+  }
+  auto created = std::make_shared<std::shared_ptr<RobotReadings>>();
+  auto wish = std::make_shared<RobotWish>(std::move(configuration.wish));
+  order(
+      tag,
+      [id = id_, wish, created](WorldKeeper& keeper, WorldKeeper::Done&) {
+        *created = keeper.createRobot(id, std::move(*wish));
+        return Reply("");
+      },
+      [created](Conversation& self, const std::string& itsTag, const std::string&) {
+        const RobotId robot = (*created)->robot();
+        self.owned_.insert(robot);
+        self.views_[robot].readings = *created;
+        self.reply(itsTag, "OK CREATE robot=" + std::to_string(robot) +
+                               " features=" + std::to_string((*created)->features().size()));
+      });
+}
+
+void Conversation::remove(Request& request) {
+  const RobotId robot = takeRobot(request);
+  request.refuseRest();
+  order(
+      request.tag(),
+      [id = id_, robot](WorldKeeper& keeper, WorldKeeper::Done&) {
+        keeper.removeRobot(id, robot);
+        return Reply("");
+      },
+      [robot](Conversation& self, const std::string& tag, const std::string&) {
+        self.owned_.erase(robot);
+        self.views_.erase(robot);
+        if (self.subscription_ && self.subscription_->robot == robot) {
+          self.subscription_.reset();
+          self.host_.countSubscribers(-1);
+        }
+        self.reply(tag, "OK REMOVE");
+      });
+}
+
+// --- commands
+
+void Conversation::velocity(Request& request) {
+  const auto v = request.takeNumber("v_m_s", -kMostSpeed, kMostSpeed);
+  const auto w = request.takeNumber("w_rad_s", -kMostSpeed, kMostSpeed);
+  const RobotId robot = takeRobot(request);
+  request.refuseRest();
+  if (!v && !w) throw ServeError("syntax", "VELOCITY needs v_m_s or w_rad_s");
+  order(request.tag(), [id = id_, robot, v, w](WorldKeeper& keeper, WorldKeeper::Done&) {
+    keeper.checkOwner(id, robot);
+    if (v) keeper.world().setTranslationalVelocity(robot, *v);
+    if (w) keeper.world().setRotationalVelocity(robot, *w);
+    return Reply("OK VELOCITY");
+  });
+}
+
+void Conversation::motion(Request& request) {
+  const RobotId robot = takeRobot(request);
+  std::vector<double> command;
+  for (const std::string& word : request.takeWords())
+    command.push_back(parseNumber(word, "a number of the command", -kMostSpeed, kMostSpeed));
+  request.refuseRest();
+  if (command.empty()) throw ServeError("syntax", "MOTION needs numbers");
+  order(request.tag(), [id = id_, robot, command](WorldKeeper& keeper, WorldKeeper::Done&) {
+    keeper.checkOwner(id, robot);
+    keeper.world().setMotion(robot, command);
+    return Reply("OK MOTION");
+  });
+}
+
+void Conversation::manipulator(Request& request) {
+  const RobotId robot = takeRobot(request);
+  const std::string name = request.takeWord("the manipulator's name");
+  const double state =
+      parseNumber(request.takeWord("a state"), "the state", -kMostSpeed, kMostSpeed);
+  request.refuseRest();
+  if (!isName(name)) throw ServeError("syntax", "a name is 1 to 32 of [A-Za-z0-9_-]");
+  order(request.tag(), [id = id_, robot, name, state](WorldKeeper& keeper, WorldKeeper::Done&) {
+    keeper.checkOwner(id, robot);
+    keeper.world().setManipulator(robot, name, state);
+    return Reply("OK MANIPULATOR");
+  });
+}
+
+// --- readings
+
+Choice Conversation::takeChoice(Request& request, bool again) const {
+  Choice choice;
+  choice.again = again;
+  const std::string form = request.takeText("form").value_or("text");
+  if (form != "text" && form != "binary")
+    throw ServeError("syntax", "form is '" + printable(form) + "', expected text or binary");
+  choice.binary = form == "binary";
+  for (const std::string& word : request.takeWords()) choice.queries.emplace_back(word);
+  return choice;
+}
+
+void Conversation::sendReadings(const std::string& tag, const char* command, RobotId robot,
+                                const Choice& choice) {
+  const auto view = views_.find(robot);
+  if (view == views_.end()) {
+    error(tag, "ERR no-robot there is no robot " + std::to_string(robot) + " of this client");
+    return;
+  }
+  std::string body;
+  const std::size_t count = view->second.readings->write(choice, view->second.sent, body);
+  std::string head = tag == "*" ? "" : "OK ";  // a push answers nothing
+  head.append(command).append(" robot=").append(std::to_string(robot));
+  head.append(" now=").append(std::to_string(host_.keeper.clock().at(wallTime())));
+  if (choice.binary) head.append(" bytes=").append(std::to_string(body.size()));
+  head.append(choice.binary ? " readings=" : " lines=").append(std::to_string(count));
+  reply(tag, head, body);
+}
+
+/// The readings of another client's robot, which operators and viewers may see.
+void Conversation::foreignReadings(const std::string& tag, const char* command, RobotId robot,
+                                   const Choice& choice) {
+  if (role_ == Role::kPlayer)
+    throw ServeError("not-yours", "players see the readings of their own robots only");
+  auto found = std::make_shared<std::shared_ptr<RobotReadings>>();
+  order(
+      tag,
+      [robot, found](WorldKeeper& keeper, WorldKeeper::Done&) {
+        *found = keeper.readings(robot);
+        return Reply("");
+      },
+      [robot, found, choice, command](Conversation& self, const std::string& itsTag,
+                                      const std::string&) {
+        self.views_[robot].readings = *found;
+        self.sendReadings(itsTag, command, robot, choice);
+        if (!self.owned_.contains(robot) &&
+            !(self.subscription_ && self.subscription_->robot == robot))
+          self.views_.erase(robot);  // it may leave the field at any time
+      });
+}
+
+void Conversation::fetch(Request& request, bool again) {
+  const char* command = again ? "READ" : "UPDATE";
+  const RobotId robot = takeRobot(request);
+  const Choice choice = takeChoice(request, again);
+  request.refuseRest();
+  if (!owned_.contains(robot)) {
+    foreignReadings(request.tag(), command, robot, choice);
+    return;
+  }
+  answer(request.tag(), [tag = request.tag(), command, robot, choice](Conversation& self) {
+    self.sendReadings(tag, command, robot, choice);
+  });
+}
+
+void Conversation::update(Request& request) { fetch(request, false); }
+void Conversation::read(Request& request) { fetch(request, true); }
+
+void Conversation::subscribe(Request& request) {
+  const double period = request.takeNumber("period_s", 0.0, kLongestPeriod).value_or(0.0);
+  const RobotId robot = takeRobot(request);
+  const Choice choice = takeChoice(request, false);
+  request.refuseRest();
+  if (!owned_.contains(robot) && role_ == Role::kPlayer)
+    throw ServeError("not-yours", "players see the readings of their own robots only");
+  auto found = std::make_shared<std::shared_ptr<RobotReadings>>();
+  order(
+      request.tag(),
+      [robot, found](WorldKeeper& keeper, WorldKeeper::Done&) {
+        *found = keeper.readings(robot);
+        return Reply("");
+      },
+      [robot, found, choice, period](Conversation& self, const std::string& tag,
+                                     const std::string&) {
+        self.views_[robot].readings = *found;
+        if (!self.subscription_) self.host_.countSubscribers(1);
+        self.subscription_ = Subscription{robot, choice, fromSeconds(period), 0};
+        self.reply(tag, "OK SUBSCRIBE robot=" + std::to_string(robot));
+      });
+}
+
+void Conversation::unsubscribe(Request& request) {
+  request.refuseRest();
+  answer(request.tag(), [tag = request.tag()](Conversation& self) {
+    if (self.subscription_) self.host_.countSubscribers(-1);
+    self.subscription_.reset();
+    self.reply(tag, "OK UNSUBSCRIBE");
+  });
+}
+
+void Conversation::onCycle() {
+  // A client that is behind gets less often what is newest.
+  constexpr std::size_t kBehind = 64u << 10;
+  if (!subscription_ || isOver_ || outlet_->outstanding() > kBehind) return;
+  Subscription& subscription = *subscription_;
+  const Timestamp now = host_.keeper.clock().at(wallTime());
+  if (now < subscription.due && subscription.due - now <= subscription.period) return;
+  subscription.due = std::max(subscription.due + subscription.period, now);
+  sendReadings("*", "UPDATE", subscription.robot, subscription.choice);
+}
+
+// --- lockstep
+
+void Conversation::lockstep(Request& request) {
+  const std::string word = request.takeWord("on or off");
+  request.refuseRest();
+  if (word != "on" && word != "off")
+    throw ServeError("syntax", "LOCKSTEP is '" + printable(word) + "', expected on or off");
+  order(request.tag(), [id = id_, word](WorldKeeper& keeper, WorldKeeper::Done&) {
+    keeper.setLockstep(id, word == "on");
+    return Reply("OK LOCKSTEP " + word);
+  });
+}
+
+void Conversation::next(Request& request) {
+  const std::int64_t cycles = request.takeInteger("cycles", 1, kMostCycles).value_or(1);
+  const RobotId robot = owned_.empty() ? 0 : takeRobot(request);
+  const Choice choice = takeChoice(request, false);
+  request.refuseRest();
+  ++waiting_;
+  const auto finish = [tag = request.tag(), robot, choice](Conversation& self, std::string text) {
+    --self.waiting_;
+    if (!text.empty())
+      self.error(tag, text);
+    else if (robot != 0)
+      self.sendReadings(tag, "NEXT", robot, choice);
+    else
+      self.reply(tag, "OK NEXT now=" + std::to_string(self.host_.keeper.clock().at(wallTime())) +
+                          " lines=0");
+  };
+  // Called twice: when the order is taken, and when the cycles are over.
+  auto later = [weak = weak_from_this(), host = &host_, finish](std::string text) {
+    host->post([weak, finish, text = std::move(text)] {
+      if (const auto self = weak.lock()) finish(*self, text);
+    });
+  };
+  order(
+      "",
+      [id = id_, cycles, later](WorldKeeper& keeper, WorldKeeper::Done&) {
+        try {
+          keeper.next(id, static_cast<std::uint64_t>(cycles), later);
+        } catch (...) {
+          later(currentErrorText());
+        }
+        return Reply("");
+      },
+      [](Conversation&, const std::string&, const std::string&) {});
+}
+
+}  // namespace ortung::server

@@ -1,0 +1,200 @@
+// Greetings, clocks, lists, and what clients tell each other.
+#include <algorithm>
+
+#include "Conversation.hpp"
+#include "Token.hpp"
+
+namespace ortung::server {
+namespace {
+
+using Reply = std::optional<std::string>;
+
+constexpr std::int64_t kMostGoals = 999;
+
+/// A text as one word.
+std::string oneWord(std::string_view text) {
+  std::string word = printable(text);
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
+}
+
+void addLine(std::string& lines, std::size_t& count, const std::string& line) {
+  lines += line + '\n';
+  ++count;
+}
+
+}  // namespace
+
+void Conversation::hello(Request& request) {
+  if (hasJoined_) throw ServeError("state", "HELLO was said already");
+  const std::string version = request.takeWord("the version of the protocol: HELLO ortung/1");
+  if (version != "ortung/1")
+    throw ServeError("version", "found '" + printable(version) + "', this server speaks ortung/1");
+  const std::string name = request.takeText("name").value_or("guest");
+  const std::string token = request.takeText("token").value_or("");
+  const auto wanted = request.takeText("role");
+  request.refuseRest();
+  if (!isName(name)) throw ServeError("syntax", "a client's name is 1 to 32 of [A-Za-z0-9_-]");
+  if (!isTokenRight(host_.config.tokens, name, token)) {
+    dismiss("ERR token it is missing or wrong");
+    return;
+  }
+  const auto& control = host_.config.control;
+  const bool mayControl = std::any_of(control.begin(), control.end(), [&](const std::string& who) {
+    return who == "*" || who == name;
+  });
+  Role role = mayControl ? Role::kOperator : Role::kPlayer;
+  if (wanted) {
+    const Role most = role;
+    if (*wanted == "viewer")
+      role = Role::kViewer;
+    else if (*wanted == "player")
+      role = Role::kPlayer;
+    else if (*wanted == "operator")
+      role = Role::kOperator;
+    else
+      throw ServeError("syntax", "a role is viewer, player or operator");
+    if (role > most)
+      throw ServeError("role", "'" + name + "' may not control; see --allow-control");
+  }
+  name_ = name;
+  role_ = role;
+  hasJoined_ = true;
+  order(request.tag(), [id = id_, name, role, host = &host_](WorldKeeper& keeper,
+                                                             WorldKeeper::Done&) {
+    keeper.join(id, name);
+    return Reply("OK HELLO ortung/1 client=" + std::to_string(id) + " role=" + toText(role) +
+                 " kind=" + host->description.kind + " world=" + oneWord(host->description.name) +
+                 " now=" + std::to_string(keeper.world().now()) + " state=" + keeper.stateText());
+  });
+}
+
+void Conversation::bye(Request& request) {
+  request.refuseRest();
+  answer(request.tag(), [tag = request.tag()](Conversation& self) {
+    self.reply(tag, "OK BYE");
+    self.hangUp();
+    self.outlet_->finish();
+  });
+}
+
+void Conversation::help(Request& request) {
+  request.refuseRest();
+  std::string lines;
+  for (const Command& command : commands())
+    lines += std::string(command.name) + (*command.help != 0 ? " " : "") + command.help + '\n';
+  answer(request.tag(), [tag = request.tag(), lines](Conversation& self) {
+    self.reply(tag, "OK HELP lines=" + std::to_string(commands().size()), lines);
+  });
+}
+
+void Conversation::time(Request& request) {
+  request.refuseRest();
+  const BoardClock& clock = host_.keeper.clock();
+  const std::string received = std::to_string(clock.at(received_));
+  answer(request.tag(), [tag = request.tag(), received](Conversation& self) {
+    const Timestamp sent = self.host_.keeper.clock().at(wallTime());
+    self.reply(tag, "OK TIME received=" + received + " sent=" + std::to_string(sent));
+  });
+}
+
+void Conversation::status(Request& request) {
+  request.refuseRest();
+  order(request.tag(), [](WorldKeeper& keeper, WorldKeeper::Done&) {
+    const BoardStatistics statistics = keeper.statistics();
+    return Reply("OK STATUS state=" + keeper.stateText() +
+                 " now=" + std::to_string(keeper.world().now()) +
+                 " cycles=" + std::to_string(statistics.cycles) +
+                 " missed=" + std::to_string(statistics.missedCycles) +
+                 " clients=" + std::to_string(statistics.clients) +
+                 " robots=" + std::to_string(statistics.robots));
+  });
+}
+
+void Conversation::list(Request& request) {
+  const std::string what = request.takeWord("worlds, plugins, clients or robots");
+  request.refuseRest();
+  if (what != "worlds" && what != "plugins" && what != "clients" && what != "robots")
+    throw ServeError("syntax", "LIST knows worlds, plugins, clients and robots");
+  auto lines = std::make_shared<std::string>();
+  order(
+      request.tag(),
+      [what, lines, host = &host_](WorldKeeper& keeper, WorldKeeper::Done&) {
+        std::size_t count = 0;
+        if (what == "worlds") addLine(*lines, count, "world=" + oneWord(host->description.name));
+        if (what == "plugins")
+          for (const std::string& plugin : host->plugins)
+            addLine(*lines, count, "plugin=" + plugin);
+        if (what == "clients")
+          for (const auto& [id, client] : keeper.clients())
+            addLine(*lines, count,
+                    "client=" + std::to_string(id) + " name=" + client.name +
+                        " robots=" + std::to_string(client.robots.size()) +
+                        " lockstep=" + (client.isLockstep ? "on" : "off"));
+        if (what == "robots")
+          for (const auto& [id, robot] : keeper.robots())
+            addLine(*lines, count,
+                    "robot=" + std::to_string(id) + " name=" + robot.readings->name() +
+                        " client=" + std::to_string(robot.owner));
+        return Reply("OK LIST lines=" + std::to_string(count));
+      },
+      [lines](Conversation& self, const std::string& tag, const std::string& text) {
+        self.reply(tag, text, *lines);
+      });
+}
+
+void Conversation::describe(Request& request) {
+  const std::string what = request.takeWord("world or robot");
+  if (what == "world") {
+    request.refuseRest();
+    const WorldDescription& world = host_.description;
+    const std::string lines = "world=" + oneWord(world.name) + " kind=" + world.kind +
+                              " fingerprint=" + oneWord(world.fingerprint) + '\n';
+    answer(request.tag(), [tag = request.tag(), lines](Conversation& self) {
+      self.reply(tag, "OK DESCRIBE lines=1", lines);
+    });
+    return;
+  }
+  if (what != "robot") throw ServeError("syntax", "DESCRIBE knows world and robot");
+  const RobotId robot = takeRobot(request);
+  request.refuseRest();
+  auto found = std::make_shared<std::shared_ptr<RobotReadings>>();
+  order(
+      request.tag(),
+      [robot, found](WorldKeeper& keeper, WorldKeeper::Done&) {
+        *found = keeper.readings(robot);
+        return Reply("");
+      },
+      [found](Conversation& self, const std::string& tag, const std::string&) {
+        std::string lines;
+        std::size_t count = 0;
+        for (const ServedFeature& feature : (*found)->features())
+          addLine(lines, count, ortung::toText(feature.id) + " " + printable(feature.wordsHelp, 1000));
+        self.reply(tag, "OK DESCRIBE lines=" + std::to_string(count), lines);
+      });
+}
+
+void Conversation::say(Request& request) {
+  const std::string text = request.rest();
+  answer(request.tag(), [tag = request.tag(), text](Conversation& self) {
+    self.host_.broadcast(
+        self.id_, "SAY client=" + std::to_string(self.id_) + " name=" + self.name_ + " " + text);
+    self.reply(tag, "OK SAY");
+  });
+}
+
+void Conversation::score(Request& request) {
+  const auto left = request.takeInteger("left", 0, kMostGoals);
+  const auto right = request.takeInteger("right", 0, kMostGoals);
+  request.refuseRest();
+  if ((left || right) && role_ != Role::kOperator)
+    throw ServeError("role", "setting the SCORE needs the role operator");
+  order(request.tag(), [left, right](WorldKeeper& keeper, WorldKeeper::Done&) {
+    if (left) keeper.score.left = static_cast<int>(*left);
+    if (right) keeper.score.right = static_cast<int>(*right);
+    return Reply("OK SCORE left=" + std::to_string(keeper.score.left) +
+                 " right=" + std::to_string(keeper.score.right));
+  });
+}
+
+}  // namespace ortung::server

@@ -1,0 +1,183 @@
+#include "ortung/server/MessageBoard.hpp"
+
+#include <atomic>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <thread>
+
+#include "Session.hpp"
+
+namespace ortung {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using server::Session;
+
+constexpr int kBacklog = 128;
+
+void check(const BoardConfig& config) {
+  const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
+  boost::system::error_code error;
+  const auto address = asio::ip::make_address(config.address, error);
+  if (error)
+    refuse("the address to listen on is '" + config.address +
+           "', expected numbers, e.g. 127.0.0.1 or ::1");
+  if (!address.is_loopback() && config.tokens.empty())
+    refuse(config.address + " can be reached from other computers: that needs a token");
+  for (const BoardToken& token : config.tokens)
+    if (token.token.size() < 8)
+      refuse("the token of '" + token.name + "' has less than 8 characters");
+  if (!(config.speed >= 0.001 && config.speed <= 1000.0))
+    refuse("the speed is " + std::to_string(config.speed) + ", must be in [0.001, 1000]");
+}
+
+}  // namespace
+
+/// Everything of the board: the host of the conversations.
+struct MessageBoard::Parts final : server::Host {
+  Parts(ServedWorld& world, const BoardConfig& boardConfig)
+      : Host(world, boardConfig, keeper_),
+        keeper_(world, boardConfig, [this] { onCycle(); }),
+        acceptor_(io_),
+        timer_(io_) {}
+  ~Parts() override = default;
+
+  void post(std::function<void()> task) override { asio::post(io_, std::move(task)); }
+
+  void broadcast(server::ClientId from, std::string_view text) override {
+    for (const auto& [id, session] : sessions_)
+      if (id != from) session->conversation().tell(text);
+  }
+
+  void countSubscribers(int change) override { subscribers_ += change; }
+
+  /// On the world's thread.
+  void onCycle() {
+    if (subscribers_ == 0 || isTickPosted_.exchange(true)) return;
+    asio::post(io_, [this] {
+      isTickPosted_ = false;
+      for (const auto& [id, session] : sessions_) session->conversation().onCycle();
+    });
+  }
+
+  void listen() {
+    const tcp::endpoint endpoint(asio::ip::make_address(config.address), config.port);
+    try {
+      acceptor_.open(endpoint.protocol());
+      acceptor_.set_option(tcp::acceptor::reuse_address(true));
+      acceptor_.bind(endpoint);
+      acceptor_.listen(kBacklog);
+    } catch (const boost::system::system_error& error) {
+      throw std::runtime_error("can't listen on " + config.address + " port " +
+                               std::to_string(config.port) + ": " + error.code().message());
+    }
+    port_ = acceptor_.local_endpoint().port();
+    accept();
+    look();
+  }
+
+  void accept() {
+    acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
+      if (!acceptor_.is_open()) return;
+      if (!error) {
+        admit(std::move(socket));
+        accept();
+        return;
+      }
+      log("a client could not be accepted: " + error.message());
+      // Most likely there are too many open files: give others time to leave.
+      retry_.expires_after(std::chrono::milliseconds(100));
+      retry_.async_wait([this](const boost::system::error_code& cancelled) {
+        if (!cancelled) accept();
+      });
+    });
+  }
+
+  void admit(tcp::socket socket) {
+    const server::ClientId id = ++lastClient_;
+    const auto session = std::make_shared<Session>(std::move(socket), *this, id);
+    const bool isFull = sessions_.size() >= config.limits.sessions;
+    sessions_[id] = session;
+    if (isFull)
+      session->dismiss("ERR limit there are " + std::to_string(config.limits.sessions) +
+                       " clients already");
+    else
+      session->start();
+  }
+
+  /// Looks after all sessions now and then.
+  void look() {
+    const BoardLimits& limits = config.limits;
+    const double shortest = std::min({limits.handshake, limits.idle, limits.stall, 1.0});
+    timer_.expires_after(std::chrono::microseconds(fromSeconds(shortest / 4.0)));
+    timer_.async_wait([this](const boost::system::error_code& cancelled) {
+      if (cancelled) return;
+      const Timestamp now = server::wallTime();
+      for (auto it = sessions_.begin(); it != sessions_.end();) {
+        it->second->look(now);
+        it = it->second->isClosed() ? sessions_.erase(it) : std::next(it);
+      }
+      look();
+    });
+  }
+
+  void log(const std::string& text) const {
+    if (config.log) config.log(text);
+  }
+
+  void shutDown() {
+    boost::system::error_code ignored;
+    acceptor_.close(ignored);
+    timer_.cancel();
+    retry_.cancel();
+    for (const auto& [id, session] : sessions_) {
+      session->dismiss("BYE the server ends");
+      session->close();
+    }
+    sessions_.clear();
+  }
+
+  server::WorldKeeper keeper_;
+  asio::io_context io_{1};
+  tcp::acceptor acceptor_;
+  asio::steady_timer timer_;
+  asio::steady_timer retry_{io_};
+  std::map<server::ClientId, std::shared_ptr<Session>> sessions_;
+  server::ClientId lastClient_ = 0;
+  std::uint16_t port_ = 0;
+  std::atomic<int> subscribers_{0};
+  std::atomic<bool> isTickPosted_{false};
+};
+
+MessageBoard::MessageBoard(ServedWorld& world, const BoardConfig& config) {
+  check(config);
+  parts_ = std::make_unique<Parts>(world, config);
+  parts_->listen();
+}
+
+MessageBoard::~MessageBoard() = default;
+
+std::uint16_t MessageBoard::port() const { return parts_->port_; }
+
+void MessageBoard::run(const std::function<bool()>& goesOn) {
+  std::thread clients([this] { parts_->io_.run(); });
+  try {
+    parts_->keeper_.run(goesOn);
+  } catch (...) {
+    asio::post(parts_->io_, [this] { parts_->shutDown(); });
+    clients.join();
+    throw;
+  }
+  asio::post(parts_->io_, [this] { parts_->shutDown(); });
+  clients.join();
+}
+
+void MessageBoard::stop() { parts_->keeper_.stop(); }
+
+BoardStatistics MessageBoard::statistics() const { return parts_->keeper_.statistics(); }
+
+}  // namespace ortung

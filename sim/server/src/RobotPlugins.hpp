@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ortung/container/PluginFactory.hpp"
+
+namespace ortung {
+
+/// Names of all plugins that a robot can be made of, in the order of the alphabet. Loads them, so
+/// that no client's robot makes the world wait for the disk.
+std::vector<std::string> robotPlugins(PluginFactory& factory);
+
+}  // namespace ortung

@@ -1,0 +1,100 @@
+#include "RobotReadings.hpp"
+
+#include <algorithm>
+
+#include "Request.hpp"
+#include "ortung/container/Record.hpp"
+
+namespace ortung::server {
+
+Query::Query(const std::string& text) {
+  try {
+    const SensorQuery query = parseSensorQuery(text);
+    model = query.model;
+    type = query.type;
+    feature = query.feature;
+  } catch (const std::invalid_argument&) {
+    throw ServeError("syntax",
+                     "found '" + printable(text) + "', expected model/type/feature with * for any");
+  }
+}
+
+bool Query::matches(const SensorId& id) const {
+  const auto fits = [](const std::string& wanted, const std::string& name) {
+    return wanted.empty() || wanted == "*" || wanted == name;
+  };
+  return fits(model, id.model) && fits(type, id.type) && fits(feature, id.feature);
+}
+
+RobotReadings::RobotReadings(RobotId robot, std::string name, std::vector<ServedFeature> features)
+    : robot_(robot),
+      name_(std::move(name)),
+      features_(std::move(features)),
+      entries_(features_.size()) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].newest.id = features_[i].id;
+}
+
+void RobotReadings::publish(std::span<const Message> frame) {
+  const std::lock_guard lock(mutex_);
+  std::size_t place = 0;  // a frame has features in their order, so one walk finds them all
+  for (const Message& message : frame) {
+    std::size_t tried = 0;
+    while (tried < entries_.size() && entries_[place].newest.id != message.id) {
+      place = (place + 1) % entries_.size();
+      ++tried;
+    }
+    if (tried == entries_.size()) continue;
+    Entry& entry = entries_[place];
+    entry.newest.stamp = message.stamp;
+    entry.newest.words = message.words;
+    entry.line.clear();
+    ++entry.count;
+    entry.isThere = true;
+  }
+}
+
+void RobotReadings::forget() {
+  const std::lock_guard lock(mutex_);
+  for (Entry& entry : entries_) entry.isThere = false;
+}
+
+void RobotReadings::append(Entry& entry, bool binary, std::string& out) const {
+  if (!binary) {
+    if (entry.line.empty()) {
+      writeLine(entry.newest, entry.line);
+      entry.line += '\n';
+    }
+    out += entry.line;
+    return;
+  }
+  const Message& reading = entry.newest;
+  out += std::to_string(reading.stamp) + ' ' + toText(reading.id) + ' ' +
+         std::to_string(reading.words.size()) + '\n';
+  for (const std::uint32_t word : reading.words)
+    for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(word >> shift & 0xFF);
+}
+
+std::size_t RobotReadings::write(const Choice& choice, std::vector<std::uint64_t>& sent,
+                                 std::string& out) {
+  const std::lock_guard lock(mutex_);
+  sent.resize(entries_.size(), 0);
+  chosen_.clear();
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    if (!entry.isThere || (!choice.again && entry.count == sent[i])) continue;
+    const bool wanted = choice.queries.empty() ||
+                        std::any_of(choice.queries.begin(), choice.queries.end(),
+                                    [&](const Query& q) { return q.matches(entry.newest.id); });
+    if (wanted) chosen_.push_back(i);
+  }
+  std::stable_sort(chosen_.begin(), chosen_.end(), [&](std::size_t a, std::size_t b) {
+    return entries_[a].newest.stamp < entries_[b].newest.stamp;
+  });
+  for (const std::size_t i : chosen_) {
+    append(entries_[i], choice.binary, out);
+    sent[i] = entries_[i].count;
+  }
+  return chosen_.size();
+}
+
+}  // namespace ortung::server

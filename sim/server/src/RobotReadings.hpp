@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/container/Message.hpp"
+#include "ortung/container/SensorContainer.hpp"
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung::server {
+
+/// "LMS200/LRF/*", owned. @throws ServeError
+struct Query {
+  explicit Query(const std::string& text);
+  std::string model;
+  std::string type;
+  std::string feature;
+  bool matches(const SensorId& id) const;
+};
+
+/// How a client wants readings.
+struct Choice {
+  std::vector<Query> queries;  ///< none: all features
+  bool again = false;          ///< also what the client has got already
+  bool binary = false;
+};
+
+/// The newest reading of each feature of one robot: written by the thread that owns the world, read
+/// by the thread that talks to clients. Neither waits for the other longer than a copy takes.
+/// Thread-safe.
+class RobotReadings {
+ public:
+  RobotReadings(RobotId robot, std::string name, std::vector<ServedFeature> features);
+
+  RobotId robot() const { return robot_; }
+  const std::string& name() const { return name_; }
+  const std::vector<ServedFeature>& features() const { return features_; }
+
+  void publish(std::span<const Message> frame);
+  /// Time starts over: there is no newest reading.
+  void forget();
+
+  /// Appends the chosen readings, oldest first: lines of a record, or in binary form a line without
+  /// words, then the words as 32 bits each, the least significant byte first.
+  /// @param sent by feature: count of the last reading this client got; brought up to date
+  /// @returns how many readings
+  std::size_t write(const Choice& choice, std::vector<std::uint64_t>& sent, std::string& out);
+
+ private:
+  struct Entry {
+    Message newest;
+    std::string line;         ///< of the newest reading, or "" if nobody asked yet
+    std::uint64_t count = 0;  ///< of readings
+    bool isThere = false;
+  };
+  void append(Entry& entry, bool binary, std::string& out) const;
+
+  const RobotId robot_;
+  const std::string name_;
+  const std::vector<ServedFeature> features_;
+  std::mutex mutex_;
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> chosen_;
+};
+
+}  // namespace ortung::server

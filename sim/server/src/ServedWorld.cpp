@@ -1,0 +1,8 @@
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung {
+
+ServeError::~ServeError() = default;
+ServedWorld::~ServedWorld() = default;
+
+}  // namespace ortung

@@ -1,0 +1,153 @@
+#include "Session.hpp"
+
+#include <boost/asio/buffer.hpp>
+
+namespace ortung::server {
+namespace {
+
+constexpr std::size_t kPiece = 256u << 10;  // written at a time, so that progress shows [bytes]
+
+constexpr double kFarewell = 2.0;  // for a client to read our last words and close [s]
+
+bool hasPassed(Timestamp since, Timestamp now, double seconds) {
+  return toSeconds(now - since) > seconds;
+}
+
+}  // namespace
+
+class Session::SocketOutlet final : public Outlet {
+ public:
+  explicit SocketOutlet(Session& session) : session_(session) {}
+  ~SocketOutlet() override = default;
+  void send(std::string_view text) override { session_.send(text); }
+  std::size_t outstanding() const override {
+    return session_.waiting_.size() + session_.writing_.size() - session_.written_;
+  }
+  void finish() override { session_.finish(); }
+  void resume() override { session_.read(); }
+
+ private:
+  Session& session_;
+};
+
+Session::Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id)
+    : socket_(std::move(socket)),
+      limits_(host.config.limits),
+      conversation_(
+          std::make_shared<Conversation>(host, id, std::make_unique<SocketOutlet>(*this))),
+      started_(wallTime()),
+      heard_(started_),
+      progressed_(started_) {}
+
+void Session::start() {
+  boost::system::error_code ignored;
+  socket_.non_blocking(true, ignored);
+  socket_.set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+  socket_.set_option(boost::asio::socket_base::keep_alive(true), ignored);
+  read();
+}
+
+void Session::read() {
+  if (isReading_ || isClosed_ || !(isFinishing_ || conversation_->wantsInput())) return;
+  isReading_ = true;
+  socket_.async_read_some(
+      boost::asio::buffer(buffer_),
+      [self = shared_from_this()](const boost::system::error_code& error, std::size_t count) {
+        self->isReading_ = false;
+        if (error || self->isClosed_) {
+          self->close();
+          return;
+        }
+        self->heard_ = wallTime();
+        if (!self->isFinishing_) self->conversation_->receive({self->buffer_.data(), count});
+        self->read();
+      });
+}
+
+void Session::send(std::string_view text) {
+  if (isClosed_) return;
+  if (!isWriting_) progressed_ = wallTime();
+  std::size_t sent = 0;
+  if (!isWriting_ && waiting_.empty()) {
+    // Most replies fit into the kernel's buffer: then they leave at once.
+    boost::system::error_code error;
+    sent = socket_.write_some(boost::asio::buffer(text.data(), text.size()), error);
+    if (error) sent = 0;  // also when there is no room; the real trouble shows in write()
+  }
+  waiting_.append(text.substr(sent));
+  if (!waiting_.empty()) write();
+}
+
+void Session::write() {
+  if (isWriting_ || isClosed_) return;
+  if (written_ == writing_.size()) {
+    writing_.clear();
+    std::swap(writing_, waiting_);
+    written_ = 0;
+  }
+  if (writing_.empty()) {
+    if (isFinishing_) listenToTheEnd();
+    return;
+  }
+  isWriting_ = true;
+  const std::size_t size = std::min(kPiece, writing_.size() - written_);
+  socket_.async_write_some(
+      boost::asio::buffer(writing_.data() + written_, size),
+      [self = shared_from_this()](const boost::system::error_code& error, std::size_t count) {
+        self->isWriting_ = false;
+        if (error) {
+          self->close();
+          return;
+        }
+        self->progressed_ = wallTime();
+        self->written_ += count;
+        self->write();
+      });
+}
+
+void Session::finish() {
+  isFinishing_ = true;
+  finished_ = wallTime();
+  if (!isClosed_) write();
+}
+
+/// All is said. Closing while the client still sends would make the kernel throw our last words
+/// away, so what it sends is read and forgotten until it closes, too.
+void Session::listenToTheEnd() {
+  boost::system::error_code ignored;
+  socket_.shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+  read();
+}
+
+void Session::dismiss(const std::string& text) { conversation_->dismiss(text); }
+
+void Session::look(Timestamp now) {
+  if (isClosed_) return;
+  const bool owes = isWriting_;
+  if (owes && hasPassed(progressed_, now, limits_.stall)) {
+    close();  // told or not, it does not read
+    return;
+  }
+  if (isFinishing_) {
+    if (hasPassed(finished_, now, kFarewell)) close();
+    return;
+  }
+  if (!conversation_->hasJoined() && hasPassed(started_, now, limits_.handshake)) {
+    dismiss("ERR hello it did not come within " +
+            std::to_string(static_cast<int>(limits_.handshake)) + " s");
+  } else if (hasPassed(heard_, now, limits_.idle) && !conversation_->isSubscribed() &&
+             !conversation_->isWaiting()) {
+    dismiss("ERR idle nothing came for " + std::to_string(static_cast<int>(limits_.idle)) + " s");
+  }
+}
+
+void Session::close() {
+  if (isClosed_) return;
+  isClosed_ = true;
+  conversation_->hangUp();
+  boost::system::error_code ignored;
+  socket_.shutdown(boost::asio::ip::tcp::socket::shutdown_both, ignored);
+  socket_.close(ignored);
+}
+
+}  // namespace ortung::server

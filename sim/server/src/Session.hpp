@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <boost/asio/ip/tcp.hpp>
+#include <memory>
+#include <string>
+
+#include "Conversation.hpp"
+
+namespace ortung::server {
+
+/// One client's TCP connection: carries the bytes of a conversation. Never waits.
+/// All calls come from the thread of the io_context.
+class Session : public std::enable_shared_from_this<Session> {
+ public:
+  Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id);
+
+  void start();
+  /// Ends it if the client keeps still for too long. @param now on the computer's clock
+  void look(Timestamp now);
+  /// Says a last word and closes as soon as it is read.
+  void dismiss(const std::string& text);
+  void close();
+
+  Conversation& conversation() { return *conversation_; }
+  bool isClosed() const { return isClosed_; }
+
+ private:
+  class SocketOutlet;
+  void read();
+  void write();
+  void send(std::string_view text);
+  void finish();
+  void listenToTheEnd();
+
+  boost::asio::ip::tcp::socket socket_;
+  const BoardLimits limits_;
+  std::shared_ptr<Conversation> conversation_;
+  std::array<char, 16384> buffer_;
+  std::string waiting_;  ///< to be written next
+  std::string writing_;
+  std::size_t written_ = 0;  ///< of writing_
+  Timestamp started_;
+  Timestamp heard_;
+  Timestamp finished_ = 0;
+  Timestamp progressed_;  ///< when output was last read by the client
+  bool isReading_ = false;
+  bool isWriting_ = false;
+  bool isFinishing_ = false;
+  bool isClosed_ = false;
+};
+
+}  // namespace ortung::server

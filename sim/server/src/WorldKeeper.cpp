@@ -1,0 +1,330 @@
+#include "WorldKeeper.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "Request.hpp"
+
+namespace ortung::server {
+namespace {
+
+constexpr Timestamp kNever = std::numeric_limits<Timestamp>::max();
+constexpr Timestamp kLongestWait = 100'000;      // to look whether to go on [us]
+constexpr Timestamp kMostBehind = 1'000'000;     // what the world tries to catch up with [us]
+constexpr std::size_t kOrdersOfLateCycle = 256;  // executed although the next cycle is due
+
+}  // namespace
+
+Timestamp wallTime() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+std::string currentErrorText() {
+  try {
+    throw;
+  } catch (const ServeError& error) {
+    return "ERR " + error.code() + " " + printable(error.what());
+  } catch (const ConfigError& error) {
+    return "ERR configuration " + printable(error.what());
+  } catch (const PluginError& error) {
+    return "ERR configuration " + printable(error.what());
+  } catch (const std::invalid_argument& error) {
+    return "ERR argument " + printable(error.what());
+  } catch (const std::exception& error) {
+    return "ERR internal " + printable(error.what());
+  }
+}
+
+WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
+                         std::function<void()> onCycle)
+    : world_(world),
+      config_(config),
+      onCycle_(std::move(onCycle)),
+      speed_(config.speed),
+      isFree_(config.pace != Pace::kRealTime) {
+  clock_.set(world_.now(), wallTime(), 0.0);
+}
+
+WorldKeeper::~WorldKeeper() = default;
+
+void WorldKeeper::give(Order order, Done done) {
+  {
+    const std::lock_guard lock(mutex_);
+    orders_.push_back({std::move(order), std::move(done)});
+  }
+  news_.notify_one();
+}
+
+void WorldKeeper::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    isStopped_ = true;
+  }
+  news_.notify_one();
+}
+
+BoardStatistics WorldKeeper::statistics() const {
+  return {cycles_, missed_, clientCount_, robotCount_};
+}
+
+// --- time
+
+bool WorldKeeper::isLockstepReady() const {
+  bool any = false;
+  for (const auto& [id, client] : clients_) {
+    if (client.isLockstep && client.cycles == 0) return false;
+    any = any || client.isLockstep;
+  }
+  return any || config_.pace != Pace::kLockstep;
+}
+
+bool WorldKeeper::mayAdvance() const {
+  return failure_.empty() && (!isPaused_ || steps_ > 0) && !world_.isAtEnd() && isLockstepReady();
+}
+
+void WorldKeeper::anchor(Timestamp wall) {
+  anchorStamp_ = world_.now();
+  anchorWall_ = wall;
+  clock_.set(anchorStamp_, anchorWall_, isFree_ ? 0.0 : speed_);
+}
+
+/// When the next cycle begins on the wall's clock; the past: at once.
+Timestamp WorldKeeper::due() {
+  if (!mayAdvance()) {
+    if (!wasBlocked_) clock_.set(world_.now(), wallTime(), 0.0);
+    wasBlocked_ = true;
+    return kNever;
+  }
+  if (isFree_ || isPaused_) {
+    if (std::exchange(wasBlocked_, false)) anchor(wallTime());
+    return 0;
+  }
+  const auto behindAnchor = static_cast<double>(world_.now() - anchorStamp_) / speed_;
+  const Timestamp regular = anchorWall_ + static_cast<Timestamp>(behindAnchor);
+  const bool wasBlocked = std::exchange(wasBlocked_, false);
+  const Timestamp now = wallTime();
+  // What was lost while nobody was allowed to go on is not made up for, nor is more than a second.
+  if (now - regular > (wasBlocked ? 0 : kMostBehind)) {
+    anchor(now);
+    return now;
+  }
+  if (wasBlocked) clock_.set(world_.now(), regular, speed_);
+  return regular;
+}
+
+void WorldKeeper::run(const std::function<bool()>& goesOn) {
+  anchor(wallTime());
+  while (!isStopped_ && (!goesOn || goesOn())) {
+    const Timestamp next = due();
+    const Timestamp now = wallTime();
+    if (execute(now >= next)) continue;
+    if (now >= next) {
+      cycle(next);
+      continue;
+    }
+    std::unique_lock lock(mutex_);
+    if (!orders_.empty() || isStopped_) continue;
+    news_.wait_for(lock, std::chrono::microseconds(std::min(next - now, kLongestWait)));
+  }
+}
+
+void WorldKeeper::runOnce() {
+  while (execute(false)) {
+  }
+  const Timestamp next = due();
+  if (wallTime() >= next) cycle(next);
+}
+
+/// Executes the next order, unless the world has waited long enough.
+bool WorldKeeper::execute(bool isCycleDue) {
+  Given given;
+  {
+    const std::lock_guard lock(mutex_);
+    if (orders_.empty() || (isCycleDue && executed_ >= kOrdersOfLateCycle)) return false;
+    given = std::move(orders_.front());
+    orders_.pop_front();
+  }
+  ++executed_;
+  execute(given);
+  return true;
+}
+
+void WorldKeeper::execute(Given& given) {
+  std::string text;
+  try {
+    std::optional<std::string> reply = given.order(*this, given.done);
+    if (!reply) return;
+    text = std::move(*reply);
+  } catch (...) {
+    text = currentErrorText();
+  }
+  if (given.done) given.done(std::move(text));
+}
+
+void WorldKeeper::cycle(Timestamp due) {
+  const Timestamp begin = wallTime();
+  const Timestamp stamp = world_.now();
+  try {
+    world_.step();
+  } catch (const std::exception& error) {
+    fail(error.what());
+    return;
+  }
+  const auto length = static_cast<double>(world_.now() - stamp) / speed_;
+  if (!isFree_ && !isPaused_ && static_cast<double>(begin - due) > length) ++missed_;
+  for (const auto& [id, robot] : robots_) robot.readings->publish(world_.readings(id));
+  if (isFree_ || isPaused_) clock_.set(world_.now(), begin, 0.0);
+  executed_ = 0;
+  ++cycles_;
+  finishCycle();
+  if (onCycle_) onCycle_();
+}
+
+void WorldKeeper::finishCycle() {
+  for (auto& [id, client] : clients_) {
+    if (!client.isLockstep || client.cycles == 0 || --client.cycles > 0) continue;
+    std::exchange(client.waiting, {})("");
+  }
+  if (steps_ > 0 && --steps_ == 0) std::exchange(stepsDone_, {})("OK STEP");
+  if (world_.isAtEnd()) answerStuck();
+}
+
+void WorldKeeper::fail(const std::string& why) {
+  failure_ = why;
+  if (config_.log) config_.log("the world can't go on: " + why);
+  answerStuck();
+}
+
+/// Tells those who wait for cycles that there will be none.
+void WorldKeeper::answerStuck() {
+  const std::string text = failure_.empty() ? "ERR end there is nothing more to come"
+                                            : "ERR failed " + printable(failure_);
+  for (auto& [id, client] : clients_) {
+    client.cycles = 0;
+    if (client.waiting) std::exchange(client.waiting, {})(text);
+  }
+  steps_ = 0;
+  if (stepsDone_) std::exchange(stepsDone_, {})(text);
+}
+
+void WorldKeeper::setSpeed(double speed) {
+  isFree_ = speed == 0.0;
+  if (!isFree_) speed_ = speed;
+  anchor(wallTime());
+}
+
+void WorldKeeper::step(std::uint64_t cycles, Done done) {
+  if (!isPaused_) throw ServeError("state", "STEP is for a simulation that is paused");
+  if (steps_ > 0) throw ServeError("state", "there are steps under way already");
+  if (!failure_.empty() || world_.isAtEnd()) throw ServeError("end", "there is nothing to come");
+  steps_ = cycles;
+  stepsDone_ = std::move(done);
+}
+
+void WorldKeeper::reset(std::optional<std::uint64_t> seed) {
+  world_.reset(seed);
+  failure_.clear();
+  score = {};
+  for (const auto& [id, robot] : robots_) robot.readings->forget();
+  anchor(wallTime());
+}
+
+std::string WorldKeeper::stateText() const {
+  if (!failure_.empty()) return "failed";
+  if (world_.isAtEnd()) return "ended";
+  if (isPaused_) return "paused";
+  return isLockstepReady() ? "running" : "waiting";
+}
+
+// --- clients and their robots
+
+WorldKeeper::Client& WorldKeeper::client(ClientId id) {
+  const auto found = clients_.find(id);
+  if (found == clients_.end()) throw ServeError("internal", "the client has left");
+  return found->second;
+}
+
+void WorldKeeper::join(ClientId client, const std::string& name) {
+  clients_[client].name = name;
+  clientCount_ = clients_.size();
+}
+
+void WorldKeeper::leave(ClientId client) {
+  const auto found = clients_.find(client);
+  if (found == clients_.end()) return;
+  for (const RobotId robot : found->second.robots) {
+    world_.removeRobot(robot);
+    robots_.erase(robot);
+  }
+  clients_.erase(found);
+  clientCount_ = clients_.size();
+  robotCount_ = robots_.size();
+}
+
+std::shared_ptr<RobotReadings> WorldKeeper::createRobot(ClientId owner, RobotWish wish) {
+  Client& its = client(owner);
+  if (its.robots.size() >= config_.limits.robots)
+    throw ServeError("limit",
+                     "a client has at most " + std::to_string(config_.limits.robots) + " robots");
+  const RobotId robot = lastRobot_ + 1;
+  const std::string name = wish.name;
+  std::vector<ServedFeature> features = world_.addRobot(robot, std::move(wish));
+  lastRobot_ = robot;
+  if (features.size() > config_.limits.features) {
+    world_.removeRobot(robot);
+    throw ServeError("limit", "the robot has " + std::to_string(features.size()) +
+                                  " features, at most " + std::to_string(config_.limits.features) +
+                                  " are permitted");
+  }
+  auto readings = std::make_shared<RobotReadings>(robot, name, std::move(features));
+  its.robots.insert(robot);
+  robots_[robot] = {owner, readings};
+  robotCount_ = robots_.size();
+  return readings;
+}
+
+void WorldKeeper::removeRobot(ClientId owner, RobotId robot) {
+  checkOwner(owner, robot);
+  world_.removeRobot(robot);
+  robots_.erase(robot);
+  client(owner).robots.erase(robot);
+  robotCount_ = robots_.size();
+}
+
+void WorldKeeper::checkOwner(ClientId client, RobotId robot) const {
+  const auto found = robots_.find(robot);
+  if (found == robots_.end())
+    throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
+  if (found->second.owner != client)
+    throw ServeError("not-yours", "robot " + std::to_string(robot) + " belongs to another client");
+}
+
+std::shared_ptr<RobotReadings> WorldKeeper::readings(RobotId robot) const {
+  const auto found = robots_.find(robot);
+  if (found == robots_.end())
+    throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
+  return found->second.readings;
+}
+
+void WorldKeeper::setLockstep(ClientId id, bool isLockstep) {
+  Client& its = client(id);
+  its.isLockstep = isLockstep;
+  if (!isLockstep && its.waiting) {
+    its.cycles = 0;
+    std::exchange(its.waiting, {})("ERR state lockstep was switched off");
+  }
+}
+
+void WorldKeeper::next(ClientId id, std::uint64_t cycles, Done done) {
+  Client& its = client(id);
+  if (!its.isLockstep) throw ServeError("state", "NEXT is for clients in lockstep: LOCKSTEP on");
+  if (its.cycles > 0) throw ServeError("state", "a NEXT is under way already");
+  if (!failure_.empty()) throw ServeError("failed", failure_);
+  if (world_.isAtEnd()) throw ServeError("end", "there is nothing more to come");
+  its.cycles = cycles;
+  its.waiting = std::move(done);
+}
+
+}  // namespace ortung::server

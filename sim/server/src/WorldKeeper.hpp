@@ -1,0 +1,135 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "BoardClock.hpp"
+#include "RobotReadings.hpp"
+#include "ortung/server/MessageBoard.hpp"
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung::server {
+
+using ClientId = std::uint32_t;
+
+/// Owns the world's time: executes the orders of clients between cycles and begins each cycle when
+/// it is due. All but give(), stop() and statistics() belong to the thread of run().
+class WorldKeeper {
+ public:
+  /// Takes the text of a reply; called on the world's thread.
+  using Done = std::function<void(std::string)>;
+  /// Executes an order; returns the reply, or nothing if it kept @p done to call it later.
+  using Order = std::function<std::optional<std::string>(WorldKeeper& keeper, Done& done)>;
+
+  /// @param onCycle called after each cycle
+  WorldKeeper(ServedWorld& world, const BoardConfig& config, std::function<void()> onCycle);
+  ~WorldKeeper();
+
+  void give(Order order, Done done);
+  void run(const std::function<bool()>& goesOn);
+  void stop();
+  BoardStatistics statistics() const;
+  const BoardClock& clock() const { return clock_; }
+
+  /// Executes what was given and begins a cycle if one is due: run() without waiting.
+  void runOnce();
+
+  // --- for orders; refusals are ServeErrors
+  ServedWorld& world() { return world_; }
+  void join(ClientId client, const std::string& name);
+  void leave(ClientId client);
+  std::shared_ptr<RobotReadings> createRobot(ClientId client, RobotWish wish);
+  void removeRobot(ClientId client, RobotId robot);
+  /// @throws ServeError unless @p robot belongs to @p client
+  void checkOwner(ClientId client, RobotId robot) const;
+  std::shared_ptr<RobotReadings> readings(RobotId robot) const;
+
+  void setLockstep(ClientId client, bool isLockstep);
+  void next(ClientId client, std::uint64_t cycles, Done done);
+
+  void pause() { isPaused_ = true; }
+  void resume() { isPaused_ = false; }
+  void step(std::uint64_t cycles, Done done);
+  void setSpeed(double speed);
+  void reset(std::optional<std::uint64_t> seed);
+  std::string stateText() const;  ///< "running", "paused", "waiting", "ended" or "failed"
+
+  struct Score {
+    int left = 0;
+    int right = 0;
+  };
+  Score score;
+
+  struct Client {
+    std::string name;
+    std::set<RobotId> robots;
+    bool isLockstep = false;
+    std::uint64_t cycles = 0;  ///< that it has asked for
+    Done waiting;              ///< for them
+  };
+  const std::map<ClientId, Client>& clients() const { return clients_; }
+  struct Robot {
+    ClientId owner;
+    std::shared_ptr<RobotReadings> readings;
+  };
+  const std::map<RobotId, Robot>& robots() const { return robots_; }
+
+ private:
+  struct Given {
+    Order order;
+    Done done;
+  };
+  bool isLockstepReady() const;
+  bool mayAdvance() const;
+  Timestamp due();
+  bool execute(bool isCycleDue);
+  void execute(Given& given);
+  void cycle(Timestamp due);
+  void finishCycle();
+  void fail(const std::string& why);
+  void answerStuck();
+  void anchor(Timestamp wall);
+  Client& client(ClientId id);
+
+  ServedWorld& world_;
+  const BoardConfig config_;
+  std::function<void()> onCycle_;
+  BoardClock clock_;
+
+  mutable std::mutex mutex_;  ///< of the next two
+  std::condition_variable news_;
+  std::deque<Given> orders_;
+  std::atomic<bool> isStopped_{false};
+
+  std::map<ClientId, Client> clients_;
+  std::map<RobotId, Robot> robots_;
+  RobotId lastRobot_ = 0;
+  bool isPaused_ = false;
+  std::uint64_t steps_ = 0;  ///< to be made although it is paused
+  Done stepsDone_;
+  std::string failure_;
+  double speed_;
+  bool isFree_;
+  bool wasBlocked_ = true;
+  Timestamp anchorStamp_ = 0;
+  Timestamp anchorWall_ = 0;
+  std::size_t executed_ = 0;  ///< orders since the last cycle
+
+  std::atomic<std::uint64_t> cycles_{0};
+  std::atomic<std::uint64_t> missed_{0};
+  std::atomic<std::size_t> clientCount_{0};
+  std::atomic<std::size_t> robotCount_{0};
+};
+
+/// "ERR code text" of the exception that is being handled.
+std::string currentErrorText();
+
+}  // namespace ortung::server
