@@ -67,8 +67,7 @@ SimRobot& ServedSimulation::enter(RobotId robot, Guest& guest) {
   ++entered_;
   guest.wanders = guest.wish.wanders;
   if (guest.wanders)
-    guest.robot->setDriver(makeWanderer(planner(config.radius),
-                                        DriverLimits::of(guest.robot->driveConfig()),
+    guest.robot->setDriver(makeWanderer(planner(config.radius), guest.robot->drive().limits(),
                                         simulation_->random(stream + 1)));
   return *guest.robot;
 }
@@ -130,11 +129,12 @@ void ServedSimulation::setRotationalVelocity(RobotId robot, double radiansPerSec
 }
 
 void ServedSimulation::setMotion(RobotId robot, std::span<const double> command) {
-  if (command.size() != 2)
-    throw ServeError("number", "found " + std::to_string(command.size()) +
-                                   " numbers, this drive expects 2: m/s, rad/s");
-  setTranslationalVelocity(robot, command[0]);
-  setRotationalVelocity(robot, command[1]);
+  const Drive& drive = find(robot).drive();
+  if (command.size() != drive.commandSize())
+    throw ServeError("number",
+                     "found " + std::to_string(command.size()) + " numbers, this drive expects " +
+                         std::to_string(drive.commandSize()) + ": " + drive.commandHelp());
+  commanded(robot).drive().setCommand(command);
 }
 
 void ServedSimulation::setManipulator(RobotId robot, const std::string& manipulator, double) {
