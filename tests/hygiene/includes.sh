@@ -23,12 +23,15 @@ deny 'container' 'toml\+\+|toml\.|nlohmann|ortung/config' 'container/config/'
 deny 'mcl' "ortung/(sim|sim_api|realsensors|server|client|config)|toml|nlohmann|$foreign"
 deny 'sim/api' "ortung/(mcl|sim|realsensors|config|server|client)/|toml|nlohmann|$foreign"
 deny 'sim' 'ortung/(mcl|realsensors)|mrpt|opencv'
+deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server)/|toml|nlohmann|$foreign"
+deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/server/src/(Session\.|MessageBoard\.cpp)'
 deny 'plugins' 'ortung/(mcl|realsensors)|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
 deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
 
 # Public headers name no library but the standard one and Eigen.
-for folder in container/include container/config/include mcl/include sim/include sim/api/include; do
+for folder in container/include container/config/include mcl/include sim/include sim/api/include sim/server/include \
+              sim/client/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

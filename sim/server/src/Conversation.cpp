@@ -66,17 +66,19 @@ const char* Conversation::toText(Role role) {
 void Conversation::receive(std::string_view bytes) {
   received_ = wallTime();
   input_ += bytes;
+  takeLines();
+}
+
+void Conversation::takeLines() {
   if (isReceiving_) return;  // an order was executed at once and made room for more
   isReceiving_ = true;
-  while (wantsInput() && takeLine()) {
+  while (mayTakeLine() && takeLine()) {
   }
   isReceiving_ = false;
   if (isOver_) {
     input_.clear();
     taken_ = searched_ = 0;
-    return;
-  }
-  if (taken_ == input_.size() || taken_ > (1u << 14)) {
+  } else if (taken_ == input_.size() || taken_ > (1u << 14)) {
     input_.erase(0, taken_);
     searched_ -= taken_;
     taken_ = 0;
@@ -118,13 +120,13 @@ void Conversation::handleLine(std::string_view line) {
   if (line.empty()) return;
   Request request(line);
   if (!request.fault().empty()) {
-    error(request.tag(), "ERR syntax " + request.fault());
+    refuse(request.tag(), "ERR syntax " + request.fault());
     return;
   }
   try {
     dispatch(request);
   } catch (...) {
-    error(request.tag(), currentErrorText());
+    refuse(request.tag(), currentErrorText());
   }
 }
 
@@ -167,24 +169,37 @@ void Conversation::error(const std::string& tag, std::string_view text) {
   if (++errors_ >= host_.config.limits.errors) dismiss("ERR errors too many in a row");
 }
 
+/// Says an error in its turn.
+void Conversation::refuse(const std::string& tag, const std::string& text) {
+  answer(tag, [tag, text](Conversation& self) { self.error(tag, text); });
+}
+
+/// There is room for more lines.
+void Conversation::goOn() {
+  takeLines();
+  if (wantsInput()) outlet_->resume();
+}
+
 /// Has the world's thread execute @p run, and then @p then here; by default that sends the reply.
-void Conversation::order(const std::string& tag, WorldKeeper::Order run, Then then) {
+/// @param holdsLines whether the lines behind it depend on what becomes of it
+void Conversation::order(const std::string& tag, WorldKeeper::Order run, Then then,
+                         bool holdsLines) {
   ++pending_;
-  auto done = [weak = weak_from_this(), host = &host_, tag,
+  waiting_ += holdsLines ? 1 : 0;
+  auto done = [weak = weak_from_this(), host = &host_, tag, holdsLines,
                then = std::move(then)](std::string text) {
-    host->post([weak, tag, then, text = std::move(text)] {
+    host->post([weak, tag, holdsLines, then, text = std::move(text)] {
       const auto self = weak.lock();
       if (!self) return;
       --self->pending_;
+      self->waiting_ -= holdsLines ? 1 : 0;
       if (text.starts_with("ERR "))
         self->error(tag, text);
       else if (then)
         then(*self, tag, text);
       else
         self->reply(tag, text);
-      if (self->isReceiving_) return;
-      self->receive({});
-      if (self->wantsInput()) self->outlet_->resume();
+      self->goOn();
     });
   };
   host_.keeper.give(std::move(run), std::move(done));

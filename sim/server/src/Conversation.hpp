@@ -56,8 +56,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
 
   /// Takes bytes from the client.
   void receive(std::string_view bytes);
-  /// Whether more bytes should be read: not while the client's orders wait for the world.
-  bool wantsInput() const { return !isOver_ && pending_ < host_.config.limits.orders; }
+  /// Whether more bytes should be read. Some always are, so that the end of a client is noticed.
+  bool wantsInput() const { return !isOver_ && input_.size() - taken_ <= host_.config.limits.line; }
   /// A cycle has ended: sends what is subscribed.
   void onCycle();
   /// Something another client or the server says to all.
@@ -104,13 +104,21 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   using Then = std::function<void(Conversation&, const std::string& tag, std::string text)>;
 
   // lines and replies (Conversation.cpp)
+  /// Not while the client's orders wait for the world: so replies come in the order of requests.
+  bool mayTakeLine() const {
+    return !isOver_ && waiting_ == 0 && pending_ < host_.config.limits.orders;
+  }
   bool takeLine();
+  void takeLines();
+  void goOn();
   void handleLine(std::string_view line);
   void handleConfigurationLine(std::string_view line);
   void dispatch(Request& request);
   void reply(const std::string& tag, std::string_view text, std::string_view body = {});
   void error(const std::string& tag, std::string_view text);
-  void order(const std::string& tag, WorldKeeper::Order run, Then then = {});
+  void refuse(const std::string& tag, const std::string& text);
+  void order(const std::string& tag, WorldKeeper::Order run, Then then = {},
+             bool holdsLines = false);
   void answer(const std::string& tag, std::function<void(Conversation&)> say);
   bool looksLikeHttp(std::string_view line) const;
 
@@ -166,9 +174,9 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   bool hasJoined_ = false;
   bool isOver_ = false;
   bool isReceiving_ = false;
-  std::size_t pending_ = 0;         ///< orders that the world has not executed
-  int waiting_ = 0;         ///< requests that wait for cycles
-  std::size_t errors_ = 0;  ///< in a row
+  std::size_t pending_ = 0;  ///< orders that the world has not executed
+  int waiting_ = 0;          ///< requests that wait for cycles
+  std::size_t errors_ = 0;   ///< in a row
   std::optional<Configuration> configuration_;
   std::map<RobotId, View> views_;
   std::set<RobotId> owned_;

@@ -42,7 +42,10 @@ void Conversation::step(Request& request) {
   };
   auto later = [weak = weak_from_this(), host = &host_, finish](std::string text) {
     host->post([weak, finish, text = std::move(text)] {
-      if (const auto self = weak.lock()) finish(*self, text);
+      const auto self = weak.lock();
+      if (!self) return;
+      finish(*self, text);
+      self->goOn();
     });
   };
   order(

@@ -72,7 +72,7 @@ void Conversation::finishConfiguration() {
   configuration_.reset();
   const std::string& tag = configuration.tag;
   if (!configuration.fault.empty()) {
-    error(tag, configuration.fault);
+    refuse(tag, configuration.fault);
     return;
   }
   try {
@@ -84,7 +84,7 @@ void Conversation::finishConfiguration() {
                                     std::to_string(host_.config.limits.sensors) + " are permitted");
     config.name = configuration.wish.name;
   } catch (...) {
-    error(tag, currentErrorText());
+    refuse(tag, currentErrorText());
     return;
   }
   auto created = std::make_shared<std::shared_ptr<RobotReadings>>();
@@ -101,7 +101,8 @@ void Conversation::finishConfiguration() {
         self.views_[robot].readings = *created;
         self.reply(itsTag, "OK CREATE robot=" + std::to_string(robot) +
                                " features=" + std::to_string((*created)->features().size()));
-      });
+      },
+      true);
 }
 
 void Conversation::remove(Request& request) {
@@ -121,7 +122,8 @@ void Conversation::remove(Request& request) {
           self.host_.countSubscribers(-1);
         }
         self.reply(tag, "OK REMOVE");
-      });
+      },
+      true);
 }
 
 // --- commands
@@ -312,7 +314,10 @@ void Conversation::next(Request& request) {
   // Called twice: when the order is taken, and when the cycles are over.
   auto later = [weak = weak_from_this(), host = &host_, finish](std::string text) {
     host->post([weak, finish, text = std::move(text)] {
-      if (const auto self = weak.lock()) finish(*self, text);
+      const auto self = weak.lock();
+      if (!self) return;
+      finish(*self, text);
+      self->goOn();
     });
   };
   order(

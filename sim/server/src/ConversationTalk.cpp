@@ -169,7 +169,8 @@ void Conversation::describe(Request& request) {
         std::string lines;
         std::size_t count = 0;
         for (const ServedFeature& feature : (*found)->features())
-          addLine(lines, count, ortung::toText(feature.id) + " " + printable(feature.wordsHelp, 1000));
+          addLine(lines, count,
+                  ortung::toText(feature.id) + " " + printable(feature.wordsHelp, 1000));
         self.reply(tag, "OK DESCRIBE lines=" + std::to_string(count), lines);
       });
 }

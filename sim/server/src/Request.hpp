@@ -51,8 +51,8 @@ class Request {
 double parseNumber(std::string_view text, const std::string& what, double low, double high);
 
 /// @p text with everything that could do harm to a terminal replaced by '?', at most 200
-/// characters.
-std::string printable(std::string_view text);
+/// @p text with everything that could do harm to a terminal replaced by '?'.
+std::string printable(std::string_view text, std::size_t mostCharacters = 200);
 
 /// Whether @p name is of [A-Za-z0-9_-], 1 to 32 characters.
 bool isName(std::string_view name);

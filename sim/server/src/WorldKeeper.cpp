@@ -87,7 +87,7 @@ bool WorldKeeper::mayAdvance() const {
 void WorldKeeper::anchor(Timestamp wall) {
   anchorStamp_ = world_.now();
   anchorWall_ = wall;
-  clock_.set(anchorStamp_, anchorWall_, isFree_ ? 0.0 : speed_);
+  clock_.set(anchorStamp_, anchorWall_, isFree_ || isPaused_ || wasBlocked_ ? 0.0 : speed_);
 }
 
 /// When the next cycle begins on the wall's clock; the past: at once.
@@ -213,6 +213,11 @@ void WorldKeeper::setSpeed(double speed) {
   isFree_ = speed == 0.0;
   if (!isFree_) speed_ = speed;
   anchor(wallTime());
+}
+
+void WorldKeeper::resume() {
+  isPaused_ = false;
+  wasBlocked_ = true;  // the clock has stood still
 }
 
 void WorldKeeper::step(std::uint64_t cycles, Done done) {

@@ -56,7 +56,7 @@ class WorldKeeper {
   void next(ClientId client, std::uint64_t cycles, Done done);
 
   void pause() { isPaused_ = true; }
-  void resume() { isPaused_ = false; }
+  void resume();
   void step(std::uint64_t cycles, Done done);
   void setSpeed(double speed);
   void reset(std::optional<std::uint64_t> seed);

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung::test {
+
+/// A world without physics: each robot has a counter of cycles and an image of many words, and
+/// remembers what it was told. Cycles take 10 ms.
+class CountingWorld : public ServedWorld {
+ public:
+  explicit CountingWorld(std::size_t imageWords = 0) : imageWords_(imageWords) {}
+  ~CountingWorld() override = default;
+
+  WorldDescription describe() const override {
+    return {"counting", "0123456789abcdef", "simulation"};
+  }
+  std::vector<std::string> plugins() const override { return {"odometry", "lrf"}; }
+  Timestamp now() const override { return now_; }
+  bool isAtEnd() const override { return lastCycle_ >= 0 && now_ / 10'000 >= lastCycle_; }
+  void step() override {
+    if (now_ / 10'000 == failingCycle_) throw std::runtime_error("the world broke");
+    for (auto& [id, frame] : frames_) {
+      frame = {{now_, counter_, {static_cast<std::uint32_t>(now_ / 10'000), commands_}}};
+      if (imageWords_ > 0)
+        frame.push_back({now_, image_, std::vector<std::uint32_t>(imageWords_, 4'000'000'000u)});
+    }
+    now_ += 10'000;
+  }
+  std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) override {
+    if (wish.name == "unwanted") throw ServeError("no-room", "there is no room");
+    frames_[robot];
+    return {{counter_, "[cycle, commands]"}, {image_, "[pixels]"}};
+  }
+  void removeRobot(RobotId robot) override { frames_.erase(robot); }
+  std::span<const Message> readings(RobotId robot) const override { return frames_.at(robot); }
+  void setTranslationalVelocity(RobotId, double) override { ++commands_; }
+  void setRotationalVelocity(RobotId, double) override { ++commands_; }
+  void setMotion(RobotId, std::span<const double>) override { ++commands_; }
+  void setManipulator(RobotId, const std::string& name, double) override {
+    if (name != "kicker") throw ServeError("no-manipulator", "there is only a kicker");
+    ++commands_;
+  }
+  void reset(std::optional<std::uint64_t>) override {
+    now_ = 0;
+    commands_ = 0;
+    for (auto& [id, frame] : frames_) frame.clear();
+  }
+  void placeRobot(RobotId, const Pose2&) override { ++commands_; }
+  void placeObject(const std::string&, const Pose2&) override {}
+
+  void endAt(std::int64_t cycle) { lastCycle_ = cycle; }
+  void failAt(std::int64_t cycle) { failingCycle_ = cycle; }
+
+ private:
+  const SensorId counter_{"counter", "counter", "cycle"};
+  const SensorId image_{"camera", "camera", "image"};
+  std::size_t imageWords_;
+  std::int64_t lastCycle_ = -1;
+  std::int64_t failingCycle_ = -1;
+  Timestamp now_ = 0;
+  std::uint32_t commands_ = 0;
+  std::map<RobotId, std::vector<Message>> frames_;
+};
+
+/// A robot file that the world above takes.
+inline const std::string kAnyRobot = "[[sensor]]\nplugin = \"odometry\"\n";
+
+}  // namespace ortung::test
