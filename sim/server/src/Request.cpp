@@ -154,10 +154,13 @@ std::optional<Pose2> Request::takePose() {
   constexpr double kFarthest = 1e6;  // [m]
   const auto x = takeNumber("x_m", -kFarthest, kFarthest);
   const auto y = takeNumber("y_m", -kFarthest, kFarthest);
-  const auto theta = takeNumber("theta_deg", -360.0, 360.0);
-  if (!x && !y && !theta) return std::nullopt;
+  const auto degrees = takeNumber("theta_deg", -360.0, 360.0);
+  const auto radians = takeNumber("theta_rad", -7.0, 7.0);  // for programs: no rounding
+  if (!x && !y && !degrees && !radians) return std::nullopt;
+  if (degrees && radians) refuse("a pose has theta_deg or theta_rad, not both");
   if (!x || !y) refuse("a pose needs x_m and y_m");
-  return Pose2{*x, *y, wrapAngle(theta.value_or(0.0) * std::numbers::pi / 180.0)};
+  return Pose2{*x, *y,
+               wrapAngle(radians ? *radians : degrees.value_or(0.0) * std::numbers::pi / 180.0)};
 }
 
 void Request::refuseRest() const {

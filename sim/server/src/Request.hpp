@@ -33,7 +33,7 @@ class Request {
   std::optional<std::int64_t> takeInteger(std::string_view key, std::int64_t low,
                                           std::int64_t high);
   std::optional<std::uint64_t> takeSeed();
-  /// x_m, y_m and theta_deg, which is 0 if it is missing; nothing if none is there.
+  /// x_m, y_m and theta_deg or theta_rad, 0 if both are missing; nothing if none is there.
   std::optional<Pose2> takePose();
   void refuseRest() const;
 

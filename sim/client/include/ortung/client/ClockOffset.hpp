@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+
+#include "ortung/container/Export.hpp"
+#include "ortung/container/Time.hpp"
+
+namespace ortung {
+
+/// How a server's clock relates to ours, from exchanges of time stamps over a network (paper,
+/// section 2.2). An exchange tells our time at a moment of the server's with an error of at most
+/// half its round trip, so the shortest one tells best; older ones tell how fast the server's clock
+/// runs. Not thread-safe.
+class ORTUNG_API ClockOffset {
+ public:
+  struct Exchange {
+    Timestamp sent = 0;      ///< on our clock
+    Timestamp received = 0;  ///< by the server, on its clock
+    Timestamp answered = 0;  ///< by the server, on its clock
+    Timestamp back = 0;      ///< on our clock
+  };
+
+  /// Takes an exchange, later than all before. One that contradicts those before (the server's
+  /// clock was paused or set) makes them forgotten. Nonsense is passed over.
+  void add(const Exchange& exchange);
+
+  bool isKnown() const { return !readings_.empty(); }
+  /// Our time when the server's clock showed @p server. @pre isKnown()
+  Timestamp toLocal(Timestamp server) const;
+  /// How far toLocal(@p server) may be off [us], while the server's clock keeps its rate.
+  double bound(Timestamp server) const;
+  /// Our seconds for each of the server's.
+  double rate() const { return rate_; }
+
+ private:
+  struct Reading {
+    double local;   ///< our time half way between sent and back [us]
+    double server;  ///< the server's time half way between received and answered [us]
+    double error;   ///< half the time that went by on the network [us]
+  };
+  double errorAt(const Reading& reading, double server) const;
+  const Reading& best(double server) const;
+  void startOver(const Reading& reading);
+  void estimateRate();
+
+  std::deque<Reading> readings_;
+  double rate_ = 1.0;
+  double rateError_ = 0.0;
+};
+
+}  // namespace ortung

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/client/RobotSession.hpp"
+#include "ortung/container/Export.hpp"
+#include "ortung/container/SensorContainer.hpp"
+#include "ortung/container/Time.hpp"
+
+namespace ortung {
+
+struct RemoteOptions {
+  SessionOptions session;
+  double cycle = 0.1;      ///< between two updates of the container [s]; 0: by update() only
+  bool reconnects = true;  ///< after the connection was lost
+  /// Stamps are those of our own clock (`clock`), as if the sensors were here; otherwise the
+  /// server's, which is what lockstep needs.
+  bool hasLocalStamps = true;
+  /// Our clock [us]; empty: that of the computer, which never goes back.
+  std::function<Timestamp()> clock;
+  /// Told what goes wrong, and when it is well again; from any thread. May be empty.
+  std::function<void(const std::string&)> onTrouble;
+};
+
+/// A robot on a server's field: a container that fills itself, and calls to move (paper, section
+/// 3). Thread-safe; readers of the container hold its lock.
+class ORTUNG_API RemoteRobot {
+ public:
+  /// Connects, sends the robot file, and starts to update the container.
+  /// @throws ConfigError, PluginError for the robot file; ConnectionLost, ServerRefused
+  RemoteRobot(const std::filesystem::path& robotFile, const RemoteOptions& options);
+  ~RemoteRobot();
+  RemoteRobot(const RemoteRobot&) = delete;
+  RemoteRobot& operator=(const RemoteRobot&) = delete;
+
+  SensorContainer& container();
+
+  // --- commands; false if the server did not take them: trouble() says why
+  bool setTranslationalVelocity(double metresPerSecond);
+  bool setRotationalVelocity(double radiansPerSecond);
+  bool setMotion(std::span<const double> command);
+  bool setManipulator(const std::string& manipulator, double state);
+  bool say(const std::string& text);
+  /// Brings the container up to date now.
+  bool update();
+  /// Lets the server's world go on for so many cycles, and brings the container up to date: for
+  /// runs that can be repeated (the server's --lockstep). The first call begins it.
+  bool next(std::uint64_t cycles = 1);
+
+  /// Waits until the container was updated again. @param timeout [s]
+  bool waitForUpdate(double timeout);
+  bool isConnected() const;
+  /// What went wrong last, or "".
+  std::string trouble() const;
+  /// What the server and other clients said since the last call.
+  std::vector<std::string> takeNews();
+  /// How the server's clock relates to ours.
+  ClockOffset clockOffset() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ortung/client/ClockOffset.hpp"
+#include "ortung/container/Export.hpp"
+#include "ortung/container/Message.hpp"
+#include "ortung/container/Pose2.hpp"
+
+namespace ortung {
+
+namespace client {
+class LineSocket;
+}
+
+/// The server can't be reached any more; the message says which and why.
+class ORTUNG_API ConnectionLost : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~ConnectionLost() override;
+};
+
+/// The server answered "ERR code text".
+class ORTUNG_API ServerRefused : public std::runtime_error {
+ public:
+  ServerRefused(std::string code, const std::string& what)
+      : std::runtime_error(what), code_(std::move(code)) {}
+  ~ServerRefused() override;
+  const std::string& code() const { return code_; }
+
+ private:
+  std::string code_;
+};
+
+struct SessionOptions {
+  std::string host = "127.0.0.1";
+  std::uint16_t port = 7777;
+  std::string name = "robot";    ///< of client and robot: [A-Za-z0-9_-], 1 to 32 characters
+  std::string token;             ///< "": none
+  std::optional<Pose2> start;    ///< in the field frame; nothing: anywhere
+  bool wanders = false;          ///< the server drives the robot about
+  double timeout = 5.0;          ///< for an answer [s]
+  double patience = 60.0;        ///< for the end of cycles in lockstep [s]
+  bool isInterruptible = false;  ///< whether a signal ends what is under way
+};
+
+/// A connection to a message board with one robot on its field: the protocol of docs/protocol.md as
+/// function calls. Each call asks and waits for the answer. Not thread-safe.
+/// @throws ConnectionLost, ServerRefused from all members
+class ORTUNG_API RobotSession {
+ public:
+  /// Connects and creates the robot.
+  /// @param robotToml text of the robot file
+  RobotSession(const SessionOptions& options, std::string_view robotToml);
+  ~RobotSession();
+  RobotSession(const RobotSession&) = delete;
+  RobotSession& operator=(const RobotSession&) = delete;
+
+  const std::string& worldFingerprint() const { return fingerprint_; }
+  /// "simulation" or "record".
+  const std::string& kind() const { return kind_; }
+
+  void setTranslationalVelocity(double metresPerSecond);
+  void setRotationalVelocity(double radiansPerSecond);
+  void setMotion(std::span<const double> command);
+  void setManipulator(const std::string& manipulator, double state);
+  void say(const std::string& text);
+
+  /// Readings that are new, oldest first, stamped by the server's clock.
+  /// @param queries "model/type/feature", separated by blanks; "": all
+  std::vector<Message> update(const std::string& queries = "");
+  void setLockstep(bool isOn);
+  /// Lets the world go on, and returns what is new. Nothing at the end of a served record.
+  std::optional<std::vector<Message>> next(std::uint64_t cycles = 1);
+
+  /// One exchange of time stamps.
+  /// @param clock ours
+  template <class Clock>
+  ClockOffset::Exchange exchangeTime(Clock clock) {
+    ClockOffset::Exchange exchange;
+    exchange.sent = clock();
+    const std::string reply = ask("TIME");
+    exchange.back = clock();
+    exchange.received = stampOf(reply, "received");
+    exchange.answered = stampOf(reply, "sent");
+    return exchange;
+  }
+
+  /// Any request; the reply without its tag. @p body gets the lines that belong to it.
+  std::string ask(const std::string& request, std::vector<std::string>* body = nullptr);
+  /// What the server said unasked since the last call: "SAY client=2 name=bert ...".
+  std::vector<std::string> takeNews();
+
+ private:
+  std::string exchange(const std::string& request, double timeout);
+  std::vector<Message> takeReadings(const std::string& reply);
+  std::size_t linesOf(const std::string& reply) const;
+  Timestamp stampOf(const std::string& reply, std::string_view key) const;
+  void note(std::string_view line);
+  [[noreturn]] void failOn(std::string_view what) const;
+
+  SessionOptions options_;
+  std::unique_ptr<client::LineSocket> socket_;
+  std::string fingerprint_;
+  std::string kind_;
+  std::vector<std::string> news_;
+  std::uint64_t lastTag_ = 0;
+};
+
+}  // namespace ortung

@@ -1,0 +1,253 @@
+#include "ortung/client/RemoteRobot.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <thread>
+
+#include "ortung/config/RobotFile.hpp"
+#include "ortung/container/PluginFactory.hpp"
+
+namespace ortung {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr int kFirstExchanges = 8;                // of time stamps, when a connection is made
+constexpr Timestamp kExchangePeriod = 1'000'000;  // afterwards [us]
+constexpr double kFirstPause = 0.1;               // before connecting again [s]
+constexpr double kLongestPause = 2.0;             // [s]
+
+Timestamp steadyTime() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             steady_clock::now().time_since_epoch())
+      .count();
+}
+
+std::string readText(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+steady_clock::duration seconds(double s) {
+  return std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(s));
+}
+
+}  // namespace
+
+struct RemoteRobot::Parts {
+  Parts(const std::filesystem::path& robotFile, const RemoteOptions& given)
+      : options(given),
+        config(readRobot(robotFile)),
+        robotToml(readText(robotFile)),
+        factory(PluginFactory::standardFolders()) {
+    if (!options.clock) options.clock = steadyTime;
+    fillContainer(container, config, factory);
+    connect();
+    if (options.cycle > 0.0) thread = std::thread([this] { keepFresh(); });
+  }
+
+  ~Parts() {
+    {
+      const std::lock_guard lock(waiting);
+      isEnding = true;
+    }
+    news.notify_all();
+    if (thread.joinable()) thread.join();
+  }
+
+  // --- with `talking` held ---
+
+  void connect() {
+    session = std::make_unique<RobotSession>(options.session, robotToml);
+    offset = {};
+    isLockstep = false;
+    lastServer = lastLocal = {};
+    for (int i = 0; i < kFirstExchanges; ++i) offset.add(session->exchangeTime(options.clock));
+    exchanged = options.clock();
+  }
+
+  void measureTime() {
+    if (options.clock() - exchanged < kExchangePeriod) return;
+    offset.add(session->exchangeTime(options.clock));
+    exchanged = options.clock();
+  }
+
+  /// In our clock; never back while the server's does not go back either.
+  Timestamp localStamp(Timestamp server) {
+    if (!options.hasLocalStamps) return server;
+    Timestamp local = offset.toLocal(server);
+    if (lastServer && server >= *lastServer) local = std::max(local, lastLocal);
+    lastServer = server;
+    lastLocal = local;
+    return local;
+  }
+
+  void fill(std::vector<Message> readings) {
+    for (Message& reading : readings) reading.stamp = localStamp(reading.stamp);
+    container.set(readings);
+    {
+      const std::lock_guard lock(waiting);
+      ++updates;
+    }
+    news.notify_all();
+  }
+
+  /// Does something with the session; whatever goes wrong becomes trouble.
+  template <class Action>
+  bool attempt(Action action) {
+    const std::lock_guard lock(talking);
+    if (!session && !(options.reconnects && tryToConnect())) return false;
+    try {
+      action();
+      return true;
+    } catch (const ConnectionLost& error) {
+      session.reset();
+      pause = kFirstPause;
+      nextAttempt = steady_clock::now();
+      report(error.what());
+    } catch (const std::exception& error) {  // refused, or words that a feature refuses
+      report(error.what());
+    }
+    return false;
+  }
+
+  bool tryToConnect() {
+    if (steady_clock::now() < nextAttempt) return false;
+    try {
+      connect();
+      report("");
+      return true;
+    } catch (const std::exception& error) {
+      session.reset();
+      nextAttempt = steady_clock::now() + seconds(pause);
+      pause = std::min(2.0 * pause, kLongestPause);
+      report(error.what());
+      return false;
+    }
+  }
+
+  void report(const std::string& what) {
+    {
+      const std::lock_guard lock(waiting);
+      if (what == trouble) return;
+      trouble = what;
+    }
+    if (options.onTrouble)
+      options.onTrouble(what.empty() ? "connected again to " + options.session.host : what);
+  }
+
+  // --- the thread ---
+
+  bool update() {
+    return attempt([this] {
+      measureTime();
+      fill(session->update());
+    });
+  }
+
+  void keepFresh() {
+    auto due = steady_clock::now();
+    while (true) {
+      update();
+      due = std::max(due + seconds(options.cycle), steady_clock::now());
+      std::unique_lock lock(waiting);
+      if (news.wait_until(lock, due, [this] { return isEnding; })) return;
+    }
+  }
+
+  RemoteOptions options;
+  RobotConfig config;
+  std::string robotToml;
+  PluginFactory factory;
+  SensorContainer container;
+
+  mutable std::mutex talking;  ///< over what follows: one conversation at a time
+  std::unique_ptr<RobotSession> session;
+  ClockOffset offset;
+  Timestamp exchanged = 0;
+  std::optional<Timestamp> lastServer;
+  Timestamp lastLocal = 0;
+  bool isLockstep = false;
+  double pause = kFirstPause;
+  steady_clock::time_point nextAttempt;
+
+  mutable std::mutex waiting;  ///< over what follows
+  std::condition_variable news;
+  std::string trouble;
+  std::uint64_t updates = 0;
+  bool isEnding = false;
+  std::thread thread;
+};
+
+RemoteRobot::RemoteRobot(const std::filesystem::path& robotFile, const RemoteOptions& options)
+    : parts_(std::make_unique<Parts>(robotFile, options)) {}
+
+RemoteRobot::~RemoteRobot() = default;
+
+SensorContainer& RemoteRobot::container() { return parts_->container; }
+
+bool RemoteRobot::setTranslationalVelocity(double metresPerSecond) {
+  return parts_->attempt([&] { parts_->session->setTranslationalVelocity(metresPerSecond); });
+}
+
+bool RemoteRobot::setRotationalVelocity(double radiansPerSecond) {
+  return parts_->attempt([&] { parts_->session->setRotationalVelocity(radiansPerSecond); });
+}
+
+bool RemoteRobot::setMotion(std::span<const double> command) {
+  return parts_->attempt([&] { parts_->session->setMotion(command); });
+}
+
+bool RemoteRobot::setManipulator(const std::string& manipulator, double state) {
+  return parts_->attempt([&] { parts_->session->setManipulator(manipulator, state); });
+}
+
+bool RemoteRobot::say(const std::string& text) {
+  return parts_->attempt([&] { parts_->session->say(text); });
+}
+
+bool RemoteRobot::update() { return parts_->update(); }
+
+bool RemoteRobot::next(std::uint64_t cycles) {
+  bool isThere = false;
+  const bool isDone = parts_->attempt([&] {
+    if (!parts_->isLockstep) parts_->session->setLockstep(true);
+    parts_->isLockstep = true;
+    auto readings = parts_->session->next(cycles);
+    isThere = readings.has_value();
+    if (isThere) parts_->fill(std::move(*readings));
+  });
+  return isDone && isThere;
+}
+
+bool RemoteRobot::waitForUpdate(double timeout) {
+  std::unique_lock lock(parts_->waiting);
+  const std::uint64_t before = parts_->updates;
+  return parts_->news.wait_for(lock, seconds(timeout), [&] { return parts_->updates > before; });
+}
+
+bool RemoteRobot::isConnected() const {
+  const std::lock_guard lock(parts_->talking);
+  return parts_->session != nullptr;
+}
+
+std::string RemoteRobot::trouble() const {
+  const std::lock_guard lock(parts_->waiting);
+  return parts_->trouble;
+}
+
+std::vector<std::string> RemoteRobot::takeNews() {
+  const std::lock_guard lock(parts_->talking);
+  return parts_->session ? parts_->session->takeNews() : std::vector<std::string>{};
+}
+
+ClockOffset RemoteRobot::clockOffset() const {
+  const std::lock_guard lock(parts_->talking);
+  return parts_->offset;
+}
+
+}  // namespace ortung

@@ -1,0 +1,180 @@
+#include "ortung/client/RobotSession.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "LineSocket.hpp"
+#include "ortung/container/Record.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMostNews = 1000;
+constexpr std::size_t kMostLines = 1u << 20;
+
+/// Shortest text that gives the same number again.
+std::string shown(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string_view valueOf(std::string_view reply, std::string_view key) {
+  for (std::size_t begin = 0; begin < reply.size();) {
+    const std::size_t end = std::min(reply.find(' ', begin), reply.size());
+    const std::string_view word = reply.substr(begin, end - begin);
+    if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
+      return word.substr(key.size() + 1);
+    begin = end + 1;
+  }
+  return {};
+}
+
+/// A line with a single dot would end the robot file, so dots at the beginning are doubled.
+std::string withDotsDoubled(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (text.front() == '.') result += '.';
+    result.append(text.substr(0, end)).append("\n");
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+ConnectionLost::~ConnectionLost() = default;
+ServerRefused::~ServerRefused() = default;
+
+RobotSession::RobotSession(const SessionOptions& options, std::string_view robotToml)
+    : options_(options),
+      socket_(std::make_unique<client::LineSocket>(options.host, options.port, options.timeout,
+                                                   options.isInterruptible)) {
+  std::string hello = "HELLO ortung/1 name=" + options_.name;
+  if (!options_.token.empty()) hello += " token=" + options_.token;
+  kind_ = valueOf(ask(hello), "kind");
+  std::string create = "CREATE " + options_.name;
+  if (options_.start)
+    create += " x_m=" + shown(options_.start->x) + " y_m=" + shown(options_.start->y) +
+              " theta_rad=" + shown(options_.start->theta);
+  if (options_.wanders) create += " drive=wander";
+  ask(create + "\n" + withDotsDoubled(robotToml) + ".");
+  std::vector<std::string> world;
+  ask("DESCRIBE world", &world);
+  if (!world.empty()) fingerprint_ = valueOf(world.front(), "fingerprint");
+}
+
+RobotSession::~RobotSession() = default;
+
+void RobotSession::failOn(std::string_view what) const {
+  throw ConnectionLost(options_.host + ":" + std::to_string(options_.port) + ": found '" +
+                       std::string(what.substr(0, 80)) + "', which is not ortung/1");
+}
+
+/// What the server says unasked.
+void RobotSession::note(std::string_view line) {
+  line.remove_prefix(std::min<std::size_t>(2, line.size()));
+  if (line.starts_with("ERR ") || line.starts_with("BYE"))
+    throw ConnectionLost(options_.host + ":" + std::to_string(options_.port) +
+                         ": the server says " + std::string(line));
+  if (news_.size() < kMostNews) news_.emplace_back(line);
+}
+
+std::string RobotSession::exchange(const std::string& request, double timeout) {
+  const std::string tag = "#" + std::to_string(++lastTag_) + " ";
+  socket_->send(tag + request + "\n");
+  while (true) {
+    const std::string_view line = socket_->line(timeout);
+    if (line.starts_with("* ")) {
+      note(line);
+      continue;
+    }
+    if (!line.starts_with(tag)) failOn(line);
+    std::string reply(line.substr(tag.size()));
+    if (reply.starts_with("OK ")) return reply;
+    if (!reply.starts_with("ERR ")) failOn(line);
+    const std::string code = reply.substr(4, reply.find(' ', 4) - 4);
+    throw ServerRefused(
+        code, options_.host + ":" + std::to_string(options_.port) + ": the server refuses " +
+                  request.substr(0, std::min(request.find_first_of(" \n"), request.size())) + ": " +
+                  reply.substr(std::min(reply.size(), 5 + code.size())) + " (" + code + ")");
+  }
+}
+
+std::size_t RobotSession::linesOf(const std::string& reply) const {
+  const std::string_view text = valueOf(reply, "lines");
+  std::size_t count = 0;
+  if (text.empty()) return 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size() || count > kMostLines) failOn(reply);
+  return count;
+}
+
+Timestamp RobotSession::stampOf(const std::string& reply, std::string_view key) const {
+  const std::string_view text = valueOf(reply, key);
+  Timestamp stamp = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stamp);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) failOn(reply);
+  return stamp;
+}
+
+std::string RobotSession::ask(const std::string& request, std::vector<std::string>* body) {
+  std::string reply = exchange(request, options_.timeout);
+  for (std::size_t lines = linesOf(reply); lines > 0; --lines) {
+    const std::string_view line = socket_->line(options_.timeout);
+    if (body != nullptr) body->emplace_back(line);
+  }
+  return reply;
+}
+
+std::vector<Message> RobotSession::takeReadings(const std::string& reply) {
+  std::vector<Message> readings;
+  for (std::size_t lines = linesOf(reply); lines > 0; --lines) {
+    const std::string_view line = socket_->line(options_.timeout);
+    std::optional<Message> reading = parseLine(line);
+    if (!reading) failOn(line);
+    readings.push_back(std::move(*reading));
+  }
+  return readings;
+}
+
+std::vector<Message> RobotSession::update(const std::string& queries) {
+  return takeReadings(exchange(queries.empty() ? "UPDATE" : "UPDATE " + queries, options_.timeout));
+}
+
+void RobotSession::setLockstep(bool isOn) { ask(isOn ? "LOCKSTEP on" : "LOCKSTEP off"); }
+
+std::optional<std::vector<Message>> RobotSession::next(std::uint64_t cycles) {
+  try {
+    return takeReadings(exchange(cycles == 1 ? "NEXT" : "NEXT cycles=" + std::to_string(cycles),
+                                 options_.patience));
+  } catch (const ServerRefused& refusal) {
+    if (refusal.code() == "end") return std::nullopt;
+    throw;
+  }
+}
+
+void RobotSession::setTranslationalVelocity(double metresPerSecond) {
+  ask("VELOCITY v_m_s=" + shown(metresPerSecond));
+}
+
+void RobotSession::setRotationalVelocity(double radiansPerSecond) {
+  ask("VELOCITY w_rad_s=" + shown(radiansPerSecond));
+}
+
+void RobotSession::setMotion(std::span<const double> command) {
+  std::string request = "MOTION";
+  for (const double number : command) request += " " + shown(number);
+  ask(request);
+}
+
+void RobotSession::setManipulator(const std::string& manipulator, double state) {
+  ask("MANIPULATOR " + manipulator + " " + shown(state));
+}
+
+void RobotSession::say(const std::string& text) { ask("SAY " + text); }
+
+std::vector<std::string> RobotSession::takeNews() { return std::exchange(news_, {}); }
+
+}  // namespace ortung

@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ortung/client/ClockOffset.hpp"
+#include "ortung/container/Random.hpp"
+
+namespace ortung {
+namespace {
+
+/// Two clocks that disagree and a network that is slow by chance, more so in one direction.
+struct Network {
+  double offset = 1e9;  ///< of the server's clock [us]
+  double rate = 1.0;    ///< the server's seconds for each of ours
+  double truth = 5e8;   ///< our time [us]
+  Random random{42};
+
+  Timestamp ours() const { return static_cast<Timestamp>(std::floor(truth)); }
+  double serverTime() const { return offset + truth * rate; }
+  Timestamp servers() const { return static_cast<Timestamp>(std::floor(serverTime())); }
+  void pass(double least, double mean) { truth += least - mean * std::log(1.0 - random.uniform()); }
+
+  ClockOffset::Exchange exchange() {
+    ClockOffset::Exchange e;
+    e.sent = ours();
+    pass(50.0, 900.0);
+    e.received = servers();
+    pass(5.0, 20.0);
+    e.answered = servers();
+    pass(50.0, 150.0);
+    e.back = ours();
+    return e;
+  }
+};
+
+/// Half of what an exchange spent on the network.
+double halfTrip(const ClockOffset::Exchange& e) {
+  return static_cast<double>((e.back - e.sent) - (e.answered - e.received)) / 2.0;
+}
+
+TEST(ClockOffset, TheErrorIsBelowHalfOfTheShortestRoundTrip) {
+  Network network;
+  ClockOffset clock;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 50; ++i) {
+    const auto exchange = network.exchange();
+    shortest = std::min(shortest, halfTrip(exchange));
+    clock.add(exchange);
+    const double error = static_cast<double>(clock.toLocal(network.servers())) - network.truth;
+    EXPECT_LT(std::abs(error), shortest + 2.0) << i;  // stamps are whole microseconds
+  }
+  EXPECT_LT(shortest, 200.0);  // the network has good moments, and they were found
+}
+
+TEST(ClockOffset, DriftIsFollowedAndTheErrorStaysWithinTheBound) {
+  for (const double drift : {-200e-6, 80e-6, 250e-6}) {
+    Network network;
+    network.rate = 1.0 + drift;
+    ClockOffset clock;
+    double worst = 0.0;
+    for (int i = 0; i < 300; ++i) {
+      clock.add(network.exchange());
+      network.truth += 1e6;  // once a second
+      const double error =
+          std::abs(static_cast<double>(clock.toLocal(network.servers())) - network.truth);
+      EXPECT_LE(error, clock.bound(network.servers()) + 2.0) << i;
+      if (i > 100) worst = std::max(worst, error);
+    }
+    EXPECT_NEAR(clock.rate(), 1.0 / network.rate, 40e-6);
+    // Half of a typical round trip; without drift it would be up to 16 ms after 64 s.
+    EXPECT_LT(worst, 500.0);
+  }
+}
+
+TEST(ClockOffset, AWorldAtAnotherSpeedHasAnotherRate) {
+  Network network;
+  network.rate = 5.0;
+  ClockOffset clock;
+  for (int i = 0; i < 10; ++i) {
+    clock.add(network.exchange());
+    network.truth += 5e5;
+  }
+  EXPECT_NEAR(clock.rate(), 0.2, 1e-3);
+  const double error = static_cast<double>(clock.toLocal(network.servers())) - network.truth;
+  EXPECT_LE(std::abs(error), clock.bound(network.servers()) + 2.0);
+}
+
+TEST(ClockOffset, AClockThatWasSetIsMeasuredAnew) {
+  Network network;
+  ClockOffset clock;
+  for (int i = 0; i < 20; ++i) clock.add(network.exchange());
+  network.offset -= 3e7;  // the world was reset
+  const auto exchange = network.exchange();
+  clock.add(exchange);
+  const double error = static_cast<double>(clock.toLocal(network.servers())) - network.truth;
+  EXPECT_LT(std::abs(error), halfTrip(exchange) + 2.0);
+}
+
+TEST(ClockOffset, NonsenseIsPassedOver) {
+  ClockOffset clock;
+  clock.add({100, 50, 60, 90});   // back before sent
+  clock.add({100, 60, 50, 190});  // answered before received
+  EXPECT_FALSE(clock.isKnown());
+}
+
+}  // namespace
+}  // namespace ortung
