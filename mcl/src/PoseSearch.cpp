@@ -1,0 +1,112 @@
+#include "PoseSearch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "Resampling.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kWorth = 0.5;     ///< share of the set that each rise of b leaves effective
+constexpr int kMostRises = 12;     ///< of b, even if 1 is not reached
+constexpr double kStepMetres[] = {0.15, 0.05};  ///< sigma of a Metropolis step, coarse and fine [m]
+constexpr double kStepRadians[] = {0.08, 0.02};  ///< [rad]
+
+/// @p weight of a copy is @p rest times what the original fits.
+SampleSet taken(const SampleSet& from, const std::vector<std::uint32_t>& indices) {
+  SampleSet set;
+  set.resize(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    set.x[i] = from.x[indices[i]];
+    set.y[i] = from.y[indices[i]];
+    set.theta[i] = from.theta[indices[i]];
+  }
+  return set;
+}
+
+std::vector<float> taken(const std::vector<float>& from,
+                         const std::vector<std::uint32_t>& indices) {
+  std::vector<float> values(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) values[i] = from[indices[i]];
+  return values;
+}
+
+std::vector<float> scaled(const std::vector<float>& values, double factor) {
+  std::vector<float> products(values.size());
+  std::transform(values.begin(), values.end(), products.begin(),
+                 [factor](float v) { return static_cast<float>(factor) * v; });
+  return products;
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const FieldRegion& region) : region_(region) {
+  for (std::size_t cell = 0; cell < region.standable.size(); ++cell) {
+    if (region.standable[cell] != 0) standable_.push_back(static_cast<std::uint32_t>(cell));
+  }
+}
+
+SampleSet PoseSearch::anywhere(std::size_t n, Random random) const {
+  SampleSet set;
+  set.resize(n);
+  const double half = 0.5 * region_.grid.cell;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t cell = standable_[random.below(standable_.size())];
+    set.x[i] = static_cast<float>(region_.grid.centreX(cell) + random.uniform(-half, half));
+    set.y[i] = static_cast<float>(region_.grid.centreY(cell) + random.uniform(-half, half));
+    set.theta[i] = static_cast<float>(random.uniform(-std::numbers::pi, std::numbers::pi));
+    set.logWeight[i] = 0.0F;
+  }
+  return set;
+}
+
+SampleSet PoseSearch::draw(std::size_t n, double candidates, const Weigh& weigh,
+                           const Random& random) const {
+  SampleSet set = anywhere(static_cast<std::size_t>(candidates * static_cast<double>(n)),
+                           random.fork(0));
+  std::vector<float> fit;
+  weigh(set, fit);
+  Random offsets = random.fork(1);
+  double exponent = 0.0;
+  for (int rise = 0; exponent < 1.0 && rise < kMostRises; ++rise) {
+    const std::vector<float> rest = scaled(fit, 1.0 - exponent);
+    const double share = temperFor(rest, kWorth * static_cast<double>(n));
+    const auto indices = lowVariance(normalized(scaled(rest, share)), n, offsets.uniform());
+    exponent = share >= 1.0 ? 1.0 : exponent + share * (1.0 - exponent);
+    set = taken(set, indices);
+    fit = taken(fit, indices);
+    climb(set, fit, exponent, weigh, random.fork(2 + static_cast<std::uint64_t>(rise)));
+  }
+  set.logWeight = scaled(fit, 1.0 - exponent);
+  return set;
+}
+
+/// Metropolis steps whose invariant distribution is p^exponent over the standable poses.
+void PoseSearch::climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
+                       Random random) const {
+  SampleSet proposed;
+  proposed.resize(set.size());
+  std::vector<float> proposedFit;
+  for (std::size_t k = 0; k < std::size(kStepMetres); ++k) {
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      proposed.x[i] = set.x[i] + static_cast<float>(kStepMetres[k] * random.gaussian());
+      proposed.y[i] = set.y[i] + static_cast<float>(kStepMetres[k] * random.gaussian());
+      proposed.theta[i] = set.theta[i] + static_cast<float>(kStepRadians[k] * random.gaussian());
+    }
+    weigh(proposed, proposedFit);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const double chance = std::exp(std::min(0.0, exponent * (proposedFit[i] - fit[i])));
+      const bool accepted = random.uniform() < chance;
+      const std::ptrdiff_t cell = region_.grid.cellAt(proposed.x[i], proposed.y[i]);
+      if (!accepted || cell < 0 || region_.standable[static_cast<std::size_t>(cell)] == 0) continue;
+      set.x[i] = proposed.x[i];
+      set.y[i] = proposed.y[i];
+      set.theta[i] = proposed.theta[i];
+      fit[i] = proposedFit[i];
+    }
+  }
+}
+
+}  // namespace ortung

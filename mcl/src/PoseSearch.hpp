@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "ortung/container/FieldRegion.hpp"
+#include "ortung/container/Random.hpp"
+#include "ortung/mcl/SampleSet.hpp"
+
+namespace ortung {
+
+/// The inverse use of p(s|l): draws poses that the present readings speak for, out of all poses where
+/// the robot can stand. Annealed importance sampling (Neal 2001; Del Moral, Doucet, Jasra 2006): poses
+/// drawn evenly are weighed by p^b with a small b, then b rises to 1 while Metropolis steps let every
+/// pose climb to the top of its hill. So a sharp reading is found with few candidates.
+/// Not thread-safe.
+class PoseSearch {
+ public:
+  /// ln p(s|l) of all samples of a set.
+  using Weigh = std::function<void(const SampleSet&, std::vector<float>&)>;
+
+  /// @param region borrowed
+  explicit PoseSearch(const FieldRegion& region);
+
+  /// @p n poses spread evenly over all poses where the robot can stand; their weights are 0.
+  SampleSet anywhere(std::size_t n, Random random) const;
+
+  /// @p n poses by p(s|l).
+  /// @param candidates how many are tried for each of them at the beginning, at least 1
+  /// @returns what is left of ln p beyond the last b as `logWeight`
+  SampleSet draw(std::size_t n, double candidates, const Weigh& weigh, const Random& random) const;
+
+ private:
+  void climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
+             Random random) const;
+
+  const FieldRegion& region_;
+  std::vector<std::uint32_t> standable_;  ///< cells
+};
+
+}  // namespace ortung
