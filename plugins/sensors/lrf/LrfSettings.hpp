@@ -54,10 +54,11 @@ inline LrfSettings readLrfSettings(const Parameters& p) {
   readBeams(p, scan);
   scan.maxRange = p.numberOr("max_range_m", 8.0, {0.05, 1000.0});
   scan.minRange = p.numberOr("min_range_m", 0.0, {0.0, scan.maxRange});
+  if (p.choiceOr("perception", "rays", {"rays", "endpoints"}) == "endpoints") {
+    scan.perception = ScanData::Perception::kEndPoints;
+    scan.model.exponent = ScanData::kEndPointExponent;
+  }
   scan.model = SensorModel::read(p, "sigma_m", scan.model);
-  scan.perception = p.choiceOr("perception", "rays", {"rays", "endpoints"}) == "rays"
-                        ? ScanData::Perception::kRays
-                        : ScanData::Perception::kEndPoints;
   scan.usedBeams = static_cast<int>(p.integerOr("used_beams", 0, {0, 8192}));
   scan.endPointCell = p.numberOr("endpoint_cell_m", scan.endPointCell, {0.005, 1.0});
   settings.period = readPeriod(p, 0.1);

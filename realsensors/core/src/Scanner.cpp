@@ -79,7 +79,7 @@ std::string scannerToml(const Scanner& scanner, double period) {
          "\nfirst_angle_deg = " + tomlNumber(degrees(scanner.firstAngle)) +
          "\nangle_step_deg = " + tomlNumber(step) +
          "\nmax_range_m = " + tomlNumber(*scanner.maxRange) + "\nperiod_s = " + tomlNumber(period) +
-         "\n";
+         "\nperception = \"endpoints\"  # buildings are full of what no map holds\n";
 }
 
 }  // namespace ortung

@@ -180,8 +180,11 @@ class ORTUNG_API ScanData : public SensorData {
     Perception perception = Perception::kRays;
     int usedBeams = 0;           ///< thin to about this many; 0: all that differ in the table
     double endPointCell = 0.05;  ///< edge of an end-point field's cell [m]
+    /// The exponent is that of ray tables: their cells make neighbouring beams err alike.
     SensorModel model{.sigma = 0.05, .sigmaPerMetre = 0.01, .exponent = 0.06};
   };
+  /// A good exponent for end-point fields, which do not round the pose.
+  static constexpr double kEndPointExponent = 0.3;
   struct Reading {
     double firstAngle = 0.0;    ///< [rad]
     double angleStep = 0.0;     ///< [rad]
