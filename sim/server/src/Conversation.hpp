@@ -38,6 +38,8 @@ class Host {
   virtual void post(std::function<void()> task) = 0;
   /// Tells all other clients.
   virtual void broadcast(ClientId from, std::string_view text) = 0;
+  /// A client's connection is closed; its conversation is not needed any more.
+  virtual void forget(ClientId client) = 0;
   /// Somebody has begun or ended to subscribe.
   virtual void countSubscribers(int change) = 0;
 
@@ -71,7 +73,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   bool hasJoined() const { return hasJoined_; }
   bool isSubscribed() const { return subscription_.has_value(); }
   bool isWaiting() const { return waiting_ > 0 || pending_ > 0; }
-  Outlet& outlet() { return *outlet_; }
+  ClientId id() const { return id_; }
 
  private:
   enum class Role { kViewer, kPlayer, kOperator };

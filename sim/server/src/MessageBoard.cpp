@@ -53,6 +53,11 @@ struct MessageBoard::Parts final : server::Host {
       if (id != from) session->conversation().tell(text);
   }
 
+  void forget(server::ClientId client) override {
+    // Later: the session that says so is still at work, and maybe a loop over all of them.
+    post([this, client] { sessions_.erase(client); });
+  }
+
   void countSubscribers(int change) override { subscribers_ += change; }
 
   /// On the world's thread.
@@ -117,10 +122,7 @@ struct MessageBoard::Parts final : server::Host {
     timer_.async_wait([this](const boost::system::error_code& cancelled) {
       if (cancelled) return;
       const Timestamp now = server::wallTime();
-      for (auto it = sessions_.begin(); it != sessions_.end();) {
-        it->second->look(now);
-        it = it->second->isClosed() ? sessions_.erase(it) : std::next(it);
-      }
+      for (const auto& [id, session] : sessions_) session->look(now);
       look();
     });
   }

@@ -32,6 +32,7 @@ class Session::SocketOutlet final : public Outlet {
 
 Session::Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id)
     : socket_(std::move(socket)),
+      host_(host),
       limits_(host.config.limits),
       conversation_(
           std::make_shared<Conversation>(host, id, std::make_unique<SocketOutlet>(*this))),
@@ -148,6 +149,7 @@ void Session::close() {
   boost::system::error_code ignored;
   socket_.shutdown(boost::asio::ip::tcp::socket::shutdown_both, ignored);
   socket_.close(ignored);
+  host_.forget(conversation_->id());
 }
 
 }  // namespace ortung::server

@@ -23,7 +23,6 @@ class Session : public std::enable_shared_from_this<Session> {
   void close();
 
   Conversation& conversation() { return *conversation_; }
-  bool isClosed() const { return isClosed_; }
 
  private:
   class SocketOutlet;
@@ -34,6 +33,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void listenToTheEnd();
 
   boost::asio::ip::tcp::socket socket_;
+  Host& host_;
   const BoardLimits limits_;
   std::shared_ptr<Conversation> conversation_;
   std::array<char, 16384> buffer_;
