@@ -101,6 +101,13 @@ bool Program::waitForError(const std::string& text) {
   return true;
 }
 
+std::string Program::waitForOutput(const std::string& text) {
+  while (outcome_.out.find(text) == std::string::npos) {
+    if (out_ < 0 || !readSome()) break;
+  }
+  return outcome_.out;
+}
+
 void Program::signal(int number) const { kill(process_, number); }
 
 Outcome Program::finish() {

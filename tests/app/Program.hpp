@@ -26,6 +26,8 @@ class Program {
 
   /// Reads until stderr contains @p text; false if it ended before.
   bool waitForError(const std::string& text);
+  /// The same for stdout; returns all of it so far.
+  std::string waitForOutput(const std::string& text);
   void signal(int number) const;
   Outcome finish();
 

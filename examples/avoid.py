@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""A robot that drives about and turns away from what is in front of it, on the bare protocol.
+
+    avoid.py HOST PORT ROBOT_FILE [SECONDS]
+"""
+import socket
+import sys
+import time
+
+
+class Server:
+    """One line a request, one line a reply, and as many more as it says (docs/protocol.md)."""
+
+    def __init__(self, host, port):
+        self.lines = socket.create_connection((host, port), timeout=10).makefile("rw", newline="\n")
+
+    def ask(self, request):
+        self.lines.write(request + "\n")
+        self.lines.flush()
+        reply = self.lines.readline()
+        while reply.startswith("* "):  # said unasked
+            reply = self.lines.readline()
+        if not reply.startswith("OK"):
+            raise RuntimeError(f"{request.split()[0]}: {reply.strip() or 'the connection is closed'}")
+        values = dict(word.split("=", 1) for word in reply.split() if "=" in word)
+        return [self.lines.readline().strip() for _ in range(int(values.get("lines", 0)))]
+
+
+def readings(lines):
+    """{"LMS200/LRF/180DegreeScan": [words]} of the lines of a record."""
+    return {line.split()[1]: [int(word) for word in line.split()[3:]] for line in lines}
+
+
+def main(host, port, robot_file, seconds="10"):
+    server = Server(host, int(port))
+    server.ask("HELLO ortung/1 name=avoid-py")
+    with open(robot_file) as file:
+        server.ask("CREATE avoid-py\n" + file.read() + "\n.")
+    end = time.monotonic() + float(seconds)
+    while time.monotonic() < end:
+        scan = readings(server.ask("READ */LRF/*"))
+        for ranges in scan.values():
+            middle = len(ranges) // 2
+            ahead = min(r for r in ranges[middle - 30:middle + 30] + [8000] if r > 0)  # [mm]
+            if ahead > 800:
+                server.ask("VELOCITY v_m_s=0.5 w_rad_s=0")
+            else:
+                server.ask("VELOCITY v_m_s=0 w_rad_s=0.8")
+            print(f"{ahead} mm ahead")
+        time.sleep(0.1)
+    server.ask("BYE")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
+    try:
+        main(*sys.argv[1:])
+    except (OSError, RuntimeError) as error:
+        sys.exit(f"avoid.py: {error}")

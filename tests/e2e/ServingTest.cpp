@@ -1,0 +1,111 @@
+// `ortung sim --listen` and `ortung serve` as their users meet them.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "Files.hpp"
+#include "Program.hpp"
+#include "TestClient.hpp"
+#include "ortung/client/RemoteRobot.hpp"
+#include "ortung/container/Record.hpp"
+
+namespace ortung::test {
+namespace {
+
+const std::string kMaps = ORTUNG_SOURCE_DIR "/maps";
+const std::string kRobot = kMaps + "/robots/pioneer.toml";
+
+std::uint16_t portOf(Program& server) {
+  const std::string out = server.waitForOutput("\n");
+  const std::size_t place = out.find("port ");
+  if (place == std::string::npos) throw std::runtime_error("the server did not start");
+  return static_cast<std::uint16_t>(std::stoi(out.substr(place + 5)));
+}
+
+/// Output of a command and whether it succeeded.
+std::pair<std::string, bool> run(const std::string& command) {
+  FILE* pipe = ::popen(command.c_str(), "r");
+  std::string text;
+  char piece[4096];
+  std::size_t count = 0;
+  while ((count = std::fread(piece, 1, sizeof piece, pipe)) > 0) text.append(piece, count);
+  return {text, ::pclose(pipe) == 0};
+}
+
+TEST(Serving, TheExamplesPlayOnAServer) {
+  Program server({"sim", kMaps + "/fields/arena.toml", "--listen", "0"});
+  const std::string address = " 127.0.0.1 " + std::to_string(portOf(server)) + " " + kRobot + " 1";
+  for (const std::string& client :
+       {std::string(ORTUNG_EXAMPLES "/avoid"), std::string(ORTUNG_EXAMPLES "/avoid_c"),
+        std::string(ORTUNG_PYTHON " " ORTUNG_SOURCE_DIR "/examples/avoid.py")}) {
+    const auto [text, succeeded] = run(client + address);
+    EXPECT_TRUE(succeeded) << client;
+    EXPECT_NE(text.find("m ahead"), std::string::npos) << client << "\n" << text;
+  }
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.finish().exitCode, 0);
+}
+
+TEST(Serving, AServerThatIsKilledIsToldByTheClient) {
+  auto server = std::make_unique<Program>(
+      std::vector<std::string>{"sim", kMaps + "/fields/arena.toml", "--listen", "0"});
+  const std::string port = std::to_string(portOf(*server));
+  RemoteOptions options;
+  options.session.port = static_cast<std::uint16_t>(std::stoi(port));
+  options.cycle = 0.01;
+  RemoteRobot robot(kRobot, options);
+  ASSERT_TRUE(robot.waitForUpdate(20.0));
+  server->signal(SIGKILL);
+  server->finish();
+  while (robot.isConnected()) std::this_thread::yield();
+  EXPECT_TRUE(robot.trouble().starts_with("127.0.0.1:" + port + ": ")) << robot.trouble();
+  const Program again({"sim", kMaps + "/fields/arena.toml", "--listen", port});
+  ASSERT_TRUE(robot.waitForUpdate(20.0)) << robot.trouble();
+}
+
+TEST(Serving, ARecordIsServedLikeASimulation) {
+  const TemporaryFolder folder;
+  const std::string record = folder / "run.rec";
+  const Outcome imported = ortung({"import", "sim", kMaps + "/fields/arena.toml", "--out", record,
+                                   "--with-robot", kRobot, "--option", "duration=1"});
+  ASSERT_EQ(imported.exitCode, 0) << imported.err;
+  Program server({"serve", record, "--listen", "0", "--lockstep"});
+  TestClient client(portOf(server));
+  EXPECT_EQ(client.ask("HELLO ortung/1"),
+            "OK HELLO ortung/1 client=1 role=player kind=record world=run now=0 state=waiting");
+  client.send("CREATE r\n" + readBytes(kRobot) + ".\n");
+  EXPECT_EQ(client.line(), "OK CREATE robot=1 features=15");
+  EXPECT_EQ(client.ask("VELOCITY v_m_s=1"), "OK VELOCITY");
+  EXPECT_EQ(client.ask("LOCKSTEP on"), "OK LOCKSTEP on");
+  // All that it gives is the record.
+  std::string all;
+  for (std::string head = client.ask("NEXT"); head.starts_with("OK"); head = client.ask("NEXT"))
+    for (int lines = std::stoi(valueOf(head, "lines")); lines > 0; --lines)
+      all += client.line() + "\n";
+  const std::string bytes = readBytes(record);
+  EXPECT_EQ(all, bytes.substr(bytes.find("\n", bytes.find("# world")) + 1));
+  server.signal(SIGINT);
+  EXPECT_EQ(server.finish().exitCode, 0);
+}
+
+TEST(Serving, WhatCanNotBeServedIsToldInOneLine) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"sim", kMaps + "/fields/arena.toml", "--listen", "x"}, "--listen is 'x'"},
+      {{"sim", kMaps + "/fields/arena.toml", "--listen", "70000"}, "--listen is '70000'"},
+      {{"sim", kMaps + "/fields/arena.toml", "--listen", "0.0.0.0:0"}, "that needs a token"},
+      {{"sim", kMaps + "/fields/arena.toml", "--listen", "0", "--lockstep", "--free-run"},
+       "exclude each other"},
+      {{"sim", kMaps + "/nowhere.toml", "--listen", "0"}, "can't be read"},
+      {{"serve", kRobot, "--listen", "0"}, "expected '# ortung record 1'"}};
+  for (const auto& [arguments, expected] : cases) {
+    const Outcome outcome = ortung(arguments);
+    EXPECT_NE(outcome.exitCode, 0);
+    EXPECT_NE(outcome.err.find(expected), std::string::npos) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace ortung::test
