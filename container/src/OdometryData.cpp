@@ -12,12 +12,17 @@ OdometryData::OdometryData(SensorId id) : SensorData(std::move(id)) {}
 OdometryData::~OdometryData() = default;
 
 std::vector<std::uint32_t> OdometryData::encode(const Reading& reading) {
-  std::vector<std::uint32_t> out = {
-      words::fromSignedMetres(reading.pose.x), words::fromSignedMetres(reading.pose.y),
-      words::fromAngle(reading.pose.theta), words::fromSignedMetres(reading.translationalVelocity),
-      words::fromRate(reading.rotationalVelocity)};
-  out.insert(out.end(), reading.motionData.begin(), reading.motionData.end());
+  std::vector<std::uint32_t> out;
+  encode(reading, out);
   return out;
+}
+
+void OdometryData::encode(const Reading& reading, std::vector<std::uint32_t>& words) {
+  words.assign({words::fromSignedMetres(reading.pose.x), words::fromSignedMetres(reading.pose.y),
+                words::fromAngle(reading.pose.theta),
+                words::fromSignedMetres(reading.translationalVelocity),
+                words::fromRate(reading.rotationalVelocity)});
+  words.insert(words.end(), reading.motionData.begin(), reading.motionData.end());
 }
 
 void OdometryData::decode(std::span<const std::uint32_t> words) {

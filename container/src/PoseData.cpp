@@ -6,7 +6,14 @@ PoseData::PoseData(SensorId id) : SensorData(std::move(id)) {}
 PoseData::~PoseData() = default;
 
 std::vector<std::uint32_t> PoseData::encode(const Pose2& pose) {
-  return {words::fromSignedMetres(pose.x), words::fromSignedMetres(pose.y), words::fromAngle(pose.theta)};
+  std::vector<std::uint32_t> out;
+  encode(pose, out);
+  return out;
+}
+
+void PoseData::encode(const Pose2& pose, std::vector<std::uint32_t>& words) {
+  words.assign({words::fromSignedMetres(pose.x), words::fromSignedMetres(pose.y),
+                words::fromAngle(pose.theta)});
 }
 
 void PoseData::decode(std::span<const std::uint32_t> words) {

@@ -23,23 +23,11 @@ using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
 using Geometry = std::unique_ptr<RTCGeometryTy, Release>;
 
-/// What the callbacks below get to know of a ray; Embree hands them the pointer to `base`.
-struct Context {
-  RTCIntersectContext base;
-  RobotNumber ignore;
-};
-
-Context makeContext(RobotNumber ignore) {
-  Context context;
-  rtcInitIntersectContext(&context.base);
-  context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  context.ignore = ignore;
+RTCIntersectContext makeContext() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return context;
-}
-
-bool isIgnored(const RoundGeometry& round, unsigned body, const RTCIntersectContext* context) {
-  const RobotNumber robot = round.robot(body);
-  return robot != 0 && robot == reinterpret_cast<const Context*>(context)->ignore;
 }
 
 FloatRay rayOf(RTCRayN* ray, unsigned n, unsigned i) {
@@ -56,7 +44,6 @@ void boundRound(const RTCBoundsFunctionArguments* args) {
 
 void intersectRound(const RTCIntersectFunctionNArguments* args) {
   const auto& round = *static_cast<const RoundGeometry*>(args->geometryUserPtr);
-  if (isIgnored(round, args->primID, args->context)) return;
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
   for (unsigned i = 0; i < args->N; ++i) {
@@ -71,7 +58,6 @@ void intersectRound(const RTCIntersectFunctionNArguments* args) {
 
 void occludeRound(const RTCOccludedFunctionNArguments* args) {
   const auto& round = *static_cast<const RoundGeometry*>(args->geometryUserPtr);
-  if (isIgnored(round, args->primID, args->context)) return;
   for (unsigned i = 0; i < args->N; ++i)
     if (args->valid[i] != 0 && round.hit(args->primID, rayOf(args->ray, args->N, i)))
       RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
@@ -125,8 +111,8 @@ struct Turns {
   }
 };
 
-/// Moves hits on outlines of maps on to the surface behind. A cell of a map made from scans says that
-/// the surface was somewhere in it, so its middle is the best guess, not its near side.
+/// Moves hits on outlines of maps on to the surface behind. A cell of a map made from scans says
+/// that the surface was somewhere in it, so its middle is the best guess, not its near side.
 void moveToSurfaces(const std::vector<Mesh::Depth>& depths, double maxRange, std::size_t n,
                     RTCRayHit16& packet) {
   constexpr unsigned kWalls = 0;  // attached to the scene before all else
@@ -152,10 +138,8 @@ struct RayCaster::Scenes {
   Device device;
   Point2 middle;
   RoundGeometry round;
-  RoundGeometry robotBodies;
   Scene upright;  ///< what level rays can meet
   Scene caps;     ///< null if there are none
-  Scene robots;   ///< null if there are none
   std::vector<Mesh::Depth> depths;
 
   Scene makeScene() const {
@@ -170,9 +154,8 @@ struct RayCaster::Scenes {
       throw std::runtime_error("Embree cannot build the world, error " + std::to_string(error));
   }
   /// The scenes that matter to a ray.
-  std::array<RTCScene, 3> scenesFor(bool isLevel, RobotNumber ignore) const {
-    const bool alone = robotBodies.size() == 1 && robotBodies.robot(0) == ignore;
-    return {upright.get(), isLevel ? nullptr : caps.get(), alone ? nullptr : robots.get()};
+  std::array<RTCScene, 2> scenesFor(bool isLevel) const {
+    return {upright.get(), isLevel ? nullptr : caps.get()};
   }
 };
 
@@ -195,21 +178,11 @@ RayCaster::RayCaster(const Mesh& mesh) : scenes_(std::make_unique<Scenes>()) {
 
 RayCaster::~RayCaster() = default;
 
-void RayCaster::setRobots(const std::vector<RoundBody>& robots) {
-  scenes_->robots.reset();
-  scenes_->robotBodies = RoundGeometry(robots, scenes_->middle);
-  if (robots.empty()) return;
-  Scene scene = scenes_->makeScene();
-  attachRound(scenes_->device.get(), scene.get(), scenes_->robotBodies);
-  scenes_->commit(scene);
-  scenes_->robots = std::move(scene);
-}
-
-void RayCaster::castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const {
-  const auto scenes = scenes_->scenesFor(fan.elevation == 0.0, ignore);
+void RayCaster::castFan(const RayFan& fan, std::span<float> ranges) const {
+  const auto scenes = scenes_->scenesFor(fan.elevation == 0.0);
   const double level = std::cos(fan.elevation);
   const Turns turns(fan.angleStep);  // the same within all packets
-  Context context = makeContext(ignore);
+  RTCIntersectContext context = makeContext();
   alignas(64) std::array<int, kPacket> valid;
   alignas(64) RTCRayHit16 packet;
   for (unsigned i = 0; i < kPacket; ++i) {
@@ -237,7 +210,7 @@ void RayCaster::castFan(const RayFan& fan, RobotNumber ignore, std::span<float> 
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     for (const RTCScene scene : scenes) {
-      if (scene != nullptr) rtcIntersect16(valid.data(), scene, &context.base, &packet);
+      if (scene != nullptr) rtcIntersect16(valid.data(), scene, &context, &packet);
       if (scene == scenes.front() && !scenes_->depths.empty())
         moveToSurfaces(scenes_->depths, fan.maxRange, n, packet);
     }
@@ -246,7 +219,7 @@ void RayCaster::castFan(const RayFan& fan, RobotNumber ignore, std::span<float> 
 }
 
 bool RayCaster::isBlocked(const std::array<double, 3>& from, const std::array<double, 3>& direction,
-                          double stop, RobotNumber ignore) const {
+                          double stop) const {
   RTCRay ray{};
   ray.org_x = static_cast<float>(from[0] - scenes_->middle.x);
   ray.org_y = static_cast<float>(from[1] - scenes_->middle.y);
@@ -256,9 +229,9 @@ bool RayCaster::isBlocked(const std::array<double, 3>& from, const std::array<do
   ray.dir_z = static_cast<float>(direction[2]);
   ray.tfar = static_cast<float>(stop);
   ray.mask = ~0u;
-  Context context = makeContext(ignore);
-  for (const RTCScene scene : scenes_->scenesFor(direction[2] == 0.0, ignore)) {
-    if (scene != nullptr) rtcOccluded1(scene, &context.base, &ray);
+  RTCIntersectContext context = makeContext();
+  for (const RTCScene scene : scenes_->scenesFor(direction[2] == 0.0)) {
+    if (scene != nullptr) rtcOccluded1(scene, &context, &ray);
     if (ray.tfar < 0.0f) return true;  // Embree says so by -infinity
   }
   return false;

@@ -71,26 +71,6 @@ void forRuns(int n, const IsPart& isPart, const Found& found) {
   }
 }
 
-// The edges between occupied cells and others, merged along straight lines.
-void addOutlines(const GridBody& body, Builder& builder) {
-  const GridMap& map = body.map;
-  const auto corner = [&](int column, int row) {
-    return Point2{map.originX + column * map.cell, map.originY + row * map.cell};
-  };
-  for (int c = 0; c <= map.columns; ++c)
-    forRuns(
-        map.rows, [&](int r) { return isOccupied(map, c - 1, r) != isOccupied(map, c, r); },
-        [&](int from, int to) {
-          builder.addWall(corner(c, from), corner(c, to), body.zLow, body.zHigh);
-        });
-  for (int r = 0; r <= map.rows; ++r)
-    forRuns(
-        map.columns, [&](int c) { return isOccupied(map, c, r - 1) != isOccupied(map, c, r); },
-        [&](int from, int to) {
-          builder.addWall(corner(from, r), corner(to, r), body.zLow, body.zHigh);
-        });
-}
-
 // Tops and bottoms of the occupied cells, for rays that rise or fall: one rectangle for each run of
 // cells, and one for equal runs in rows that follow each other.
 void addCaps(const GridBody& body, Builder& builder) {
@@ -128,6 +108,22 @@ void addCaps(const GridBody& body, Builder& builder) {
 
 }  // namespace
 
+void forOutline(const GridBody& body,
+                const std::function<void(const Point2&, const Point2&)>& found) {
+  const GridMap& map = body.map;
+  const auto corner = [&](int column, int row) {
+    return Point2{map.originX + column * map.cell, map.originY + row * map.cell};
+  };
+  for (int c = 0; c <= map.columns; ++c)
+    forRuns(
+        map.rows, [&](int r) { return isOccupied(map, c - 1, r) != isOccupied(map, c, r); },
+        [&](int from, int to) { found(corner(c, from), corner(c, to)); });
+  for (int r = 0; r <= map.rows; ++r)
+    forRuns(
+        map.columns, [&](int c) { return isOccupied(map, c, r - 1) != isOccupied(map, c, r); },
+        [&](int from, int to) { found(corner(from, r), corner(to, r)); });
+}
+
 Mesh makeMesh(const WorldModel& world) {
   Mesh mesh;
   mesh.middle = {0.5 * (world.bounds.xLow + world.bounds.xHigh),
@@ -145,7 +141,9 @@ Mesh makeMesh(const WorldModel& world) {
                                     [](const GridBody& body) { return body.surfaceDepth > 0.0; });
   for (const GridBody& body : world.grids) {
     if (anyDepth) mesh.depths.push_back({mesh.walls.corners.size(), body.surfaceDepth});
-    addOutlines(body, builder);
+    forOutline(body, [&](const Point2& from, const Point2& to) {
+      builder.addWall(from, to, body.zLow, body.zHigh);
+    });
     addCaps(body, builder);
   }
   return mesh;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "WorldModel.hpp"
@@ -10,13 +11,12 @@ namespace ortung {
 
 /// An upright cylinder with an elliptic base, in the field frame.
 struct RoundBody {
-  Point2 centre;          ///< [m]
-  double halfX = 0.0;     ///< half the axis along its own x axis [m]
-  double halfY = 0.0;     ///< [m]
-  double angle = 0.0;     ///< of its own x axis [rad]
-  double zLow = 0.0;      ///< [m]
-  double zHigh = 0.0;     ///< [m]
-  RobotNumber robot = 0;  ///< whose body it is; 0: no robot's
+  Point2 centre;       ///< [m]
+  double halfX = 0.0;  ///< half the axis along its own x axis [m]
+  double halfY = 0.0;  ///< [m]
+  double angle = 0.0;  ///< of its own x axis [rad]
+  double zLow = 0.0;   ///< [m]
+  double zHigh = 0.0;  ///< [m]
 };
 
 struct Triangles {
@@ -38,6 +38,10 @@ struct Mesh {
   };
   std::vector<Depth> depths;  ///< one a map, in the order of triangles; empty if all are 0
 };
+
+/// Calls for every straight piece of the edges between occupied cells and others.
+void forOutline(const GridBody& body,
+                const std::function<void(const Point2&, const Point2&)>& found);
 
 /// Extrudes everything solid: circles and ellipses to round bodies, all else to triangles.
 /// @throws std::length_error when there are more than 2^21 walls

@@ -95,6 +95,16 @@ Box2 boundsOf(const Primitive& primitive) {
           primitive.centre.y + height};
 }
 
+double reachOf(const Primitive& primitive) {
+  if (primitive.shape == Primitive::Shape::ellipse)
+    return std::hypot(primitive.centre.x, primitive.centre.y) +
+           std::max(primitive.halfX, primitive.halfY);
+  double reach = 0.0;
+  for (const Point2& corner : cornersOf(primitive))
+    reach = std::max(reach, std::hypot(corner.x, corner.y));
+  return reach;
+}
+
 std::vector<Point2> cornersOf(const Primitive& primitive) {
   if (primitive.shape == Primitive::Shape::triangle)
     return {primitive.corners.begin(), primitive.corners.end()};

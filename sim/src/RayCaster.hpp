@@ -9,8 +9,8 @@
 
 namespace ortung {
 
-/// Casts rays; the only part that knows the ray tracing library.
-/// Casting is thread-safe while nobody calls setRobots().
+/// Casts rays against what does not move; the only part that knows the ray tracing library.
+/// Thread-safe.
 class RayCaster {
  public:
   /// @throws std::runtime_error when the ray tracing library fails
@@ -19,14 +19,12 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  void setRobots(const std::vector<RoundBody>& robots);
-
   /// As World::castFan(). @pre all numbers are finite, maxRange is not negative
-  void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const;
+  void castFan(const RayFan& fan, std::span<float> ranges) const;
 
   /// Whether anything is met from one point towards another before @p stop metres from it.
   bool isBlocked(const std::array<double, 3>& from, const std::array<double, 3>& direction,
-                 double stop, RobotNumber ignore) const;
+                 double stop) const;
 
  private:
   struct Scenes;

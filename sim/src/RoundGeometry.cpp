@@ -12,7 +12,7 @@ RoundGeometry::RoundGeometry(const std::vector<RoundBody>& bodies, const Point2&
     bodies_.push_back({body.centre.x - middle.x, body.centre.y - middle.y, body.zLow, body.zHigh,
                        c / body.halfX, s / body.halfX, -s / body.halfY, c / body.halfY,
                        std::hypot(body.halfX * c, body.halfY * s),
-                       std::hypot(body.halfX * s, body.halfY * c), body.robot});
+                       std::hypot(body.halfX * s, body.halfY * c)});
   }
 }
 

@@ -23,7 +23,6 @@ class RoundGeometry {
   RoundGeometry(const std::vector<RoundBody>& bodies, const Point2& middle);
 
   std::size_t size() const { return bodies_.size(); }
-  RobotNumber robot(std::size_t body) const { return bodies_[body].robot; }
   /// Lowest and highest x, y, z, relative to the middle.
   std::array<std::array<float, 3>, 2> boundsOf(std::size_t body) const;
   /// Distance along the ray to the first surface, from outside or inside, if it is on the ray.
@@ -35,7 +34,6 @@ class RoundGeometry {
     double x, y, zLow, zHigh;
     double xx, xy, yx, yy;
     double reachX, reachY;  ///< half the size of its bounds [m]
-    RobotNumber robot;
   };
   std::vector<Unit> bodies_;
 };

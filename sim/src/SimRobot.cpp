@@ -1,7 +1,10 @@
 #include "ortung/sim/SimRobot.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
+#include "CheckedDrive.hpp"
 #include "ortung/container/Formats.hpp"
 
 namespace ortung {
@@ -14,13 +17,26 @@ constexpr std::uint64_t kSlipStream = 1;
 constexpr std::uint64_t kFirstSensor = 16;
 
 constexpr const char* kDefaultDrive = "differential";
+constexpr std::size_t kMostProblems = 100;
 
 bool isGroundTruth(const SensorData& data) { return data.id().type == "groundTruth"; }
+
+bool isFinite(const Twist& velocity) {
+  return std::isfinite(velocity.x) && std::isfinite(velocity.y) && std::isfinite(velocity.theta);
+}
+
+/// A velocity in the frame of a robot that faces @p heading.
+Twist toRobot(const Twist& inField, double heading) {
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  return {c * inField.x + s * inField.y, c * inField.y - s * inField.x, inField.theta};
+}
 
 }  // namespace
 
 struct SimRobot::Mounted {
-  std::unique_ptr<Sensor> sensor;
+  std::string plugin;
+  std::unique_ptr<Sensor> sensor;  ///< null once it has thrown
   std::vector<SensorData*> data;
   std::vector<std::uint64_t> seen;  ///< by data: sequence number of the last reading sent
   Random random;
@@ -31,11 +47,15 @@ struct SimRobot::Mounted {
 SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start,
                    const Random& random, bool noise)
     : config_(config),
-      bodyHeight_(config_.drive.numberOr("body_height_m", 0.5, {0.01, 10.0})),
-      drive_(factory.make<Drive>(config_.drive.textOr("plugin", kDefaultDrive), config_.drive)),
+      shape_(RobotShape::read(config_)),
       odometryRandom_(random.fork(kOdometryStream)),
       slipRandom_(random.fork(kSlipStream)),
-      noise_(noise) {
+      noise_(noise),
+      manipulatorStates_(shape_.manipulators.size(), 0),
+      wantedStates_(shape_.manipulators.size(), 0),
+      enteredAt_(shape_.manipulators.size(), 0) {
+  const std::string plugin = config_.drive.textOr("plugin", kDefaultDrive);
+  drive_ = std::make_unique<CheckedDrive>(factory.make<Drive>(plugin, config_.drive), config_.name);
   state_.pose = start;
   const std::vector<Device> devices = fillContainer(container_, config_, factory);
   bool hasTruth = false;
@@ -45,7 +65,7 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
                                        [](SensorData* data) { return isGroundTruth(*data); });
     auto sensor = factory.make<Sensor>(device.config->plugin, device.config->parameters);
     const Timestamp period = fromSeconds(sensor->period());
-    sensors_.push_back({std::move(sensor), device.data,
+    sensors_.push_back({device.config->plugin, std::move(sensor), device.data,
                         std::vector<std::uint64_t>(device.data.size(), 0),
                         random.fork(kFirstSensor + i), period, 0});
   }
@@ -54,16 +74,37 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
 
 SimRobot::~SimRobot() = default;
 
+void SimRobot::report(Timestamp now, const std::string& what) {
+  if (problems_.size() < kMostProblems)
+    problems_.push_back("robot " + config_.name + " at " + std::to_string(toSeconds(now)) +
+                        " s: " + what);
+}
+
 std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
-  frame_.clear();
+  inFrame_ = 0;
   for (Mounted& mounted : sensors_) {
-    if (now < mounted.due) continue;
+    if (!mounted.sensor || now < mounted.due) continue;
     // Keeps the rhythm when a period is no multiple of the cycle; one reading a cycle at most.
     mounted.due = std::max(mounted.due + mounted.period, now + 1);
-    generate(mounted, world, now);
+    try {
+      generate(mounted, world, now);
+    } catch (const std::exception& error) {
+      mounted.sensor.reset();
+      report(now, "the sensor plugin '" + mounted.plugin +
+                      "' failed in generateData and is switched off: " + error.what());
+    } catch (...) {
+      mounted.sensor.reset();
+      report(now, "the sensor plugin '" + mounted.plugin +
+                      "' failed in generateData and is switched off: it threw no std::exception");
+    }
   }
-  if (!frame_.empty()) addGroundTruth(now);
-  return frame_;
+  if (inFrame_ > 0) addGroundTruth(now);
+  return {frame_.data(), inFrame_};
+}
+
+Message& SimRobot::nextMessage() {
+  if (inFrame_ == frame_.size()) frame_.emplace_back();
+  return frame_[inFrame_++];
 }
 
 void SimRobot::generate(Mounted& mounted, const World& world, Timestamp now) {
@@ -73,37 +114,96 @@ void SimRobot::generate(Mounted& mounted, const World& world, Timestamp now) {
     const SensorData& data = *mounted.data[i];
     if (data.sequence() == mounted.seen[i]) continue;
     mounted.seen[i] = data.sequence();
+    Message& message = nextMessage();
+    message.stamp = now;
+    message.id = data.id();
     const std::span<const std::uint32_t> words = data.getData();
-    frame_.push_back({now, data.id(), {words.begin(), words.end()}});
+    message.words.assign(words.begin(), words.end());
   }
 }
 
 void SimRobot::addGroundTruth(Timestamp now) {
   if (truth_ == nullptr) return;
-  const std::vector<std::uint32_t> words = PoseData::encode(state_.pose);
-  truth_->setData(now, words);
-  frame_.push_back({now, truth_->id(), words});
+  PoseData::encode(state_.pose, truthWords_);
+  truth_->setData(now, truthWords_);
+  Message& message = nextMessage();
+  message.stamp = now;
+  message.id = truth_->id();
+  message.words = truthWords_;
+}
+
+void SimRobot::setManipulator(std::string_view manipulator, std::string_view state) {
+  std::string known;
+  for (std::size_t i = 0; i < shape_.manipulators.size(); ++i) {
+    const Manipulator& one = shape_.manipulators[i];
+    known += (known.empty() ? "" : ", ") + one.name;
+    if (one.name != manipulator) continue;
+    const auto found = one.find(state);
+    if (found) {
+      wantedStates_[i] = *found;
+      return;
+    }
+    std::string states;
+    for (const ManipulatorState& each : one.states)
+      states += (states.empty() ? "" : ", ") + each.name;
+    throw std::invalid_argument("robot " + config_.name + ": its manipulator " + one.name +
+                                " has no state '" + std::string(state) + "', but " + states);
+  }
+  throw std::invalid_argument("robot " + config_.name + " has no manipulator '" +
+                              std::string(manipulator) + "', but " +
+                              (known.empty() ? "none" : known));
+}
+
+bool SimRobot::updateManipulators(Timestamp now) {
+  kicks_.clear();
+  bool changed = false;
+  for (std::size_t i = 0; i < shape_.manipulators.size(); ++i) {
+    const std::vector<ManipulatorState>& states = shape_.manipulators[i].states;
+    const auto& returnsAfter = states[manipulatorStates_[i]].returnsAfter;
+    if (returnsAfter && wantedStates_[i] == manipulatorStates_[i] &&
+        now - enteredAt_[i] >= fromSeconds(*returnsAfter))
+      wantedStates_[i] = 0;
+    if (wantedStates_[i] == manipulatorStates_[i]) continue;
+    changed = true;
+    manipulatorStates_[i] = wantedStates_[i];
+    enteredAt_[i] = now;
+    const ManipulatorState& entered = states[manipulatorStates_[i]];
+    if (entered.ballSpeed > 0.0) kicks_.push_back(&entered);
+  }
+  return changed;
 }
 
 Pose2 SimRobot::plan(Timestamp now, double dt) {
-  if (driver_) driver_->command(state_.pose, now, *drive_);
-  change_ = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
-  return state_.pose * change_;
+  if (!driveWorks_) return {};
+  try {
+    if (driver_) driver_->command(state_.pose, now, *drive_);
+    const Pose2 change = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
+    if (ortung::isFinite(change) && isFinite(drive_->velocity())) return change;
+    report(now, "its drive gave a motion that is not finite and is switched off");
+  } catch (const std::exception& error) {
+    report(now, std::string("its drive failed and is switched off: ") + error.what());
+  }
+  driveWorks_ = false;
+  return {};
 }
 
-void SimRobot::move() {
-  state_.pose = state_.pose * change_;
-  state_.odometry = state_.odometry * drive_->measure(change_, noise_ ? &odometryRandom_ : nullptr);
-  const Twist measured = drive_->measuredVelocity(noise_);
-  state_.translationalVelocity = measured.x;
-  state_.rotationalVelocity = measured.theta;
+void SimRobot::move(const Pose2& pose, const Twist& velocity, bool wasDisturbed) {
+  const Pose2 change = inverse(state_.pose) * pose;
+  state_.pose = pose;
+  state_.velocity = velocity;
+  if (!driveWorks_) return;
+  if (wasDisturbed) drive_->setVelocity(toRobot(velocity, pose.theta));
+  const Pose2 measured = drive_->measure(change, noise_ ? &odometryRandom_ : nullptr);
+  if (ortung::isFinite(measured)) state_.odometry = state_.odometry * measured;
+  const Twist told = drive_->measuredVelocity(noise_);
+  state_.translationalVelocity = told.x;
+  state_.rotationalVelocity = told.theta;
   state_.motionData = drive_->motionData();
 }
 
-void SimRobot::block() {
-  drive_->setVelocity({0.0, 0.0, drive_->velocity().theta});
-  change_ = {0.0, 0.0, change_.theta};  // a round body can always turn
-  move();
+void SimRobot::place(const Pose2& pose) {
+  state_.pose = pose;
+  state_.velocity = {};
 }
 
 }  // namespace ortung

@@ -1,12 +1,10 @@
 #include "ortung/sim/SimWorld.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <stdexcept>
 
+#include "BodyRays.hpp"
 #include "FreeSpace.hpp"
 #include "RayCaster.hpp"
 #include "WorldModel.hpp"
@@ -18,12 +16,8 @@ SimWorld::~SimWorld() = default;
 
 namespace {
 
-constexpr std::size_t kMaxRobots = 4096;
-constexpr Range kRobotSize{0.01, 100.0};  ///< [m]
-
-bool isWithin(double value, const Range& range) {
-  return value >= range.low && value <= range.high;
-}
+constexpr std::size_t kMaxBodies = 4096;
+constexpr Range kBodySize{0.001, 100.0};  ///< [m]
 
 bool isSane(const RayFan& fan) {
   for (const double value : {fan.x, fan.y, fan.z, fan.firstAngle, fan.angleStep, fan.elevation})
@@ -63,8 +57,8 @@ class ModelledWorld final : public SimWorld {
                 fan.maxRange > 0.0 ? static_cast<float>(fan.maxRange) : 0.0f);
       return;
     }
-    placeRobots();
-    rays_.castFan(fan, ignore, ranges);
+    rays_.castFan(fan, ranges);
+    bodies_.castFan(fan, ignore, ranges);
   }
 
   bool isVisible(double x0, double y0, double z0, double x1, double y1, double z1,
@@ -73,73 +67,121 @@ class ModelledWorld final : public SimWorld {
     const double length = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
     if (!std::isfinite(length) || std::isnan(slack)) return false;
     if (length <= slack) return true;
-    placeRobots();
-    return !rays_.isBlocked({x0, y0, z0}, {way[0] / length, way[1] / length, way[2] / length},
-                            length - slack, ignore);
+    const std::array<double, 3> from{x0, y0, z0};
+    const std::array<double, 3> direction{way[0] / length, way[1] / length, way[2] / length};
+    return !rays_.isBlocked(from, direction, length - slack) &&
+           !bodies_.isBlocked(from, direction, length - slack, ignore);
   }
 
-  RobotNumber addRobot(double radius, double height) override {
-    if (!isWithin(radius, kRobotSize) || !isWithin(height, kRobotSize))
-      throw std::invalid_argument("a robot of radius " + std::to_string(radius) + " m and height " +
-                                  std::to_string(height) + " m, expected both in [0.01, 100]");
-    if (robots_.size() >= kMaxRobots)
-      throw std::invalid_argument("there are " + std::to_string(kMaxRobots) +
-                                  " robots already, which is the most");
-    ++lastNumber_;
-    robots_[lastNumber_] = {{{}, radius, radius, 0.0, 0.0, height, lastNumber_}, false};
-    return lastNumber_;
+  RobotNumber addBody(const MovingBody& body, const Pose2& pose) override {
+    checkPieces(body.pieces);
+    if (!isFinite(pose)) throw std::invalid_argument("a body's pose that is not finite");
+    if (numbers_.size() >= kMaxBodies)
+      throw std::invalid_argument("there are " + std::to_string(kMaxBodies) +
+                                  " moving bodies already, which is the most");
+    const RobotNumber number = ++lastNumber_;
+    WorldObject object;
+    object.kind = body.kind;
+    object.name = body.name;
+    object.colour = body.colour;
+    object.isMovable = true;
+    object.robot = body.kind == "robot" ? number : 0;
+    object.pose = pose;
+    measure(body.pieces, object);
+    numbers_.push_back(number);
+    objects_.push_back(std::move(object));
+    bodies_.add(body.pieces, number, pose);
+    return number;
   }
 
-  void moveRobot(RobotNumber robot, const Pose2& pose) override {
-    if (!isFinite(pose)) throw std::invalid_argument("a robot's pose that is not finite");
-    Robot& moved = find(robot)->second;
-    moved.body.centre = {pose.x, pose.y};
-    moved.isPlaced = true;
-    stale_.store(true, std::memory_order_release);
+  void moveBody(RobotNumber body, const Pose2& pose, const Twist& velocity) override {
+    if (!isFinite(pose)) throw std::invalid_argument("a body's pose that is not finite");
+    const std::size_t place = find(body);
+    objects_[fixedObjects_ + place].pose = pose;
+    objects_[fixedObjects_ + place].velocity = velocity;
+    bodies_.move(place, pose);
   }
 
-  void removeRobot(RobotNumber robot) override {
-    robots_.erase(find(robot));
-    stale_.store(true, std::memory_order_release);
+  void reshapeBody(RobotNumber body, std::span<const Primitive> pieces) override {
+    const std::size_t place = find(body);
+    checkPieces(pieces);
+    bodies_.reshape(place, pieces);
+    measure(pieces, objects_[fixedObjects_ + place]);
   }
+
+  void removeBody(RobotNumber body) override {
+    const std::size_t place = find(body);
+    bodies_.remove(place);
+    objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(fixedObjects_ + place));
+    numbers_.erase(numbers_.begin() + static_cast<std::ptrdiff_t>(place));
+  }
+
+  Solids solids() const override {
+    Solids solids;
+    solids.bounds = model_.bounds;
+    for (const Primitive& primitive : model_.primitives)
+      if (primitive.isSolid()) solids.primitives.push_back(primitive);
+    for (const GridBody& body : model_.grids)
+      forOutline(body, [&](const Point2& from, const Point2& to) {
+        solids.walls.push_back({from, to, body.zLow, body.zHigh});
+      });
+    return solids;
+  }
+  std::span<const Primitive> movables() const override { return model_.movables; }
 
  private:
-  struct Robot {
-    RoundBody body;
-    bool isPlaced = false;
-  };
-
-  std::map<RobotNumber, Robot>::iterator find(RobotNumber robot) {
-    const auto found = robots_.find(robot);
-    if (found == robots_.end())
-      throw std::invalid_argument("there is no robot " + std::to_string(robot));
-    return found;
+  static void checkPieces(std::span<const Primitive> pieces) {
+    if (pieces.empty()) throw std::invalid_argument("a moving body has no pieces");
+    for (const Primitive& piece : pieces) {
+      const Box2 box = boundsOf(piece);
+      const double least = piece.shape == Primitive::Shape::triangle
+                               ? std::min(box.xHigh - box.xLow, box.yHigh - box.yLow)
+                               : 2.0 * std::min(piece.halfX, piece.halfY);
+      const double height = piece.zHigh - piece.zLow;
+      for (const double coordinate : {box.xLow, box.xHigh, box.yLow, box.yHigh, piece.zLow})
+        if (!(std::abs(coordinate) <= kBodySize.high))
+          throw std::invalid_argument("a piece of a moving body is " + std::to_string(coordinate) +
+                                      " m away from its middle, expected at most 100");
+      if (!(least >= kBodySize.low) || !(height >= kBodySize.low && height <= kBodySize.high))
+        throw std::invalid_argument("a piece of a moving body is " + std::to_string(least) +
+                                    " m wide and " + std::to_string(height) +
+                                    " m high, expected 0.001 to 100");
+    }
   }
 
-  // All robots move before anybody looks, so the work is left to the first query after that; others
-  // may query at the same time.
-  void placeRobots() const {
-    if (!stale_.load(std::memory_order_acquire)) return;
-    const std::lock_guard lock(placing_);
-    if (!stale_.load(std::memory_order_relaxed)) return;
-    std::vector<RoundBody> bodies;
-    for (const auto& [number, robot] : robots_)
-      if (robot.isPlaced) bodies.push_back(robot.body);
-    rays_.setRobots(bodies);
-    stale_.store(false, std::memory_order_release);
+  /// The extent of a body around its own origin.
+  static void measure(std::span<const Primitive> pieces, WorldObject& object) {
+    object.halfX = object.halfY = object.radius = 0.0;
+    object.zLow = pieces.front().zLow;
+    object.zHigh = pieces.front().zHigh;
+    object.isRound = pieces.size() == 1 && pieces.front().shape == Primitive::Shape::ellipse;
+    for (const Primitive& piece : pieces) {
+      const Box2 box = boundsOf(piece);
+      object.halfX = std::max({object.halfX, std::abs(box.xLow), std::abs(box.xHigh)});
+      object.halfY = std::max({object.halfY, std::abs(box.yLow), std::abs(box.yHigh)});
+      object.zLow = std::min(object.zLow, piece.zLow);
+      object.zHigh = std::max(object.zHigh, piece.zHigh);
+      object.radius = std::max(object.radius, reachOf(piece));
+    }
+  }
+
+  std::size_t find(RobotNumber body) const {
+    const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), body);
+    if (found == numbers_.end() || *found != body)
+      throw std::invalid_argument("there is no moving body " + std::to_string(body));
+    return static_cast<std::size_t>(found - numbers_.begin());
   }
 
   WorldModel model_;
   std::string fingerprint_;
   FreeSpace space_;
-  mutable RayCaster rays_;
+  RayCaster rays_;
   std::vector<FieldLine> lines_;
   std::vector<WorldObject> objects_;  ///< first what is fixed, then what moves
   std::size_t fixedObjects_ = 0;
-  std::map<RobotNumber, Robot> robots_;
+  BodyRays bodies_;
+  std::vector<RobotNumber> numbers_;  ///< of moving bodies, in the order of objects_, rising
   RobotNumber lastNumber_ = 0;
-  mutable std::atomic<bool> stale_{false};
-  mutable std::mutex placing_;
 };
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "ortung/sim/Simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "Physics.hpp"
+#include "Workers.hpp"
 
 namespace ortung {
 namespace {
@@ -11,22 +15,51 @@ namespace {
 constexpr std::uint64_t kRobots = std::uint64_t{1} << 32;
 constexpr std::uint64_t kOthers = std::uint64_t{1} << 63;
 
+constexpr double kKickReach = 0.03;  ///< a ball this near to a kicker is kicked [m]
+
 std::string toText(const Pose2& pose) {
   return "(" + std::to_string(pose.x) + ", " + std::to_string(pose.y) + ")";
+}
+
+std::string describe(const Simulation::Thing& thing) {
+  return thing.kind + (thing.name.empty() ? "" : " '" + thing.name + "'") + " at " +
+         toText(thing.pose);
+}
+
+/// A primitive of the world in a frame of its own, whose origin is its middle.
+Primitive inOwnFrame(Primitive primitive) {
+  for (Point2& corner : primitive.corners) {
+    corner.x -= primitive.centre.x;
+    corner.y -= primitive.centre.y;
+  }
+  primitive.centre = {};
+  primitive.angle = 0.0;
+  return primitive;
+}
+
+Pose2 poseOf(const Primitive& primitive) {
+  const bool hasAngle = primitive.shape != Primitive::Shape::triangle;
+  return {primitive.centre.x, primitive.centre.y, hasAngle ? wrapAngle(primitive.angle) : 0.0};
 }
 
 }  // namespace
 
 void Simulation::Config::check() const {
-  if (!(cycle >= 1e-4 && cycle <= 1.0))
-    throw std::invalid_argument("Simulation::Config::cycle is " + std::to_string(cycle) +
+  if (cycle && !(*cycle >= 1e-4 && *cycle <= 1.0))
+    throw std::invalid_argument("Simulation::Config::cycle is " + std::to_string(*cycle) +
                                 ", must be in [0.0001, 1] s");
+  if (threads < 1 || threads > 256)
+    throw std::invalid_argument("Simulation::Config::threads is " + std::to_string(threads) +
+                                ", must be in [1, 256]");
 }
 
 Simulation::Simulation(std::unique_ptr<SimWorld> world, const Config& config)
     : config_(config), world_(std::move(world)) {
   config_.check();
-  cycle_ = fromSeconds(config_.cycle);
+  cycle_ = fromSeconds(config_.cycle.value_or(world_->physics().cycle));
+  physics_ = std::make_unique<Physics>(world_->physics(), world_->solids());
+  workers_ = std::make_unique<Workers>(config_.threads);
+  addThings();
 }
 
 Simulation::~Simulation() = default;
@@ -35,16 +68,39 @@ Random Simulation::random(std::uint64_t stream) const {
   return Random(config_.seed, kOthers + stream);
 }
 
+void Simulation::addThings() {
+  for (const Primitive& movable : world_->movables()) {
+    const Thing thing{movable.name, movable.kind, poseOf(movable), {}, movable.mass};
+    const std::vector<Primitive> pieces{inOwnFrame(movable)};
+    if (!fits(pieces, thing.pose, Physics::kNobody))
+      throw std::invalid_argument(describe(thing) + " overlaps something or is off the field");
+    const bool rolls = thing.kind == "ball";
+    thingBodies_.push_back(physics_->add(
+        pieces, {thing.mass, rolls ? Physics::Floor::rolls : Physics::Floor::slides, rolls},
+        thing.pose));
+    thingNumbers_.push_back(
+        world_->addBody({thing.kind, thing.name, movable.colour, pieces}, thing.pose));
+    thingPieces_.push_back(pieces);
+    things_.push_back(thing);
+  }
+}
+
 SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory,
                                const Pose2& start) {
-  if (!isFinite(start) || !fits(start, config.radius, nullptr))
-    throw std::invalid_argument("robot " + config.name + ": start " + toText(start) +
-                                " has no room for a robot of radius " +
-                                std::to_string(config.radius) + " m");
+  for (const std::unique_ptr<SimRobot>& other : robots_)
+    if (other->config().name == config.name)
+      throw std::invalid_argument("robot " + config.name +
+                                  ": another robot has this name, expected one of its own");
   const Random random(config_.seed, kRobots * (added_ + 1));
   auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
-  robot->setNumber(world_->addRobot(config.radius, robot->bodyHeight()));
-  world_->moveRobot(robot->state().number, start);
+  const RobotShape& shape = robot->shape();
+  const std::vector<Primitive> pieces =
+      shape.piecesWith({robot->manipulatorStates().begin(), robot->manipulatorStates().end()});
+  if (!fits(pieces, start, Physics::kNobody))
+    throw std::invalid_argument("robot " + config.name + ": start " + toText(start) +
+                                " has no room for it");
+  robot->state_.number = world_->addBody({"robot", config.name, shape.colour, pieces}, start);
+  robotBodies_.push_back(physics_->add(pieces, {shape.mass, Physics::Floor::drives, false}, start));
   robots_.push_back(std::move(robot));
   readings_.emplace_back();
   ++added_;
@@ -55,40 +111,111 @@ void Simulation::removeRobot(const SimRobot& robot) {
   const auto found = std::find_if(robots_.begin(), robots_.end(),
                                   [&](const auto& other) { return other.get() == &robot; });
   if (found == robots_.end()) return;
-  world_->removeRobot(robot.state().number);
-  readings_.erase(readings_.begin() + (found - robots_.begin()));
+  const auto place = found - robots_.begin();
+  world_->removeBody(robot.state().number);
+  physics_->remove(robotBodies_[static_cast<std::size_t>(place)]);
+  robotBodies_.erase(robotBodies_.begin() + place);
+  readings_.erase(readings_.begin() + place);
   robots_.erase(found);
 }
 
 void Simulation::step() {
-  for (std::size_t i = 0; i < robots_.size(); ++i) readings_[i] = robots_[i]->sense(*world_, now_);
-  const double dt = toSeconds(cycle_);
-  for (const std::unique_ptr<SimRobot>& robot : robots_) {
-    const Pose2 planned = robot->plan(now_, dt);
-    if (fits(planned, robot->config().radius, robot.get()))
-      robot->move();
-    else
-      robot->block();
-    world_->moveRobot(robot->state().number, robot->state().pose);
-  }
+  senseAll();
+  moveManipulators();
+  moveBodies();
   now_ += cycle_;
 }
 
+void Simulation::senseAll() {
+  workers_->run(robots_.size(),
+                [this](std::size_t i) { readings_[i] = robots_[i]->sense(*world_, now_); });
+}
+
+void Simulation::moveManipulators() {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    SimRobot& robot = *robots_[i];
+    if (!robot.updateManipulators(now_)) continue;
+    const std::vector<Primitive> pieces = robot.shape().piecesWith(
+        {robot.manipulatorStates().begin(), robot.manipulatorStates().end()});
+    for (const ManipulatorState* state : robot.kicks()) kick(robot, robotBodies_[i], *state);
+    physics_->reshape(robotBodies_[i], pieces);
+    world_->reshapeBody(robot.state().number, pieces);
+  }
+}
+
+/// Balls in reach get the speed that the state says, seen from the robot; across to its direction
+/// they keep theirs. The robot feels the recoil.
+void Simulation::kick(const SimRobot& robot, std::size_t body, const ManipulatorState& state) {
+  const double angle = robot.state().pose.theta + state.direction;
+  const Point2 towards{std::cos(angle), std::sin(angle)};
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    if (things_[i].kind != "ball") continue;
+    if (!physics_->reaches(body, state.pieces, thingBodies_[i], kKickReach)) continue;
+    const Pose2& ball = physics_->pose(thingBodies_[i]);
+    const Twist is = physics_->velocity(thingBodies_[i]);
+    const Twist own = physics_->velocity(body);
+    const double dx = ball.x - robot.state().pose.x;
+    const double dy = ball.y - robot.state().pose.y;
+    const double seen =
+        (is.x - own.x + own.theta * dy) * towards.x + (is.y - own.y - own.theta * dx) * towards.y;
+    const double missing = state.ballSpeed - seen;
+    if (missing <= 0.0) continue;
+    const double impulse = missing * physics_->mass(thingBodies_[i]);
+    physics_->hit(thingBodies_[i], {impulse * towards.x, impulse * towards.y}, {ball.x, ball.y});
+    physics_->hit(body, {-impulse * towards.x, -impulse * towards.y}, {ball.x, ball.y});
+  }
+}
+
+void Simulation::moveBodies() {
+  const double dt = toSeconds(cycle_);
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+    physics_->want(robotBodies_[i], robots_[i]->plan(now_, dt));
+  physics_->step(dt);
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const std::size_t body = robotBodies_[i];
+    robots_[i]->move(physics_->pose(body), physics_->velocity(body), physics_->wasDisturbed(body));
+    const RobotState& state = robots_[i]->state();
+    world_->moveBody(state.number, state.pose, state.velocity);
+  }
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    things_[i].pose = physics_->pose(thingBodies_[i]);
+    things_[i].velocity = physics_->velocity(thingBodies_[i]);
+    world_->moveBody(thingNumbers_[i], things_[i].pose, things_[i].velocity);
+  }
+}
+
 void Simulation::place(SimRobot& robot, const Pose2& pose) {
-  if (!isFinite(pose) || !fits(pose, robot.config().radius, &robot))
+  const auto found = std::find_if(robots_.begin(), robots_.end(),
+                                  [&](const auto& other) { return other.get() == &robot; });
+  const std::size_t body = robotBodies_[static_cast<std::size_t>(found - robots_.begin())];
+  const std::vector<Primitive> pieces = robot.shape().piecesWith(
+      {robot.manipulatorStates().begin(), robot.manipulatorStates().end()});
+  if (!fits(pieces, pose, body))
     throw std::invalid_argument("robot " + robot.config().name + ": there is no room at " +
                                 toText(pose));
   robot.place(pose);
-  world_->moveRobot(robot.state().number, pose);
+  physics_->place(body, pose);
+  world_->moveBody(robot.state().number, pose);
 }
 
-bool Simulation::fits(const Pose2& pose, double radius, const SimRobot* self) const {
-  if (!world_->isFree(pose.x, pose.y, radius)) return false;
-  for (const std::unique_ptr<SimRobot>& other : robots_)
-    if (other.get() != self &&
-        distance(pose, other->state().pose) < radius + other->config().radius)
-      return false;
-  return true;
+void Simulation::placeThing(std::size_t thing, const Pose2& pose, const Twist& velocity) {
+  Thing& moved = things_.at(thing);
+  for (const double v : {velocity.x, velocity.y, velocity.theta})
+    if (!(std::abs(v) <= 1000.0))
+      throw std::invalid_argument(describe(moved) + ": its velocity is " + std::to_string(v) +
+                                  ", expected at most 1000 m/s or rad/s");
+  if (!fits(thingPieces_[thing], pose, thingBodies_[thing]))
+    throw std::invalid_argument(describe(moved) + ": there is no room at " + toText(pose));
+  physics_->place(thingBodies_[thing], pose, velocity);
+  moved.pose = pose;
+  moved.velocity = velocity;
+  world_->moveBody(thingNumbers_[thing], pose, velocity);
+}
+
+bool Simulation::fits(std::span<const Primitive> pieces, const Pose2& pose,
+                      std::size_t self) const {
+  return isFinite(pose) && world_->isFree(pose.x, pose.y, 0.0) &&
+         physics_->isFree(pieces, pose, self);
 }
 
 }  // namespace ortung

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 
+#include "PrimitiveFile.hpp"
 #include "WorldModel.hpp"
 #include "ortung/config/TomlFile.hpp"
 
@@ -11,46 +12,10 @@ namespace {
 
 constexpr std::size_t kMaxPrimitives = 65536;
 constexpr std::size_t kMaxGrids = 16;
-constexpr std::size_t kMaxNameLength = 64;
 constexpr double kDefaultMarkHeight = 0.5;  ///< [m]
-constexpr Range kCoordinate{-1e4, 1e4};     ///< [m]
-constexpr Range kSize{0.001, 2e4};          ///< [m]
-constexpr Range kHeight{-100.0, 1000.0};    ///< [m]
-constexpr Range kAngle{-3600.0, 3600.0};    ///< [degree]
 constexpr Range kIdentity{0.0, 4294967295.0};
-constexpr Range kMass{0.001, 1e5};  ///< [kg]
 constexpr double kBallMass = 0.43;  ///< of a football of size 5 [kg]
 constexpr std::size_t kMaxMovables = 256;
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-
-bool isWord(const std::string& text) {
-  const auto fits = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-  };
-  return !text.empty() && text.size() <= kMaxNameLength &&
-         std::all_of(text.begin(), text.end(), fits);
-}
-
-void checkPrintable(const Parameters& table, const std::string& key, const std::string& text) {
-  const bool printable = std::none_of(text.begin(), text.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-  });
-  if (text.size() > kMaxNameLength || !printable)
-    table.fail(key, "must be a text of at most 64 printable characters");
-}
-
-struct Heights {
-  double low, high;  ///< [m]
-};
-
-Heights readHeights(const Parameters& table) {
-  const auto z = table.numbersOr("z_m", {0.0, 1.0}, 2, kHeight);
-  if (!(z[1] - z[0] >= kSize.low))
-    table.fail("z_m", "must be [low, high] with high at least 0.001 m above low");
-  return {z[0], z[1]};
-}
 
 /// A kind that nothing here knows is most likely misspelt, unless it is that of a landmark.
 std::string readKind(const Parameters& table, bool hasIdentity) {
@@ -89,70 +54,38 @@ void readCommon(const Parameters& table, Primitive& primitive) {
   if (table.has("identity"))
     primitive.identity = static_cast<std::uint32_t>(table.integer("identity", kIdentity));
   primitive.kind = readKind(table, primitive.identity.has_value());
-  primitive.colour = table.textOr("colour", "");
-  if (!primitive.colour.empty() &&
-      !isWord(primitive.colour[0] == '#' ? primitive.colour.substr(1) : primitive.colour))
-    table.fail("colour", "is \"" + primitive.colour + "\", expected a name or \"#rrggbb\"");
+  primitive.colour = readColour(table);
   if (!primitive.isSolid()) {
     if (table.has("z_m")) table.fail("z_m", "does not fit a line, which is flat");
     primitive.zHigh = 0.0;
     return;
   }
-  const Heights z = readHeights(table);
-  primitive.zLow = z.low;
-  primitive.zHigh = z.high;
+  readHeights(table, primitive);
   readMechanics(table, primitive);
 }
 
-void readBox(const Parameters& table, Primitive& primitive) {
-  const auto centre = table.numbers("center_m", 2, kCoordinate);
-  const auto size = table.numbers("size_m", 2, kSize);
-  primitive.centre = {centre[0], centre[1]};
-  primitive.halfX = 0.5 * size[0];
-  primitive.halfY = 0.5 * size[1];
-  primitive.angle = radians(table.numberOr("angle_deg", 0.0, kAngle));
-}
-
-Primitive readRectangle(const Parameters& table) {
-  Primitive rectangle;
-  readCommon(table, rectangle);
-  readBox(table, rectangle);
-  return rectangle;
-}
-
-Primitive readEllipse(const Parameters& table) {
-  Primitive ellipse;
-  ellipse.shape = Primitive::Shape::ellipse;
-  readCommon(table, ellipse);
-  readBox(table, ellipse);
-  if (ellipse.isSolid()) return ellipse;  // what follows is for circles painted on the floor
-  ellipse.stroke = table.numberOr("stroke_m", 0.0, {0.0, 10.0});
+Primitive readPrimitive(const Parameters& table, Primitive::Shape shape) {
+  Primitive primitive;
+  primitive.shape = shape;
+  readCommon(table, primitive);
+  readOutline(table, primitive);
+  if (primitive.isSolid() || shape != Primitive::Shape::ellipse) return primitive;
+  // Circles painted on the floor.
+  primitive.stroke = table.numberOr("stroke_m", 0.0, {0.0, 10.0});
   const auto arc = table.numbersOr("arc_deg", {0.0, 360.0}, 2, {-360.0, 720.0});
   if (!(arc[0] < arc[1] && arc[1] - arc[0] <= 360.0))
     table.fail("arc_deg", "must be [from, to] with from below to by at most 360");
-  ellipse.arcFrom = radians(arc[0]);
-  ellipse.arcTo = radians(arc[1]);
-  return ellipse;
-}
-
-Primitive readTriangle(const Parameters& table) {
-  Primitive triangle;
-  triangle.shape = Primitive::Shape::triangle;
-  readCommon(table, triangle);
-  const auto c = table.numbers("corners_m", 6, kCoordinate);
-  triangle.corners = {Point2{c[0], c[1]}, Point2{c[2], c[3]}, Point2{c[4], c[5]}};
-  triangle.centre = {(c[0] + c[2] + c[4]) / 3.0, (c[1] + c[3] + c[5]) / 3.0};
-  const double twiceArea = (c[2] - c[0]) * (c[5] - c[1]) - (c[4] - c[0]) * (c[3] - c[1]);
-  if (std::abs(twiceArea) < kSize.low * kSize.low)
-    table.fail("corners_m", "are on one line, expected x1, y1, x2, y2, x3, y3 of a triangle");
-  return triangle;
+  primitive.arcFrom = radians(arc[0]);
+  primitive.arcTo = radians(arc[1]);
+  return primitive;
 }
 
 GridBody readGrid(const Parameters& table, const std::filesystem::path& folder) {
   GridBody body;
-  const Heights z = readHeights(table);
-  body.zLow = z.low;
-  body.zHigh = z.high;
+  Primitive heights;
+  readHeights(table, heights);
+  body.zLow = heights.zLow;
+  body.zHigh = heights.zHigh;
   const double margin = table.numberOr("unknown_margin_m", 0.5, {0.0, 100.0});
   const double depthInCells = table.numberOr("surface_depth_cells", 0.0, {0.0, 1.0});
   checkPrintable(table, "name", table.textOr("name", ""));
@@ -258,12 +191,13 @@ WorldModel readWorldModel(const std::filesystem::path& file) {
   WorldModel world;
   world.name = about.textOr("name", file.stem().string());
   checkPrintable(about, "name", world.name);
-  for (const auto& table : readTables(toml, "rectangle", kMaxPrimitives))
-    world.primitives.push_back(readRectangle(table));
-  for (const auto& table : readTables(toml, "ellipse", kMaxPrimitives))
-    world.primitives.push_back(readEllipse(table));
-  for (const auto& table : readTables(toml, "triangle", kMaxPrimitives))
-    world.primitives.push_back(readTriangle(table));
+  const std::array<std::pair<const char*, Primitive::Shape>, 3> shapes{
+      {{"rectangle", Primitive::Shape::rectangle},
+       {"ellipse", Primitive::Shape::ellipse},
+       {"triangle", Primitive::Shape::triangle}}};
+  for (const auto& [key, shape] : shapes)
+    for (const auto& table : readTables(toml, key, kMaxPrimitives))
+      world.primitives.push_back(readPrimitive(table, shape));
   for (const auto& table : readTables(toml, "landmark", kMaxPrimitives))
     world.landmarks.push_back(readLandmark(table));
   const auto grids = readTables(toml, "grid", kMaxGrids);

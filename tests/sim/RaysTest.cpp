@@ -182,43 +182,43 @@ TEST(Rays, OfAFanThatIsNotFiniteAreAllTheGreatestRange) {
 
 TEST(Robots, AreSeenByOthersAndNotByThemselves) {
   const auto world = worldOf(kRoom);
-  const RobotNumber own = world->addRobot(0.2, 0.5);
+  const RobotNumber own = addRobot(*world, 0.2, 0.5);
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0), 3, kExact);  // nowhere yet
-  world->moveRobot(own, {0, 0, 0});
+  world->moveBody(own, {0, 0, 0});
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0, 0.3, 50, own), 3, kExact);
-  const RobotNumber other = world->addRobot(0.25, 0.5);
-  world->moveRobot(other, {1.5, 0, 1});
+  const RobotNumber other = addRobot(*world, 0.25, 0.5);
+  world->moveBody(other, {1.5, 0, 1});
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0, 0.3, 50, own), 1.25, kExact);
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0, 0.6, 50, own), 3, kExact);  // over it
   EXPECT_NEAR(rangeAt(*world, 1.5, 0, kPi, 0.3, 50, other), 1.5 - 0.2, kExact);
-  world->moveRobot(other, {1.5, 1, 1});
+  world->moveBody(other, {1.5, 1, 1});
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0, 0.3, 50, own), 3, kExact);
 }
 
 TEST(Robots, ThatLeaveAreNoObstacles) {
   const auto world = worldOf(kRoom);
-  const RobotNumber robot = world->addRobot(0.25, 0.5);
-  world->moveRobot(robot, {1.5, 0, 0});
+  const RobotNumber robot = addRobot(*world, 0.25, 0.5);
+  world->moveBody(robot, {1.5, 0, 0});
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0), 1.25, kExact);
-  world->removeRobot(robot);
+  world->removeBody(robot);
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0), 3, kExact);
-  EXPECT_THROW(world->moveRobot(robot, {}), std::invalid_argument);
-  EXPECT_NE(world->addRobot(0.25, 0.5), robot);
+  EXPECT_THROW(world->moveBody(robot, {}), std::invalid_argument);
+  EXPECT_NE(addRobot(*world, 0.25, 0.5), robot);
 }
 
 TEST(Robots, OfBadSizeOrPlaceAreRefused) {
   const auto world = worldOf(kRoom);
-  EXPECT_THROW(world->addRobot(0, 0.5), std::invalid_argument);
-  EXPECT_THROW(world->addRobot(0.2, std::nan("")), std::invalid_argument);
-  const RobotNumber robot = world->addRobot(0.25, 0.5);
-  EXPECT_THROW(world->moveRobot(robot, {std::nan(""), 0, 0}), std::invalid_argument);
-  EXPECT_THROW(world->moveRobot(robot + 1, {}), std::invalid_argument);
+  EXPECT_THROW(addRobot(*world, 0, 0.5), std::invalid_argument);
+  EXPECT_THROW(addRobot(*world, 0.2, std::nan("")), std::invalid_argument);
+  const RobotNumber robot = addRobot(*world, 0.25, 0.5);
+  EXPECT_THROW(world->moveBody(robot, {std::nan(""), 0, 0}), std::invalid_argument);
+  EXPECT_THROW(world->moveBody(robot + 1, {}), std::invalid_argument);
 }
 
 TEST(Robots, DoNotChangeWhatIsLearned) {
   const auto world = worldOf(kRoom);
   const std::string before = world->fingerprint();
-  world->moveRobot(world->addRobot(0.25, 0.5), {1, 1, 0});
+  world->moveBody(addRobot(*world, 0.25, 0.5), {1, 1, 0});
   EXPECT_EQ(world->fingerprint(), before);
   EXPECT_TRUE(world->isFree(1, 1, 0.3));
 }
@@ -228,8 +228,8 @@ TEST(Visibility, EndsAtWallsAndOtherRobots) {
   EXPECT_TRUE(world->isVisible(0, 0, 0.3, 2, 1, 0.5, 0, 0));
   EXPECT_FALSE(world->isVisible(0, 0, 0.3, 5, 0, 0.5, 0, 0));
   EXPECT_TRUE(world->isVisible(0, 0, 1.2, 5, 0, 1.2, 0, 0));  // over the wall
-  const RobotNumber robot = world->addRobot(0.2, 0.5);
-  world->moveRobot(robot, {1, 0.5, 0});
+  const RobotNumber robot = addRobot(*world, 0.2, 0.5);
+  world->moveBody(robot, {1, 0.5, 0});
   EXPECT_FALSE(world->isVisible(0, 0, 0.3, 2, 1, 0.3, 0, 0));
   EXPECT_TRUE(world->isVisible(0, 0, 0.3, 2, 1, 0.3, robot, 0));
 }

@@ -58,6 +58,17 @@ inline std::string refusalOf(const std::string& toml) {
   return refusalOf(folder.write("world.toml", toml));
 }
 
+/// A robot that is an upright cylinder, far away from everything.
+inline RobotNumber addRobot(SimWorld& world, double radius, double height) {
+  Primitive circle;
+  circle.shape = Primitive::Shape::ellipse;
+  circle.kind = "robot";
+  circle.halfX = circle.halfY = radius;
+  circle.zHigh = height;
+  return world.addBody({.kind = "robot", .name = {}, .colour = {}, .pieces = {circle}},
+                       {9000.0, 9000.0, 0.0});
+}
+
 /// Range of one ray [m].
 inline double rangeAt(const World& world, double x, double y, double angle, double z = 0.3,
                       double maxRange = 50.0, RobotNumber ignore = 0) {

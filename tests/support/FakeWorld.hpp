@@ -83,16 +83,32 @@ class FakeWorld : public SimWorld {
     return region;
   }
 
-  RobotNumber addRobot(double radius, double) override {
+  RobotNumber addBody(const MovingBody& body, const Pose2& pose) override {
     const RobotNumber number = ++lastRobot_;
-    robots_[number] = {0.0, 0.0, radius};
+    double reach = 0.0;
+    for (const Primitive& piece : body.pieces) reach = std::max(reach, reachOf(piece));
+    robots_[number] = {pose.x, pose.y, reach};
     return number;
   }
-  void moveRobot(RobotNumber robot, const Pose2& pose) override {
-    robots_.at(robot).x = pose.x;
-    robots_.at(robot).y = pose.y;
+  void moveBody(RobotNumber body, const Pose2& pose, const Twist&) override {
+    robots_.at(body).x = pose.x;
+    robots_.at(body).y = pose.y;
   }
-  void removeRobot(RobotNumber robot) override { robots_.erase(robot); }
+  void reshapeBody(RobotNumber, std::span<const Primitive>) override {}
+  void removeBody(RobotNumber body) override { robots_.erase(body); }
+
+  Solids solids() const override {
+    Solids solids;
+    solids.bounds = {-halfWidth_, halfWidth_, -halfHeight_, halfHeight_};
+    for (const Post& post : posts_) {
+      Primitive circle;
+      circle.shape = Primitive::Shape::ellipse;
+      circle.centre = {post.x, post.y};
+      circle.halfX = circle.halfY = post.radius;
+      solids.primitives.push_back(circle);
+    }
+    return solids;
+  }
 
   std::size_t rays() const { return rays_; }  ///< cast so far
 

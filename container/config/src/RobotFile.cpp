@@ -18,6 +18,11 @@ RobotConfig readRobot(const Parameters& file) {
   const Parameters body = file.table("robot");
   robot.name = body.textOr("name", "robot");
   robot.radius = body.numberOr("radius_m", robot.radius, {0.001, 100.0});
+  robot.mass = body.numberOr("mass_kg", robot.mass, {0.01, 1e5});
+  body.textOr("colour", "");  // the simulator checks it
+  robot.about = body;
+  robot.body = file.tables("body");
+  robot.manipulators = file.tables("manipulator");
   for (Parameters& sensor : file.tables("sensor")) {
     robot.sensors.push_back({sensor.text("plugin"), sensor});
   }
@@ -28,11 +33,12 @@ RobotConfig readRobot(const Parameters& file) {
   robot.drive = file.table("drive");
   // What stands inside the sections is checked by whoever reads them; other sections are unknown.
   body.refuseUnread();
-  static const std::vector<std::string> kSections = {"robot", "sensor", "motion", "mcl", "drive"};
+  static const std::vector<std::string> kSections = {"robot", "sensor",      "motion", "mcl",
+                                                     "drive", "body", "manipulator"};
   for (const std::string& key : file.keys()) {
     if (std::find(kSections.begin(), kSections.end(), key) == kSections.end()) {
       file.fail(key, "is not known here; sections of a robot file are [robot], [[sensor]], [motion], "
-                     "[mcl] and [drive]");
+                     "[mcl], [drive], [[body]] and [[manipulator]]");
     }
   }
   return robot;

@@ -12,18 +12,20 @@ class OdometrySensor : public Sensor {
 
   void generateData(const World&, const RobotState& robot, Random*, Timestamp now,
                     std::span<SensorData* const> data) override {
-    const std::vector<std::uint32_t> words =
-        OdometryData::encode({robot.odometry,
-                              robot.translationalVelocity,
-                              robot.rotationalVelocity,
-                              {robot.motionData.begin(), robot.motionData.end()}});
-    for (SensorData* one : data) one->setData(now, words);
+    reading_.pose = robot.odometry;
+    reading_.translationalVelocity = robot.translationalVelocity;
+    reading_.rotationalVelocity = robot.rotationalVelocity;
+    reading_.motionData.assign(robot.motionData.begin(), robot.motionData.end());
+    OdometryData::encode(reading_, words_);
+    for (SensorData* one : data) one->setData(now, words_);
   }
 
   double period() const override { return period_; }
 
  private:
-  double period_;  ///< [s]
+  double period_;                  ///< [s]
+  OdometryData::Reading reading_;  ///< kept, as words_, so that nothing is allocated in a cycle
+  std::vector<std::uint32_t> words_;
 };
 
 }  // namespace

@@ -111,7 +111,8 @@ struct Run {
   static Run read(const Parameters& p) {
     Run run;
     run.duration = fromSeconds(numberOption(p, "duration", 60.0, 0.0, 1e6));
-    run.simulation.cycle = numberOption(p, "cycle_ms", 10.0, 0.1, 1000.0) / 1000.0;
+    if (p.has("cycle_ms"))
+      run.simulation.cycle = numberOption(p, "cycle_ms", 0.0, 0.1, 1000.0) / 1000.0;
     run.simulation.seed = seedOption(p);
     run.simulation.noise = p.choiceOr("noise", "on", {"on", "off"}) == "on";
     run.start = startOption(p);

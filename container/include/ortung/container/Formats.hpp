@@ -296,6 +296,7 @@ class ORTUNG_API OdometryData : public SensorData {
   ~OdometryData() override;
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
+  static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
   std::string wordsHelp() const override;
 
  private:
@@ -312,6 +313,7 @@ class ORTUNG_API PoseData : public SensorData {
   ~PoseData() override;
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Pose2& pose);
+  static void encode(const Pose2& pose, std::vector<std::uint32_t>& words);
   std::string wordsHelp() const override;
 
  private:

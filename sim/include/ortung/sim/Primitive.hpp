@@ -55,6 +55,9 @@ ORTUNG_API double distanceTo(const Primitive& primitive, const Point2& point);
 
 ORTUNG_API Box2 boundsOf(const Primitive& primitive);
 
+/// Greatest distance of the shape from the origin of its frame [m], or a little more.
+ORTUNG_API double reachOf(const Primitive& primitive);
+
 /// The corners of a rectangle or triangle, in order.
 ORTUNG_API std::vector<Point2> cornersOf(const Primitive& primitive);
 

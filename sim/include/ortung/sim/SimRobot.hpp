@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "ortung/config/RobotFile.hpp"
@@ -10,12 +12,14 @@
 #include "ortung/container/Random.hpp"
 #include "ortung/container/SensorContainer.hpp"
 #include "ortung/sim/Driver.hpp"
+#include "ortung/sim/RobotShape.hpp"
 #include "ortung/sim_api/Drive.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {
 
-/// One robot of a simulation: body, drive, sensors, and the container that they fill.
+/// One robot of a simulation: shape, drive, sensors, and the container that they fill.
+/// A plugin that throws is switched off, and problems() tells which one and why.
 /// Not thread-safe; readers of the container hold its lock.
 class ORTUNG_API SimRobot {
  public:
@@ -31,45 +35,68 @@ class ORTUNG_API SimRobot {
   /// Who commands the drive from now on; null: nobody.
   void setDriver(std::unique_ptr<Driver> driver) { driver_ = std::move(driver); }
 
+  /// Sets a manipulator. It moves in the cycle that begins.
+  /// @throws std::invalid_argument for one that the robot does not have, saying what it has
+  void setManipulator(std::string_view manipulator, std::string_view state);
+  /// The present state of each manipulator of shape(), as its place among the states.
+  std::span<const std::size_t> manipulatorStates() const { return manipulatorStates_; }
+
+  /// Commands go through here: numbers that are not finite, and command vectors of another size,
+  /// are refused with std::invalid_argument that names the robot.
+  Drive& drive() { return *drive_; }
+
+  const RobotConfig& config() const { return config_; }
+  const RobotShape& shape() const { return shape_; }
+  SensorContainer& container() { return container_; }
+  const RobotState& state() const { return state_; }
+  /// What went wrong with its plugins, in the order of time.
+  std::span<const std::string> problems() const { return problems_; }
+
+ private:
+  friend class Simulation;
+
   /// Generates the readings that are due. If there are any, the true pose is one of them.
   /// @returns the readings of this moment, valid until the next call
   std::span<const Message> sense(const World& world, Timestamp now);
-
-  /// Lets the driver command; the pose where the robot would be @p dt [s] later.
+  /// Moves the manipulators; whether any of them changed.
+  bool updateManipulators(Timestamp now);
+  /// States just entered that accelerate balls.
+  std::span<const ManipulatorState* const> kicks() const { return kicks_; }
+  /// Lets the driver command; the change of pose that the drive wants within @p dt [s].
   Pose2 plan(Timestamp now, double dt);
-  /// Goes where plan() said.
-  void move();
-  /// Stays where it is, since something is in the way.
-  void block();
+  /// Goes where the physics brought it.
+  /// @param velocity in the field frame
+  /// @param wasDisturbed whether that is not what plan() said
+  void move(const Pose2& pose, const Twist& velocity, bool wasDisturbed);
   /// Carries the robot elsewhere, unnoticed by its odometry.
-  void place(const Pose2& pose) { state_.pose = pose; }
+  void place(const Pose2& pose);
 
-  /// By which rays know its body.
-  void setNumber(RobotNumber number) { state_.number = number; }
-  const RobotConfig& config() const { return config_; }
-  double bodyHeight() const { return bodyHeight_; }  ///< [m]
-  SensorContainer& container() { return container_; }
-  Drive& drive() { return *drive_; }
-  const RobotState& state() const { return state_; }
-
- private:
   struct Mounted;
   void generate(Mounted& mounted, const World& world, Timestamp now);
   void addGroundTruth(Timestamp now);
+  Message& nextMessage();
+  void report(Timestamp now, const std::string& what);
 
   RobotConfig config_;
-  double bodyHeight_ = 0.5;  ///< `body_height_m` of [drive]: what other robots' rays hit [m]
+  RobotShape shape_;
   SensorContainer container_;
   std::vector<Mounted> sensors_;
   SensorData* truth_ = nullptr;  ///< ground truth that no sensor gives, or null
   std::unique_ptr<Drive> drive_;
+  bool driveWorks_ = true;
   std::unique_ptr<Driver> driver_;
   RobotState state_;
-  Pose2 change_;  ///< of pose, as planned, in the robot's frame
   Random odometryRandom_;
   Random slipRandom_;
   bool noise_;
-  std::vector<Message> frame_;
+  std::vector<Message> frame_;  ///< messages are used again, so that none is allocated in a cycle
+  std::size_t inFrame_ = 0;
+  std::vector<std::uint32_t> truthWords_;
+  std::vector<std::size_t> manipulatorStates_;
+  std::vector<std::size_t> wantedStates_;
+  std::vector<Timestamp> enteredAt_;
+  std::vector<const ManipulatorState*> kicks_;
+  std::vector<std::string> problems_;
 };
 
 }  // namespace ortung

@@ -2,42 +2,73 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "ortung/container/Export.hpp"
 #include "ortung/container/FieldRegion.hpp"
 #include "ortung/sim/PhysicsConfig.hpp"
+#include "ortung/sim/Primitive.hpp"
 #include "ortung/sim_api/World.hpp"
 
 namespace ortung {
 
-/// The simulated world: primitives and occupancy grids extruded in z, and robots that move in it.
-/// Queries are thread-safe while nobody moves robots.
+/// A straight piece of an upright wall.
+struct WallSegment {
+  Point2 from;         ///< [m]
+  Point2 to;           ///< [m]
+  double zLow = 0.0;   ///< [m]
+  double zHigh = 0.0;  ///< [m]
+};
+
+/// What bodies can run into, of what does not move.
+struct Solids {
+  Box2 bounds;  ///< nothing leaves the field
+  std::vector<Primitive> primitives;
+  std::vector<WallSegment> walls;  ///< outlines of maps
+};
+
+/// Something that moves: a robot, a ball, a crate.
+struct MovingBody {
+  std::string kind = "robot";
+  std::string name;
+  std::string colour;
+  std::vector<Primitive> pieces;  ///< in the body's own frame; at least one
+};
+
+/// The simulated world: primitives and occupancy grids extruded in z, and bodies that move in it.
+/// Moving bodies have numbers like robots, since rays ignore them by these.
+/// Queries are thread-safe while nobody moves bodies.
 class ORTUNG_API SimWorld : public World {
  public:
   ~SimWorld() override;
   virtual const std::string& name() const = 0;
   virtual const PhysicsConfig& physics() const = 0;
+  virtual Solids solids() const = 0;
+  /// What is movable, where it is at the beginning. It takes part once addBody() was called for it.
+  virtual std::span<const Primitive> movables() const { return {}; }
 
-  /// 16 hexadecimal digits over everything that shapes what sensors see: not names, not comments,
-  /// not the order in the file.
+  /// 16 hexadecimal digits over everything that shapes what sensors learn: not names, not comments,
+  /// not the order in the file, nothing that moves.
   virtual std::string fingerprint() const = 0;
 
   /// The cells to learn: `open` where the centre is free, `standable` where a circle of
-  /// @p robotRadius around it is. Robots do not count, nor do bodies that begin above 2 m.
+  /// @p robotRadius around it is. Nothing that moves counts, nor bodies that begin above 2 m.
   /// @param cell edge of a cell [m], at least 0.001
   /// @throws std::invalid_argument for bad sizes and for more than 2^26 cells
   virtual FieldRegion region(double cell, double robotRadius) const = 0;
 
-  /// Makes a robot whose body is an upright cylinder standing on the floor, which rays of other
-  /// robots hit. It is nowhere until moveRobot() puts it somewhere.
-  /// @param radius [m], @param height [m], both in [0.01, 100]
-  /// @throws std::invalid_argument for other sizes and for more than 4096 robots
-  virtual RobotNumber addRobot(double radius, double height) = 0;
-  /// @throws std::invalid_argument for a robot that is not there or a pose that is not finite
-  virtual void moveRobot(RobotNumber robot, const Pose2& pose) = 0;
-  /// Takes a robot off the field; its number is not used again. @throws std::invalid_argument
-  virtual void removeRobot(RobotNumber robot) = 0;
+  /// @throws std::invalid_argument for sizes outside [0.001, 100] m, for a pose that is not finite
+  ///   and for more than 4096 bodies
+  virtual RobotNumber addBody(const MovingBody& body, const Pose2& pose) = 0;
+  /// @param velocity in the field frame, for sensors to see
+  /// @throws std::invalid_argument for a body that is not there or a pose that is not finite
+  virtual void moveBody(RobotNumber body, const Pose2& pose, const Twist& velocity = {}) = 0;
+  /// Gives a body other pieces, in its own frame. @throws std::invalid_argument
+  virtual void reshapeBody(RobotNumber body, std::span<const Primitive> pieces) = 0;
+  /// Takes a body off the field; its number is not used again. @throws std::invalid_argument
+  virtual void removeBody(RobotNumber body) = 0;
 };
 
 /// Reads a world file (TOML) and the maps that it names. @throws ConfigError

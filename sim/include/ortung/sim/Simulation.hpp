@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ortung/container/Export.hpp"
@@ -11,30 +13,47 @@
 
 namespace ortung {
 
-/// Runs robots in a world in cycles of fixed length. Motion is kinematic: a robot that would touch
-/// something solid or another robot stays where it is.
-/// The same seed and the same commands give the same bits. Not thread-safe.
+class Physics;
+class Workers;
+
+/// Runs robots and everything movable in a world in cycles of fixed length: rigid bodies that
+/// collide, roll and are kicked.
+/// The same seed and the same commands give the same bits, with any number of threads.
+/// Not thread-safe.
 class ORTUNG_API Simulation {
  public:
   struct Config {
-    double cycle = 0.01;  ///< [s]
+    std::optional<double> cycle;  ///< [s]; none: the world's
     std::uint64_t seed = 1;
-    bool noise = true;  ///< of sensors and odometry
+    bool noise = true;     ///< of sensors, odometry and slipping wheels
+    unsigned threads = 1;  ///< that sense
     /// @throws std::invalid_argument naming the field, its value and the range
     void check() const;
   };
 
+  /// Something movable that is no robot: a ball, a crate.
+  struct Thing {
+    std::string name;  ///< as in the world file
+    std::string kind;
+    Pose2 pose;         ///< in the field frame
+    Twist velocity;     ///< in the field frame
+    double mass = 0.0;  ///< [kg]
+  };
+
+  /// @throws std::invalid_argument for movable things of the world that overlap something
   Simulation(std::unique_ptr<SimWorld> world, const Config& config);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// @throws std::invalid_argument if the robot does not fit there; ConfigError, PluginError
+  /// @throws std::invalid_argument if the robot does not fit there or another one has its name;
+  ///   ConfigError, PluginError
   SimRobot& addRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start);
   /// Takes a robot off the field, and all that is known of it.
   void removeRobot(const SimRobot& robot);
 
-  /// One cycle: all robots sense at now(), are commanded, and move until the next cycle.
+  /// One cycle: all robots sense at now(), are commanded, and everything moves until the next
+  /// cycle.
   void step();
   /// What a robot's sensors gave in the last cycle; valid until the next.
   std::span<const Message> readings(std::size_t robot) const { return readings_[robot]; }
@@ -42,19 +61,38 @@ class ORTUNG_API Simulation {
   /// Carries a robot elsewhere (kidnaps it). @throws std::invalid_argument if it does not fit there
   void place(SimRobot& robot, const Pose2& pose);
 
+  /// Everything movable that is no robot.
+  std::span<const Thing> things() const { return things_; }
+  /// Puts a thing somewhere, moving as given. @throws std::invalid_argument if it does not fit
+  /// there
+  void placeThing(std::size_t thing, const Pose2& pose, const Twist& velocity = {});
+
   Timestamp now() const { return now_; }
+  double cycle() const { return toSeconds(cycle_); }  ///< [s]
   const SimWorld& world() const { return *world_; }
   std::span<const std::unique_ptr<SimRobot>> robots() const { return robots_; }
   /// Random numbers of the seed for whatever is not a robot's own.
   Random random(std::uint64_t stream) const;
 
  private:
-  bool fits(const Pose2& pose, double radius, const SimRobot* self) const;
+  void addThings();
+  void kick(const SimRobot& robot, std::size_t body, const ManipulatorState& state);
+  void moveManipulators();
+  void moveBodies();
+  void senseAll();
+  bool fits(std::span<const Primitive> pieces, const Pose2& pose, std::size_t self) const;
 
   Config config_;
   std::unique_ptr<SimWorld> world_;
+  std::unique_ptr<Physics> physics_;
+  std::unique_ptr<Workers> workers_;
   std::vector<std::unique_ptr<SimRobot>> robots_;
   std::vector<std::span<const Message>> readings_;
+  std::vector<std::size_t> robotBodies_;  ///< of the physics, by robot
+  std::vector<Thing> things_;
+  std::vector<std::size_t> thingBodies_;   ///< of the physics, by thing
+  std::vector<RobotNumber> thingNumbers_;  ///< of the world, by thing
+  std::vector<std::vector<Primitive>> thingPieces_;
   std::uint64_t added_ = 0;  ///< robots there ever were: each has random numbers of its own
   Timestamp now_ = 0;
   Timestamp cycle_ = 0;

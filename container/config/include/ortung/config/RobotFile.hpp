@@ -24,10 +24,14 @@ struct SensorConfig {
 struct RobotConfig {
   std::string name;
   double radius = 0.25;     ///< of the body's circle around the robot's origin [m]
+  double mass = 10.0;       ///< [kg]
+  Parameters about;         ///< the whole [robot]
   std::vector<SensorConfig> sensors;
   Parameters motion;        ///< [motion], may be empty
   Parameters mcl;           ///< [mcl], may be empty
   Parameters drive;         ///< [drive]: limits of the simulated robot, may be empty
+  std::vector<Parameters> body;          ///< [[body]]: shapes of the simulated robot, may be none
+  std::vector<Parameters> manipulators;  ///< [[manipulator]] of the simulated robot, may be none
 };
 
 /// @throws ConfigError

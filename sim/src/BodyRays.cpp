@@ -1,0 +1,194 @@
+#include "BodyRays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace ortung {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Where a ray is within something: from entry to exit.
+struct Within {
+  double entry = -kInfinity;
+  double exit = kInfinity;
+
+  /// Keeps the part with position + t * speed <= limit.
+  void keepBelow(double position, double speed, double limit) {
+    if (speed > 0.0) exit = std::min(exit, (limit - position) / speed);
+    if (speed < 0.0) entry = std::max(entry, (limit - position) / speed);
+    if (speed == 0.0 && position > limit) exit = -kInfinity;
+  }
+};
+
+}  // namespace
+
+BodyRays::Piece BodyRays::placed(const Primitive& primitive, const Pose2& pose) {
+  const double c = std::cos(pose.theta);
+  const double s = std::sin(pose.theta);
+  const auto toField = [&](const Point2& p) {
+    return Point2{pose.x + c * p.x - s * p.y, pose.y + s * p.x + c * p.y};
+  };
+  Piece piece;
+  piece.zLow = primitive.zLow;
+  piece.zHigh = primitive.zHigh;
+  piece.middle = toField(primitive.centre);
+  piece.isRound = primitive.shape == Primitive::Shape::ellipse;
+  if (piece.isRound) {
+    const double ca = std::cos(primitive.angle + pose.theta);
+    const double sa = std::sin(primitive.angle + pose.theta);
+    piece.normals[0] = {ca / primitive.halfX, sa / primitive.halfX};
+    piece.normals[1] = {-sa / primitive.halfY, ca / primitive.halfY};
+    piece.reach = std::max(primitive.halfX, primitive.halfY);
+    return piece;
+  }
+  std::vector<Point2> corners = cornersOf(primitive);
+  piece.sides = corners.size();
+  for (Point2& corner : corners) corner = toField(corner);
+  const Point2& a = corners[0];
+  const double winding =
+      (corners[1].x - a.x) * (corners[2].y - a.y) - (corners[1].y - a.y) * (corners[2].x - a.x);
+  for (std::size_t i = 0; i < piece.sides; ++i) {
+    const Point2& from = corners[i];
+    const Point2& to = corners[(i + 1) % piece.sides];
+    const double length = std::copysign(std::hypot(to.x - from.x, to.y - from.y), winding);
+    piece.normals[i] = {(to.y - from.y) / length, (from.x - to.x) / length};
+    piece.offsets[i] = piece.normals[i][0] * (from.x - piece.middle.x) +
+                       piece.normals[i][1] * (from.y - piece.middle.y);
+    piece.reach =
+        std::max(piece.reach, std::hypot(from.x - piece.middle.x, from.y - piece.middle.y));
+  }
+  return piece;
+}
+
+void BodyRays::add(std::span<const Primitive> pieces, RobotNumber number, const Pose2& pose) {
+  bodies_.push_back({number, pose, {}, {}});
+  reshape(bodies_.size() - 1, pieces);
+}
+
+void BodyRays::move(std::size_t place, const Pose2& pose) {
+  Body& moved = bodies_[place];
+  moved.pose = pose;
+  for (std::size_t i = 0; i < moved.shape.size(); ++i)
+    moved.pieces[i] = placed(moved.shape[i], pose);
+}
+
+void BodyRays::reshape(std::size_t place, std::span<const Primitive> pieces) {
+  Body& changed = bodies_[place];
+  changed.shape.assign(pieces.begin(), pieces.end());
+  changed.pieces.resize(changed.shape.size());
+  move(place, changed.pose);
+}
+
+void BodyRays::remove(std::size_t place) {
+  bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(place));
+}
+
+/// Distance to the first surface, from outside or inside.
+std::optional<double> BodyRays::hit(const Piece& piece, const Ray& ray) {
+  const double x = ray.x - piece.middle.x;
+  const double y = ray.y - piece.middle.y;
+  Within within;
+  if (piece.isRound) {
+    const auto& n = piece.normals;
+    const double px = n[0][0] * x + n[0][1] * y;
+    const double py = n[1][0] * x + n[1][1] * y;
+    const double vx = n[0][0] * ray.dx + n[0][1] * ray.dy;
+    const double vy = n[1][0] * ray.dx + n[1][1] * ray.dy;
+    // Inside the unit circle where a t^2 + 2 h t + k <= 0.
+    const double a = vx * vx + vy * vy;
+    const double h = px * vx + py * vy;
+    const double k = px * px + py * py - 1.0;
+    const double root = h * h - a * k;
+    if (a > 0.0) {
+      if (root < 0.0) return std::nullopt;
+      within = {(-h - std::sqrt(root)) / a, (-h + std::sqrt(root)) / a};
+    } else if (k > 0.0) {
+      return std::nullopt;
+    }
+  } else {
+    for (std::size_t i = 0; i < piece.sides; ++i) {
+      const auto& n = piece.normals[i];
+      within.keepBelow(n[0] * x + n[1] * y, n[0] * ray.dx + n[1] * ray.dy, piece.offsets[i]);
+    }
+  }
+  within.keepBelow(ray.z, ray.dz, piece.zHigh);
+  within.keepBelow(-ray.z, -ray.dz, -piece.zLow);
+  if (within.entry > within.exit || within.exit < 0.0) return std::nullopt;
+  return within.entry >= 0.0 ? within.entry : within.exit;
+}
+
+void BodyRays::castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const {
+  for (const Body& body : bodies_) {
+    if (body.number == ignore) continue;
+    for (const Piece& piece : body.pieces) {
+      if (fan.elevation == 0.0 && (fan.z < piece.zLow || fan.z > piece.zHigh)) continue;
+      castAt(piece, fan, ranges);
+    }
+  }
+}
+
+/// Casts the beams that point at the circle around a piece.
+void BodyRays::castAt(const Piece& piece, const RayFan& fan, std::span<float> ranges) const {
+  const double dx = piece.middle.x - fan.x;
+  const double dy = piece.middle.y - fan.y;
+  const double farthest = fan.maxRange + piece.reach;
+  const double square = dx * dx + dy * dy;
+  if (square > farthest * farthest) return;
+  const double level = std::cos(fan.elevation);
+  const double stepCos = std::cos(fan.angleStep);
+  const double stepSin = std::sin(fan.angleStep);
+  const auto castBeams = [&](std::size_t from, std::size_t to) {
+    const double angle = fan.firstAngle + static_cast<double>(from) * fan.angleStep;
+    Ray ray{fan.x,
+            fan.y,
+            fan.z,
+            level * std::cos(angle),
+            level * std::sin(angle),
+            std::sin(fan.elevation)};
+    for (std::size_t i = from; i < to; ++i) {
+      const auto t = hit(piece, ray);
+      if (t && *t < static_cast<double>(ranges[i])) ranges[i] = static_cast<float>(*t);
+      const double turned = ray.dx * stepCos - ray.dy * stepSin;
+      ray.dy = ray.dy * stepCos + ray.dx * stepSin;
+      ray.dx = turned;
+    }
+  };
+  const std::size_t n = ranges.size();
+  if (square <= piece.reach * piece.reach * 1.000001 || fan.angleStep == 0.0 || level <= 0.0)
+    return castBeams(0, n);
+  // A beam i points at the circle if first + i step is within `half` of `middle`, up to whole
+  // turns.
+  const double half = std::asin(piece.reach / std::sqrt(square)) + 1e-9;
+  const double step = std::abs(fan.angleStep);
+  const double sign = fan.angleStep < 0.0 ? -1.0 : 1.0;
+  const double middle = sign * (std::atan2(dy, dx) - fan.firstAngle);
+  const double last = step * static_cast<double>(n - 1);
+  double low = middle - half;
+  low -= kTurn * std::floor((low + 2.0 * half) / kTurn);  // the first one that ends behind beam 0
+  for (; low <= last; low += kTurn) {
+    const double from = std::max(std::ceil(low / step), 0.0);
+    const double to = std::min(std::floor((low + 2.0 * half) / step), static_cast<double>(n - 1));
+    if (from <= to) castBeams(static_cast<std::size_t>(from), static_cast<std::size_t>(to) + 1);
+  }
+}
+
+bool BodyRays::isBlocked(const std::array<double, 3>& from, const std::array<double, 3>& direction,
+                         double stop, RobotNumber ignore) const {
+  const Ray ray{from[0], from[1], from[2], direction[0], direction[1], direction[2]};
+  for (const Body& body : bodies_) {
+    if (body.number == ignore) continue;
+    for (const Piece& piece : body.pieces) {
+      const double away = std::hypot(piece.middle.x - ray.x, piece.middle.y - ray.y) - piece.reach;
+      if (away > stop) continue;
+      const auto t = hit(piece, ray);
+      if (t && *t < stop) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace ortung

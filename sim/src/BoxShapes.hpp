@@ -1,0 +1,29 @@
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ortung/sim/Primitive.hpp"
+#include "ortung/sim/SimWorld.hpp"
+
+namespace ortung {
+
+/// Shapes of the physics engine that together fill a primitive. Faces are where they should be:
+/// polygons are drawn in by the skin that the engine gives them, so only corners are a little
+/// round. Ellipses that are no circles become polygons of 48 corners.
+std::vector<std::unique_ptr<b2Shape>> boxShapesOf(const Primitive& primitive);
+std::unique_ptr<b2Shape> boxShapeOf(const WallSegment& wall);
+
+/// Area, centre of mass and moment of inertia around it of shapes of even density.
+struct Bulk {
+  double area = 0.0;     ///< [m^2]
+  Point2 centre;         ///< [m]
+  double inertia = 0.0;  ///< over the mass, around the centre [m^2]
+};
+/// @pre there are pieces; what overlaps counts twice
+Bulk bulkOf(std::span<const Primitive> pieces);
+
+}  // namespace ortung
