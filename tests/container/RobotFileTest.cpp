@@ -39,7 +39,7 @@ TEST(RobotFile, SaysWhatIsWrong) {
             "r.toml:4: radus_m is not known here");
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[sensr]\n"); }),
             "r.toml:3: sensr is not known here; sections of a robot file are [robot], [[sensor]], "
-            "[motion], [mcl] and [drive]");
+            "[motion], [mcl], [drive], [[body]] and [[manipulator]]");
   EXPECT_EQ(complaint([] { read("[sensor]\nplugin = 'a'\n"); }),
             "r.toml:1: sensor is a table, expected tables [[sensor]]");
   std::string many;

@@ -1,5 +1,7 @@
 #include "ortung/server/ServedSimulation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "RobotPlugins.hpp"
@@ -48,8 +50,16 @@ const RoutePlanner& ServedSimulation::planner(double radius) {
   }
 }
 
+/// Clients name their robots as they like, so two of them may like the same.
+bool ServedSimulation::isTaken(const std::string& name) const {
+  const auto robots = simulation_->robots();
+  return std::any_of(robots.begin(), robots.end(),
+                     [&](const auto& robot) { return robot->config().name == name; });
+}
+
 SimRobot& ServedSimulation::enter(RobotId robot, Guest& guest) {
-  const RobotConfig& config = guest.wish.config;
+  RobotConfig config = guest.wish.config;
+  if (isTaken(config.name)) config.name += "-" + std::to_string(robot);
   // Two streams a robot: where it begins, and where it wanders.
   const std::uint64_t stream = 2 * entered_;
   Random placing = simulation_->random(stream);
@@ -137,7 +147,17 @@ void ServedSimulation::setMotion(RobotId robot, std::span<const double> command)
   commanded(robot).drive().setCommand(command);
 }
 
-void ServedSimulation::setManipulator(RobotId robot, const std::string& manipulator, double) {
+void ServedSimulation::setManipulator(RobotId robot, const std::string& manipulator, double state) {
+  SimRobot& found = find(robot);
+  for (const Manipulator& one : found.shape().manipulators) {
+    if (one.name != manipulator) continue;
+    const auto last = static_cast<double>(one.states.size() - 1);
+    if (!(state >= 0.0 && state <= last && state == std::floor(state)))
+      throw ServeError("number", "manipulator " + manipulator + " has the states 0 to " +
+                                     std::to_string(one.states.size() - 1));
+    commanded(robot).setManipulator(manipulator, one.states[static_cast<std::size_t>(state)].name);
+    return;
+  }
   throw ServeError("no-manipulator", "robot " + std::to_string(robot) + " (" +
                                          guest(robot).wish.name + ") has no manipulator '" +
                                          manipulator + "'");
@@ -163,7 +183,16 @@ void ServedSimulation::placeRobot(RobotId robot, const Pose2& pose) {
   }
 }
 
-void ServedSimulation::placeObject(const std::string& object, const Pose2&) {
+void ServedSimulation::placeObject(const std::string& object, const Pose2& pose) {
+  const std::span<const Simulation::Thing> things = simulation_->things();
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (things[i].name != object) continue;
+    try {
+      return simulation_->placeThing(i, pose);
+    } catch (const std::invalid_argument& error) {
+      throw ServeError("no-room", error.what());
+    }
+  }
   throw ServeError("no-object", "this world has no movable object '" + object + "'");
 }
 

@@ -23,7 +23,7 @@ class Workers;
 class ORTUNG_API Simulation {
  public:
   struct Config {
-    std::optional<double> cycle;  ///< [s]; none: the world's
+    std::optional<double> cycle = std::nullopt;  ///< [s]; none: the world's
     std::uint64_t seed = 1;
     bool noise = true;     ///< of sensors, odometry and slipping wheels
     unsigned threads = 1;  ///< that sense

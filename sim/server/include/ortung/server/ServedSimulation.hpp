@@ -40,6 +40,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   SimRobot& find(RobotId robot) const;
   SimRobot& enter(RobotId robot, Guest& guest);
   const RoutePlanner& planner(double radius);
+  bool isTaken(const std::string& name) const;
 
   std::filesystem::path worldFile_;
   Simulation::Config config_;
