@@ -198,12 +198,23 @@ void addServing(Builder& build, ServingArguments& a) {
 
 void addSim(Builder& build, CLI::App& app) {
   const auto a = build.command<SimArguments>(
-      app, "sim", "Simulate a world and serve it to clients",
-      "ortung sim maps/fields/f2000.toml --listen 7777", runSim);
-  build.option("world", a->world, "World file (TOML)")->required();
+      app, "sim", "Simulate a world or play a scene; with --listen, serve the world to clients",
+      "ortung sim maps/scenes/kick.toml --duration 60 --free-run --record run.rec\n"
+      "  ortung sim maps/fields/f2000.toml --listen 7777",
+      runSim);
+  build.option("world", a->world, "World or scene file (TOML)")->required();
+  build.option("--robot", a->robots, "Robot file (TOML) of a robot that wanders about; may be given again")
+      ->expected(1)->take_all();
+  build.option("--duration", a->duration, "Time to simulate [s]; default: the scene's, or until a signal")
+      ->check(within(0.0, 1e6));
+  build.option("--record", a->record, "Write all readings of one robot as a record");
+  build.option("--recorded", a->recorded, "Name of the robot to record; default: the first");
+  build.option("--trace", a->trace, "Write where everything was, 20 times a second, as CSV");
+  build.option("--threads", a->threads, "Threads that sense; the result does not depend on it")
+      ->check(within(1, 256));
   build.option("--seed", a->seed, "Seed of all random numbers")->capture_default_str();
-  build.option("--cycle-ms", a->cycleMs, "Time between two steps of the simulation [ms]")
-      ->check(within(0.1, 1000.0))->capture_default_str();
+  build.option("--cycle-ms", a->cycleMs, "Time between two steps of the simulation [ms]; default: the world's")
+      ->check(within(0.1, 1000.0));
   build.flag("--no-noise", a->noNoise, "Sensors and odometry without noise");
   addServing(build, a->serving);
 }

@@ -105,9 +105,15 @@ struct ServeArguments {
 int runServe(const ServeArguments& arguments);
 
 struct SimArguments {
-  std::filesystem::path world;
+  std::filesystem::path world;        ///< or a scene
+  std::vector<std::filesystem::path> robots;  ///< robot files: they wander about
+  std::optional<double> duration;     ///< [s]; default: the scene's, or until a signal
+  std::filesystem::path record;       ///< "" for none, as the next
+  std::filesystem::path trace;
+  std::string recorded;               ///< name of the robot to record; "": the first
+  unsigned threads = 1;
   std::uint64_t seed = 1;
-  double cycleMs = 10.0;
+  std::optional<double> cycleMs;      ///< default: the world's
   bool noNoise = false;
   ServingArguments serving;
 };

@@ -29,7 +29,8 @@ Point2 rotated(const Point2& p, double angle) {
 
 /// What the engine keeps with every shape.
 struct Heights {
-  double low = 0.0, high = 0.0;  ///< [m]
+  double low = 0.0, high = 0.0;       ///< [m]
+  std::optional<double> restitution;  ///< of its own
 };
 
 /// Brings @p value nearer to 0 by at most @p step.
@@ -40,6 +41,13 @@ double braked(double value, double step) {
 class HeightFilter : public b2ContactFilter {
  public:
   bool ShouldCollide(b2Fixture* a, b2Fixture* b) override;
+};
+
+/// Says how much two bodies bounce: as the one says that has a restitution of its own, or as the
+/// one says that bounces less.
+class Bouncing : public b2ContactListener {
+ public:
+  void BeginContact(b2Contact* contact) override;
 };
 
 }  // namespace
@@ -65,24 +73,25 @@ struct Physics::Engine {
 
   explicit Engine(const PhysicsConfig& c) : config(c), world({0.0f, 0.0f}) {
     world.SetContactFilter(&filter);
+    world.SetContactListener(&bouncing);
     world.SetAllowSleeping(false);
   }
 
   void attach(b2Body* body, std::span<const Primitive> pieces,
               std::vector<std::unique_ptr<Heights>>& kept) const {
     for (const Primitive& piece : pieces) {
-      kept.push_back(std::make_unique<Heights>(Heights{piece.zLow, piece.zHigh}));
+      kept.push_back(
+          std::make_unique<Heights>(Heights{piece.zLow, piece.zHigh, piece.restitution}));
       for (const auto& shape : boxShapesOf(piece))
-        attach(body, *shape, *kept.back(), piece.friction, piece.restitution);
+        attach(body, *shape, *kept.back(), piece.friction);
     }
   }
   void attach(b2Body* body, const b2Shape& shape, Heights& range,
-              const std::optional<double>& friction = {},
-              const std::optional<double>& restitution = {}) const {
+              const std::optional<double>& friction = {}) const {
     b2FixtureDef definition;
     definition.shape = &shape;
     definition.friction = single(friction.value_or(config.friction));
-    definition.restitution = single(restitution.value_or(config.restitution));
+    definition.restitution = single(config.restitution);
     definition.restitutionThreshold = 0.0f;  // Newton's hypothesis holds at every speed
     definition.userData.pointer = reinterpret_cast<uintptr_t>(&range);
     body->CreateFixture(&definition);
@@ -194,6 +203,7 @@ struct Physics::Engine {
 
   PhysicsConfig config;
   HeightFilter filter;
+  Bouncing bouncing;
   b2World world;
   b2Body* ground = nullptr;
   Heights fence;
@@ -211,6 +221,13 @@ bool overlap(const Heights& a, const Heights& b) { return a.low < b.high && b.lo
 
 bool HeightFilter::ShouldCollide(b2Fixture* a, b2Fixture* b) {
   return overlap(heightsOf(*a), heightsOf(*b));
+}
+
+void Bouncing::BeginContact(b2Contact* contact) {
+  const auto& a = heightsOf(*contact->GetFixtureA()).restitution;
+  const auto& b = heightsOf(*contact->GetFixtureB()).restitution;
+  if (!a && !b) return;
+  contact->SetRestitution(single(a && b ? std::min(*a, *b) : a.value_or(b.value_or(0.0))));
 }
 
 /// Looks for a fixture that one of some shapes at a place touches.
@@ -243,7 +260,7 @@ Physics::Physics(const PhysicsConfig& config, const Solids& solids)
   engine_->ground = engine_->world.CreateBody(&definition);
   engine_->attach(engine_->ground, solids.primitives, engine_->fixedHeights);
   for (const WallSegment& wall : solids.walls) {
-    engine_->fixedHeights.push_back(std::make_unique<Heights>(Heights{wall.zLow, wall.zHigh}));
+    engine_->fixedHeights.push_back(std::make_unique<Heights>(Heights{wall.zLow, wall.zHigh, {}}));
     engine_->attach(engine_->ground, *boxShapeOf(wall), *engine_->fixedHeights.back());
   }
   engine_->addFence(solids.bounds);
@@ -310,7 +327,7 @@ bool Physics::isFree(std::span<const Primitive> pieces, const Pose2& pose, Body 
   const b2Transform place({single(pose.x), single(pose.y)}, b2Rot(single(pose.theta)));
   const b2Body* own = self == kNobody ? nullptr : engine_->items[self].body;
   for (const Primitive& piece : pieces) {
-    const Heights heights{piece.zLow, piece.zHigh};
+    const Heights heights{piece.zLow, piece.zHigh, {}};
     for (const auto& shape : boxShapesOf(piece)) {
       b2AABB box;
       shape->ComputeAABB(&box, place, 0);
@@ -329,7 +346,7 @@ bool Physics::reaches(Body body, std::span<const Primitive> pieces, Body other,
   for (const Primitive& piece : pieces) {
     for (const auto& shape : boxShapesOf(piece)) {
       for (b2Fixture* fixture = to->GetFixtureList(); fixture; fixture = fixture->GetNext()) {
-        if (!overlap({piece.zLow, piece.zHigh}, heightsOf(*fixture))) continue;
+        if (!overlap({piece.zLow, piece.zHigh, {}}, heightsOf(*fixture))) continue;
         b2DistanceInput input;
         input.proxyA.Set(shape.get(), 0);
         input.proxyB.Set(fixture->GetShape(), 0);

@@ -13,6 +13,7 @@
 #include "ortung/container/PluginFactory.hpp"
 #include "ortung/container/Source.hpp"
 #include "ortung/sim/RoutePlanner.hpp"
+#include "ortung/sim/Scene.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 namespace ortung {
@@ -130,10 +131,19 @@ std::filesystem::path robotFileOf(const Parameters& p) {
   return file;
 }
 
-/// Source "sim": a robot that drives about a simulated world.
-class SimSource : public Source {
+std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+double shareOf(Timestamp now, Timestamp duration) {
+  return std::min(toSeconds(now) / toSeconds(std::max(duration, Timestamp{1})), 1.0);
+}
+
+/// One robot that drives about a simulated world.
+class RobotSource : public Source {
  public:
-  explicit SimSource(const Parameters& p)
+  explicit RobotSource(const Parameters& p)
       : worldFile_(p.text("path")),
         robotFile_(robotFileOf(p)),
         run_(Run::read(p)),
@@ -141,16 +151,15 @@ class SimSource : public Source {
         simulation_(readWorld(worldFile_), run_.simulation),
         config_(readRobot(robotFile_)),
         planner_(simulation_.world(), config_.radius),
-        placing_(simulation_.random(kPlacing)) {
-    const Pose2 start = run_.start ? *run_.start : planner_.randomPose(placing_);
-    robot_ = &simulation_.addRobot(config_, factory_, start);
+        placing_(simulation_.random(kPlacing)),
+        robot_(&enter()) {
     DriveLimits limits = robot_->drive().limits();
     if (run_.speed) limits.speed = std::min(limits.speed, *run_.speed);
     robot_->setDriver(run_.waypoints.empty()
                           ? makeWanderer(planner_, limits, simulation_.random(kWandering))
                           : makeFollower(run_.waypoints, limits));
   }
-  ~SimSource() override = default;
+  ~RobotSource() override = default;
 
   bool next(Message& message) override {
     while (sent_ == frame_.size()) {
@@ -164,25 +173,36 @@ class SimSource : public Source {
     return true;
   }
 
-  double progress() const override {
-    const double done =
-        toSeconds(simulation_.now()) / toSeconds(std::max(run_.duration, Timestamp{1}));
-    return std::min(done, 1.0);
-  }
+  double progress() const override { return shareOf(simulation_.now(), run_.duration); }
   std::string worldFingerprint() const override { return simulation_.world().fingerprint(); }
-  std::string robotToml() const override {
-    std::ifstream in(robotFile_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string robotToml() const override { return contentOf(robotFile_); }
 
  private:
   static constexpr std::uint64_t kPlacing = 0;
   static constexpr std::uint64_t kWandering = 1;
+  static constexpr int kAttempts = 200;  ///< to find room beside what is movable
+
+  SimRobot& enter() {
+    for (int attempt = 1;; ++attempt) {
+      const Pose2 start = run_.start ? *run_.start : planner_.randomPose(placing_);
+      try {
+        return simulation_.addRobot(config_, factory_, start);
+      } catch (const std::invalid_argument&) {
+        if (run_.start || attempt == kAttempts) throw;
+      }
+    }
+  }
 
   void kidnap() {
     if (kidnapped_ == run_.kidnaps.size() || simulation_.now() < run_.kidnaps[kidnapped_]) return;
     ++kidnapped_;
-    simulation_.place(*robot_, planner_.randomPose(placing_));
+    for (int attempt = 1;; ++attempt) {
+      try {
+        return simulation_.place(*robot_, planner_.randomPose(placing_));
+      } catch (const std::invalid_argument&) {
+        if (attempt == kAttempts) throw;
+      }
+    }
   }
 
   std::filesystem::path worldFile_;
@@ -193,10 +213,79 @@ class SimSource : public Source {
   RobotConfig config_;
   RoutePlanner planner_;
   Random placing_;
-  SimRobot* robot_ = nullptr;  ///< the simulation's
+  SimRobot* robot_;  ///< the simulation's
   std::span<const Message> frame_;
   std::size_t sent_ = 0;
   std::size_t kidnapped_ = 0;
+};
+
+/// What one robot of a scripted scene senses.
+class SceneSource : public Source {
+ public:
+  explicit SceneSource(const Parameters& p)
+      : scene_(Scene::read(p.text("path"))),
+        run_(Run::read(p)),
+        factory_(PluginFactory::standardFolders()),
+        player_(scene_, run_.simulation, factory_) {
+    p.textOr("robot_file", "");  // the scene names its own
+    for (const char* key : {"start", "waypoints", "speed", "kidnap"})
+      if (p.has(key)) p.fail(key, "does not fit a scene, which says itself who goes where");
+    if (!p.has("duration") && scene_.duration) run_.duration = fromSeconds(*scene_.duration);
+    const std::string name = p.textOr("robot", scene_.robots.front().name);
+    const auto found = player_.find(name);
+    if (!found) p.fail("robot", "is \"" + name + "\", which is not in the scene");
+    robot_ = *found;
+    for (const SceneRobot& robot : scene_.robots)
+      if (robot.name == name) file_ = robot.file;
+  }
+  ~SceneSource() override = default;
+
+  bool next(Message& message) override {
+    while (sent_ == frame_.size()) {
+      if (player_.simulation().now() > run_.duration) return false;
+      player_.step();
+      frame_ = player_.simulation().readings(robot_);
+      sent_ = 0;
+    }
+    message = frame_[sent_++];
+    return true;
+  }
+
+  double progress() const override { return shareOf(now(), run_.duration); }
+  std::string worldFingerprint() const override { return fingerprint_; }
+  std::string robotToml() const override { return contentOf(file_); }
+
+ private:
+  Timestamp now() const { return player_.simulation().now(); }
+
+  Scene scene_;
+  Run run_;
+  PluginFactory factory_;
+  ScenePlayer player_;
+  std::string fingerprint_ = player_.simulation().world().fingerprint();
+  std::filesystem::path file_;
+  std::size_t robot_ = 0;
+  std::span<const Message> frame_;
+  std::size_t sent_ = 0;
+};
+
+/// Source "sim": a world with one robot, or a scene.
+class SimSource : public Source {
+ public:
+  explicit SimSource(const Parameters& p) {
+    if (Scene::isScene(p.text("path")))
+      source_ = std::make_unique<SceneSource>(p);
+    else
+      source_ = std::make_unique<RobotSource>(p);
+  }
+  ~SimSource() override = default;
+  bool next(Message& message) override { return source_->next(message); }
+  double progress() const override { return source_->progress(); }
+  std::string worldFingerprint() const override { return source_->worldFingerprint(); }
+  std::string robotToml() const override { return source_->robotToml(); }
+
+ private:
+  std::unique_ptr<Source> source_;
 };
 
 }  // namespace

@@ -1,0 +1,95 @@
+#include "ortung/sim/Scene.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace ortung {
+namespace {
+
+constexpr int kAttempts = 200;  // to find room on a crowded field
+
+}  // namespace
+
+ScenePlayer::ScenePlayer(const Scene& scene, const Simulation::Config& config,
+                         PluginFactory& factory)
+    : scene_(scene), simulation_(std::make_unique<Simulation>(readWorld(scene.world), config)) {
+  // Those with a place of their own first, so that nobody stands there already.
+  for (const bool hasStart : {true, false})
+    for (std::size_t i = 0; i < scene_.robots.size(); ++i)
+      if (scene_.robots[i].start.has_value() == hasStart) addRobot(scene_.robots[i], i, factory);
+  for (const SceneCommand& command : scene_.commands) need(command.robot);
+  for (const ScenePlacement& placement : scene_.placements) needThing(placement.thing);
+}
+
+ScenePlayer::~ScenePlayer() = default;
+
+void ScenePlayer::addRobot(const SceneRobot& robot, std::size_t place, PluginFactory& factory) {
+  RobotConfig config = readRobot(robot.file);
+  config.name = robot.name;
+  // Streams of chance by place in the file: where it begins, and where it wanders.
+  Random placing = simulation_->random(2 * place);
+  const bool needsPlan = robot.wanders || !robot.start;
+  if (needsPlan)
+    planners_.push_back(std::make_unique<RoutePlanner>(simulation_->world(), config.radius));
+  SimRobot* added = nullptr;
+  for (int attempt = 1; added == nullptr; ++attempt) {
+    const Pose2 start = robot.start ? *robot.start : planners_.back()->randomPose(placing);
+    try {
+      added = &simulation_->addRobot(config, factory, start);
+    } catch (const std::invalid_argument&) {
+      if (robot.start || attempt == kAttempts) throw;
+    }
+  }
+  DriveLimits limits = added->drive().limits();
+  if (robot.speed) limits.speed = std::min(limits.speed, *robot.speed);
+  if (robot.wanders)
+    added->setDriver(makeWanderer(*planners_.back(), limits, simulation_->random(2 * place + 1)));
+  if (!robot.waypoints.empty()) added->setDriver(makeFollower(robot.waypoints, limits));
+}
+
+std::optional<std::size_t> ScenePlayer::find(const std::string& robot) const {
+  const auto robots = simulation_->robots();
+  const auto found = std::find_if(robots.begin(), robots.end(),
+                                  [&](const auto& one) { return one->config().name == robot; });
+  if (found == robots.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - robots.begin());
+}
+
+std::size_t ScenePlayer::need(const std::string& robot) const {
+  const auto found = find(robot);
+  if (!found)
+    throw std::invalid_argument("a command is for robot '" + robot + "', which is not there");
+  return *found;
+}
+
+std::size_t ScenePlayer::needThing(const std::string& thing) const {
+  const auto things = simulation_->things();
+  for (std::size_t i = 0; i < things.size(); ++i)
+    if (things[i].name == thing) return i;
+  throw std::invalid_argument("the world has nothing movable of the name '" + thing + "'");
+}
+
+void ScenePlayer::step() {
+  const Timestamp now = simulation_->now();
+  while (nextPlacement_ < scene_.placements.size() && scene_.placements[nextPlacement_].at <= now)
+    put(scene_.placements[nextPlacement_++]);
+  while (nextCommand_ < scene_.commands.size() && scene_.commands[nextCommand_].at <= now)
+    obey(scene_.commands[nextCommand_++]);
+  simulation_->step();
+}
+
+void ScenePlayer::put(const ScenePlacement& placement) {
+  simulation_->placeThing(needThing(placement.thing), placement.pose, placement.velocity);
+}
+
+void ScenePlayer::obey(const SceneCommand& command) {
+  SimRobot& robot = *simulation_->robots()[need(command.robot)];
+  const bool drives = command.translational || command.rotational || !command.vector.empty();
+  if (drives) robot.setDriver(nullptr);
+  if (command.translational) robot.drive().setTranslationalVelocity(*command.translational);
+  if (command.rotational) robot.drive().setRotationalVelocity(*command.rotational);
+  if (!command.vector.empty()) robot.drive().setCommand(command.vector);
+  if (!command.manipulator.empty()) robot.setManipulator(command.manipulator, command.state);
+}
+
+}  // namespace ortung

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "WorldFiles.hpp"
+#include "ortung/sim/Scene.hpp"
+
+namespace ortung::test {
+namespace {
+
+/// The scene that ships, played for some time.
+struct Played {
+  explicit Played(double seconds, const Simulation::Config& config = {}) {
+    const Scene scene = Scene::read(ORTUNG_SOURCE_DIR "/maps/scenes/kick.toml");
+    player = std::make_unique<ScenePlayer>(scene, config, factory);
+    while (toSeconds(player->simulation().now()) < seconds) player->step();
+  }
+  const SimRobot& robot(const std::string& name) const {
+    return *player->simulation().robots()[player->find(name).value()];
+  }
+  const Simulation::Thing& ball() const { return player->simulation().things()[0]; }
+
+  PluginFactory factory{PluginFactory::standardFolders()};
+  std::unique_ptr<ScenePlayer> player;
+};
+
+double speedOf(const Twist& velocity) { return std::hypot(velocity.x, velocity.y); }
+
+TEST(Scene, DribblesTheBallRoundTwoCurves) {
+  const Played play(7.0);
+  EXPECT_GT(play.ball().pose.y, 1.0);  // it has come along, away from where it lay
+  EXPECT_LT(distance(play.ball().pose, play.robot("striker").state().pose), 0.35);
+}
+
+TEST(Scene, KicksTheBallIntoTheGoal) {
+  const Played before(8.45);
+  const Played after(8.52);
+  const double own = speedOf(before.robot("striker").state().velocity);
+  EXPECT_NEAR(speedOf(after.ball().velocity), 8.0 + own, 0.2);  // what the kicker's state says
+  const Played later(10.0);
+  EXPECT_GT(later.ball().pose.x, 11.0);
+  EXPECT_LT(std::abs(later.ball().pose.y), 1.2);
+}
+
+TEST(Scene, RobotsThatCollidePushEachOther) {
+  const Played play(6.0);
+  EXPECT_LT(play.robot("pusher").state().pose.x, -1.5);  // it began at -1 and drove forwards
+  EXPECT_GT(distance(play.robot("pusher").state().pose, play.robot("defender").state().pose), 0.4);
+}
+
+/// A room with a ball, and a robot in it with a kicker.
+struct Kicker {
+  explicit Kicker(const std::string& more = "")
+      : robotFile(folder.write("robot.toml", R"(
+[robot]
+name = "kicker"
+radius_m = 0.2
+mass_kg = 20
+[[sensor]]
+plugin = "odometry"
+[[manipulator]]
+name = "kicker"
+[[manipulator.state]]
+name = "rest"
+[[manipulator.state]]
+name = "kick"
+ball_speed_m_s = 5
+returns_after_s = 0.1
+[[manipulator.state.body]]
+center_m = [0.22, 0]
+size_m = [0.06, 0.2]
+z_m = [0, 0.3]
+)" + more)),
+        worldFile(folder.write("world.toml", R"(
+[world]
+x_m = [-5, 5]
+y_m = [-5, 5]
+[[rectangle]]
+kind = "wall"
+center_m = [0, 5.1]
+size_m = [10, 0.2]
+[[ellipse]]
+kind = "ball"
+name = "ball"
+center_m = [0.32, 0]
+size_m = [0.22, 0.22]
+z_m = [0, 0.22]
+)")),
+        simulation(readWorld(worldFile), {}),
+        robot(simulation.addRobot(readRobot(robotFile), factory, {0, 0, 0})) {}
+
+  TemporaryFolder folder;
+  std::filesystem::path robotFile, worldFile;
+  PluginFactory factory{PluginFactory::standardFolders()};
+  Simulation simulation;
+  SimRobot& robot;
+};
+
+TEST(Manipulator, GivesTheBallTheSpeedOfItsState) {
+  Kicker kicker;
+  kicker.simulation.step();
+  EXPECT_EQ(speedOf(kicker.simulation.things()[0].velocity), 0.0);
+  kicker.robot.setManipulator("kicker", "kick");
+  kicker.simulation.step();
+  const Twist ball = kicker.simulation.things()[0].velocity;
+  EXPECT_NEAR(ball.x, 5.0, 0.01);
+  EXPECT_NEAR(ball.y, 0.0, 0.01);
+}
+
+TEST(Manipulator, KicksOnlyWhatItReaches) {
+  Kicker kicker;
+  kicker.simulation.placeThing(0, {0.6, 0.0, 0.0});
+  kicker.robot.setManipulator("kicker", "kick");
+  kicker.simulation.step();
+  EXPECT_EQ(speedOf(kicker.simulation.things()[0].velocity), 0.0);
+}
+
+TEST(Manipulator, MovesRealGeometryAndReturns) {
+  Kicker kicker;
+  kicker.simulation.placeThing(0, {3.0, 3.0, 0.0});
+  const auto ahead = [&] { return rangeAt(kicker.simulation.world(), 1.0, 0.0, 3.14159265, 0.1); };
+  EXPECT_NEAR(ahead(), 0.8, 1e-3);
+  kicker.robot.setManipulator("kicker", "kick");
+  kicker.simulation.step();
+  EXPECT_NEAR(ahead(), 0.75, 1e-3);  // rays meet it
+  EXPECT_THROW(kicker.simulation.placeThing(0, {0.34, 0.0, 0.0}),
+               std::invalid_argument);  // bodies, too
+  for (int i = 0; i < 20; ++i) kicker.simulation.step();
+  EXPECT_NEAR(ahead(), 0.8, 1e-3);
+  kicker.simulation.placeThing(0, {0.34, 0.0, 0.0});
+}
+
+TEST(Manipulator, IsNamedWhenItIsNotThere) {
+  Kicker kicker;
+  const auto complaint = [&](const char* manipulator, const char* state) -> std::string {
+    try {
+      kicker.robot.setManipulator(manipulator, state);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint("arm", "up"), "robot kicker has no manipulator 'arm', but kicker");
+  EXPECT_EQ(complaint("kicker", "up"),
+            "robot kicker: its manipulator kicker has no state 'up', but rest, kick");
+}
+
+std::string complaintOf(const std::string& toml) {
+  const TemporaryFolder folder;
+  try {
+    Scene::read(folder.write("scene.toml", toml));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneFile, SaysWhatIsWrong) {
+  const std::string head = "[scene]\nworld = \"w.toml\"\n";
+  EXPECT_NE(complaintOf(head).find("robot is missing"), std::string::npos) << complaintOf(head);
+  const std::string robot = head + "[[robot]]\nfile = \"r.toml\"\nname = \"one\"\n";
+  EXPECT_EQ(complaintOf(robot), "");
+  for (const std::string bad :
+       {"[[command]]\nat_s = -1\nrobot = \"one\"", "[[command]]\nat_s = 1",
+        "[[command]]\nat_s = 1\nrobot = \"one\"\ntranslational_m_s = nan",
+        "[[command]]\nat_s = 1\nrobot = \"one\"\nmanipulator = \"kicker\"",
+        "[[thing]]\nname = \"ball\"", "[[comand]]\nat_s = 1", "[[robot]]\nfile = \"r.toml\"",
+        "[[robot]]\nfile = \"r.toml\"\nname = \"a b\"",
+        "[[robot]]\nfile = \"r.toml\"\nname = \"b\"\nwanders = true\nwaypoints_m = [1, 2]",
+        "[[robot]]\nfile = \"r.toml\"\nname = \"b\"\nwaypoints_m = [1]"})
+    EXPECT_NE(complaintOf(robot + bad).find("scene.toml"), std::string::npos) << bad;
+}
+
+}  // namespace
+}  // namespace ortung::test
