@@ -14,7 +14,7 @@ packages=(
   # the program: command line, messages, charts of the report
   libcli11-dev libspdlog-dev libfmt-dev libpng-dev libjs-dygraphs
   # tests and benchmarks
-  libgtest-dev libbenchmark-dev librapidcheck-dev
+  libgtest-dev libbenchmark-dev librapidcheck-dev clang-19 libclang-rt-19-dev python3
 )
 
 missing=()

@@ -1,0 +1,106 @@
+// Bytes of a client against the server's side of the protocol, without sockets and threads. A byte
+// 0xFF in the input lets the world go on by a cycle, 0xFE begins anew with what the second client
+// says.
+#include <cstdint>
+#include <cstdlib>
+#include <deque>
+
+#include "../server/CountingWorld.hpp"
+#include "Conversation.hpp"
+
+namespace {
+
+using namespace ortung;
+using namespace ortung::server;
+
+/// Runs everything on one thread, in order.
+class InlineHost final : public Host {
+ public:
+  using Host::Host;
+  ~InlineHost() override = default;
+  void post(std::function<void()> task) override { tasks_.push_back(std::move(task)); }
+  void broadcast(ClientId from, std::string_view text) override {
+    for (const auto& conversation : conversations)
+      if (conversation->id() != from) conversation->tell(text);
+  }
+  void forget(ClientId) override {}
+  void countSubscribers(int change) override { subscribers += change; }
+  void settle() {
+    for (int round = 0; round < 3; ++round) {
+      keeper.runOnce();
+      while (!tasks_.empty()) {
+        const auto task = std::move(tasks_.front());
+        tasks_.pop_front();
+        task();
+      }
+    }
+  }
+  std::vector<std::shared_ptr<Conversation>> conversations;
+  int subscribers = 0;
+
+ private:
+  std::deque<std::function<void()>> tasks_;
+};
+
+/// A client that reads nothing of a long time, then everything.
+class SlowOutlet final : public Outlet {
+ public:
+  ~SlowOutlet() override = default;
+  void send(std::string_view text) override {
+    if (isFinished || text.empty()) std::abort();
+    outstanding_ += text.size();
+    if (text.back() != '\n' && text.find("bytes=") == text.npos) std::abort();
+  }
+  std::size_t outstanding() const override { return outstanding_; }
+  void finish() override { isFinished = true; }
+  void resume() override {}
+
+ private:
+  bool isFinished = false;
+  std::size_t outstanding_ = 0;
+};
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  test::CountingWorld world(3);
+  BoardConfig config;
+  config.pace = Pace::kLockstep;
+  config.control = {"*"};
+  config.limits.output = 20'000;
+  config.limits.line = 4096;
+  config.limits.configuration = 2048;
+  config.limits.orders = 8;
+  config.limits.errors = 10;  // exceptions are slow here
+  InlineHost* host = nullptr;
+  WorldKeeper keeper(world, config, [&host] {
+    for (const auto& conversation : host->conversations)
+      host->post([conversation] { conversation->onCycle(); });
+  });
+  InlineHost inlineHost(world, config, keeper);
+  host = &inlineHost;
+  for (ClientId id = 1; id <= 2; ++id)
+    inlineHost.conversations.push_back(
+        std::make_shared<Conversation>(inlineHost, id, std::make_unique<SlowOutlet>()));
+
+  std::size_t speaker = 0;
+  std::string_view rest(reinterpret_cast<const char*>(data), size);
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of("\xFE\xFF"), rest.size());
+    inlineHost.conversations[speaker]->receive(rest.substr(0, end));
+    if (end < rest.size() && rest[end] == '\xFE') speaker = 1 - speaker;
+    inlineHost.settle();
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  // Whatever was said, nothing of a client outlives it.
+  for (const auto& conversation : inlineHost.conversations) conversation->hangUp();
+  inlineHost.settle();
+  require(keeper.clients().empty());
+  require(keeper.robots().empty());
+  require(inlineHost.subscribers == 0);
+  return 0;
+}

@@ -1,0 +1,57 @@
+// A record file, whole, and each of its lines; what was read is written and read again.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "ortung/container/Record.hpp"
+
+namespace {
+
+using namespace ortung;
+
+void readLines(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string why;
+    if (const auto message = parseLine(text.substr(0, end), &why)) {
+      std::string line;
+      writeLine(*message, line);
+      if (parseLine(line) != message) std::abort();
+    } else if (why.empty()) {
+      std::abort();
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+void readFile(std::string_view text) {
+  static const int file = ::memfd_create("record", MFD_CLOEXEC);
+  if (::ftruncate(file, 0) != 0 ||
+      ::pwrite(file, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
+    std::abort();
+  try {
+    RecordSource source("/proc/self/fd/" + std::to_string(file));
+    FrameReader reader(source);
+    std::vector<Message> frame;
+    Timestamp last = INT64_MIN;
+    while (reader.next(frame)) {
+      if (frame.empty() || frame.front().stamp < last) std::abort();
+      last = frame.front().stamp;
+    }
+  } catch (const std::runtime_error&) {
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes), size);
+  readLines(text);
+  readFile(text);
+  return 0;
+}
