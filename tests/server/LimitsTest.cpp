@@ -123,6 +123,7 @@ TEST(Limits, ASlowReaderFindsTheReasonAtTheEndOfItsOutput) {
   slow.join(kAnyRobot);
   waitForReadings(slow);
   for (int i = 0; i < 200; ++i) slow.send("READ camera/*/*\n");
+  while (board.statistics().clients > 0) std::this_thread::yield();
   const std::string all = slow.rest();
   EXPECT_NE(all.find("* ERR slow more than 100000 bytes wait to be read"), std::string::npos);
 }

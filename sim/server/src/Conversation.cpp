@@ -193,6 +193,7 @@ void Conversation::order(const std::string& tag, WorldKeeper::Order run, Then th
       if (!self) return;
       --self->pending_;
       self->waiting_ -= holdsLines ? 1 : 0;
+      if (self->isOver_) return;
       if (text.starts_with("ERR "))
         self->error(tag, text);
       else if (then)
