@@ -77,7 +77,7 @@ TEST(RemoteRobot, WhatTheServerRefusesIsTold) {
   ServedSimulation world(kWorld, {});
   const RunningBoard board(world, onPort(0));
   RemoteRobot robot(kRobot, to(board.port()));
-  EXPECT_FALSE(robot.setManipulator("arm", 1.0));
+  EXPECT_FALSE(robot.setManipulator("arm", "up"));
   EXPECT_NE(robot.trouble().find("no manipulator 'arm'"), std::string::npos) << robot.trouble();
   EXPECT_TRUE(robot.isConnected());
 
@@ -157,7 +157,7 @@ TEST(ClientForC, PlaysTheSame) {
   EXPECT_EQ(ortung_read(robot, "*/LRF/*", words, 200, &stamp), 180);
   EXPECT_EQ(ortung_read(robot, "*/LRF/*", words, 10, nullptr), 180);
   EXPECT_EQ(ortung_read(robot, "nonsense", words, 10, nullptr), -1);
-  EXPECT_EQ(ortung_set_manipulator(robot, "arm", 1.0), 0);
+  EXPECT_EQ(ortung_set_manipulator(robot, "arm", "up"), 0);
   char trouble[20];
   ortung_trouble(robot, trouble, sizeof trouble);
   EXPECT_STREQ(trouble,

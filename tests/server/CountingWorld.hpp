@@ -41,7 +41,10 @@ class CountingWorld : public ServedWorld {
   void setTranslationalVelocity(RobotId, double) override { ++commands_; }
   void setRotationalVelocity(RobotId, double) override { ++commands_; }
   void setMotion(RobotId, std::span<const double>) override { ++commands_; }
-  void setManipulator(RobotId, const std::string& name, double) override {
+  std::vector<std::string> abilities(RobotId) const override {
+    return {"drive nothing", "manipulator kicker rest kicking"};
+  }
+  void setManipulator(RobotId, const std::string& name, const std::string&) override {
     if (name != "kicker") throw ServeError("no-manipulator", "there is only a kicker");
     ++commands_;
   }

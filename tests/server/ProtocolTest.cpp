@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "CountingWorld.hpp"
+#include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/container/Record.hpp"
@@ -71,7 +72,8 @@ TEST(Protocol, LinesThatMakeNoSenseAreToldWhy) {
       {"MOTION", "ERR syntax MOTION needs numbers"},
       {"MANIPULATOR kicker", "ERR syntax MANIPULATOR needs a state"},
       {"MANIPULATOR arm 1", "ERR no-manipulator there is only a kicker"},
-      {"MANIPULATOR ../arm 1", "ERR syntax a name is 1 to 32 of [A-Za-z0-9_-]"},
+      {"MANIPULATOR ../arm 1",
+       "ERR syntax a manipulator and its state are 1 to 32 of [A-Za-z0-9_-]"},
       {"UPDATE LRF", "ERR syntax found 'LRF', expected model/type/feature with * for any"},
       {"UPDATE form=xml", "ERR syntax form is 'xml', expected text or binary"},
       {"NEXT", "ERR state NEXT is for clients in lockstep: LOCKSTEP on"},
@@ -201,6 +203,27 @@ TEST(Protocol, OperatorsControlTheSimulation) {
   EXPECT_EQ(client.ask("SPEED 20"), "OK SPEED");
   EXPECT_EQ(client.ask("RESUME"), "OK RESUME now=50000");
   EXPECT_EQ(client.ask("STEP"), "ERR state STEP is for a simulation that is paused");
+}
+
+TEST(Protocol, ManipulatorsAreSetByNameOrNumber) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/msl.toml", {.noise = false});
+  const RunningBoard board(world, lockstepConfig());
+  TestClient client(board.port());
+  ASSERT_TRUE(client.join(readBytes(ORTUNG_SOURCE_DIR "/maps/robots/msl_omni.toml"), "striker")
+                  .starts_with("OK CREATE"));
+  const std::string reply = client.ask("DESCRIBE robot");
+  std::string kicker;
+  for (int lines = std::stoi(valueOf(reply, "lines")); lines > 0; --lines) {
+    const std::string line = client.line();
+    if (line.starts_with("manipulator kicker ")) kicker = line.substr(19);
+  }
+  const std::string first = kicker.substr(0, kicker.find(' '));
+  ASSERT_FALSE(first.empty());
+  EXPECT_EQ(client.ask("MANIPULATOR kicker " + first), "OK MANIPULATOR");
+  EXPECT_EQ(client.ask("MANIPULATOR kicker 1"), "OK MANIPULATOR");
+  EXPECT_TRUE(client.ask("MANIPULATOR kicker 99")
+                  .starts_with("ERR no-manipulator manipulator kicker has the states " + kicker));
+  EXPECT_TRUE(client.ask("MANIPULATOR arm up").starts_with("ERR no-manipulator robot 1"));
 }
 
 TEST(Protocol, ClientsTouchTheirOwnRobotsOnly) {

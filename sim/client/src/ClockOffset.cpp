@@ -45,8 +45,8 @@ void ClockOffset::add(const Exchange& exchange) {
   estimateRate();
 }
 
-/// The server's clock was set, or runs at another speed since a while: in that case the last reading
-/// and this one tell which.
+/// The server's clock was set, or runs at another speed since a while: in that case the last
+/// reading and this one tell which.
 void ClockOffset::startOver(const Reading& reading) {
   const Reading last = readings_.back();
   readings_.clear();

@@ -202,7 +202,7 @@ bool RemoteRobot::setMotion(std::span<const double> command) {
   return parts_->attempt([&] { parts_->session->setMotion(command); });
 }
 
-bool RemoteRobot::setManipulator(const std::string& manipulator, double state) {
+bool RemoteRobot::setManipulator(const std::string& manipulator, const std::string& state) {
   return parts_->attempt([&] { parts_->session->setManipulator(manipulator, state); });
 }
 

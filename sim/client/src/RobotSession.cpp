@@ -59,7 +59,7 @@ RobotSession::RobotSession(const SessionOptions& options, std::string_view robot
     create += " x_m=" + shown(options_.start->x) + " y_m=" + shown(options_.start->y) +
               " theta_rad=" + shown(options_.start->theta);
   if (options_.wanders) create += " drive=wander";
-  ask(create + "\n" + withDotsDoubled(robotToml) + ".");
+  exchange(create + "\n" + withDotsDoubled(robotToml) + ".", options_.timeout);
   std::vector<std::string> world;
   ask("DESCRIBE world", &world);
   if (!world.empty()) fingerprint_ = valueOf(world.front(), "fingerprint");
@@ -120,6 +120,8 @@ Timestamp RobotSession::stampOf(const std::string& reply, std::string_view key) 
 }
 
 std::string RobotSession::ask(const std::string& request, std::vector<std::string>* body) {
+  if (request.find_first_of("\r\n") != request.npos)  // the rest would be another request
+    throw std::invalid_argument("a request to the server has more than one line");
   std::string reply = exchange(request, options_.timeout);
   for (std::size_t lines = linesOf(reply); lines > 0; --lines) {
     const std::string_view line = socket_->line(options_.timeout);
@@ -169,8 +171,8 @@ void RobotSession::setMotion(std::span<const double> command) {
   ask(request);
 }
 
-void RobotSession::setManipulator(const std::string& manipulator, double state) {
-  ask("MANIPULATOR " + manipulator + " " + shown(state));
+void RobotSession::setManipulator(const std::string& manipulator, const std::string& state) {
+  ask("MANIPULATOR " + manipulator + " " + state);
 }
 
 void RobotSession::say(const std::string& text) { ask("SAY " + text); }

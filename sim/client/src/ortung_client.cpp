@@ -64,7 +64,7 @@ int ortung_set_motion(ortung_robot* robot, const double* command, size_t count) 
   return guarded([&] { return robot->remote.setMotion({command, count}); });
 }
 
-int ortung_set_manipulator(ortung_robot* robot, const char* manipulator, double state) {
+int ortung_set_manipulator(ortung_robot* robot, const char* manipulator, const char* state) {
   return guarded([&] { return robot->remote.setManipulator(manipulator, state); });
 }
 

@@ -159,10 +159,10 @@ void Conversation::motion(Request& request) {
 void Conversation::manipulator(Request& request) {
   const RobotId robot = takeRobot(request);
   const std::string name = request.takeWord("the manipulator's name");
-  const double state =
-      parseNumber(request.takeWord("a state"), "the state", -kMostSpeed, kMostSpeed);
+  const std::string state = request.takeWord("a state");
   request.refuseRest();
-  if (!isName(name)) throw ServeError("syntax", "a name is 1 to 32 of [A-Za-z0-9_-]");
+  if (!isName(name) || !isName(state))
+    throw ServeError("syntax", "a manipulator and its state are 1 to 32 of [A-Za-z0-9_-]");
   order(request.tag(), [id = id_, robot, name, state](WorldKeeper& keeper, WorldKeeper::Done&) {
     keeper.checkOwner(id, robot);
     keeper.world().setManipulator(robot, name, state);

@@ -10,6 +10,7 @@ namespace {
 using Reply = std::optional<std::string>;
 
 constexpr std::int64_t kMostGoals = 999;
+constexpr std::size_t kLongestHelp = 1000;
 
 /// A text as one word.
 std::string oneWord(std::string_view text) {
@@ -158,20 +159,20 @@ void Conversation::describe(Request& request) {
   if (what != "robot") throw ServeError("syntax", "DESCRIBE knows world and robot");
   const RobotId robot = takeRobot(request);
   request.refuseRest();
-  auto found = std::make_shared<std::shared_ptr<RobotReadings>>();
+  auto lines = std::make_shared<std::string>();
   order(
       request.tag(),
-      [robot, found](WorldKeeper& keeper, WorldKeeper::Done&) {
-        *found = keeper.readings(robot);
-        return Reply("");
-      },
-      [found](Conversation& self, const std::string& tag, const std::string&) {
-        std::string lines;
+      [robot, lines](WorldKeeper& keeper, WorldKeeper::Done&) {
         std::size_t count = 0;
-        for (const ServedFeature& feature : (*found)->features())
-          addLine(lines, count,
-                  ortung::toText(feature.id) + " " + printable(feature.wordsHelp, 1000));
-        self.reply(tag, "OK DESCRIBE lines=" + std::to_string(count), lines);
+        for (const ServedFeature& feature : keeper.readings(robot)->features())
+          addLine(*lines, count,
+                  ortung::toText(feature.id) + " " + printable(feature.wordsHelp, kLongestHelp));
+        for (const std::string& ability : keeper.world().abilities(robot))
+          addLine(*lines, count, printable(ability, kLongestHelp));
+        return Reply("OK DESCRIBE lines=" + std::to_string(count));
+      },
+      [lines](Conversation& self, const std::string& tag, const std::string& text) {
+        self.reply(tag, text, *lines);
       });
 }
 

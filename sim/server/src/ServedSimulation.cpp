@@ -147,16 +147,31 @@ void ServedSimulation::setMotion(RobotId robot, std::span<const double> command)
   commanded(robot).drive().setCommand(command);
 }
 
-void ServedSimulation::setManipulator(RobotId robot, const std::string& manipulator, double state) {
+std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
+  SimRobot& found = find(robot);
+  std::vector<std::string> lines = {"drive " + found.drive().commandHelp()};
+  for (const Manipulator& manipulator : found.shape().manipulators) {
+    std::string line = "manipulator " + manipulator.name;
+    for (const ManipulatorState& state : manipulator.states) line += " " + state.name;
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+void ServedSimulation::setManipulator(RobotId robot, const std::string& manipulator,
+                                      const std::string& state) {
   SimRobot& found = find(robot);
   for (const Manipulator& one : found.shape().manipulators) {
     if (one.name != manipulator) continue;
-    const auto last = static_cast<double>(one.states.size() - 1);
-    if (!(state >= 0.0 && state <= last && state == std::floor(state)))
-      throw ServeError("number", "manipulator " + manipulator + " has the states 0 to " +
-                                     std::to_string(one.states.size() - 1));
-    commanded(robot).setManipulator(manipulator, one.states[static_cast<std::size_t>(state)].name);
-    return;
+    for (std::size_t i = 0; i < one.states.size(); ++i) {
+      if (state != one.states[i].name && state != std::to_string(i)) continue;
+      commanded(robot).setManipulator(manipulator, one.states[i].name);
+      return;
+    }
+    std::string names;
+    for (const ManipulatorState& known : one.states) names += " " + known.name;
+    throw ServeError("no-manipulator", "manipulator " + manipulator + " has the states" + names +
+                                           " (0 to " + std::to_string(one.states.size() - 1) + ")");
   }
   throw ServeError("no-manipulator", "robot " + std::to_string(robot) + " (" +
                                          guest(robot).wish.name + ") has no manipulator '" +

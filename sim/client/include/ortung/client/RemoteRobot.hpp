@@ -45,7 +45,8 @@ class ORTUNG_API RemoteRobot {
   bool setTranslationalVelocity(double metresPerSecond);
   bool setRotationalVelocity(double radiansPerSecond);
   bool setMotion(std::span<const double> command);
-  bool setManipulator(const std::string& manipulator, double state);
+  /// @param state its name, or its number from 0
+  bool setManipulator(const std::string& manipulator, const std::string& state);
   bool say(const std::string& text);
   /// Brings the container up to date now.
   bool update();

@@ -70,7 +70,8 @@ class ORTUNG_API RobotSession {
   void setTranslationalVelocity(double metresPerSecond);
   void setRotationalVelocity(double radiansPerSecond);
   void setMotion(std::span<const double> command);
-  void setManipulator(const std::string& manipulator, double state);
+  /// @param state its name, or its number from 0
+  void setManipulator(const std::string& manipulator, const std::string& state);
   void say(const std::string& text);
 
   /// Readings that are new, oldest first, stamped by the server's clock.

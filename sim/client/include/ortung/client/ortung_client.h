@@ -38,8 +38,9 @@ ORTUNG_C_API int ortung_set_velocity(ortung_robot* robot, double translational,
                                      double rotational);
 /* The command vector of the robot's drive. */
 ORTUNG_C_API int ortung_set_motion(ortung_robot* robot, const double* command, size_t count);
+/* state: its name, or its number from 0 */
 ORTUNG_C_API int ortung_set_manipulator(ortung_robot* robot, const char* manipulator,
-                                        double state);
+                                        const char* state);
 
 ORTUNG_C_API int ortung_update(ortung_robot* robot);
 /* Lockstep: lets the world go on for so many cycles. */

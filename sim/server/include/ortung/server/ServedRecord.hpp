@@ -29,12 +29,15 @@ class ORTUNG_API ServedRecord : public ServedWorld {
   bool isAtEnd() const override { return isAtEnd_; }
   void step() override;
   std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) override;
+  std::vector<std::string> abilities(RobotId) const override { return {}; }
   void removeRobot(RobotId robot) override;
   std::span<const Message> readings(RobotId robot) const override;
   void setTranslationalVelocity(RobotId robot, double) override { check(robot); }
   void setRotationalVelocity(RobotId robot, double) override { check(robot); }
   void setMotion(RobotId robot, std::span<const double>) override { check(robot); }
-  void setManipulator(RobotId robot, const std::string&, double) override { check(robot); }
+  void setManipulator(RobotId robot, const std::string&, const std::string&) override {
+    check(robot);
+  }
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;

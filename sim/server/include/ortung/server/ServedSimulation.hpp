@@ -23,12 +23,14 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   Timestamp now() const override { return simulation_->now(); }
   void step() override { simulation_->step(); }
   std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) override;
+  std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
   std::span<const Message> readings(RobotId robot) const override;
   void setTranslationalVelocity(RobotId robot, double metresPerSecond) override;
   void setRotationalVelocity(RobotId robot, double radiansPerSecond) override;
   void setMotion(RobotId robot, std::span<const double> command) override;
-  void setManipulator(RobotId robot, const std::string& manipulator, double state) override;
+  void setManipulator(RobotId robot, const std::string& manipulator,
+                      const std::string& state) override;
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;

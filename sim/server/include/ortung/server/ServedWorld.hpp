@@ -68,6 +68,8 @@ class ORTUNG_API ServedWorld {
 
   /// @returns its features in the order of its readings
   virtual std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) = 0;
+  /// What a robot can be told, one line each: "drive COMMAND" and "manipulator NAME STATE ...".
+  virtual std::vector<std::string> abilities(RobotId robot) const = 0;
   virtual void removeRobot(RobotId robot) = 0;
   /// What the robot's sensors gave in the last cycle; valid until the next call of anything.
   virtual std::span<const Message> readings(RobotId robot) const = 0;
@@ -76,7 +78,9 @@ class ORTUNG_API ServedWorld {
   virtual void setRotationalVelocity(RobotId robot, double radiansPerSecond) = 0;
   /// The motion plugin's own command.
   virtual void setMotion(RobotId robot, std::span<const double> command) = 0;
-  virtual void setManipulator(RobotId robot, const std::string& manipulator, double state) = 0;
+  /// @param state name of a state, or its number from 0
+  virtual void setManipulator(RobotId robot, const std::string& manipulator,
+                              const std::string& state) = 0;
 
   /// Starts over: time, chance and robots as at their beginning.
   virtual void reset(std::optional<std::uint64_t> seed) = 0;
