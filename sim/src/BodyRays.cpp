@@ -26,28 +26,23 @@ struct Within {
 
 }  // namespace
 
-BodyRays::Piece BodyRays::placed(const Primitive& primitive, const Pose2& pose) {
-  const double c = std::cos(pose.theta);
-  const double s = std::sin(pose.theta);
-  const auto toField = [&](const Point2& p) {
-    return Point2{pose.x + c * p.x - s * p.y, pose.y + s * p.x + c * p.y};
-  };
+BodyRays::Piece BodyRays::pieceOf(const Primitive& primitive) {
   Piece piece;
   piece.zLow = primitive.zLow;
   piece.zHigh = primitive.zHigh;
-  piece.middle = toField(primitive.centre);
+  piece.middle = primitive.centre;
   piece.isRound = primitive.shape == Primitive::Shape::ellipse;
   if (piece.isRound) {
-    const double ca = std::cos(primitive.angle + pose.theta);
-    const double sa = std::sin(primitive.angle + pose.theta);
-    piece.normals[0] = {ca / primitive.halfX, sa / primitive.halfX};
-    piece.normals[1] = {-sa / primitive.halfY, ca / primitive.halfY};
+    const double c = std::cos(primitive.angle);
+    const double s = std::sin(primitive.angle);
+    piece.sides = 2;
+    piece.normals[0] = {c / primitive.halfX, s / primitive.halfX};
+    piece.normals[1] = {-s / primitive.halfY, c / primitive.halfY};
     piece.reach = std::max(primitive.halfX, primitive.halfY);
     return piece;
   }
-  std::vector<Point2> corners = cornersOf(primitive);
+  const std::vector<Point2> corners = cornersOf(primitive);
   piece.sides = corners.size();
-  for (Point2& corner : corners) corner = toField(corner);
   const Point2& a = corners[0];
   const double winding =
       (corners[1].x - a.x) * (corners[2].y - a.y) - (corners[1].y - a.y) * (corners[2].x - a.x);
@@ -72,14 +67,24 @@ void BodyRays::add(std::span<const Primitive> pieces, RobotNumber number, const 
 void BodyRays::move(std::size_t place, const Pose2& pose) {
   Body& moved = bodies_[place];
   moved.pose = pose;
-  for (std::size_t i = 0; i < moved.shape.size(); ++i)
-    moved.pieces[i] = placed(moved.shape[i], pose);
+  const double c = std::cos(pose.theta);
+  const double s = std::sin(pose.theta);
+  for (std::size_t i = 0; i < moved.shape.size(); ++i) {
+    const Piece& from = moved.shape[i];
+    Piece& to = moved.pieces[i];
+    to.middle = {pose.x + c * from.middle.x - s * from.middle.y,
+                 pose.y + s * from.middle.x + c * from.middle.y};
+    for (std::size_t k = 0; k < from.sides; ++k)
+      to.normals[k] = {c * from.normals[k][0] - s * from.normals[k][1],
+                       s * from.normals[k][0] + c * from.normals[k][1]};
+  }
 }
 
 void BodyRays::reshape(std::size_t place, std::span<const Primitive> pieces) {
   Body& changed = bodies_[place];
-  changed.shape.assign(pieces.begin(), pieces.end());
-  changed.pieces.resize(changed.shape.size());
+  changed.shape.clear();
+  for (const Primitive& piece : pieces) changed.shape.push_back(pieceOf(piece));
+  changed.pieces = changed.shape;
   move(place, changed.pose);
 }
 

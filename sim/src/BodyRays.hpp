@@ -48,15 +48,15 @@ class BodyRays {
   struct Body {
     RobotNumber number;
     Pose2 pose;
-    std::vector<Primitive> shape;  ///< in its own frame
-    std::vector<Piece> pieces;     ///< in the field
+    std::vector<Piece> shape;   ///< in its own frame
+    std::vector<Piece> pieces;  ///< in the field
   };
   struct Ray {
     double x, y, z;     ///< [m]
     double dx, dy, dz;  ///< of length 1
   };
 
-  static Piece placed(const Primitive& primitive, const Pose2& pose);
+  static Piece pieceOf(const Primitive& primitive);
   static std::optional<double> hit(const Piece& piece, const Ray& ray);
   void castAt(const Piece& piece, const RayFan& fan, std::span<float> ranges) const;
 

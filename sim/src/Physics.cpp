@@ -15,6 +15,8 @@ constexpr int32 kVelocityIterations = 8;
 constexpr int32 kPositionIterations = 3;
 constexpr double kLongestStep = 0.02;    ///< [s]; longer ones are done in parts
 constexpr double kDrift = 2e-5;          ///< of the engine's single precision from ours [m], [rad]
+constexpr double kRoom = 0.1;            ///< that bodies need around them to move freely [m]
+constexpr int kPatience = 8;             ///< steps until it is looked for room again
 constexpr double kFenceThickness = 1.0;  ///< around the field [m]
 constexpr double kHuge = 1e9;            ///< [m]
 
@@ -67,6 +69,7 @@ struct Physics::Engine {
     float givenTurn = 0.0f;
     b2Vec2 before{0.0f, 0.0f};  ///< position before the engine's step [m]
     float beforeAngle = 0.0f;
+    double roamed = 0.0;  ///< what its farthest point may have moved since there was room [m]
     bool isDisturbed = false;
     std::vector<std::unique_ptr<Heights>> heights;  ///< of its shapes
   };
@@ -131,9 +134,9 @@ struct Physics::Engine {
     const double grip = config.floorFriction * kGravity * dt;  // [m/s]
     const b2Vec2 is = item.body->GetLinearVelocity();
     const b2Vec2 missing = item.wanted - is;
-    const double needed = static_cast<double>(missing.Length());
     item.given = item.wanted;
-    if (needed > grip) {
+    if (static_cast<double>(missing.LengthSquared()) > grip * grip) {
+      const double needed = static_cast<double>(missing.Length());
       item.given = is + single(grip / needed) * missing;
       item.isDisturbed = true;
     }
@@ -166,16 +169,18 @@ struct Physics::Engine {
       drive(item, dt);
     else
       brake(item, dt);
-    item.before = item.body->GetPosition();
-    item.beforeAngle = item.body->GetAngle();
     item.body->SetLinearVelocity(item.given);
     item.body->SetAngularVelocity(item.givenTurn);
   }
 
-  void end(Item& item) {
+  static void end(Item& item) {
     const b2Vec2 velocity = item.body->GetLinearVelocity();
     const bool isFree = velocity == item.given && item.body->GetAngularVelocity() == item.givenTurn;
     if (!isFree) item.isDisturbed = true;
+  }
+
+  /// Where the engine brought a body.
+  static void follow(Item& item) {
     const b2Vec2 moved = item.body->GetPosition() - item.before;
     item.pose.x += static_cast<double>(moved.x);
     item.pose.y += static_cast<double>(moved.y);
@@ -194,11 +199,56 @@ struct Physics::Engine {
       item.body->SetTransform({single(item.pose.x), single(item.pose.y)}, single(item.pose.theta));
   }
 
+  /// Whether nothing can touch anything in this step: all bodies had room around them, and none has
+  /// used up its half of it. Then the engine has nothing to do.
+  bool isFlight(double dt) {
+    if (!hasRoom) return false;
+    for (Item& item : items) {
+      if (item.body == nullptr) continue;
+      item.roamed += dt * (static_cast<double>(item.given.Length()) +
+                           std::abs(static_cast<double>(item.givenTurn)) * item.reach);
+      if (item.roamed > kRoom / 2.0) return hasRoom = false;
+    }
+    return isFlying = true;
+  }
+
+  /// Moves a body with its velocity.
+  static void fly(Item& item, double dt) {
+    const Point2 arm = rotated(item.centre, item.pose.theta);
+    const double theta = item.pose.theta + static_cast<double>(item.givenTurn) * dt;
+    const Point2 newArm = rotated(item.centre, theta);
+    item.pose.x += static_cast<double>(item.given.x) * dt + arm.x - newArm.x;
+    item.pose.y += static_cast<double>(item.given.y) * dt + arm.y - newArm.y;
+    item.pose.theta = wrapAngle(theta);
+  }
+
+  /// Tells the engine where bodies flew to.
+  void land() {
+    if (!isFlying) return;
+    isFlying = false;
+    for (Item& item : items) {
+      if (item.body == nullptr) continue;
+      item.body->SetTransform({single(item.pose.x), single(item.pose.y)}, single(item.pose.theta));
+      item.before = item.body->GetPosition();
+      item.beforeAngle = item.body->GetAngle();
+    }
+  }
+
+  /// Looks whether all bodies have room around them.
+  void lookForRoom();
+  /// Something changed by hand: nothing is known of room any more.
+  void wake() {
+    land();
+    hasRoom = false;
+  }
+
   /// Velocity of the body's origin.
   Twist velocityOf(const Item& item) const {
-    const b2Vec2 v = item.body->GetLinearVelocityFromWorldPoint(item.body->GetPosition());
-    return {static_cast<double>(v.x), static_cast<double>(v.y),
-            static_cast<double>(item.body->GetAngularVelocity())};
+    const b2Vec2 v = item.body->GetLinearVelocity();
+    const double turn = static_cast<double>(item.body->GetAngularVelocity());
+    const bool isCentral = item.centre.x == 0.0 && item.centre.y == 0.0;
+    const Point2 arm = isCentral ? Point2{} : rotated(item.centre, item.pose.theta);
+    return {static_cast<double>(v.x) + turn * arm.y, static_cast<double>(v.y) - turn * arm.x, turn};
   }
 
   PhysicsConfig config;
@@ -209,6 +259,9 @@ struct Physics::Engine {
   Heights fence;
   std::vector<std::unique_ptr<Heights>> fixedHeights;  ///< of what does not move
   std::vector<Item> items;
+  bool hasRoom = false;
+  bool isFlying = false;  ///< the engine does not know yet where bodies are
+  int patience = 0;       ///< steps until it is worth looking for room
 };
 
 namespace {
@@ -254,6 +307,43 @@ class Overlap : public b2QueryCallback {
 
 }  // namespace
 
+namespace {
+
+/// Looks for anything near a body.
+class Neighbours : public b2QueryCallback {
+ public:
+  explicit Neighbours(const b2Body* self) : self_(self) {}
+  bool ReportFixture(b2Fixture* fixture) override {
+    found_ = fixture->GetBody() != self_;
+    return !found_;
+  }
+  bool isFound() const { return found_; }
+
+ private:
+  const b2Body* self_;
+  bool found_ = false;
+};
+
+}  // namespace
+
+void Physics::Engine::lookForRoom() {
+  if (world.GetContactCount() > 0 || --patience > 0) return;
+  for (Item& item : items) {
+    if (item.body == nullptr) continue;
+    item.roamed = 0.0;
+    const b2Vec2 reach(single(item.reach + kRoom), single(item.reach + kRoom));
+    b2AABB box;
+    box.lowerBound = item.body->GetPosition() - reach;
+    box.upperBound = item.body->GetPosition() + reach;
+    Neighbours neighbours(item.body);
+    world.QueryAABB(&neighbours, box);
+    if (!neighbours.isFound()) continue;
+    patience = kPatience;
+    return;
+  }
+  hasRoom = true;
+}
+
 Physics::Physics(const PhysicsConfig& config, const Solids& solids)
     : engine_(std::make_unique<Engine>(config)) {
   b2BodyDef definition;
@@ -270,6 +360,7 @@ Physics::~Physics() = default;
 
 Physics::Body Physics::add(std::span<const Primitive> pieces, const Properties& properties,
                            const Pose2& pose) {
+  engine_->wake();
   auto& items = engine_->items;
   const auto unused = std::find_if(items.begin(), items.end(),
                                    [](const Engine::Item& item) { return item.body == nullptr; });
@@ -292,6 +383,7 @@ Physics::Body Physics::add(std::span<const Primitive> pieces, const Properties& 
 }
 
 void Physics::reshape(Body body, std::span<const Primitive> pieces) {
+  engine_->wake();
   Engine::Item& item = engine_->items[body];
   while (b2Fixture* old = item.body->GetFixtureList()) item.body->DestroyFixture(old);
   item.heights.clear();
@@ -300,11 +392,13 @@ void Physics::reshape(Body body, std::span<const Primitive> pieces) {
 }
 
 void Physics::remove(Body body) {
+  engine_->wake();
   engine_->world.DestroyBody(engine_->items[body].body);
   engine_->items[body] = {};
 }
 
 void Physics::place(Body body, const Pose2& pose, const Twist& velocity) {
+  engine_->wake();
   Engine::Item& item = engine_->items[body];
   item.pose = item.planned = pose;
   item.body->SetTransform({single(pose.x), single(pose.y)}, single(pose.theta));
@@ -320,10 +414,12 @@ void Physics::want(Body body, const Pose2& change) {
 }
 
 void Physics::hit(Body body, const Point2& impulse, const Point2& point) {
+  engine_->wake();
   engine_->items[body].body->ApplyLinearImpulse(vec(impulse), vec(point), true);
 }
 
 bool Physics::isFree(std::span<const Primitive> pieces, const Pose2& pose, Body self) const {
+  engine_->land();
   const b2Transform place({single(pose.x), single(pose.y)}, b2Rot(single(pose.theta)));
   const b2Body* own = self == kNobody ? nullptr : engine_->items[self].body;
   for (const Primitive& piece : pieces) {
@@ -341,6 +437,7 @@ bool Physics::isFree(std::span<const Primitive> pieces, const Pose2& pose, Body 
 
 bool Physics::reaches(Body body, std::span<const Primitive> pieces, Body other,
                       double reach) const {
+  engine_->land();
   const Engine::Item& from = engine_->items[body];
   b2Body* to = engine_->items[other].body;
   for (const Primitive& piece : pieces) {
@@ -368,9 +465,12 @@ void Physics::step(double dt) {
   for (Engine::Item& item : engine_->items) {
     if (item.body == nullptr) continue;
     item.isDisturbed = false;
+    item.before = item.body->GetPosition();
+    item.beforeAngle = item.body->GetAngle();
     if (item.properties.floor != Floor::drives) continue;
-    const Point2 from = rotated(item.centre, item.pose.theta);
-    const Point2 to = rotated(item.centre, item.planned.theta);
+    const bool isCentral = item.centre.x == 0.0 && item.centre.y == 0.0;
+    const Point2 from = isCentral ? Point2{} : rotated(item.centre, item.pose.theta);
+    const Point2 to = isCentral ? Point2{} : rotated(item.centre, item.planned.theta);
     item.wanted = {single((item.planned.x + to.x - item.pose.x - from.x) / dt),
                    single((item.planned.y + to.y - item.pose.y - from.y) / dt)};
     item.wantedTurn = single(wrapAngle(item.planned.theta - item.pose.theta) / dt);
@@ -380,17 +480,26 @@ void Physics::step(double dt) {
   for (int i = 0; i < parts; ++i) {
     for (Engine::Item& item : engine_->items)
       if (item.body != nullptr) engine_->begin(item, part);
+    if (parts == 1 && engine_->isFlight(part)) break;
+    engine_->land();
     engine_->world.Step(single(part), kVelocityIterations, kPositionIterations);
     for (Engine::Item& item : engine_->items)
       if (item.body != nullptr) engine_->end(item);
   }
+  const bool isFlying = engine_->isFlying;
   for (Engine::Item& item : engine_->items) {
     if (item.body == nullptr) continue;
     const bool drives = item.properties.floor == Floor::drives;
-    if (drives && !item.isDisturbed) item.pose = item.planned;
+    if (drives && !item.isDisturbed)
+      item.pose = item.planned;
+    else if (isFlying)
+      Engine::fly(item, dt);
+    else
+      Engine::follow(item);
     item.planned = item.pose;
-    engine_->synchronize(item);
+    if (!isFlying) engine_->synchronize(item);
   }
+  if (!isFlying) engine_->lookForRoom();
 }
 
 const Pose2& Physics::pose(Body body) const { return engine_->items[body].pose; }

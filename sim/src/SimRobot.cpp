@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "CheckedDrive.hpp"
@@ -82,10 +83,15 @@ void SimRobot::report(Timestamp now, const std::string& what) {
 
 std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
   inFrame_ = 0;
+  if (now < nextDue_) return {};
+  nextDue_ = std::numeric_limits<Timestamp>::max();
   for (Mounted& mounted : sensors_) {
-    if (!mounted.sensor || now < mounted.due) continue;
+    if (!mounted.sensor) continue;
+    const bool isDue = now >= mounted.due;
     // Keeps the rhythm when a period is no multiple of the cycle; one reading a cycle at most.
-    mounted.due = std::max(mounted.due + mounted.period, now + 1);
+    if (isDue) mounted.due = std::max(mounted.due + mounted.period, now + 1);
+    nextDue_ = std::min(nextDue_, mounted.due);
+    if (!isDue) continue;
     try {
       generate(mounted, world, now);
     } catch (const std::exception& error) {
@@ -178,17 +184,17 @@ Pose2 SimRobot::plan(Timestamp now, double dt) {
   try {
     if (driver_) driver_->command(state_.pose, now, *drive_);
     const Pose2 change = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
-    if (ortung::isFinite(change) && isFinite(drive_->velocity())) return change;
+    if (ortung::isFinite(change) && isFinite(drive_->velocity())) return planned_ = change;
     report(now, "its drive gave a motion that is not finite and is switched off");
   } catch (const std::exception& error) {
     report(now, std::string("its drive failed and is switched off: ") + error.what());
   }
   driveWorks_ = false;
-  return {};
+  return planned_ = {};
 }
 
 void SimRobot::move(const Pose2& pose, const Twist& velocity, bool wasDisturbed) {
-  const Pose2 change = inverse(state_.pose) * pose;
+  const Pose2 change = wasDisturbed ? inverse(state_.pose) * pose : planned_;
   state_.pose = pose;
   state_.velocity = velocity;
   if (!driveWorks_) return;

@@ -7,8 +7,9 @@
 
 namespace ortung::bench {
 
-/// The arena in Box2D alone, as somebody would write it who needs nothing else: bodies, velocities set
-/// in every step, and the engine's own ray cast. What all simulators on it have to be compared with.
+/// The arena in Box2D alone, as somebody would write it who needs nothing else: bodies, velocities
+/// set in every step, and the engine's own ray cast. What all simulators on it have to be compared
+/// with.
 class BareBox2d {
  public:
   /// @param robots the first of kArenaStarts

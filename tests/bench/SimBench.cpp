@@ -1,5 +1,5 @@
-// Simulated seconds a second of computing time: our simulator beside bare Box2D with its own ray cast,
-// in the same run, and a match. sim_bench [SECONDS]: how long each is measured at least.
+// Simulated seconds a second of computing time: our simulator beside bare Box2D with its own ray
+// cast, in the same run, and a match. sim_bench [SECONDS]: how long each is measured at least.
 #include <time.h>
 
 #include <algorithm>
@@ -18,9 +18,9 @@
 namespace ortung::bench {
 namespace {
 
-constexpr double kCycle = 0.01;     // [s]
-constexpr int kCyclesAScan = 10;    // 10 Hz
-constexpr int kRounds = 5;          // the fastest counts, since other programs run on the machine
+constexpr double kCycle = 0.01;   // [s]
+constexpr int kCyclesAScan = 10;  // 10 Hz
+constexpr int kRounds = 5;        // the fastest counts, since other programs run on the machine
 
 double computingTime() {
   timespec now{};
@@ -58,7 +58,8 @@ class Ours {
       const ArenaStart& start = kArenaStarts[i];
       config.name = "robot" + std::to_string(i);
       SimRobot& robot = simulation_.addRobot(
-          config, factory, {start.x, start.y, wrapAngle(start.thetaDeg * std::numbers::pi / 180.0)});
+          config, factory,
+          {start.x, start.y, wrapAngle(start.thetaDeg * std::numbers::pi / 180.0)});
       robot.drive().setTranslationalVelocity(0.3);
       robot.drive().setRotationalVelocity(1.0);
     }
@@ -113,10 +114,10 @@ void compare(std::size_t robots, double seconds, PluginFactory& factory) {
   {
     BareBox2d bare(robots);
     Ours ours(robots, false, factory);
-    print("physics", robots,
-          {measure(seconds, [&](int) { bare.step(); }),
-           measure(seconds, [&](int) { ours.step(); })},
-          0.8);
+    print(
+        "physics", robots,
+        {measure(seconds, [&](int) { bare.step(); }), measure(seconds, [&](int) { ours.step(); })},
+        0.8);
   }
   BareBox2d bare(robots);
   bare.cast(ranges);
@@ -157,8 +158,7 @@ void match(double seconds, PluginFactory& factory) {
       SimRobot& robot = *simulation.robots()[i];
       const Pose2& pose = robot.state().pose;
       const Pose2& ball = simulation.things()[0].pose;
-      const double error =
-          wrapAngle(std::atan2(ball.y - pose.y, ball.x - pose.x) - pose.theta);
+      const double error = wrapAngle(std::atan2(ball.y - pose.y, ball.x - pose.x) - pose.theta);
       const bool backs = (cycles / 200 + i) % 5 == 0;
       robot.drive().setRotationalVelocity(3.0 * error);
       robot.drive().setTranslationalVelocity(backs ? -1.0 : 2.0 * std::cos(error));
@@ -168,10 +168,11 @@ void match(double seconds, PluginFactory& factory) {
     simulation.step();
     ++cycles;
   });
-  std::printf("\nMSL match, 10 robots with lasers (180 beams at 10 Hz), odometry, goals, and a ball:\n"
-              "%.0f times real time on one core (aim 200); %zu cycles, %zu readings, a robot slow or "
-              "held in %.0f %% of them\n",
-              speed, cycles, readings, 10.0 * static_cast<double>(contacts) / static_cast<double>(cycles));
+  std::printf(
+      "\nMSL match, 10 robots with lasers (180 beams at 10 Hz), odometry, goals, and a ball:\n"
+      "%.0f times real time on one core (aim 200); %zu cycles, %zu readings, a robot slow or "
+      "held in %.0f %% of them\n",
+      speed, cycles, readings, 10.0 * static_cast<double>(contacts) / static_cast<double>(cycles));
 }
 
 void run(double seconds) {

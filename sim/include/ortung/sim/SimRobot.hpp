@@ -84,6 +84,7 @@ class ORTUNG_API SimRobot {
   SensorData* truth_ = nullptr;  ///< ground truth that no sensor gives, or null
   std::unique_ptr<Drive> drive_;
   bool driveWorks_ = true;
+  Pose2 planned_;  ///< change of pose that the drive wanted last
   std::unique_ptr<Driver> driver_;
   RobotState state_;
   Random odometryRandom_;
@@ -91,6 +92,7 @@ class ORTUNG_API SimRobot {
   bool noise_;
   std::vector<Message> frame_;  ///< messages are used again, so that none is allocated in a cycle
   std::size_t inFrame_ = 0;
+  Timestamp nextDue_ = 0;  ///< no sensor is due before
   std::vector<std::uint32_t> truthWords_;
   std::vector<std::size_t> manipulatorStates_;
   std::vector<std::size_t> wantedStates_;
