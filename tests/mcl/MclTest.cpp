@@ -155,6 +155,29 @@ TEST(Mcl, DoesNotWeighTheSameReadingTwiceNorAStandingRobotTooOften) {
   EXPECT_TRUE(mcl->update(run().container)) << "after max_interval_s";
 }
 
+TEST(Mcl, GoesOnWhenTheClockIsSetBackAndKeepsItsBelief) {
+  const auto mcl = run().mcl(run().config());
+  run().begin(FakeRun::onCircle(1, 0.5, 0), 1);
+  run().stamp = fromSeconds(1000);
+  mcl->startAt(run().truth, 0.1, 0.05);
+  for (int i = 0; i < 10; ++i) {
+    run().drive();
+    mcl->update(run().container);
+  }
+  run().stamp -= fromSeconds(1);
+  run().drive();
+  EXPECT_FALSE(mcl->update(run().container)) << "a second back: readings are merely late";
+  run().stamp = fromSeconds(3);
+  run().drive();
+  EXPECT_TRUE(mcl->update(run().container)) << "far back: time begins anew";
+  EXPECT_EQ(mcl->estimate().stamp, run().stamp);
+  for (int i = 0; i < 10; ++i) {
+    run().drive();
+    mcl->update(run().container);
+  }
+  EXPECT_LT(errorOf(*mcl, run().truth), 0.2);
+}
+
 TEST(Mcl, WithoutAnyReadingHasNoNews) {
   SensorContainer empty;
   const auto mcl = run().mcl(run().config());

@@ -79,7 +79,8 @@ std::string scannerToml(const Scanner& scanner, double period) {
          "\nfirst_angle_deg = " + tomlNumber(degrees(scanner.firstAngle)) +
          "\nangle_step_deg = " + tomlNumber(step) +
          "\nmax_range_m = " + tomlNumber(*scanner.maxRange) + "\nperiod_s = " + tomlNumber(period) +
-         "\nperception = \"endpoints\"  # buildings are full of what no map holds\n";
+         "\n# Buildings are full of what no map holds.\n"
+         "perception = \"endpoints\"\nsigma_m = 0.05\nsigma_per_m = 0.0\noutliers = 0.2\n";
 }
 
 }  // namespace ortung
