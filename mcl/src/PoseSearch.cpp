@@ -9,12 +9,11 @@
 namespace ortung {
 namespace {
 
-constexpr double kWorth = 0.5;     ///< share of the set that each rise of b leaves effective
-constexpr int kMostRises = 12;     ///< of b, even if 1 is not reached
+constexpr double kWorth = 0.5;  ///< share of the set that each rise of b leaves effective
+constexpr int kMostRises = 12;  ///< of b, even if 1 is not reached
 constexpr double kStepMetres[] = {0.15, 0.05};  ///< sigma of a Metropolis step, coarse and fine [m]
 constexpr double kStepRadians[] = {0.08, 0.02};  ///< [rad]
 
-/// @p weight of a copy is @p rest times what the original fits.
 SampleSet taken(const SampleSet& from, const std::vector<std::uint32_t>& indices) {
   SampleSet set;
   set.resize(indices.size());
@@ -64,8 +63,8 @@ SampleSet PoseSearch::anywhere(std::size_t n, Random random) const {
 
 SampleSet PoseSearch::draw(std::size_t n, double candidates, const Weigh& weigh,
                            const Random& random) const {
-  SampleSet set = anywhere(static_cast<std::size_t>(candidates * static_cast<double>(n)),
-                           random.fork(0));
+  SampleSet set =
+      anywhere(static_cast<std::size_t>(candidates * static_cast<double>(n)), random.fork(0));
   std::vector<float> fit;
   weigh(set, fit);
   Random offsets = random.fork(1);

@@ -4,18 +4,19 @@
 #include <functional>
 #include <vector>
 
+#include "ortung/container/Export.hpp"
 #include "ortung/container/FieldRegion.hpp"
 #include "ortung/container/Random.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 
 namespace ortung {
 
-/// The inverse use of p(s|l): draws poses that the present readings speak for, out of all poses where
-/// the robot can stand. Annealed importance sampling (Neal 2001; Del Moral, Doucet, Jasra 2006): poses
-/// drawn evenly are weighed by p^b with a small b, then b rises to 1 while Metropolis steps let every
-/// pose climb to the top of its hill. So a sharp reading is found with few candidates.
-/// Not thread-safe.
-class PoseSearch {
+/// The inverse use of p(s|l): draws poses that the present readings speak for, out of all poses
+/// where the robot can stand. Annealed importance sampling (Neal 2001; Del Moral, Doucet, Jasra
+/// 2006): poses drawn evenly are weighed by p^b with a small b, then b rises to 1 while Metropolis
+/// steps let every pose climb to the top of its hill. So a sharp reading is found with few
+/// candidates. Not thread-safe.
+class ORTUNG_API PoseSearch {
  public:
   /// ln p(s|l) of all samples of a set.
   using Weigh = std::function<void(const SampleSet&, std::vector<float>&)>;

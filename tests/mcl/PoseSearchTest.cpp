@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "PoseSearch.hpp"
+#include "ortung/container/Pose2.hpp"
+
+namespace ortung {
+namespace {
+
+/// 10 x 10 m of which the left 2 m are a wall.
+FieldRegion hall() {
+  FieldRegion region{
+      {.originX = 0, .originY = 0, .cell = 0.1, .columns = 100, .rows = 100}, {}, {}};
+  for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {
+    region.standable.push_back(region.grid.centreX(cell) > 2.0 ? 1 : 0);
+  }
+  region.open = region.standable;
+  return region;
+}
+
+struct Hill {
+  Pose2 top;
+  double height;  ///< of p
+};
+
+constexpr double kSigmaMetres = 0.03;
+constexpr double kSigmaRadians = 0.02;
+
+/// A sum of Gaussian hills, of which hardly any pose drawn evenly meets one.
+PoseSearch::Weigh hills(std::vector<Hill> all) {
+  return [all = std::move(all)](const SampleSet& set, std::vector<float>& out) {
+    out.resize(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      double best = -1e4;
+      for (const Hill& hill : all) {
+        const double way = std::hypot(set.x[i] - hill.top.x, set.y[i] - hill.top.y) / kSigmaMetres;
+        const double turn = wrapAngle(set.theta[i] - hill.top.theta) / kSigmaRadians;
+        best = std::max(best, std::log(hill.height) - 0.5 * (way * way + turn * turn));
+      }
+      out[i] = static_cast<float>(best);
+    }
+  };
+}
+
+double shareNear(const SampleSet& set, const Pose2& top) {
+  double count = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    count += std::hypot(set.x[i] - top.x, set.y[i] - top.y) < 5 * kSigmaMetres ? 1 : 0;
+  }
+  return count / static_cast<double>(set.size());
+}
+
+TEST(PoseSearch, FindsANeedleAndSpreadsAsItsGaussianDoes) {
+  const FieldRegion region = hall();
+  const Pose2 top{7.3, 4.1, 2.9};
+  const SampleSet set = PoseSearch(region).draw(4000, 2, hills({{top, 1.0}}), Random(1));
+  double mean = 0, square = 0, turns = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    mean += (set.x[i] - top.x) / 4000;
+    square += (set.x[i] - top.x) * (set.x[i] - top.x) / 4000;
+    turns += std::pow(wrapAngle(set.theta[i] - top.theta), 2) / 4000;
+    EXPECT_EQ(set.logWeight[i], 0.0F) << "b reached 1, nothing is left";
+  }
+  EXPECT_NEAR(mean, 0.0, 0.004);
+  EXPECT_NEAR(std::sqrt(square), kSigmaMetres, 0.004);
+  EXPECT_NEAR(std::sqrt(turns), kSigmaRadians, 0.003);
+}
+
+TEST(PoseSearch, SharesItsSamplesByTheMassOfTheHills) {
+  const FieldRegion region = hall();
+  const Pose2 high{3.1, 8.2, -1.0}, low{8.4, 1.7, 1.5};
+  double share = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const SampleSet set =
+        PoseSearch(region).draw(2000, 5, hills({{high, 0.75}, {low, 0.25}}), Random(seed));
+    share += shareNear(set, high) / 10;
+    EXPECT_NEAR(shareNear(set, high) + shareNear(set, low), 1.0, 0.02);
+  }
+  EXPECT_NEAR(share, 0.75, 0.1);
+}
+
+TEST(PoseSearch, StaysWhereTheRobotCanStand) {
+  const FieldRegion region = hall();
+  const SampleSet set =
+      PoseSearch(region).draw(1000, 2, hills({{{2.0, 5.0, 0.0}, 1.0}}), Random(1));
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const std::ptrdiff_t cell = region.grid.cellAt(set.x[i], set.y[i]);
+    ASSERT_TRUE(cell >= 0 && region.standable[static_cast<std::size_t>(cell)] != 0)
+        << set.x[i] << ", " << set.y[i];
+  }
+}
+
+TEST(PoseSearch, WithoutAnythingToGoByKeepsTheEvenSpread) {
+  const FieldRegion region = hall();
+  const auto indifferent = [](const SampleSet& set, std::vector<float>& out) {
+    out.assign(set.size(), -3.0F);
+  };
+  const SampleSet set = PoseSearch(region).draw(4000, 1, indifferent, Random(1));
+  double right = 0;
+  for (const float x : set.x) right += x > 6.0F ? 1.0 / 4000 : 0.0;
+  EXPECT_NEAR(right, 0.5, 0.03);
+}
+
+TEST(PoseSearch, GivesTheSameForTheSameSeed) {
+  const FieldRegion region = hall();
+  const auto weigh = hills({{{5, 5, 0}, 1.0}});
+  const SampleSet a = PoseSearch(region).draw(100, 3, weigh, Random(7));
+  const SampleSet b = PoseSearch(region).draw(100, 3, weigh, Random(7));
+  const SampleSet c = PoseSearch(region).draw(100, 3, weigh, Random(8));
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.theta, b.theta);
+  EXPECT_NE(a.x, c.x);
+}
+
+}  // namespace
+}  // namespace ortung
