@@ -24,6 +24,9 @@ class ORTUNG_API PoseSearch {
   /// @param region borrowed
   explicit PoseSearch(const FieldRegion& region);
 
+  /// How many cells the robot can stand on.
+  std::size_t cells() const { return standable_.size(); }
+
   /// @p n poses spread evenly over all poses where the robot can stand; their weights are 0.
   SampleSet anywhere(std::size_t n, Random random) const;
 

@@ -51,7 +51,7 @@ TEST(Mcl, GivesTheSameBitsForASeedWhateverTheThreads) {
   MclConfig config = run().config();
   config.maxSamples = 20000;  // several chunks for each thread
   config.minSamples = 9000;
-  config.startCandidates = 4;
+  config.startCandidates = 1;
   const Timestamp stamp = run().stamp;
   const std::string one = bitsOf(config, 3);
   run().stamp = stamp;

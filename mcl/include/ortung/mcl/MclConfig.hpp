@@ -17,7 +17,7 @@ struct MclConfig {
   double kldQuantile = 2.33;          ///< `kld_quantile`: of the normal distribution (0.99)
   double binMetres = 0.25;            ///< `bin_m`: edge of a bin that counts as one place
   double binRadians = 0.1745;         ///< `bin_deg`
-  double startCandidates = 5.0;       ///< `start_candidates`: poses tried per sample at a global start
+  double startCandidates = 500.0;     ///< `start_candidates_per_m2`: poses tried at a global start
   double injectFast = 0.2;            ///< `inject_fast`: rate of the short-term fit average
   double injectSlow = 0.01;           ///< `inject_slow`: of the long-term one; 0: no injection
   double injectMost = 0.1;            ///< `inject_most`: greatest share of injected samples
