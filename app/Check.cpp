@@ -14,14 +14,16 @@
 #include "Numbers.hpp"
 #include "ortung/config/TomlFile.hpp"
 #include "ortung/container/OdometryMotion.hpp"
-#include "ortung/sim/SimWorld.hpp"
+#include "ortung/sim/RobotShape.hpp"
+#include "ortung/sim/Scene.hpp"
+#include "ortung/sim_api/Drive.hpp"
 
 namespace ortung::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-enum class Kind { kWorld, kRobot, kTables, kRecord };
+enum class Kind { kWorld, kScene, kRobot, kTables, kRecord };
 
 /// What a file is, by its content.
 Kind kindOf(const fs::path& file) {
@@ -32,7 +34,9 @@ Kind kindOf(const fs::path& file) {
   const std::string_view begin(bytes, static_cast<std::size_t>(in.gcount()));
   if (begin.starts_with("PK")) return Kind::kTables;
   if (begin.starts_with("# ortung record")) return Kind::kRecord;
-  return readToml(file).has("sensor") ? Kind::kRobot : Kind::kWorld;
+  const Parameters toml = readToml(file);
+  if (toml.has("scene")) return Kind::kScene;
+  return toml.has("sensor") ? Kind::kRobot : Kind::kWorld;
 }
 
 std::size_t countOf(const std::vector<std::uint8_t>& mask) {
@@ -69,6 +73,24 @@ void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
              countOf(region.standable), radius, printable(landmarksOf(*world)));
 }
 
+void checkSceneFile(const fs::path& file) {
+  const Scene scene = Scene::read(file);
+  PluginFactory factory(PluginFactory::standardFolders());
+  const ScenePlayer player(scene, {}, factory);
+  fmt::print("{}: scene in the world '{}', {} robots, {} commands\n", printable(file.string()),
+             printable(player.simulation().world().name()), scene.robots.size(),
+             scene.commands.size());
+}
+
+/// What the simulator makes of a robot.
+void checkSimulated(Robot& robot) {
+  const RobotShape shape = RobotShape::read(robot.config);
+  const std::string plugin = robot.config.drive.textOr("plugin", "differential");
+  const auto drive = robot.factory.make<Drive>(plugin, robot.config.drive);
+  fmt::print("  drive '{}', commands {}; {:g} kg, {} pieces, {} manipulators\n", printable(plugin),
+             drive->commandHelp(), shape.mass, shape.pieces.size(), shape.manipulators.size());
+}
+
 void checkRobotFile(const fs::path& file) {
   const std::unique_ptr<Robot> robot = openRobot(file);
   MclConfig::read(robot->config.mcl).check();
@@ -76,6 +98,7 @@ void checkRobotFile(const fs::path& file) {
   fmt::print("{}: robot '{}', radius {:g} m, {} sensors, {} features\n", printable(file.string()),
              printable(robot->config.name), robot->config.radius, robot->devices.size(),
              robot->container.all().size());
+  checkSimulated(*robot);
   for (const auto& feature : robot->container.all()) {
     fmt::print("  {:<40} {}{}\n", toText(feature->id()), feature->localizes() ? "localizes; " : "",
                printable(feature->wordsHelp()));
@@ -143,6 +166,7 @@ void checkRecord(const fs::path& file, const CheckArguments& arguments) {
 void checkFile(const fs::path& file, const CheckArguments& arguments) {
   switch (kindOf(file)) {
     case Kind::kWorld: return checkWorldFile(file, arguments);
+    case Kind::kScene: return checkSceneFile(file);
     case Kind::kRobot: return checkRobotFile(file);
     case Kind::kTables: return checkTables(file, arguments);
     case Kind::kRecord: return checkRecord(file, arguments);

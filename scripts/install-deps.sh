@@ -13,6 +13,8 @@ packages=(
   libmrpt-obs-dev libmrpt-maps-dev
   # the program: command line, messages, charts of the report
   libcli11-dev libspdlog-dev libfmt-dev libpng-dev libjs-dygraphs
+  # pictures of scenes
+  python3-pil
   # tests and benchmarks
   libgtest-dev libbenchmark-dev librapidcheck-dev clang-19 libclang-rt-19-dev python3
 )

@@ -178,7 +178,8 @@ def main():
                 draw_robot(frame, shape_of(robots[name], states), pose, colours[name])
             else:
                 draw_ball(frame, pose)
-        frames.append(frame.finished().quantize(64))
+        small = frame.finished()
+        frames.append(small.resize((small.width * 2 // 3, small.height * 2 // 3)).quantize(32))
     frames[0].save(f"{args.out}.gif", save_all=True, append_images=frames[1:], duration=100, loop=0)
     print(f"{args.out}.png, {args.out}.gif: {len(frames)} frames")
 

@@ -26,6 +26,13 @@ bool isFinite(const Twist& velocity) {
   return std::isfinite(velocity.x) && std::isfinite(velocity.y) && std::isfinite(velocity.theta);
 }
 
+/// Whether a drive's change of pose within @p dt [s] is one that the physics can count with.
+bool isSane(const Pose2& change, double dt) {
+  constexpr double kFastest = 1000.0;  // [m/s], [rad/s]
+  return std::abs(change.x) <= kFastest * dt && std::abs(change.y) <= kFastest * dt &&
+         std::abs(change.theta) <= kFastest * dt;  // false for NaN
+}
+
 /// A velocity in the frame of a robot that faces @p heading.
 Twist toRobot(const Twist& inField, double heading) {
   const double c = std::cos(heading);
@@ -184,8 +191,8 @@ Pose2 SimRobot::plan(Timestamp now, double dt) {
   try {
     if (driver_) driver_->command(state_.pose, now, *drive_);
     const Pose2 change = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
-    if (ortung::isFinite(change) && isFinite(drive_->velocity())) return planned_ = change;
-    report(now, "its drive gave a motion that is not finite and is switched off");
+    if (isSane(change, dt) && isFinite(drive_->velocity())) return planned_ = change;
+    report(now, "its drive gave a motion that is not finite, or faster than 1000 m/s, and is switched off");
   } catch (const std::exception& error) {
     report(now, std::string("its drive failed and is switched off: ") + error.what());
   }
