@@ -179,7 +179,7 @@ def main():
             else:
                 draw_ball(frame, pose)
         small = frame.finished()
-        frames.append(small.resize((small.width * 2 // 3, small.height * 2 // 3)).quantize(32))
+        frames.append(small.resize((small.width * 2 // 3, small.height * 2 // 3)).quantize(128, method=Image.Quantize.FASTOCTREE))
     frames[0].save(f"{args.out}.gif", save_all=True, append_images=frames[1:], duration=100, loop=0)
     print(f"{args.out}.png, {args.out}.gif: {len(frames)} frames")
 
