@@ -1,6 +1,7 @@
 #include "ortung/client/RemoteRobot.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <fstream>
@@ -63,11 +64,17 @@ struct RemoteRobot::Parts {
 
   void connect() {
     session = std::make_unique<RobotSession>(options.session, robotToml);
+    isConnected = true;
     offset = {};
     isLockstep = false;
     lastServer = lastLocal = {};
     for (int i = 0; i < kFirstExchanges; ++i) offset.add(session->exchangeTime(options.clock));
     exchanged = options.clock();
+  }
+
+  void drop() {
+    isConnected = false;
+    session.reset();
   }
 
   void measureTime() {
@@ -105,7 +112,7 @@ struct RemoteRobot::Parts {
       action();
       return true;
     } catch (const ConnectionLost& error) {
-      session.reset();
+      drop();
       pause = kFirstPause;
       nextAttempt = steady_clock::now();
       report(error.what());
@@ -122,7 +129,7 @@ struct RemoteRobot::Parts {
       report("");
       return true;
     } catch (const std::exception& error) {
-      session.reset();
+      drop();
       nextAttempt = steady_clock::now() + seconds(pause);
       pause = std::min(2.0 * pause, kLongestPause);
       report(error.what());
@@ -165,6 +172,7 @@ struct RemoteRobot::Parts {
   PluginFactory factory;
   SensorContainer container;
 
+  std::atomic<bool> isConnected{false};
   mutable std::mutex talking;  ///< over what follows: one conversation at a time
   std::unique_ptr<RobotSession> session;
   ClockOffset offset;
@@ -230,10 +238,7 @@ bool RemoteRobot::waitForUpdate(double timeout) {
   return parts_->news.wait_for(lock, seconds(timeout), [&] { return parts_->updates > before; });
 }
 
-bool RemoteRobot::isConnected() const {
-  const std::lock_guard lock(parts_->talking);
-  return parts_->session != nullptr;
-}
+bool RemoteRobot::isConnected() const { return parts_->isConnected; }
 
 std::string RemoteRobot::trouble() const {
   const std::lock_guard lock(parts_->waiting);

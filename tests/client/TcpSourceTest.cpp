@@ -1,0 +1,89 @@
+// The source "tcp", as `ortung eval` and `ortung localize` open it.
+#include <gtest/gtest.h>
+
+#include "../server/RunningBoard.hpp"
+#include "Files.hpp"
+#include "ortung/container/PluginFactory.hpp"
+#include "ortung/container/Source.hpp"
+#include "ortung/server/ServedSimulation.hpp"
+
+namespace ortung::test {
+namespace {
+
+const std::string kWorld = ORTUNG_SOURCE_DIR "/maps/fields/arena.toml";
+const std::string kRobot = ORTUNG_SOURCE_DIR "/maps/robots/pioneer.toml";
+
+/// The source with these options; "path" and "robot" have defaults.
+std::unique_ptr<Source> open(std::uint16_t port, std::map<std::string, std::string> options) {
+  Parameters parameters("tcp");
+  parameters.set("path", "127.0.0.1:" + std::to_string(port));
+  parameters.set("robot_file", kRobot);
+  for (const auto& [key, value] : options) parameters.set(key, value);
+  return PluginFactory(PluginFactory::standardFolders()).make<Source>("tcp", parameters);
+}
+
+TEST(TcpSource, OptionsThatMakeNoSenseAreToldWhy) {
+  const std::vector<std::pair<std::map<std::string, std::string>, std::string>> cases = {
+      {{{"path", "localhost"}}, "must be HOST:PORT"},
+      {{{"path", ":7777"}}, "must be HOST:PORT"},
+      {{{"path", "localhost:0"}}, "must be HOST:PORT"},
+      {{{"path", "localhost:99999"}}, "must be HOST:PORT"},
+      {{{"duration", "-1"}}, "must be a number from"},
+      {{{"duration", "nan"}}, "must be a number from"},
+      {{{"start", "1,2"}}, "must be x,y,theta"},
+      {{{"start", "1,2,3,4"}}, "must be x,y,theta"},
+      {{{"lockstep", "maybe"}}, "lockstep"},
+      {{{"drive", "away"}}, "drive"},
+      {{{"robot", "/nowhere.toml"}}, "can't be read"},
+      {{{"robot_file", ""}}, "needs a robot file"}};
+  for (const auto& [options, expected] : cases) {
+    const std::string message = messageOf<ConfigError>([&] { open(1, options); });
+    EXPECT_NE(message.find(expected), std::string::npos) << message;
+  }
+}
+
+TEST(TcpSource, WithoutAServerItSaysSo) {
+  EXPECT_EQ(messageOf<std::runtime_error>([] { open(1, {}); }),
+            "127.0.0.1:1: can't connect: Connection refused");
+}
+
+TEST(TcpSource, WithoutLockstepItFollowsAWorldThatGoesOnByItself) {
+  ServedSimulation world(kWorld, {});
+  BoardConfig config;
+  config.speed = 20.0;
+  const RunningBoard board(world, config);
+  const auto source =
+      open(board.port(), {{"lockstep", "off"}, {"cycle_ms", "5"}, {"duration", "1"}});
+  FrameReader reader(*source);  // refuses time that runs backwards
+  std::vector<Message> frame;
+  std::size_t readings = 0;
+  Timestamp last = 0;
+  while (reader.next(frame)) {
+    readings += frame.size();
+    last = frame.front().stamp;
+  }
+  EXPECT_GT(readings, 5u);
+  EXPECT_GT(last, 500'000);
+  EXPECT_NEAR(source->progress(), 1.0, 1e-9);
+  EXPECT_EQ(source->worldFingerprint(), readWorld(kWorld)->fingerprint());
+  EXPECT_EQ(source->robotToml(), readBytes(kRobot));
+}
+
+TEST(TcpSource, AServerThatEndsIsNotTheEndOfTheRun) {
+  ServedSimulation world(kWorld, {});
+  BoardConfig config;
+  config.pace = Pace::kLockstep;
+  auto board = std::make_unique<RunningBoard>(world, config);
+  const auto source = open(board->port(), {});
+  Message message;
+  EXPECT_TRUE(source->next(message));
+  board.reset();
+  const std::string what = messageOf<std::runtime_error>([&] {
+    while (source->next(message)) {
+    }
+  });
+  EXPECT_NE(what.find("the server says BYE"), std::string::npos) << what;
+}
+
+}  // namespace
+}  // namespace ortung::test
