@@ -97,7 +97,7 @@ struct MessageBoard::Parts final : server::Host {
       // Most likely there are too many open files: give others time to leave.
       retry_.expires_after(std::chrono::milliseconds(100));
       retry_.async_wait([this](const boost::system::error_code& cancelled) {
-        if (!cancelled) accept();
+        if (!cancelled && !isEnding_) accept();
       });
     });
   }
@@ -120,7 +120,7 @@ struct MessageBoard::Parts final : server::Host {
     const double shortest = std::min({limits.handshake, limits.idle, limits.stall, 1.0});
     timer_.expires_after(std::chrono::microseconds(fromSeconds(shortest / 4.0)));
     timer_.async_wait([this](const boost::system::error_code& cancelled) {
-      if (cancelled) return;
+      if (cancelled || isEnding_) return;
       const Timestamp now = server::wallTime();
       for (const auto& [id, session] : sessions_) session->look(now);
       look();
@@ -132,6 +132,7 @@ struct MessageBoard::Parts final : server::Host {
   }
 
   void shutDown() {
+    isEnding_ = true;  // a timer may have gone off already: then it can't be cancelled any more
     boost::system::error_code ignored;
     acceptor_.close(ignored);
     timer_.cancel();
@@ -151,6 +152,7 @@ struct MessageBoard::Parts final : server::Host {
   std::map<server::ClientId, std::shared_ptr<Session>> sessions_;
   server::ClientId lastClient_ = 0;
   std::uint16_t port_ = 0;
+  bool isEnding_ = false;
   std::atomic<int> subscribers_{0};
   std::atomic<bool> isTickPosted_{false};
 };
