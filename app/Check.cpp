@@ -13,7 +13,6 @@
 #include "Localization.hpp"
 #include "Numbers.hpp"
 #include "ortung/config/TomlFile.hpp"
-#include "ortung/container/OdometryMotion.hpp"
 #include "ortung/sim/RobotShape.hpp"
 #include "ortung/sim/Scene.hpp"
 #include "ortung/sim_api/Drive.hpp"
@@ -94,7 +93,7 @@ void checkSimulated(Robot& robot) {
 void checkRobotFile(const fs::path& file) {
   const std::unique_ptr<Robot> robot = openRobot(file);
   MclConfig::read(robot->config.mcl).check();
-  OdometryNoise::read(robot->config.motion).check();
+  makeMotion(robot->config.motion, robot->factory);
   fmt::print("{}: robot '{}', radius {:g} m, {} sensors, {} features\n", printable(file.string()),
              printable(robot->config.name), robot->config.radius, robot->devices.size(),
              robot->container.all().size());

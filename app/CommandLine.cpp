@@ -82,6 +82,27 @@ void addLearn(Builder& build, CLI::App& app) {
   build.flag("--progress", a->progress, kProgress);
 }
 
+void addLearnMotion(Builder& build, CLI::App& app) {
+  const auto a = build.command<LearnMotionArguments>(
+      app, "learn-motion", "Learn from logs with ground truth what odometry gets wrong",
+      "ortung learn-motion run1.rec run2.rec --robot robot.toml --out motion.toml", runLearnMotion);
+  build.option("sources", a->sources, "Records, or sources KIND:PATH?key=value")->required();
+  build.option("--robot", a->robot, "Robot file (TOML)")->required();
+  build.option("--out", a->out, "File to write, with the table [motion] for a robot file or eval --motion")
+      ->required();
+  build.option("--plugin", a->plugin, "Motion model to teach; `ortung plugins` lists them")
+      ->capture_default_str();
+  build.option("--interval", a->interval, "Length of the shortest pieces of motion [s]")
+      ->check(within(0.05, 60.0))->capture_default_str();
+  build.option("--from", a->from, "Learn from here on only, a share of each log's time")
+      ->check(within(0.0, 1.0))->capture_default_str();
+  build.option("--to", a->to, "Learn up to here only, a share of each log's time")
+      ->check(within(0.0, 1.0))->capture_default_str();
+  build.option("--delay", a->delay, "How far odometry is ahead of the robot [s]; default: learned")
+      ->check(within(-0.3, 2.0));
+  build.flag("--progress", a->progress, kProgress);
+}
+
 void addLocalization(Builder& build, LocalizationArguments& a) {
   build.option("--source", a.source, kSource)->required();
   build.option("--robot", a.robot, "Robot file (TOML)")->required();
@@ -96,7 +117,8 @@ void addLocalization(Builder& build, LocalizationArguments& a) {
   build.option("--start-sigma", a.startSigma, "Standard deviations m,deg of a known start")
       ->capture_default_str();
   build.option("--motion", a.motion,
-               "Odometry noise turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
+               "File with [motion], e.g. of `ortung learn-motion`, or odometry noise "
+               "turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
   build.flag("--any-world", a.anyWorld, "Go on although the source comes from another world than the tables");
   build.flag("--progress", a.progress, kProgress);
 }
@@ -274,6 +296,7 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
              "--out f2000.ortung");
   Builder build(parsed);
   addLearn(build, app);
+  addLearnMotion(build, app);
   addEval(build, app, commandLine);
   addLocalize(build, app);
   addImport(build, app);

@@ -20,6 +20,19 @@ struct LearnArguments {
 };
 int runLearn(const LearnArguments& arguments);
 
+struct LearnMotionArguments {
+  std::vector<std::string> sources;  ///< records, or "KIND:PATH?key=value"
+  std::filesystem::path robot;
+  std::filesystem::path out;
+  std::string plugin = "odometry";   ///< the motion model to teach
+  double interval = 0.5;             ///< of the shortest pieces [s]
+  double from = 0.0;                 ///< part of each log to learn from, as shares of its time
+  double to = 1.0;
+  std::optional<double> delay;       ///< of odometry [s]; nothing: learned
+  bool progress = false;
+};
+int runLearnMotion(const LearnMotionArguments& arguments);
+
 /// What eval and localize have in common.
 struct LocalizationArguments {
   std::string source;            ///< "KIND:PATH?key=value"
@@ -30,7 +43,7 @@ struct LocalizationArguments {
   std::optional<unsigned> threads;
   std::string start = "global";  ///< or "truth" or "x,y,theta_deg"
   std::string startSigma = "0.3,10";
-  std::string motion;            ///< "turn_per_turn,turn_per_m,way_per_m,way_per_turn" or ""
+  std::string motion;            ///< file, "turn_per_turn,turn_per_m,way_per_m,way_per_turn" or ""
   bool anyWorld = false;
   bool progress = false;
 };

@@ -9,7 +9,7 @@
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Numbers.hpp"
-#include "ortung/container/OdometryMotion.hpp"
+#include "ortung/config/TomlFile.hpp"
 
 namespace ortung::app {
 namespace {
@@ -26,28 +26,31 @@ MclConfig readMcl(const LocalizationArguments& arguments, const RobotConfig& rob
   return config;
 }
 
-void checkMotion(const OdometryNoise& noise) {
-  try {
-    noise.check();
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--motion: ") + error.what());
+/// Four numbers of --motion in place of those of the robot file.
+Parameters withNumbers(const std::string& text, const Parameters& robotFile) {
+  const std::vector<std::string> names = {"turn_per_turn", "turn_per_m", "way_per_m", "way_per_turn"};
+  const std::vector<double> numbers = parseNumbers(text, "--motion", names);
+  Parameters motion("--motion");
+  for (const char* key : {"floor_m", "floor_deg"}) {
+    if (robotFile.has(key)) motion.set(key, robotFile.number(key));
   }
+  if (robotFile.has("plugin")) motion.set("plugin", robotFile.text("plugin"));
+  for (std::size_t i = 0; i < names.size(); ++i) motion.set(names[i], numbers[i]);
+  return motion;
 }
 
-std::unique_ptr<MotionModel> readMotion(const LocalizationArguments& arguments,
-                                        const RobotConfig& robot) {
-  OdometryNoise noise = OdometryNoise::read(robot.motion);
-  if (!arguments.motion.empty()) {
-    const std::vector<double> numbers =
-        parseNumbers(arguments.motion, "--motion",
-                     {"turn_per_turn", "turn_per_m", "way_per_m", "way_per_turn"});
-    noise.turnPerTurn = numbers[0];
-    noise.turnPerMetre = numbers[1];
-    noise.wayPerMetre = numbers[2];
-    noise.wayPerTurn = numbers[3];
-    checkMotion(noise);
+std::unique_ptr<MotionModel> readMotion(const LocalizationArguments& arguments, Robot& robot) {
+  const std::string& text = arguments.motion;
+  if (text.empty()) return makeMotion(robot.config.motion, robot.factory);
+  if (text.find_first_not_of("0123456789+-.eE,") != std::string::npos) {
+    return makeMotion(readMotionFile(text), robot.factory);
   }
-  return std::make_unique<OdometryMotion>(noise);
+  const Parameters motion = withNumbers(text, robot.config.motion);
+  try {
+    return makeMotion(motion, robot.factory);
+  } catch (const ConfigError& error) {
+    throw UsageError(error.what());
+  }
 }
 
 double millisecondsSince(std::chrono::steady_clock::time_point begin) {
@@ -55,6 +58,19 @@ double millisecondsSince(std::chrono::steady_clock::time_point begin) {
 }
 
 }  // namespace
+
+std::unique_ptr<MotionModel> makeMotion(const Parameters& motion, PluginFactory& factory) {
+  return factory.make<MotionModel>(motion.textOr("plugin", "odometry"), motion);
+}
+
+Parameters readMotionFile(const std::filesystem::path& file) {
+  const Parameters parameters = readToml(file);
+  if (!parameters.has("motion")) {
+    throw ConfigError(file.string() + ": has no table [motion], expected one as in a robot file or as "
+                      "`ortung learn-motion` writes it");
+  }
+  return parameters.table("motion");
+}
 
 std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile) {
   auto robot = std::make_unique<Robot>();
@@ -104,7 +120,7 @@ Localization::Localization(const LocalizationArguments& arguments)
       feeder_(std::make_unique<Feeder>(arguments.source, *source_, robot_->container)),
       config_(readMcl(arguments, robot_->config)),
       mcl_(std::make_unique<Mcl>(config_, robot_->tables.region,
-                                 readMotion(arguments, robot_->config))),
+                                 readMotion(arguments, *robot_))),
       waitsForTruth_(start_.kind == Start::Kind::kTruth) {
   checkWorld(arguments.source, *source_, arguments.tables, robot_->tables, arguments.anyWorld);
   if (start_.kind == Start::Kind::kGlobal) mcl_->startGlobal();

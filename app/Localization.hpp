@@ -31,6 +31,13 @@ std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile);
 std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
                                  const std::filesystem::path& tablesFile);
 
+/// The motion model that [motion] of a robot file asks for. @throws ConfigError, PluginError
+std::unique_ptr<MotionModel> makeMotion(const Parameters& motion, PluginFactory& factory);
+
+/// [motion] of a robot file or of a file of its own, such as `ortung learn-motion` writes.
+/// @throws ConfigError
+Parameters readMotionFile(const std::filesystem::path& file);
+
 /// @throws std::runtime_error if both fingerprints are known and differ, unless @p anyWorld
 void checkWorld(const std::string& sourceName, const Source& source,
                 const std::filesystem::path& tablesFile, const TableInfo& tables, bool anyWorld);

@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "ortung/container/MotionModel.hpp"
-
 namespace ortung {
 
 Source::~Source() = default;
-MotionModel::~MotionModel() = default;
-void MotionModel::learnMotion(const Pose2&, const Pose2&) {}
 
 void Source::writeWorld(const std::filesystem::path&) const {
   throw std::runtime_error("these readings come without a map, so no world can be written");

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "Commands.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Localization.hpp"
+#include "MotionLogs.hpp"
+#include "Numbers.hpp"
+#include "OutputFile.hpp"
+#include "Progress.hpp"
+#include "ortung/mcl/MotionLearner.hpp"
+
+namespace ortung::app {
+namespace {
+
+/// What the keys of [motion] mean, for whoever reads the file.
+const std::map<std::string, std::string>& meanings() {
+  static const std::map<std::string, std::string> kMeanings = {
+      {"turn_per_turn", "sigma of a turn after turning 1 rad [rad]"},
+      {"turn_per_m", "sigma of a turn after driving 1 m [rad]"},
+      {"way_per_m", "sigma of a way after driving 1 m [m]"},
+      {"way_per_turn", "sigma of a way after turning 1 rad [m]"},
+      {"floor_m", "sigma of every step [m]; not learned"},
+      {"floor_deg", "sigma of every step [degrees]; not learned"},
+      {"slip_share", "share of motions with four times the noise"},
+      {"way_scale", "true way of what odometry says"},
+      {"turn_scale", "true turn of what odometry says"},
+      {"turn_bias_deg_per_m", "added to turns"},
+      {"way_bias_m_per_rad", "added to ways in curves"},
+      {"delay_s", "odometry is ahead of the robot"}};
+  return kMeanings;
+}
+
+std::string quotedToml(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+/// Comments must not end early.
+std::string oneLine(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+std::string tableOf(const LearnMotionArguments& arguments, const LearnedMotion& learned,
+                    const Parameters& settings) {
+  std::string text = "# Learned by `ortung learn-motion` from";
+  for (const std::string& source : arguments.sources) text += " " + oneLine(source);
+  text += fmt::format(":\n# {} pieces of motion, {:.0f} m and {:.0f} rad.\n[motion]\n",
+                      learned.pairs, learned.metres, learned.radians);
+  text += fmt::format("plugin = {}\n", quotedToml(arguments.plugin));
+  for (const std::string& key : settings.keys()) {
+    const auto meaning = meanings().find(key);
+    // Four digits are more than any log can tell.
+    const double value = settings.number(key);
+    text += fmt::format("{:<20} = {:#.4g}{}\n", key, value,
+                        meaning == meanings().end() ? "" : "  # " + meaning->second);
+  }
+  return text;
+}
+
+MotionLearning optionsOf(const LearnMotionArguments& arguments) {
+  MotionLearning options;
+  options.interval = arguments.interval;
+  if (arguments.delay) options.earliestDelay = options.latestDelay = *arguments.delay;
+  return options;
+}
+
+}  // namespace
+
+int runLearnMotion(const LearnMotionArguments& arguments) {
+  checkOutput(arguments.out);
+  std::vector<MotionLog> logs;
+  std::unique_ptr<Robot> robot = openRobot(arguments.robot);
+  {
+    Progress progress("reading", arguments.progress);
+    for (const std::string& source : arguments.sources) {
+      logs.push_back(
+          readMotionLog(source, arguments.robot, arguments.from, arguments.to, progress));
+    }
+  }
+  std::unique_ptr<MotionModel> model;
+  LearnedMotion learned;
+  {
+    Progress progress("learning", arguments.progress);
+    const auto make = [&] {
+      Parameters motion("learn-motion");
+      motion.set("plugin", arguments.plugin);
+      return makeMotion(motion, robot->factory);
+    };
+    learned = learnMotion(logs, optionsOf(arguments), make, model, [&](double share) {
+      progress.update(share);
+      return interruptSignal() == 0;
+    });
+  }
+  checkInterrupt();
+  Parameters settings = model->settings();
+  settings.set("delay_s", learned.delay);
+  const std::string text = tableOf(arguments, learned, settings);
+  writeFile(arguments.out, text);
+  fmt::print("{}", text);
+  if (!arguments.delay) {
+    fmt::print("# mean ln p of a piece: {:.3f}; without the delay {:.3f}\n", learned.logLikelihood,
+               learned.undelayed);
+  }
+  return 0;
+}
+
+}  // namespace ortung::app
