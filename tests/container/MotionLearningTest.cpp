@@ -72,7 +72,7 @@ TEST(MotionLearning, RecoversTheNoiseOfARobot) {
 
 // The truth's own noise shows in short pieces alone: it is four times that of the motion there.
 TEST(MotionLearning, IsNotFooledByTheNoiseOfTheTruth) {
-  const Synthetic robot{.truthMetres = 0.02, .truthRadians = 0.05};
+  const Synthetic robot{.correction = {}, .truthMetres = 0.02, .truthRadians = 0.05};
   OdometryMotion model;
   teach(model, robot, 12000, 2);
   model.endLearning();
@@ -80,7 +80,7 @@ TEST(MotionLearning, IsNotFooledByTheNoiseOfTheTruth) {
 }
 
 TEST(MotionLearning, IsNotFooledByATruthThatJumps) {
-  const Synthetic robot{.jumps = 0.005};
+  const Synthetic robot{.correction = {}, .jumps = 0.005};
   OdometryMotion model;
   teach(model, robot, 6000, 3);
   model.endLearning();
@@ -97,7 +97,7 @@ TEST(MotionLearning, RecoversWhatOdometryAlwaysGetsWrong) {
   model.endLearning();
   EXPECT_NEAR(model.correction().wayScale, 1.05, 0.01);
   EXPECT_NEAR(model.correction().turnScale, 0.93, 0.01);
-  EXPECT_NEAR(model.correction().turnBiasPerMetre, 0.06, 0.012);
+  EXPECT_NEAR(model.correction().turnBiasPerMetre, 0.06, 0.02);  // over seeds, sigma is 0.006
   EXPECT_NEAR(model.correction().wayBiasPerRadian, -0.03, 0.005);
   expectNoise(model.noise(), robot.noise, 0.15);
 }

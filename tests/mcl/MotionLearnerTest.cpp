@@ -72,7 +72,7 @@ TEST(MotionLearner, SaysWhenThereIsTooLittle) {
   std::unique_ptr<MotionModel> model;
   EXPECT_THROW(learnMotion(logs, {}, odometryMotion, model), std::runtime_error);
   EXPECT_THROW(learnMotion({}, {}, odometryMotion, model), std::runtime_error);
-  EXPECT_TRUE(motionPairs({}, {}, 0.0).empty());
+  EXPECT_TRUE(motionPairs(MotionLog(), {}, 0.0).empty());
 }
 
 TEST(MotionLearner, StopsWhenAsked) {
