@@ -92,6 +92,7 @@ void addLearnMotion(Builder& build, CLI::App& app) {
       ->required();
   build.option("--plugin", a->plugin, "Motion model to teach; `ortung plugins` lists them")
       ->capture_default_str();
+  build.option("--motion", a->motion, "File with [motion] to begin with, e.g. with a network; in place of --plugin");
   build.option("--interval", a->interval, "Length of the shortest pieces of motion [s]")
       ->check(within(0.05, 60.0))->capture_default_str();
   build.option("--from", a->from, "Learn from here on only, a share of each log's time")
@@ -100,6 +101,30 @@ void addLearnMotion(Builder& build, CLI::App& app) {
       ->check(within(0.0, 1.0))->capture_default_str();
   build.option("--delay", a->delay, "How far odometry is ahead of the robot [s]; default: learned")
       ->check(within(-0.3, 2.0));
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addTrainMotion(Builder& build, CLI::App& app) {
+  const auto a = build.command<TrainMotionArguments>(
+      app, "train-motion", "Train a neural network on how a robot answers to commands",
+      "ortung train-motion run.rec --robot robot.toml --out motion.json", runTrainMotion);
+  build.option("sources", a->sources, "Records, or sources KIND:PATH?key=value, with ground truth")->required();
+  build.option("--robot", a->robot, "Robot file (TOML)")->required();
+  build.option("--out", a->out, "Network to write (JSON)")->required();
+  build.option("--commands-from", a->commandsFrom,
+               "Where odometry has the commanded velocities: its own velocities, the last two words of its "
+               "motion_data, or auto: motion_data where there is some")
+      ->check(CLI::IsMember({"auto", "velocities", "motion_data"}))->capture_default_str();
+  build.option("--step", a->step, "Time that a prediction covers [s]")->check(within(0.01, 1.0))
+      ->capture_default_str();
+  build.option("--commands", a->commands, "How many of the newest commands the network sees")
+      ->check(within(1, 64))->capture_default_str();
+  build.option("--hidden", a->hidden, "Widths of the layers between")->capture_default_str();
+  build.option("--iterations", a->iterations, "Steps of the training")->check(within(1, 100000))
+      ->capture_default_str();
+  build.option("--hold-out", a->holdOut, "Share of each log, at its end, to test with")
+      ->check(within(0.0, 0.9))->capture_default_str();
+  build.option("--seed", a->seed, "Seed of the first weights")->capture_default_str();
   build.flag("--progress", a->progress, kProgress);
 }
 
@@ -297,6 +322,7 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   Builder build(parsed);
   addLearn(build, app);
   addLearnMotion(build, app);
+  addTrainMotion(build, app);
   addEval(build, app, commandLine);
   addLocalize(build, app);
   addImport(build, app);

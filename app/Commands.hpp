@@ -24,7 +24,8 @@ struct LearnMotionArguments {
   std::vector<std::string> sources;  ///< records, or "KIND:PATH?key=value"
   std::filesystem::path robot;
   std::filesystem::path out;
-  std::string plugin = "odometry";   ///< the motion model to teach
+  std::string plugin = "odometry";   ///< the motion model to teach ...
+  std::filesystem::path motion;      ///< ... or a file with [motion] to begin with; "" for none
   double interval = 0.5;             ///< of the shortest pieces [s]
   double from = 0.0;                 ///< part of each log to learn from, as shares of its time
   double to = 1.0;
@@ -32,6 +33,21 @@ struct LearnMotionArguments {
   bool progress = false;
 };
 int runLearnMotion(const LearnMotionArguments& arguments);
+
+struct TrainMotionArguments {
+  std::vector<std::string> sources;     ///< records, or "KIND:PATH?key=value"
+  std::filesystem::path robot;
+  std::filesystem::path out;
+  std::string commandsFrom = "auto";    ///< or "velocities" or "motion_data" of odometry
+  double step = 0.1;                    ///< of a prediction [s]
+  std::size_t commands = 5;             ///< newest ones that the network sees
+  std::string hidden = "24,24";         ///< widths of layers
+  std::size_t iterations = 300;
+  double holdOut = 0.25;                ///< share of each log at its end
+  std::uint64_t seed = 1;
+  bool progress = false;
+};
+int runTrainMotion(const TrainMotionArguments& arguments);
 
 /// What eval and localize have in common.
 struct LocalizationArguments {

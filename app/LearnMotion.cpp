@@ -52,13 +52,24 @@ std::string oneLine(std::string text) {
   return text;
 }
 
+/// [motion] to begin with.
+Parameters baseOf(const LearnMotionArguments& arguments) {
+  if (!arguments.motion.empty()) return readMotionFile(arguments.motion);
+  Parameters motion("learn-motion");
+  motion.set("plugin", arguments.plugin);
+  return motion;
+}
+
 std::string tableOf(const LearnMotionArguments& arguments, const LearnedMotion& learned,
-                    const Parameters& settings) {
+                    const Parameters& base, const Parameters& settings) {
   std::string text = "# Learned by `ortung learn-motion` from";
   for (const std::string& source : arguments.sources) text += " " + oneLine(source);
   text += fmt::format(":\n# {} pieces of motion, {:.0f} m and {:.0f} rad.\n[motion]\n",
                       learned.pairs, learned.metres, learned.radians);
-  text += fmt::format("plugin = {}\n", quotedToml(arguments.plugin));
+  text += fmt::format("plugin = {}\n", quotedToml(base.textOr("plugin", "odometry")));
+  if (base.has("network_file")) {
+    text += fmt::format("network_file = {}\n", quotedToml(base.text("network_file")));
+  }
   for (const std::string& key : settings.keys()) {
     const auto meaning = meanings().find(key);
     // Four digits are more than any log can tell.
@@ -82,22 +93,22 @@ int runLearnMotion(const LearnMotionArguments& arguments) {
   checkOutput(arguments.out);
   std::vector<MotionLog> logs;
   std::unique_ptr<Robot> robot = openRobot(arguments.robot);
+  const Parameters base = baseOf(arguments);
+  double before = 0.0;  // delay that the base itself takes care of [s]
   {
     Progress progress("reading", arguments.progress);
     for (const std::string& source : arguments.sources) {
-      logs.push_back(
-          readMotionLog(source, arguments.robot, arguments.from, arguments.to, progress));
+      const auto follower = makeMotion(base, robot->factory);
+      logs.push_back(readMotionLog(source, arguments.robot, arguments.from, arguments.to, *follower,
+                                   progress));
+      before = follower->delay();
     }
   }
   std::unique_ptr<MotionModel> model;
   LearnedMotion learned;
   {
     Progress progress("learning", arguments.progress);
-    const auto make = [&] {
-      Parameters motion("learn-motion");
-      motion.set("plugin", arguments.plugin);
-      return makeMotion(motion, robot->factory);
-    };
+    const auto make = [&] { return makeMotion(base, robot->factory); };
     learned = learnMotion(logs, optionsOf(arguments), make, model, [&](double share) {
       progress.update(share);
       return interruptSignal() == 0;
@@ -105,8 +116,8 @@ int runLearnMotion(const LearnMotionArguments& arguments) {
   }
   checkInterrupt();
   Parameters settings = model->settings();
-  settings.set("delay_s", learned.delay);
-  const std::string text = tableOf(arguments, learned, settings);
+  settings.set("delay_s", before + learned.delay);
+  const std::string text = tableOf(arguments, learned, base, settings);
   writeFile(arguments.out, text);
   fmt::print("{}", text);
   if (!arguments.delay) {

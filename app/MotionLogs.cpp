@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <stdexcept>
 
 #include "Interrupt.hpp"
@@ -21,57 +22,97 @@ const OdometryData& odometryOf(const Robot& robot, const std::filesystem::path& 
                            ": has no odometry, expected a [[sensor]] with plugin = \"odometry\"");
 }
 
-/// Only what lies within a part of the time.
-MotionLog partOf(const MotionLog& all,
-                 const std::vector<std::pair<Timestamp, OdometryView>>& odometry, double from,
-                 double to) {
-  if (from <= 0.0 && to >= 1.0) return all;
-  const double span = toSeconds(all.odometry.last() - all.odometry.first());
-  const Timestamp begin = all.odometry.first() + fromSeconds(from * span);
-  const Timestamp end = all.odometry.first() + fromSeconds(to * span);
-  MotionLog part;
-  for (const auto& [stamp, view] : odometry) {
-    if (stamp < begin || stamp > end) continue;
-    part.odometry.add(stamp, view.pose, view.translationalVelocity, view.rotationalVelocity);
-  }
-  for (const auto& point : all.truth) {
-    if (point.first >= begin && point.first <= end) part.truth.push_back(point);
-  }
-  return part;
-}
+using Listener = std::function<void(Timestamp, const OdometryData::Reading&)>;
 
-}  // namespace
-
-MotionLog readMotionLog(const std::string& text, const std::filesystem::path& robotFile,
-                        double from, double to, Progress& progress) {
+/// Reads a whole source. @throws std::runtime_error if it has no odometry or no truth
+void readAll(const std::string& text, const std::filesystem::path& robotFile, Progress& progress,
+             const Listener& onOdometry,
+             const std::function<void(Timestamp, const Pose2&)>& onTruth) {
   const std::string name = text.find(':') == std::string::npos ? "record:" + text : text;
   const std::unique_ptr<Robot> robot = openRobot(robotFile);
   const OdometryData& odometry = odometryOf(*robot, robotFile);
   const std::unique_ptr<Source> source = openSource(name, robotFile, robot->factory);
   Feeder feeder(name, *source, robot->container);
-  MotionLog log;
-  std::vector<std::pair<Timestamp, OdometryView>> readings;
   std::uint64_t sequence = 0;
+  bool hasTruth = false;
   while (feeder.next()) {
     checkInterrupt();
     progress.update(feeder.progress());
-    if (feeder.truth()) log.truth.emplace_back(feeder.stamp(), *feeder.truth());
-    if (odometry.sequence() == sequence) continue;
+    if (feeder.truth()) onTruth(feeder.stamp(), *feeder.truth());
+    hasTruth = hasTruth || feeder.truth();
+    if (odometry.sequence() != sequence) onOdometry(odometry.stamp(), odometry.reading());
     sequence = odometry.sequence();
-    const OdometryData::Reading& r = odometry.reading();
-    log.odometry.add(odometry.stamp(), r.pose, r.translationalVelocity, r.rotationalVelocity);
-    readings.emplace_back(odometry.stamp(),
-                          OdometryView{r.pose, r.translationalVelocity, r.rotationalVelocity, {}});
   }
-  if (log.odometry.empty()) {
+  if (sequence == 0) {
     throw std::runtime_error(fmt::format(
         "{}: has no reading of {}, expected odometry to learn from", name, toText(odometry.id())));
   }
-  if (log.truth.empty()) {
+  if (!hasTruth) {
     throw std::runtime_error(fmt::format(
         "{}: has no ground truth to learn from, expected a feature of type groundTruth", name));
   }
-  return partOf(log, readings, from, to);
+}
+
+}  // namespace
+
+MotionLog readMotionLog(const std::string& text, const std::filesystem::path& robotFile,
+                        double from, double to, MotionModel& model, Progress& progress) {
+  struct Reading {
+    Timestamp stamp;
+    Pose2 pose;
+    double v;
+    double w;
+  };
+  std::vector<Reading> odometry;
+  std::vector<std::pair<Timestamp, Pose2>> truth;
+  readAll(
+      text, robotFile, progress,
+      [&](Timestamp stamp, const OdometryData::Reading& r) {
+        model.follow(stamp, {r.pose, r.translationalVelocity, r.rotationalVelocity, r.motionData});
+        odometry.push_back({stamp, model.odometryAt(stamp).value_or(r.pose),
+                            r.translationalVelocity, r.rotationalVelocity});
+      },
+      [&](Timestamp stamp, const Pose2& pose) { truth.emplace_back(stamp, pose); });
+  const Timestamp first = odometry.front().stamp;
+  const double span = toSeconds(odometry.back().stamp - first);
+  const Timestamp begin = first + fromSeconds(from * span);
+  const Timestamp end = first + fromSeconds(to * span);
+  MotionLog log;
+  for (const Reading& r : odometry) {
+    if (r.stamp >= begin && r.stamp <= end) log.odometry.add(r.stamp, r.pose, r.v, r.w);
+  }
+  for (const auto& point : truth) {
+    if (point.first >= begin && point.first <= end) log.truth.push_back(point);
+  }
+  return log;
+}
+
+CommandLog readCommandLog(const std::string& text, const std::filesystem::path& robotFile,
+                          const std::string& from, bool& fromVelocities, Progress& progress) {
+  CommandLog log;
+  bool first = true;
+  readAll(
+      text, robotFile, progress,
+      [&](Timestamp stamp, const OdometryData::Reading& r) {
+        const std::size_t count = r.motionData.size();
+        if (first) fromVelocities = from == "velocities" || (from == "auto" && count < 2);
+        first = false;
+        if (fromVelocities) {
+          log.commands.emplace_back(stamp,
+                                    Velocities{r.translationalVelocity, r.rotationalVelocity});
+        } else if (count >= 2) {
+          log.commands.emplace_back(stamp,
+                                    Velocities{words::toSignedMetres(r.motionData[count - 2]),
+                                               words::toRate(r.motionData[count - 1])});
+        }
+      },
+      [&](Timestamp stamp, const Pose2& pose) { log.truth.add(stamp, pose, 0.0, 0.0); });
+  if (log.commands.empty()) {
+    throw std::runtime_error(text +
+                             ": odometry has no motion data, expected commanded velocities there; "
+                             "use --commands-from velocities");
+  }
+  return log;
 }
 
 }  // namespace ortung::app

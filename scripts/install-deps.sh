@@ -15,6 +15,8 @@ packages=(
   libcli11-dev libspdlog-dev libfmt-dev libpng-dev libjs-dygraphs
   # pictures of scenes
   python3-pil
+  # training of motion networks
+  libdlib-dev libblas-dev
   # tests and benchmarks
   libgtest-dev libbenchmark-dev librapidcheck-dev clang-19 libclang-rt-19-dev python3
 )

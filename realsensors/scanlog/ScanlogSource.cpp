@@ -33,6 +33,7 @@ class ScanlogSource : public ScanLogSource {
       : ScanLogSource(options), folder_(options.text("path")) {
     readScans();
     readOdometry(options);
+    readCommands(options);
     readTruth(options);
     useMap(fileOption(options, "map", folder_));
     if (map().empty()) findMap();
@@ -43,6 +44,7 @@ class ScanlogSource : public ScanLogSource {
   void readScans();
   Scanner scannerOf(const LogFile& file, const std::string& comment) const;
   void readOdometry(const Parameters& options);
+  void readCommands(const Parameters& options);
   void readTruth(const Parameters& options);
   void findMap();
 
@@ -109,6 +111,19 @@ void ScanlogSource::readOdometry(const Parameters& options) {
   while (file.nextRecord()) {
     file.needFields(4, "time [s], x [m], y [m], theta [rad]");
     addOdometry(file, file.stamp(0), file.pose(1));
+  }
+}
+
+void ScanlogSource::readCommands(const Parameters& options) {
+  constexpr double kFastest = 100.0;  // [m/s], [rad/s]
+  const auto path = fileOption(options, "commands", folder_);
+  if (path.empty()) return;
+  LogFile file(path);
+  while (file.nextRecord()) {
+    file.needFields(3, "time [s], commanded velocities [m/s] [rad/s]");
+    const Range velocities{-kFastest, kFastest};
+    addCommand(file, file.stamp(0), file.number(1, "a velocity [m/s]", velocities),
+               file.number(2, "a velocity [rad/s]", velocities));
   }
 }
 

@@ -50,9 +50,12 @@ TEST(DifferentialDrive, TurnsWheelSpeedsIntoVelocitiesAndKeepsTheCurveAtItsLimit
   EXPECT_NEAR(drive->velocity().x, 1.0, 1e-12);
   EXPECT_NEAR(drive->velocity().theta, 1.0, 1e-12);
   drive->measure({}, nullptr);
-  ASSERT_EQ(drive->motionData().size(), 2u);
+  ASSERT_EQ(drive->motionData().size(), 4u);
   EXPECT_NEAR(words::toSignedMetres(drive->motionData()[0]), 0.8, 0.0006);
   EXPECT_NEAR(words::toSignedMetres(drive->motionData()[1]), 1.2, 0.0006);
+  // What was commanded, before its limits made less of it.
+  EXPECT_NEAR(words::toSignedMetres(drive->motionData()[2]), 2.0, 0.0006);
+  EXPECT_NEAR(words::toRate(drive->motionData()[3]), 2.0, 0.0002);
 }
 
 TEST(DifferentialDrive, WheelsThatSlipGetLessFarThanTheyMeasure) {

@@ -132,7 +132,8 @@ class DifferentialDrive : public Drive {
     return {speed_ * settings_.errors.distanceScale, 0.0, turn_ * settings_.errors.turnScale};
   }
   std::span<const std::uint32_t> motionData() const override { return motionData_; }
-  std::string motionDataHelp() const override { return "[left, right] wheel speed [2^31 + mm/s]"; }
+  std::string motionDataHelp() const override { return "left, right wheel speed [2^31 + mm/s], commanded velocities [2^31 + mm/s, "
+           "2^31 + 1/100 degree/s]"; }
 
  private:
   Wheels wheelsOf(const Twist& velocity) const {
@@ -141,7 +142,8 @@ class DifferentialDrive : public Drive {
   }
   void tellWheelSpeeds() {
     const Wheels wheels = wheelsOf(velocity());
-    motionData_ = {words::fromSignedMetres(wheels.left), words::fromSignedMetres(wheels.right)};
+    motionData_ = {words::fromSignedMetres(wheels.left), words::fromSignedMetres(wheels.right),
+                   words::fromSignedMetres(wantedSpeed_), words::fromRate(wantedTurn_)};
   }
 
   /// Share of the wanted velocities that the wheels can do; both become less, so the curve stays.
@@ -184,7 +186,7 @@ class DifferentialDrive : public Drive {
   Wheels lost_;  ///< in the last cycle [m]
   Encoder left_;
   Encoder right_;
-  std::array<std::uint32_t, 2> motionData_{words::kOffset, words::kOffset};
+  std::array<std::uint32_t, 4> motionData_{words::kOffset, words::kOffset, words::kOffset, words::kOffset};
 };
 
 }  // namespace

@@ -20,7 +20,8 @@ ScanLogSource::ScanLogSource(const Parameters& options)
       period_(optionNumber(options, "period_s", {1e-3, 3600})),
       scanClock_(optionNumber(options, "jitter_s", 1.0, {0, 3600})),
       odometryClock_(scanClock_),
-      truthClock_(scanClock_) {
+      truthClock_(scanClock_),
+      commandClock_(scanClock_) {
   options.textOr("robot_file", "");  // the log knows its own scanner
 }
 
@@ -49,6 +50,10 @@ void ScanLogSource::addOdometry(const LogFile& file, Timestamp stamp, const Pose
 
 void ScanLogSource::addTruth(const LogFile& file, Timestamp stamp, const Pose2& pose) {
   truth_.push_back({truthClock_(file, stamp), pose});
+}
+
+void ScanLogSource::addCommand(const LogFile& file, Timestamp stamp, double v, double w) {
+  commands_.push_back({commandClock_(file, stamp), v, w});
 }
 
 /// Some logs lost the digits of their stamps; the order of their lines is what is left.
@@ -81,9 +86,17 @@ void ScanLogSource::finishLog(const std::string& where) {
   const auto odometryId = addFeature({"odometry", "odometry", "pose"});
   const auto scanId = addFeature({"laser", "LRF", "scan"});
   const auto truthId = addFeature({"reference", "groundTruth", "pose"});
+  std::size_t command = 0;
   PoseOdometry odometry;  // one of both only: their frames differ
   for (const auto& [stamp, pose] : odometry_.empty() ? scanOdometry_ : odometry_) {
-    add(odometryId, stamp, odometry.words(stamp, pose));
+    std::vector<std::uint32_t> reading = odometry.words(stamp, pose);
+    while (command + 1 < commands_.size() && commands_[command + 1].stamp <= stamp) ++command;
+    if (!commands_.empty()) {
+      const bool known = commands_[command].stamp <= stamp;
+      reading.push_back(words::fromSignedMetres(known ? commands_[command].v : 0.0));
+      reading.push_back(words::fromRate(known ? commands_[command].w : 0.0));
+    }
+    add(odometryId, stamp, reading);
   }
   const auto beams = static_cast<std::size_t>(scanner_->beams);
   for (std::size_t i = 0; i < scanStamps_.size(); ++i) {

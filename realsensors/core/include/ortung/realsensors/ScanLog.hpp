@@ -37,6 +37,8 @@ class ORTUNG_API ScanLogSource : public LogSource {
                const std::optional<Pose2>& odometry);
   void addOdometry(const LogFile& file, Timestamp stamp, const Pose2& pose);
   void addTruth(const LogFile& file, Timestamp stamp, const Pose2& pose);
+  /// Commanded velocities [m/s], [rad/s], in force from then on; they become odometry's motion data.
+  void addCommand(const LogFile& file, Timestamp stamp, double v, double w);
 
   /// Call when all is added. @throws std::runtime_error if there was no scan
   void finishLog(const std::string& where);
@@ -49,13 +51,18 @@ class ORTUNG_API ScanLogSource : public LogSource {
     Timestamp stamp;
     Pose2 pose;
   };
+  struct Command {
+    Timestamp stamp;
+    double v;
+    double w;
+  };
   void setInLineOrder(const std::string& where);
 
   std::string path_;
   ScannerOptions scannerOptions_;
   std::optional<double> period_;
   std::optional<Scanner> scanner_;
-  LogClock scanClock_, odometryClock_, truthClock_;
+  LogClock scanClock_, odometryClock_, truthClock_, commandClock_;
   Timestamp lastRaw_ = 0;
   std::size_t standing_ = 0;  ///< scans with the stamp of the one before
   std::vector<Timestamp> scanStamps_;
@@ -63,6 +70,7 @@ class ORTUNG_API ScanLogSource : public LogSource {
   std::vector<TimedPose> scanOdometry_;  ///< of each scan, or empty
   std::vector<TimedPose> odometry_;
   std::vector<TimedPose> truth_;
+  std::vector<Command> commands_;
   std::filesystem::path map_;
 };
 
