@@ -27,7 +27,7 @@ TEST_F(LearnMotion, FindsWhatTheSimulatorWasToldToGetWrong) {
                           "[drive]\nodometry_distance_scale = 1.08\n"
                           "odometry_turn_scale = 0.95\nodometry_distance_sigma_m = 0.03\n");
   ASSERT_EQ(ortung({"import", "sim", path("hall.toml"), "--out", path("run.rec"), "--option",
-                    "duration=300", "--option", "seed=3", "--with-robot", path("robot.toml")})
+                    "duration=150", "--option", "seed=3", "--with-robot", path("robot.toml")})
                 .exitCode,
             0);
   const Outcome outcome = learn();

@@ -53,9 +53,9 @@ TEST(DifferentialDrive, TurnsWheelSpeedsIntoVelocitiesAndKeepsTheCurveAtItsLimit
   ASSERT_EQ(drive->motionData().size(), 4u);
   EXPECT_NEAR(words::toSignedMetres(drive->motionData()[0]), 0.8, 0.0006);
   EXPECT_NEAR(words::toSignedMetres(drive->motionData()[1]), 1.2, 0.0006);
-  // What was commanded, before its limits made less of it.
-  EXPECT_NEAR(words::toSignedMetres(drive->motionData()[2]), 2.0, 0.0006);
-  EXPECT_NEAR(words::toRate(drive->motionData()[3]), 2.0, 0.0002);
+  // The command, of which its limits have made less.
+  EXPECT_NEAR(words::toSignedMetres(drive->motionData()[2]), 1.0, 0.0006);
+  EXPECT_NEAR(words::toRate(drive->motionData()[3]), 1.0, 0.0002);
 }
 
 TEST(DifferentialDrive, WheelsThatSlipGetLessFarThanTheyMeasure) {
