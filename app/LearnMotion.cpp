@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -35,6 +36,15 @@ const std::map<std::string, std::string>& meanings() {
   return kMeanings;
 }
 
+/// MCL needs some noise even where a log shows less: its samples are few, its tables have cells,
+/// and the next log may not be as tame.
+double leastOf(const std::string& key) {
+  if (key == "turn_per_turn") return 0.1;
+  if (key == "turn_per_m") return 0.05;
+  return key == "way_per_m" || key == "way_per_turn" ? 0.02
+                                                     : -std::numeric_limits<double>::infinity();
+}
+
 std::string quotedToml(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -60,22 +70,25 @@ Parameters baseOf(const LearnMotionArguments& arguments) {
   return motion;
 }
 
-std::string tableOf(const LearnMotionArguments& arguments, const LearnedMotion& learned,
+std::string tableOf(const LearnMotionArguments& arguments, const LearnedMotion& result,
                     const Parameters& base, const Parameters& settings) {
   std::string text = "# Learned by `ortung learn-motion` from";
   for (const std::string& source : arguments.sources) text += " " + oneLine(source);
   text += fmt::format(":\n# {} pieces of motion, {:.0f} m and {:.0f} rad.\n[motion]\n",
-                      learned.pairs, learned.metres, learned.radians);
+                      result.pairs, result.metres, result.radians);
   text += fmt::format("plugin = {}\n", quotedToml(base.textOr("plugin", "odometry")));
   if (base.has("network_file")) {
     text += fmt::format("network_file = {}\n", quotedToml(base.text("network_file")));
   }
   for (const std::string& key : settings.keys()) {
     const auto meaning = meanings().find(key);
+    const double learned = settings.number(key);
+    const double value = std::max(learned, leastOf(key));
+    std::string comment = meaning == meanings().end() ? "" : meaning->second;
+    if (value > learned) comment += fmt::format("; the log says {:.2g}", learned);
     // Four digits are more than any log can tell.
-    const double value = settings.number(key);
-    text += fmt::format("{:<20} = {:#.4g}{}\n", key, value,
-                        meaning == meanings().end() ? "" : "  # " + meaning->second);
+    text +=
+        fmt::format("{:<20} = {:#.4g}{}{}\n", key, value, comment.empty() ? "" : "  # ", comment);
   }
   return text;
 }
