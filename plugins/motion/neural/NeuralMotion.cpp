@@ -36,11 +36,13 @@ class NeuralMotion : public OdometryMotion {
       restart(stamp);
     // A command is in force until the next one, so up to this one's time it is the one before.
     while (now_ + step <= stamp) {
-      pose_ = pose_ * robot_.step(command_);
+      pose_ = pose_ * robot_.step(stepCommand_);
       now_ += step;
+      stepCommand_ = command_;
       track_.add(now_, pose_, robot_.velocity().translational, robot_.velocity().rotational);
     }
     command_ = commandOf(reading);
+    if (stamp == now_) stepCommand_ = command_;
   }
 
   std::optional<Pose2> odometryAt(Timestamp stamp) const override {
@@ -54,7 +56,7 @@ class NeuralMotion : public OdometryMotion {
   void restart(Timestamp stamp) {
     track_.clear();
     robot_.reset();
-    command_ = {};
+    command_ = stepCommand_ = {};
     now_ = stamp;
     track_.add(now_, pose_, 0.0, 0.0);
   }
@@ -72,7 +74,8 @@ class NeuralMotion : public OdometryMotion {
   OdometryTrack track_;
   Timestamp now_ = 0;
   Pose2 pose_;
-  Velocities command_;
+  Velocities command_;      ///< newest
+  Velocities stepCommand_;  ///< in force at now_, as the network was trained
 };
 
 }  // namespace
