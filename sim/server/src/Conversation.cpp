@@ -216,7 +216,8 @@ void Conversation::answer(const std::string& tag, std::function<void(Conversatio
       tag, [](WorldKeeper&, WorldKeeper::Done&) { return std::optional<std::string>(""); },
       [say = std::move(say)](Conversation& self, const std::string&, const std::string&) {
         say(self);
-      });
+      },
+      true);  // what comes behind it must not change what it says
 }
 
 void Conversation::tell(std::string_view text) {
