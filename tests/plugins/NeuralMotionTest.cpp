@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "Files.hpp"
+#include "MotionRig.hpp"
+#include "ortung/config/MotionNetwork.hpp"
+#include "ortung/container/Formats.hpp"
+
+namespace ortung {
+namespace {
+
+/// A base that has the commanded velocity at the end of each step, and drives at it in the step.
+MotionNetwork obedient(bool fromVelocities) {
+  MotionNetwork n;
+  n.step = 0.1;
+  n.commands = 1;
+  n.fromVelocities = fromVelocities;
+  n.limit = {2.0, 3.0};
+  n.inputMean.assign(4, 0.0);
+  n.inputScale.assign(4, 1.0);
+  n.outputScale.assign(5, 1.0);
+  // What differs from keeping (v, w): step * (c - v), nothing, step * (c_w - w), c - v, c_w - w.
+  n.layers = {{4,
+               5,
+               {-0.1, 0, 0.1, 0, 0, 0, 0, 0, 0, -0.1, 0, 0.1, -1, 0, 1, 0, 0, -1, 0, 1},
+               {0, 0, 0, 0, 0}}};
+  return n;
+}
+
+class NeuralPlugin : public testing::Test {
+ protected:
+  std::string settings(const MotionNetwork& network) {
+    test::writeBytes(folder_ / "net.json", toJson(network));
+    return "network_file = \"" + (folder_ / "net.json").string() + "\"";
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(NeuralPlugin, DrivesAsItsNetworkSaysInAnyCycle) {
+  for (const double dt : {0.01, 0.1, 0.033}) {
+    const auto drive = makeDrive("neural", settings(obedient(false)));
+    drive->setTranslationalVelocity(0.5);
+    drive->setRotationalVelocity(0.0);
+    Pose2 pose;
+    double t = 0.0;
+    for (; t + dt <= 1.0 + 1e-9; t += dt) pose = pose * drive->relocate(dt, nullptr);
+    EXPECT_NEAR(pose.x, 0.5 * t, 1e-9) << dt;
+    EXPECT_NEAR(drive->velocity().x, 0.5, 1e-12);
+  }
+}
+
+TEST_F(NeuralPlugin, TellsItsCommandsAndKeepsToItsLimits) {
+  const auto drive = makeDrive("neural", settings(obedient(false)));
+  drive->setTranslationalVelocity(9.0);
+  drive->setRotationalVelocity(-9.0);
+  drive->measure({}, nullptr);
+  ASSERT_EQ(drive->motionData().size(), 2U);
+  EXPECT_NEAR(words::toSignedMetres(drive->motionData()[0]), 2.0, 0.0006);
+  EXPECT_NEAR(words::toRate(drive->motionData()[1]), -3.0, 0.0002);
+}
+
+// Commands of 1 m/s from 0.1 s on: the network sees each at the beginning of its step.
+TEST_F(NeuralPlugin, FollowsCommandsInsteadOfOdometry) {
+  const auto motion = makeMotion("neural", settings(obedient(true)));
+  EXPECT_FALSE(motion->odometryAt(0));
+  for (int i = 0; i <= 100; ++i) {
+    const double v = i >= 10 ? 1.0 : 0.0;
+    motion->follow(i * 10000, {{7, 7, 1}, v, 0.0, {}});  // what its pose says is of no concern
+  }
+  ASSERT_TRUE(motion->odometryAt(1000000));
+  EXPECT_NEAR(motion->odometryAt(1000000)->x, 0.9, 1e-9);
+  EXPECT_NEAR(motion->odometryAt(500000)->x, 0.4, 1e-9);
+  motion->forget();
+  EXPECT_FALSE(motion->odometryAt(1000000));
+}
+
+TEST_F(NeuralPlugin, RefusesBadFilesAndMisspeltKeys) {
+  EXPECT_THROW(makeDrive("neural", ""), ConfigError);
+  EXPECT_THROW(makeDrive("neural", "network_file = \"/nowhere/net.json\""), ConfigError);
+  test::writeBytes(folder_ / "bad.json", "{}");
+  EXPECT_THROW(makeDrive("neural", "network_file = \"" + (folder_ / "bad.json").string() + "\""),
+               ConfigError);
+  EXPECT_THROW(makeMotion("neural", settings(obedient(true)) + "\nturn_per_trun = 1"), ConfigError);
+}
+
+}  // namespace
+}  // namespace ortung
