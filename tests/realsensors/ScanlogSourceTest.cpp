@@ -34,6 +34,20 @@ TEST_F(ScanlogSource, GivesScansWithTheirOdometryAndReference) {
              "2000000 reference/groundTruth/pose 2147488148 2147478648 35762"}));
 }
 
+// 0.2 m/s and 0.5 rad/s = 2865 hundredths of a degree a second, from 1.5 s on; nothing before.
+TEST_F(ScanlogSource, AddsCommandsToOdometryAsMotionData) {
+  folder_.write("cmd_vel.txt", "# t v w\n1.5 0.2 0.5\n2.5 9 9\n");
+  const Texts lines = asText(readAll(text("?commands=cmd_vel.txt")));
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0],
+            "1000000 odometry/odometry/pose 2147483648 2147483648 18000 2147483648 2147483648 "
+            "2147483648 2147483648");
+  EXPECT_TRUE(lines[2].ends_with(" 2147483848 2147486513")) << lines[2];
+  folder_.write("bad.txt", "1.5 0.2\n");
+  EXPECT_THROW(readAll(text("?commands=bad.txt")), std::runtime_error);
+  EXPECT_THROW(readAll(text("?commands=missing.txt")), std::runtime_error);
+}
+
 TEST_F(ScanlogSource, ReadsTheScannerFromTheCommentAboveTheScans) {
   const std::string toml = makeSource(text())->robotToml();
   EXPECT_NE(
