@@ -90,7 +90,7 @@ void ScanData::decode(std::span<const std::uint32_t> words) {
 
 bool ScanData::isInformative() const {
   return config_.perception == Perception::kRays ? prepared_->floorCost > 0
-                                                 : !prepared_->endX.empty();
+                                                 : !prepared_->endPoints.empty();
 }
 
 std::string ScanData::wordsHelp() const {

@@ -62,34 +62,13 @@ void ScanData::prepareRays() {
 }
 
 void ScanData::prepareEndPoints() {
-  const SensorModel& model = config_.model;
-  for (std::size_t c = 0; c < kRangeClasses; ++c) {
-    const double range = (static_cast<double>(c) + 0.5) / kRangeClasses * config_.maxRange;
-    // Half a cell's width is not the sensor's fault.
-    const double sigma = std::hypot(model.sigmaAt(range), 0.29 * config_.endPointCell);
-    for (std::size_t level = 0; level < 255; ++level) {
-      const double distance = static_cast<double>(level) * endPoints_.metresPerLevel();
-      prepared_->logByLevel[c][level] =
-          static_cast<float>(model.exponent * model.logProbability(distance / sigma));
-    }
-    prepared_->logByLevel[c][255] = static_cast<float>(model.logFloor());
-  }
-  prepared_->endX.clear();
-  prepared_->endY.clear();
-  prepared_->endLog.clear();
+  prepared_->endPoints.start(config_.model, config_.maxRange, endPoints_);
   const int thin = config_.usedBeams > 0 ? std::max(1, config_.beams / config_.usedBeams) : 1;
   for (int i = 0; i < config_.beams; i += thin) {
     const float range = ranges_[static_cast<std::size_t>(i)];
     if (!std::isfinite(range)) continue;  // a beam that sees nothing has no end
-    const double angle = config_.firstAngle + i * config_.angleStep;
-    const Pose2 end = mount() * Pose2{static_cast<double>(range) * std::cos(angle),
-                                      static_cast<double>(range) * std::sin(angle), 0};
-    const auto rangeClass =
-        static_cast<std::uint32_t>(static_cast<double>(range) / config_.maxRange * kRangeClasses);
-    prepared_->endX.push_back(static_cast<float>(end.x));
-    prepared_->endY.push_back(static_cast<float>(end.y));
-    prepared_->endLog.push_back(
-        prepared_->logByLevel[std::min<std::size_t>(rangeClass, kRangeClasses - 1)].data());
+    prepared_->endPoints.add(mount(), static_cast<double>(range),
+                             config_.firstAngle + i * config_.angleStep);
   }
 }
 
@@ -198,52 +177,7 @@ void ScanData::weighRays(const SampleView& poses, std::span<float> logProbabilit
 }
 
 void ScanData::weighEndPoints(const SampleView& poses, std::span<float> logProbability) const {
-  const CellLookup region(grid_);
-  const CellLookup lookup(endPoints_.grid());
-  const std::uint8_t* levels = endPoints_.levels().data();
-  const std::size_t count = prepared_->endX.size();
-  const auto floor = static_cast<float>(config_.model.logFloor());
-  const auto mountX = static_cast<float>(mount().x);
-  const auto mountY = static_cast<float>(mount().y);
-  constexpr std::size_t kPointsABlock = 64;
-  std::array<std::int32_t, kPointsABlock> cells;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const float x = poses.x[i];
-    const float y = poses.y[i];
-    const auto [sine, cosine] = sinCos(poses.theta[i]);
-    if (region.index(x + cosine * mountX - sine * mountY, y + sine * mountX + cosine * mountY) <
-        0) {
-      logProbability[i] += floor * static_cast<float>(count);
-      continue;
-    }
-    // Even and odd points apart, and those again: additions need not wait for each other.
-    float sum0 = 0.0F;
-    float sum1 = 0.0F;
-    float sum2 = 0.0F;
-    float sum3 = 0.0F;
-    for (std::size_t begin = 0; begin < count; begin += kPointsABlock) {
-      const std::size_t n = std::min(kPointsABlock, count - begin);
-      const float* px = prepared_->endX.data() + begin;
-      const float* py = prepared_->endY.data() + begin;
-      for (std::size_t k = 0; k < n; ++k) {  // vectorizes
-        cells[k] =
-            lookup.index(x + cosine * px[k] - sine * py[k], y + sine * px[k] + cosine * py[k]);
-      }
-      const float* const* logByLevel = prepared_->endLog.data() + begin;
-      const auto at = [&](std::size_t k) {
-        return cells[k] < 0 ? floor : logByLevel[k][levels[cells[k]]];
-      };
-      std::size_t k = 0;
-      for (; k + 4 <= n; k += 4) {
-        sum0 += at(k);
-        sum1 += at(k + 1);
-        sum2 += at(k + 2);
-        sum3 += at(k + 3);
-      }
-      for (; k < n; ++k) sum0 += at(k);
-    }
-    logProbability[i] += (sum0 + sum1) + (sum2 + sum3);
-  }
+  prepared_->endPoints.weigh(grid_, endPoints_, mount(), poses, logProbability);
 }
 
 }  // namespace ortung

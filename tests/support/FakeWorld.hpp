@@ -25,6 +25,9 @@ class FakeWorld : public SimWorld {
 
   void addPost(const Post& post) { posts_.push_back(post); }
   void addLandmark(const Landmark& landmark) { landmarks_.push_back(landmark); }
+  void addLine(const FieldLine& line) { lines_.push_back(line); }
+  /// Something to be recognised; a body that rays hit it has only with addPost() or addRobot().
+  void addObject(const WorldObject& object) { objects_.push_back(object); }
 
   /// Range along one horizontal ray [m], infinite in no direction of a room.
   double range(double x, double y, double angle) const {
@@ -50,13 +53,18 @@ class FakeWorld : public SimWorld {
     rays_ += ranges.size();
   }
 
-  bool isVisible(double x0, double y0, double, double x1, double y1, double, RobotNumber,
+  bool isVisible(double x0, double y0, double, double x1, double y1, double, RobotNumber ignore,
                  double slack) const override {
     const double way = std::hypot(x1 - x0, y1 - y0);
-    return range(x0, y0, std::atan2(y1 - y0, x1 - x0)) >= way - slack;
+    ignored_ = ignore;
+    const bool isSeen = range(x0, y0, std::atan2(y1 - y0, x1 - x0)) >= way - slack;
+    ignored_ = 0;
+    return isSeen;
   }
 
   std::span<const Landmark> landmarks() const override { return landmarks_; }
+  std::span<const FieldLine> lines() const override { return lines_; }
+  std::span<const WorldObject> objects() const override { return objects_; }
 
   bool isFree(double x, double y, double radius) const override {
     const bool isInside = std::abs(x) + radius <= halfWidth_ && std::abs(y) + radius <= halfHeight_;
@@ -127,6 +135,8 @@ class FakeWorld : public SimWorld {
   double halfHeight_;  ///< [m]
   std::vector<Post> posts_;
   std::vector<Landmark> landmarks_;
+  std::vector<FieldLine> lines_;
+  std::vector<WorldObject> objects_;
   std::map<RobotNumber, Post> robots_;
   RobotNumber lastRobot_ = 0;
   std::string name_ = "room";

@@ -1,0 +1,166 @@
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "Colours.hpp"
+#include "IconicSettings.hpp"
+#include "ortung/container/Plugin.hpp"
+#include "ortung/sim_api/Noise.hpp"
+#include "ortung/sim_api/Rays2.hpp"
+#include "ortung/sim_api/Sensor.hpp"
+#include "ortung/sim_api/Sight.hpp"
+
+namespace ortung {
+namespace {
+
+/// A camera that delivers what is in its image instead of the image (paper, section 4).
+class IconicSensor : public Sensor {
+ public:
+  explicit IconicSensor(IconicSettings settings)
+      : settings_(std::move(settings)),
+        noise_{.rangeSigma = settings_.noiseRangeSigma,
+               .rangeSigmaPerMetre = settings_.noiseRangeSigmaPerMetre,
+               .bearingSigma = settings_.noiseBearingSigma,
+               .missedShare = settings_.missedShare,
+               .falseShare = settings_.falseShare} {}
+
+  void generateData(const World& world, const RobotState& robot, Random* noise, Timestamp now,
+                    std::span<SensorData* const> data) override {
+    world_ = &world;
+    random_ = noise;
+    eye_ = {.pose = robot.pose * settings_.mounting.pose,
+            .z = settings_.mounting.z,
+            .fieldOfView = settings_.fieldOfView,
+            .minRange = settings_.minRange,
+            .maxRange = settings_.maxRange,
+            .robot = robot.number};
+    for (SensorData* one : data) one->setData(now, see(one->id().feature));
+  }
+
+  double period() const override { return settings_.period; }
+
+ private:
+  std::vector<std::uint32_t> see(std::string_view feature) {
+    if (feature == "lines") return PointsData::encode(lines());
+    if (feature == "goals") return landmarks(settings_.goals);
+    if (feature == "posts") return landmarks(settings_.posts);
+    if (feature == "robots") return ObjectsData::encode(objects("robot"));
+    if (feature == "obstacles") return ObjectsData::encode(objects("obstacle"));
+    return ObjectsData::encode(objects("ball"));
+  }
+
+  std::optional<Sighting> sensed(const Sighting& truth) const {
+    return random_ == nullptr ? truth : detected(truth, noise_, *random_);
+  }
+  std::optional<Sighting> imagined(double maxRange) const {
+    if (random_ == nullptr) return std::nullopt;
+    Eye eye = eye_;
+    eye.maxRange = maxRange;
+    return falseSighting(eye, noise_, *random_);
+  }
+
+  /// Points where scan lines, which radiate from the camera, cross lines on the floor.
+  std::vector<PointsData::Point> lines() {
+    std::vector<PointsData::Point> points;
+    const bool isAround = settings_.fieldOfView >= kTurn;
+    const int gaps = isAround ? settings_.rays : std::max(settings_.rays - 1, 1);
+    for (int i = 0; i < settings_.rays; ++i) {
+      const double bearing =
+          settings_.rays == 1 ? 0.0 : settings_.fieldOfView * (static_cast<double>(i) / gaps - 0.5);
+      follow(wrapAngle(bearing), points);
+      if (const auto nothing = imagined(settings_.lines.maxRange); nothing)
+        points.push_back({nothing->range, nothing->bearing});
+    }
+    if (points.size() > PointsData::kMostPoints) points.resize(PointsData::kMostPoints);
+    return points;
+  }
+
+  void follow(double bearing, std::vector<PointsData::Point>& points) {
+    const Ray2 ray = rayAlong(eye_.pose.x, eye_.pose.y, eye_.pose.theta + bearing);
+    crossings_.clear();
+    for (const FieldLine& line : world_->lines()) addCrossings(ray, line, crossings_);
+    for (const double range : crossings_) {
+      if (range < settings_.minRange || range > settings_.lines.maxRange) continue;
+      constexpr double kFlat = 0.01;  // the floor does not hide itself [m]
+      if (settings_.occlusion &&
+          !isVisible(*world_, eye_, ray.x + range * ray.dx, ray.y + range * ray.dy, 0.0, kFlat))
+        continue;
+      if (const auto point = sensed({range, bearing}))
+        points.push_back({point->range, point->bearing});
+    }
+  }
+
+  std::vector<std::uint32_t> landmarks(const IconicLandmarks& kind) {
+    LandmarksData::Reading list;
+    const double maxRange = kind.areIdentified ? kind.list.maxRange : kind.points.maxRange;
+    for (const Landmark& landmark : world_->landmarks()) {
+      if (landmark.kind != kind.kind || !isWanted(kind, landmark.identity)) continue;
+      const auto truth = lookAt(eye_, landmark.x, landmark.y);
+      if (!truth || truth->range > maxRange) continue;
+      if (settings_.occlusion &&
+          !isVisible(*world_, eye_, landmark.x, landmark.y, landmark.z, settings_.slack))
+        continue;
+      if (const auto seen = sensed(*truth))
+        list.push_back({landmark.identity, seen->range, seen->bearing});
+    }
+    if (const auto nothing = imagined(maxRange))
+      list.push_back({anyIdentity(kind), nothing->range, nothing->bearing});
+    if (kind.areIdentified) return LandmarksData::encode(list);
+    std::vector<PointsData::Point> points;
+    for (const auto& sighting : list) points.push_back({sighting.range, sighting.bearing});
+    return PointsData::encode(points);
+  }
+
+  static bool isWanted(const IconicLandmarks& kind, std::uint32_t identity) {
+    const auto& wanted = kind.list.identities;
+    return !kind.areIdentified || std::find(wanted.begin(), wanted.end(), identity) != wanted.end();
+  }
+  std::uint32_t anyIdentity(const IconicLandmarks& kind) const {
+    const auto& known = kind.list.identities;
+    return known.empty() ? 0 : known[random_->below(known.size())];
+  }
+
+  std::vector<ObjectsData::Object> objects(std::string_view kind) {
+    std::vector<ObjectsData::Object> list;
+    for (const WorldObject& object : world_->objects()) {
+      const bool isOwn = object.robot != 0 && object.robot == eye_.robot;
+      if (object.kind != kind || isOwn || list.size() + 1 >= ObjectsData::kMostObjects) continue;
+      const auto truth = lookAt(eye_, object.pose.x, object.pose.y);
+      if (!truth) continue;
+      if (settings_.occlusion) {
+        const double share = visibleShare(*world_, eye_, object);
+        if (share <= 0.0 || share < settings_.visibleShare) continue;
+      }
+      if (const auto seen = sensed(*truth))
+        list.push_back({0, colourWord(object.colour), seen->range, seen->bearing, object.radius});
+    }
+    if (const auto nothing = imagined(settings_.maxRange))
+      list.push_back({0, ObjectsData::kNoColour, nothing->range, nothing->bearing, 0.0});
+    return list;
+  }
+
+  IconicSettings settings_;
+  SightingNoise noise_;
+  // Of the call of generateData() that is under way.
+  const World* world_ = nullptr;
+  Random* random_ = nullptr;  ///< null: without noise
+  Eye eye_;
+  std::vector<double> crossings_;  ///< of one scan line [m]
+};
+
+class IconicOmnivision : public IconicSensor {
+ public:
+  explicit IconicOmnivision(const Parameters& p) : IconicSensor(readOmnivisionSettings(p)) {}
+};
+
+class IconicCamera : public IconicSensor {
+ public:
+  explicit IconicCamera(const Parameters& p) : IconicSensor(readCameraSettings(p)) {}
+};
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("iconic_sensor",
+               ortung::provide<ortung::Sensor, ortung::IconicOmnivision>("iconic_omnivision"),
+               ortung::provide<ortung::Sensor, ortung::IconicCamera>("iconic_camera"));

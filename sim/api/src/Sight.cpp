@@ -1,0 +1,54 @@
+#include "ortung/sim_api/Sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ortung {
+namespace {
+
+constexpr double kSeen[] = {-0.8, -0.4, 0.0, 0.4, 0.8};  // places across a body, of its half width
+constexpr double kOwn =
+    0.02;  // a body does not hide itself where it is not as round as its circle [m]
+
+/// Half of a body's width across a line of sight [m].
+double halfWidthAcross(const WorldObject& object, double angle) {
+  const double turn = angle - object.pose.theta;
+  const double x = object.halfX * std::sin(turn);
+  const double y = object.halfY * std::cos(turn);
+  return object.isRound ? std::hypot(x, y) : std::abs(x) + std::abs(y);
+}
+
+}  // namespace
+
+std::optional<Sighting> lookAt(const Eye& eye, double x, double y) {
+  const double dx = x - eye.pose.x;
+  const double dy = y - eye.pose.y;
+  const Sighting sighting{std::hypot(dx, dy), wrapAngle(std::atan2(dy, dx) - eye.pose.theta)};
+  const bool isInView = eye.fieldOfView >= 2.0 * std::numbers::pi ||
+                        std::abs(sighting.bearing) <= eye.fieldOfView / 2.0;
+  if (!isInView || !(sighting.range >= eye.minRange) || !(sighting.range <= eye.maxRange))
+    return std::nullopt;
+  return sighting;
+}
+
+bool isVisible(const World& world, const Eye& eye, double x, double y, double z, double slack) {
+  return world.isVisible(eye.pose.x, eye.pose.y, eye.z, x, y, z, eye.robot, slack);
+}
+
+double visibleShare(const World& world, const Eye& eye, const WorldObject& object) {
+  const double dx = object.pose.x - eye.pose.x;
+  const double dy = object.pose.y - eye.pose.y;
+  const double way = std::hypot(dx, dy);
+  if (way <= object.radius) return 1.0;  // the eye is within it or above it
+  const double half = halfWidthAcross(object, std::atan2(dy, dx));
+  const double z = (object.zLow + object.zHigh) / 2.0;
+  int seen = 0;
+  for (const double place : kSeen) {
+    const double x = object.pose.x - dy / way * place * half;
+    const double y = object.pose.y + dx / way * place * half;
+    seen += isVisible(world, eye, x, y, z, object.radius + kOwn) ? 1 : 0;
+  }
+  return static_cast<double>(seen) / static_cast<double>(std::size(kSeen));
+}
+
+}  // namespace ortung
