@@ -43,8 +43,7 @@ FakeWorld field() {
   world.addLandmark({2, "goal", 5.9, 0.0, 0.5});
   world.addLandmark({1, "post", 5.0, 3.0, 0.5});
   world.addObject(round("ball", "orange", 1.0, 2.0, 0.11));
-  const RobotNumber number = world.addRobot(0.25, 0.7);
-  world.moveRobot(number, {0.0, -2.0, 0.0});
+  const RobotNumber number = world.addRound(0.25, 0.0, -2.0);
   WorldObject robot = round("robot", "cyan", 0.0, -2.0, 0.25);
   robot.robot = number;
   world.addObject(robot);
@@ -104,8 +103,7 @@ TEST(IconicPlugin, PutsPointsWhereItsScanLinesCrossLines) {
 
 TEST(IconicPlugin, RobotsHideLines) {
   FakeWorld world = field();
-  const RobotNumber number = world.addRobot(0.5, 0.7);
-  world.moveRobot(number, {2.0, 0.0, 0.0});
+  world.addRound(0.5, 2.0, 0.0);
   SensorRig rig("iconic_omnivision",
                 "see = ['lines']\nlines = { rays = 36, max_range_m = 5 }\nmax_range_m = 8");
   rig.sense(world, {1.0, 0.0, 0.0});

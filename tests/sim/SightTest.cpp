@@ -136,8 +136,7 @@ TEST(Sight, SharesFallAsABodyMovesBehindAnother) {
 
 TEST(Sight, ItsOwnRobotHidesNothing) {
   FakeWorld room(20, 20);
-  const RobotNumber robot = room.addRobot(0.25, 0.5);
-  room.moveRobot(robot, {0.5, 0, 0});
+  const RobotNumber robot = room.addRound(0.25, 0.5, 0.0);
   Eye eye;
   EXPECT_FALSE(isVisible(room, eye, 3, 0, 0.5, 0.1));
   eye.robot = robot;

@@ -24,9 +24,14 @@ class FakeWorld : public SimWorld {
   FakeWorld(double width, double height) : halfWidth_(width / 2.0), halfHeight_(height / 2.0) {}
 
   void addPost(const Post& post) { posts_.push_back(post); }
+  /// A robot, which its own rays ignore.
+  RobotNumber addRound(double radius, double x, double y) {
+    robots_[++lastRobot_] = {x, y, radius};
+    return lastRobot_;
+  }
   void addLandmark(const Landmark& landmark) { landmarks_.push_back(landmark); }
   void addLine(const FieldLine& line) { lines_.push_back(line); }
-  /// Something to be recognised; a body that rays hit it has only with addPost() or addRobot().
+  /// Something to be recognised; a body that rays hit it has only with addPost() or addRound().
   void addObject(const WorldObject& object) { objects_.push_back(object); }
 
   /// Range along one horizontal ray [m], infinite in no direction of a room.
