@@ -117,7 +117,7 @@ void learn(const SimWorld& world, const FieldRegion& region, const std::vector<D
       if (!data->localizes()) continue;
       data->beginLearning(region, options.headingStep);
       learning.push_back(data);
-      addTo(sweeps, *sensors.back(), *data);
+      if (data->headingSpacing() > 0.0) addTo(sweeps, *sensors.back(), *data);
     }
   }
   const auto open = static_cast<std::size_t>(std::count_if(

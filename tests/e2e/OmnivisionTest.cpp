@@ -69,7 +69,8 @@ class Omnivision : public testing::Test {
   }
 
   /// The robot that ships, with odometry and the sensors of these plugins alone.
-  std::filesystem::path robotWith(const std::vector<std::string>& plugins) const {
+  std::filesystem::path robotWith(const std::vector<std::string>& plugins,
+                                  const std::string& another = "") const {
     const std::string kSensor = "[[sensor]]\n";
     std::string text = readBytes(kRobot);
     std::size_t begin = text.find(kSensor);
@@ -82,7 +83,7 @@ class Omnivision : public testing::Test {
       if (!stays) text.erase(begin, end - begin);
       begin = text.find(kSensor, stays ? begin + 1 : begin);
     }
-    std::ofstream(folder_ / "robot.toml") << text;
+    std::ofstream(folder_ / "robot.toml") << text << another;
     return folder_ / "robot.toml";
   }
 
@@ -113,6 +114,27 @@ TEST_F(Omnivision, AloneIsRightOrExactlyHalfATurnOff) {
   // Nothing tells the halves apart, so both happen.
   EXPECT_GT(all.right, 0);
   EXPECT_GT(all.mirrored, 0);
+}
+
+/// A scanner that finds its position by itself.
+class IconicLaser : public Omnivision {};
+
+TEST_F(IconicLaser, FindsItselfByWallsAndGoalsWithACompass) {
+  learn(robotWith({"odometry", "compass"}, R"(
+[[sensor]]
+plugin = "lrf_iconic"
+pose = { x_m = 0.1, z_m = 0.25 }
+beams = 360
+fov_deg = 360
+max_range_m = 30
+noise_sigma_m = 0.03
+)"));
+  for (const int seed : {1, 2}) {
+    const Counts counts = drive(seed);
+    EXPECT_GT(counts.steps, 90) << seed;
+    EXPECT_EQ(counts.right, counts.steps) << seed;
+    EXPECT_LT(counts.worst, 0.15) << seed;
+  }
 }
 
 }  // namespace

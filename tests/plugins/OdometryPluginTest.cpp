@@ -25,6 +25,17 @@ TEST(OdometryPlugin, TellsWhatTheDriveMeasured) {
   EXPECT_NEAR(reading.rotationalVelocity, -0.5, 1e-4);
 }
 
+TEST(OdometryPlugin, PassesOnTheDrivesMotionData) {
+  const FakeWorld room(4.0, 4.0);
+  SensorRig rig("odometry", "");
+  const std::vector<std::uint32_t> inner = {words::fromSignedMetres(0.5), 0, 4294967295u};
+  RobotState state;
+  state.motionData = inner;
+  rig.sensor->generateData(room, state, nullptr, 1, rig.data);
+  EXPECT_EQ(rig.get<OdometryData>().reading().motionData, inner);
+  EXPECT_EQ(rig.data[0]->getData().size(), 5 + inner.size());
+}
+
 TEST(OdometryPlugin, RefusesWrongSettingsByName) {
   expectRefusal("odometry", "period_s = -1", {"test.toml", "period_s", "-1"});
   expectRefusal("odometry", "noise = 1", {"noise"});

@@ -46,6 +46,38 @@ TEST(SonarPlugin, MeasuresTheNearestPointWithinItsCone) {
   EXPECT_NEAR(rig.get<ConeData>().reading(), away / std::cos(30.0 * kDegree), 0.001);
 }
 
+TEST(SonarPlugin, FiresInGroupsInItsOrder) {
+  const FakeWorld room(4.0, 4.0);
+  SensorRig rig("sonar",
+                "angles_deg = [0, 90, 180, 270]\nfiring_order = [0, 2, 3, 1]\n"
+                "fire_at_once = 2\nperiod_s = 0.2");
+  EXPECT_DOUBLE_EQ(rig.sensor->period(), 0.1);  // two groups in 0.2 s
+  Random noise(1);
+  const auto counts = [&] {
+    std::vector<std::uint64_t> all;
+    for (const SensorData* one : rig.data) all.push_back(one->sequence());
+    return all;
+  };
+  using Counts = std::vector<std::uint64_t>;
+  rig.sense(room, {}, &noise);
+  EXPECT_EQ(counts(), (Counts{1, 0, 1, 0}));
+  rig.sense(room, {}, &noise);
+  EXPECT_EQ(counts(), (Counts{1, 1, 1, 1}));
+  rig.sense(room, {}, &noise);
+  EXPECT_EQ(counts(), (Counts{2, 1, 2, 1}));
+  rig.sense(room, {});  // without noise, as the learner does: all
+  EXPECT_EQ(counts(), (Counts{3, 2, 3, 2}));
+}
+
+TEST(SonarPlugin, RefusesAWrongFiringOrder) {
+  const std::string four = "angles_deg = [0, 90, 180, 270]\n";
+  expectRefusal("sonar", four + "fire_at_once = 3", {"fire_at_once", "3", "divide"});
+  expectRefusal("sonar", four + "firing_order = [0, 1, 2]", {"firing_order"});
+  expectRefusal("sonar", four + "firing_order = [0, 1, 2, 2]", {"firing_order", "once"});
+  expectRefusal("sonar", four + "firing_order = [0, 1, 2, 4]", {"firing_order", "0 to 3"});
+  expectRefusal("sonar", four + "firing_order = [0, 1, 2, 0.5]", {"firing_order", "0.5"});
+}
+
 TEST(SonarPlugin, SeesNothingBeyondItsRange) {
   const FakeWorld room(20.0, 20.0);
   SensorRig rig("sonar", "angles_deg = [0, 180]\nmax_range_m = 3");

@@ -24,9 +24,11 @@ struct Cone {
     const double toEachSide = std::max(std::ceil(half / radians(2.0)), double{kFewest});
     step = half / toEachSide;
     slices.push_back({0.0, static_cast<int>(toEachSide)});
-    // At 0.6 of the way up, the cone is 0.8 as wide.
-    for (const double share : {-0.6, 0.6})
-      slices.push_back({share * half, static_cast<int>(std::floor(0.8 * toEachSide + 1e-9))});
+    // At 0.6 of the way up, the cone is 0.8 as wide; at 0.28 it is 0.96, at 0.96 it is 0.28.
+    for (const double share : {0.28, 0.6, 0.96})
+      for (const double side : {-share, share})
+        slices.push_back({side * half, static_cast<int>(std::floor(
+                                           std::sqrt(1.0 - share * share) * toEachSide + 1e-9))});
   }
   double step;  ///< between rays of a slice [rad]
   std::vector<Slice> slices;
@@ -107,25 +109,46 @@ class SonarSensor : public Sensor {
 
   void generateData(const World& world, const RobotState& robot, Random* noise, Timestamp now,
                     std::span<SensorData* const> data) override {
-    for (SensorData* one : data) {
-      // The data half has put each sonar to its place on the ring.
-      const Pose2 sonar = robot.pose * one->mount();
-      double range = 0.0;
-      if (noise == nullptr) {
-        if (!panorama_.isOf(world, sonar, now)) panorama_.look(world, sonar, robot.number, now);
-        range = seen(panorama_.nearest(sonar.theta));
-      } else {
-        range = measured(seen(nearest(world, sonar, robot.number)), *noise);
-      }
-      if (std::isfinite(range)) range = std::max({range, settings_.minRange, 0.001});
-      const std::uint32_t word = ConeData::encode(range, settings_.cone.maxRange);
-      one->setData(now, {&word, 1});
-    }
+    if (noise == nullptr)
+      for (std::size_t i = 0; i < data.size(); ++i) fire(world, robot, nullptr, now, *data[i]);
+    else
+      fireGroup(world, robot, *noise, now, data);
   }
 
-  double period() const override { return settings_.period; }
+  /// All fire once in a period, one group after the other.
+  double period() const override {
+    return settings_.period * static_cast<double>(settings_.atOnce) /
+           static_cast<double>(settings_.mounts.size());
+  }
 
  private:
+  /// Sonars of one group fire together, far enough from each other not to hear their neighbours'
+  /// echoes; the next call fires the next group.
+  void fireGroup(const World& world, const RobotState& robot, Random& noise, Timestamp now,
+                 std::span<SensorData* const> data) {
+    for (std::size_t k = 0; k < settings_.atOnce; ++k) {
+      const std::size_t sonar = settings_.firingOrder[next_ + k];
+      if (sonar < data.size()) fire(world, robot, &noise, now, *data[sonar]);
+    }
+    next_ = (next_ + settings_.atOnce) % settings_.firingOrder.size();
+  }
+
+  void fire(const World& world, const RobotState& robot, Random* noise, Timestamp now,
+            SensorData& one) {
+    // The data half has put each sonar to its place on the ring.
+    const Pose2 sonar = robot.pose * one.mount();
+    double range = 0.0;
+    if (noise == nullptr) {
+      if (!panorama_.isOf(world, sonar, now)) panorama_.look(world, sonar, robot.number, now);
+      range = seen(panorama_.nearest(sonar.theta));
+    } else {
+      range = measured(seen(nearest(world, sonar, robot.number)), *noise);
+    }
+    if (std::isfinite(range)) range = std::max({range, settings_.minRange, 0.001});
+    const std::uint32_t word = ConeData::encode(range, settings_.cone.maxRange);
+    one.setData(now, {&word, 1});
+  }
+
   /// Nearest surface within the cone, or the greatest range [m].
   double nearest(const World& world, const Pose2& sonar, RobotNumber robot) {
     auto range = static_cast<float>(settings_.cone.maxRange);
@@ -165,6 +188,7 @@ class SonarSensor : public Sensor {
   Cone cone_;
   Panorama panorama_;
   std::vector<float> ranges_;  ///< of one slice [m]
+  std::size_t next_ = 0;       ///< place in the firing order
 };
 
 }  // namespace

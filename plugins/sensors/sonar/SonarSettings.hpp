@@ -14,13 +14,37 @@ struct SonarSettings {
   double z = 0.0;             ///< above the floor [m]
   std::vector<Pose2> mounts;  ///< of each sonar in the robot frame
   ConeData::Config cone;
-  double minRange = 0.0;    ///< nearer echoes come back as this [m]
-  double period = 0.1;      ///< [s]
-  double noiseSigma = 0.0;  ///< of simulated ranges at range 0 [m]
+  double minRange = 0.0;                 ///< nearer echoes come back as this [m]
+  double period = 0.1;                   ///< in which all fire once [s]
+  std::vector<std::size_t> firingOrder;  ///< indices of mounts, each once
+  std::size_t atOnce = 1;                ///< how many of the order fire together
+  double noiseSigma = 0.0;               ///< of simulated ranges at range 0 [m]
   double noiseSigmaPerMetre = 0.0;
   double missedShare = 0.0;  ///< of echoes that do not come back
   double falseShare = 0.0;   ///< of readings that are too short, anywhere before the echo
 };
+
+/// Reads firing_order and fire_at_once; without them all fire together.
+inline void readFiring(const Parameters& p, SonarSettings& s) {
+  const std::size_t count = s.mounts.size();
+  const auto whole = static_cast<std::int64_t>(count);
+  s.atOnce = static_cast<std::size_t>(p.integerOr("fire_at_once", whole, {1, 64}));
+  if (count % s.atOnce != 0)
+    p.fail("fire_at_once", "is " + std::to_string(s.atOnce) +
+                               ", must divide the number of sonars, " + std::to_string(count));
+  std::vector<double> inTurn(count);
+  for (std::size_t i = 0; i < count; ++i) inTurn[i] = static_cast<double>(i);
+  std::vector<bool> fires(count, false);
+  for (const double number :
+       p.numbersOr("firing_order", inTurn, static_cast<int>(count), {0.0, 63.0})) {
+    const auto index = static_cast<std::size_t>(number);
+    if (static_cast<double>(index) != number || index >= count || fires[index])
+      p.fail("firing_order", "has " + std::to_string(number) + ", must have each of 0 to " +
+                                 std::to_string(count - 1) + " once");
+    fires[index] = true;
+    s.firingOrder.push_back(index);
+  }
+}
 
 /// Reads all settings of both halves. @throws ConfigError
 inline SonarSettings readSonarSettings(const Parameters& p) {
@@ -37,6 +61,7 @@ inline SonarSettings readSonarSettings(const Parameters& p) {
     s.mounts.push_back(ring.pose *
                        Pose2{radius * std::cos(angle), radius * std::sin(angle), angle});
   }
+  readFiring(p, s);
   s.cone.openingAngle = radians(p.numberOr("opening_deg", 20.0, {0.1, 120.0}));
   s.cone.maxRange = p.numberOr("max_range_m", 3.0, {0.05, 100.0});
   s.minRange = p.numberOr("min_range_m", 0.0, {0.0, s.cone.maxRange});

@@ -1,0 +1,21 @@
+#include "LrfIconicSettings.hpp"
+#include "ortung/container/Plugin.hpp"
+
+namespace ortung {
+namespace {
+
+DeviceData makeLrfIconic(const Parameters& p) {
+  const LrfIconicSettings s = readLrfIconicSettings(p);
+  DeviceData data;
+  SensorId id = s.id;
+  id.feature = "obstacles";
+  data.push_back(std::make_unique<ObstaclesData>(id, s.mounting.pose));
+  id.feature = "position";
+  data.push_back(std::make_unique<PoseFixData>(id, s.fix));
+  return data;
+}
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("lrf_iconic_data", ortung::provideData<ortung::makeLrfIconic>("lrf_iconic"));

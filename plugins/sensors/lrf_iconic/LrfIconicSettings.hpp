@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+
+#include "../common/SensorSettings.hpp"
+#include "../lrf/LrfSettings.hpp"
+#include "ObstaclesData.hpp"
+#include "PoseFixData.hpp"
+#include "ScanShapes.hpp"
+
+namespace ortung {
+
+/// Settings of both halves of the laser range finder that says what it sees.
+struct LrfIconicSettings {
+  SensorId id;  ///< its feature is not used
+  Mounting mounting;
+  ScanData::Config scan;  ///< beams and ranges alone
+  ScanShapesConfig shapes;
+  PoseFixData::Config fix;
+  double shareMatched = 0.6;  ///< of points on straight pieces that must be of walls
+  int mostFixes = 8;
+  double period = 0.1;       ///< [s]
+  double noiseSigma = 0.03;  ///< of simulated ranges at range 0 [m]
+  double noiseSigmaPerMetre = 0.0;
+  double dropoutShare = 0.0;
+};
+
+/// Reads all settings of both halves. @throws ConfigError
+inline LrfIconicSettings readLrfIconicSettings(const Parameters& p) {
+  LrfIconicSettings s;
+  if (p.has("feature")) p.fail("feature", "is given, but the features are obstacles and position");
+  s.id = sensorIdOf(p, {"LMS200", "LRF", "iconic"});
+  s.mounting = readMounting(p, 0.3);
+  readBeams(p, s.scan);
+  s.scan.maxRange = p.numberOr("max_range_m", 8.0, {0.05, 1000.0});
+  s.scan.minRange = p.numberOr("min_range_m", 0.0, {0.0, s.scan.maxRange});
+  s.shapes.breakDistance = p.numberOr("break_m", s.shapes.breakDistance, {0.01, 10.0});
+  s.shapes.lineTolerance = p.numberOr("line_tolerance_m", s.shapes.lineTolerance, {0.001, 1.0});
+  s.shapes.shortest = p.numberOr("shortest_line_m", s.shapes.shortest, {0.05, 10.0});
+  s.shapes.largestRound = p.numberOr("largest_round_m", s.shapes.largestRound, {0.02, 10.0});
+  s.shareMatched = p.numberOr("share_matched", s.shareMatched, {0.0, 1.0});
+  s.mostFixes = static_cast<int>(p.integerOr("most_positions", 8, {1, 64}));
+  s.fix.addedSigma = p.numberOr("sigma_m", s.fix.addedSigma, {1e-4, 100.0});
+  s.fix.addedHeadingSigma = radians(p.numberOr("sigma_deg", 2.0, {1e-3, 180.0}));
+  s.fix.model.outliers = p.numberOr("outliers", 0.05, {1e-6, 1.0 - 1e-6});
+  s.fix.model.exponent = p.numberOr("exponent", 1.0, {1e-3, 1.0});
+  s.period = readPeriod(p, 0.1);
+  s.noiseSigma = p.numberOr("noise_sigma_m", s.noiseSigma, {0.0, 10.0});
+  s.noiseSigmaPerMetre = p.numberOr("noise_sigma_per_m", 0.0, {0.0, 1.0});
+  s.dropoutShare = readShare(p, "dropout_share");
+  return s;
+}
+
+}  // namespace ortung
