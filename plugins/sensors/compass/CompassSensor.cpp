@@ -13,7 +13,8 @@ class CompassSensor : public Sensor {
                     std::span<SensorData* const> data) override {
     double bearing = settings_.north - robot.pose.theta - settings_.mounting.pose.theta;
     if (noise != nullptr) bearing += settings_.noiseSigma * noise->gaussian();
-    for (SensorData* one : data) one->setData(now, BearingData::encode(bearing));
+    const std::uint32_t word = words::fromAngle(bearing);
+    for (SensorData* one : data) one->setData(now, {&word, 1});
   }
 
   double period() const override { return settings_.period; }
