@@ -22,16 +22,29 @@ constexpr double kMaxVelocity = 100.0;  // [m/s], [rad/s]
 // Near those measured against Vicon over all robots of run 6 (realsensors/README.md). Ranges and
 // bearings err alike from image to image (each robot has its own bias, of bearings up to 0.8 degrees),
 // hence the exponent and a sigma of bearings wider than the spread.
-constexpr const char* kNoise = R"(range_sigma_m = 0.08
+constexpr const char* kModels = R"(range_sigma_m = 0.08
 range_sigma_per_m = 0.03
 bearing_sigma_deg = 1.2
 outliers = 0.1
-exponent = 0.3
+exponent = 0.2
 
 [mcl]
 min_distance_m = 0.02
 min_rotation_deg = 1
 max_interval_s = 0.3
+
+# Odometry is made of commands. Learned by `ortung learn-motion` from robots 1 and 2 of run 6; the
+# others have nearly the same delay and scales.
+[motion]
+delay_s = 0.2
+way_scale = 1.05
+turn_scale = 0.94
+way_bias_m_per_rad = -0.1
+turn_per_turn = 0.1
+turn_per_m = 0.05
+way_per_m = 0.02
+way_per_turn = 0.02
+slip_share = 0.15
 )";
 
 struct Place {
@@ -265,7 +278,7 @@ std::string MrclamSource::robotToml() const {
          std::string(each_ ? "features = \"each\"\n"
                            : "feature = \"posts\"\nfeatures = \"list\"\n") +
          "kind = \"post\"\nidentities = [" + identities +
-         "]\nmax_range_m = " + tomlNumber(kMaxRange) + "\nfov_deg = 70.0\n" + kNoise;
+         "]\nmax_range_m = " + tomlNumber(kMaxRange) + "\nfov_deg = 70.0\n" + kModels;
 }
 
 void MrclamSource::writeWorld(const std::filesystem::path& file) const {
