@@ -59,6 +59,21 @@ TEST(Faults, AClientKilledInTheMiddleOfARobotFileLeavesNothing) {
   EXPECT_EQ(valueOf(observer.ask("STATUS"), "robots"), "0");
 }
 
+TEST(Faults, AScriptThatEndsItsInputIsAnsweredToTheEnd) {
+  CountingWorld world;
+  const RunningBoard board(world, {});
+  for (const std::string end : {"", "BYE\n"}) {
+    TestClient script(board.port());
+    script.send("HELLO ortung/1\nCREATE a\n" + std::string(kAnyRobot) + ".\nSTATUS\nFLY\n" + end);
+    script.endInput();
+    const std::string all = script.rest();
+    EXPECT_NE(all.find("OK HELLO"), std::string::npos) << all;
+    EXPECT_NE(all.find("OK CREATE"), std::string::npos) << all;
+    EXPECT_NE(all.find("OK STATUS"), std::string::npos) << all;
+    EXPECT_NE(all.find("ERR unknown"), std::string::npos) << all;
+  }
+}
+
 TEST(Faults, AClientKilledInLockstepDoesNotHoldTheOthers) {
   CountingWorld world;
   const RunningBoard board(world, lockstepConfig());

@@ -45,6 +45,8 @@ bool TestClient::fill() {
   return count > 0;
 }
 
+void TestClient::endInput() { ::shutdown(socket_, SHUT_WR); }
+
 std::string TestClient::line() {
   std::size_t end;
   while ((end = input_.find('\n')) == std::string::npos)

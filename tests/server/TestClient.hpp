@@ -25,6 +25,8 @@ class TestClient {
   std::string rest();
   /// Reads lines until one contains @p text, and returns it.
   std::string lineWith(const std::string& text);
+  /// Sends no more, but still reads: what netcat does at the end of a script.
+  void endInput();
   /// Closes at once, as a process that is killed does: the server sees a reset.
   void kill();
   /// Makes the kernel hold back little, so that a slow reader shows soon.

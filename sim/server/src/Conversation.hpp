@@ -73,6 +73,10 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   bool hasJoined() const { return hasJoined_; }
   bool isSubscribed() const { return subscription_.has_value(); }
   bool isWaiting() const { return waiting_ > 0 || pending_ > 0; }
+  /// Whether it asked for something that is not answered yet.
+  bool hasOpenRequests() const {
+    return !isOver_ && (isWaiting() || input_.find('\n', taken_) != std::string::npos);
+  }
   ClientId id() const { return id_; }
 
  private:

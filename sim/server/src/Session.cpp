@@ -49,12 +49,23 @@ void Session::start() {
 }
 
 void Session::read() {
+  if (hasEnded_ && !isFinishing_) {
+    if (!conversation_->hasOpenRequests()) finish();
+    return;
+  }
   if (isReading_ || isClosed_ || !(isFinishing_ || conversation_->wantsInput())) return;
   isReading_ = true;
   socket_.async_read_some(
       boost::asio::buffer(buffer_),
       [self = shared_from_this()](const boost::system::error_code& error, std::size_t count) {
         self->isReading_ = false;
+        if (error == boost::asio::error::eof && !self->isFinishing_ && !self->isClosed_ &&
+            self->conversation_->hasOpenRequests()) {
+          // Nothing more will come, but it may wait for answers: a script piped into netcat does.
+          self->hasEnded_ = true;
+          self->heard_ = wallTime();
+          return;
+        }
         if (error || self->isClosed_) {
           self->close();
           return;
@@ -131,6 +142,11 @@ void Session::look(Timestamp now) {
   }
   if (isFinishing_) {
     if (hasPassed(finished_, now, kFarewell)) close();
+    return;
+  }
+  if (hasEnded_) {
+    if (!conversation_->hasOpenRequests()) finish();
+    if (hasPassed(heard_, now, kFarewell)) close();
     return;
   }
   if (!conversation_->hasJoined() && hasPassed(started_, now, limits_.handshake)) {

@@ -47,6 +47,7 @@ class Session : public std::enable_shared_from_this<Session> {
   bool isReading_ = false;
   bool isWriting_ = false;
   bool isFinishing_ = false;
+  bool hasEnded_ = false;  ///< the client sends no more
   bool isClosed_ = false;
 };
 
