@@ -62,6 +62,11 @@ def import_mrclam(ortung, data, out):
         run([ortung, "import", "mrclam", os.path.join(data, "utias_mrclam/ds6"), "--robot", robot, "--out",
              base[robot - 1] + ".rec", "--world", os.path.join(out, "ds6.toml"), "--robot-file",
              base[robot - 1] + "-robot.toml", "--force"])
+        # What was learned of these robots is in the file already: here it is learned anew.
+        with open(base[robot - 1] + "-robot.toml") as file:
+            text = file.read()
+        with open(base[robot - 1] + "-robot.toml", "w") as file:
+            file.write(text.split("[motion]")[0])
     return base
 
 
