@@ -112,10 +112,10 @@ struct RemoteRobot::Parts {
       action();
       return true;
     } catch (const ConnectionLost& error) {
+      report(error.what());  // before it shows as not connected
       drop();
       pause = kFirstPause;
       nextAttempt = steady_clock::now();
-      report(error.what());
     } catch (const std::exception& error) {  // refused, or words that a feature refuses
       report(error.what());
     }
@@ -129,10 +129,10 @@ struct RemoteRobot::Parts {
       report("");
       return true;
     } catch (const std::exception& error) {
+      report(error.what());
       drop();
       nextAttempt = steady_clock::now() + seconds(pause);
       pause = std::min(2.0 * pause, kLongestPause);
-      report(error.what());
       return false;
     }
   }
