@@ -10,9 +10,9 @@ import argparse
 import json
 import os
 import re
-import subprocess
-import sys
 import tempfile
+
+from evaluate import run
 
 HAND_SET = {  # turn_per_turn, turn_per_m, way_per_m, way_per_turn
     "default": "",
@@ -25,13 +25,6 @@ HAND_SET = {  # turn_per_turn, turn_per_m, way_per_m, way_per_turn
 }
 LASER = ["carmen/intel", "carmen/freiburg-101", "mrpt_sena_telecom", "mrpt_localization_demo"]
 HEAD = "| motion | runs | converged | median [m] | RMSE [m] | heading RMSE [deg] | NEES | lost |\n|" + "---|" * 8
-
-
-def run(arguments):
-    result = subprocess.run([str(a) for a in arguments], capture_output=True, text=True)
-    if result.returncode != 0:
-        sys.exit("%s\n%s" % (" ".join(map(str, arguments)), result.stderr))
-    return result.stdout
 
 
 def keep(file, out, drop):

@@ -31,9 +31,11 @@ RULE = "|" + "---|" * 13
 
 
 def run(arguments):
-    result = subprocess.run(arguments, capture_output=True, text=True)
+    """What a command prints; its trouble ends the script."""
+    result = subprocess.run([str(a) for a in arguments], capture_output=True, text=True)
     if result.returncode != 0:
-        sys.exit("%s\n%s" % (" ".join(arguments), result.stderr))
+        sys.exit("%s\n%s" % (" ".join(map(str, arguments)), result.stderr))
+    return result.stdout
 
 
 def mean(values):

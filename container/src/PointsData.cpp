@@ -5,6 +5,7 @@
 
 #include "EndPointWeigher.hpp"
 #include "FormatTools.hpp"
+#include "ortung/container/OneSample.hpp"
 
 namespace ortung {
 namespace {
@@ -122,12 +123,7 @@ std::vector<double> PointsData::expectation(const Pose2& pose) const {
 double PointsData::logProbabilityAt(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
   if (grid_.cellAt(sensor.x, sensor.y) < 0) return std::numeric_limits<double>::quiet_NaN();
-  const auto x = static_cast<float>(pose.x);
-  const auto y = static_cast<float>(pose.y);
-  const auto theta = static_cast<float>(pose.theta);
-  float logProbability = 0.0F;
-  weigh({{&x, 1}, {&y, 1}, {&theta, 1}}, {&logProbability, 1});
-  return static_cast<double>(logProbability);
+  return weighOne(pose, [this](const SampleView& one, std::span<float> out) { weigh(one, out); });
 }
 
 void PointsData::weigh(const SampleView& poses, std::span<float> logProbability) const {

@@ -7,6 +7,7 @@
 #include "FormatTools.hpp"
 #include "ScanCost.hpp"
 #include "ScanPrepared.hpp"
+#include "ortung/container/OneSample.hpp"
 
 namespace ortung {
 namespace {
@@ -78,12 +79,7 @@ double ScanData::logProbabilityAt(const Pose2& pose) const {
   const bool expects =
       rays ? rays_.row(sensor.x, sensor.y) != nullptr : grid_.cellAt(sensor.x, sensor.y) >= 0;
   if (!expects) return std::numeric_limits<double>::quiet_NaN();
-  const auto x = static_cast<float>(pose.x);
-  const auto y = static_cast<float>(pose.y);
-  const auto theta = static_cast<float>(pose.theta);
-  float logProbability = 0.0F;
-  weigh({{&x, 1}, {&y, 1}, {&theta, 1}}, {&logProbability, 1});
-  return static_cast<double>(logProbability);
+  return weighOne(pose, [this](const SampleView& one, std::span<float> out) { weigh(one, out); });
 }
 
 void ScanData::weigh(const SampleView& poses, std::span<float> logProbability) const {

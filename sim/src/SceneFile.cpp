@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "PrimitiveFile.hpp"
+#include "ReadTables.hpp"
 #include "ortung/config/TomlFile.hpp"
 #include "ortung/sim/Scene.hpp"
 
@@ -74,14 +75,6 @@ ScenePlacement readPlacement(const Parameters& table) {
                         radians(table.numberOr("rotational_deg_s", 0.0, kTurn))};
   table.refuseUnread();
   return placement;
-}
-
-std::vector<Parameters> readTables(const Parameters& file, const char* key, std::size_t most) {
-  auto tables = file.tables(key);
-  if (tables.size() > most)
-    file.fail(key, "there are " + std::to_string(tables.size()) + ", expected at most " +
-                       std::to_string(most));
-  return tables;
 }
 
 }  // namespace

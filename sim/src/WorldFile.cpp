@@ -4,6 +4,7 @@
 #include <set>
 
 #include "PrimitiveFile.hpp"
+#include "ReadTables.hpp"
 #include "WorldModel.hpp"
 #include "ortung/config/TomlFile.hpp"
 
@@ -114,15 +115,6 @@ Landmark readLandmark(const Parameters& table) {
   mark.y = position[1];
   mark.z = position.size() == 3 ? position[2] : kDefaultMarkHeight;
   return mark;
-}
-
-/// The tables of an array, unless there are too many.
-std::vector<Parameters> readTables(const Parameters& file, const char* key, std::size_t most) {
-  auto tables = file.tables(key);
-  if (tables.size() > most)
-    file.fail(key, "there are " + std::to_string(tables.size()) + ", expected at most " +
-                       std::to_string(most));
-  return tables;
 }
 
 class Extent {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "ortung/container/Formats.hpp"
+#include "ortung/container/OneSample.hpp"
 
 namespace ortung {
 namespace {
@@ -143,12 +144,7 @@ void PoseFixData::useTables(const TableFile&, const std::string&, const FieldGri
 
 double PoseFixData::logProbabilityAt(const Pose2& pose) const {
   if (grid_.cellAt(pose.x, pose.y) < 0) return std::numeric_limits<double>::quiet_NaN();
-  const auto x = static_cast<float>(pose.x);
-  const auto y = static_cast<float>(pose.y);
-  const auto theta = static_cast<float>(pose.theta);
-  float logProbability = 0.0F;
-  weigh({{&x, 1}, {&y, 1}, {&theta, 1}}, {&logProbability, 1});
-  return static_cast<double>(logProbability);
+  return weighOne(pose, [this](const SampleView& one, std::span<float> out) { weigh(one, out); });
 }
 
 void PoseFixData::weigh(const SampleView& poses, std::span<float> logProbability) const {
