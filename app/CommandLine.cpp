@@ -245,7 +245,7 @@ void addServing(Builder& build, ServingArguments& a) {
 
 void addSim(Builder& build, CLI::App& app) {
   const auto a = build.command<SimArguments>(
-      app, "sim", "Simulate a world or play a scene; with --listen, serve the world to clients",
+      app, "sim", "Simulate a world or play a scene; with --listen, serve it to clients",
       "ortung sim maps/scenes/kick.toml --duration 60 --free-run --record run.rec\n"
       "  ortung sim maps/fields/f2000.toml --listen 7777",
       runSim);

@@ -30,13 +30,9 @@ Simulation::Config configOf(const SimArguments& arguments) {
   return config;
 }
 
-/// The scene of the file, or the world of the file with the robots that wander about.
+/// The scene of the file, or the world of the file, with further robots that wander about.
 Scene sceneOf(const SimArguments& arguments) {
-  Scene scene;
-  if (Scene::isScene(arguments.world))
-    scene = Scene::read(arguments.world);
-  else
-    scene.world = arguments.world;
+  Scene scene = Scene::open(arguments.world);
   for (const std::filesystem::path& file : arguments.robots) {
     const std::string name = readRobot(file).name;
     std::string unused = name;
@@ -168,12 +164,11 @@ int play(const SimArguments& arguments) {
 
 int runSim(const SimArguments& arguments) {
   if (arguments.serving.listen.empty()) return play(arguments);
-  if (!arguments.robots.empty() || !arguments.record.empty() || !arguments.trace.empty() ||
-      arguments.duration)
+  if (!arguments.record.empty() || !arguments.trace.empty() || arguments.duration)
     throw UsageError(
-        "--robot, --record, --trace and --duration do not fit --listen: clients bring "
-        "their robots and keep their records");
-  ServedSimulation simulation(arguments.world, configOf(arguments));
+        "--record, --trace and --duration do not fit --listen: clients keep their own records, and "
+        "the server runs until it is stopped");
+  ServedSimulation simulation(sceneOf(arguments), configOf(arguments));
   serve(simulation, arguments.serving);
   return 0;
 }

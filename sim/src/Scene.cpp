@@ -8,6 +8,12 @@ namespace {
 
 constexpr int kAttempts = 200;  // to find room on a crowded field
 
+DriveLimits limitsOf(SimRobot& robot, std::optional<double> speed) {
+  DriveLimits limits = robot.drive().limits();
+  if (speed) limits.speed = std::min(limits.speed, *speed);
+  return limits;
+}
+
 }  // namespace
 
 ScenePlayer::ScenePlayer(const Scene& scene, const Simulation::Config& config,
@@ -26,25 +32,34 @@ ScenePlayer::~ScenePlayer() = default;
 void ScenePlayer::addRobot(const SceneRobot& robot, std::size_t place, PluginFactory& factory) {
   RobotConfig config = readRobot(robot.file);
   config.name = robot.name;
-  // Streams of chance by place in the file: where it begins, and where it wanders.
-  Random placing = simulation_->random(2 * place);
-  const bool needsPlan = robot.wanders || !robot.start;
-  if (needsPlan)
-    planners_.push_back(std::make_unique<RoutePlanner>(simulation_->world(), config.radius));
-  SimRobot* added = nullptr;
-  for (int attempt = 1; added == nullptr; ++attempt) {
-    const Pose2 start = robot.start ? *robot.start : planners_.back()->randomPose(placing);
+  SimRobot& added = addRobot(config, factory, robot.start, place);
+  if (robot.wanders) letWander(added, place, robot.speed);
+  if (!robot.waypoints.empty())
+    added.setDriver(makeFollower(robot.waypoints, limitsOf(added, robot.speed)));
+}
+
+SimRobot& ScenePlayer::addRobot(const RobotConfig& config, PluginFactory& factory,
+                                const std::optional<Pose2>& start, std::uint64_t number) {
+  Random placing = simulation_->random(2 * number);
+  for (int attempt = 1;; ++attempt) {
+    const Pose2 pose = start ? *start : planner(config.radius).randomPose(placing);
     try {
-      added = &simulation_->addRobot(config, factory, start);
+      return simulation_->addRobot(config, factory, pose);
     } catch (const std::invalid_argument&) {
-      if (robot.start || attempt == kAttempts) throw;
+      if (start || attempt == kAttempts) throw;
     }
   }
-  DriveLimits limits = added->drive().limits();
-  if (robot.speed) limits.speed = std::min(limits.speed, *robot.speed);
-  if (robot.wanders)
-    added->setDriver(makeWanderer(*planners_.back(), limits, simulation_->random(2 * place + 1)));
-  if (!robot.waypoints.empty()) added->setDriver(makeFollower(robot.waypoints, limits));
+}
+
+void ScenePlayer::letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed) {
+  robot.setDriver(makeWanderer(planner(robot.config().radius), limitsOf(robot, speed),
+                               simulation_->random(2 * number + 1)));
+}
+
+const RoutePlanner& ScenePlayer::planner(double radius) {
+  const auto known = planners_.find(radius);
+  if (known != planners_.end()) return known->second;
+  return planners_.try_emplace(radius, simulation_->world(), radius).first->second;
 }
 
 std::optional<std::size_t> ScenePlayer::find(const std::string& robot) const {

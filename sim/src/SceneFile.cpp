@@ -84,6 +84,13 @@ bool Scene::isScene(const std::filesystem::path& file) {
   return toml.has("scene");
 }
 
+Scene Scene::open(const std::filesystem::path& file) {
+  if (isScene(file)) return read(file);
+  Scene scene;
+  scene.world = file;
+  return scene;
+}
+
 Scene Scene::read(const std::filesystem::path& file) {
   const Parameters toml = readToml(file);
   const std::filesystem::path folder = file.parent_path();

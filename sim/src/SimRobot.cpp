@@ -88,6 +88,13 @@ void SimRobot::report(Timestamp now, const std::string& what) {
                         " s: " + what);
 }
 
+double SimRobot::raysPerSecond(double cycle) const {
+  double sum = 0.0;
+  for (const Mounted& mounted : sensors_)
+    if (mounted.sensor) sum += mounted.sensor->rays() / std::max(toSeconds(mounted.period), cycle);
+  return sum;
+}
+
 std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
   inFrame_ = 0;
   if (now < nextDue_) return {};

@@ -139,6 +139,25 @@ TEST(RemoteRobot, InLockstepItPlaysCycleByCycle) {
   EXPECT_EQ(odometry->stamp(), 100'000);  // every 50 ms
 }
 
+TEST(RemoteRobot, ReadingsInBinaryFormAreTheSame) {
+  std::vector<std::vector<std::uint32_t>> scans;
+  for (const bool isBinary : {false, true}) {
+    ServedSimulation world(kWorld, {});
+    const RunningBoard board(world, onPort(0, Pace::kLockstep));
+    RemoteOptions options = to(board.port());
+    options.cycle = 0.0;
+    options.session.isBinary = isBinary;
+    RemoteRobot robot(kRobot, options);
+    ASSERT_TRUE(robot.setRotationalVelocity(1.0));
+    ASSERT_TRUE(robot.next(50)) << robot.trouble();
+    ASSERT_TRUE(robot.update()) << robot.trouble();  // nothing is new
+    const auto words = robot.container().find({.type = "LRF"})->getData();
+    scans.emplace_back(words.begin(), words.end());
+  }
+  EXPECT_EQ(scans[0].size(), 180u);
+  EXPECT_EQ(scans[0], scans[1]);
+}
+
 TEST(ClientForC, PlaysTheSame) {
   ServedSimulation world(kWorld, {.noise = false});
   const RunningBoard board(world, onPort(0, Pace::kLockstep));

@@ -1,4 +1,5 @@
-// A record file, whole, and each of its lines; what was read is written and read again.
+// A record file, whole, each of its lines, and readings in binary form; what was read is written and
+// read again.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "ortung/container/BinaryReading.hpp"
 #include "ortung/container/Record.hpp"
 
 namespace {
@@ -26,6 +28,22 @@ void readLines(std::string_view text) {
       std::abort();
     }
     text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+void readBinary(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::string_view before = bytes;
+    std::string why;
+    const auto message = parseBinary(bytes, &why);
+    if (!message) {
+      if (why.empty() || bytes.data() != before.data()) std::abort();
+      return;
+    }
+    std::string again;
+    writeBinary(*message, again);
+    std::string_view rest = again;
+    if (parseBinary(rest) != message || !rest.empty()) std::abort();
   }
 }
 
@@ -52,6 +70,7 @@ void readFile(std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
   readLines(text);
+  readBinary(text);
   readFile(text);
   return 0;
 }

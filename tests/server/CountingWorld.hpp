@@ -31,10 +31,10 @@ class CountingWorld : public ServedWorld {
     }
     now_ += 10'000;
   }
-  std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) override {
+  ServedRobot addRobot(RobotId robot, RobotWish wish) override {
     if (wish.name == "unwanted") throw ServeError("no-room", "there is no room");
     frames_[robot];
-    return {{counter_, "[cycle, commands]"}, {image_, "[pixels]"}};
+    return {{{counter_, "[cycle, commands]"}, {image_, "[pixels]"}}, raysPerSecond};
   }
   void removeRobot(RobotId robot) override { frames_.erase(robot); }
   std::span<const Message> readings(RobotId robot) const override { return frames_.at(robot); }
@@ -56,6 +56,7 @@ class CountingWorld : public ServedWorld {
   void placeRobot(RobotId, const Pose2&) override { ++commands_; }
   void placeObject(const std::string&, const Pose2&) override {}
 
+  double raysPerSecond = 0.0;  ///< of every robot
   void endAt(std::int64_t cycle) { lastCycle_ = cycle; }
   void failAt(std::int64_t cycle) { failingCycle_ = cycle; }
 

@@ -6,6 +6,7 @@
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "Token.hpp"
+#include "ortung/server/ServedSimulation.hpp"
 
 namespace ortung::test {
 namespace {
@@ -67,6 +68,30 @@ TEST(Limits, FeaturesAreCountedAndTheRobotIsTakenOffAgain) {
   TestClient client(board.port());
   EXPECT_EQ(client.join(kAnyRobot), "ERR limit the robot has 2 features, at most 1 are permitted");
   EXPECT_EQ(valueOf(client.ask("STATUS"), "robots"), "0");
+}
+
+TEST(Limits, SensorsThatWouldHoldUpAllOthersAreRefused) {
+  CountingWorld world;
+  world.raysPerSecond = 2000.0;
+  BoardConfig config;
+  config.limits.rays = 1999.0;
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  EXPECT_EQ(client.join(kAnyRobot),
+            "ERR limit the robot's sensors need 2000 rays a second, at most 1999 are permitted: fewer "
+            "beams, or longer periods");
+  EXPECT_EQ(valueOf(client.ask("STATUS"), "robots"), "0");
+}
+
+TEST(Limits, BeamsAndPeriodsCountAsRays) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {});
+  const RunningBoard board(world, {});
+  TestClient client(board.port());
+  const std::string scanner = "[[sensor]]\nplugin = \"lrf\"\nbeams = 8000\nfov_deg = 180\n";
+  EXPECT_TRUE(client.join(scanner + "period_s = 0.01\n")
+                  .starts_with("ERR limit the robot's sensors need 800000 rays a second"));
+  client.send("CREATE slow\n" + scanner + "period_s = 0.1\n");
+  EXPECT_TRUE(client.ask(".").starts_with("OK CREATE"));
 }
 
 TEST(Limits, OneClientTooManyIsTold) {

@@ -38,6 +38,10 @@ class IconicSensor : public Sensor {
   }
 
   double period() const override { return settings_.period; }
+  double rays() const override {
+    constexpr double kCrossings = 4.0;  // of a scan line with lines of the floor, each looked at
+    return kCrossings * settings_.rays;
+  }
 
  private:
   std::vector<std::uint32_t> see(std::string_view feature) {

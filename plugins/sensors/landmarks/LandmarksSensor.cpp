@@ -30,6 +30,7 @@ class LandmarksSensor : public Sensor {
   }
 
   double period() const override { return settings_.period; }
+  double rays() const override { return static_cast<double>(settings_.identities.size()); }
 
  private:
   /// Fills seen_. A landmark's distance and bearing are seen, or missed, together.

@@ -36,6 +36,7 @@ class LrfSensor : public Sensor {
   }
 
   double period() const override { return settings_.period; }
+  double rays() const override { return static_cast<double>(ranges_.size()); }
 
  private:
   /// A surface nearer than the sensor can measure is learned at the smallest range, since a

@@ -120,6 +120,11 @@ class SonarSensor : public Sensor {
     return settings_.period * static_cast<double>(settings_.atOnce) /
            static_cast<double>(settings_.mounts.size());
   }
+  double rays() const override {
+    double ofCone = 0.0;
+    for (const Slice& slice : cone_.slices) ofCone += 2.0 * slice.toEachSide + 1.0;
+    return ofCone * static_cast<double>(settings_.atOnce);
+  }
 
  private:
   /// Sonars of one group fire together, far enough from each other not to hear their neighbours'

@@ -66,6 +66,7 @@ SessionOptions readOptions(const Parameters& p) {
   options.name = p.textOr("name", options.name);
   options.start = startOption(p);
   options.wanders = p.choiceOr("drive", "none", {"none", "wander"}) == "wander";
+  options.isBinary = p.choiceOr("form", "text", {"text", "binary"}) == "binary";
   options.patience = numberOption(p, "timeout", 0.1, 1e6).value_or(options.patience);
   if (const char* token = std::getenv("ORTUNG_TOKEN")) options.token = token;
   options.isInterruptible = true;

@@ -106,9 +106,20 @@ void LineSocket::fill(double timeout) {
   }
 }
 
-std::string_view LineSocket::line(double timeout) {
+std::string_view LineSocket::bytes(std::size_t count, double timeout) {
+  forgetTaken();
+  while (input_.size() < count) fill(timeout);
+  taken_ = count;
+  return std::string_view(input_).substr(0, count);
+}
+
+void LineSocket::forgetTaken() {
   input_.erase(0, taken_);
   taken_ = 0;
+}
+
+std::string_view LineSocket::line(double timeout) {
+  forgetTaken();
   std::size_t searched = 0;
   std::size_t end;
   while ((end = input_.find('\n', searched)) == std::string::npos) {

@@ -21,11 +21,14 @@ class LineSocket {
   /// The next line without its end; valid until the next call.
   /// @param timeout of silence [s]
   std::string_view line(double timeout);
+  /// The next bytes, whatever they are; valid as line() is.
+  std::string_view bytes(std::size_t count, double timeout);
 
  private:
   void connect(const std::string& host, std::uint16_t port, double timeout);
   void wait(short events, double timeout);
   void fill(double timeout);
+  void forgetTaken();
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string server_;  ///< "HOST:PORT"

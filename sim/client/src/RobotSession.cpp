@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "LineSocket.hpp"
+#include "ortung/container/BinaryReading.hpp"
 #include "ortung/container/Record.hpp"
 
 namespace ortung {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMostNews = 1000;
 constexpr std::size_t kMostLines = 1u << 20;
+constexpr std::size_t kMostBytes = 256u << 20;
 
 /// Shortest text that gives the same number again.
 std::string shown(double value) {
@@ -102,12 +104,14 @@ std::string RobotSession::exchange(const std::string& request, double timeout) {
   }
 }
 
-std::size_t RobotSession::linesOf(const std::string& reply) const {
-  const std::string_view text = valueOf(reply, "lines");
+/// A number of the reply; 0 if it is not there.
+std::size_t RobotSession::countOf(const std::string& reply, std::string_view key,
+                                  std::size_t most) const {
+  const std::string_view text = valueOf(reply, key);
   std::size_t count = 0;
   if (text.empty()) return 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count > kMostLines) failOn(reply);
+  if (error != std::errc() || end != text.data() + text.size() || count > most) failOn(reply);
   return count;
 }
 
@@ -123,7 +127,7 @@ std::string RobotSession::ask(const std::string& request, std::vector<std::strin
   if (request.find_first_of("\r\n") != request.npos)  // the rest would be another request
     throw std::invalid_argument("a request to the server has more than one line");
   std::string reply = exchange(request, options_.timeout);
-  for (std::size_t lines = linesOf(reply); lines > 0; --lines) {
+  for (std::size_t lines = countOf(reply, "lines", kMostLines); lines > 0; --lines) {
     const std::string_view line = socket_->line(options_.timeout);
     if (body != nullptr) body->emplace_back(line);
   }
@@ -132,25 +136,36 @@ std::string RobotSession::ask(const std::string& request, std::vector<std::strin
 
 std::vector<Message> RobotSession::takeReadings(const std::string& reply) {
   std::vector<Message> readings;
-  for (std::size_t lines = linesOf(reply); lines > 0; --lines) {
+  for (std::size_t lines = countOf(reply, "lines", kMostLines); lines > 0; --lines) {
     const std::string_view line = socket_->line(options_.timeout);
     std::optional<Message> reading = parseLine(line);
     if (!reading) failOn(line);
     readings.push_back(std::move(*reading));
   }
+  const std::size_t size = countOf(reply, "bytes", kMostBytes);
+  std::string_view bytes = size > 0 ? socket_->bytes(size, options_.timeout) : std::string_view();
+  while (!bytes.empty()) {
+    std::optional<Message> reading = parseBinary(bytes);
+    if (!reading) failOn(reply + ", then other bytes");
+    readings.push_back(std::move(*reading));
+  }
   return readings;
 }
 
+std::string RobotSession::withForm(std::string request) const {
+  return options_.isBinary ? std::move(request) + " form=binary" : request;
+}
+
 std::vector<Message> RobotSession::update(const std::string& queries) {
-  return takeReadings(exchange(queries.empty() ? "UPDATE" : "UPDATE " + queries, options_.timeout));
+  return takeReadings(exchange(withForm(queries.empty() ? "UPDATE" : "UPDATE " + queries), options_.timeout));
 }
 
 void RobotSession::setLockstep(bool isOn) { ask(isOn ? "LOCKSTEP on" : "LOCKSTEP off"); }
 
 std::optional<std::vector<Message>> RobotSession::next(std::uint64_t cycles) {
   try {
-    return takeReadings(exchange(cycles == 1 ? "NEXT" : "NEXT cycles=" + std::to_string(cycles),
-                                 options_.patience));
+    return takeReadings(exchange(
+        withForm(cycles == 1 ? "NEXT" : "NEXT cycles=" + std::to_string(cycles)), options_.patience));
   } catch (const ServerRefused& refusal) {
     if (refusal.code() == "end") return std::nullopt;
     throw;

@@ -32,33 +32,13 @@ void Conversation::step(Request& request) {
   const auto cycles =
       static_cast<std::uint64_t>(request.takeInteger("cycles", 1, kMostSteps).value_or(1));
   request.refuseRest();
-  ++waiting_;
-  const auto finish = [tag = request.tag()](Conversation& self, const std::string& text) {
-    --self.waiting_;
-    if (text.starts_with("ERR "))
-      self.error(tag, text);
-    else
-      self.reply(tag, text);
-  };
-  auto later = [weak = weak_from_this(), host = &host_, finish](std::string text) {
-    host->post([weak, finish, text = std::move(text)] {
-      const auto self = weak.lock();
-      if (!self) return;
-      finish(*self, text);
-      self->goOn();
-    });
-  };
   order(
-      "",
-      [cycles, later](WorldKeeper& keeper, WorldKeeper::Done&) {
-        try {
-          keeper.step(cycles, later);
-        } catch (...) {
-          later(currentErrorText());
-        }
-        return Reply("");
+      request.tag(),
+      [cycles](WorldKeeper& keeper, WorldKeeper::Done& done) {
+        keeper.step(cycles, done);
+        return Reply();  // when they are over
       },
-      [](Conversation&, const std::string&, const std::string&) {});
+      {}, true);
 }
 
 void Conversation::speed(Request& request) {

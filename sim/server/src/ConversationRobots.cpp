@@ -300,37 +300,20 @@ void Conversation::next(Request& request) {
   const RobotId robot = owned_.empty() ? 0 : takeRobot(request);
   const Choice choice = takeChoice(request, false);
   request.refuseRest();
-  ++waiting_;
-  const auto finish = [tag = request.tag(), robot, choice](Conversation& self, std::string text) {
-    --self.waiting_;
-    if (!text.empty())
-      self.error(tag, text);
-    else if (robot != 0)
-      self.sendReadings(tag, "NEXT", robot, choice);
-    else
-      self.reply(tag, "OK NEXT now=" + std::to_string(self.host_.keeper.clock().at(wallTime())) +
-                          " lines=0");
-  };
-  // Called twice: when the order is taken, and when the cycles are over.
-  auto later = [weak = weak_from_this(), host = &host_, finish](std::string text) {
-    host->post([weak, finish, text = std::move(text)] {
-      const auto self = weak.lock();
-      if (!self) return;
-      finish(*self, text);
-      self->goOn();
-    });
-  };
   order(
-      "",
-      [id = id_, cycles, later](WorldKeeper& keeper, WorldKeeper::Done&) {
-        try {
-          keeper.next(id, static_cast<std::uint64_t>(cycles), later);
-        } catch (...) {
-          later(currentErrorText());
-        }
-        return Reply("");
+      request.tag(),
+      [id = id_, cycles](WorldKeeper& keeper, WorldKeeper::Done& done) {
+        keeper.next(id, static_cast<std::uint64_t>(cycles), done);
+        return Reply();  // when they are over
       },
-      [](Conversation&, const std::string&, const std::string&) {});
+      [robot, choice](Conversation& self, const std::string& tag, const std::string&) {
+        if (robot != 0)
+          self.sendReadings(tag, "NEXT", robot, choice);
+        else
+          self.reply(tag, "OK NEXT now=" +
+                              std::to_string(self.host_.keeper.clock().at(wallTime())) + " lines=0");
+      },
+      true);
 }
 
 }  // namespace ortung::server

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "Request.hpp"
+#include "ortung/container/BinaryReading.hpp"
 #include "ortung/container/Record.hpp"
 
 namespace ortung::server {
@@ -67,11 +68,7 @@ void RobotReadings::append(Entry& entry, bool binary, std::string& out) const {
     out += entry.line;
     return;
   }
-  const Message& reading = entry.newest;
-  out += std::to_string(reading.stamp) + ' ' + toText(reading.id) + ' ' +
-         std::to_string(reading.words.size()) + '\n';
-  for (const std::uint32_t word : reading.words)
-    for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(word >> shift & 0xFF);
+  writeBinary(entry.newest, out);
 }
 
 std::size_t RobotReadings::write(const Choice& choice, std::vector<std::uint64_t>& sent,

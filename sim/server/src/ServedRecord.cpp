@@ -69,14 +69,12 @@ void ServedRecord::step() {
   }
 }
 
-std::vector<ServedFeature> ServedRecord::addRobot(RobotId robot, RobotWish wish) {
+ServedRobot ServedRecord::addRobot(RobotId robot, RobotWish wish) {
   auto guest = std::make_unique<Guest>();
   fillContainer(guest->container, wish.config, factory_);
-  std::vector<ServedFeature> features;
-  for (const std::unique_ptr<SensorData>& data : guest->container.all())
-    features.push_back({data->id(), data->wordsHelp()});
+  std::vector<ServedFeature> features = servedFeatures(guest->container);
   guests_[robot] = std::move(guest);
-  return features;
+  return {std::move(features)};
 }
 
 void ServedRecord::removeRobot(RobotId robot) { guests_.erase(robot); }

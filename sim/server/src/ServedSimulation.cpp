@@ -9,7 +9,6 @@
 namespace ortung {
 namespace {
 
-constexpr int kAttempts = 200;            // to find room for a robot on a crowded field
 constexpr std::size_t kMostPlanners = 8;  // each keeps a plan of the floor for one radius
 
 }  // namespace
@@ -18,80 +17,92 @@ struct ServedSimulation::Guest {
   RobotWish wish;
   SimRobot* robot = nullptr;  ///< the simulation's
   bool wanders = false;       ///< nobody has commanded it yet
+  bool isResident = false;    ///< of the scene: the player of the scene lets it in
 };
 
-ServedSimulation::ServedSimulation(std::filesystem::path worldFile,
+ServedSimulation::ServedSimulation(const std::filesystem::path& file,
                                    const Simulation::Config& config)
-    : worldFile_(std::move(worldFile)),
+    : ServedSimulation(Scene::open(file), config) {}
+
+ServedSimulation::ServedSimulation(Scene scene, const Simulation::Config& config)
+    : scene_(std::move(scene)),
       config_(config),
       factory_(PluginFactory::standardFolders()),
       plugins_(robotPlugins(factory_)),
-      simulation_(std::make_unique<Simulation>(readWorld(worldFile_), config_)) {}
+      player_(std::make_unique<ScenePlayer>(scene_, config_, factory_)),
+      entered_(scene_.robots.size()) {
+  for (const SceneRobot& robot : scene_.robots) {
+    auto guest = std::make_unique<Guest>();
+    guest->wish.name = robot.name;
+    guest->isResident = true;
+    const auto id = static_cast<RobotId>(guests_.size() + 1);
+    enter(id, *guest);
+    guests_[id] = std::move(guest);
+  }
+}
 
 ServedSimulation::~ServedSimulation() = default;
 
 WorldDescription ServedSimulation::describe() const {
-  const SimWorld& world = simulation_->world();
+  const SimWorld& world = simulation().world();
   return {world.name(), world.fingerprint(), "simulation"};
 }
 
-const RoutePlanner& ServedSimulation::planner(double radius) {
-  const auto known = planners_.find(radius);
-  if (known != planners_.end()) return *known->second;
-  if (planners_.size() >= kMostPlanners)
+std::vector<Resident> ServedSimulation::residents() const {
+  std::vector<Resident> residents;
+  for (const auto& [id, guest] : guests_)
+    if (guest->isResident)
+      residents.push_back({id, guest->wish.name, servedFeatures(guest->robot->container())});
+  return residents;
+}
+
+/// A planner costs time and memory, so clients can't have as many as they like.
+void ServedSimulation::preparePlanner(double radius) {
+  if (!player_->hasPlanner(radius) && player_->planners() >= kMostPlanners)
     throw ServeError("limit", "robots of " + std::to_string(kMostPlanners) +
                                   " different radii are here already; give a start, and do not "
                                   "ask for wandering");
   try {
-    auto planner = std::make_unique<RoutePlanner>(simulation_->world(), radius);
-    return *planners_.emplace(radius, std::move(planner)).first->second;
+    player_->planner(radius);
   } catch (const std::invalid_argument& error) {
     throw ServeError("no-room", error.what());
   }
 }
 
-/// Clients name their robots as they like, so two of them may like the same.
-bool ServedSimulation::isTaken(const std::string& name) const {
-  const auto robots = simulation_->robots();
-  return std::any_of(robots.begin(), robots.end(),
-                     [&](const auto& robot) { return robot->config().name == name; });
-}
-
-SimRobot& ServedSimulation::enter(RobotId robot, Guest& guest) {
+/// Brings a robot onto the field, where it wants to be; if that place is taken at a reset, anywhere.
+void ServedSimulation::enter(RobotId robot, Guest& guest) {
+  if (guest.isResident) {
+    guest.robot = simulation().robots()[*player_->find(guest.wish.name)].get();
+    return;
+  }
   RobotConfig config = guest.wish.config;
-  if (isTaken(config.name)) config.name += "-" + std::to_string(robot);
-  // Two streams a robot: where it begins, and where it wanders.
-  const std::uint64_t stream = 2 * entered_;
-  Random placing = simulation_->random(stream);
-  for (int attempt = 1; guest.robot == nullptr; ++attempt) {
-    const bool anywhere = !guest.wish.start || attempt > 1;
-    const Pose2 start = anywhere ? planner(config.radius).randomPose(placing) : *guest.wish.start;
-    try {
-      guest.robot = &simulation_->addRobot(config, factory_, start);
-    } catch (const std::invalid_argument& error) {
-      const bool isRestart = guests_.contains(robot);  // its old start may be taken now
-      if ((!anywhere && !isRestart) || attempt == kAttempts)
-        throw ServeError("no-room", error.what());
-    }
+  // Clients name their robots as they like, so two of them may like the same.
+  if (player_->find(config.name)) config.name += "-" + std::to_string(robot);
+  const bool isRestart = guests_.contains(robot);
+  if (guest.wish.wanders || !guest.wish.start) preparePlanner(config.radius);
+  const std::uint64_t number = entered_;
+  const auto add = [&](const std::optional<Pose2>& start) {
+    guest.robot = &player_->addRobot(config, factory_, start, number);
+  };
+  try {
+    add(guest.wish.start);
+  } catch (const std::invalid_argument& error) {
+    if (!guest.wish.start || !isRestart) throw ServeError("no-room", error.what());
+    preparePlanner(config.radius);
+    add(std::nullopt);
   }
   ++entered_;
   guest.wanders = guest.wish.wanders;
-  if (guest.wanders)
-    guest.robot->setDriver(makeWanderer(planner(config.radius), guest.robot->drive().limits(),
-                                        simulation_->random(stream + 1)));
-  return *guest.robot;
+  if (guest.wanders) player_->letWander(*guest.robot, number);
 }
 
-std::vector<ServedFeature> ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
+ServedRobot ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
   auto guest = std::make_unique<Guest>();
   guest->wish = std::move(wish);
-  if (guest->wish.wanders) planner(guest->wish.config.radius);  // before the robot is there
-  SimRobot& entered = enter(robot, *guest);
+  enter(robot, *guest);
+  SimRobot& entered = *guest->robot;
   guests_[robot] = std::move(guest);
-  std::vector<ServedFeature> features;
-  for (const std::unique_ptr<SensorData>& data : entered.container().all())
-    features.push_back({data->id(), data->wordsHelp()});
-  return features;
+  return {servedFeatures(entered.container()), entered.raysPerSecond(simulation().cycle())};
 }
 
 ServedSimulation::Guest& ServedSimulation::guest(RobotId robot) const {
@@ -118,15 +129,15 @@ SimRobot& ServedSimulation::commanded(RobotId robot) {
 
 void ServedSimulation::removeRobot(RobotId robot) {
   const Guest& leaving = guest(robot);
-  if (leaving.robot != nullptr) simulation_->removeRobot(*leaving.robot);
+  if (leaving.robot != nullptr) simulation().removeRobot(*leaving.robot);
   guests_.erase(robot);
 }
 
 std::span<const Message> ServedSimulation::readings(RobotId robot) const {
   const SimRobot* wanted = guest(robot).robot;
-  const auto robots = simulation_->robots();
+  const auto robots = simulation().robots();
   for (std::size_t i = 0; i < robots.size(); ++i)
-    if (robots[i].get() == wanted) return simulation_->readings(i);
+    if (robots[i].get() == wanted) return simulation().readings(i);
   return {};
 }
 
@@ -181,29 +192,35 @@ void ServedSimulation::setManipulator(RobotId robot, const std::string& manipula
 void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
   Simulation::Config config = config_;
   if (seed) config.seed = *seed;
-  auto fresh = std::make_unique<Simulation>(readWorld(worldFile_), config);
-  planners_.clear();  // they know the old world
-  simulation_ = std::move(fresh);
+  auto fresh = std::make_unique<ScenePlayer>(scene_, config, factory_);
+  player_ = std::move(fresh);
   config_ = config;
-  entered_ = 0;
+  entered_ = scene_.robots.size();
   for (auto& [id, guest] : guests_) guest->robot = nullptr;
-  for (auto& [robot, guest] : guests_) enter(robot, *guest);
+  for (auto& [id, guest] : guests_) {
+    try {
+      enter(id, *guest);
+    } catch (const std::runtime_error&) {
+      // No room for it this time: whoever commands it is told so.
+    } catch (const std::invalid_argument&) {
+    }
+  }
 }
 
 void ServedSimulation::placeRobot(RobotId robot, const Pose2& pose) {
   try {
-    simulation_->place(find(robot), pose);
+    simulation().place(find(robot), pose);
   } catch (const std::invalid_argument& error) {
     throw ServeError("no-room", error.what());
   }
 }
 
 void ServedSimulation::placeObject(const std::string& object, const Pose2& pose) {
-  const std::span<const Simulation::Thing> things = simulation_->things();
+  const std::span<const Simulation::Thing> things = simulation().things();
   for (std::size_t i = 0; i < things.size(); ++i) {
     if (things[i].name != object) continue;
     try {
-      return simulation_->placeThing(i, pose);
+      return simulation().placeThing(i, pose);
     } catch (const std::invalid_argument& error) {
       throw ServeError("no-room", error.what());
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "Request.hpp"
@@ -44,6 +45,13 @@ WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
       onCycle_(std::move(onCycle)),
       speed_(config.speed),
       isFree_(config.pace != Pace::kRealTime) {
+  for (Resident& resident : world_.residents()) {
+    lastRobot_ = std::max(lastRobot_, resident.robot);
+    robots_[resident.robot] = {kNobody, std::make_shared<RobotReadings>(
+                                            resident.robot, std::move(resident.name),
+                                            std::move(resident.features))};
+  }
+  robotCount_ = robots_.size();
   clock_.set(world_.now(), wallTime(), 0.0);
 }
 
@@ -275,19 +283,33 @@ std::shared_ptr<RobotReadings> WorldKeeper::createRobot(ClientId owner, RobotWis
                      "a client has at most " + std::to_string(config_.limits.robots) + " robots");
   const RobotId robot = lastRobot_ + 1;
   const std::string name = wish.name;
-  std::vector<ServedFeature> features = world_.addRobot(robot, std::move(wish));
+  ServedRobot served = world_.addRobot(robot, std::move(wish));
   lastRobot_ = robot;
-  if (features.size() > config_.limits.features) {
+  try {
+    checkLimits(served);
+  } catch (...) {
     world_.removeRobot(robot);
-    throw ServeError("limit", "the robot has " + std::to_string(features.size()) +
-                                  " features, at most " + std::to_string(config_.limits.features) +
-                                  " are permitted");
+    throw;
   }
-  auto readings = std::make_shared<RobotReadings>(robot, name, std::move(features));
+  auto readings = std::make_shared<RobotReadings>(robot, name, std::move(served.features));
   its.robots.insert(robot);
   robots_[robot] = {owner, readings};
   robotCount_ = robots_.size();
   return readings;
+}
+
+void WorldKeeper::checkLimits(const ServedRobot& robot) const {
+  const BoardLimits& limits = config_.limits;
+  if (robot.features.size() > limits.features)
+    throw ServeError("limit", "the robot has " + std::to_string(robot.features.size()) +
+                                  " features, at most " + std::to_string(limits.features) +
+                                  " are permitted");
+  if (robot.raysPerSecond > limits.rays)
+    throw ServeError("limit", "the robot's sensors need " +
+                                  std::to_string(std::llround(robot.raysPerSecond)) +
+                                  " rays a second, at most " +
+                                  std::to_string(std::llround(limits.rays)) +
+                                  " are permitted: fewer beams, or longer periods");
 }
 
 void WorldKeeper::removeRobot(ClientId owner, RobotId robot) {
@@ -302,6 +324,8 @@ void WorldKeeper::checkOwner(ClientId client, RobotId robot) const {
   const auto found = robots_.find(robot);
   if (found == robots_.end())
     throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
+  if (found->second.owner == kNobody)
+    throw ServeError("not-yours", "robot " + std::to_string(robot) + " belongs to the world");
   if (found->second.owner != client)
     throw ServeError("not-yours", "robot " + std::to_string(robot) + " belongs to another client");
 }

@@ -19,6 +19,7 @@
 namespace ortung::server {
 
 using ClientId = std::uint32_t;
+constexpr ClientId kNobody = 0;  ///< owns the robots of the world itself
 
 /// Owns the world's time: executes the orders of clients between cycles and begins each cycle when
 /// it is due. All but give(), stop() and statistics() belong to the thread of run().
@@ -87,6 +88,7 @@ class WorldKeeper {
     Order order;
     Done done;
   };
+  void checkLimits(const ServedRobot& robot) const;
   bool isLockstepReady() const;
   bool mayAdvance() const;
   Timestamp due();

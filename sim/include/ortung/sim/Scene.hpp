@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,8 @@ struct Scene {
   ORTUNG_API static bool isScene(const std::filesystem::path& file);
   /// @throws ConfigError
   ORTUNG_API static Scene read(const std::filesystem::path& file);
+  /// The scene of a file, or the world of a file with nobody in it. @throws ConfigError
+  ORTUNG_API static Scene open(const std::filesystem::path& file);
 };
 
 /// Plays a scene in a simulation of its own. Not thread-safe.
@@ -76,6 +79,20 @@ class ORTUNG_API ScenePlayer {
   /// Place of a robot among those of the simulation, or nothing.
   std::optional<std::size_t> find(const std::string& robot) const;
 
+  /// Adds a robot that the scene does not have.
+  /// @param start in the field frame; none: anywhere
+  /// @param number of its streams of chance; the scene's own robots have those from 0
+  /// @throws std::invalid_argument if there is no room; ConfigError, PluginError
+  SimRobot& addRobot(const RobotConfig& config, PluginFactory& factory,
+                     const std::optional<Pose2>& start, std::uint64_t number);
+  /// Lets a robot drive about by itself. @param number as for addRobot() @param speed at most [m/s]
+  void letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed = std::nullopt);
+  /// The plan of the floor for robots of a radius [m], made when it is first asked for.
+  /// @throws std::invalid_argument if such a robot fits nowhere
+  const RoutePlanner& planner(double radius);
+  bool hasPlanner(double radius) const { return planners_.contains(radius); }
+  std::size_t planners() const { return planners_.size(); }
+
  private:
   void addRobot(const SceneRobot& robot, std::size_t place, PluginFactory& factory);
   void obey(const SceneCommand& command);
@@ -84,7 +101,7 @@ class ORTUNG_API ScenePlayer {
   std::size_t needThing(const std::string& thing) const;
 
   Scene scene_;
-  std::vector<std::unique_ptr<RoutePlanner>> planners_;  ///< outlive the drivers
+  std::map<double, RoutePlanner> planners_;  ///< by radius [m]; outlive the drivers
   std::unique_ptr<Simulation> simulation_;
   std::size_t nextCommand_ = 0;
   std::size_t nextPlacement_ = 0;

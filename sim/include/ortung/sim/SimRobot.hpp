@@ -45,6 +45,9 @@ class ORTUNG_API SimRobot {
   /// are refused with std::invalid_argument that names the robot.
   Drive& drive() { return *drive_; }
 
+  /// What its sensors cost [rays/s] in a world with cycles of a length [s], see Sensor::rays().
+  double raysPerSecond(double cycle) const;
+
   const RobotConfig& config() const { return config_; }
   const RobotShape& shape() const { return shape_; }
   SensorContainer& container() { return container_; }

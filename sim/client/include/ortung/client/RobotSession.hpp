@@ -46,6 +46,7 @@ struct SessionOptions {
   std::string token;             ///< "": none
   std::optional<Pose2> start;    ///< in the field frame; nothing: anywhere
   bool wanders = false;          ///< the server drives the robot about
+  bool isBinary = false;         ///< form of readings: better for large ones, such as images
   double timeout = 5.0;          ///< for an answer [s]
   double patience = 60.0;        ///< for the end of cycles in lockstep [s]
   bool isInterruptible = false;  ///< whether a signal ends what is under way
@@ -102,7 +103,8 @@ class ORTUNG_API RobotSession {
  private:
   std::string exchange(const std::string& request, double timeout);
   std::vector<Message> takeReadings(const std::string& reply);
-  std::size_t linesOf(const std::string& reply) const;
+  std::string withForm(std::string request) const;
+  std::size_t countOf(const std::string& reply, std::string_view key, std::size_t most) const;
   Timestamp stampOf(const std::string& reply, std::string_view key) const;
   void note(std::string_view line);
   [[noreturn]] void failOn(std::string_view what) const;

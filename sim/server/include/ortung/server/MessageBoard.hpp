@@ -19,6 +19,7 @@ struct BoardLimits {
   std::size_t robots = 4;                 ///< a client
   std::size_t sensors = 16;               ///< a robot
   std::size_t features = 1024;            ///< a robot
+  double rays = 250'000.0;                ///< that a robot's sensors need [1/s], see Sensor::rays()
   std::size_t sessions = 256;             ///< clients at a time
   std::size_t output = 1u << 20;          ///< waiting to be read by a client [bytes]; more: dropped
   std::size_t orders = 64;                ///< of a client, waiting for the world

@@ -28,7 +28,7 @@ class ORTUNG_API ServedRecord : public ServedWorld {
   Timestamp now() const override { return now_; }
   bool isAtEnd() const override { return isAtEnd_; }
   void step() override;
-  std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) override;
+  ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId) const override { return {}; }
   void removeRobot(RobotId robot) override;
   std::span<const Message> readings(RobotId robot) const override;

@@ -6,23 +6,27 @@
 
 #include "ortung/container/PluginFactory.hpp"
 #include "ortung/server/ServedWorld.hpp"
-#include "ortung/sim/Simulation.hpp"
+#include "ortung/sim/Scene.hpp"
 
 namespace ortung {
 
-/// A simulated world for the message board. Its robots start and wander as those of the source
+/// A simulated world for the message board, with the robots and the script of a scene if it is one;
+/// a script's end is not the world's. Robots of clients start and wander as those of the source
 /// `sim` do: the first robot of a server started with the same seed does the same, bit for bit.
 class ORTUNG_API ServedSimulation : public ServedWorld {
  public:
-  /// @throws ConfigError
-  ServedSimulation(std::filesystem::path worldFile, const Simulation::Config& config);
+  /// @param file of a world or a scene @throws as the other one
+  ServedSimulation(const std::filesystem::path& file, const Simulation::Config& config);
+  /// @throws ConfigError, PluginError, std::invalid_argument for what ScenePlayer refuses
+  ServedSimulation(Scene scene, const Simulation::Config& config);
   ~ServedSimulation() override;
 
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return plugins_; }
-  Timestamp now() const override { return simulation_->now(); }
-  void step() override { simulation_->step(); }
-  std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) override;
+  Timestamp now() const override { return simulation().now(); }
+  void step() override { player_->step(); }
+  std::vector<Resident> residents() const override;
+  ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
   std::span<const Message> readings(RobotId robot) const override;
@@ -40,18 +44,17 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   Guest& guest(RobotId robot) const;
   SimRobot& commanded(RobotId robot);
   SimRobot& find(RobotId robot) const;
-  SimRobot& enter(RobotId robot, Guest& guest);
-  const RoutePlanner& planner(double radius);
-  bool isTaken(const std::string& name) const;
+  Simulation& simulation() const { return player_->simulation(); }
+  void enter(RobotId robot, Guest& guest);
+  void preparePlanner(double radius);
 
-  std::filesystem::path worldFile_;
+  Scene scene_;
   Simulation::Config config_;
   PluginFactory factory_;
   std::vector<std::string> plugins_;
-  std::unique_ptr<Simulation> simulation_;
-  std::map<double, std::unique_ptr<RoutePlanner>> planners_;  ///< by radius [m]
-  std::map<RobotId, std::unique_ptr<Guest>> guests_;          ///< in the order of their coming
-  std::uint64_t entered_ = 0;  ///< robots since the last reset: each has chances of its own
+  std::unique_ptr<ScenePlayer> player_;
+  std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
+  std::uint64_t entered_;  ///< robots since the last reset: each has chances of its own
 };
 
 }  // namespace ortung

@@ -11,6 +11,7 @@
 #include "ortung/container/Export.hpp"
 #include "ortung/container/Message.hpp"
 #include "ortung/container/Pose2.hpp"
+#include "ortung/container/SensorContainer.hpp"
 #include "ortung/container/Time.hpp"
 
 namespace ortung {
@@ -44,6 +45,19 @@ struct ServedFeature {
   std::string wordsHelp;  ///< one line on what the words mean
 };
 
+/// A robot that takes part.
+struct ServedRobot {
+  std::vector<ServedFeature> features;  ///< in the order of its readings
+  double raysPerSecond = 0.0;           ///< what its sensors cost, see Sensor::rays()
+};
+
+/// A robot that was there before any client: it belongs to the world.
+struct Resident {
+  RobotId robot;
+  std::string name;
+  std::vector<ServedFeature> features;
+};
+
 struct WorldDescription {
   std::string name;
   std::string fingerprint;  ///< "" if it is not known
@@ -66,8 +80,9 @@ class ORTUNG_API ServedWorld {
   /// One cycle. @throws std::runtime_error if the world can't go on
   virtual void step() = 0;
 
-  /// @returns its features in the order of its readings
-  virtual std::vector<ServedFeature> addRobot(RobotId robot, RobotWish wish) = 0;
+  /// Robots of the world's own, numbered from 1.
+  virtual std::vector<Resident> residents() const { return {}; }
+  virtual ServedRobot addRobot(RobotId robot, RobotWish wish) = 0;
   /// What a robot can be told, one line each: "drive COMMAND" and "manipulator NAME STATE ...".
   virtual std::vector<std::string> abilities(RobotId robot) const = 0;
   virtual void removeRobot(RobotId robot) = 0;
@@ -87,5 +102,8 @@ class ORTUNG_API ServedWorld {
   virtual void placeRobot(RobotId robot, const Pose2& pose) = 0;
   virtual void placeObject(const std::string& object, const Pose2& pose) = 0;
 };
+
+/// The features of a container.
+std::vector<ServedFeature> servedFeatures(const SensorContainer& container);
 
 }  // namespace ortung
