@@ -100,7 +100,9 @@ double quantile(std::vector<double>& values, double share) {
 }
 
 /// Clients, spread over some threads, each asking at a rate; how long each answer took [us].
-std::vector<double> ask(std::uint16_t port, const std::string& robot, int clients, double hertz,
+/// @param connect called for each client on its thread; returns the lines of its answers
+template <class Connect>
+std::vector<double> ask(std::uint16_t port, Connect connect, int clients, double hertz,
                         double seconds) {
   constexpr int kThreads = 4;
   std::vector<std::vector<double>> taken(kThreads);
@@ -111,7 +113,7 @@ std::vector<double> ask(std::uint16_t port, const std::string& robot, int client
       std::ptrdiff_t lines = 0;
       for (int i = t; i < clients; i += kThreads) {
         own.push_back(std::make_unique<Client>(port));
-        lines = own.back()->join(robot);
+        lines = connect(*own.back());
       }
       const auto gap = std::chrono::duration_cast<Clock::duration>(
           std::chrono::duration<double>(1.0 / hertz / static_cast<double>(own.size())));
@@ -151,17 +153,88 @@ struct Served {
   std::thread thread;
 };
 
+/// Answers every line with the same bytes, as simply as the kernel permits.
+class Echo {
+ public:
+  explicit Echo(std::string reply, int clients = 1)
+      : reply_(std::move(reply)), socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address = loopback(0);
+    ::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address);
+    ::listen(socket_, clients);
+    thread_ = std::thread([this, clients] { serve(clients); });
+  }
+  ~Echo() {
+    thread_.join();
+    ::close(socket_);
+  }
+  std::uint16_t port() const {
+    sockaddr_in address{};
+    socklen_t size = sizeof address;
+    ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
+    return ntohs(address.sin_port);
+  }
+
+ private:
+  /// Until all clients have gone. Waits in poll() as every server with more than one client must.
+  void serve(int clients) {
+    std::vector<pollfd> waits;
+    for (int i = 0; i < clients; ++i) {
+      waits.push_back({::accept(socket_, nullptr, nullptr), POLLIN, 0});
+      const int on = 1;
+      ::setsockopt(waits.back().fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    }
+    char piece[4096];
+    for (int left = clients; left > 0;) {
+      ::poll(waits.data(), waits.size(), -1);
+      for (pollfd& wait : waits) {
+        if (wait.revents == 0) continue;
+        if (::recv(wait.fd, piece, sizeof piece, 0) > 0) {
+          ::send(wait.fd, reply_.data(), reply_.size(), MSG_NOSIGNAL);
+          continue;
+        }
+        ::close(wait.fd);
+        wait.fd = -1;
+        --left;
+      }
+    }
+  }
+
+  std::string reply_;
+  int socket_;
+  std::thread thread_;
+};
+
+void print(const char* what, int clients, double hertz, std::vector<double>& taken) {
+  std::printf(
+      "%3d clients at %5.1f Hz, %s: %7zu updates, p50 %.3f ms, p99 %.3f ms, greatest %.3f ms",
+      clients, hertz, what, taken.size(), quantile(taken, 0.5) / 1e3, quantile(taken, 0.99) / 1e3,
+      quantile(taken, 1.0) / 1e3);
+}
+
+/// The server, and a bare echo of the same bytes: what of the time is the machine's.
 void latency(const char* file, const std::string& robot, int clients, double hertz,
              double seconds) {
-  Served served(file, Pace::kRealTime);
-  std::vector<double> taken = ask(served.board.port(), robot, clients, hertz, seconds);
-  const BoardStatistics statistics = served.board.statistics();
-  std::printf(
-      "%3d clients at %5.1f Hz: %7zu updates, p50 %.3f ms, p99 %.3f ms, greatest %.3f ms; "
-      "%llu cycles, %llu missed\n",
-      clients, hertz, taken.size(), quantile(taken, 0.5) / 1e3, quantile(taken, 0.99) / 1e3,
-      quantile(taken, 1.0) / 1e3, static_cast<unsigned long long>(statistics.cycles),
-      static_cast<unsigned long long>(statistics.missedCycles));
+  std::string reply;
+  std::ptrdiff_t lines = 0;
+  {
+    Served served(file, Pace::kRealTime);
+    std::vector<double> taken = ask(
+        served.board.port(), [&](Client& client) { return client.join(robot); }, clients, hertz,
+        seconds);
+    const BoardStatistics statistics = served.board.statistics();
+    print("server", clients, hertz, taken);
+    std::printf("; %llu cycles, %llu missed\n", static_cast<unsigned long long>(statistics.cycles),
+                static_cast<unsigned long long>(statistics.missedCycles));
+    Client one(served.board.port());
+    lines = one.join(robot);
+    one.send("READ\n");
+    reply = one.lines(lines);
+  }
+  Echo echo(reply, clients);
+  std::vector<double> taken = ask(
+      echo.port(), [&](Client&) { return lines; }, clients, hertz, seconds);
+  print("echo  ", clients, hertz, taken);
+  std::printf("\n");
 }
 
 double cpuTime(int who) {
@@ -182,43 +255,6 @@ double serverTime(Client& client, std::ptrdiff_t lines, int count) {
   }
   return (cpuTime(RUSAGE_SELF) - cpuTime(RUSAGE_THREAD) - before) / count * 1e6;
 }
-
-/// Answers everything with the same bytes, as simply as the kernel permits.
-class Echo {
- public:
-  explicit Echo(std::string reply)
-      : reply_(std::move(reply)), socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address = loopback(0);
-    ::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address);
-    ::listen(socket_, 1);
-    thread_ = std::thread([this] {
-      const int client = ::accept(socket_, nullptr, nullptr);
-      const int on = 1;
-      ::setsockopt(client, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-      char piece[4096];
-      // Waits in poll() as every server with more than one client must.
-      pollfd wait{client, POLLIN, 0};
-      while (::poll(&wait, 1, -1) > 0 && ::recv(client, piece, sizeof piece, 0) > 0)
-        ::send(client, reply_.data(), reply_.size(), MSG_NOSIGNAL);
-      ::close(client);
-    });
-  }
-  ~Echo() {
-    thread_.join();
-    ::close(socket_);
-  }
-  std::uint16_t port() const {
-    sockaddr_in address{};
-    socklen_t size = sizeof address;
-    ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
-    return ntohs(address.sin_port);
-  }
-
- private:
-  std::string reply_;
-  int socket_;
-  std::thread thread_;
-};
 
 void cpu(const char* file, const std::string& robot) {
   constexpr int kCount = 20'000;

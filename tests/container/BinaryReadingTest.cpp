@@ -24,7 +24,8 @@ TEST(BinaryReading, IsALineAndFourBytesAWord) {
 RC_GTEST_PROP(BinaryReadingProperty, ReadingsComeBackInTheirOrder, ()) {
   const auto words = *rc::gen::arbitrary<std::vector<std::vector<std::uint32_t>>>();
   std::string bytes;
-  for (const auto& of : words) writeBinary({*rc::gen::arbitrary<Timestamp>(), {"a", "b", "c"}, of}, bytes);
+  for (const auto& of : words)
+    writeBinary({*rc::gen::arbitrary<Timestamp>(), {"a", "b", "c"}, of}, bytes);
   std::string_view rest = bytes;
   for (const auto& of : words) {
     const auto message = parseBinary(rest);

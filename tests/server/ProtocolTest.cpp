@@ -163,6 +163,23 @@ TEST(Protocol, SubscribersGetWhatIsNewAfterEachPeriod) {
   EXPECT_TRUE(client.ask("STATUS").starts_with("OK STATUS"));  // and no update in between
 }
 
+TEST(Protocol, SubscribersThatComeLateKeepTheRhythmFromThenOn) {
+  CountingWorld world;
+  const RunningBoard board(world, lockstepConfig());
+  TestClient client(board.port());
+  client.join(kAnyRobot);
+  client.ask("LOCKSTEP on");
+  EXPECT_TRUE(client.ask("NEXT cycles=20 none/none/none").starts_with("OK NEXT"));
+  client.ask("SUBSCRIBE period_s=0.05 counter/*/*");
+  std::vector<std::string> told;
+  for (int cycle = 0; cycle < 11; ++cycle) {
+    client.send("NEXT none/none/none\nSTATUS\n");
+    for (std::string line = client.line(); !line.starts_with("OK STATUS"); line = client.line())
+      if (line.starts_with("* UPDATE")) told.push_back(valueOf(line, "now"));
+  }
+  EXPECT_EQ(told, (std::vector<std::string>{"210000", "260000", "310000"}));
+}
+
 TEST(Protocol, WhatOneSaysAllOthersHear) {
   CountingWorld world;
   const RunningBoard board(world, {});

@@ -278,7 +278,8 @@ void Conversation::onCycle() {
   Subscription& subscription = *subscription_;
   const Timestamp now = host_.keeper.clock().at(wallTime());
   if (now < subscription.due && subscription.due - now <= subscription.period) return;
-  subscription.due = std::max(subscription.due + subscription.period, now);
+  subscription.due += subscription.period;
+  if (subscription.due < now) subscription.due = now + subscription.period;  // it was the first
   sendReadings("*", "UPDATE", subscription.robot, subscription.choice);
 }
 
@@ -310,8 +311,9 @@ void Conversation::next(Request& request) {
         if (robot != 0)
           self.sendReadings(tag, "NEXT", robot, choice);
         else
-          self.reply(tag, "OK NEXT now=" +
-                              std::to_string(self.host_.keeper.clock().at(wallTime())) + " lines=0");
+          self.reply(tag,
+                     "OK NEXT now=" + std::to_string(self.host_.keeper.clock().at(wallTime())) +
+                         " lines=0");
       },
       true);
 }

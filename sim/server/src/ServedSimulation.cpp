@@ -69,7 +69,8 @@ void ServedSimulation::preparePlanner(double radius) {
   }
 }
 
-/// Brings a robot onto the field, where it wants to be; if that place is taken at a reset, anywhere.
+/// Brings a robot onto the field, where it wants to be; if that place is taken at a reset,
+/// anywhere.
 void ServedSimulation::enter(RobotId robot, Guest& guest) {
   if (guest.isResident) {
     guest.robot = simulation().robots()[*player_->find(guest.wish.name)].get();

@@ -47,9 +47,9 @@ WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
       isFree_(config.pace != Pace::kRealTime) {
   for (Resident& resident : world_.residents()) {
     lastRobot_ = std::max(lastRobot_, resident.robot);
-    robots_[resident.robot] = {kNobody, std::make_shared<RobotReadings>(
-                                            resident.robot, std::move(resident.name),
-                                            std::move(resident.features))};
+    robots_[resident.robot] = {
+        kNobody, std::make_shared<RobotReadings>(resident.robot, std::move(resident.name),
+                                                 std::move(resident.features))};
   }
   robotCount_ = robots_.size();
   clock_.set(world_.now(), wallTime(), 0.0);
@@ -305,11 +305,10 @@ void WorldKeeper::checkLimits(const ServedRobot& robot) const {
                                   " features, at most " + std::to_string(limits.features) +
                                   " are permitted");
   if (robot.raysPerSecond > limits.rays)
-    throw ServeError("limit", "the robot's sensors need " +
-                                  std::to_string(std::llround(robot.raysPerSecond)) +
-                                  " rays a second, at most " +
-                                  std::to_string(std::llround(limits.rays)) +
-                                  " are permitted: fewer beams, or longer periods");
+    throw ServeError(
+        "limit", "the robot's sensors need " + std::to_string(std::llround(robot.raysPerSecond)) +
+                     " rays a second, at most " + std::to_string(std::llround(limits.rays)) +
+                     " are permitted: fewer beams, or longer periods");
 }
 
 void WorldKeeper::removeRobot(ClientId owner, RobotId robot) {
