@@ -39,7 +39,7 @@ class IconicSensor : public Sensor {
 
   double period() const override { return settings_.period; }
   double rays() const override {
-    constexpr double kCrossings = 4.0;  // of a scan line with lines of the floor, each looked at
+    constexpr double kCrossings = 20.0;  // of a scan line with lines of the floor, each looked at
     return kCrossings * settings_.rays;
   }
 

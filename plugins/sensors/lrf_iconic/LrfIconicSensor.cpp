@@ -46,7 +46,7 @@ class LrfIconicSensor : public Sensor {
 
   double period() const override { return settings_.period; }
   double rays() const override {
-    constexpr double kMatching = 8.0;  // finding and matching shapes, for each beam
+    constexpr double kMatching = 10.0;  // finding and matching shapes, for each beam
     return kMatching * static_cast<double>(ranges_.size());
   }
 
