@@ -15,11 +15,13 @@ std::vector<std::uint32_t> BearingData::encode(const Reading& reading) {
   return {words::fromAngle(*reading)};
 }
 
+void BearingData::check(std::span<const std::uint32_t> words) const {
+  if (words.empty()) return;
+  checkWordCount(words, 1);
+  checkAngleWord(words[0]);
+}
+
 void BearingData::decode(std::span<const std::uint32_t> words) {
-  if (!words.empty()) {
-    checkWordCount(words, 1);
-    checkAngleWord(words[0]);
-  }
   reading_ = words.empty() ? Reading() : Reading(words::toAngle(words[0]));
 }
 

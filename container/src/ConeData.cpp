@@ -20,8 +20,9 @@ std::uint32_t ConeData::encode(Reading reading, double maxRange) {
   return std::max(words::fromMetres(reading), 1U);
 }
 
+void ConeData::check(std::span<const std::uint32_t> words) const { checkWordCount(words, 1); }
+
 void ConeData::decode(std::span<const std::uint32_t> words) {
-  checkWordCount(words, 1);
   const double range = words::toMetres(words[0]);
   if (words[0] == 0) {
     reading_ = std::numeric_limits<double>::quiet_NaN();

@@ -39,12 +39,15 @@ std::vector<std::uint32_t> LandmarksData::encode(const Reading& reading) {
   return out;
 }
 
-void LandmarksData::decode(std::span<const std::uint32_t> words) {
+void LandmarksData::check(std::span<const std::uint32_t> words) const {
   if (words.size() % kWordsASighting != 0 || words.size() > kMostSightings * kWordsASighting) {
     throw std::invalid_argument("found " + std::to_string(words.size()) +
                                 " words, expected three a sighting and at most 4096 sightings");
   }
   for (std::size_t i = 2; i < words.size(); i += kWordsASighting) checkAngleWord(words[i]);
+}
+
+void LandmarksData::decode(std::span<const std::uint32_t> words) {
   reading_.clear();
   for (std::size_t i = 0; i < words.size(); i += kWordsASighting) {
     reading_.push_back({words[i], words::toMetres(words[i + 1]), words::toAngle(words[i + 2])});

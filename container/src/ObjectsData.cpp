@@ -25,7 +25,7 @@ std::vector<std::uint32_t> ObjectsData::encode(std::span<const Object> objects) 
   return out;
 }
 
-void ObjectsData::decode(std::span<const std::uint32_t> words) {
+void ObjectsData::check(std::span<const std::uint32_t> words) const {
   if (words.size() % kWordsAnObject != 0 || words.size() > kMostObjects * kWordsAnObject) {
     throw std::invalid_argument("found " + std::to_string(words.size()) +
                                 " words, expected five an object and at most 1024 objects");
@@ -36,6 +36,9 @@ void ObjectsData::decode(std::span<const std::uint32_t> words) {
                                   ", expected at most 16777216");
     checkAngleWord(words[i + 3]);
   }
+}
+
+void ObjectsData::decode(std::span<const std::uint32_t> words) {
   reading_.clear();
   for (std::size_t i = 0; i < words.size(); i += kWordsAnObject)
     reading_.push_back({words[i], words[i + 1], words::toMetres(words[i + 2]),

@@ -25,11 +25,14 @@ void OdometryData::encode(const Reading& reading, std::vector<std::uint32_t>& wo
   words.insert(words.end(), reading.motionData.begin(), reading.motionData.end());
 }
 
-void OdometryData::decode(std::span<const std::uint32_t> words) {
+void OdometryData::check(std::span<const std::uint32_t> words) const {
   if (words.size() < kOwnWords || words.size() > kOwnWords + kMostMotionWords) {
     throw std::invalid_argument("found " + std::to_string(words.size()) + " words, expected 5 to 21");
   }
   checkAngleWord(words[2]);
+}
+
+void OdometryData::decode(std::span<const std::uint32_t> words) {
   reading_.pose = {words::toSignedMetres(words[0]), words::toSignedMetres(words[1]), words::toAngle(words[2])};
   reading_.translationalVelocity = words::toSignedMetres(words[3]);
   reading_.rotationalVelocity = words::toRate(words[4]);

@@ -16,9 +16,12 @@ void PoseData::encode(const Pose2& pose, std::vector<std::uint32_t>& words) {
                 words::fromAngle(pose.theta)});
 }
 
-void PoseData::decode(std::span<const std::uint32_t> words) {
+void PoseData::check(std::span<const std::uint32_t> words) const {
   checkWordCount(words, 3);
   checkAngleWord(words[2]);
+}
+
+void PoseData::decode(std::span<const std::uint32_t> words) {
   reading_ = {words::toSignedMetres(words[0]), words::toSignedMetres(words[1]), words::toAngle(words[2])};
 }
 

@@ -18,8 +18,11 @@ std::vector<std::uint32_t> ScalarData::encode(const Reading& reading) {
   return {words::fromMetres(*reading)};
 }
 
-void ScalarData::decode(std::span<const std::uint32_t> words) {
+void ScalarData::check(std::span<const std::uint32_t> words) const {
   if (!words.empty()) checkWordCount(words, 1);
+}
+
+void ScalarData::decode(std::span<const std::uint32_t> words) {
   reading_ = words.empty() ? Reading() : Reading(words::toMetres(words[0]));
 }
 

@@ -76,8 +76,11 @@ void ScanData::encode(std::span<const float> ranges, double maxRange,
   }
 }
 
-void ScanData::decode(std::span<const std::uint32_t> words) {
+void ScanData::check(std::span<const std::uint32_t> words) const {
   checkWordCount(words, ranges_.size());
+}
+
+void ScanData::decode(std::span<const std::uint32_t> words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const double range = words::toMetres(words[i]);
     const bool valid = words[i] != 0 && range >= config_.minRange;

@@ -63,14 +63,18 @@ bool SensorContainer::set(const Message& message) { return set({&message, 1}) ==
 
 std::size_t SensorContainer::set(std::span<const Message> frame) {
   const std::unique_lock lock(mutex_);
+  targets_.clear();
   std::size_t unknown = 0;
   for (const Message& message : frame) {
-    SensorData* data = findExactly(message.id);
+    SensorData* data = targets_.emplace_back(findExactly(message.id));
     if (data == nullptr) {
       ++unknown;
     } else {
-      data->setData(message.stamp, message.words);
+      data->checkData(message.words);
     }
+  }
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    if (targets_[i] != nullptr) targets_[i]->setData(frame[i].stamp, frame[i].words);
   }
   return unknown;
 }

@@ -56,12 +56,17 @@ SensorData::SensorData(SensorId id, const Pose2& mount) : id_(std::move(id)), mo
 
 SensorData::~SensorData() = default;
 
-void SensorData::setData(Timestamp stamp, std::span<const std::uint32_t> words) {
+void SensorData::checkData(std::span<const std::uint32_t> words) const {
   try {
-    decode(words);
+    check(words);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(toText(id_) + ": " + error.what());
   }
+}
+
+void SensorData::setData(Timestamp stamp, std::span<const std::uint32_t> words) {
+  checkData(words);
+  decode(words);
   words_.assign(words.begin(), words.end());
   stamp_ = stamp;
   ++sequence_;

@@ -111,6 +111,29 @@ TEST(SensorContainer, NamesTheFeatureWhoseWordsItRefuses) {
             "A/t/1: found 1 words, expected 3");
 }
 
+TEST(SensorContainer, TakesAFrameWholeOrNotAtAll) {
+  SensorContainer container;
+  fill(container);
+  const auto frame = [](Timestamp stamp, std::uint32_t word, std::vector<std::uint32_t> last) {
+    return std::vector<Message>{{stamp, {"A", "t", "1"}, {word, word, 0}},
+                                {stamp, {"C", "t", "1"}, {word}},
+                                {stamp, {"B", "u", "3"}, {word, word, 0}},
+                                {stamp, {"A", "t", "2"}, std::move(last)}};
+  };
+  EXPECT_EQ(container.set(frame(1, 10, {10, 10, 0})), 1u);
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { container.set(frame(2, 20, {20, 20, 36000})); }),
+            "A/t/2: found the angle word 36000, expected below 36000");
+  for (const SensorId& id : {SensorId{"A", "t", "1"}, {"B", "u", "3"}, {"A", "t", "2"}}) {
+    const SensorData& data = *container.findExactly(id);
+    EXPECT_EQ(data.stamp(), 1) << toText(id);
+    EXPECT_EQ(data.sequence(), 1u) << toText(id);
+    EXPECT_EQ(data.getData()[0], 10u) << toText(id);
+    EXPECT_EQ(static_cast<const PoseData&>(data).reading().x, words::toSignedMetres(10));
+  }
+  EXPECT_EQ(container.set(frame(3, 30, {30, 30, 0})), 1u) << "the next frame is taken";
+  EXPECT_EQ(container.findExactly({"A", "t", "2"})->stamp(), 3);
+}
+
 TEST(SensorContainer, HasNoExpectationWithoutLearnedFeatures) {
   SensorContainer container;
   EXPECT_EQ(container.getProbability(Pose2{}), kNoExpectation);

@@ -264,6 +264,7 @@ struct Hostile : SensorData {
       : SensorData({"evil", "test", "x"}), answer(std::move(a)) {}
   std::string wordsHelp() const override { return ""; }
   bool localizes() const override { return true; }
+  void check(std::span<const std::uint32_t>) const override {}
   void decode(std::span<const std::uint32_t>) override {}
   void weigh(const SampleView&, std::span<float> logProbability) const override {
     for (std::size_t i = 0; i < logProbability.size(); ++i) logProbability[i] += answer(i);

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "ortung/container/Formats.hpp"
+#include "ortung/container/SensorContainer.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 // Counts what this process asks of the memory, in all its libraries.
@@ -44,6 +46,25 @@ TEST(Cycle, AllocatesNothing) {
   };
   EXPECT_GT(runAndCount(500), 0u);  // buffers grow, the counter counts
   EXPECT_EQ(runAndCount(1000), 0u);
+}
+
+// With a feature that has words of its own and one that the container does not have.
+TEST(Frame, IsTakenWithoutAllocating) {
+  SensorContainer container;
+  container.add(std::make_unique<ScanData>(SensorId{"LMS200", "LRF", "scan"}, Pose2{},
+                                           ScanData::Config{.angleStep = 0.01}));
+  container.add(std::make_unique<OdometryData>(SensorId{"odometry", "odometry", "pose"}));
+  std::vector<Message> frame = {
+      {0, {"odometry", "odometry", "pose"}, OdometryData::encode({{1, 2, 0.5}, 0.1, 0.2, {7, 8}})},
+      {0, {"cam", "camera", "ball"}, {1}},
+      {0, {"LMS200", "LRF", "scan"}, std::vector<std::uint32_t>(180, 1000)}};
+  EXPECT_EQ(container.set(frame), 1u);
+  const std::size_t before = allocations.load();
+  for (Timestamp stamp = 1; stamp < 100; ++stamp) {
+    for (Message& message : frame) message.stamp = stamp;
+    container.set(frame);
+  }
+  EXPECT_EQ(allocations.load() - before, 0u);
 }
 
 }  // namespace

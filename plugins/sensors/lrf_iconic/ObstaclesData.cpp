@@ -28,7 +28,7 @@ std::vector<std::uint32_t> ObstaclesData::encode(std::span<const Obstacle> obsta
   return out;
 }
 
-void ObstaclesData::decode(std::span<const std::uint32_t> words) {
+void ObstaclesData::check(std::span<const std::uint32_t> words) const {
   if (words.size() % kWordsAnObstacle != 0 || words.size() > kMostObstacles * kWordsAnObstacle)
     throw std::invalid_argument("found " + std::to_string(words.size()) +
                                 " words, expected five an obstacle and at most 1024 obstacles");
@@ -36,6 +36,9 @@ void ObstaclesData::decode(std::span<const std::uint32_t> words) {
     if (words[i] > 1)
       throw std::invalid_argument("found the shape " + std::to_string(words[i]) +
                                   ", expected 0 for a circle or 1 for a segment");
+}
+
+void ObstaclesData::decode(std::span<const std::uint32_t> words) {
   reading_.clear();
   for (std::size_t i = 0; i < words.size(); i += kWordsAnObstacle) {
     const std::span<const std::uint32_t> w = words.subspan(i, kWordsAnObstacle);

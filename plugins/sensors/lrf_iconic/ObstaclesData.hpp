@@ -36,6 +36,7 @@ class ORTUNG_API ObstaclesData : public SensorData {
   std::string wordsHelp() const override;
 
  private:
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   Reading reading_;
 };

@@ -117,11 +117,14 @@ std::vector<std::uint32_t> PoseFixData::encode(std::span<const Fix> fixes) {
   return out;
 }
 
-void PoseFixData::decode(std::span<const std::uint32_t> words) {
+void PoseFixData::check(std::span<const std::uint32_t> words) const {
   if (words.size() % kWordsAFix != 0 || words.size() > kMostFixes * kWordsAFix)
     throw std::invalid_argument("found " + std::to_string(words.size()) +
                                 " words, expected nine a pose and at most 64 poses");
   for (std::size_t i = 0; i < words.size(); i += kWordsAFix) checkFix(words.subspan(i, kWordsAFix));
+}
+
+void PoseFixData::decode(std::span<const std::uint32_t> words) {
   reading_.clear();
   weighed_.clear();
   for (std::size_t i = 0; i < words.size(); i += kWordsAFix) {

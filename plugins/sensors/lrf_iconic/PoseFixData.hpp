@@ -47,6 +47,7 @@ class ORTUNG_API PoseFixData : public SensorData {
 
  private:
   struct Weighed;  ///< a fix and the inverse of its covariance
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   bool isInformative() const override { return !reading_.empty(); }
   void startTables(const FieldRegion& region, double headingStep) override;

@@ -58,6 +58,7 @@ class ORTUNG_API ScalarData : public SensorData {
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   bool isInformative() const override { return reading_.has_value(); }
   void startTables(const FieldRegion& region, double headingStep) override;
@@ -96,6 +97,7 @@ class ORTUNG_API BearingData : public SensorData {
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   bool isInformative() const override { return reading_.has_value(); }
   void startTables(const FieldRegion& region, double headingStep) override;
@@ -149,6 +151,7 @@ class ORTUNG_API LandmarksData : public SensorData {
     PositionTable range;
     BearingTable bearing;
   };
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   bool isInformative() const override;
   void startTables(const FieldRegion& region, double headingStep) override;
@@ -211,6 +214,7 @@ class ORTUNG_API ScanData : public SensorData {
 
  private:
   struct Prepared;  ///< the reading in the table's terms: levels, caps, end points
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   bool isInformative() const override;
   void startTables(const FieldRegion& region, double headingStep) override;
@@ -262,6 +266,7 @@ class ORTUNG_API ConeData : public SensorData {
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   bool isInformative() const override;
   void startTables(const FieldRegion& region, double headingStep) override;
@@ -300,6 +305,7 @@ class ORTUNG_API OdometryData : public SensorData {
   std::string wordsHelp() const override;
 
  private:
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   Reading reading_;
 };
@@ -317,6 +323,7 @@ class ORTUNG_API PoseData : public SensorData {
   std::string wordsHelp() const override;
 
  private:
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   Pose2 reading_;
 };

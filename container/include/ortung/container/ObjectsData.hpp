@@ -35,6 +35,7 @@ class ORTUNG_API ObjectsData : public SensorData {
   std::string wordsHelp() const override;
 
  private:
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   Reading reading_;
 };

@@ -52,6 +52,7 @@ class ORTUNG_API PointsData : public SensorData {
 
  private:
   struct Prepared;
+  void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   bool isInformative() const override;
   void startTables(const FieldRegion& region, double headingStep) override;

@@ -48,7 +48,9 @@ class ORTUNG_API SensorContainer {
   /// Sets one feature's reading. Returns false if the container has no such feature.
   /// @throws std::invalid_argument for words that the feature refuses
   bool set(const Message& message);
-  /// Sets all readings of one moment under one lock; returns how many features it does not have.
+  /// Sets all readings of one moment under one lock, or none of them if a feature refuses its
+  /// words; returns how many features it does not have.
+  /// @throws std::invalid_argument for words that a feature refuses
   std::size_t set(std::span<const Message> frame);
 
   /// Shared lock over all readings.
@@ -72,6 +74,7 @@ class ORTUNG_API SensorContainer {
 
  private:
   std::vector<std::unique_ptr<SensorData>> data_;
+  std::vector<SensorData*> targets_;  ///< of the frame that is being set; kept for its memory
   mutable std::shared_mutex mutex_;
 };
 

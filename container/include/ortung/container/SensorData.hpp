@@ -57,9 +57,11 @@ class ORTUNG_API SensorData {
   const Pose2& mount() const { return mount_; }
 
   // --- the reading ---
-  /// Takes a reading (paper, section 4). Words are checked before the old reading is touched.
+  /// Takes a reading (paper, section 4). Words that are refused leave the old one.
   /// @throws std::invalid_argument naming the feature, what was found and what was expected
   void setData(Timestamp stamp, std::span<const std::uint32_t> words);
+  /// Throws what setData() would, and takes nothing.
+  void checkData(std::span<const std::uint32_t> words) const;
   std::span<const std::uint32_t> getData() const { return words_; }
   Timestamp stamp() const { return stamp_; }
   /// Counts readings; 0 means that there has been none.
@@ -112,7 +114,9 @@ class ORTUNG_API SensorData {
   const std::shared_ptr<const TableFile>& tableFile() const { return file_; }
 
  private:
-  /// Checks and decodes. @throws std::invalid_argument and leaves the old reading
+  /// @throws std::invalid_argument saying what was found in the words and what was expected
+  virtual void check(std::span<const std::uint32_t> words) const = 0;
+  /// Makes the reading of words that check() has let through.
   virtual void decode(std::span<const std::uint32_t> words) = 0;
   virtual bool isInformative() const { return true; }
   virtual void startTables(const FieldRegion& region, double headingStep);
