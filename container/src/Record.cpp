@@ -85,6 +85,7 @@ void writeLine(const Message& message, std::string& line) {
 
 std::optional<Message> parseLine(std::string_view line, std::string* why) {
   Message message;
+  if (line.ends_with(' ')) return refuse(why, "the line ends with a blank");
   const std::string_view stamp = cutToken(line);
   if (!parseWhole(stamp, message.stamp)) {
     return refuse(why, "found " + quoted(stamp) + ", expected a time stamp in microseconds");

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "Files.hpp"
@@ -77,6 +78,12 @@ TEST(RecordLine, SaysWhatIsWrong) {
   EXPECT_EQ(whyNot("1 a/b/c 1 -1"), "found '-1', expected an unsigned 32-bit word");
   EXPECT_EQ(whyNot("1 a/b/c 1 4294967296"), "found '4294967296', expected an unsigned 32-bit word");
   EXPECT_EQ(whyNot("1 a/b/c 1  5"), "found '', expected an unsigned 32-bit word");
+  EXPECT_EQ(whyNot("1 a/b/c 1 5 "), "the line ends with a blank");
+  EXPECT_EQ(whyNot("1 a/b/c 1 5  "), "the line ends with a blank");
+  EXPECT_EQ(whyNot("1 a/b/c 0 "), "the line ends with a blank");
+  EXPECT_EQ(whyNot("1 a/b/c 1 5\t"), "found '5?', expected an unsigned 32-bit word");
+  EXPECT_EQ(whyNot(" 1 a/b/c 0"), "found '', expected a time stamp in microseconds");
+  EXPECT_EQ(whyNot("1  a/b/c 0"), "found '': a feature's name is model/type/feature, with two '/'");
   EXPECT_EQ(whyNot("1 a/b/c 1 5\r"), "found '5?', expected an unsigned 32-bit word");
   EXPECT_EQ(whyNot(std::string("\x1b[2J\x80", 5)),
             "found '?[2J?', expected a time stamp in microseconds");
@@ -117,7 +124,12 @@ TEST(RecordLine, SurvivesAHundredThousandMutations) {
     ASSERT_EQ(parsed.has_value(), why.empty()) << line;
     if (!parsed) continue;
     ++taken;
-    ASSERT_EQ(parseLine(lineOf(*parsed)), parsed) << line;
+    const std::string again = lineOf(*parsed);
+    ASSERT_EQ(parseLine(again), parsed) << line;
+    // Only zeros before a number can be more than what would be written.
+    ASSERT_EQ(std::count(again.begin(), again.end(), ' '), std::count(line.begin(), line.end(), ' '))
+        << line;
+    ASSERT_LE(again.size(), line.size()) << line;
   }
   EXPECT_GT(taken, 1000) << "the mutations should not all be refused";
 }

@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
@@ -16,14 +17,19 @@ namespace {
 
 using namespace ortung;
 
+auto blanks(std::string_view text) { return std::count(text.begin(), text.end(), ' '); }
+
 void readLines(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view read = text.substr(0, end);
     std::string why;
-    if (const auto message = parseLine(text.substr(0, end), &why)) {
+    if (const auto message = parseLine(read, &why)) {
       std::string line;
       writeLine(*message, line);
       if (parseLine(line) != message) std::abort();
+      // Only zeros before a number can be more than what would be written.
+      if (line.size() > read.size() || blanks(line) != blanks(read)) std::abort();
     } else if (why.empty()) {
       std::abort();
     }

@@ -19,8 +19,8 @@ namespace ortung {
 /// Appends to @p line. The same line is the log and the wire.
 ORTUNG_API void writeLine(const Message& message, std::string& line);
 
-/// Reads such a line. Nothing for anything else; then @p why (if given) says what is wrong.
-/// Never throws, never allocates more than the line is long.
+/// Reads such a line: exactly one blank between two words, none elsewhere. Nothing for anything
+/// else; then @p why (if given) says what is wrong. Never throws, never allocates more than the line is long.
 ORTUNG_API std::optional<Message> parseLine(std::string_view line, std::string* why = nullptr);
 
 inline constexpr std::size_t kMaxWords = 1u << 24;      ///< words of one reading
