@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "../../plugins/sensors/lrf_iconic/ObstaclesData.hpp"
-#include "../../plugins/sensors/lrf_iconic/PoseFixData.hpp"
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
+#include "ortung/container/ObstaclesData.hpp"
+#include "ortung/container/PoseFixData.hpp"
 
 namespace ortung {
 namespace {

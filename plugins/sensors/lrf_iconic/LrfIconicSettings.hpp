@@ -4,9 +4,9 @@
 
 #include "../common/SensorSettings.hpp"
 #include "../lrf/LrfSettings.hpp"
-#include "ObstaclesData.hpp"
-#include "PoseFixData.hpp"
 #include "ScanShapes.hpp"
+#include "ortung/container/ObstaclesData.hpp"
+#include "ortung/container/PoseFixData.hpp"
 
 namespace ortung {
 

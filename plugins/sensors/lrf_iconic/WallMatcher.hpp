@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "PoseFixData.hpp"
 #include "ScanShapes.hpp"
+#include "ortung/container/PoseFixData.hpp"
 #include "ortung/sim_api/World.hpp"
 
 namespace ortung {

@@ -1,4 +1,4 @@
-#include "PoseFixData.hpp"
+#include "ortung/container/PoseFixData.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "ortung/container/Formats.hpp"
+#include "FormatTools.hpp"
 #include "ortung/container/OneSample.hpp"
 
 namespace ortung {
@@ -46,9 +46,7 @@ PoseFixData::Fix decodeFix(std::span<const std::uint32_t> w) {
 }
 
 void checkFix(std::span<const std::uint32_t> w) {
-  if (w[2] >= words::kAngles)
-    throw std::invalid_argument("found the angle word " + std::to_string(w[2]) +
-                                ", expected below 36000");
+  checkAngleWord(w[2]);
   if (w[3] == 0 || w[4] == 0 || w[5] == 0)
     throw std::invalid_argument("found a sigma of 0, expected at least 1");
   for (std::size_t i = 6; i < kWordsAFix; ++i)

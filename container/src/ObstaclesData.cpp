@@ -1,8 +1,6 @@
-#include "ObstaclesData.hpp"
+#include "ortung/container/ObstaclesData.hpp"
 
-#include <stdexcept>
-
-#include "ortung/container/Formats.hpp"
+#include "FormatTools.hpp"
 
 namespace ortung {
 namespace {
