@@ -74,6 +74,18 @@ std::string repeated(const std::string& part, int count) {
   return all;
 }
 
+TEST(Toml, TextOfAFileIsThatOfItsBytes) {
+  const test::TemporaryFolder folder;
+  const std::string text = "a = 1  # \xC3\xA4\r\n\n";
+  test::writeBytes(folder / "a.toml", text);
+  EXPECT_EQ(readTomlText(folder / "a.toml"), text);
+  EXPECT_EQ(complaint([&] { readTomlText(folder / "no.toml"); }),
+            (folder / "no.toml").string() + ": can't be read");
+  test::writeBytes(folder / "big.toml", std::string(kMaxConfigBytes + 1, ' '));
+  EXPECT_NE(complaint([&] { readTomlText(folder / "big.toml"); }).find("at most 1048576 are read"),
+            std::string::npos);
+}
+
 TEST(Toml, RefusesDeepNestingInAnyForm) {
   const std::vector<std::string> bombs = {
       "a = " + std::string(100000, '['),

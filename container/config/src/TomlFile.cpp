@@ -62,6 +62,12 @@ class Outside {
 bool isOfNumber(char c) { return (c >= '0' && c <= '9') || c == '_' || c == '+' || c == '-'; }
 bool isOfWord(char c) { return isOfNumber(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
+void checkSize(std::string_view text, const std::string& name, std::size_t most) {
+  if (text.size() <= most) return;
+  throw ConfigError(name + ": has " + std::to_string(text.size()) + " bytes, at most " +
+                    std::to_string(most) + " are read");
+}
+
 void checkNesting(std::string_view text, const std::string& name) {
   Outside outside(text);
   int dots = 0;
@@ -118,11 +124,19 @@ Parameters convert(const toml::table& table, const std::string& name, int depth)
 
 }  // namespace
 
+std::string readTomlText(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file))
+    throw ConfigError(file.string() + ": can't be read");
+  std::string text(kMaxConfigBytes + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  checkSize(text, file.string(), kMaxConfigBytes);
+  return text;
+}
+
 Parameters parseToml(std::string_view text, const std::string& name, std::size_t maxBytes) {
-  if (text.size() > maxBytes) {
-    throw ConfigError(name + ": has " + std::to_string(text.size()) + " bytes, at most " +
-                      std::to_string(maxBytes) + " are read");
-  }
+  checkSize(text, name, maxBytes);
   checkNesting(text, name);
   try {
     return convert(toml::parse(text, name), name, 0);
@@ -133,12 +147,7 @@ Parameters parseToml(std::string_view text, const std::string& name, std::size_t
 }
 
 Parameters readToml(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw ConfigError(file.string() + ": can't be read");
-  std::string text(kMaxConfigBytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return parseToml(text, file.string(), kMaxConfigBytes);
+  return parseToml(readTomlText(file), file.string());
 }
 
 }  // namespace ortung

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "ortung/config/RobotFile.hpp"
+#include "ortung/config/TomlFile.hpp"
 #include "ortung/container/Plugin.hpp"
 #include "ortung/container/PluginFactory.hpp"
 #include "ortung/container/Source.hpp"
@@ -131,11 +130,6 @@ std::filesystem::path robotFileOf(const Parameters& p) {
   return file;
 }
 
-std::string contentOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 double shareOf(Timestamp now, Timestamp duration) {
   return std::min(toSeconds(now) / toSeconds(std::max(duration, Timestamp{1})), 1.0);
 }
@@ -149,7 +143,8 @@ class RobotSource : public Source {
         run_(Run::read(p)),
         factory_(PluginFactory::standardFolders()),
         simulation_(readWorld(worldFile_), run_.simulation),
-        config_(readRobot(robotFile_)),
+        robotToml_(readTomlText(robotFile_)),
+        config_(readRobot(parseToml(robotToml_, robotFile_.string()))),
         planner_(simulation_.world(), config_.radius),
         placing_(simulation_.random(kPlacing)),
         robot_(&enter()) {
@@ -175,7 +170,7 @@ class RobotSource : public Source {
 
   double progress() const override { return shareOf(simulation_.now(), run_.duration); }
   std::string worldFingerprint() const override { return simulation_.world().fingerprint(); }
-  std::string robotToml() const override { return contentOf(robotFile_); }
+  std::string robotToml() const override { return robotToml_; }
 
  private:
   static constexpr std::uint64_t kPlacing = 0;
@@ -210,6 +205,7 @@ class RobotSource : public Source {
   Run run_;
   PluginFactory factory_;
   Simulation simulation_;
+  std::string robotToml_;
   RobotConfig config_;
   RoutePlanner planner_;
   Random placing_;
@@ -253,7 +249,7 @@ class SceneSource : public Source {
 
   double progress() const override { return shareOf(now(), run_.duration); }
   std::string worldFingerprint() const override { return fingerprint_; }
-  std::string robotToml() const override { return contentOf(file_); }
+  std::string robotToml() const override { return readTomlText(file_); }
 
  private:
   Timestamp now() const { return player_.simulation().now(); }

@@ -3,14 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <optional>
 #include <string_view>
 #include <thread>
 
 #include "ortung/client/RobotSession.hpp"
+#include "ortung/config/TomlFile.hpp"
 #include "ortung/container/Plugin.hpp"
 #include "ortung/container/Source.hpp"
 
@@ -77,9 +76,7 @@ std::string readRobotFile(const Parameters& p) {
   const std::string given = p.textOr("robot_file", "");
   const std::string file = p.textOr("robot", given);
   if (file.empty()) p.fail("robot", "is missing; the server needs a robot file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) p.fail("robot", "is \"" + file + "\", which can't be read");
-  return {std::istreambuf_iterator<char>(in), {}};
+  return readTomlText(file);
 }
 
 /// Source "tcp": a robot on the field of a message board.

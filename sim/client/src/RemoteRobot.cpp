@@ -4,12 +4,11 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <thread>
 
 #include "ortung/config/RobotFile.hpp"
+#include "ortung/config/TomlFile.hpp"
 #include "ortung/container/PluginFactory.hpp"
 
 namespace ortung {
@@ -28,11 +27,6 @@ Timestamp steadyTime() {
       .count();
 }
 
-std::string readText(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 steady_clock::duration seconds(double s) {
   return std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(s));
 }
@@ -42,8 +36,8 @@ steady_clock::duration seconds(double s) {
 struct RemoteRobot::Parts {
   Parts(const std::filesystem::path& robotFile, const RemoteOptions& given)
       : options(given),
-        config(readRobot(robotFile)),
-        robotToml(readText(robotFile)),
+        robotToml(readTomlText(robotFile)),
+        config(readRobot(parseToml(robotToml, robotFile.string()))),
         factory(PluginFactory::standardFolders()) {
     if (!options.clock) options.clock = steadyTime;
     fillContainer(container, config, factory);
@@ -167,8 +161,8 @@ struct RemoteRobot::Parts {
   }
 
   RemoteOptions options;
-  RobotConfig config;
   std::string robotToml;
+  RobotConfig config;
   PluginFactory factory;
   SensorContainer container;
 

@@ -15,6 +15,9 @@ inline constexpr std::size_t kMaxNetworkConfigBytes = 64u << 10; ///< a text fro
 /// @throws ConfigError if it is missing, too large, nested too deep or no TOML
 ORTUNG_API Parameters readToml(const std::filesystem::path& file);
 
+/// The text of a TOML file as it is. @throws ConfigError if it is missing or too large
+ORTUNG_API std::string readTomlText(const std::filesystem::path& file);
+
 /// Reads TOML text. @param name what errors call it
 ORTUNG_API Parameters parseToml(std::string_view text, const std::string& name,
                                 std::size_t maxBytes = kMaxConfigBytes);
