@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "ortung/container/Formats.hpp"
+#include "ortung/container/HelperProgram.hpp"
 #include "ortung/container/Plugin.hpp"
 #include "ortung/container/Record.hpp"
-#include "ortung/realsensors/ChildProcess.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 #include "ortung/realsensors/MapFiles.hpp"
@@ -17,7 +17,7 @@
 namespace ortung {
 namespace {
 
-constexpr std::uint64_t kMaxOutput = 1ull << 30;  // bytes of readings as text
+constexpr std::size_t kMaxOutput = 1u << 30;  // bytes of readings as text
 constexpr std::size_t kMaxFeatures = 4096;
 const SensorId kOdometry{"odometry", "odometry", "pose"};
 const SensorId kScan{"laser", "LRF", "scan"};
@@ -48,7 +48,7 @@ class RawlogSource : public LogSource {
     const auto truth = fileOption(options, "gt", folder);
     for (const SensorId& id : {kOdometry, kScan, kLandmarks})
       features_[toText(id)] = addFeature(id);
-    readOutput(runHelper(findHelper("ortung-mrpt-reader"),
+    readOutput(runHelper(findHelper("ortung-mrpt-reader", path_),
                          {"rawlog", std::filesystem::absolute(path_).string()}, path_, kMaxOutput));
     if (!truth.empty()) readTruth(truth);
     finish(path_);

@@ -1,5 +1,4 @@
 #include "LogTesting.hpp"
-#include "ortung/realsensors/ChildProcess.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 
@@ -158,28 +157,6 @@ TEST(Toml, WritesNumbersAsFloatsAndEscapesText) {
   EXPECT_EQ(tomlNumber(-0.125), "-0.125");
   EXPECT_EQ(tomlNumber(1e-7), "0.0000001");
   EXPECT_EQ(tomlText("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\"");
-}
-
-TEST(RunHelper, ReturnsWhatTheProgramPrints) {
-  EXPECT_EQ(runHelper("/bin/echo", {"a", "b c"}, "x", 100), "a b c\n");
-}
-
-TEST(RunHelper, NamesSignalStatusAndLimit) {
-  EXPECT_EQ(
-      errorOf([] {
-        runHelper("/bin/sh", {"-c", "kill -SEGV $$"}, "log", 100);
-      }),
-      "log: sh was ended by signal 11 (Segmentation fault); the file is damaged or too large");
-  EXPECT_EQ(errorOf([] {
-              runHelper("/bin/sh", {"-c", "echo '# error torn'; exit 3"}, "log", 100);
-            }),
-            "log: sh ended with status 3: torn");
-  EXPECT_EQ(errorOf([] {
-              runHelper("/bin/sh", {"-c", "while :; do echo aaaaaaaaa; done"}, "log", 100);
-            }),
-            "log: found more than 100 bytes of readings, expected no more");
-  EXPECT_EQ(errorOf([] { runHelper("/nowhere/x", {}, "log", 100); }),
-            "log: /nowhere/x does not start: No such file or directory");
 }
 
 }  // namespace

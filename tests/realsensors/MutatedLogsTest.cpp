@@ -1,7 +1,7 @@
 /// Damaged logs are read or refused with a sentence; nothing else happens. Seeds are fixed.
 
 #include "LogTesting.hpp"
-#include "ortung/realsensors/ChildProcess.hpp"
+#include "ortung/container/HelperProgram.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 
 namespace ortung {
@@ -103,7 +103,7 @@ TEST(MutatedLogs, CompressedOnesAreReadOrRefused) {
 }
 
 TEST(MutatedLogs, RawlogsAreReadOrRefused) {
-  if (!errorOf([] { findHelper("ortung-mrpt-reader"); }).empty())
+  if (!errorOf([] { findHelper("ortung-mrpt-reader", ""); }).empty())
     GTEST_SKIP() << "ortung-mrpt-reader was not built";
   ORTUNG_NEED_DATA(data, "mrpt_localization_demo/raw/localization_demo.rawlog");
   // The bytes below the compression, or its checksum would catch everything.

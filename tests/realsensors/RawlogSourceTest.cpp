@@ -2,7 +2,7 @@
 
 #include "LogTesting.hpp"
 #include "ortung/container/Formats.hpp"
-#include "ortung/realsensors/ChildProcess.hpp"
+#include "ortung/container/HelperProgram.hpp"
 
 namespace ortung {
 namespace {
@@ -91,7 +91,7 @@ TEST_F(RawlogSource, NamesTheFileThatIsNotThere) {
 
 /// Whether the reader was built; the tests lie beside it.
 bool hasReader() {
-  return errorOf([] { findHelper("ortung-mrpt-reader"); }).empty();
+  return errorOf([] { findHelper("ortung-mrpt-reader", ""); }).empty();
 }
 
 #define ORTUNG_NEED_READER() \
@@ -169,7 +169,7 @@ TEST(MrptReader, PrintsAGridMapFromItsBottomRow) {
   ORTUNG_NEED_READER();
   ORTUNG_NEED_DATA(data, "mrpt_uwb_ro/raw/uwb_ro-localization_demo_map.gridmap.gz");
   const std::string bytes =
-      runHelper(findHelper("ortung-mrpt-reader"), {"gridmap", data.string()}, "grid", 1 << 22);
+      runHelper(findHelper("ortung-mrpt-reader", ""), {"gridmap", data.string()}, "grid", 1 << 22);
   const std::string header = "ortung-gridmap 700 650 0.0399999991 -10 -10\n";
   ASSERT_EQ(bytes.substr(0, header.size()), header);
   ASSERT_EQ(bytes.size(), header.size() + 700 * 650);

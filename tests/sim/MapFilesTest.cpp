@@ -232,7 +232,7 @@ TEST_F(MrptMaps, ComeFromTheReader) {
 }
 
 TEST_F(MrptMaps, AreRefusedWithTheReadersOwnWords) {
-  reader("echo 'no such class' >&2; exit 3");
+  reader("echo '# error no such class'; exit 3");
   EXPECT_HAS(refusal("map.gridmap.gz"), "ended with status 3: no such class");
   reader("kill -SEGV $$");
   EXPECT_HAS(refusal("map.gridmap.gz"), "was ended by signal 11");
@@ -245,13 +245,13 @@ TEST_F(MrptMaps, AreRefusedWithTheReadersOwnWords) {
   reader("printf 'ortung-gridmap 1 1 nan -1 2\\na'");
   EXPECT_HAS(refusal("map.gridmap.gz"), "ortung-gridmap");
   reader("cat /dev/zero");
-  EXPECT_HAS(refusal("map.gridmap.gz"), "wrote more than expected");
+  EXPECT_HAS(refusal("map.gridmap.gz"), "ortung-mrpt-reader wrote more than 67109120 bytes");
 }
 
 TEST_F(MrptMaps, NeedTheReader) {
   const std::string message = refusal("map.gridmap.gz");
   EXPECT_HAS(message,
-             "need the program ortung-mrpt-reader, which is not in " + folder.path().string());
+             "the program ortung-mrpt-reader is needed, which is not in " + folder.path().string());
   EXPECT_HAS(message, "ORTUNG_LIBEXEC");
   EXPECT_HAS(refusal("gone.gridmap"), "no such file");
 }

@@ -1,4 +1,4 @@
-#include "ortung/realsensors/ChildProcess.hpp"
+#include "ortung/container/HelperProgram.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -12,8 +12,6 @@
 #include <cstring>
 #include <stdexcept>
 #include <system_error>
-
-#include "ortung/realsensors/LogFile.hpp"
 
 namespace ortung {
 namespace {
@@ -45,6 +43,7 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
   std::vector<std::string> texts{program};
   texts.insert(texts.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -58,8 +57,17 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   return child;
 }
 
+/// The environment may say where; else beside the running program or where it was installed.
+std::vector<std::filesystem::path> helperFolders() {
+  if (const char* folder = std::getenv("ORTUNG_LIBEXEC"); folder && *folder) return {folder};
+  std::error_code error;
+  const auto own = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  if (error) return {};
+  return {own, own.parent_path() / "libexec" / "ortung"};
+}
+
 /// Everything up to the end, or nothing more than maxBytes + 1.
-std::string readAll(int input, std::uint64_t maxBytes) {
+std::string readAll(int input, std::size_t maxBytes) {
   std::string bytes;
   std::array<char, 1u << 16> block;
   while (bytes.size() <= maxBytes) {
@@ -107,30 +115,20 @@ void check(int status, const std::string& program, const std::string& output,
 
 }  // namespace
 
-std::filesystem::path findHelper(const std::string& name) {
-  std::vector<std::filesystem::path> folders;
-  if (const char* folder = std::getenv("ORTUNG_LIBEXEC"); folder && *folder) {
-    folders.emplace_back(folder);
-  }
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    folders.push_back(self.parent_path());
-    folders.push_back(self.parent_path().parent_path() / "libexec" / "ortung");
-  }
+std::filesystem::path findHelper(const std::string& name, const std::string& about) {
   std::string places;
-  for (const auto& folder : folders) {
+  for (const auto& folder : helperFolders()) {
     const auto program = folder / name;
     if (::access(program.c_str(), X_OK) == 0) return program;
     places += (places.empty() ? "" : ", ") + folder.string();
   }
-  throw std::runtime_error(name + ": found in none of " + places +
-                           "; build with ORTUNG_MRPT, or set ORTUNG_LIBEXEC to its folder");
+  failWith(about, "the program " + name + " is needed, which is not in " + places +
+                      "; build with ORTUNG_MRPT=ON or name its folder in ORTUNG_LIBEXEC");
 }
 
 std::string runHelper(const std::filesystem::path& program,
                       const std::vector<std::string>& arguments, const std::string& about,
-                      std::uint64_t maxBytes) {
+                      std::size_t maxBytes) {
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     failWith(about, "no pipe: " + std::generic_category().message(errno));
@@ -152,8 +150,8 @@ std::string runHelper(const std::filesystem::path& program,
   input.close();
   const int status = waitFor(child);
   if (tooMuch) {
-    failWith(about, "found more than " + std::to_string(maxBytes) +
-                        " bytes of readings, expected no more");
+    failWith(about, program.filename().string() + " wrote more than " + std::to_string(maxBytes) +
+                        " bytes, expected no more");
   }
   check(status, program.string(), bytes, about);
   return bytes;
