@@ -1,8 +1,5 @@
 #include "ortung/container/Record.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <charconv>
 #include <limits>
 #include <stdexcept>
@@ -62,13 +59,6 @@ bool readLine(std::istream& in, std::string& line) {
   return true;
 }
 
-void syncFile(const std::filesystem::path& path, int flags) {
-  const int file = ::open(path.c_str(), flags);
-  if (file < 0) return;
-  ::fsync(file);
-  ::close(file);
-}
-
 }  // namespace
 
 void writeLine(const Message& message, std::string& line) {
@@ -120,38 +110,18 @@ std::optional<Message> parseLine(std::string_view line, std::string* why) {
   return message;
 }
 
-RecordWriter::RecordWriter(std::filesystem::path file, const std::string& worldFingerprint)
-    : file_(std::move(file)), temporary_(file_) {
-  temporary_ += ".part" + std::to_string(::getpid());
-  out_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!out_) throw std::runtime_error(file_.string() + ": can't be written (" + temporary_.string() + ")");
-  out_ << kRecordMagic << '\n';
-  if (!worldFingerprint.empty()) out_ << kWorldKey << worldFingerprint << '\n';
-}
-
-RecordWriter::~RecordWriter() {
-  if (committed_) return;
-  out_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+RecordWriter::RecordWriter(const std::filesystem::path& file, const std::string& worldFingerprint)
+    : file_(file) {
+  file_.write(std::string(kRecordMagic) + "\n");
+  if (!worldFingerprint.empty()) file_.write(std::string(kWorldKey) + worldFingerprint + "\n");
 }
 
 void RecordWriter::write(const Message& message) {
   line_.clear();
   writeLine(message, line_);
   line_ += '\n';
-  out_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
+  file_.write(line_);
   ++messages_;
-}
-
-void RecordWriter::commit() {
-  out_.close();
-  if (!out_) throw std::runtime_error(file_.string() + ": writing failed (is the disk full?)");
-  syncFile(temporary_, O_RDONLY | O_CLOEXEC);
-  std::filesystem::rename(temporary_, file_);
-  const std::filesystem::path folder = file_.parent_path();
-  syncFile(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  committed_ = true;
 }
 
 RecordSource::RecordSource(const std::filesystem::path& file)

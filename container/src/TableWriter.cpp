@@ -1,12 +1,9 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <array>
-#include <cstdio>
 #include <limits>
 #include <set>
 
 #include "Zip.hpp"
+#include "ortung/container/NewFile.hpp"
 #include "ortung/container/TableFile.hpp"
 
 namespace ortung {
@@ -34,22 +31,32 @@ std::string npyHeader(const TableArray& array) {
   return out + '\n';
 }
 
+/// What goes wrong with the file is an error of tables, too.
+template <class Action>
+auto forTables(Action action) {
+  try {
+    return action();
+  } catch (const std::runtime_error& error) {
+    throw TableError(error.what());
+  }
+}
+
 }  // namespace
 
 struct TableWriter::Impl {
+  explicit Impl(std::filesystem::path name) : file(std::move(name)), out(file) {}
+
   std::filesystem::path file;
-  std::filesystem::path temporary;
-  std::FILE* out = nullptr;
+  NewFile out;
   std::uint64_t offset = 0;
   std::vector<zip::Member> members;
   std::set<std::string> names;
 
-  void put(const void* bytes, std::size_t size) {
-    if (size > 0 && std::fwrite(bytes, 1, size, out) != size) {
-      throw TableError(file.string() + ": writing failed (is the disk full?)");
-    }
-    offset += size;
+  void put(std::span<const std::byte> bytes) {
+    forTables([&] { out.write(bytes); });
+    offset += bytes.size();
   }
+  void put(std::string_view text) { put(std::as_bytes(std::span(text))); }
   void add(const std::string& name, const std::string& header, std::span<const std::byte> bytes) {
     if (!names.insert(name).second) throw TableError(file.string() + ": member " + name + " is written twice");
     if (names.size() > zip::kMostMembers) throw TableError(file.string() + ": more than 65535 tables");
@@ -60,28 +67,17 @@ struct TableWriter::Impl {
     }
     const std::uint32_t crc = zip::crc32(bytes, zip::crc32(std::as_bytes(std::span(header))));
     const zip::Member member{name, crc, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(offset)};
-    const std::string local = zip::localHeader(member);
-    put(local.data(), local.size());
-    put(header.data(), header.size());
-    put(bytes.data(), bytes.size());
+    put(zip::localHeader(member));
+    put(header);
+    put(bytes);
     members.push_back(member);
   }
 };
 
-TableWriter::TableWriter(std::filesystem::path file) : impl_(std::make_unique<Impl>()) {
-  impl_->file = std::move(file);
-  impl_->temporary = impl_->file;
-  impl_->temporary += ".part" + std::to_string(::getpid());
-  impl_->out = std::fopen(impl_->temporary.c_str(), "wbe");
-  if (impl_->out == nullptr) throw TableError(impl_->file.string() + ": can't be written");
-}
+TableWriter::TableWriter(std::filesystem::path file)
+    : impl_(forTables([&] { return std::make_unique<Impl>(std::move(file)); })) {}
 
-TableWriter::~TableWriter() {
-  if (impl_->out == nullptr) return;
-  std::fclose(impl_->out);
-  std::error_code ignored;
-  std::filesystem::remove(impl_->temporary, ignored);
-}
+TableWriter::~TableWriter() = default;
 
 void TableWriter::addBytes(const TableArray& array) {
   impl_->add(array.name + ".npy", npyHeader(array), array.bytes);
@@ -92,25 +88,8 @@ void TableWriter::addText(const std::string& name, const std::string& text) {
 }
 
 void TableWriter::commit() {
-  const std::string directory = zip::directory(impl_->members, static_cast<std::uint32_t>(impl_->offset));
-  impl_->put(directory.data(), directory.size());
-  const bool flushed = std::fflush(impl_->out) == 0 && ::fsync(::fileno(impl_->out)) == 0;
-  if (!flushed) throw TableError(impl_->file.string() + ": writing failed (is the disk full?)");
-  std::fclose(impl_->out);
-  impl_->out = nullptr;
-  std::error_code problem;
-  std::filesystem::rename(impl_->temporary, impl_->file, problem);
-  if (problem) {
-    std::error_code ignored;
-    std::filesystem::remove(impl_->temporary, ignored);
-    throw TableError(impl_->file.string() + ": can't be put in place: " + problem.message());
-  }
-  const std::filesystem::path folder = impl_->file.parent_path();
-  const int handle = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (handle >= 0) {
-    ::fsync(handle);
-    ::close(handle);
-  }
+  impl_->put(zip::directory(impl_->members, static_cast<std::uint32_t>(impl_->offset)));
+  forTables([&] { impl_->out.commit(); });
 }
 
 }  // namespace ortung

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "ortung/container/Formats.hpp"
+#include "ortung/container/NewFile.hpp"
 #include "ortung/container/Plugin.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
@@ -289,7 +290,7 @@ void MrclamSource::writeWorld(const std::filesystem::path& file) const {
     text += "\n[[landmark]]\nkind = \"post\"\nidentity = " + std::to_string(subject) +
             "\nposition_m = [" + tomlNumber(place.x) + ", " + tomlNumber(place.y) + "]\n";
   }
-  writeWhole(file, text);
+  writeFile(file, text);
 }
 
 }  // namespace

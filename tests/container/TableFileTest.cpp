@@ -281,7 +281,7 @@ TEST(TableWriter, KilledInTheMiddleLeavesTheOldFileWhole) {
 TEST(TableWriter, SaysWhichFileCannotBeWritten) {
   const TemporaryFolder folder;
   EXPECT_EQ(messageOf<TableError>([&] { TableWriter(folder / "no" / "t.npz"); }),
-            (folder / "no" / "t.npz").string() + ": can't be written");
+            (folder / "no" / "t.npz").string() + ": can't be written: No such file or directory");
   // A folder in the way shows only at the end, and leaves nothing behind either.
   std::filesystem::create_directory(folder / "folder");
   const std::string told = messageOf<TableError>([&] { writeExample(folder / "folder"); });

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 #include "ortung/container/Formats.hpp"
@@ -109,20 +108,6 @@ std::string tomlText(const std::string& text) {
     }
   }
   return result + '"';
-}
-
-void writeWhole(const std::filesystem::path& file, const std::string& bytes) {
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, file, error);
-  if (!out || error) {
-    std::filesystem::remove(temporary, error);
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
 }
 
 }  // namespace ortung

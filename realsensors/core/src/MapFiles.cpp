@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ortung/container/NewFile.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 
@@ -36,9 +37,8 @@ std::filesystem::path beside(const std::filesystem::path& world, const std::stri
 
 void writeWorldText(const std::filesystem::path& world, const std::filesystem::path& map,
                     const std::string& more) {
-  writeWhole(world, "[world]\nname = " + tomlText(world.stem().string()) +
-                        "\n\n[[grid]]\nmap = " + tomlText(map.filename().string()) +
-                        "\nsurface_depth_cells = 0.5\n" + more);
+  writeFile(world, "[world]\nname = " + tomlText(world.stem().string()) + "\n\n[[grid]]\nmap = " +
+                       tomlText(map.filename().string()) + "\nsurface_depth_cells = 0.5\n" + more);
 }
 
 /// Copies a map that needs no other file; its endings (".gridmap.gz") tell its kind and stay.
@@ -51,7 +51,7 @@ void copyMap(const std::filesystem::path& world, const std::filesystem::path& ma
   std::ostringstream bytes;
   bytes << in.rdbuf();
   if (!in || !bytes) throw std::runtime_error(map.string() + ": cannot be read");
-  writeWhole(copy, bytes.str());
+  writeFile(copy, bytes.str());
   writeWorldText(world, copy, more);
 }
 
@@ -84,8 +84,8 @@ void copyMapServer(const std::filesystem::path& world, const std::filesystem::pa
   if (!isImage(bytes)) {
     throw std::runtime_error(image.string() + ": found no PGM or PNG image, expected one");
   }
-  writeWhole(copy, bytes);
-  writeWhole(beside(world, ".yaml"), text);
+  writeFile(copy, bytes);
+  writeFile(beside(world, ".yaml"), text);
   writeWorldText(world, beside(world, ".yaml"), more);
 }
 

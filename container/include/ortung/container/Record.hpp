@@ -10,6 +10,7 @@
 
 #include "ortung/container/Export.hpp"
 #include "ortung/container/Message.hpp"
+#include "ortung/container/NewFile.hpp"
 #include "ortung/container/Source.hpp"
 
 namespace ortung {
@@ -26,27 +27,22 @@ ORTUNG_API std::optional<Message> parseLine(std::string_view line, std::string* 
 inline constexpr std::size_t kMaxWords = 1u << 24;      ///< words of one reading
 inline constexpr std::string_view kRecordMagic = "# ortung record 1";
 
-/// Writes a record file: kRecordMagic, "# key value" lines (keys: world, robot, note), then readings.
-/// The file appears under its name at commit(), whole.
+/// Writes a record file: kRecordMagic, "# key value" lines (keys: world, robot, note), then
+/// readings. A NewFile: it appears at commit(). @throws std::runtime_error if the file can't be
+/// written
 class ORTUNG_API RecordWriter {
  public:
-  /// @throws std::runtime_error if the file can't be written
-  explicit RecordWriter(std::filesystem::path file, const std::string& worldFingerprint = "");
-  ~RecordWriter();  ///< without commit(): removes the temporary file
-  RecordWriter(const RecordWriter&) = delete;
-  RecordWriter& operator=(const RecordWriter&) = delete;
+  explicit RecordWriter(const std::filesystem::path& file,
+                        const std::string& worldFingerprint = "");
 
   void write(const Message& message);
-  void commit();
+  void commit() { file_.commit(); }
   std::size_t messages() const { return messages_; }
 
  private:
-  std::filesystem::path file_;
-  std::filesystem::path temporary_;
-  std::ofstream out_;
+  NewFile file_;
   std::string line_;
   std::size_t messages_ = 0;
-  bool committed_ = false;
 };
 
 /// Plays a record file (source kind "record"; part of the container, no plugin needed).

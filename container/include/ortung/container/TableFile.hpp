@@ -35,7 +35,7 @@ struct TableArray {
 class ORTUNG_API TableWriter {
  public:
   explicit TableWriter(std::filesystem::path file);
-  ~TableWriter();  ///< without commit(): removes the temporary file
+  ~TableWriter();  ///< without commit(): leaves nothing behind
   TableWriter(const TableWriter&) = delete;
   TableWriter& operator=(const TableWriter&) = delete;
 

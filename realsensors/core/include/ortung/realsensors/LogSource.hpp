@@ -73,8 +73,4 @@ ORTUNG_API std::string tomlNumber(double value);
 /// A TOML string with everything escaped that must be.
 ORTUNG_API std::string tomlText(const std::string& text);
 
-/// Writes a file under a temporary name first, so that it is there whole or not at all.
-/// @throws std::runtime_error
-ORTUNG_API void writeWhole(const std::filesystem::path& file, const std::string& bytes);
-
 }  // namespace ortung
