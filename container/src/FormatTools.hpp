@@ -21,6 +21,16 @@ inline void checkWordCount(std::span<const std::uint32_t> words, std::size_t exp
   }
 }
 
+/// Of a list: so many words for each entry. @param what e.g. "three a sighting and at most 4096
+/// sightings"
+inline void checkEntries(std::span<const std::uint32_t> words, std::size_t each, std::size_t most,
+                         const char* what) {
+  if (words.size() % each != 0 || words.size() > most * each) {
+    throw std::invalid_argument("found " + std::to_string(words.size()) + " words, expected " +
+                                what);
+  }
+}
+
 inline void checkAngleWord(std::uint32_t word) {
   if (word >= words::kAngles) {
     throw std::invalid_argument("found the angle word " + std::to_string(word) + ", expected below 36000");

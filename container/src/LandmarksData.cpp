@@ -40,10 +40,8 @@ std::vector<std::uint32_t> LandmarksData::encode(const Reading& reading) {
 }
 
 void LandmarksData::check(std::span<const std::uint32_t> words) const {
-  if (words.size() % kWordsASighting != 0 || words.size() > kMostSightings * kWordsASighting) {
-    throw std::invalid_argument("found " + std::to_string(words.size()) +
-                                " words, expected three a sighting and at most 4096 sightings");
-  }
+  checkEntries(words, kWordsASighting, kMostSightings,
+               "three a sighting and at most 4096 sightings");
   for (std::size_t i = 2; i < words.size(); i += kWordsASighting) checkAngleWord(words[i]);
 }
 

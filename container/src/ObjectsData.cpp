@@ -26,10 +26,7 @@ std::vector<std::uint32_t> ObjectsData::encode(std::span<const Object> objects) 
 }
 
 void ObjectsData::check(std::span<const std::uint32_t> words) const {
-  if (words.size() % kWordsAnObject != 0 || words.size() > kMostObjects * kWordsAnObject) {
-    throw std::invalid_argument("found " + std::to_string(words.size()) +
-                                " words, expected five an object and at most 1024 objects");
-  }
+  checkEntries(words, kWordsAnObject, kMostObjects, "five an object and at most 1024 objects");
   for (std::size_t i = 0; i < words.size(); i += kWordsAnObject) {
     if (words[i + 1] > kNoColour)
       throw std::invalid_argument("found the colour " + std::to_string(words[i + 1]) +

@@ -27,9 +27,8 @@ std::vector<std::uint32_t> ObstaclesData::encode(std::span<const Obstacle> obsta
 }
 
 void ObstaclesData::check(std::span<const std::uint32_t> words) const {
-  if (words.size() % kWordsAnObstacle != 0 || words.size() > kMostObstacles * kWordsAnObstacle)
-    throw std::invalid_argument("found " + std::to_string(words.size()) +
-                                " words, expected five an obstacle and at most 1024 obstacles");
+  checkEntries(words, kWordsAnObstacle, kMostObstacles,
+               "five an obstacle and at most 1024 obstacles");
   for (std::size_t i = 0; i < words.size(); i += kWordsAnObstacle)
     if (words[i] > 1)
       throw std::invalid_argument("found the shape " + std::to_string(words[i]) +

@@ -37,10 +37,7 @@ std::vector<std::uint32_t> PointsData::encode(std::span<const Point> points) {
 }
 
 void PointsData::check(std::span<const std::uint32_t> words) const {
-  if (words.size() % kWordsAPoint != 0 || words.size() > kMostPoints * kWordsAPoint) {
-    throw std::invalid_argument("found " + std::to_string(words.size()) +
-                                " words, expected two a point and at most 4096 points");
-  }
+  checkEntries(words, kWordsAPoint, kMostPoints, "two a point and at most 4096 points");
   for (std::size_t i = 1; i < words.size(); i += kWordsAPoint) checkAngleWord(words[i]);
 }
 

@@ -116,9 +116,7 @@ std::vector<std::uint32_t> PoseFixData::encode(std::span<const Fix> fixes) {
 }
 
 void PoseFixData::check(std::span<const std::uint32_t> words) const {
-  if (words.size() % kWordsAFix != 0 || words.size() > kMostFixes * kWordsAFix)
-    throw std::invalid_argument("found " + std::to_string(words.size()) +
-                                " words, expected nine a pose and at most 64 poses");
+  checkEntries(words, kWordsAFix, kMostFixes, "nine a pose and at most 64 poses");
   for (std::size_t i = 0; i < words.size(); i += kWordsAFix) checkFix(words.subspan(i, kWordsAFix));
 }
 

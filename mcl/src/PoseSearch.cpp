@@ -14,17 +14,6 @@ constexpr int kMostRises = 12;  ///< of b, even if 1 is not reached
 constexpr double kStepMetres[] = {0.15, 0.05};  ///< sigma of a Metropolis step, coarse and fine [m]
 constexpr double kStepRadians[] = {0.08, 0.02};  ///< [rad]
 
-SampleSet taken(const SampleSet& from, const std::vector<std::uint32_t>& indices) {
-  SampleSet set;
-  set.resize(indices.size());
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    set.x[i] = from.x[indices[i]];
-    set.y[i] = from.y[indices[i]];
-    set.theta[i] = from.theta[indices[i]];
-  }
-  return set;
-}
-
 std::vector<float> taken(const std::vector<float>& from,
                          const std::vector<std::uint32_t>& indices) {
   std::vector<float> values(indices.size());

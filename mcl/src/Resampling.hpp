@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ortung/container/Export.hpp"
+#include "ortung/mcl/SampleSet.hpp"
 
 namespace ortung {
 
@@ -18,6 +19,9 @@ ORTUNG_API double effectiveSamples(std::span<const double> weights);
 /// Low-variance resampling (Thrun, Burgard, Fox, table 4.4): @p n indices, each i about
 /// n * weights[i] times. @param offset in [0, 1) @pre the weights sum to 1
 ORTUNG_API std::vector<std::uint32_t> lowVariance(std::span<const double> weights, std::size_t n, double offset);
+
+/// The samples at these indices, all of the same weight.
+SampleSet taken(const SampleSet& from, std::span<const std::uint32_t> indices);
 
 /// Exponent b in (0, 1] for which the weights w^b are worth at least @p least samples:
 /// candidates are drawn by w^b and keep w^(1-b), so that a sharp reading does not leave only one.
