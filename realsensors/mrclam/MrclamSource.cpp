@@ -6,6 +6,7 @@
 #include "ortung/container/Formats.hpp"
 #include "ortung/container/NewFile.hpp"
 #include "ortung/container/Plugin.hpp"
+#include "ortung/container/SourceOptions.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 

@@ -9,6 +9,7 @@
 #include "ortung/container/HelperProgram.hpp"
 #include "ortung/container/Plugin.hpp"
 #include "ortung/container/Record.hpp"
+#include "ortung/container/SourceOptions.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 #include "ortung/realsensors/MapFiles.hpp"

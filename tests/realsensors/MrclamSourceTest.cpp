@@ -93,10 +93,10 @@ TEST_F(MrclamSource, SaysWhichRobotHasNoOdometry) {
 
 TEST_F(MrclamSource, RefusesOptionsItDoesNotKnowOrThatAreOutOfRange) {
   EXPECT_NE(errorOf(text("&robots=1")).find("robots is not known here"), std::string::npos);
-  EXPECT_NE(errorOf("mrclam:" + path() + "?robot=6")
-                .find("robot found '6', expected a number in [1.0, 5.0]"),
-            std::string::npos);
-  EXPECT_NE(errorOf("mrclam:" + path() + "?robot=one").find("found 'one'"), std::string::npos);
+  EXPECT_NE(
+      errorOf("mrclam:" + path() + "?robot=6").find("robot is \"6\", must be a number in [1, 5]"),
+      std::string::npos);
+  EXPECT_NE(errorOf("mrclam:" + path() + "?robot=one").find("robot is \"one\""), std::string::npos);
 }
 
 TEST_F(MrclamSource, NamesFileAndLineOfWhatIsWrong) {

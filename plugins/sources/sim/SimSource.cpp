@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <numbers>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 #include "ortung/config/RobotFile.hpp"
@@ -11,41 +8,13 @@
 #include "ortung/container/Plugin.hpp"
 #include "ortung/container/PluginFactory.hpp"
 #include "ortung/container/Source.hpp"
+#include "ortung/container/SourceOptions.hpp"
 #include "ortung/sim/RoutePlanner.hpp"
 #include "ortung/sim/Scene.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 namespace ortung {
 namespace {
-
-/// Reads a list of finite numbers separated by @p separator; nothing for anything else.
-std::optional<std::vector<double>> parseNumbers(std::string_view text, char separator) {
-  std::vector<double> numbers;
-  while (true) {
-    const std::size_t end = std::min(text.find(separator), text.size());
-    double number = 0.0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + end, number);
-    if (error != std::errc{} || rest != text.data() + end || !std::isfinite(number))
-      return std::nullopt;
-    numbers.push_back(number);
-    if (end == text.size()) return numbers;
-    text.remove_prefix(end + 1);
-  }
-}
-
-/// Options come as text, behind the "?" of the source.
-double numberOption(const Parameters& p, const std::string& key, double fallback, double low,
-                    double high) {
-  if (!p.has(key)) return fallback;
-  const std::string text = p.text(key);
-  const auto numbers = parseNumbers(text, ',');
-  if (!numbers || numbers->size() != 1 || numbers->front() < low || numbers->front() > high) {
-    std::ostringstream range;
-    range << "is \"" << text << "\", must be a number in [" << low << ", " << high << "]";
-    p.fail(key, range.str());
-  }
-  return numbers->front();
-}
 
 std::uint64_t seedOption(const Parameters& p) {
   if (!p.has("seed")) return 1;
@@ -57,15 +26,6 @@ std::uint64_t seedOption(const Parameters& p) {
   return seed;
 }
 
-std::optional<Pose2> startOption(const Parameters& p) {
-  if (!p.has("start")) return std::nullopt;
-  const std::string text = p.text("start");
-  const auto numbers = parseNumbers(text, ',');
-  if (!numbers || numbers->size() != 3)
-    p.fail("start", "is \"" + text + "\", must be x,y,theta in metres and degrees");
-  return Pose2{(*numbers)[0], (*numbers)[1], wrapAngle((*numbers)[2] * std::numbers::pi / 180.0)};
-}
-
 std::vector<FloorPoint> waypointsOption(const Parameters& p) {
   std::vector<FloorPoint> points;
   if (!p.has("waypoints")) return points;
@@ -73,7 +33,7 @@ std::vector<FloorPoint> waypointsOption(const Parameters& p) {
   std::string_view rest = text;
   while (true) {
     const std::size_t end = std::min(rest.find(';'), rest.size());
-    const auto numbers = parseNumbers(rest.substr(0, end), ',');
+    const auto numbers = parseNumbers(rest.substr(0, end));
     if (!numbers || numbers->size() != 2)
       p.fail("waypoints",
              "has \"" + std::string(rest.substr(0, end)) + "\", must be x,y;x,y;... in metres");
@@ -88,7 +48,7 @@ std::vector<Timestamp> kidnapsOption(const Parameters& p) {
   std::vector<Timestamp> moments;
   if (!p.has("kidnap")) return moments;
   const std::string text = p.text("kidnap");
-  const auto numbers = parseNumbers(text, ',');
+  const auto numbers = parseNumbers(text);
   if (!numbers) p.fail("kidnap", "is \"" + text + "\", must be times in seconds, t,t,...");
   for (const double seconds : *numbers) {
     const bool isLater = moments.empty() || fromSeconds(seconds) > moments.back();
@@ -110,14 +70,14 @@ struct Run {
 
   static Run read(const Parameters& p) {
     Run run;
-    run.duration = fromSeconds(numberOption(p, "duration", 60.0, 0.0, 1e6));
-    if (p.has("cycle_ms"))
-      run.simulation.cycle = numberOption(p, "cycle_ms", 0.0, 0.1, 1000.0) / 1000.0;
+    run.duration = fromSeconds(optionNumber(p, "duration", 60.0, {0.0, 1e6}));
+    if (const auto cycle = optionNumber(p, "cycle_ms", {0.1, 1000.0}))
+      run.simulation.cycle = *cycle / 1000.0;
     run.simulation.seed = seedOption(p);
     run.simulation.noise = p.choiceOr("noise", "on", {"on", "off"}) == "on";
-    run.start = startOption(p);
+    run.start = optionPose(p, "start");
     run.waypoints = waypointsOption(p);
-    if (p.has("speed")) run.speed = numberOption(p, "speed", 0.0, 0.0, 20.0);
+    run.speed = optionNumber(p, "speed", {0.0, 20.0});
     run.kidnaps = kidnapsOption(p);
     return run;
   }

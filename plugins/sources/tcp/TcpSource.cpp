@@ -1,56 +1,20 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <optional>
-#include <string_view>
 #include <thread>
 
 #include "ortung/client/RobotSession.hpp"
 #include "ortung/config/TomlFile.hpp"
 #include "ortung/container/Plugin.hpp"
 #include "ortung/container/Source.hpp"
+#include "ortung/container/SourceOptions.hpp"
 
 namespace ortung {
 namespace {
 
 constexpr double kDefaultDuration = 60.0;  // of a simulation, which has no end of its own [s]
-
-std::optional<double> parseNumber(std::string_view text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool isWhole = !text.empty() && error == std::errc() && end == text.data() + text.size();
-  if (!isWhole || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
-
-/// Options come as text, behind the "?" of the source.
-std::optional<double> numberOption(const Parameters& p, const std::string& key, double low,
-                                   double high) {
-  if (!p.has(key)) return std::nullopt;
-  const std::string text = p.text(key);
-  const auto number = parseNumber(text);
-  if (!number || *number < low || *number > high)
-    p.fail(key, "is \"" + text + "\", must be a number from " + std::to_string(low) + " to " +
-                    std::to_string(high));
-  return number;
-}
-
-std::optional<Pose2> startOption(const Parameters& p) {
-  if (!p.has("start")) return std::nullopt;
-  const std::string text = p.text("start");
-  const std::size_t first = std::min(text.find(','), text.size());
-  const std::size_t second = std::min(text.find(',', first + 1), text.size());
-  const std::string_view all = text;
-  const auto x = parseNumber(all.substr(0, first));
-  const auto y = parseNumber(all.substr(std::min(first + 1, text.size()), second - first - 1));
-  const auto theta = parseNumber(all.substr(std::min(second + 1, text.size())));
-  if (!x || !y || !theta)
-    p.fail("start", "is \"" + text + "\", must be x,y,theta in metres and degrees");
-  return Pose2{*x, *y, wrapAngle(*theta * std::numbers::pi / 180.0)};
-}
 
 SessionOptions readOptions(const Parameters& p) {
   SessionOptions options;
@@ -63,10 +27,10 @@ SessionOptions readOptions(const Parameters& p) {
     p.fail("path", "is \"" + path + "\", must be HOST:PORT, e.g. 127.0.0.1:7777");
   options.host = path.substr(0, colon);
   options.name = p.textOr("name", options.name);
-  options.start = startOption(p);
+  options.start = optionPose(p, "start");
   options.wanders = p.choiceOr("drive", "none", {"none", "wander"}) == "wander";
   options.isBinary = p.choiceOr("form", "text", {"text", "binary"}) == "binary";
-  options.patience = numberOption(p, "timeout", 0.1, 1e6).value_or(options.patience);
+  options.patience = optionNumber(p, "timeout", options.patience, {0.1, 1e6});
   if (const char* token = std::getenv("ORTUNG_TOKEN")) options.token = token;
   options.isInterruptible = true;
   return options;
@@ -86,8 +50,8 @@ class TcpSource : public Source {
       : options_(readOptions(p)),
         robotToml_(readRobotFile(p)),
         isLockstep_(p.choiceOr("lockstep", "on", {"on", "off"}) == "on"),
-        cycle_(numberOption(p, "cycle_ms", 1.0, 1e5).value_or(100.0) / 1000.0),
-        duration_(numberOption(p, "duration", 0.0, 1e9)),
+        cycle_(optionNumber(p, "cycle_ms", 100.0, {1.0, 1e5}) / 1000.0),
+        duration_(optionNumber(p, "duration", {0.0, 1e9})),
         session_(options_, robotToml_) {
     if (!duration_ && session_.kind() == "simulation") duration_ = kDefaultDuration;
     if (isLockstep_) session_.setLockstep(true);

@@ -49,23 +49,6 @@ void LogSource::finish(const std::string& where) {
   entries_.erase(entries_.begin(), kept.base());
 }
 
-std::optional<double> optionNumber(const Parameters& options, const std::string& key,
-                                   const Range& range) {
-  if (!options.has(key)) return std::nullopt;
-  const std::string text = options.text(key);
-  const auto value = parseNumber(text);
-  if (!value || *value < range.low || *value > range.high) {
-    options.fail(key, "found " + inQuotes(text) + ", expected a number in [" +
-                          tomlNumber(range.low) + ", " + tomlNumber(range.high) + "]");
-  }
-  return value;
-}
-
-double optionNumber(const Parameters& options, const std::string& key, double fallback,
-                    const Range& range) {
-  return optionNumber(options, key, range).value_or(fallback);
-}
-
 std::vector<std::uint32_t> PoseOdometry::words(Timestamp stamp, const Pose2& pose) {
   constexpr double kShortest = 1e-3;  // [s]; over less, jitter of the clock makes huge velocities
   const double seconds = last_ ? toSeconds(stamp - last_->first) : 0.0;

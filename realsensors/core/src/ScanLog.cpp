@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ortung/container/Formats.hpp"
+#include "ortung/container/SourceOptions.hpp"
 #include "ortung/realsensors/MapFiles.hpp"
 
 namespace ortung {

@@ -45,12 +45,6 @@ class ORTUNG_API LogSource : public Source {
   std::size_t at_ = 0;
 };
 
-/// Options come as text. @throws ConfigError naming the option
-ORTUNG_API double optionNumber(const Parameters& options, const std::string& key, double fallback,
-                               const Range& range);
-ORTUNG_API std::optional<double> optionNumber(const Parameters& options, const std::string& key,
-                                              const Range& range);
-
 /// Odometry poses, whose velocities follow from their differences.
 class ORTUNG_API PoseOdometry {
  public:
