@@ -61,15 +61,15 @@ std::string landmarksOf(const SimWorld& world) {
 
 void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
   constexpr double kCell = 0.1;  // of `ortung learn`
-  const double radius =
-      arguments.robot.empty() ? RobotConfig().radius : readRobot(arguments.robot).radius;
+  const RobotSize size =
+      arguments.robot.empty() ? RobotSize{RobotConfig().radius} : sizeOf(readRobot(arguments.robot));
   const std::unique_ptr<SimWorld> world = readWorld(file);
-  const FieldRegion region = world->region(kCell, radius);
+  const FieldRegion region = world->region(kCell, size);
   fmt::print("{}: world '{}', fingerprint {}\n  {}\n  {} x {} cells of {} m, {} open, {} where a robot "
-             "of radius {:g} m can stand\n  {}\n",
+             "of radius {:g} m and height {:g} m can stand\n  {}\n",
              printable(file.string()), printable(world->name()), world->fingerprint(),
              bounds(region.grid), region.grid.columns, region.grid.rows, kCell, countOf(region.open),
-             countOf(region.standable), radius, printable(landmarksOf(*world)));
+             countOf(region.standable), size.radius, size.height, printable(landmarksOf(*world)));
 }
 
 void checkSceneFile(const fs::path& file) {

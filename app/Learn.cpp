@@ -12,6 +12,7 @@
 #include "OutputFile.hpp"
 #include "Progress.hpp"
 #include "ortung/sim/Learner.hpp"
+#include "ortung/sim/RobotShape.hpp"
 
 namespace ortung::app {
 namespace {
@@ -57,7 +58,7 @@ int runLearn(const LearnArguments& arguments) {
   const std::unique_ptr<SimWorld> world = readWorld(arguments.world);
   FieldRegion region;  // must outlive the container, which learns over it
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
-  region = world->region(arguments.cell, robot->config.radius);
+  region = world->region(arguments.cell, sizeOf(robot->config));
   region.check();
   {
     Progress progress("learning", arguments.progress);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace ortung {
 namespace {
@@ -35,13 +36,19 @@ FieldGrid gridOver(const Box2& bounds, double cell) {
           std::max(1, static_cast<int>(rows))};
 }
 
+/// Whether a body is where something stands that is so high.
+template <class Body>
+bool isMetBy(const Body& body, double height) {
+  return body.zLow < height && body.zHigh > 0.0;
+}
+
 }  // namespace
 
 FreeSpace::FreeSpace(const WorldModel& world) : bounds_(world.bounds) {
   for (const Primitive& primitive : world.primitives)
-    if (primitive.isSolid() && primitive.zLow <= kTallestRobot) bodies_.push_back(&primitive);
+    if (primitive.isSolid()) bodies_.push_back(&primitive);
   for (const GridBody& body : world.grids)
-    if (body.zLow <= kTallestRobot) grids_.push_back({&body.map, distanceToOccupied(body.map)});
+    grids_.push_back({&body, distanceToOccupied(body.map)});
 }
 
 bool FreeSpace::isInField(double x, double y, double radius) const {
@@ -50,7 +57,7 @@ bool FreeSpace::isInField(double x, double y, double radius) const {
 }
 
 bool FreeSpace::isKnown(const Grid& grid, double x, double y) {
-  const GridMap& map = *grid.map;
+  const GridMap& map = grid.body->map;
   const double column = std::floor((x - map.originX) / map.cell);
   const double row = std::floor((y - map.originY) / map.cell);
   if (!(column >= 0 && row >= 0 && column < map.columns && row < map.rows)) return false;
@@ -59,7 +66,7 @@ bool FreeSpace::isKnown(const Grid& grid, double x, double y) {
 }
 
 bool FreeSpace::touches(const Grid& grid, double x, double y, double radius) {
-  const GridMap& map = *grid.map;
+  const GridMap& map = grid.body->map;
   const double column = std::floor((x - map.originX) / map.cell);
   const double row = std::floor((y - map.originY) / map.cell);
   if (column >= 0 && row >= 0 && column < map.columns && row < map.rows) {
@@ -85,26 +92,33 @@ bool FreeSpace::touches(const Grid& grid, double x, double y, double radius) {
   return false;
 }
 
-bool FreeSpace::isFreeOfGrids(double x, double y, double radius) const {
-  bool known = grids_.empty();
+bool FreeSpace::isFreeOfGrids(double x, double y, const RobotSize& size) const {
+  bool isAny = false;
+  bool known = false;
   for (const Grid& grid : grids_) {
-    if (touches(grid, x, y, radius)) return false;
+    if (!isMetBy(*grid.body, size.height)) continue;
+    if (touches(grid, x, y, size.radius)) return false;
+    isAny = true;
     known = known || isKnown(grid, x, y);
   }
-  return known;
+  return known || !isAny;
 }
 
-bool FreeSpace::isFree(double x, double y, double radius) const {
-  if (!(std::isfinite(x) && std::isfinite(y) && radius >= 0.0)) return false;
-  if (!isInField(x, y, radius) || !isFreeOfGrids(x, y, radius)) return false;
+bool FreeSpace::isFree(double x, double y, const RobotSize& size) const {
+  if (!(std::isfinite(x) && std::isfinite(y) && size.radius >= 0.0 && size.height >= 0.0))
+    return false;
+  if (!isInField(x, y, size.radius) || !isFreeOfGrids(x, y, size)) return false;
   return std::none_of(bodies_.begin(), bodies_.end(), [&](const Primitive* body) {
-    return distanceTo(*body, {x, y}) <= radius;
+    return isMetBy(*body, size.height) && distanceTo(*body, {x, y}) <= size.radius;
   });
 }
 
-/// Clears the cells whose centre is within @p radius of a primitive.
-void FreeSpace::block(const FieldGrid& grid, double radius, std::vector<std::uint8_t>& mask) const {
+/// Clears the cells around whose centre a body is in the way.
+void FreeSpace::block(const FieldGrid& grid, const RobotSize& size,
+                      std::vector<std::uint8_t>& mask) const {
+  const double radius = size.radius;
   for (const Primitive* body : bodies_) {
+    if (!isMetBy(*body, size.height)) continue;
     const Box2 box = boundsOf(*body);
     const Cells columns =
         cellsWithin(box.xLow - radius, box.xHigh + radius, grid.originX, grid.cell, grid.columns);
@@ -122,24 +136,27 @@ void FreeSpace::block(const FieldGrid& grid, double radius, std::vector<std::uin
   }
 }
 
-FieldRegion FreeSpace::region(double cell, double robotRadius) const {
-  if (!(robotRadius >= 0.0 && robotRadius <= 100.0))
-    throw std::invalid_argument("the robot's radius is " + std::to_string(robotRadius) +
-                                " m, expected 0 to 100");
+FieldRegion FreeSpace::region(double cell, const RobotSize& robot) const {
+  for (const auto& [name, value] : {std::pair("radius", robot.radius), {"height", robot.height}})
+    if (!(value >= 0.0 && value <= 100.0))
+      throw std::invalid_argument(std::string("the robot's ") + name + " is " +
+                                  std::to_string(value) + " m, expected 0 to 100");
   FieldRegion region;
   region.grid = gridOver(bounds_, cell);
   region.open.resize(region.grid.size());
   region.standable.resize(region.grid.size());
+  const RobotSize point{0.0, robot.height};
   for (std::size_t i = 0; i < region.grid.size(); ++i) {
     const double x = region.grid.centreX(i);
     const double y = region.grid.centreY(i);
-    region.open[i] = isInField(x, y, 0.0) && isFreeOfGrids(x, y, 0.0) ? 1 : 0;
-    region.standable[i] =
-        region.open[i] != 0 && isInField(x, y, robotRadius) && isFreeOfGrids(x, y, robotRadius) ? 1
-                                                                                                : 0;
+    const auto hasRoom = [&](const RobotSize& size) {
+      return isInField(x, y, size.radius) && isFreeOfGrids(x, y, size);
+    };
+    region.open[i] = hasRoom(point) ? 1 : 0;
+    region.standable[i] = region.open[i] != 0 && hasRoom(robot) ? 1 : 0;
   }
-  block(region.grid, 0.0, region.open);
-  block(region.grid, robotRadius, region.standable);
+  block(region.grid, point, region.open);
+  block(region.grid, robot, region.standable);
   return region;
 }
 

@@ -105,6 +105,12 @@ double reachOf(const Primitive& primitive) {
   return reach;
 }
 
+double topOf(std::span<const Primitive> primitives) {
+  double top = 0.0;
+  for (const Primitive& primitive : primitives) top = std::max(top, primitive.zHigh);
+  return top;
+}
+
 std::vector<Point2> cornersOf(const Primitive& primitive) {
   if (primitive.shape == Primitive::Shape::triangle)
     return {primitive.corners.begin(), primitive.corners.end()};

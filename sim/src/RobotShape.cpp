@@ -111,6 +111,18 @@ RobotShape RobotShape::read(const RobotConfig& config) {
   return shape;
 }
 
+double RobotShape::top() const {
+  double top = topOf(pieces);
+  for (const Manipulator& manipulator : manipulators)
+    for (const ManipulatorState& state : manipulator.states)
+      top = std::max(top, topOf(state.pieces));
+  return top;
+}
+
+RobotSize sizeOf(const RobotConfig& config) {
+  return {config.radius, RobotShape::read(config).top()};
+}
+
 std::vector<Primitive> RobotShape::piecesWith(const std::vector<std::size_t>& states) const {
   std::vector<Primitive> all = pieces;
   for (std::size_t i = 0; i < manipulators.size(); ++i) {

@@ -15,13 +15,13 @@ namespace {
 constexpr double kCell = 0.1;                // [m]
 constexpr std::size_t kMaxCells = 1u << 20;  // of a plan; larger worlds get larger cells
 
-/// Cells with room for a circle of @p radius, coarse enough to plan on.
-FieldRegion coarseRegion(const SimWorld& world, double radius) {
-  FieldRegion region = world.region(kCell, radius);
+/// Cells with room for a robot, coarse enough to plan on.
+FieldRegion coarseRegion(const SimWorld& world, const RobotSize& robot) {
+  FieldRegion region = world.region(kCell, robot);
   if (region.grid.size() <= kMaxCells) return region;
   const double factor =
       std::sqrt(static_cast<double>(region.grid.size()) / static_cast<double>(kMaxCells));
-  return world.region(kCell * factor, radius);
+  return world.region(kCell * factor, robot);
 }
 
 bool hasRoom(const FieldRegion& region) {
@@ -78,12 +78,12 @@ void visitNeighbours(const FieldGrid& grid, const std::vector<std::uint8_t>& isF
 
 }  // namespace
 
-RoutePlanner::RoutePlanner(const SimWorld& world, double robotRadius, double clearance) {
-  FieldRegion region = coarseRegion(world, robotRadius + clearance);
-  if (!hasRoom(region)) region = coarseRegion(world, robotRadius);
+RoutePlanner::RoutePlanner(const SimWorld& world, const RobotSize& robot, double clearance) {
+  FieldRegion region = coarseRegion(world, {robot.radius + clearance, robot.height});
+  if (!hasRoom(region)) region = coarseRegion(world, robot);
   if (!hasRoom(region))
     throw std::invalid_argument("world " + world.name() + ": a robot of radius " +
-                                std::to_string(robotRadius) + " m fits nowhere");
+                                std::to_string(robot.radius) + " m fits nowhere");
   grid_ = region.grid;
   free_ = std::move(region.standable);
   keepLargestPart();

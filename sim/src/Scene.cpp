@@ -42,7 +42,7 @@ SimRobot& ScenePlayer::addRobot(const RobotConfig& config, PluginFactory& factor
                                 const std::optional<Pose2>& start, std::uint64_t number) {
   Random placing = simulation_->random(2 * number);
   for (int attempt = 1;; ++attempt) {
-    const Pose2 pose = start ? *start : planner(config.radius).randomPose(placing);
+    const Pose2 pose = start ? *start : planner(sizeOf(config)).randomPose(placing);
     try {
       return simulation_->addRobot(config, factory, pose);
     } catch (const std::invalid_argument&) {
@@ -52,14 +52,14 @@ SimRobot& ScenePlayer::addRobot(const RobotConfig& config, PluginFactory& factor
 }
 
 void ScenePlayer::letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed) {
-  robot.setDriver(makeWanderer(planner(robot.config().radius), limitsOf(robot, speed),
+  robot.setDriver(makeWanderer(planner(sizeOf(robot.config())), limitsOf(robot, speed),
                                simulation_->random(2 * number + 1)));
 }
 
-const RoutePlanner& ScenePlayer::planner(double radius) {
-  const auto known = planners_.find(radius);
+const RoutePlanner& ScenePlayer::planner(const RobotSize& size) {
+  const auto known = planners_.find(size);
   if (known != planners_.end()) return known->second;
-  return planners_.try_emplace(radius, simulation_->world(), radius).first->second;
+  return planners_.try_emplace(size, simulation_->world(), size).first->second;
 }
 
 std::optional<std::size_t> ScenePlayer::find(const std::string& robot) const {

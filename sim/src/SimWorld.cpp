@@ -40,15 +40,15 @@ class ModelledWorld final : public SimWorld {
 
   const std::string& name() const override { return model_.name; }
   std::string fingerprint() const override { return fingerprint_; }
-  FieldRegion region(double cell, double robotRadius) const override {
-    return space_.region(cell, robotRadius);
+  FieldRegion region(double cell, const RobotSize& robot) const override {
+    return space_.region(cell, robot);
   }
   std::span<const Landmark> landmarks() const override { return model_.landmarks; }
   std::span<const FieldLine> lines() const override { return lines_; }
   std::span<const WorldObject> objects() const override { return objects_; }
   const PhysicsConfig& physics() const override { return model_.physics; }
-  bool isFree(double x, double y, double radius) const override {
-    return space_.isFree(x, y, radius);
+  bool isFree(double x, double y, const RobotSize& size) const override {
+    return space_.isFree(x, y, size);
   }
 
   void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const override {

@@ -214,7 +214,8 @@ void Simulation::placeThing(std::size_t thing, const Pose2& pose, const Twist& v
 
 bool Simulation::fits(std::span<const Primitive> pieces, const Pose2& pose,
                       std::size_t self) const {
-  return isFinite(pose) && world_->isFree(pose.x, pose.y, 0.0) &&
+  // The physics knows what bodies run into, but not what lies beyond it.
+  return isFinite(pose) && world_->isFree(pose.x, pose.y, {0.0, topOf(pieces)}) &&
          physics_->isFree(pieces, pose, self);
 }
 

@@ -11,9 +11,6 @@
 
 namespace ortung {
 
-/// Bodies that begin above this height do not hinder robots [m].
-inline constexpr double kTallestRobot = 2.0;
-
 /// Everything that a world file says.
 struct WorldModel {
   std::string name;

@@ -29,7 +29,7 @@ TEST(ExamplePlugin, LoadsMeasuresLearnsAndWeighs) {
   EXPECT_NEAR(data.reading(), 1.3, 0.00051);  // 2 - 0.5 - 0.2 m
 
   // Learned as every other feature, by whoever sweeps.
-  const FieldRegion region = room.region(0.1, 0.2);
+  const FieldRegion region = room.region(0.1, {0.2});
   data.beginLearning(region, 0.1);
   const auto headings = static_cast<int>(std::ceil(2 * std::acos(-1.0) / data.headingSpacing()));
   for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {

@@ -230,7 +230,7 @@ TEST(CompassPlugin, PointsNorthAndLearnsTheHeading) {
   SensorRig rig("compass", "pose = { theta_deg = 90 }\nnorth_deg = 30\nsigma_deg = 10");
   rig.sense(world, {0.0, 0.0, 50 * kDegree});
   EXPECT_NEAR(rig.get<BearingData>().reading().value(), (30 - 50 - 90) * kDegree, kAngle);
-  const FieldRegion region = world.region(0.5, 0.2);
+  const FieldRegion region = world.region(0.5, {0.2});
   SensorData& data = *rig.data[0];
   data.beginLearning(region, 2 * kDegree);
   for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {

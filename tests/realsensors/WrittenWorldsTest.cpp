@@ -46,7 +46,7 @@ TEST_P(WrittenWorlds, HoldTheRobotWhereverItWent) {
   source->writeWorld(folder.path() / "world.toml");
   const RobotConfig robot = readRobot(parseToml(source->robotToml(), "robot"));
   const auto world = readWorld(folder.path() / "world.toml");
-  const FieldRegion region = world->region(0.1, robot.radius);
+  const FieldRegion region = world->region(0.1, {robot.radius});
   PoseData truth({"reference", "groundTruth", "pose"});
   std::size_t all = 0, inside = 0, fits = 0;
   for (const Message& message : readAll(*source)) {

@@ -126,7 +126,7 @@ TEST(Landmarks, ComeFromPrimitivesAndMarksInOrderOfKindAndIdentity) {
 TEST(WorldBounds, AreTheBoxAroundEverythingUnlessGiven) {
   const auto world =
       worldOf(kBox + "[[ellipse]]\ncenter_m = [-2, 3]\nsize_m = [2, 4]\nangle_deg = 90\n");
-  const FieldGrid grid = world->region(0.5, 0.1).grid;
+  const FieldGrid grid = world->region(0.5, {0.1}).grid;
   EXPECT_NEAR(grid.originX, -4, 1e-12);
   EXPECT_NEAR(grid.originY, -1, 1e-12);
   EXPECT_EQ(grid.columns, 15);  // to x = 3.5

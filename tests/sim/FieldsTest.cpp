@@ -27,7 +27,7 @@ TEST(Fields, AllLoadAndCanBeDrivenOn) {
   for (const auto& entry : std::filesystem::directory_iterator(ORTUNG_SOURCE_DIR "/maps/fields")) {
     const auto world = readWorld(entry.path());
     EXPECT_EQ(world->name(), entry.path().stem());
-    EXPECT_NO_THROW(world->region(0.1, 0.25).check()) << entry.path();
+    EXPECT_NO_THROW(world->region(0.1, {0.25}).check()) << entry.path();
     ++count;
   }
   EXPECT_EQ(count, 6);
@@ -57,7 +57,7 @@ TEST(Fields, Soccer18x12HasWallsAtItsLines) {
   EXPECT_NEAR(rangeAt(*world, 0, 0, std::numbers::pi / 2), 6, 1e-5);
   EXPECT_NEAR(rangeAt(*world, 0, 3, 0), 9, 1e-5);
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0), 9.5, 1e-5);
-  EXPECT_FALSE(world->isFree(9.2, 0, 0.1));
+  EXPECT_FALSE(world->isFree(9.2, 0, {0.1}));
 }
 
 TEST(Fields, MslIsSeenOverItsBarrier) {
@@ -65,7 +65,7 @@ TEST(Fields, MslIsSeenOverItsBarrier) {
   EXPECT_NEAR(rangeAt(*world, 0, 0, std::numbers::pi / 2, 0.2), 8, 1e-5);
   EXPECT_EQ(rangeAt(*world, 0, 0, std::numbers::pi / 2, 0.4), 50.0);
   EXPECT_NEAR(rangeAt(*world, 0, 0, 0, 0.4), 11.75 - 0.015, 1e-5);  // the net
-  EXPECT_TRUE(world->isFree(11.3, 0, 0.2));
+  EXPECT_TRUE(world->isFree(11.3, 0, {0.2}));
 }
 
 TEST(SharedMaps, AllLoadWithRoomToStand) {
@@ -78,7 +78,7 @@ TEST(SharedMaps, AllLoadWithRoomToStand) {
     const auto start = std::chrono::steady_clock::now();
     const auto world = readWorld(folder.write("world.toml", gridWorld(entry.path().string())));
     const std::chrono::duration<double> read = std::chrono::steady_clock::now() - start;
-    const FieldRegion region = world->region(0.1, 0.2);
+    const FieldRegion region = world->region(0.1, {0.2});
     const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
     const auto standable = std::accumulate(region.standable.begin(), region.standable.end(), 0);
     const auto open = std::accumulate(region.open.begin(), region.open.end(), 0);
@@ -103,7 +103,7 @@ TEST(SharedMaps, MrptsGridMapIsThatOfItsPicture) {
   const auto read = [&](const std::filesystem::path& map) {
     const auto file = folder.write("world.toml", "[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n" +
                                                      gridWorld(map, "unknown_margin_m = 0\n"));
-    return readWorld(file)->region(0.04, 0).open;
+    return readWorld(file)->region(0.04, {0}).open;
   };
   const auto fromMrpt = read(gridmap);
   const auto fromPicture = read(data / "map.yaml");

@@ -58,7 +58,7 @@ TEST(Grid, RaysMeetTheOutlinesOfOccupiedCells) {
   while (compared < 4000) {
     const double x = random.uniform(0, 40 * kCell);
     const double y = random.uniform(0, 30 * kCell);
-    if (!world->isFree(x, y, 0)) continue;
+    if (!world->isFree(x, y, {0})) continue;
     const double angle = random.uniform(-3.1, 3.1);
     const double found = rangeAt(*world, x, y, angle, 0.3, 20);
     const double here = bruteForce(rows, x, y, angle, 20);
@@ -108,9 +108,9 @@ TEST(Grid, RaysThatFallMeetTheTopsOfOccupiedCells) {
 
 TEST(Grid, LiesWhereItsOriginSays) {
   const auto world = gridOf({"#...", "...."}, "", "[-3, 5, 0]");
-  EXPECT_FALSE(world->isFree(-2.9, 5.4, 0));  // the image's top row is the grid's last
-  EXPECT_TRUE(world->isFree(-2.9, 5.1, 0));
-  const FieldRegion region = world->region(0.25, 0);
+  EXPECT_FALSE(world->isFree(-2.9, 5.4, {0}));  // the image's top row is the grid's last
+  EXPECT_TRUE(world->isFree(-2.9, 5.1, {0}));
+  const FieldRegion region = world->region(0.25, {0});
   EXPECT_EQ(region.grid, (FieldGrid{-3, 5, 0.25, 4, 2}));
   EXPECT_EQ(region.open, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 1, 1, 1}));
 }
@@ -134,17 +134,17 @@ TEST(Grid, CirclesAreFreeExactlyWhereNoOccupiedCellIsWithinTheirRadius) {
                                                std::max({0.0, low - y, y - low - kCell})));
       }
     if (std::abs(nearest - radius) < 1e-9) continue;
-    ASSERT_EQ(world->isFree(x, y, radius), nearest > radius) << x << " " << y << " " << radius;
+    ASSERT_EQ(world->isFree(x, y, {radius}), nearest > radius) << x << " " << y << " " << radius;
   }
 }
 
 TEST(Grid, UnknownCellsNearFreeOnesAreOpenButNotThoseBehindWalls) {
   const auto world = gridOf({"..    #    "}, "unknown_margin_m = 0.5\n");
-  const auto open = world->region(0.25, 0).open;
+  const auto open = world->region(0.25, {0}).open;
   EXPECT_EQ(open, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0}));
-  const auto behind = gridOf({".#     "}, "unknown_margin_m = 0.5\n")->region(0.25, 0).open;
+  const auto behind = gridOf({".#     "}, "unknown_margin_m = 0.5\n")->region(0.25, {0}).open;
   EXPECT_EQ(behind, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0, 0}));
-  const auto none = gridOf({".. "}, "unknown_margin_m = 0\n")->region(0.25, 0).open;
+  const auto none = gridOf({".. "}, "unknown_margin_m = 0\n")->region(0.25, {0}).open;
   EXPECT_EQ(none, (std::vector<std::uint8_t>{1, 1, 0}));
 }
 

@@ -18,7 +18,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 struct Learned {
   Learned(const FakeWorld& world, const std::string& toml, const LearnOptions& options = {})
       : factory(PluginFactory::standardFolders()), robot(readRobot(parseToml(toml, "robot.toml"))) {
-    region = world.region(options.cell, robot.radius);
+    region = world.region(options.cell, {robot.radius});
     devices = fillContainer(container, robot, factory);
     learn(world, region, devices, factory, options, [this](double share) {
       shares.push_back(share);
@@ -218,7 +218,7 @@ TEST(Learner, StopsWhenItIsToldTo) {
   const RobotConfig robot = readRobot(parseToml("[[sensor]]\nplugin = 'lrf'", "robot.toml"));
   SensorContainer container;
   const std::vector<Device> devices = fillContainer(container, robot, factory);
-  const FieldRegion region = room.region(0.1, 0.25);
+  const FieldRegion region = room.region(0.1, {0.25});
   int calls = 0;
   EXPECT_THROW(learn(room, region, devices, factory, {}, [&](double) { return ++calls < 3; }),
                LearnCancelled);

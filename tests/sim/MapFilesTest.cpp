@@ -54,7 +54,7 @@ class MapFiles : public ::testing::Test {
   std::string openOf(const std::string& map, double cell = 0.5) {
     const auto world =
         readWorld(folder.write("world.toml", gridWorld(map, "unknown_margin_m = 0\n")));
-    const FieldRegion region = world->region(cell, 0);
+    const FieldRegion region = world->region(cell, {0});
     std::string picture;
     for (int row = region.grid.rows - 1; row >= 0; --row) {
       for (int column = 0; column < region.grid.columns; ++column)

@@ -49,7 +49,7 @@ bool survives(const std::filesystem::path& file) {
                     .maxRange = 8},
                    0, ranges);
     for (const float range : ranges) EXPECT_TRUE(range >= 0 && range <= 8);
-    world->isFree(0.1, 0.1, 0.2);
+    world->isFree(0.1, 0.1, {0.2});
     return true;
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string(error.what()), "");

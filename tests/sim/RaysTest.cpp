@@ -162,7 +162,7 @@ TEST(Rays, IgnoreLines) {
       "[[rectangle]]\nkind = \"line\"\ncenter_m = [3, 0]\nsize_m = [0.1, 9]\n"
       "[[ellipse]]\nkind = \"line\"\ncenter_m = [0, 0]\nsize_m = [2, 2]\nstroke_m = 0.1\n");
   EXPECT_DOUBLE_EQ(rangeAt(*world, 0, 0, 0, 0.0, 8.0), 8.0);
-  EXPECT_TRUE(world->isFree(3, 0, 0.2));
+  EXPECT_TRUE(world->isFree(3, 0, {0.2}));
 }
 
 TEST(Rays, StayExactFarFromTheOrigin) {
@@ -220,7 +220,7 @@ TEST(Robots, DoNotChangeWhatIsLearned) {
   const std::string before = world->fingerprint();
   world->moveBody(addRobot(*world, 0.25, 0.5), {1, 1, 0});
   EXPECT_EQ(world->fingerprint(), before);
-  EXPECT_TRUE(world->isFree(1, 1, 0.3));
+  EXPECT_TRUE(world->isFree(1, 1, {0.3}));
 }
 
 TEST(Visibility, EndsAtWallsAndOtherRobots) {

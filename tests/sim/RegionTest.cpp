@@ -38,7 +38,7 @@ TEST(Region, ASquareFieldWithoutObstaclesLosesARobotsRadiusAtItsEdges) {
   const auto world = worldOf(
       "[world]\nx_m = [0, 2]\ny_m = [0, 1]\n"
       "[[rectangle]]\ncenter_m = [1, -5]\nsize_m = [1, 1]\n");
-  const FieldRegion region = world->region(0.1, 0.25);
+  const FieldRegion region = world->region(0.1, {0.25});
   EXPECT_EQ(region.grid, (FieldGrid{0, 0, 0.1, 20, 10}));
   EXPECT_EQ(std::accumulate(region.open.begin(), region.open.end(), 0), 200);
   // Centres at 0.05, 0.15, 0.25, ...: two are lost at each side.
@@ -48,14 +48,14 @@ TEST(Region, ASquareFieldWithoutObstaclesLosesARobotsRadiusAtItsEdges) {
 
 TEST(Region, AgreesWithIsFreeInEveryCell) {
   const auto world = worldOf(kMixed);
-  const FieldRegion region = world->region(0.05, 0.3);
+  const FieldRegion region = world->region(0.05, {0.3});
   ASSERT_EQ(region.open.size(), region.grid.size());
   ASSERT_EQ(region.standable.size(), region.grid.size());
   for (std::size_t i = 0; i < region.grid.size(); ++i) {
     const double x = region.grid.centreX(i);
     const double y = region.grid.centreY(i);
-    ASSERT_EQ(region.open[i] != 0, world->isFree(x, y, 0)) << x << " " << y;
-    ASSERT_EQ(region.standable[i] != 0, world->isFree(x, y, 0.3)) << x << " " << y;
+    ASSERT_EQ(region.open[i] != 0, world->isFree(x, y, {0})) << x << " " << y;
+    ASSERT_EQ(region.standable[i] != 0, world->isFree(x, y, {0.3})) << x << " " << y;
   }
 }
 
@@ -72,8 +72,8 @@ TEST(Region, KeepsRobotsExactlyTheirRadiusAwayFromAnEllipse) {
     const double ny = std::sin(phi) / 0.5;
     const double x = 2 * std::cos(phi) + distance * nx / std::hypot(nx, ny);
     const double y = 0.5 * std::sin(phi) + distance * ny / std::hypot(nx, ny);
-    ASSERT_TRUE(world->isFree(x, y, distance - 1e-6)) << phi << " " << distance;
-    ASSERT_FALSE(world->isFree(x, y, distance + 1e-6)) << phi << " " << distance;
+    ASSERT_TRUE(world->isFree(x, y, {distance - 1e-6})) << phi << " " << distance;
+    ASSERT_FALSE(world->isFree(x, y, {distance + 1e-6})) << phi << " " << distance;
   }
 }
 
@@ -81,31 +81,34 @@ TEST(Region, KeepsRobotsExactlyTheirRadiusAwayFromATriangle) {
   const auto world = worldOf(
       "[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n"
       "[[triangle]]\ncorners_m = [0, 0, 4, 0, 0, 3]\n");
-  EXPECT_TRUE(world->isFree(2, -1, 0.999));
-  EXPECT_FALSE(world->isFree(2, -1, 1.001));
-  EXPECT_TRUE(world->isFree(-3, -4, 4.999));  // 3-4-5 to the corner
-  EXPECT_FALSE(world->isFree(-3, -4, 5.001));
-  EXPECT_TRUE(world->isFree(2 + 0.6 * 2, 1.5 + 0.8 * 2, 1.999));  // out of the long side's middle
-  EXPECT_FALSE(world->isFree(2 + 0.6 * 2, 1.5 + 0.8 * 2, 2.001));
-  EXPECT_FALSE(world->isFree(1, 1, 0));
+  EXPECT_TRUE(world->isFree(2, -1, {0.999}));
+  EXPECT_FALSE(world->isFree(2, -1, {1.001}));
+  EXPECT_TRUE(world->isFree(-3, -4, {4.999}));  // 3-4-5 to the corner
+  EXPECT_FALSE(world->isFree(-3, -4, {5.001}));
+  EXPECT_TRUE(world->isFree(2 + 0.6 * 2, 1.5 + 0.8 * 2, {1.999}));  // out of the long side's middle
+  EXPECT_FALSE(world->isFree(2 + 0.6 * 2, 1.5 + 0.8 * 2, {2.001}));
+  EXPECT_FALSE(world->isFree(1, 1, {0}));
 }
 
 TEST(Region, DoesNotCountWhatIsAboveRobots) {
   const auto world = worldOf(kMixed);
-  EXPECT_TRUE(world->isFree(0, 1.5, 0.2));
+  EXPECT_TRUE(world->isFree(0, 1.5, {0.2}));
 }
 
 TEST(Region, RefusesBadSizes) {
   const auto world = worldOf(kMixed);
-  EXPECT_THROW(world->region(0, 0.2), std::invalid_argument);
-  EXPECT_THROW(world->region(std::nan(""), 0.2), std::invalid_argument);
-  EXPECT_THROW(world->region(0.1, -1), std::invalid_argument);
-  EXPECT_THROW(world->region(0.1, std::nan("")), std::invalid_argument);
-  EXPECT_FALSE(world->isFree(std::nan(""), 0, 0));
+  EXPECT_THROW(world->region(0, {0.2}), std::invalid_argument);
+  EXPECT_THROW(world->region(std::nan(""), {0.2}), std::invalid_argument);
+  EXPECT_THROW(world->region(0.1, {-1}), std::invalid_argument);
+  EXPECT_THROW(world->region(0.1, {std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(world->region(0.1, {0.2, -1}), std::invalid_argument);
+  EXPECT_THROW(world->region(0.1, {0.2, std::nan("")}), std::invalid_argument);
+  EXPECT_FALSE(world->isFree(0, 0, {0.2, std::nan("")}));
+  EXPECT_FALSE(world->isFree(std::nan(""), 0, {0}));
   const auto huge = worldOf(
       "[[landmark]]\nkind = \"a\"\nidentity = 1\nposition_m = [-10000, -10000]\n"
       "[[landmark]]\nkind = \"a\"\nidentity = 2\nposition_m = [10000, 10000]\n");
-  EXPECT_THROW(huge->region(0.1, 0.2), std::invalid_argument);
+  EXPECT_THROW(huge->region(0.1, {0.2}), std::invalid_argument);
 }
 
 TEST(Region, OfAHallIsMadeInWellUnderASecond) {
@@ -115,7 +118,7 @@ TEST(Region, OfAHallIsMadeInWellUnderASecond) {
             std::to_string(i / 20 * 4 - 19) + "]\nsize_m = [0.5, 0.3]\n";
   const auto world = worldOf(toml);
   const auto start = std::chrono::steady_clock::now();
-  const FieldRegion region = world->region(0.05, 0.3);
+  const FieldRegion region = world->region(0.05, {0.3});
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(region.grid.size(), 640000u);
   EXPECT_LT(took.count(), 5.0);  // 0.1 s alone; machines that test are busy

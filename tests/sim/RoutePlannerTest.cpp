@@ -18,7 +18,7 @@ FakeWorld cutRoom(double gap) {
 }
 
 TEST(RoutePlanner, GoesStraightWhereNothingIsInTheWay) {
-  const RoutePlanner planner(FakeWorld(8.0, 6.0), 0.25);
+  const RoutePlanner planner(FakeWorld(8.0, 6.0), {0.25});
   const std::vector<FloorPoint> route = planner.route({-3.0, -2.0}, {3.0, 2.0});
   ASSERT_EQ(route.size(), 1u);
   EXPECT_NEAR(route[0].x, 3.0, 0.11);
@@ -27,7 +27,7 @@ TEST(RoutePlanner, GoesStraightWhereNothingIsInTheWay) {
 
 TEST(RoutePlanner, FindsTheGapAndKeepsClear) {
   const FakeWorld room = cutRoom(2.0);
-  const RoutePlanner planner(room, 0.25);
+  const RoutePlanner planner(room, {0.25});
   const FloorPoint start{0.0, -2.0};
   const std::vector<FloorPoint> route = planner.route(start, {3.0, -2.0});
   ASSERT_GE(route.size(), 2u);
@@ -37,7 +37,7 @@ TEST(RoutePlanner, FindsTheGapAndKeepsClear) {
     for (int i = 0; i <= 100; ++i) {
       const double share = i / 100.0;
       EXPECT_TRUE(
-          room.isFree(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), 0.25));
+          room.isFree(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), {0.25}));
     }
     way += std::hypot(to.x - from.x, to.y - from.y);
     from = to;
@@ -48,7 +48,7 @@ TEST(RoutePlanner, FindsTheGapAndKeepsClear) {
 
 TEST(RoutePlanner, KeepsToTheLargestPart) {
   const FakeWorld room = cutRoom(100.0);
-  const RoutePlanner planner(room, 0.25);
+  const RoutePlanner planner(room, {0.25});
   EXPECT_TRUE(planner.contains(-2.0, 0.0));
   EXPECT_FALSE(planner.contains(2.0, 0.0));  // 3 m wide, the other is 5 m
   Random random(1);
@@ -56,14 +56,14 @@ TEST(RoutePlanner, KeepsToTheLargestPart) {
 }
 
 TEST(RoutePlanner, LeadsBackFromWhereItsMapEnds) {
-  const RoutePlanner planner(FakeWorld(8.0, 6.0), 0.25);
+  const RoutePlanner planner(FakeWorld(8.0, 6.0), {0.25});
   const std::vector<FloorPoint> route = planner.route({-3.74, 0.0}, {2.0, 0.0});
   ASSERT_FALSE(route.empty());
   EXPECT_TRUE(planner.contains(route.front().x, route.front().y));
 }
 
 TEST(RoutePlanner, RefusesARobotThatFitsNowhere) {
-  EXPECT_THROW(RoutePlanner(FakeWorld(1.0, 1.0), 0.6), std::invalid_argument);
+  EXPECT_THROW(RoutePlanner(FakeWorld(1.0, 1.0), {0.6}), std::invalid_argument);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(Seen, WhatMovesIsNeitherInTablesNorInTheFingerprint) {
   const auto world = worldOf(std::string(kRoom) + kBall);
   EXPECT_EQ(world->fingerprint(), empty->fingerprint());
   EXPECT_NEAR(rangeAt(*world, 0.0, 1.0, 0.0, 0.1), 50.0, 1e-6);
-  EXPECT_TRUE(world->isFree(1.0, 1.0, 0.1));
+  EXPECT_TRUE(world->isFree(1.0, 1.0, {0.1}));
   EXPECT_EQ(world->objects().size(), 1u);
 }
 

@@ -50,7 +50,7 @@ std::unique_ptr<FakeWorld> field() {
 struct Wandering {
   explicit Wandering(const Simulation::Config& config, std::unique_ptr<FakeWorld> world = field())
       : factory(PluginFactory::standardFolders()),
-        planner(*world, 0.25),
+        planner(*world, {0.25}),
         simulation(std::move(world), config) {
     Random random = simulation.random(0);
     robot = &simulation.addRobot(robotConfig(), factory, planner.randomPose(random));
@@ -121,7 +121,7 @@ TEST(Simulation, NeverDrivesIntoAnything) {
     }
     simulation.step();
     const Pose2& pose = robot.state().pose;
-    ASSERT_TRUE(room.isFree(pose.x, pose.y, 0.25 - kOverlap)) << cycle;
+    ASSERT_TRUE(room.isFree(pose.x, pose.y, {0.25 - kOverlap})) << cycle;
     farthest = std::max(farthest, std::hypot(pose.x, pose.y));
   }
   EXPECT_GT(farthest, 3.0);

@@ -71,7 +71,8 @@ class FakeWorld : public SimWorld {
   std::span<const FieldLine> lines() const override { return lines_; }
   std::span<const WorldObject> objects() const override { return objects_; }
 
-  bool isFree(double x, double y, double radius) const override {
+  bool isFree(double x, double y, const RobotSize& size) const override {
+    const double radius = size.radius;
     const bool isInside = std::abs(x) + radius <= halfWidth_ && std::abs(y) + radius <= halfHeight_;
     return isInside && std::none_of(posts_.begin(), posts_.end(), [&](const Post& post) {
              return std::hypot(x - post.x, y - post.y) < post.radius + radius;
@@ -82,7 +83,7 @@ class FakeWorld : public SimWorld {
   const PhysicsConfig& physics() const override { return physics_; }
   std::string fingerprint() const override { return "0123456789abcdef"; }
 
-  FieldRegion region(double cell, double robotRadius) const override {
+  FieldRegion region(double cell, const RobotSize& robot) const override {
     FieldRegion region;
     region.grid = {-halfWidth_, -halfHeight_, cell,
                    static_cast<int>(std::lround(std::ceil(2.0 * halfWidth_ / cell - 1e-9))),
@@ -90,8 +91,8 @@ class FakeWorld : public SimWorld {
     for (std::size_t i = 0; i < region.grid.size(); ++i) {
       const double x = region.grid.centreX(i);
       const double y = region.grid.centreY(i);
-      region.open.push_back(isFree(x, y, 0.0) ? 1 : 0);
-      region.standable.push_back(isFree(x, y, robotRadius) ? 1 : 0);
+      region.open.push_back(isFree(x, y, {0.0}) ? 1 : 0);
+      region.standable.push_back(isFree(x, y, robot) ? 1 : 0);
     }
     return region;
   }

@@ -105,7 +105,7 @@ class RobotSource : public Source {
         simulation_(readWorld(worldFile_), run_.simulation),
         robotToml_(readTomlText(robotFile_)),
         config_(readRobot(parseToml(robotToml_, robotFile_.string()))),
-        planner_(simulation_.world(), config_.radius),
+        planner_(simulation_.world(), sizeOf(config_)),
         placing_(simulation_.random(kPlacing)),
         robot_(&enter()) {
     DriveLimits limits = robot_->drive().limits();

@@ -9,7 +9,7 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kMostPlanners = 8;  // each keeps a plan of the floor for one radius
+constexpr std::size_t kMostPlanners = 8;  // each keeps a plan of the floor for one size
 
 }  // namespace
 
@@ -57,13 +57,13 @@ std::vector<Resident> ServedSimulation::residents() const {
 }
 
 /// A planner costs time and memory, so clients can't have as many as they like.
-void ServedSimulation::preparePlanner(double radius) {
-  if (!player_->hasPlanner(radius) && player_->planners() >= kMostPlanners)
+void ServedSimulation::preparePlanner(const RobotSize& size) {
+  if (!player_->hasPlanner(size) && player_->planners() >= kMostPlanners)
     throw ServeError("limit", "robots of " + std::to_string(kMostPlanners) +
-                                  " different radii are here already; give a start, and do not "
+                                  " different sizes are here already; give a start, and do not "
                                   "ask for wandering");
   try {
-    player_->planner(radius);
+    player_->planner(size);
   } catch (const std::invalid_argument& error) {
     throw ServeError("no-room", error.what());
   }
@@ -80,7 +80,7 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
   // Clients name their robots as they like, so two of them may like the same.
   if (player_->find(config.name)) config.name += "-" + std::to_string(robot);
   const bool isRestart = guests_.contains(robot);
-  if (guest.wish.wanders || !guest.wish.start) preparePlanner(config.radius);
+  if (guest.wish.wanders || !guest.wish.start) preparePlanner(sizeOf(config));
   const std::uint64_t number = entered_;
   const auto add = [&](const std::optional<Pose2>& start) {
     guest.robot = &player_->addRobot(config, factory_, start, number);
@@ -89,7 +89,7 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
     add(guest.wish.start);
   } catch (const std::invalid_argument& error) {
     if (!guest.wish.start || !isRestart) throw ServeError("no-room", error.what());
-    preparePlanner(config.radius);
+    preparePlanner(sizeOf(config));
     add(std::nullopt);
   }
   ++entered_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,9 @@ ORTUNG_API Box2 boundsOf(const Primitive& primitive);
 
 /// Greatest distance of the shape from the origin of its frame [m], or a little more.
 ORTUNG_API double reachOf(const Primitive& primitive);
+
+/// Height of the highest of them [m]; 0 for none.
+ORTUNG_API double topOf(std::span<const Primitive> primitives);
 
 /// The corners of a rectangle or triangle, in order.
 ORTUNG_API std::vector<Point2> cornersOf(const Primitive& primitive);

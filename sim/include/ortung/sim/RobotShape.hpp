@@ -8,6 +8,7 @@
 #include "ortung/config/RobotFile.hpp"
 #include "ortung/container/Export.hpp"
 #include "ortung/sim/Primitive.hpp"
+#include "ortung/sim_api/World.hpp"
 
 namespace ortung {
 
@@ -40,8 +41,13 @@ struct RobotShape {
 
   /// @throws ConfigError
   ORTUNG_API static RobotShape read(const RobotConfig& config);
+  /// The height that the robot may reach, whatever its manipulators do [m].
+  ORTUNG_API double top() const;
   /// All pieces with the manipulators in these states. @pre one state for each manipulator
   ORTUNG_API std::vector<Primitive> piecesWith(const std::vector<std::size_t>& states) const;
 };
+
+/// The room that a robot takes. @throws ConfigError
+ORTUNG_API RobotSize sizeOf(const RobotConfig& config);
 
 }  // namespace ortung

@@ -23,7 +23,7 @@ class ORTUNG_API RoutePlanner {
  public:
   /// @param clearance how far from walls routes stay [m], less where there is no room
   /// @throws std::invalid_argument if the robot fits nowhere
-  RoutePlanner(const SimWorld& world, double robotRadius, double clearance = 0.1);
+  RoutePlanner(const SimWorld& world, const RobotSize& robot, double clearance = 0.1);
 
   /// A pose from which routes lead everywhere else, every cell and heading as likely.
   Pose2 randomPose(Random& random) const;

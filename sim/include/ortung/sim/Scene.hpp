@@ -87,10 +87,10 @@ class ORTUNG_API ScenePlayer {
                      const std::optional<Pose2>& start, std::uint64_t number);
   /// Lets a robot drive about by itself. @param number as for addRobot() @param speed at most [m/s]
   void letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed = std::nullopt);
-  /// The plan of the floor for robots of a radius [m], made when it is first asked for.
+  /// The plan of the floor for robots of a size, made when it is first asked for.
   /// @throws std::invalid_argument if such a robot fits nowhere
-  const RoutePlanner& planner(double radius);
-  bool hasPlanner(double radius) const { return planners_.contains(radius); }
+  const RoutePlanner& planner(const RobotSize& size);
+  bool hasPlanner(const RobotSize& size) const { return planners_.contains(size); }
   std::size_t planners() const { return planners_.size(); }
 
  private:
@@ -101,7 +101,7 @@ class ORTUNG_API ScenePlayer {
   std::size_t needThing(const std::string& thing) const;
 
   Scene scene_;
-  std::map<double, RoutePlanner> planners_;  ///< by radius [m]; outlive the drivers
+  std::map<RobotSize, RoutePlanner> planners_;  ///< outlive the drivers
   std::unique_ptr<Simulation> simulation_;
   std::size_t nextCommand_ = 0;
   std::size_t nextPlacement_ = 0;

@@ -53,11 +53,11 @@ class ORTUNG_API SimWorld : public World {
   /// not the order in the file, nothing that moves.
   virtual std::string fingerprint() const = 0;
 
-  /// The cells to learn: `open` where the centre is free, `standable` where a circle of
-  /// @p robotRadius around it is. Nothing that moves counts, nor bodies that begin above 2 m.
+  /// The cells to learn: `open` where the centre is free up to the robot's height, `standable`
+  /// where all of the robot is. Nothing that moves counts.
   /// @param cell edge of a cell [m], at least 0.001
   /// @throws std::invalid_argument for bad sizes and for more than 2^26 cells
-  virtual FieldRegion region(double cell, double robotRadius) const = 0;
+  virtual FieldRegion region(double cell, const RobotSize& robot) const = 0;
 
   /// @throws std::invalid_argument for sizes outside [0.001, 100] m, for a pose that is not finite
   ///   and for more than 4096 bodies

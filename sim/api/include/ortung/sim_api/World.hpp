@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -69,6 +70,13 @@ struct WorldObject {
   RobotNumber robot = 0;   ///< which robot it is; 0: none
 };
 
+/// The room that a robot takes: an upright cylinder on the floor.
+struct RobotSize {
+  double radius = 0.0;  ///< [m]
+  double height = 0.5;  ///< [m]
+  auto operator<=>(const RobotSize&) const = default;
+};
+
 /// What a sensor plugin may ask of the world. Embree stays behind it.
 /// Queries are thread-safe while nobody moves the world.
 class ORTUNG_API World {
@@ -93,8 +101,9 @@ class ORTUNG_API World {
   /// tables are learned there is nothing that moves.
   virtual std::span<const WorldObject> objects() const { return {}; }
 
-  /// Whether a circle on the floor touches nothing solid and lies within the field.
-  virtual bool isFree(double x, double y, double radius) const = 0;
+  /// Whether something of this size that stands at a place touches nothing solid that is as high
+  /// as it, and lies within the field: it fits under a crossbar if it is no higher.
+  virtual bool isFree(double x, double y, const RobotSize& size) const = 0;
 };
 
 }  // namespace ortung

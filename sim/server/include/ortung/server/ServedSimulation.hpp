@@ -46,7 +46,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   SimRobot& find(RobotId robot) const;
   Simulation& simulation() const { return player_->simulation(); }
   void enter(RobotId robot, Guest& guest);
-  void preparePlanner(double radius);
+  void preparePlanner(const RobotSize& size);
 
   Scene scene_;
   Simulation::Config config_;
