@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "ortung/mcl/PoseEstimate.hpp"
+
+namespace ortung::app {
+
+/// The output of `ortung localize`: this line, then one an update.
+inline constexpr std::string_view kEstimatesHeader =
+    "# stamp_us x_m y_m theta_rad cov_xx_m2 cov_xy_m2 cov_xtheta_m_rad cov_yy_m2 cov_ytheta_m_rad "
+    "cov_thetatheta_rad2 share samples\n";
+
+void appendEstimate(const PoseEstimate& estimate, std::string& text);
+
+}  // namespace ortung::app
