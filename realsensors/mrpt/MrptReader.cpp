@@ -32,7 +32,10 @@ void limitOurselves() {
     const rlimit both{most, most};
     if (setrlimit(what, &both) != 0) throw std::runtime_error("limits cannot be set");
   };
+// Sanitizers take terabytes of addresses for themselves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   limit(RLIMIT_AS, kMaxMemory);
+#endif
   limit(RLIMIT_CPU, kMaxSeconds);
   limit(RLIMIT_CORE, 0);
 }

@@ -14,6 +14,9 @@ extern char** environ;
 namespace ortung::test {
 namespace {
 
+/// How UndefinedBehaviorSanitizer ends a program (CMakePresets.json); it writes no report.
+constexpr int kUndefinedBehaviour = 77;
+
 void openPipe(int ends[2]) {
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
 }
@@ -117,6 +120,7 @@ Outcome Program::finish() {
   waitpid(process_, &status, 0);
   process_ = -1;
   outcome_.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (outcome_.exitCode == kUndefinedBehaviour) throw std::runtime_error(outcome_.err);
   return outcome_;
 }
 
