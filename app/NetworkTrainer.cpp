@@ -153,7 +153,7 @@ class Watch {
  public:
   Watch(std::size_t most, std::function<bool(std::size_t, double, const Vector&)> report)
       : most_(most), report_(std::move(report)) {}
-  template <class Point>
+  template <class Point>  // NOLINTNEXTLINE(readability-identifier-naming): dlib's name
   bool should_continue_search(const Point& point, double loss, const Point&) {
     const bool stuck = iteration_ > 0 && std::abs(last_ - loss) < 1e-10 * loss;
     const bool ends = iteration_ >= most_ || stuck || !std::isfinite(loss);

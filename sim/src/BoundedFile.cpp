@@ -54,7 +54,7 @@ std::string readBounded(const std::filesystem::path& file, std::size_t maxBytes)
 }
 
 std::string readUnpacked(const std::filesystem::path& file, std::size_t maxBytes) {
-  const std::string packed = readBounded(file, maxBytes);
+  std::string packed = readBounded(file, maxBytes);
   const std::string end = file.extension().string();
   if (end != ".gz" && end != ".xz") return packed;
   try {

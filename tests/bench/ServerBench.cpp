@@ -159,8 +159,9 @@ class Echo {
   explicit Echo(std::string reply, int clients = 1)
       : reply_(std::move(reply)), socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address = loopback(0);
-    ::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address);
-    ::listen(socket_, clients);
+    if (::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
+        ::listen(socket_, clients) != 0)
+      throw std::runtime_error("no socket to listen at");
     thread_ = std::thread([this, clients] { serve(clients); });
   }
   ~Echo() {

@@ -14,7 +14,8 @@ const std::string kWorld = ORTUNG_SOURCE_DIR "/maps/fields/arena.toml";
 const std::string kRobot = ORTUNG_SOURCE_DIR "/maps/robots/pioneer.toml";
 
 /// The source with these options; "path" and "robot" have defaults.
-std::unique_ptr<Source> open(std::uint16_t port, std::map<std::string, std::string> options) {
+std::unique_ptr<Source> open(std::uint16_t port,
+                             const std::map<std::string, std::string>& options) {
   Parameters parameters("tcp");
   parameters.set("path", "127.0.0.1:" + std::to_string(port));
   parameters.set("robot_file", kRobot);

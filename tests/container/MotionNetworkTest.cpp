@@ -91,7 +91,7 @@ std::string messageOf(const std::string& text) {
 }
 
 TEST(MotionNetwork, RefusesAWrongShape) {
-  const auto with = [](auto change) {
+  const auto with = [](const auto& change) {
     MotionNetwork n = small();
     change(n);
     return messageOf(toJson(n));
@@ -144,7 +144,7 @@ TEST(MotionNetwork, SurvivesMutatedFiles) {
       text[random.below(text.size())] = static_cast<char>(random.below(256));
     try {
       parseMotionNetwork(text, "net.json").check();
-    } catch (const ConfigError&) {
+    } catch (const ConfigError&) {  // refused
     }
   }
 }

@@ -130,7 +130,7 @@ TEST(TableFile, EveryFlippedByteIsRefusedOrChangesNothing) {
         // A name in the directory may change: then the table is missing, which is told as well.
         ASSERT_TRUE(isExample(file)) << "byte " << at << " flipped by " << flip;
         ++harmless;
-      } catch (const TableError&) {
+      } catch (const TableError&) {  // refused
       }
     }
   }
@@ -160,7 +160,7 @@ TEST(TableFile, SurvivesRandomDamage) {
         for (const std::byte b : array.bytes) sum += static_cast<unsigned>(b);
         ASSERT_LE(sum, array.bytes.size() * 255);
       }
-    } catch (const TableError&) {
+    } catch (const TableError&) {  // refused
     }
   }
 }

@@ -86,7 +86,7 @@ TEST(Serving, ARecordIsServedLikeASimulation) {
     for (int lines = std::stoi(valueOf(head, "lines")); lines > 0; --lines)
       all += client.line() + "\n";
   const std::string bytes = readBytes(record);
-  EXPECT_EQ(all, bytes.substr(bytes.find("\n", bytes.find("# world")) + 1));
+  EXPECT_EQ(all, bytes.substr(bytes.find('\n', bytes.find("# world")) + 1));
   server.signal(SIGINT);
   EXPECT_EQ(server.finish().exitCode, 0);
 }

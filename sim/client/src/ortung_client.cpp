@@ -31,6 +31,8 @@ int guarded(Action action) {
 
 }  // namespace
 
+// NOLINTBEGIN(readability-identifier-naming): C
+
 ortung_robot* ortung_connect(const char* host, uint16_t port, const char* robot_file,
                              const char* name, const char* token, double cycle_s, char* error,
                              size_t error_size) {
@@ -106,3 +108,5 @@ void ortung_trouble(ortung_robot* robot, char* text, size_t size) {
     return true;
   });
 }
+
+// NOLINTEND(readability-identifier-naming)

@@ -21,9 +21,9 @@ Conversation::~Conversation() = default;
 
 const std::vector<Conversation::Command>& Conversation::commands() {
   using C = Conversation;
-  constexpr Role all = Role::kViewer;
-  constexpr Role player = Role::kPlayer;
-  constexpr Role control = Role::kOperator;
+  const Role all = Role::kViewer;
+  const Role player = Role::kPlayer;
+  const Role control = Role::kOperator;
   static const std::vector<Command> list = {
       {"HELLO", all, &C::hello, "ortung/1 [name=NAME] [token=TOKEN] [role=viewer|player|operator]"},
       {"TIME", all, &C::time, "the clock of the stamps when this came and when the reply left"},

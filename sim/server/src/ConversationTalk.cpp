@@ -177,7 +177,7 @@ void Conversation::describe(Request& request) {
 }
 
 void Conversation::say(Request& request) {
-  const std::string text = request.rest();
+  const std::string& text = request.rest();
   answer(request.tag(), [tag = request.tag(), text](Conversation& self) {
     self.host_.broadcast(
         self.id_, "SAY client=" + std::to_string(self.id_) + " name=" + self.name_ + " " + text);

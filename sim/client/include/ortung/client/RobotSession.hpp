@@ -85,7 +85,7 @@ class ORTUNG_API RobotSession {
   /// One exchange of time stamps.
   /// @param clock ours
   template <class Clock>
-  ClockOffset::Exchange exchangeTime(Clock clock) {
+  ClockOffset::Exchange exchangeTime(const Clock& clock) {
     ClockOffset::Exchange exchange;
     exchange.sent = clock();
     const std::string reply = ask("TIME");
