@@ -29,6 +29,7 @@ void NewFile::fail() const {
 }
 
 void NewFile::write(std::span<const std::byte> bytes) {
+  if (bytes.empty()) return;  // data() may be null then, which fwrite may not be given
   if (std::fwrite(bytes.data(), 1, bytes.size(), out_) != bytes.size()) fail();
 }
 

@@ -18,6 +18,7 @@ TEST(NewFile, ReplacesAFileWhenItIsWholeAndLeavesNothingElse) {
   test::writeBytes(folder / "a", "old");
   NewFile file(folder / "a");
   file.write("ne");
+  file.write(std::span<const std::byte>());
   file.write(std::string(100000, 'w'));
   EXPECT_EQ(readBytes(folder / "a"), "old");
   file.commit();
