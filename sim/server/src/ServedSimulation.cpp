@@ -202,8 +202,9 @@ void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
     try {
       enter(id, *guest);
     } catch (const std::runtime_error&) {
-      // No room for it this time: whoever commands it is told so.
+      // It is refused, there is no room this time: whoever commands it is told so.
     } catch (const std::invalid_argument&) {
+      // So it is where even a free place does not serve.
     }
   }
 }
