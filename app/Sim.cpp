@@ -126,6 +126,7 @@ int play(const SimArguments& arguments) {
   const auto robot = player.find(recorded);
   std::unique_ptr<RecordWriter> record;
   if (!arguments.record.empty()) {
+    if (scene.robots.empty()) throw UsageError("--record: there is no robot; see --robot");
     if (!robot) throw UsageError("--record: there is no robot '" + recorded + "' to record");
     record = std::make_unique<RecordWriter>(arguments.record, simulation.world().fingerprint());
   }
@@ -163,7 +164,14 @@ int play(const SimArguments& arguments) {
 }  // namespace
 
 int runSim(const SimArguments& arguments) {
-  if (arguments.serving.listen.empty()) return play(arguments);
+  const ServingArguments& serving = arguments.serving;
+  if (serving.freeRun && serving.speed != 1.0)
+    throw UsageError("--free-run and --speed exclude each other");
+  if (serving.listen.empty()) {
+    if (serving.lockstep || !serving.control.empty() || !serving.tokens.empty())
+      throw UsageError("--lockstep, --allow-control and --token-file are for --listen");
+    return play(arguments);
+  }
   if (!arguments.record.empty() || !arguments.trace.empty() || arguments.duration)
     throw UsageError(
         "--record, --trace and --duration do not fit --listen: clients keep their own records, and "

@@ -3,6 +3,7 @@
 
     avoid.py HOST PORT ROBOT_FILE [SECONDS]
 """
+import os
 import socket
 import sys
 import time
@@ -10,7 +11,6 @@ import time
 
 class Server:
     """One line a request, one line a reply, and as many more as it says (docs/protocol.md)."""
-
     def __init__(self, host, port):
         self.lines = socket.create_connection((host, port), timeout=10).makefile("rw", newline="\n")
 
@@ -18,7 +18,7 @@ class Server:
         self.lines.write(request + "\n")
         self.lines.flush()
         reply = self.lines.readline()
-        while reply.startswith("* "):  # said unasked
+        while reply.startswith("* ") and not reply.startswith(("* ERR", "* BYE")):  # said unasked
             reply = self.lines.readline()
         if not reply.startswith("OK"):
             raise RuntimeError(f"{request.split()[0]}: {reply.strip() or 'the connection is closed'}")
@@ -33,19 +33,17 @@ def readings(lines):
 
 def main(host, port, robot_file, seconds="10"):
     server = Server(host, int(port))
-    server.ask("HELLO ortung/1 name=avoid-py")
+    token = os.environ.get("ORTUNG_TOKEN")
+    server.ask("HELLO ortung/1 name=avoid-py" + (f" token={token}" if token else ""))
     with open(robot_file) as file:
         server.ask("CREATE avoid-py\n" + file.read() + "\n.")
     end = time.monotonic() + float(seconds)
     while time.monotonic() < end:
         scan = readings(server.ask("READ */LRF/*"))
         for ranges in scan.values():
-            middle = len(ranges) // 2
-            ahead = min(r for r in ranges[middle - 30:middle + 30] + [8000] if r > 0)  # [mm]
-            if ahead > 800:
-                server.ask("VELOCITY v_m_s=0.5 w_rad_s=0")
-            else:
-                server.ask("VELOCITY v_m_s=0 w_rad_s=0.8")
+            third = len(ranges) // 3
+            ahead = min(r for r in ranges[third:len(ranges) - third] + [8000] if r > 0)  # [mm]
+            server.ask("VELOCITY " + ("v_m_s=0.5 w_rad_s=0" if ahead > 800 else "v_m_s=0 w_rad_s=0.8"))
             print(f"{ahead} mm ahead")
         time.sleep(0.1)
     server.ask("BYE")

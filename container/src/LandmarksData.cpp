@@ -30,13 +30,18 @@ LandmarksData::~LandmarksData() = default;
 
 std::vector<std::uint32_t> LandmarksData::encode(const Reading& reading) {
   std::vector<std::uint32_t> out;
+  encode(reading, out);
+  return out;
+}
+
+void LandmarksData::encode(const Reading& reading, std::vector<std::uint32_t>& out) {
+  out.clear();
   out.reserve(reading.size() * kWordsASighting);
   for (const Sighting& sighting : reading) {
     out.push_back(sighting.identity);
     out.push_back(words::fromMetres(sighting.range));
     out.push_back(words::fromAngle(sighting.bearing));
   }
-  return out;
 }
 
 void LandmarksData::check(std::span<const std::uint32_t> words) const {

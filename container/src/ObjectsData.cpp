@@ -14,6 +14,12 @@ ObjectsData::~ObjectsData() = default;
 
 std::vector<std::uint32_t> ObjectsData::encode(std::span<const Object> objects) {
   std::vector<std::uint32_t> out;
+  encode(objects, out);
+  return out;
+}
+
+void ObjectsData::encode(std::span<const Object> objects, std::vector<std::uint32_t>& out) {
+  out.clear();
   out.reserve(objects.size() * kWordsAnObject);
   for (const Object& object : objects) {
     out.push_back(object.identity);
@@ -22,7 +28,6 @@ std::vector<std::uint32_t> ObjectsData::encode(std::span<const Object> objects) 
     out.push_back(words::fromAngle(object.bearing));
     out.push_back(words::fromMetres(object.radius));
   }
-  return out;
 }
 
 void ObjectsData::check(std::span<const std::uint32_t> words) const {

@@ -10,7 +10,8 @@ namespace ortung {
 struct Parameters::Table {
   std::string where;
   std::map<std::string, Node> values;
-  std::set<std::string> read;
+  std::set<std::string> read;   ///< of the values
+  std::set<std::string> asked;  ///< what somebody would have read
 };
 
 namespace {
@@ -55,7 +56,10 @@ void Parameters::set(const std::string& key, Node value) {
   table_->values.insert_or_assign(key, std::move(value));
 }
 
-bool Parameters::has(const std::string& key) const { return table_->values.contains(key); }
+bool Parameters::has(const std::string& key) const {
+  table_->asked.insert(key);
+  return table_->values.contains(key);
+}
 
 std::vector<std::string> Parameters::keys() const {
   std::vector<std::string> keys;
@@ -67,6 +71,7 @@ const std::string& Parameters::where() const { return table_->where; }
 
 const Parameters::Node* Parameters::look(const std::string& key) const {
   const auto it = table_->values.find(key);
+  table_->asked.insert(key);
   if (it == table_->values.end()) return nullptr;
   table_->read.insert(key);
   return &it->second;
@@ -214,8 +219,8 @@ void Parameters::refuseUnread() const {
   for (const auto& [key, node] : table_->values) {
     if (!table_->read.contains(key)) {
       std::string known;
-      for (const std::string& name : table_->read) known += (known.empty() ? "" : ", ") + name;
-      fail(key, "is not known here" + (known.empty() ? "" : " (known and given: " + known + ")"));
+      for (const std::string& name : table_->asked) known += (known.empty() ? "" : ", ") + name;
+      fail(key, "is not known here" + (known.empty() ? "" : "; known are " + known));
     }
     if (const auto* table = std::get_if<Parameters>(&node.value)) table->refuseUnread();
     if (const auto* list = std::get_if<List>(&node.value)) {

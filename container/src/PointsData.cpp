@@ -28,12 +28,17 @@ PointsData::~PointsData() = default;
 
 std::vector<std::uint32_t> PointsData::encode(std::span<const Point> points) {
   std::vector<std::uint32_t> out;
+  encode(points, out);
+  return out;
+}
+
+void PointsData::encode(std::span<const Point> points, std::vector<std::uint32_t>& out) {
+  out.clear();
   out.reserve(points.size() * kWordsAPoint);
   for (const Point& point : points) {
     out.push_back(words::fromMetres(point.range));
     out.push_back(words::fromAngle(point.bearing));
   }
-  return out;
 }
 
 void PointsData::check(std::span<const std::uint32_t> words) const {

@@ -46,7 +46,10 @@ SimRobot& ScenePlayer::addRobot(const RobotConfig& config, PluginFactory& factor
     try {
       return simulation_->addRobot(config, factory, pose);
     } catch (const std::invalid_argument&) {
-      if (start || attempt == kAttempts) throw;
+      if (start) throw;
+      if (attempt == kAttempts)
+        throw std::invalid_argument("found no room for robot " + config.name + " at " +
+                                    std::to_string(kAttempts) + " places");
     }
   }
 }

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "../server/RunningBoard.hpp"
+#include "../server/TestClient.hpp"
 #include "Files.hpp"
+#include "ortung/client/RobotSession.hpp"
 #include "ortung/container/PluginFactory.hpp"
 #include "ortung/container/Source.hpp"
 #include "ortung/server/ServedSimulation.hpp"
@@ -68,6 +70,41 @@ TEST(TcpSource, WithoutLockstepItFollowsAWorldThatGoesOnByItself) {
   EXPECT_NEAR(source->progress(), 1.0, 1e-9);
   EXPECT_EQ(source->worldFingerprint(), readWorld(kWorld)->fingerprint());
   EXPECT_EQ(source->robotToml(), readBytes(kRobot));
+}
+
+TEST(TcpSource, WhereLockstepIsNotPermittedItFollowsUnlessItIsAskedFor) {
+  ServedSimulation world(kWorld, {});
+  BoardConfig config;
+  config.speed = 20.0;
+  const RunningBoard board(world, config);
+  const std::string why = messageOf<ServerRefused>([&] {
+    open(board.port(), {{"lockstep", "on"}});
+  });
+  EXPECT_NE(why.find("LOCKSTEP makes all others wait"), std::string::npos) << why;
+  const auto source = open(board.port(), {{"cycle_ms", "5"}, {"duration", "0.5"}});
+  Message message;
+  std::size_t readings = 0;
+  while (source->next(message)) ++readings;
+  EXPECT_GT(readings, 5u);
+}
+
+TEST(TcpSource, AWorldThatStandsStillIsToldAfterTheTimeout) {
+  ServedSimulation world(kWorld, {});
+  BoardConfig config;
+  config.control = {"*"};
+  const RunningBoard board(world, config);
+  TestClient boss(board.port());
+  boss.ask("HELLO ortung/1");
+  boss.ask("PAUSE");
+  const auto source =
+      open(board.port(), {{"lockstep", "off"}, {"cycle_ms", "5"}, {"timeout", "0.1"}});
+  Message message;
+  const std::string why = messageOf<ConnectionLost>([&] {
+    while (source->next(message)) {
+    }
+  });
+  EXPECT_NE(why.find("gave no reading for"), std::string::npos) << why;
+  EXPECT_NE(why.find("state=paused"), std::string::npos) << why;
 }
 
 TEST(TcpSource, AServerThatEndsIsNotTheEndOfTheRun) {

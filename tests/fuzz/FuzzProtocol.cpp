@@ -19,6 +19,7 @@ class InlineHost final : public Host {
   using Host::Host;
   ~InlineHost() override = default;
   void post(std::function<void()> task) override { tasks_.push_back(std::move(task)); }
+  void work(std::function<void()> task) override { post(std::move(task)); }
   void broadcast(ClientId from, std::string_view text) override {
     for (const auto& conversation : conversations)
       if (conversation->id() != from) conversation->tell(text);

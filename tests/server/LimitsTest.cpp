@@ -77,9 +77,10 @@ TEST(Limits, SensorsThatWouldHoldUpAllOthersAreRefused) {
   config.limits.rays = 1999.0;
   const RunningBoard board(world, config);
   TestClient client(board.port());
-  EXPECT_EQ(client.join(kAnyRobot),
-            "ERR limit the robot's sensors need 2000 rays a second, at most 1999 are permitted: fewer "
-            "beams, or longer periods");
+  EXPECT_EQ(
+      client.join(kAnyRobot),
+      "ERR limit the robot's sensors need 2000 rays a second, at most 1999 are permitted: fewer "
+      "beams, or longer periods");
   EXPECT_EQ(valueOf(client.ask("STATUS"), "robots"), "0");
 }
 
@@ -257,6 +258,17 @@ TEST(Security, AWebBrowserIsSentAwayAtOnce) {
     client.send(request);
     EXPECT_EQ(client.rest(), "* ERR http this is no web server\n");
   }
+}
+
+TEST(Security, NoFeatureTakesThePlaceOfTheTruePose) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {});
+  const RunningBoard board(world, {});
+  TestClient client(board.port());
+  EXPECT_EQ(
+      client.join("[[sensor]]\nplugin = \"lrf\"\nmodel = \"reference\"\n"
+                  "type = \"groundTruth\"\nfeature = \"pose\"\n"),
+      "ERR configuration robot file:2: plugin 'lrf': reference/groundTruth/pose is not a true "
+      "pose; no other feature may have the type groundTruth");
 }
 
 TEST(Security, ARobotFileNamesPluginsOfTheListAndNoFiles) {

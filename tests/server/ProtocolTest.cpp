@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "BoardClock.hpp"
 #include "CountingWorld.hpp"
 #include "Files.hpp"
 #include "RunningBoard.hpp"
@@ -180,6 +181,96 @@ TEST(Protocol, SubscribersThatComeLateKeepTheRhythmFromThenOn) {
   EXPECT_EQ(told, (std::vector<std::string>{"210000", "260000", "310000"}));
 }
 
+TEST(Protocol, SubscribersKeepTheirRhythmWhenTheWorldStartsOver) {
+  CountingWorld world;
+  BoardConfig config = lockstepConfig();
+  config.control = {"*"};
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  client.join(kAnyRobot);
+  client.ask("LOCKSTEP on");
+  client.ask("SUBSCRIBE period_s=0.05 none/none/none");
+  client.send("NEXT cycles=30 none/none/none\n");
+  client.lineWith("OK NEXT");
+  client.send("RESET\n");
+  client.lineWith("OK RESET");
+  int told = 0;
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    client.send("NEXT none/none/none\nSTATUS\n");
+    for (std::string line = client.line(); !line.starts_with("OK STATUS"); line = client.line())
+      told += line.starts_with("* UPDATE") ? 1 : 0;
+  }
+  EXPECT_EQ(told, 4);  // at 10, 60, 110 and 160 ms
+}
+
+TEST(Protocol, ARobotFileThatIsNotWantedIsReadAllTheSame) {
+  CountingWorld world;
+  const RunningBoard board(world, {});
+  TestClient client(board.port());
+  client.send("CREATE early\n" + kAnyRobot);
+  EXPECT_EQ(client.ask("."), "ERR hello say HELLO ortung/1 first");
+  client.ask("HELLO ortung/1 role=viewer");
+  client.send("#a CREATE mine\n" + kAnyRobot);
+  EXPECT_EQ(client.ask("."), "#a ERR role CREATE needs the role player, this client is a viewer");
+  EXPECT_TRUE(client.ask("STATUS").starts_with("OK STATUS"));
+}
+
+TEST(Protocol, WhoWatchesARobotIsToldWhenItIsGone) {
+  CountingWorld world;
+  const RunningBoard board(world, {});
+  TestClient anna(board.port());
+  anna.join(kAnyRobot);
+  TestClient viewer(board.port());
+  viewer.ask("HELLO ortung/1 role=viewer");
+  EXPECT_EQ(viewer.ask("SUBSCRIBE robot=1 period_s=0.02"), "OK SUBSCRIBE robot=1");
+  EXPECT_EQ(anna.ask("REMOVE"), "OK REMOVE");
+  EXPECT_EQ(viewer.lineWith("REMOVE"), "* REMOVE robot=1");
+  EXPECT_TRUE(viewer.ask("STATUS").starts_with("OK STATUS"));  // and no update any more
+}
+
+TEST(Protocol, NobodyMakesTheOthersWaitOnAServerInRealTime) {
+  CountingWorld world;
+  BoardConfig config;
+  config.control = {"boss"};
+  const RunningBoard board(world, config);
+  TestClient player(board.port());
+  player.join(kAnyRobot);
+  EXPECT_EQ(
+      player.ask("LOCKSTEP on"),
+      "ERR role LOCKSTEP makes all others wait: it needs a server started with --lockstep, or "
+      "the role operator");
+  EXPECT_EQ(player.ask("LOCKSTEP off"), "OK LOCKSTEP off");
+  TestClient boss(board.port());
+  boss.ask("HELLO ortung/1 name=boss");
+  EXPECT_EQ(boss.ask("LOCKSTEP on"), "OK LOCKSTEP on");
+}
+
+TEST(Protocol, StepsOfAPausedWorldDoNotWaitForLockstepClients) {
+  CountingWorld world;
+  BoardConfig config = lockstepConfig();
+  config.control = {"*"};
+  const RunningBoard board(world, config);
+  TestClient idle(board.port());
+  idle.join(kAnyRobot);
+  idle.ask("LOCKSTEP on");
+  TestClient boss(board.port());
+  boss.ask("HELLO ortung/1");
+  EXPECT_EQ(boss.ask("PAUSE"), "OK PAUSE now=0");
+  EXPECT_EQ(boss.ask("STEP cycles=3"), "OK STEP");
+  EXPECT_EQ(valueOf(boss.ask("STATUS"), "now"), "30000");
+}
+
+TEST(BoardClock, StandsStillWhereTheWorldIsHeldUp) {
+  server::BoardClock clock;
+  clock.set(1000, 50'000, 2.0, 1500);
+  EXPECT_EQ(clock.at(50'100), 1200);
+  EXPECT_EQ(clock.at(60'000), 1500);
+  clock.permit(5000);
+  EXPECT_EQ(clock.at(50'500), 2000);
+  clock.set(9000, 70'000, 0.0, 100);  // never before what was set
+  EXPECT_EQ(clock.at(99'000), 9000);
+}
+
 TEST(Protocol, WhatOneSaysAllOthersHear) {
   CountingWorld world;
   const RunningBoard board(world, {});
@@ -278,7 +369,9 @@ TEST(Protocol, AtTheEndOfARecordNextSaysSo) {
   TestClient client(board.port());
   client.join(kAnyRobot);
   client.ask("LOCKSTEP on");
-  EXPECT_EQ(client.ask("NEXT cycles=3"), "OK NEXT robot=1 now=30000 lines=1");
+  EXPECT_EQ(client.ask("NEXT cycles=2"), "OK NEXT robot=1 now=20000 lines=1");
+  client.line();
+  EXPECT_EQ(client.ask("NEXT cycles=10"), "OK NEXT robot=1 now=30000 lines=1");  // what there was
   client.line();
   EXPECT_EQ(client.ask("NEXT"), "ERR end there is nothing more to come");
   EXPECT_EQ(valueOf(client.ask("STATUS"), "state"), "ended");

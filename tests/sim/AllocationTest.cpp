@@ -29,9 +29,6 @@ TEST(Cycle, AllocatesNothing) {
   Simulation simulation(readWorld(ORTUNG_SOURCE_DIR "/maps/fields/msl.toml"), {});
   RobotConfig config =
       readRobot(std::filesystem::path(ORTUNG_SOURCE_DIR "/maps/robots/msl_omni.toml"));
-  // Of scanner, compass and odometry; the camera's features come with lists.
-  std::erase_if(config.sensors,
-                [](const SensorConfig& one) { return one.plugin == "iconic_omnivision"; });
   for (int i = 0; i < 10; ++i) {
     config.name = "robot" + std::to_string(i);
     const double angle = 0.2 * std::numbers::pi * i;
@@ -44,7 +41,8 @@ TEST(Cycle, AllocatesNothing) {
     for (int i = 0; i < cycles; ++i) simulation.step();
     return allocations.load() - before;
   };
-  EXPECT_GT(runAndCount(500), 0u);  // buffers grow, the counter counts
+  // Buffers grow with the longest list that a camera has seen yet; the counter counts.
+  EXPECT_GT(runAndCount(6000), 0u);
   EXPECT_EQ(runAndCount(1000), 0u);
 }
 

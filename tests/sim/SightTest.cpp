@@ -34,6 +34,33 @@ FieldLine circle(double radius, double from = 0.0, double to = 2.0 * kPi) {
   return arc;
 }
 
+TEST(Rays2, NothingIsCrossedNearerThanTheLeastRange) {
+  Random random(5);
+  int crossed = 0;
+  double closest = 1e9;  // how much further the nearest crossing is
+  for (int i = 0; i < 20'000; ++i) {
+    FieldLine line = circle(random.uniform(0.05, 3.0), 0.0, random.uniform(0.5, 2.0 * kPi));
+    line.radiusY = random.uniform(0.05, 3.0);
+    line.angle = random.uniform(-kPi, kPi);
+    if (i % 2 == 0) line.shape = FieldLine::Shape::straight;
+    if (i % 7 == 0) line.radiusX = line.radiusY = 0.1;  // a spot
+    line.x = line.x0 = random.uniform(-5.0, 5.0);
+    line.y = line.y0 = random.uniform(-5.0, 5.0);
+    line.x1 = random.uniform(-5.0, 5.0);
+    line.y1 = random.uniform(-5.0, 5.0);
+    const Ray2 ray =
+        rayAlong(random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-kPi, kPi));
+    const double least = leastRange(ray.x, ray.y, line);
+    for (const double range : crossings(ray, line)) {
+      EXPECT_GE(range, least - 1e-9);
+      closest = std::min(closest, range - least);
+      ++crossed;
+    }
+  }
+  EXPECT_GT(crossed, 2000);
+  EXPECT_LT(closest, 0.01);  // the bound is not an idle one
+}
+
 TEST(Rays2, MeetSegmentsWhereLinesIntersect) {
   // The diagonal meets x = 3 at (3, 3).
   const Ray2 diagonal = rayAlong(0, 0, kPi / 4);

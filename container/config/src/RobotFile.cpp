@@ -53,6 +53,10 @@ std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig&
     Device device{&sensor, {}};
     try {
       for (auto& data : factory.makeData(sensor.plugin, sensor.parameters)) {
+        const bool isTruth = data->id().type == "groundTruth";
+        if (isTruth && dynamic_cast<const PoseData*>(data.get()) == nullptr)
+          throw std::invalid_argument(toText(data->id()) + " is not a true pose; no other feature may "
+                                      "have the type groundTruth");
         device.data.push_back(&container.add(std::move(data)));
         if (container.all().size() > kMostFeatures) throw std::invalid_argument("more than 4096 features");
       }

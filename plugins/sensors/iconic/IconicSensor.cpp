@@ -34,7 +34,10 @@ class IconicSensor : public Sensor {
             .minRange = settings_.minRange,
             .maxRange = settings_.maxRange,
             .robot = robot.number};
-    for (SensorData* one : data) one->setData(now, see(one->id().feature));
+    for (SensorData* one : data) {
+      see(one->id().feature);
+      one->setData(now, words_);
+    }
   }
 
   double period() const override { return settings_.period; }
@@ -44,13 +47,14 @@ class IconicSensor : public Sensor {
   }
 
  private:
-  std::vector<std::uint32_t> see(std::string_view feature) {
-    if (feature == "lines") return PointsData::encode(lines());
+  /// Fills words_.
+  void see(std::string_view feature) {
+    if (feature == "lines") return lines();
     if (feature == "goals") return landmarks(settings_.goals);
     if (feature == "posts") return landmarks(settings_.posts);
-    if (feature == "robots") return ObjectsData::encode(objects("robot"));
-    if (feature == "obstacles") return ObjectsData::encode(objects("obstacle"));
-    return ObjectsData::encode(objects("ball"));
+    if (feature == "robots") return objects("robot");
+    if (feature == "obstacles") return objects("obstacle");
+    objects("ball");
   }
 
   std::optional<Sighting> sensed(const Sighting& truth) const {
@@ -64,25 +68,29 @@ class IconicSensor : public Sensor {
   }
 
   /// Points where scan lines, which radiate from the camera, cross lines on the floor.
-  std::vector<PointsData::Point> lines() {
-    std::vector<PointsData::Point> points;
+  void lines() {
+    points_.clear();
+    near_.clear();
+    for (const FieldLine& line : world_->lines())
+      if (leastRange(eye_.pose.x, eye_.pose.y, line) <= settings_.lines.maxRange)
+        near_.push_back(&line);
     const bool isAround = settings_.fieldOfView >= kTurn;
     const int gaps = isAround ? settings_.rays : std::max(settings_.rays - 1, 1);
     for (int i = 0; i < settings_.rays; ++i) {
       const double bearing =
           settings_.rays == 1 ? 0.0 : settings_.fieldOfView * (static_cast<double>(i) / gaps - 0.5);
-      follow(wrapAngle(bearing), points);
+      follow(wrapAngle(bearing));
       if (const auto nothing = imagined(settings_.lines.maxRange); nothing)
-        points.push_back({nothing->range, nothing->bearing});
+        points_.push_back({nothing->range, nothing->bearing});
     }
-    if (points.size() > PointsData::kMostPoints) points.resize(PointsData::kMostPoints);
-    return points;
+    if (points_.size() > PointsData::kMostPoints) points_.resize(PointsData::kMostPoints);
+    PointsData::encode(points_, words_);
   }
 
-  void follow(double bearing, std::vector<PointsData::Point>& points) {
+  void follow(double bearing) {
     const Ray2 ray = rayAlong(eye_.pose.x, eye_.pose.y, eye_.pose.theta + bearing);
     crossings_.clear();
-    for (const FieldLine& line : world_->lines()) addCrossings(ray, line, crossings_);
+    for (const FieldLine* line : near_) addCrossings(ray, *line, crossings_);
     for (const double range : crossings_) {
       if (range < settings_.minRange || range > settings_.lines.maxRange) continue;
       constexpr double kFlat = 0.01;  // the floor does not hide itself [m]
@@ -90,12 +98,12 @@ class IconicSensor : public Sensor {
           !isVisible(*world_, eye_, ray.x + range * ray.dx, ray.y + range * ray.dy, 0.0, kFlat))
         continue;
       if (const auto point = sensed({range, bearing}))
-        points.push_back({point->range, point->bearing});
+        points_.push_back({point->range, point->bearing});
     }
   }
 
-  std::vector<std::uint32_t> landmarks(const IconicLandmarks& kind) {
-    LandmarksData::Reading list;
+  void landmarks(const IconicLandmarks& kind) {
+    sightings_.clear();
     const double maxRange = kind.areIdentified ? kind.list.maxRange : kind.points.maxRange;
     for (const Landmark& landmark : world_->landmarks()) {
       if (landmark.kind != kind.kind || !isWanted(kind, landmark.identity)) continue;
@@ -105,14 +113,14 @@ class IconicSensor : public Sensor {
           !isVisible(*world_, eye_, landmark.x, landmark.y, landmark.z, settings_.slack))
         continue;
       if (const auto seen = sensed(*truth))
-        list.push_back({landmark.identity, seen->range, seen->bearing});
+        sightings_.push_back({landmark.identity, seen->range, seen->bearing});
     }
     if (const auto nothing = imagined(maxRange))
-      list.push_back({anyIdentity(kind), nothing->range, nothing->bearing});
-    if (kind.areIdentified) return LandmarksData::encode(list);
-    std::vector<PointsData::Point> points;
-    for (const auto& sighting : list) points.push_back({sighting.range, sighting.bearing});
-    return PointsData::encode(points);
+      sightings_.push_back({anyIdentity(kind), nothing->range, nothing->bearing});
+    if (kind.areIdentified) return LandmarksData::encode(sightings_, words_);
+    points_.clear();
+    for (const auto& sighting : sightings_) points_.push_back({sighting.range, sighting.bearing});
+    PointsData::encode(points_, words_);
   }
 
   static bool isWanted(const IconicLandmarks& kind, std::uint32_t identity) {
@@ -124,11 +132,12 @@ class IconicSensor : public Sensor {
     return known.empty() ? 0 : known[random_->below(known.size())];
   }
 
-  std::vector<ObjectsData::Object> objects(std::string_view kind) {
-    std::vector<ObjectsData::Object> list;
+  void objects(std::string_view kind) {
+    objects_.clear();
     for (const WorldObject& object : world_->objects()) {
       const bool isOwn = object.robot != 0 && object.robot == eye_.robot;
-      if (object.kind != kind || isOwn || list.size() + 1 >= ObjectsData::kMostObjects) continue;
+      if (object.kind != kind || isOwn || objects_.size() + 1 >= ObjectsData::kMostObjects)
+        continue;
       const auto truth = lookAt(eye_, object.pose.x, object.pose.y);
       if (!truth) continue;
       if (settings_.occlusion) {
@@ -136,11 +145,12 @@ class IconicSensor : public Sensor {
         if (share <= 0.0 || share < settings_.visibleShare) continue;
       }
       if (const auto seen = sensed(*truth))
-        list.push_back({0, colourWord(object.colour), seen->range, seen->bearing, object.radius});
+        objects_.push_back(
+            {0, colourWord(object.colour), seen->range, seen->bearing, object.radius});
     }
     if (const auto nothing = imagined(settings_.maxRange))
-      list.push_back({0, ObjectsData::kNoColour, nothing->range, nothing->bearing, 0.0});
-    return list;
+      objects_.push_back({0, ObjectsData::kNoColour, nothing->range, nothing->bearing, 0.0});
+    ObjectsData::encode(objects_, words_);
   }
 
   IconicSettings settings_;
@@ -149,7 +159,13 @@ class IconicSensor : public Sensor {
   const World* world_ = nullptr;
   Random* random_ = nullptr;  ///< null: without noise
   Eye eye_;
+  std::vector<const FieldLine*> near_;  ///< lines within reach
+  // Used again, so that a look allocates nothing.
   std::vector<double> crossings_;  ///< of one scan line [m]
+  std::vector<PointsData::Point> points_;
+  LandmarksData::Reading sightings_;
+  std::vector<ObjectsData::Object> objects_;
+  std::vector<std::uint32_t> words_;
 };
 
 class IconicOmnivision : public IconicSensor {

@@ -19,13 +19,15 @@ constexpr double kDefaultDuration = 60.0;  // of a simulation, which has no end 
 SessionOptions readOptions(const Parameters& p) {
   SessionOptions options;
   const std::string path = p.text("path");
-  const std::size_t colon = path.rfind(':');
+  const std::size_t colon = path.rfind(':');  // [::1]:7777 is an address, too
   const std::string port = colon == path.npos ? "" : path.substr(colon + 1);
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), options.port);
   if (colon == path.npos || colon == 0 || error != std::errc() ||
       end != port.data() + port.size() || options.port == 0)
     p.fail("path", "is \"" + path + "\", must be HOST:PORT, e.g. 127.0.0.1:7777");
   options.host = path.substr(0, colon);
+  if (options.host.starts_with('[') && options.host.ends_with(']'))
+    options.host = options.host.substr(1, options.host.size() - 2);
   options.name = p.textOr("name", options.name);
   options.start = optionPose(p, "start");
   options.wanders = p.choiceOr("drive", "none", {"none", "wander"}) == "wander";
@@ -49,12 +51,16 @@ class TcpSource : public Source {
   explicit TcpSource(const Parameters& p)
       : options_(readOptions(p)),
         robotToml_(readRobotFile(p)),
-        isLockstep_(p.choiceOr("lockstep", "on", {"on", "off"}) == "on"),
+        isLockstep_(p.choiceOr("lockstep", "auto", {"on", "off", "auto"}) != "off"),
         cycle_(optionNumber(p, "cycle_ms", 100.0, {1.0, 1e5}) / 1000.0),
         duration_(optionNumber(p, "duration", {0.0, 1e9})),
         session_(options_, robotToml_) {
     if (!duration_ && session_.kind() == "simulation") duration_ = kDefaultDuration;
-    if (isLockstep_) session_.setLockstep(true);
+    if (isLockstep_) enterLockstep(p.textOr("lockstep", "auto") == "auto");
+    if (session_.ask("STATUS").find("state=ended") != std::string::npos)
+      throw std::runtime_error(options_.host + ":" + std::to_string(options_.port) +
+                               ": what it serves has ended; a record is served again and again "
+                               "with --repeat");
   }
   ~TcpSource() override = default;
 
@@ -76,6 +82,16 @@ class TcpSource : public Source {
   std::string robotToml() const override { return robotToml_; }
 
  private:
+  /// A server that plays for all in real time refuses it: then the robot just follows.
+  void enterLockstep(bool isOptional) {
+    try {
+      session_.setLockstep(true);
+    } catch (const ServerRefused& refusal) {
+      if (!isOptional || refusal.code() != "role") throw;
+      isLockstep_ = false;
+    }
+  }
+
   bool fetch() {
     sent_ = 0;
     frame_.clear();
@@ -85,9 +101,18 @@ class TcpSource : public Source {
       return readings.has_value();
     }
     frame_ = session_.update();
-    if (!frame_.empty()) return true;
-    if (session_.ask("STATUS").find("state=ended") != std::string::npos) return false;
+    if (!frame_.empty()) {
+      silence_ = 0.0;
+      return true;
+    }
+    const std::string status = session_.ask("STATUS");
+    if (status.find("state=ended") != std::string::npos) return false;
+    if (silence_ > options_.patience)
+      throw ConnectionLost(options_.host + ":" + std::to_string(options_.port) +
+                           ": gave no reading for " + std::to_string(options_.patience) +
+                           " s; it says " + status);
     std::this_thread::sleep_for(std::chrono::duration<double>(cycle_));
+    silence_ += cycle_;
     return true;
   }
 
@@ -101,6 +126,7 @@ class TcpSource : public Source {
   std::size_t sent_ = 0;
   std::optional<Timestamp> first_;
   double elapsed_ = 0.0;  ///< [s]
+  double silence_ = 0.0;  ///< without a reading [s]
 };
 
 }  // namespace

@@ -37,6 +37,10 @@ void addSpot(const Ray2& ray, const FieldLine& spot, std::vector<double>& ranges
 
 void addArc(const Ray2& ray, const FieldLine& arc, std::vector<double>& ranges) {
   if (!(arc.radiusX > 0.0 && arc.radiusY > 0.0)) return;
+  // Most rays pass it by: that is seen without turning anything.
+  constexpr double kHair = 1.000001;
+  const double aside = (arc.x - ray.x) * ray.dy - (arc.y - ray.y) * ray.dx;
+  if (std::abs(aside) > kHair * std::max(arc.radiusX, arc.radiusY)) return;
   // In the ellipse's own frame, scaled to a circle of radius 1.
   const double c = std::cos(arc.angle);
   const double s = std::sin(arc.angle);
@@ -62,7 +66,7 @@ std::optional<double> rangeToSegment(const Ray2& ray, double x0, double y0, doub
   const double ex = x1 - x0;
   const double ey = y1 - y0;
   const double across = ray.dx * ey - ray.dy * ex;
-  if (std::abs(across) <= 1e-12 * std::hypot(ex, ey)) return std::nullopt;
+  if (across * across <= 1e-24 * (ex * ex + ey * ey)) return std::nullopt;
   const double dx = x0 - ray.x;
   const double dy = y0 - ray.y;
   const double range = (dx * ey - dy * ex) / across;
@@ -81,6 +85,19 @@ std::vector<double> rangesToCircle(const Ray2& ray, double x, double y, double r
     if (roots.at[static_cast<std::size_t>(i)] >= 0.0)
       ranges.push_back(roots.at[static_cast<std::size_t>(i)]);
   return ranges;
+}
+
+double leastRange(double x, double y, const FieldLine& line) {
+  if (line.shape == FieldLine::Shape::arc) {
+    const double radius = std::max(line.radiusX, line.radiusY) + line.width / 2.0;
+    return std::max(std::hypot(line.x - x, line.y - y) - radius, 0.0);
+  }
+  const double ex = line.x1 - line.x0;
+  const double ey = line.y1 - line.y0;
+  const double length2 = ex * ex + ey * ey;
+  const double along = (x - line.x0) * ex + (y - line.y0) * ey;
+  const double share = length2 > 0.0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(line.x0 + share * ex - x, line.y0 + share * ey - y);
 }
 
 void addCrossings(const Ray2& ray, const FieldLine& line, std::vector<double>& ranges) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <mutex>
 
 #include "ortung/container/Time.hpp"
@@ -10,15 +12,24 @@ namespace ortung::server {
 class BoardClock {
  public:
   /// From the moment @p wall on it shows @p stamp and runs @p rate times as fast as wall time.
-  void set(Timestamp stamp, Timestamp wall, double rate) {
+  /// @param latest where it stands still, so that a world that is held up is not left behind
+  void set(Timestamp stamp, Timestamp wall, double rate,
+           Timestamp latest = std::numeric_limits<Timestamp>::max()) {
     const std::lock_guard lock(mutex_);
     stamp_ = stamp;
     wall_ = wall;
     rate_ = rate;
+    latest_ = latest;
+  }
+  /// Lets it run on until @p latest.
+  void permit(Timestamp latest) {
+    const std::lock_guard lock(mutex_);
+    latest_ = latest;
   }
   Timestamp at(Timestamp wall) const {
     const std::lock_guard lock(mutex_);
-    return stamp_ + static_cast<Timestamp>(static_cast<double>(wall - wall_) * rate_);
+    const auto gone = static_cast<Timestamp>(static_cast<double>(wall - wall_) * rate_);
+    return std::min(stamp_ + gone, std::max(stamp_, latest_));
   }
 
  private:
@@ -26,6 +37,7 @@ class BoardClock {
   Timestamp stamp_ = 0;
   Timestamp wall_ = 0;  ///< [us] on the computer's clock
   double rate_ = 0.0;   ///< 0: stands still
+  Timestamp latest_ = std::numeric_limits<Timestamp>::max();
 };
 
 /// The computer's clock, which never goes back [us].

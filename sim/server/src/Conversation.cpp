@@ -126,7 +126,10 @@ void Conversation::handleLine(std::string_view line) {
   try {
     dispatch(request);
   } catch (...) {
-    refuse(request.tag(), currentErrorText());
+    if (request.command() == "CREATE")  // its robot file is on its way all the same
+      configuration_ = Configuration{request.tag(), {}, {}, currentErrorText()};
+    else
+      refuse(request.tag(), currentErrorText());
   }
 }
 

@@ -36,6 +36,8 @@ class Host {
 
   /// Has @p task run on the thread of the conversations; thread-safe.
   virtual void post(std::function<void()> task) = 0;
+  /// Has @p task run where nobody waits for it but who asked; thread-safe.
+  virtual void work(std::function<void()> task) = 0;
   /// Tells all other clients.
   virtual void broadcast(ClientId from, std::string_view text) = 0;
   /// A client's connection is closed; its conversation is not needed any more.
@@ -131,6 +133,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   // ConversationRobots.cpp
   void create(Request& request);
   void finishConfiguration();
+  static void readConfiguration(Configuration& configuration, const Host& host);
+  void createRobot(const std::string& tag, RobotWish wanted);
   void remove(Request& request);
   void velocity(Request& request);
   void motion(Request& request);

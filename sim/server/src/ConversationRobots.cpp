@@ -29,25 +29,16 @@ RobotId Conversation::takeRobot(Request& request) const {
 // --- creating and removing
 
 void Conversation::create(Request& request) {
-  Configuration configuration;
-  configuration.tag = request.tag();
-  // The robot file is on its way whatever is wrong with this line.
-  try {
-    RobotWish& wish = configuration.wish;
-    wish.name = request.takeWord("a name for the robot");
-    if (!isName(wish.name))
-      throw ServeError("syntax", "a robot's name is 1 to 32 of [A-Za-z0-9_-]");
-    wish.start = request.takePose();
-    const std::string drive = request.takeText("drive").value_or("commands");
-    if (drive != "commands" && drive != "wander")
-      throw ServeError("syntax",
-                       "drive is '" + printable(drive) + "', expected commands or wander");
-    wish.wanders = drive == "wander";
-    request.refuseRest();
-  } catch (const ServeError&) {
-    configuration.fault = currentErrorText();
-  }
-  configuration_ = std::move(configuration);
+  RobotWish wish;
+  wish.name = request.takeWord("a name for the robot");
+  if (!isName(wish.name)) throw ServeError("syntax", "a robot's name is 1 to 32 of [A-Za-z0-9_-]");
+  wish.start = request.takePose();
+  const std::string drive = request.takeText("drive").value_or("commands");
+  if (drive != "commands" && drive != "wander")
+    throw ServeError("syntax", "drive is '" + printable(drive) + "', expected commands or wander");
+  wish.wanders = drive == "wander";
+  request.refuseRest();
+  configuration_ = Configuration{request.tag(), std::move(wish), {}, {}};
 }
 
 void Conversation::handleConfigurationLine(std::string_view line) {
@@ -67,28 +58,48 @@ void Conversation::handleConfigurationLine(std::string_view line) {
   text.append(line).append("\n");
 }
 
+/// Reads the robot file. That takes a while for a nasty one, so it is done elsewhere.
 void Conversation::finishConfiguration() {
-  Configuration configuration = std::move(*configuration_);
+  auto configuration = std::make_shared<Configuration>(std::move(*configuration_));
   configuration_.reset();
-  const std::string& tag = configuration.tag;
-  if (!configuration.fault.empty()) {
-    refuse(tag, configuration.fault);
+  if (!configuration->fault.empty()) {
+    refuse(configuration->tag, configuration->fault);
     return;
   }
-  try {
-    RobotConfig& config = configuration.wish.config;
-    config = readNetworkRobot(configuration.text, "robot file", host_.plugins);
-    if (config.sensors.size() > host_.config.limits.sensors)
-      throw ServeError("limit", "the robot has " + std::to_string(config.sensors.size()) +
-                                    " sensors, at most " +
-                                    std::to_string(host_.config.limits.sensors) + " are permitted");
-    config.name = configuration.wish.name;
-  } catch (...) {
-    refuse(tag, currentErrorText());
-    return;
-  }
+  ++waiting_;
+  host_.work([weak = weak_from_this(), host = &host_, configuration] {
+    try {
+      readConfiguration(*configuration, *host);
+    } catch (...) {
+      configuration->fault = currentErrorText();
+    }
+    host->post([weak, configuration] {
+      const auto self = weak.lock();
+      if (!self) return;
+      --self->waiting_;
+      if (self->isOver_) return;
+      if (configuration->fault.empty())
+        self->createRobot(configuration->tag, std::move(configuration->wish));
+      else
+        self->refuse(configuration->tag, configuration->fault);
+      self->goOn();
+    });
+  });
+}
+
+void Conversation::readConfiguration(Configuration& configuration, const Host& host) {
+  RobotConfig& config = configuration.wish.config;
+  config = readNetworkRobot(configuration.text, "robot file", host.plugins);
+  const std::size_t most = host.config.limits.sensors;
+  if (config.sensors.size() > most)
+    throw ServeError("limit", "the robot has " + std::to_string(config.sensors.size()) +
+                                  " sensors, at most " + std::to_string(most) + " are permitted");
+  config.name = configuration.wish.name;
+}
+
+void Conversation::createRobot(const std::string& tag, RobotWish wanted) {
   auto created = std::make_shared<std::shared_ptr<RobotReadings>>();
-  auto wish = std::make_shared<RobotWish>(std::move(configuration.wish));
+  auto wish = std::make_shared<RobotWish>(std::move(wanted));
   order(
       tag,
       [id = id_, wish, created](WorldKeeper& keeper, WorldKeeper::Done&) {
@@ -276,10 +287,20 @@ void Conversation::onCycle() {
   constexpr std::size_t kBehind = 64u << 10;
   if (!subscription_ || isOver_ || outlet_->outstanding() > kBehind) return;
   Subscription& subscription = *subscription_;
+  const auto view = views_.find(subscription.robot);
+  if (view != views_.end() && view->second.readings->isRetired()) {
+    tell("REMOVE robot=" + std::to_string(subscription.robot));
+    views_.erase(view);
+    subscription_.reset();
+    host_.countSubscribers(-1);
+    return;
+  }
   const Timestamp now = host_.keeper.clock().at(wallTime());
   if (now < subscription.due && subscription.due - now <= subscription.period) return;
   subscription.due += subscription.period;
-  if (subscription.due < now) subscription.due = now + subscription.period;  // it was the first
+  // It was the first, or the world has started over.
+  if (subscription.due < now || subscription.due - now > subscription.period)
+    subscription.due = now + subscription.period;
   sendReadings("*", "UPDATE", subscription.robot, subscription.choice);
 }
 
@@ -290,6 +311,10 @@ void Conversation::lockstep(Request& request) {
   request.refuseRest();
   if (word != "on" && word != "off")
     throw ServeError("syntax", "LOCKSTEP is '" + printable(word) + "', expected on or off");
+  if (word == "on" && host_.config.pace != Pace::kLockstep && role_ != Role::kOperator)
+    throw ServeError("role",
+                     "LOCKSTEP makes all others wait: it needs a server started with "
+                     "--lockstep, or the role operator");
   order(request.tag(), [id = id_, word](WorldKeeper& keeper, WorldKeeper::Done&) {
     keeper.setLockstep(id, word == "on");
     return Reply("OK LOCKSTEP " + word);

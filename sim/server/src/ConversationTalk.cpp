@@ -66,7 +66,8 @@ void Conversation::hello(Request& request) {
     keeper.join(id, name);
     return Reply("OK HELLO ortung/1 client=" + std::to_string(id) + " role=" + toText(role) +
                  " kind=" + host->description.kind + " world=" + oneWord(host->description.name) +
-                 " now=" + std::to_string(keeper.world().now()) + " state=" + keeper.stateText());
+                 " now=" + std::to_string(keeper.clock().at(wallTime())) +
+                 " state=" + keeper.stateText());
   });
 }
 
@@ -104,7 +105,7 @@ void Conversation::status(Request& request) {
   order(request.tag(), [](WorldKeeper& keeper, WorldKeeper::Done&) {
     const BoardStatistics statistics = keeper.statistics();
     return Reply("OK STATUS state=" + keeper.stateText() +
-                 " now=" + std::to_string(keeper.world().now()) +
+                 " now=" + std::to_string(keeper.clock().at(wallTime())) +
                  " cycles=" + std::to_string(statistics.cycles) +
                  " missed=" + std::to_string(statistics.missedCycles) +
                  " clients=" + std::to_string(statistics.clients) +

@@ -6,6 +6,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <thread>
 
 #include "Session.hpp"
@@ -47,6 +48,8 @@ struct MessageBoard::Parts final : server::Host {
   ~Parts() override = default;
 
   void post(std::function<void()> task) override { asio::post(io_, std::move(task)); }
+
+  void work(std::function<void()> task) override { asio::post(workers_, std::move(task)); }
 
   void broadcast(server::ClientId from, std::string_view text) override {
     for (const auto& [id, session] : sessions_)
@@ -155,6 +158,7 @@ struct MessageBoard::Parts final : server::Host {
   bool isEnding_ = false;
   std::atomic<int> subscribers_{0};
   std::atomic<bool> isTickPosted_{false};
+  asio::thread_pool workers_{1};  ///< last, so that its thread ends before what it works on
 };
 
 MessageBoard::MessageBoard(ServedWorld& world, const BoardConfig& config) {

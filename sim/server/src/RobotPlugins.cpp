@@ -13,6 +13,9 @@ std::vector<std::string> robotPlugins(PluginFactory& factory) {
                              !entry.interface.starts_with("ortung.Player/");
       if (isOfRobot) names.insert(entry.name);
     }
+  if (names.empty())
+    throw PluginError(
+        "no plugin that robots are made of could be loaded; `ortung plugins` says why");
   return {names.begin(), names.end()};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <span>
@@ -40,6 +41,9 @@ class RobotReadings {
   const std::vector<ServedFeature>& features() const { return features_; }
 
   void publish(std::span<const Message> frame);
+  /// The robot has left the field.
+  void retire() { isRetired_ = true; }
+  bool isRetired() const { return isRetired_; }
   /// Time starts over: there is no newest reading.
   void forget();
 
@@ -61,6 +65,7 @@ class RobotReadings {
   const RobotId robot_;
   const std::string name_;
   const std::vector<ServedFeature> features_;
+  std::atomic<bool> isRetired_{false};
   std::mutex mutex_;
   std::vector<Entry> entries_;
   std::vector<std::size_t> chosen_;

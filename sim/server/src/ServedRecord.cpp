@@ -45,6 +45,7 @@ WorldDescription ServedRecord::describe() const {
 }
 
 void ServedRecord::step() {
+  hasBegun_ = true;
   for (auto& [id, guest] : guests_) {
     guest->frame.clear();
     for (Message& message : ahead_) {
@@ -91,6 +92,7 @@ std::span<const Message> ServedRecord::readings(RobotId robot) const {
 
 void ServedRecord::reset(std::optional<std::uint64_t>) {
   shift_ = 0;
+  hasBegun_ = false;
   open();
 }
 

@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::size_t kPiece = 256u << 10;  // written at a time, so that progress shows [bytes]
 
-constexpr double kFarewell = 2.0;  // for a client to read our last words and close [s]
+constexpr double kFarewell = 2.0;          // for a client to close after our last words [s]
+constexpr double kLongestFarewell = 60.0;  // for it to read what it had asked for before [s]
 
 bool hasPassed(Timestamp since, Timestamp now, double seconds) {
   return toSeconds(now - since) > seconds;
@@ -126,6 +127,7 @@ void Session::finish() {
 /// All is said. Closing while the client still sends would make the kernel throw our last words
 /// away, so what it sends is read and forgotten until it closes, too.
 void Session::listenToTheEnd() {
+  finished_ = wallTime();
   boost::system::error_code ignored;
   socket_.shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   read();
@@ -136,10 +138,12 @@ void Session::dismiss(const std::string& text) { conversation_->dismiss(text); }
 void Session::look(Timestamp now) {
   if (isClosed_) return;
   const bool owes = isWriting_;
-  if (owes && hasPassed(progressed_, now, limits_.stall)) {
+  const bool isDawdling = isFinishing_ && hasPassed(finished_, now, kLongestFarewell);
+  if (owes && (isDawdling || hasPassed(progressed_, now, limits_.stall))) {
     close();  // told or not, it does not read
     return;
   }
+  if (isFinishing_ && owes) return;
   if (isFinishing_) {
     if (hasPassed(finished_, now, kFarewell)) close();
     return;

@@ -11,9 +11,11 @@ namespace ortung::server {
 namespace {
 
 constexpr Timestamp kNever = std::numeric_limits<Timestamp>::max();
-constexpr Timestamp kLongestWait = 100'000;      // to look whether to go on [us]
-constexpr Timestamp kMostBehind = 1'000'000;     // what the world tries to catch up with [us]
-constexpr std::size_t kOrdersOfLateCycle = 256;  // executed although the next cycle is due
+constexpr Timestamp kLongestWait = 100'000;   // to look whether to go on [us]
+constexpr Timestamp kMostBehind = 1'000'000;  // what the world tries to catch up with [us]
+// What is executed although the next cycle is due.
+constexpr std::size_t kOrdersOfLateCycle = 256;
+constexpr Timestamp kTimeOfLateCycle = 2'000;  // [us]
 
 }  // namespace
 
@@ -89,13 +91,20 @@ bool WorldKeeper::isLockstepReady() const {
 }
 
 bool WorldKeeper::mayAdvance() const {
-  return failure_.empty() && (!isPaused_ || steps_ > 0) && !world_.isAtEnd() && isLockstepReady();
+  if (!failure_.empty() || world_.isAtEnd() || !world_.isReady()) return false;
+  return isPaused_ ? steps_ > 0 : isLockstepReady();
+}
+
+/// What the clock shows at most before the next cycle, however late that is: one cycle more.
+Timestamp WorldKeeper::latest() const {
+  return world_.now() + static_cast<Timestamp>(static_cast<double>(length_) * speed_);
 }
 
 void WorldKeeper::anchor(Timestamp wall) {
   anchorStamp_ = world_.now();
   anchorWall_ = wall;
-  clock_.set(anchorStamp_, anchorWall_, isFree_ || isPaused_ || wasBlocked_ ? 0.0 : speed_);
+  const bool stands = isFree_ || isPaused_ || wasBlocked_;
+  clock_.set(anchorStamp_, anchorWall_, stands ? 0.0 : speed_, latest());
 }
 
 /// When the next cycle begins on the wall's clock; the past: at once.
@@ -115,10 +124,12 @@ Timestamp WorldKeeper::due() {
   const Timestamp now = wallTime();
   // What was lost while nobody was allowed to go on is not made up for, nor is more than a second.
   if (now - regular > (wasBlocked ? 0 : kMostBehind)) {
+    if (!wasBlocked && length_ > 0)
+      missed_ += static_cast<std::uint64_t>((now - regular) / length_);
     anchor(now);
     return now;
   }
-  if (wasBlocked) clock_.set(world_.now(), regular, speed_);
+  if (wasBlocked) clock_.set(world_.now(), regular, speed_, latest());
   return regular;
 }
 
@@ -150,12 +161,15 @@ bool WorldKeeper::execute(bool isCycleDue) {
   Given given;
   {
     const std::lock_guard lock(mutex_);
-    if (orders_.empty() || (isCycleDue && executed_ >= kOrdersOfLateCycle)) return false;
+    const bool isEnough = executed_ >= kOrdersOfLateCycle || spent_ >= kTimeOfLateCycle;
+    if (orders_.empty() || (isCycleDue && isEnough)) return false;
     given = std::move(orders_.front());
     orders_.pop_front();
   }
-  ++executed_;
+  const Timestamp begin = wallTime();
   execute(given);
+  ++executed_;
+  spent_ += wallTime() - begin;
   return true;
 }
 
@@ -180,35 +194,37 @@ void WorldKeeper::cycle(Timestamp due) {
     fail(error.what());
     return;
   }
-  const auto length = static_cast<double>(world_.now() - stamp) / speed_;
-  if (!isFree_ && !isPaused_ && static_cast<double>(begin - due) > length) ++missed_;
+  length_ = static_cast<Timestamp>(static_cast<double>(world_.now() - stamp) / speed_);
+  if (!isFree_ && !isPaused_ && begin - due > length_) ++missed_;
   for (const auto& [id, robot] : robots_) robot.readings->publish(world_.readings(id));
-  if (isFree_ || isPaused_) clock_.set(world_.now(), begin, 0.0);
+  if (isFree_ || isPaused_)
+    clock_.set(world_.now(), begin, 0.0);
+  else
+    clock_.permit(latest());
   executed_ = 0;
+  spent_ = 0;
   ++cycles_;
   finishCycle();
   if (onCycle_) onCycle_();
 }
 
 void WorldKeeper::finishCycle() {
+  const bool isLast = world_.isAtEnd();  // who asked for more gets what there was
   for (auto& [id, client] : clients_) {
-    if (!client.isLockstep || client.cycles == 0 || --client.cycles > 0) continue;
+    if (!client.isLockstep || client.cycles == 0 || (--client.cycles > 0 && !isLast)) continue;
+    client.cycles = 0;
     std::exchange(client.waiting, {})("");
   }
-  if (steps_ > 0 && --steps_ == 0) std::exchange(stepsDone_, {})("OK STEP");
-  if (world_.isAtEnd()) answerStuck();
+  if (steps_ == 0 || (--steps_ > 0 && !isLast)) return;
+  steps_ = 0;
+  std::exchange(stepsDone_, {})("OK STEP");
 }
 
 void WorldKeeper::fail(const std::string& why) {
   failure_ = why;
   if (config_.log) config_.log("the world can't go on: " + why);
-  answerStuck();
-}
-
-/// Tells those who wait for cycles that there will be none.
-void WorldKeeper::answerStuck() {
-  const std::string text = failure_.empty() ? "ERR end there is nothing more to come"
-                                            : "ERR failed " + printable(failure_);
+  // Those who wait for cycles wait in vain.
+  const std::string text = "ERR failed " + printable(failure_);
   for (auto& [id, client] : clients_) {
     client.cycles = 0;
     if (client.waiting) std::exchange(client.waiting, {})(text);
@@ -248,7 +264,7 @@ std::string WorldKeeper::stateText() const {
   if (!failure_.empty()) return "failed";
   if (world_.isAtEnd()) return "ended";
   if (isPaused_) return "paused";
-  return isLockstepReady() ? "running" : "waiting";
+  return world_.isReady() && isLockstepReady() ? "running" : "waiting";
 }
 
 // --- clients and their robots
@@ -267,10 +283,7 @@ void WorldKeeper::join(ClientId client, const std::string& name) {
 void WorldKeeper::leave(ClientId client) {
   const auto found = clients_.find(client);
   if (found == clients_.end()) return;
-  for (const RobotId robot : found->second.robots) {
-    world_.removeRobot(robot);
-    robots_.erase(robot);
-  }
+  for (const RobotId robot : found->second.robots) remove(robot);
   clients_.erase(found);
   clientCount_ = clients_.size();
   robotCount_ = robots_.size();
@@ -313,10 +326,16 @@ void WorldKeeper::checkLimits(const ServedRobot& robot) const {
 
 void WorldKeeper::removeRobot(ClientId owner, RobotId robot) {
   checkOwner(owner, robot);
-  world_.removeRobot(robot);
-  robots_.erase(robot);
+  remove(robot);
   client(owner).robots.erase(robot);
   robotCount_ = robots_.size();
+}
+
+void WorldKeeper::remove(RobotId robot) {
+  world_.removeRobot(robot);
+  const auto found = robots_.find(robot);
+  found->second.readings->retire();
+  robots_.erase(found);
 }
 
 void WorldKeeper::checkOwner(ClientId client, RobotId robot) const {

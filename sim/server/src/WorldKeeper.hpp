@@ -97,8 +97,9 @@ class WorldKeeper {
   void cycle(Timestamp due);
   void finishCycle();
   void fail(const std::string& why);
-  void answerStuck();
   void anchor(Timestamp wall);
+  Timestamp latest() const;
+  void remove(RobotId robot);
   Client& client(ClientId id);
 
   ServedWorld& world_;
@@ -123,7 +124,9 @@ class WorldKeeper {
   bool wasBlocked_ = true;
   Timestamp anchorStamp_ = 0;
   Timestamp anchorWall_ = 0;
+  Timestamp length_ = 0;      ///< of the last cycle on the wall's clock [us]
   std::size_t executed_ = 0;  ///< orders since the last cycle
+  Timestamp spent_ = 0;       ///< with them [us]
 
   std::atomic<std::uint64_t> cycles_{0};
   std::atomic<std::uint64_t> missed_{0};

@@ -136,6 +136,7 @@ class ORTUNG_API LandmarksData : public SensorData {
 
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
+  static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
   const Config& config() const { return config_; }
 
   std::string wordsHelp() const override;

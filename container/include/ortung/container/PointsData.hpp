@@ -40,6 +40,7 @@ class ORTUNG_API PointsData : public SensorData {
   const Reading& reading() const { return reading_; }
   const Config& config() const { return config_; }
   static std::vector<std::uint32_t> encode(std::span<const Point> points);
+  static void encode(std::span<const Point> points, std::vector<std::uint32_t>& words);
 
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }

@@ -34,4 +34,7 @@ ORTUNG_API std::vector<double> rangesToCircle(const Ray2& ray, double x, double 
 /// is met once, at its middle, by rays that cross it.
 ORTUNG_API void addCrossings(const Ray2& ray, const FieldLine& line, std::vector<double>& ranges);
 
+/// No point of a painted line's middle is nearer to (x, y) than this [m].
+ORTUNG_API double leastRange(double x, double y, const FieldLine& line);
+
 }  // namespace ortung

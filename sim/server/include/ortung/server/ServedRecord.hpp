@@ -14,8 +14,8 @@
 namespace ortung {
 
 /// A record for the message board, as if it were a simulator: a cycle is a moment of the record,
-/// and every robot gets those of its readings that its configuration has. Commands of motion and
-/// manipulators are taken and come to nothing.
+/// and every robot gets those of its readings that its configuration has. It begins when the first
+/// robot is there. Commands of motion and manipulators are taken and come to nothing.
 class ORTUNG_API ServedRecord : public ServedWorld {
  public:
   /// @param repeats whether it starts over at the end, time going on
@@ -26,6 +26,7 @@ class ORTUNG_API ServedRecord : public ServedWorld {
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return plugins_; }
   Timestamp now() const override { return now_; }
+  bool isReady() const override { return hasBegun_ || !guests_.empty(); }
   bool isAtEnd() const override { return isAtEnd_; }
   void step() override;
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
@@ -57,6 +58,7 @@ class ORTUNG_API ServedRecord : public ServedWorld {
   std::vector<Message> ahead_;  ///< the moment that the next step gives
   Timestamp now_ = 0;
   Timestamp shift_ = 0;  ///< by which stamps are later than the record's, in a repetition
+  bool hasBegun_ = false;
   bool isAtEnd_ = false;
   std::map<RobotId, std::unique_ptr<Guest>> guests_;
 };

@@ -75,6 +75,8 @@ class ORTUNG_API ServedWorld {
   virtual std::vector<std::string> plugins() const = 0;
   /// Stamp of the readings that the next step gives.
   virtual Timestamp now() const = 0;
+  /// Whether it may begin.
+  virtual bool isReady() const { return true; }
   /// Whether there is nothing left to step to.
   virtual bool isAtEnd() const { return false; }
   /// One cycle. @throws std::runtime_error if the world can't go on
