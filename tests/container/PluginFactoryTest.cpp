@@ -126,9 +126,9 @@ TEST(PluginFactory, RefusesAMisspeltParameter) {
   Parameters p("r.toml");
   p.set("cuont", Parameters::Node{3.0, 7});
   EXPECT_EQ(messageOf<ConfigError>([&] { only.factory.makeData("good", p); }),
-            "r.toml:7: cuont is not known here");
+            "r.toml:7: cuont is not known here; known are count");
   EXPECT_EQ(messageOf<ConfigError>([&] { only.factory.make<MotionModel>("good", p); }),
-            "r.toml:7: cuont is not known here");
+            "r.toml:7: cuont is not known here; known are count, step_m");
 }
 
 TEST(PluginFactory, MakesTwoKindsUnderOneName) {

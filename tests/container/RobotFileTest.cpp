@@ -36,7 +36,7 @@ TEST(RobotFile, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[robot]\nradius_m = -1\n"); }),
             "r.toml:4: radius_m is -1, must be in [0.001, 100]");
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[robot]\nradus_m = 1\n"); }),
-            "r.toml:4: radus_m is not known here");
+            "r.toml:4: radus_m is not known here; known are colour, mass_kg, name, radius_m");
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[sensr]\n"); }),
             "r.toml:3: sensr is not known here; sections of a robot file are [robot], [[sensor]], "
             "[motion], [mcl], [drive], [[body]] and [[manipulator]]");

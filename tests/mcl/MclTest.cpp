@@ -405,7 +405,9 @@ TEST(MclConfig, IsReadFromAFilesSection) {
   Parameters misspelt("r.toml");
   misspelt.set("particels", 3000.0);
   EXPECT_EQ(test::messageOf<ConfigError>([&] { MclConfig::read(misspelt); }),
-            "r.toml: particels is not known here");
+            "r.toml: particels is not known here; known are bin_deg, bin_m, inject_fast, "
+            "inject_most, inject_slow, kld_error, kld_quantile, max_interval_s, min_distance_m, "
+            "min_particles, min_rotation_deg, particles, resample_below, start_candidates_per_m2");
 }
 
 TEST(Mcl, RefusesARegionWithoutAPlaceToStand) {
