@@ -127,7 +127,7 @@ void Conversation::handleLine(std::string_view line) {
     dispatch(request);
   } catch (...) {
     if (request.command() == "CREATE")  // its robot file is on its way all the same
-      configuration_ = Configuration{request.tag(), {}, {}, currentErrorText()};
+      configuration_ = Configuration{request.tag(), RobotWish(), {}, currentErrorText()};
     else
       refuse(request.tag(), currentErrorText());
   }
