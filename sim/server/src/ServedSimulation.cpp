@@ -201,10 +201,8 @@ void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
   for (auto& [id, guest] : guests_) {
     try {
       enter(id, *guest);
-    } catch (const std::runtime_error&) {
-      // It is refused, there is no room this time: whoever commands it is told so.
-    } catch (const std::invalid_argument&) {
-      // So it is where even a free place does not serve.
+    } catch (const std::exception&) {
+      guest->robot = nullptr;  // no room for it this time: whoever commands it is told so
     }
   }
 }
