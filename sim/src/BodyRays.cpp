@@ -183,12 +183,19 @@ void BodyRays::castAt(const Piece& piece, const RayFan& fan, std::span<float> ra
 
 bool BodyRays::isBlocked(const std::array<double, 3>& from, const std::array<double, 3>& direction,
                          double stop, RobotNumber ignore) const {
+  constexpr double kHair = 1.0 + 1e-9;  // for rounding
   const Ray ray{from[0], from[1], from[2], direction[0], direction[1], direction[2]};
+  const double level2 = ray.dx * ray.dx + ray.dy * ray.dy;
   for (const Body& body : bodies_) {
     if (body.number == ignore) continue;
     for (const Piece& piece : body.pieces) {
-      const double away = std::hypot(piece.middle.x - ray.x, piece.middle.y - ray.y) - piece.reach;
-      if (away > stop) continue;
+      // Most are too far off, or beside the ray.
+      const double reach = kHair * piece.reach;
+      const double x = piece.middle.x - ray.x;
+      const double y = piece.middle.y - ray.y;
+      const double aside = x * ray.dy - y * ray.dx;
+      if (x * x + y * y > (stop + reach) * (stop + reach)) continue;
+      if (aside * aside > reach * reach * level2) continue;
       const auto t = hit(piece, ray);
       if (t && *t < stop) return true;
     }
