@@ -16,7 +16,7 @@ namespace ortung::testing {
 namespace {
 
 template <class Filter>
-std::string filtered(const std::string& text, Filter filter) {
+std::string filtered(const std::string& text, const Filter& filter) {
   std::istringstream in(text);
   std::ostringstream out;
   boost::iostreams::filtering_ostream stream;

@@ -59,7 +59,9 @@ std::filesystem::path sharedData(const std::string& name);
 }  // namespace ortung::testing
 
 /// Ends the test unless the real log is there.
+// NOLINTBEGIN(bugprone-macro-parentheses): a name that is declared has none
 #define ORTUNG_NEED_DATA(variable, name)                                    \
   const std::filesystem::path variable = ortung::testing::sharedData(name); \
   if (variable.empty())                                                     \
   GTEST_SKIP() << "real log " << name << " is not here: " << ORTUNG_SHARED_DATA
+// NOLINTEND(bugprone-macro-parentheses)

@@ -22,7 +22,7 @@ struct Case {
   double standable;  ///< share of the reference that must be where the robot fits
 };
 
-void PrintTo(const Case& log, std::ostream* out) {
+void PrintTo(const Case& log, std::ostream* out) {  // NOLINT: GoogleTest looks for this name
   *out << log.kind << ":" << log.path << log.options;
 }
 
@@ -78,9 +78,9 @@ TEST_P(WrittenWorlds, HaveARobotThatTakesAllReadings) {
   }
   std::size_t taken = 0;
   for (const Message& message : readAll(*source)) {
-    SensorData* const data_ = container.findExactly(message.id);
-    ASSERT_NE(data_, nullptr) << toText(message.id);
-    data_->setData(message.stamp, message.words);  // throws if the words do not fit
+    SensorData* const data = container.findExactly(message.id);
+    ASSERT_NE(data, nullptr) << toText(message.id);
+    data->setData(message.stamp, message.words);  // throws if the words do not fit
     ++taken;
   }
   EXPECT_GT(taken, 0u);
