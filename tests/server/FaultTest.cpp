@@ -13,12 +13,6 @@
 namespace ortung::test {
 namespace {
 
-BoardConfig lockstepConfig() {
-  BoardConfig config;
-  config.pace = Pace::kLockstep;
-  return config;
-}
-
 std::size_t openFiles() {
   return static_cast<std::size_t>(
       std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));

@@ -13,12 +13,6 @@
 namespace ortung::test {
 namespace {
 
-BoardConfig lockstepConfig() {
-  BoardConfig config;
-  config.pace = Pace::kLockstep;
-  return config;
-}
-
 TEST(Protocol, TheSessionOfThePageIsReplayedByteForByte) {
   ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
   const RunningBoard board(world, lockstepConfig());
@@ -183,9 +177,7 @@ TEST(Protocol, SubscribersThatComeLateKeepTheRhythmFromThenOn) {
 
 TEST(Protocol, SubscribersKeepTheirRhythmWhenTheWorldStartsOver) {
   CountingWorld world;
-  BoardConfig config = lockstepConfig();
-  config.control = {"*"};
-  const RunningBoard board(world, config);
+  const RunningBoard board(world, controlledConfig());
   TestClient client(board.port());
   client.join(kAnyRobot);
   client.ask("LOCKSTEP on");
@@ -247,9 +239,7 @@ TEST(Protocol, NobodyMakesTheOthersWaitOnAServerInRealTime) {
 
 TEST(Protocol, StepsOfAPausedWorldDoNotWaitForLockstepClients) {
   CountingWorld world;
-  BoardConfig config = lockstepConfig();
-  config.control = {"*"};
-  const RunningBoard board(world, config);
+  const RunningBoard board(world, controlledConfig());
   TestClient idle(board.port());
   idle.join(kAnyRobot);
   idle.ask("LOCKSTEP on");

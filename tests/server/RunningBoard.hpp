@@ -6,6 +6,20 @@
 
 namespace ortung::test {
 
+/// The world goes on only when clients in lockstep ask for it.
+inline BoardConfig lockstepConfig() {
+  BoardConfig config;
+  config.pace = Pace::kLockstep;
+  return config;
+}
+
+/// The same, and every client may control it.
+inline BoardConfig controlledConfig() {
+  BoardConfig config = lockstepConfig();
+  config.control = {"*"};
+  return config;
+}
+
 /// A board that serves a world on a port of the system's choice, on a thread of its own.
 class RunningBoard {
  public:

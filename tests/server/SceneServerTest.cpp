@@ -12,13 +12,6 @@ namespace {
 const std::string kScene = ORTUNG_SOURCE_DIR "/maps/scenes/kick.toml";
 const std::string kRobot = ORTUNG_SOURCE_DIR "/maps/robots/pioneer.toml";
 
-BoardConfig controlled() {
-  BoardConfig config;
-  config.pace = Pace::kLockstep;
-  config.control = {"*"};
-  return config;
-}
-
 /// "robot=N now=T x y theta" of the true pose.
 std::string truthOf(TestClient& client, int robot) {
   client.ask("READ */groundTruth/* robot=" + std::to_string(robot));
@@ -27,7 +20,7 @@ std::string truthOf(TestClient& client, int robot) {
 
 TEST(SceneServer, ResidentsAreListedReadAndNobodys) {
   ServedSimulation world(kScene, {.noise = false});
-  const RunningBoard board(world, controlled());
+  const RunningBoard board(world, controlledConfig());
   TestClient client(board.port());
   ASSERT_EQ(client.join(readBytes(kRobot), "guest").substr(0, 17), "OK CREATE robot=6");
   EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=6");
@@ -41,7 +34,7 @@ TEST(SceneServer, ResidentsAreListedReadAndNobodys) {
 
 TEST(SceneServer, TheScriptIsPlayedAndStartsOverAtAReset) {
   ServedSimulation world(kScene, {.noise = false});
-  const RunningBoard board(world, controlled());
+  const RunningBoard board(world, controlledConfig());
   TestClient client(board.port());
   client.join(readBytes(kRobot), "guest");
   client.ask("LOCKSTEP on");

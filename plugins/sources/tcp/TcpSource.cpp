@@ -58,7 +58,7 @@ class TcpSource : public Source {
     if (!duration_ && session_.kind() == "simulation") duration_ = kDefaultDuration;
     if (isLockstep_) enterLockstep(p.textOr("lockstep", "auto") == "auto");
     if (session_.ask("STATUS").find("state=ended") != std::string::npos)
-      throw std::runtime_error(options_.host + ":" + std::to_string(options_.port) +
+      throw std::runtime_error(options_.server() +
                                ": what it serves has ended; a record is served again and again "
                                "with --repeat");
   }
@@ -108,9 +108,8 @@ class TcpSource : public Source {
     const std::string status = session_.ask("STATUS");
     if (status.find("state=ended") != std::string::npos) return false;
     if (silence_ > options_.patience)
-      throw ConnectionLost(options_.host + ":" + std::to_string(options_.port) +
-                           ": gave no reading for " + std::to_string(options_.patience) +
-                           " s; it says " + status);
+      throw ConnectionLost(options_.server() + ": gave no reading for " +
+                           std::to_string(options_.patience) + " s; it says " + status);
     std::this_thread::sleep_for(std::chrono::duration<double>(cycle_));
     silence_ += cycle_;
     return true;

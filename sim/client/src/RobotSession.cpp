@@ -70,16 +70,15 @@ RobotSession::RobotSession(const SessionOptions& options, std::string_view robot
 RobotSession::~RobotSession() = default;
 
 void RobotSession::failOn(std::string_view what) const {
-  throw ConnectionLost(options_.host + ":" + std::to_string(options_.port) + ": found '" +
-                       std::string(what.substr(0, 80)) + "', which is not ortung/1");
+  throw ConnectionLost(options_.server() + ": found '" + std::string(what.substr(0, 80)) +
+                       "', which is not ortung/1");
 }
 
 /// What the server says unasked.
 void RobotSession::note(std::string_view line) {
   line.remove_prefix(std::min<std::size_t>(2, line.size()));
   if (line.starts_with("ERR ") || line.starts_with("BYE"))
-    throw ConnectionLost(options_.host + ":" + std::to_string(options_.port) +
-                         ": the server says " + std::string(line));
+    throw ConnectionLost(options_.server() + ": the server says " + std::string(line));
   if (news_.size() < kMostNews) news_.emplace_back(line);
 }
 
@@ -98,7 +97,7 @@ std::string RobotSession::exchange(const std::string& request, double timeout) {
     if (!reply.starts_with("ERR ")) failOn(line);
     const std::string code = reply.substr(4, reply.find(' ', 4) - 4);
     throw ServerRefused(
-        code, options_.host + ":" + std::to_string(options_.port) + ": the server refuses " +
+        code, options_.server() + ": the server refuses " +
                   request.substr(0, std::min(request.find_first_of(" \n"), request.size())) + ": " +
                   reply.substr(std::min(reply.size(), 5 + code.size())) + " (" + code + ")");
   }
@@ -157,15 +156,17 @@ std::string RobotSession::withForm(std::string request) const {
 }
 
 std::vector<Message> RobotSession::update(const std::string& queries) {
-  return takeReadings(exchange(withForm(queries.empty() ? "UPDATE" : "UPDATE " + queries), options_.timeout));
+  return takeReadings(
+      exchange(withForm(queries.empty() ? "UPDATE" : "UPDATE " + queries), options_.timeout));
 }
 
 void RobotSession::setLockstep(bool isOn) { ask(isOn ? "LOCKSTEP on" : "LOCKSTEP off"); }
 
 std::optional<std::vector<Message>> RobotSession::next(std::uint64_t cycles) {
   try {
-    return takeReadings(exchange(
-        withForm(cycles == 1 ? "NEXT" : "NEXT cycles=" + std::to_string(cycles)), options_.patience));
+    return takeReadings(
+        exchange(withForm(cycles == 1 ? "NEXT" : "NEXT cycles=" + std::to_string(cycles)),
+                 options_.patience));
   } catch (const ServerRefused& refusal) {
     if (refusal.code() == "end") return std::nullopt;
     throw;

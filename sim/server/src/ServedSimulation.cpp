@@ -197,7 +197,6 @@ void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
   player_ = std::move(fresh);
   config_ = config;
   entered_ = scene_.robots.size();
-  for (auto& [id, guest] : guests_) guest->robot = nullptr;
   for (auto& [id, guest] : guests_) {
     try {
       enter(id, *guest);

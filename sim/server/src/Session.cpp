@@ -143,9 +143,8 @@ void Session::look(Timestamp now) {
     close();  // told or not, it does not read
     return;
   }
-  if (isFinishing_ && owes) return;
   if (isFinishing_) {
-    if (hasPassed(finished_, now, kFarewell)) close();
+    if (!owes && hasPassed(finished_, now, kFarewell)) close();
     return;
   }
   if (hasEnded_) {

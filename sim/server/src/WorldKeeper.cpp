@@ -96,9 +96,7 @@ bool WorldKeeper::mayAdvance() const {
 }
 
 /// What the clock shows at most before the next cycle, however late that is: one cycle more.
-Timestamp WorldKeeper::latest() const {
-  return world_.now() + static_cast<Timestamp>(static_cast<double>(length_) * speed_);
-}
+Timestamp WorldKeeper::latest() const { return world_.now() + cycle_; }
 
 void WorldKeeper::anchor(Timestamp wall) {
   anchorStamp_ = world_.now();
@@ -124,8 +122,9 @@ Timestamp WorldKeeper::due() {
   const Timestamp now = wallTime();
   // What was lost while nobody was allowed to go on is not made up for, nor is more than a second.
   if (now - regular > (wasBlocked ? 0 : kMostBehind)) {
-    if (!wasBlocked && length_ > 0)
-      missed_ += static_cast<std::uint64_t>((now - regular) / length_);
+    if (!wasBlocked && cycle_ > 0)
+      missed_ += static_cast<std::uint64_t>(static_cast<double>(now - regular) * speed_ /
+                                            static_cast<double>(cycle_));
     anchor(now);
     return now;
   }
@@ -194,8 +193,9 @@ void WorldKeeper::cycle(Timestamp due) {
     fail(error.what());
     return;
   }
-  length_ = static_cast<Timestamp>(static_cast<double>(world_.now() - stamp) / speed_);
-  if (!isFree_ && !isPaused_ && begin - due > length_) ++missed_;
+  cycle_ = world_.now() - stamp;
+  const double behind = static_cast<double>(begin - due) * speed_;
+  if (!isFree_ && !isPaused_ && behind > static_cast<double>(cycle_)) ++missed_;
   for (const auto& [id, robot] : robots_) robot.readings->publish(world_.readings(id));
   if (isFree_ || isPaused_)
     clock_.set(world_.now(), begin, 0.0);

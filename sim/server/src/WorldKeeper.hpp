@@ -124,7 +124,7 @@ class WorldKeeper {
   bool wasBlocked_ = true;
   Timestamp anchorStamp_ = 0;
   Timestamp anchorWall_ = 0;
-  Timestamp length_ = 0;      ///< of the last cycle on the wall's clock [us]
+  Timestamp cycle_ = 0;       ///< length of the last one on the world's clock [us]
   std::size_t executed_ = 0;  ///< orders since the last cycle
   Timestamp spent_ = 0;       ///< with them [us]
 

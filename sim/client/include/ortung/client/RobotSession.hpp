@@ -50,6 +50,9 @@ struct SessionOptions {
   double timeout = 5.0;          ///< for an answer [s]
   double patience = 60.0;        ///< for the end of cycles in lockstep [s]
   bool isInterruptible = false;  ///< whether a signal ends what is under way
+
+  /// "HOST:PORT", for messages.
+  std::string server() const { return host + ":" + std::to_string(port); }
 };
 
 /// A connection to a message board with one robot on its field: the protocol of docs/protocol.md as
