@@ -9,7 +9,7 @@
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Numbers.hpp"
-#include "ortung/config/TomlFile.hpp"
+#include "ortung/robot/TomlFile.hpp"
 
 namespace ortung::app {
 namespace {

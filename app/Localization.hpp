@@ -9,9 +9,10 @@
 
 #include "Commands.hpp"
 #include "Sources.hpp"
-#include "ortung/config/RobotFile.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/mcl/Evaluation.hpp"
 #include "ortung/mcl/Mcl.hpp"
+#include "ortung/robot/TableInfo.hpp"
 
 namespace ortung::app {
 

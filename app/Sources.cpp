@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "Console.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung::app {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/PluginFactory.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Record.hpp"
-#include "ortung/container/SensorContainer.hpp"
-#include "ortung/container/Source.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/Record.hpp"
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/core/Source.hpp"
 
 namespace ortung::app {
 

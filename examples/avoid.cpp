@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ortung/client/RemoteRobot.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 /// The nearest thing in the middle third of the scan [m]. Beams that saw nothing valid are NaN.
 static float nearestAhead(const std::vector<float>& ranges) {

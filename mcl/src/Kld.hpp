@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
+#include "ortung/base/Export.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/mcl/SampleSet.hpp"

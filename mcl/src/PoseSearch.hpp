@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/FieldRegion.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/base/Random.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 
 namespace ortung {

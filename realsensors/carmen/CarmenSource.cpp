@@ -3,7 +3,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "ortung/container/Plugin.hpp"
+#include "ortung/core/Plugin.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/MapFiles.hpp"
 #include "ortung/realsensors/ScanLog.hpp"

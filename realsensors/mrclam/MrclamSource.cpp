@@ -3,10 +3,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/NewFile.hpp"
-#include "ortung/container/Plugin.hpp"
-#include "ortung/container/SourceOptions.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/base/NewFile.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/core/SourceOptions.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/core/Record.hpp"
 
 namespace ortung {
 namespace {

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "NetworkTrainer.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/robot/MotionNetworkFile.hpp"
 
 namespace ortung::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/FieldRegion.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/formats/Formats.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 
 /// What the benchmarks share: a field in closed form, clouds of samples on it, and stopwatches.

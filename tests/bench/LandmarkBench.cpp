@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "BenchField.hpp"
-#include "ortung/container/SensorContainer.hpp"
+#include "ortung/core/SensorContainer.hpp"
 
 namespace ortung::bench {
 namespace {

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "BenchField.hpp"
-#include "ortung/container/InstructionSet.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/OdometryMotion.hpp"
+#include "ortung/base/InstructionSet.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung::bench {
 namespace {

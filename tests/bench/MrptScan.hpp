@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "ortung/container/SampleView.hpp"
+#include "ortung/base/SampleView.hpp"
 
 namespace ortung::bench {
 

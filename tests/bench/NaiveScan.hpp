@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/SampleView.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/base/SampleView.hpp"
 
 namespace ortung::bench {
 

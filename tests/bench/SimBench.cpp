@@ -11,8 +11,8 @@
 
 #include "ArenaStarts.hpp"
 #include "BareBox2d.hpp"
-#include "ortung/config/TomlFile.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/formats/Formats.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 namespace ortung::bench {

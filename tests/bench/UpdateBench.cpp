@@ -12,9 +12,9 @@
 #include "Kld.hpp"
 #include "NaiveScan.hpp"
 #include "Resampling.hpp"
-#include "ortung/container/SensorContainer.hpp"
+#include "ortung/core/SensorContainer.hpp"
 #include "ortung/mcl/Mcl.hpp"
-#include "ortung/container/OdometryMotion.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "BenchField.hpp"
 #include "NaiveScan.hpp"
 #include "ScanCost.hpp"
-#include "ortung/container/SensorContainer.hpp"
+#include "ortung/core/SensorContainer.hpp"
 #ifdef ORTUNG_BENCH_MRPT
 #include "MrptScan.hpp"
 #endif

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "ortung/client/ClockOffset.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {

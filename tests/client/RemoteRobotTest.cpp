@@ -8,7 +8,7 @@
 #include "Files.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/client/ortung_client.h"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 #include "ortung/server/ServedSimulation.hpp"
 
 namespace ortung::test {

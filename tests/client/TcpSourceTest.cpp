@@ -5,8 +5,8 @@
 #include "../server/TestClient.hpp"
 #include "Files.hpp"
 #include "ortung/client/RobotSession.hpp"
-#include "ortung/container/PluginFactory.hpp"
-#include "ortung/container/Source.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/core/Source.hpp"
 #include "ortung/server/ServedSimulation.hpp"
 
 namespace ortung::test {

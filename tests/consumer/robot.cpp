@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 #include "ortung/mcl/Mcl.hpp"
-#include "ortung/container/OdometryMotion.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 int main() {
   using namespace ortung;

@@ -2,7 +2,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "Seeded.hpp"
-#include "ortung/container/BinaryReading.hpp"
+#include "ortung/core/BinaryReading.hpp"
 
 namespace ortung {
 namespace {

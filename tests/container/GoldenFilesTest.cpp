@@ -5,12 +5,14 @@
 #include <numbers>
 
 #include "Golden.hpp"
-#include "ortung/config/MotionNetwork.hpp"
-#include "ortung/config/RobotFile.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/PointsData.hpp"
-#include "ortung/container/PoseFixData.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/motion/MotionNetwork.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/PointsData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/core/Record.hpp"
+#include "ortung/robot/TableInfo.hpp"
+#include "ortung/robot/MotionNetworkFile.hpp"
 
 namespace ortung {
 namespace {

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "Files.hpp"
-#include "ortung/container/HelperProgram.hpp"
+#include "ortung/base/HelperProgram.hpp"
 
 namespace ortung {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "ortung/container/OdometryMotion.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <functional>
 
-#include "ortung/config/MotionNetwork.hpp"
-#include "ortung/container/Parameters.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/motion/MotionNetwork.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/robot/MotionNetworkFile.hpp"
 
 namespace ortung {
 namespace {

@@ -4,7 +4,7 @@
 #include <csignal>
 
 #include "Files.hpp"
-#include "ortung/container/NewFile.hpp"
+#include "ortung/base/NewFile.hpp"
 
 namespace ortung {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Files.hpp"
-#include "ortung/container/ObstaclesData.hpp"
+#include "ortung/formats/ObstaclesData.hpp"
 
 namespace ortung {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ortung/container/OdometryMotion.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {

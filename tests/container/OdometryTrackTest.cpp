@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ortung/container/OdometryTrack.hpp"
+#include "ortung/motion/OdometryTrack.hpp"
 
 namespace ortung {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "Files.hpp"
-#include "ortung/container/Parameters.hpp"
+#include "ortung/base/Parameters.hpp"
 
 namespace ortung {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdlib>
 
 #include "Files.hpp"
-#include "ortung/container/MotionModel.hpp"
-#include "ortung/container/PluginFactory.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/motion/MotionModel.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {

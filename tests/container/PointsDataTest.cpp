@@ -4,9 +4,9 @@
 
 #include "FakeRoom.hpp"
 #include "Files.hpp"
-#include "ortung/container/ObjectsData.hpp"
-#include "ortung/container/PointsData.hpp"
-#include "ortung/container/TableFile.hpp"
+#include "ortung/formats/ObjectsData.hpp"
+#include "ortung/formats/PointsData.hpp"
+#include "ortung/tables/TableFile.hpp"
 
 namespace ortung {
 namespace {

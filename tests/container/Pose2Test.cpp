@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/base/Time.hpp"
 
 namespace ortung {
 namespace {

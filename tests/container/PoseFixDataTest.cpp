@@ -4,7 +4,7 @@
 
 #include "FakeRoom.hpp"
 #include "Files.hpp"
-#include "ortung/container/PoseFixData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
 
 namespace ortung {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "Files.hpp"
 #include "Seeded.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/core/Record.hpp"
 
 namespace ortung {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "Files.hpp"
-#include "ortung/config/RobotFile.hpp"
-#include "ortung/config/TomlFile.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/robot/TomlFile.hpp"
 
 namespace ortung {
 namespace {

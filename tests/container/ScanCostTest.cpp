@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ScanCost.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {

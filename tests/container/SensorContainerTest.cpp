@@ -4,9 +4,9 @@
 #include <thread>
 
 #include "Files.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/SensorContainer.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/core/SensorContainer.hpp"
 
 namespace ortung {
 namespace {

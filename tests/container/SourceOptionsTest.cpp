@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "Files.hpp"
-#include "ortung/container/SourceOptions.hpp"
+#include "ortung/core/SourceOptions.hpp"
 
 namespace ortung {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Files.hpp"
-#include "ortung/container/Source.hpp"
+#include "ortung/core/Source.hpp"
 
 namespace ortung {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "Files.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/TableFile.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/tables/TableFile.hpp"
 
 namespace ortung {
 namespace {

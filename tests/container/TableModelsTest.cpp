@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "FakeRoom.hpp"
-#include "ortung/container/DirectionTable.hpp"
-#include "ortung/container/EndPointField.hpp"
-#include "ortung/container/PositionTable.hpp"
+#include "ortung/tables/DirectionTable.hpp"
+#include "ortung/tables/EndPointField.hpp"
+#include "ortung/tables/PositionTable.hpp"
 
 namespace ortung {
 namespace {

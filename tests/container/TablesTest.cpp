@@ -5,8 +5,9 @@
 
 #include "FakeRoom.hpp"
 #include "Files.hpp"
-#include "ortung/config/RobotFile.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/robot/TableInfo.hpp"
 
 namespace ortung {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "Files.hpp"
-#include "ortung/config/TomlFile.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {

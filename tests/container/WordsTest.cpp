@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "Seeded.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung::words {
 namespace {

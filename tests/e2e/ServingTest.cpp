@@ -10,7 +10,7 @@
 #include "Program.hpp"
 #include "TestClient.hpp"
 #include "ortung/client/RemoteRobot.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/core/Record.hpp"
 
 namespace ortung::test {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "ortung/container/BinaryReading.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/core/BinaryReading.hpp"
+#include "ortung/core/Record.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 #include "ortung/mcl/Evaluation.hpp"
 
 namespace ortung {

@@ -6,7 +6,7 @@
 
 #include "FakeRoom.hpp"
 #include "ortung/mcl/Mcl.hpp"
-#include "ortung/container/OdometryMotion.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {

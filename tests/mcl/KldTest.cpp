@@ -5,7 +5,7 @@
 #include <set>
 
 #include "Kld.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "PoseSearch.hpp"
-#include "ortung/container/Pose2.hpp"
+#include "ortung/base/Pose2.hpp"
 
 namespace ortung {
 namespace {

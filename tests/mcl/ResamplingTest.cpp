@@ -7,7 +7,7 @@
 
 #include "Resampling.hpp"
 #include "Seeded.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/ObjectsData.hpp"
-#include "ortung/container/PointsData.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/ObjectsData.hpp"
+#include "ortung/formats/PointsData.hpp"
 
 namespace ortung {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
-#include "ortung/container/ObstaclesData.hpp"
-#include "ortung/container/PoseFixData.hpp"
+#include "ortung/formats/ObstaclesData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
 
 namespace ortung {
 namespace {

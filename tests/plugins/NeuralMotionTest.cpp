@@ -4,8 +4,8 @@
 
 #include "Files.hpp"
 #include "MotionRig.hpp"
-#include "ortung/config/MotionNetwork.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/robot/MotionNetworkFile.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 namespace {

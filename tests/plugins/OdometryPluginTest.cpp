@@ -1,6 +1,6 @@
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "MotionRig.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 namespace {

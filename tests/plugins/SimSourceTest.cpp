@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
-#include "ortung/config/RobotFile.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/PluginFactory.hpp"
-#include "ortung/container/Source.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/core/Source.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
 namespace ortung {

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "LogTesting.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 namespace {

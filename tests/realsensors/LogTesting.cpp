@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "ortung/container/PluginFactory.hpp"
+#include "ortung/core/PluginFactory.hpp"
 
 namespace ortung::testing {
 namespace {

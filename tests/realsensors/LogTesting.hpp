@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Message.hpp"
-#include "ortung/container/Source.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/core/Source.hpp"
 
 namespace ortung::testing {
 

@@ -1,5 +1,5 @@
 #include "LogTesting.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 
 namespace ortung {

@@ -1,7 +1,7 @@
 /// Damaged logs are read or refused with a sentence; nothing else happens. Seeds are fixed.
 
 #include "LogTesting.hpp"
-#include "ortung/container/HelperProgram.hpp"
+#include "ortung/base/HelperProgram.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 
 namespace ortung {

@@ -1,8 +1,8 @@
 #include <cstdlib>
 
 #include "LogTesting.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/HelperProgram.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/base/HelperProgram.hpp"
 
 namespace ortung {
 namespace {

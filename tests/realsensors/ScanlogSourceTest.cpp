@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "LogTesting.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 namespace {

@@ -5,9 +5,9 @@
 #include <ostream>
 
 #include "LogTesting.hpp"
-#include "ortung/config/RobotFile.hpp"
-#include "ortung/config/TomlFile.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/formats/Formats.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
 namespace ortung {

@@ -8,7 +8,7 @@
 #include "CountingWorld.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung::test {
 namespace {

@@ -7,7 +7,7 @@
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/core/Record.hpp"
 #include "ortung/server/ServedSimulation.hpp"
 
 namespace ortung::test {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <numbers>
 
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/SensorContainer.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/core/SensorContainer.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 // Counts what this process asks of the memory, in all its libraries.

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "WorldFiles.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "WorldFiles.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung::test {
 namespace {

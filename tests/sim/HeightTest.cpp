@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "WorldFiles.hpp"
-#include "ortung/config/TomlFile.hpp"
+#include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/RoutePlanner.hpp"
 #include "ortung/sim/Simulation.hpp"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "FakeWorld.hpp"
-#include "ortung/config/TomlFile.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/formats/Formats.hpp"
 #include "ortung/sim/Learner.hpp"
 
 namespace ortung {

@@ -3,7 +3,7 @@
 
 #include "CarmenBytes.hpp"
 #include "WorldFiles.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Random.hpp"
 
 namespace ortung::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "WorldFiles.hpp"
-#include "ortung/config/TomlFile.hpp"
+#include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 namespace ortung::test {

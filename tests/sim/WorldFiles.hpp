@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Parameters.hpp"
+#include "ortung/base/Parameters.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
 namespace ortung::test {

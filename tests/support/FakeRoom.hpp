@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/SensorContainer.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/core/SensorContainer.hpp"
 
 /// A world of which everything is known in closed form: an empty rectangular room around the
 /// origin, with points in it that can be told apart.

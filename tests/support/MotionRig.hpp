@@ -5,7 +5,7 @@
 #include <string>
 
 #include "SensorRig.hpp"
-#include "ortung/container/MotionModel.hpp"
+#include "ortung/motion/MotionModel.hpp"
 #include "ortung/sim_api/Drive.hpp"
 
 namespace ortung {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/config/TomlFile.hpp"
-#include "ortung/container/PluginFactory.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/core/PluginFactory.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

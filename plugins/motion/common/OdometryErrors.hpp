@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string>
 
-#include "ortung/container/Parameters.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Random.hpp"
 #include "ortung/sim_api/Twist.hpp"
 
 namespace ortung {

@@ -1,7 +1,7 @@
 #include "NeuralSettings.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/OdometryMotion.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
+#include "ortung/core/Plugin.hpp"
 
 namespace ortung {
 namespace {

@@ -3,8 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "ortung/config/MotionNetwork.hpp"
-#include "ortung/container/Parameters.hpp"
+#include "ortung/motion/MotionNetwork.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/robot/MotionNetworkFile.hpp"
 
 namespace ortung {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "../common/OdometryErrors.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/core/Plugin.hpp"
 #include "ortung/sim_api/Drive.hpp"
 
 namespace ortung {

@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 
-#include "ortung/container/OdometryMotion.hpp"
-#include "ortung/container/Plugin.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/SinCos.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/base/SinCos.hpp"
 
 namespace ortung {
 namespace {

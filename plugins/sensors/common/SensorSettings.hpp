@@ -6,10 +6,10 @@
 #include <numbers>
 #include <string>
 
-#include "ortung/config/RobotFile.hpp"
-#include "ortung/container/Parameters.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/SensorData.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/SensorData.hpp"
 
 namespace ortung {
 

@@ -1,5 +1,5 @@
 #include "CompassSettings.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/core/Plugin.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "../common/SensorSettings.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 

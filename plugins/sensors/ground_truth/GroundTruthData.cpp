@@ -1,6 +1,6 @@
 #include "GroundTruthSettings.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/core/Plugin.hpp"
 
 namespace ortung {
 namespace {

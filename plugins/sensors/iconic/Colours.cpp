@@ -3,7 +3,7 @@
 #include <charconv>
 #include <utility>
 
-#include "ortung/container/ObjectsData.hpp"
+#include "ortung/formats/ObjectsData.hpp"
 
 namespace ortung {
 namespace {

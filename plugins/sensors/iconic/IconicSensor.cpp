@@ -4,7 +4,7 @@
 
 #include "Colours.hpp"
 #include "IconicSettings.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/core/Plugin.hpp"
 #include "ortung/sim_api/Noise.hpp"
 #include "ortung/sim_api/Rays2.hpp"
 #include "ortung/sim_api/Sensor.hpp"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "../common/SensorSettings.hpp"
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/ObjectsData.hpp"
-#include "ortung/container/PointsData.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/ObjectsData.hpp"
+#include "ortung/formats/PointsData.hpp"
 
 namespace ortung {
 

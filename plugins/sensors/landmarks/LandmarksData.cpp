@@ -1,5 +1,5 @@
 #include "LandmarksSettings.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/core/Plugin.hpp"
 
 namespace ortung {
 namespace {

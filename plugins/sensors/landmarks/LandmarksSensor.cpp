@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "LandmarksSettings.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/core/Plugin.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

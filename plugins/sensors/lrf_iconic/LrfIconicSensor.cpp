@@ -5,7 +5,7 @@
 
 #include "LrfIconicSettings.hpp"
 #include "WallMatcher.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/core/Plugin.hpp"
 #include "ortung/sim_api/Noise.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 

@@ -5,8 +5,8 @@
 #include "../common/SensorSettings.hpp"
 #include "../lrf/LrfSettings.hpp"
 #include "ScanShapes.hpp"
-#include "ortung/container/ObstaclesData.hpp"
-#include "ortung/container/PoseFixData.hpp"
+#include "ortung/formats/ObstaclesData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
 
 namespace ortung {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ScanShapes.hpp"
-#include "ortung/container/PoseFixData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
 #include "ortung/sim_api/World.hpp"
 
 namespace ortung {

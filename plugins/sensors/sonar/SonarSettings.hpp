@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "../common/SensorSettings.hpp"
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 

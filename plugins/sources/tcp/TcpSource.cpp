@@ -6,10 +6,10 @@
 #include <thread>
 
 #include "ortung/client/RobotSession.hpp"
-#include "ortung/config/TomlFile.hpp"
-#include "ortung/container/Plugin.hpp"
-#include "ortung/container/Source.hpp"
-#include "ortung/container/SourceOptions.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/core/Source.hpp"
+#include "ortung/core/SourceOptions.hpp"
 
 namespace ortung {
 namespace {

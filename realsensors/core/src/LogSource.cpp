@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ortung/container/Formats.hpp"
+#include "ortung/formats/Formats.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 
 namespace ortung {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ortung/container/NewFile.hpp"
+#include "ortung/base/NewFile.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/SourceOptions.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/core/SourceOptions.hpp"
 #include "ortung/realsensors/MapFiles.hpp"
 
 namespace ortung {

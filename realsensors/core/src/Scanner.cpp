@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "ortung/container/SourceOptions.hpp"
+#include "ortung/core/SourceOptions.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 
 namespace ortung {

@@ -7,9 +7,9 @@
 #include <mutex>
 #include <thread>
 
-#include "ortung/config/RobotFile.hpp"
-#include "ortung/config/TomlFile.hpp"
-#include "ortung/container/PluginFactory.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/core/PluginFactory.hpp"
 
 namespace ortung {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "LineSocket.hpp"
-#include "ortung/container/BinaryReading.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/core/BinaryReading.hpp"
+#include "ortung/core/Record.hpp"
 
 namespace ortung {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <mutex>
 
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Time.hpp"
 
 namespace ortung::server {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "Conversation.hpp"
-#include "ortung/config/NetworkRobot.hpp"
+#include "ortung/robot/NetworkRobot.hpp"
 
 namespace ortung::server {
 namespace {

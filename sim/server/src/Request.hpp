@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "ortung/container/Pose2.hpp"
+#include "ortung/base/Pose2.hpp"
 
 namespace ortung::server {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/PluginFactory.hpp"
+#include "ortung/core/PluginFactory.hpp"
 
 namespace ortung {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "Request.hpp"
-#include "ortung/container/BinaryReading.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/core/BinaryReading.hpp"
+#include "ortung/core/Record.hpp"
 
 namespace ortung::server {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Message.hpp"
-#include "ortung/container/SensorContainer.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/core/SensorContainer.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung::server {

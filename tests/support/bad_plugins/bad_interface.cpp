@@ -1,4 +1,4 @@
-#include "ortung/container/Plugin.hpp"
+#include "ortung/core/Plugin.hpp"
 
 static constexpr ortung::PluginEntry kEntries[] = {
     {"ortung.SensorData/0.0.1-00000000", "yesterday",

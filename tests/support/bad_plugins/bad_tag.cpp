@@ -1,4 +1,4 @@
-#include "ortung/container/Plugin.hpp"
+#include "ortung/core/Plugin.hpp"
 
 extern "C" ORTUNG_API constinit const ortung::PluginInfo ortungPlugins = {
     ortung::kPluginAbi,

@@ -1,6 +1,6 @@
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/MotionModel.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/motion/MotionModel.hpp"
+#include "ortung/core/Plugin.hpp"
 
 namespace ortung {
 namespace {

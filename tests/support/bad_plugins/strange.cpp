@@ -1,7 +1,7 @@
 #include <stdexcept>
 
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/core/Plugin.hpp"
 
 /// Plugins whose constructors fail in every way that C++ offers.
 namespace ortung {

@@ -2,8 +2,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "ortung/container/Formats.hpp"
-#include "ortung/container/Plugin.hpp"
+#include "ortung/formats/Formats.hpp"
+#include "ortung/core/Plugin.hpp"
 #include "ortung/sim_api/Drive.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 

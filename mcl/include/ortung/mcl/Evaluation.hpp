@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Time.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 
 namespace ortung {

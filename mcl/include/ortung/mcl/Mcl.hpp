@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "ortung/container/FieldRegion.hpp"
-#include "ortung/container/MotionModel.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/SensorContainer.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/motion/MotionModel.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/SensorContainer.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/mcl/SampleSet.hpp"

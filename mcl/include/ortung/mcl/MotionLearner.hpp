@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/MotionModel.hpp"
-#include "ortung/container/OdometryTrack.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/motion/MotionModel.hpp"
+#include "ortung/motion/OdometryTrack.hpp"
 
 namespace ortung {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Time.hpp"
 
 namespace ortung {
 

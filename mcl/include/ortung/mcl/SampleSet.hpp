@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "ortung/container/SampleView.hpp"
+#include "ortung/base/SampleView.hpp"
 
 namespace ortung {
 

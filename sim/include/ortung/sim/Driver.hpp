@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/base/Time.hpp"
 #include "ortung/sim/RoutePlanner.hpp"
 #include "ortung/sim_api/Drive.hpp"
 

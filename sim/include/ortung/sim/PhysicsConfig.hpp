@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Parameters.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Parameters.hpp"
 
 namespace ortung {
 

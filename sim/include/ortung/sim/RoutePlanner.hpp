@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/FieldRegion.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Random.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
 namespace ortung {

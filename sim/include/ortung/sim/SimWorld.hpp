@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/FieldRegion.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/sim/PhysicsConfig.hpp"
 #include "ortung/sim/Primitive.hpp"
 #include "ortung/sim_api/World.hpp"

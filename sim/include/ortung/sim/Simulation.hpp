@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Time.hpp"
 #include "ortung/sim/SimRobot.hpp"
 #include "ortung/sim/SimWorld.hpp"
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Parameters.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Source.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/Source.hpp"
 
 namespace ortung {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Parameters.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Parameters.hpp"
 
 namespace ortung {
 

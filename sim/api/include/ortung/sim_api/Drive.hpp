@@ -5,10 +5,10 @@
 #include <span>
 #include <string>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Parameters.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Random.hpp"
 #include "ortung/sim_api/Abi.hpp"
 #include "ortung/sim_api/Twist.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Random.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Random.hpp"
 #include "ortung/sim_api/Sight.hpp"
 
 /// What makes simulated readings as bad as real ones.

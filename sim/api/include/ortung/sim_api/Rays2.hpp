@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
+#include "ortung/base/Export.hpp"
 #include "ortung/sim_api/World.hpp"
 
 /// Rays in the plane, in closed form: for what is painted on the floor, and for sensors that need

@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/Random.hpp"
-#include "ortung/container/SensorData.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/base/Time.hpp"
 #include "ortung/sim_api/Abi.hpp"
 #include "ortung/sim_api/World.hpp"
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <optional>
 
-#include "ortung/container/Export.hpp"
+#include "ortung/base/Export.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 #include "ortung/sim_api/World.hpp"
 

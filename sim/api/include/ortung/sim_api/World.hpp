@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/FieldRegion.hpp"
-#include "ortung/container/Pose2.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/base/Pose2.hpp"
 #include "ortung/sim_api/Twist.hpp"
 
 namespace ortung {

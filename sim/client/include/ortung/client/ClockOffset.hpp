@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <deque>
 
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Time.hpp"
 
 namespace ortung {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "ortung/client/RobotSession.hpp"
-#include "ortung/container/Export.hpp"
-#include "ortung/container/SensorContainer.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/base/Time.hpp"
 
 namespace ortung {
 

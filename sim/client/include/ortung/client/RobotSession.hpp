@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "ortung/client/ClockOffset.hpp"
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Message.hpp"
-#include "ortung/container/Pose2.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/base/Pose2.hpp"
 
 namespace ortung {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Export.hpp"
+#include "ortung/base/Export.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung {

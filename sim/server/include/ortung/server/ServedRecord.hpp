@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/PluginFactory.hpp"
-#include "ortung/container/Record.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/core/Record.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung {

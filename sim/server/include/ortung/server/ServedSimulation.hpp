@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "ortung/container/PluginFactory.hpp"
+#include "ortung/core/PluginFactory.hpp"
 #include "ortung/server/ServedWorld.hpp"
 #include "ortung/sim/Scene.hpp"
 

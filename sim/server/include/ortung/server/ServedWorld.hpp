@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "ortung/config/RobotFile.hpp"
-#include "ortung/container/Export.hpp"
-#include "ortung/container/Message.hpp"
-#include "ortung/container/Pose2.hpp"
-#include "ortung/container/SensorContainer.hpp"
-#include "ortung/container/Time.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/base/Time.hpp"
 
 namespace ortung {
 

@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "Commands.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Localization.hpp"
+#include "Numbers.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/sim/RobotShape.hpp"
+#include "ortung/sim/Scene.hpp"
+#include "ortung/sim_api/Drive.hpp"
+#include "ortung/robot/TableInfo.hpp"
+
+namespace ortung::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Kind { kWorld, kScene, kRobot, kTables, kRecord };
+
+/// What a file is, by its content.
+Kind kindOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || fs::is_directory(file)) throw std::runtime_error(file.string() + ": can't be read");
+  char bytes[16] = {};
+  in.read(bytes, sizeof bytes);
+  const std::string_view begin(bytes, static_cast<std::size_t>(in.gcount()));
+  if (begin.starts_with("PK")) return Kind::kTables;
+  if (begin.starts_with("# ortung record")) return Kind::kRecord;
+  const Parameters toml = readToml(file);
+  if (toml.has("scene")) return Kind::kScene;
+  return toml.has("sensor") ? Kind::kRobot : Kind::kWorld;
+}
+
+std::size_t countOf(const std::vector<std::uint8_t>& mask) {
+  return mask.size() - static_cast<std::size_t>(std::count(mask.begin(), mask.end(), 0));
+}
+
+std::string bounds(const FieldGrid& grid) {
+  return fmt::format("x {:g} to {:g} m, y {:g} to {:g} m", grid.originX,
+                     grid.originX + grid.columns * grid.cell, grid.originY,
+                     grid.originY + grid.rows * grid.cell);
+}
+
+std::string landmarksOf(const SimWorld& world) {
+  std::map<std::string, std::size_t> kinds;
+  for (const Landmark& landmark : world.landmarks()) ++kinds[landmark.kind];
+  if (kinds.empty()) return "no landmarks";
+  std::string text;
+  for (const auto& [kind, count] : kinds) {
+    text += fmt::format("{}{} {}", text.empty() ? "landmarks: " : ", ", count, kind);
+  }
+  return text;
+}
+
+void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
+  constexpr double kCell = 0.1;  // of `ortung learn`
+  const RobotSize size =
+      arguments.robot.empty() ? RobotSize{RobotConfig().radius} : sizeOf(readRobot(arguments.robot));
+  const std::unique_ptr<SimWorld> world = readWorld(file);
+  const FieldRegion region = world->region(kCell, size);
+  fmt::print("{}: world '{}', fingerprint {}\n  {}\n  {} x {} cells of {} m, {} open, {} where a robot "
+             "of radius {:g} m and height {:g} m can stand\n  {}\n",
+             printable(file.string()), printable(world->name()), world->fingerprint(),
+             bounds(region.grid), region.grid.columns, region.grid.rows, kCell, countOf(region.open),
+             countOf(region.standable), size.radius, size.height, printable(landmarksOf(*world)));
+}
+
+void checkSceneFile(const fs::path& file) {
+  const Scene scene = Scene::read(file);
+  PluginFactory factory(PluginFactory::standardFolders());
+  const ScenePlayer player(scene, {}, factory);
+  fmt::print("{}: scene in the world '{}', {} robots, {} commands\n", printable(file.string()),
+             printable(player.simulation().world().name()), scene.robots.size(),
+             scene.commands.size());
+}
+
+/// What the simulator makes of a robot.
+void checkSimulated(Robot& robot) {
+  const RobotShape shape = RobotShape::read(robot.config);
+  const std::string plugin = robot.config.drive.textOr("plugin", "differential");
+  const auto drive = robot.factory.make<Drive>(plugin, robot.config.drive);
+  fmt::print("  drive '{}', commands {}; {:g} kg, {} pieces, {} manipulators\n", printable(plugin),
+             drive->commandHelp(), shape.mass, shape.pieces.size(), shape.manipulators.size());
+}
+
+void checkRobotFile(const fs::path& file) {
+  const std::unique_ptr<Robot> robot = openRobot(file);
+  MclConfig::read(robot->config.mcl).check();
+  makeMotion(robot->config.motion, robot->factory);
+  fmt::print("{}: robot '{}', radius {:g} m, {} sensors, {} features\n", printable(file.string()),
+             printable(robot->config.name), robot->config.radius, robot->devices.size(),
+             robot->container.all().size());
+  checkSimulated(*robot);
+  for (const auto& feature : robot->container.all()) {
+    fmt::print("  {:<40} {}{}\n", toText(feature->id()), feature->localizes() ? "localizes; " : "",
+               printable(feature->wordsHelp()));
+  }
+}
+
+void checkTables(const fs::path& file, const CheckArguments& arguments) {
+  const auto tables = std::make_shared<const TableFile>(file);
+  const TableInfo info = readTableInfo(*tables);
+  if (!arguments.world.empty()) {
+    const std::string fingerprint = readWorld(arguments.world)->fingerprint();
+    if (fingerprint != info.worldFingerprint) {
+      throw std::runtime_error(fmt::format(
+          "{}: was learned in the world {} ('{}'), but {} is the world {}; learn again",
+          file.string(), info.worldFingerprint, info.world, arguments.world.string(), fingerprint));
+    }
+  }
+  if (!arguments.robot.empty()) loadTables(tables, openRobot(arguments.robot)->container);
+  const FieldGrid& grid = info.region.grid;
+  fmt::print("{}: tables of robot '{}' in world '{}', fingerprint {}, {:.1f} MB\n  {}\n  {} x {} cells of "
+             "{:g} m, {} open, {} standable; directions every {:g} degrees\n",
+             printable(file.string()), printable(info.robot), printable(info.world),
+             printable(info.worldFingerprint), static_cast<double>(fs::file_size(file)) / 1e6,
+             bounds(grid), grid.columns, grid.rows, grid.cell, countOf(info.region.open),
+             countOf(info.region.standable), degrees(info.headingStep));
+  for (const TableInfo::Feature& feature : info.features) {
+    fmt::print("  {:<40} {}\n", printable(feature.id), printable(feature.key));
+  }
+  if (!arguments.world.empty()) fmt::print("  fits {}\n", printable(arguments.world.string()));
+  if (!arguments.robot.empty()) fmt::print("  fits {}\n", printable(arguments.robot.string()));
+}
+
+/// The readings of a record by feature, and that a robot's features take them.
+void checkRecord(const fs::path& file, const CheckArguments& arguments) {
+  RecordSource source(file);
+  std::unique_ptr<Robot> robot;
+  if (!arguments.robot.empty()) robot = openRobot(arguments.robot);
+  std::map<std::string, std::size_t> readings;
+  std::size_t all = 0;
+  Timestamp first = 0;
+  Timestamp last = 0;
+  Message message;
+  while (source.next(message)) {
+    checkInterrupt();
+    if (all++ == 0) first = message.stamp;
+    last = message.stamp;
+    ++readings[toText(message.id)];
+    if (!robot) continue;
+    try {
+      robot->container.set(message);
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(fmt::format("{}: reading at {} us: {}", file.string(), message.stamp, error.what()));
+    }
+  }
+  const std::string world = source.worldFingerprint();
+  fmt::print("{}: record, world {}, {} readings, {} to {} us ({:.3f} s)\n", printable(file.string()),
+             world.empty() ? "not known" : printable(world), all, first, last,
+             toSeconds(last) - toSeconds(first));
+  for (const auto& [feature, count] : readings) {
+    const bool lacks = robot && robot->container.findExactly(parseSensorId(feature)) == nullptr;
+    fmt::print("  {:<40} {:>9} readings{}\n", feature, count, lacks ? ", not in the robot file" : "");
+  }
+}
+
+void checkFile(const fs::path& file, const CheckArguments& arguments) {
+  switch (kindOf(file)) {
+    case Kind::kWorld: return checkWorldFile(file, arguments);
+    case Kind::kScene: return checkSceneFile(file);
+    case Kind::kRobot: return checkRobotFile(file);
+    case Kind::kTables: return checkTables(file, arguments);
+    case Kind::kRecord: return checkRecord(file, arguments);
+  }
+}
+
+}  // namespace
+
+int runCheck(const CheckArguments& arguments) {
+  std::size_t bad = 0;
+  for (const fs::path& file : arguments.files) {
+    try {
+      checkFile(file, arguments);
+      std::fflush(stdout);  // so that results and errors keep their order
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const std::exception& error) {
+      fail(error.what());
+      ++bad;
+    }
+  }
+  if (arguments.files.size() > 1) fmt::print("{} files, {} bad\n", arguments.files.size(), bad);
+  return bad == 0 ? 0 : 1;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "Commands.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Localization.hpp"
+#include "Numbers.hpp"
+#include "OutputFile.hpp"
+#include "Progress.hpp"
+#include "ortung/sim/Learner.hpp"
+#include "ortung/sim/RobotShape.hpp"
+#include "ortung/robot/TableInfo.hpp"
+
+namespace ortung::app {
+namespace {
+
+/// The step in radians. @throws UsageError unless it divides a turn
+double headingStep(double stepDeg) {
+  const double steps = 360.0 / stepDeg;
+  if (std::abs(steps - std::round(steps)) > 1e-6) {
+    throw UsageError(fmt::format("--heading-step is {}, expected degrees that divide a turn, "
+                                 "e.g. 1, 2 or 2.5", stepDeg));
+  }
+  return 2.0 * kPi / std::round(steps);
+}
+
+/// How the table's features are called in the file.
+TableInfo describe(const SimWorld& world, const Robot& robot, const FieldRegion& region,
+                   double step) {
+  TableInfo info;
+  info.world = world.name();
+  info.worldFingerprint = world.fingerprint();
+  info.robot = robot.config.name;
+  info.headingStep = step;
+  info.region = region;
+  return info;
+}
+
+std::size_t countOf(const std::vector<std::uint8_t>& mask) {
+  return static_cast<std::size_t>(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
+}
+
+std::size_t learnedFeatures(const SensorContainer& container) {
+  const auto all = container.all();
+  return static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(), [](const auto& data) { return data->localizes() && data->isLearned(); }));
+}
+
+}  // namespace
+
+int runLearn(const LearnArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
+  const double step = headingStep(arguments.headingStepDeg);
+  checkOutput(arguments.out);
+  const std::unique_ptr<SimWorld> world = readWorld(arguments.world);
+  FieldRegion region;  // must outlive the container, which learns over it
+  const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
+  region = world->region(arguments.cell, sizeOf(robot->config));
+  region.check();
+  {
+    Progress progress("learning", arguments.progress);
+    learn(*world, region, robot->devices, robot->factory, {arguments.cell, step},
+          [&](double share) {
+            progress.update(share);
+            return interruptSignal() == 0;
+          });
+  }
+  checkInterrupt();
+  writeTables(arguments.out, robot->container, describe(*world, *robot, region, step));
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  fmt::print("{}: {} features of {} in {} ({}), {} x {} cells of {:g} m, {} open, {} standable, "
+             "{:.1f} MB, {:.2f} s\n",
+             arguments.out.string(), learnedFeatures(robot->container), robot->config.name,
+             world->name(), world->fingerprint(), region.grid.columns, region.grid.rows,
+             region.grid.cell, countOf(region.open), countOf(region.standable),
+             static_cast<double>(std::filesystem::file_size(arguments.out)) / 1e6, seconds);
+  return 0;
+}
+
+}  // namespace ortung::app

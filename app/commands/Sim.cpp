@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "Commands.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Numbers.hpp"
+#include "OutputFile.hpp"
+#include "Progress.hpp"
+#include "Serving.hpp"
+#include "ortung/core/Record.hpp"
+#include "ortung/server/ServedSimulation.hpp"
+#include "ortung/sim/Scene.hpp"
+
+namespace ortung::app {
+namespace {
+
+Simulation::Config configOf(const SimArguments& arguments) {
+  Simulation::Config config;
+  if (arguments.cycleMs) config.cycle = *arguments.cycleMs / 1000.0;
+  config.seed = arguments.seed;
+  config.noise = !arguments.noNoise;
+  config.threads = arguments.threads;
+  return config;
+}
+
+/// The scene of the file, or the world of the file, with further robots that wander about.
+Scene sceneOf(const SimArguments& arguments) {
+  Scene scene = Scene::open(arguments.world);
+  for (const std::filesystem::path& file : arguments.robots) {
+    const std::string name = readRobot(file).name;
+    std::string unused = name;
+    for (int i = 2;; ++i) {
+      const bool isTaken = std::any_of(scene.robots.begin(), scene.robots.end(),
+                                       [&](const SceneRobot& one) { return one.name == unused; });
+      if (!isTaken) break;
+      unused = fmt::format("{}-{}", name, i);
+    }
+    SceneRobot robot;
+    robot.file = file;
+    robot.name = unused;
+    robot.wanders = true;
+    scene.robots.push_back(robot);
+  }
+  return scene;
+}
+
+/// Where everything was, as lines of a table.
+class Trace {
+ public:
+  void add(const Simulation& simulation) {
+    constexpr Timestamp kPeriod = 50'000;  // [us]
+    if (simulation.now() < next_) return;
+    next_ += kPeriod;
+    for (const auto& robot : simulation.robots()) {
+      std::string states;
+      const auto& manipulators = robot->shape().manipulators;
+      for (std::size_t i = 0; i < manipulators.size(); ++i)
+        states += fmt::format("{}{}={}", i == 0 ? "" : ";", manipulators[i].name,
+                              manipulators[i].states[robot->manipulatorStates()[i]].name);
+      line(simulation.now(), "robot", robot->config().name, robot->state().pose,
+           robot->state().velocity, states);
+    }
+    for (const Simulation::Thing& thing : simulation.things())
+      line(simulation.now(), thing.kind, thing.name, thing.pose, thing.velocity, "");
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void line(Timestamp now, const std::string& kind, std::string name, const Pose2& pose,
+            const Twist& velocity, const std::string& states) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ',' || c == '"' || c == '\n'; }, '_');
+    text_ += fmt::format("{:.3f},{},{},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{:.3f},{}\n",
+                         toSeconds(now), kind, name, pose.x, pose.y, degrees(pose.theta),
+                         velocity.x, velocity.y, degrees(velocity.theta), states);
+  }
+  Timestamp next_ = 0;
+  std::string text_ = "time_s,kind,name,x_m,y_m,theta_deg,vx_m_s,vy_m_s,w_deg_s,manipulators\n";
+};
+
+/// Waits until as much real time has passed as the pace wants.
+class Pacing {
+ public:
+  explicit Pacing(const ServingArguments& arguments)
+      : speed_(arguments.speed), isFree_(arguments.freeRun), start_(Clock::now()) {}
+  void waitFor(double seconds) const {
+    if (!isFree_)
+      std::this_thread::sleep_until(start_ + std::chrono::duration<double>(seconds / speed_));
+  }
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double speed_;
+  bool isFree_;
+  Clock::time_point start_;
+};
+
+void tellProblems(const Simulation& simulation, std::size_t& told) {
+  std::size_t seen = 0;
+  for (const auto& robot : simulation.robots())
+    for (const std::string& problem : robot->problems())
+      if (seen++ >= told) {
+        warn(printable(problem));
+        ++told;
+      }
+}
+
+int play(const SimArguments& arguments) {
+  for (const auto* file : {&arguments.record, &arguments.trace})
+    if (!file->empty()) checkOutput(*file);
+  const Scene scene = sceneOf(arguments);
+  PluginFactory factory(PluginFactory::standardFolders());
+  ScenePlayer player(scene, configOf(arguments), factory);
+  Simulation& simulation = player.simulation();
+  const std::string recorded = arguments.recorded.empty() && !scene.robots.empty()
+                                   ? scene.robots.front().name
+                                   : arguments.recorded;
+  const auto robot = player.find(recorded);
+  std::unique_ptr<RecordWriter> record;
+  if (!arguments.record.empty()) {
+    if (scene.robots.empty()) throw UsageError("--record: there is no robot; see --robot");
+    if (!robot) throw UsageError("--record: there is no robot '" + recorded + "' to record");
+    record = std::make_unique<RecordWriter>(arguments.record, simulation.world().fingerprint());
+  }
+  const std::optional<double> duration = arguments.duration ? arguments.duration : scene.duration;
+  Trace trace;
+  const Pacing pacing(arguments.serving);
+  std::size_t told = 0;
+  std::size_t cycles = 0;
+  {
+    Progress progress("simulating", false);
+    while (interruptSignal() == 0 && !(duration && simulation.now() > fromSeconds(*duration))) {
+      if (!arguments.trace.empty()) trace.add(simulation);
+      player.step();
+      ++cycles;
+      if (record)
+        for (const Message& message : simulation.readings(*robot)) record->write(message);
+      tellProblems(simulation, told);
+      if (duration && cycles % 100 == 0) progress.update(toSeconds(simulation.now()) / *duration);
+      pacing.waitFor(toSeconds(simulation.now()));
+    }
+  }
+  const double elapsed = pacing.elapsed();
+  if (record) record->commit();
+  if (!arguments.trace.empty()) writeFile(arguments.trace, trace.text());
+  const double seconds = toSeconds(simulation.now());
+  fmt::print("{}: {:.2f} s in {} cycles, {} robots, {:.0f} times real time{}\n",
+             printable(simulation.world().name()), seconds, cycles, simulation.robots().size(),
+             seconds / std::max(elapsed, 1e-9),
+             record ? fmt::format("; {} readings of {} in {}", record->messages(), recorded,
+                                  printable(arguments.record.string()))
+                    : "");
+  return told == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int runSim(const SimArguments& arguments) {
+  const ServingArguments& serving = arguments.serving;
+  if (serving.freeRun && serving.speed != 1.0)
+    throw UsageError("--free-run and --speed exclude each other");
+  if (serving.listen.empty()) {
+    if (serving.lockstep || !serving.control.empty() || !serving.tokens.empty())
+      throw UsageError("--lockstep, --allow-control and --token-file are for --listen");
+    return play(arguments);
+  }
+  if (!arguments.record.empty() || !arguments.trace.empty() || arguments.duration)
+    throw UsageError(
+        "--record, --trace and --duration do not fit --listen: clients keep their own records, and "
+        "the server runs until it is stopped");
+  ServedSimulation simulation(sceneOf(arguments), configOf(arguments));
+  serve(simulation, arguments.serving);
+  return 0;
+}
+
+}  // namespace ortung::app

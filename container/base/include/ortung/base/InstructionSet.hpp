@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "ortung/base/Export.hpp"
+
+/// Loops that are compiled for several instruction sets and chosen when the program runs. All give
+/// the same bits: they are whole-numbered, or use additions, multiplications and roots only, which
+/// IEEE 754 rounds alike at every width (and the compiler must not fuse them: -ffp-contract=off).
+namespace ortung {
+
+enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+
+/// Whether this machine (and build) has it.
+ORTUNG_API bool hasInstructionSet(InstructionSet set);
+
+/// The widest of this machine; $ORTUNG_SIMD (portable, avx2, avx512) lowers the choice.
+ORTUNG_API InstructionSet instructionSet();
+
+/// Makes instructionSet() give @p set, or again the widest: for tests and benchmarks, which compare
+/// sets in one process. @pre hasInstructionSet(*set)
+ORTUNG_API void useInstructionSet(std::optional<InstructionSet> set);
+
+}  // namespace ortung
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define ORTUNG_X86 1
+#define ORTUNG_AVX2 __attribute__((target("avx2")))
+#if defined(__clang__)
+#define ORTUNG_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
+#else
+#define ORTUNG_AVX512 \
+  __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
+#endif
+#define ORTUNG_INLINE inline __attribute__((always_inline))
+#else
+#define ORTUNG_INLINE inline
+#endif

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+
+namespace ortung {
+
+/// A setting that is missing, of the wrong kind, out of its range or not known.
+/// The message says where (file, line, key), what was found and what was expected.
+class ORTUNG_API ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~ConfigError() override;
+};
+
+/// Permitted values of a number, both ends included.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
+
+/// Settings of one plugin or one part of a file: a table of keys with numbers, texts, flags, lists
+/// and further tables. Keys end in their unit: "max_range_m", "fov_deg".
+/// Remembers what was read, so that a misspelt key shows. Copies share what they know.
+/// Not thread-safe.
+class ORTUNG_API Parameters {
+ public:
+  struct Node;  ///< one value
+  using List = std::vector<Node>;
+
+  /// An empty table. @param where what errors call it, e.g. "robots/pioneer.toml"
+  explicit Parameters(std::string where = "");
+
+  void set(const std::string& key, bool value);
+  void set(const std::string& key, double value);
+  void set(const std::string& key, const char* value);
+  void set(const std::string& key, const std::string& value);
+  void set(const std::string& key, Node value);
+
+  bool has(const std::string& key) const;
+  std::vector<std::string> keys() const;  ///< in the order of the alphabet
+
+  /// A finite number within @p range. @throws ConfigError
+  double number(const std::string& key, const Range& range = {}) const;
+  double numberOr(const std::string& key, double fallback, const Range& range = {}) const;
+  /// A whole number within @p range. @throws ConfigError
+  std::int64_t integer(const std::string& key, const Range& range = {}) const;
+  std::int64_t integerOr(const std::string& key, std::int64_t fallback, const Range& range = {}) const;
+  std::string text(const std::string& key) const;
+  std::string textOr(const std::string& key, const std::string& fallback) const;
+  /// One of @p choices. @throws ConfigError listing them
+  std::string choiceOr(const std::string& key, const std::string& fallback,
+                       const std::vector<std::string>& choices) const;
+  bool flagOr(const std::string& key, bool fallback) const;
+  /// A list of finite numbers within @p range; @p count of them, or any number if it is -1.
+  std::vector<double> numbers(const std::string& key, int count = -1, const Range& range = {}) const;
+  std::vector<double> numbersOr(const std::string& key, const std::vector<double>& fallback,
+                                int count = -1, const Range& range = {}) const;
+  std::vector<std::string> texts(const std::string& key) const;
+  /// A table; empty (and has() false) if it is missing.
+  Parameters table(const std::string& key) const;
+  /// The tables of an array of tables, none if it is missing.
+  std::vector<Parameters> tables(const std::string& key) const;
+
+  /// A ConfigError at the place of @p key.
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+  /// @throws ConfigError at the first key nobody asked for, here or in a table that was asked for
+  void refuseUnread() const;
+  const std::string& where() const;  ///< file or what else this came from
+
+ private:
+  struct Table;
+  const Node* look(const std::string& key) const;
+  const Node& need(const std::string& key) const;
+  double toNumber(const std::string& key, const Node& node, const Range& range) const;
+  std::shared_ptr<Table> table_;
+};
+
+/// One value with its place in the file.
+struct Parameters::Node {
+  std::variant<bool, std::int64_t, double, std::string, List, Parameters> value;
+  int line = 0;  ///< 0: not from a file
+};
+
+}  // namespace ortung

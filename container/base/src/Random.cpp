@@ -1,0 +1,242 @@
+#include "ortung/base/Random.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "ortung/base/InstructionSet.hpp"
+#include "ortung/base/SinCos.hpp"
+
+namespace ortung {
+namespace {
+
+struct Block {
+  std::uint32_t words[4];
+};
+
+ORTUNG_INLINE void round(Block& c, std::uint32_t k0, std::uint32_t k1) {
+  const std::uint64_t p0 = std::uint64_t{0xD2511F53U} * c.words[0];
+  const std::uint64_t p1 = std::uint64_t{0xCD9E8D57U} * c.words[2];
+  c = {{static_cast<std::uint32_t>(p1 >> 32) ^ c.words[1] ^ k0, static_cast<std::uint32_t>(p1),
+        static_cast<std::uint32_t>(p0 >> 32) ^ c.words[3] ^ k1, static_cast<std::uint32_t>(p0)}};
+}
+
+/// Philox4x32-10 of a 128-bit counter (block, stream) and a 64-bit key. Without a loop, so that
+/// loops over blocks vectorize.
+ORTUNG_INLINE Block philox(std::uint64_t key, std::uint64_t stream, std::uint64_t block) {
+  constexpr std::uint32_t kW0 = 0x9E3779B9U;
+  constexpr std::uint32_t kW1 = 0xBB67AE85U;
+  const auto k0 = static_cast<std::uint32_t>(key);
+  const auto k1 = static_cast<std::uint32_t>(key >> 32);
+  Block c{{static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32),
+           static_cast<std::uint32_t>(stream), static_cast<std::uint32_t>(stream >> 32)}};
+  round(c, k0, k1);
+  round(c, k0 + kW0, k1 + kW1);
+  round(c, k0 + 2 * kW0, k1 + 2 * kW1);
+  round(c, k0 + 3 * kW0, k1 + 3 * kW1);
+  round(c, k0 + 4 * kW0, k1 + 4 * kW1);
+  round(c, k0 + 5 * kW0, k1 + 5 * kW1);
+  round(c, k0 + 6 * kW0, k1 + 6 * kW1);
+  round(c, k0 + 7 * kW0, k1 + 7 * kW1);
+  round(c, k0 + 8 * kW0, k1 + 8 * kW1);
+  round(c, k0 + 9 * kW0, k1 + 9 * kW1);
+  return c;
+}
+
+/// In [0, 1), 24 bits, exact in a float. (By a signed number: that conversion is an instruction.)
+ORTUNG_INLINE float unit(std::uint32_t word) {
+  return static_cast<float>(static_cast<std::int32_t>(word >> 8)) * 0x1p-24F;
+}
+
+/// ln x for normal positive x, wrong by less than 2e-7 relative to max(1, |ln x|); after S. L.
+/// Moshier's Cephes library (logf.c). Own, for the same reasons as sinCos().
+ORTUNG_INLINE float naturalLog(float x) {
+  const auto bits = std::bit_cast<std::int32_t>(x);
+  const auto half = std::bit_cast<float>((bits & 0x007FFFFF) | 0x3F000000);  // in [0.5, 1)
+  const bool small = half < 0.707106781186547524F;
+  const auto e = static_cast<float>((bits >> 23) - 126 - (small ? 1 : 0));
+  const float m = (small ? half + half : half) - 1.0F;
+  const float z = m * m;
+  float y = 7.0376836292e-2F;
+  y = y * m - 1.1514610310e-1F;
+  y = y * m + 1.1676998740e-1F;
+  y = y * m - 1.2420140846e-1F;
+  y = y * m + 1.4249322787e-1F;
+  y = y * m - 1.6668057665e-1F;
+  y = y * m + 2.0000714765e-1F;
+  y = y * m - 2.4999993993e-1F;
+  y = y * m + 3.3333331174e-1F;
+  y = y * m * z - 2.12194440e-4F * e - 0.5F * z;
+  return m + y + 0.693359375F * e;
+}
+
+struct Pair {
+  float first;
+  float second;
+};
+
+/// Two Gaussian numbers from two words (Box and Muller, 1958).
+ORTUNG_INLINE Pair boxMuller(std::uint32_t a, std::uint32_t b) {
+  const float radius = std::sqrt(-2.0F * naturalLog(unit(a) + 0x1p-25F));  // never ln 0
+  const SinCos angle = sinCos(2.0F * std::numbers::pi_v<float> * unit(b));
+  return {radius * angle.cos, radius * angle.sin};
+}
+
+constexpr std::size_t kNumbersABlock = 4;
+constexpr std::size_t kBlocksAGroup = 16;  ///< vectors of every width divide it
+constexpr std::size_t kNumbersAGroup = kNumbersABlock * kBlocksAGroup;
+
+ORTUNG_INLINE void uniformGroups(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                                 std::size_t groups, float* out) {
+  for (std::size_t g = 0; g < groups; ++g) {
+    for (std::size_t lane = 0; lane < kBlocksAGroup; ++lane) {
+      const Block c = philox(seed, stream, block + g * kBlocksAGroup + lane);
+      float* numbers = out + g * kNumbersAGroup + lane * kNumbersABlock;
+      for (std::size_t w = 0; w < kNumbersABlock; ++w) numbers[w] = unit(c.words[w]);
+    }
+  }
+}
+
+ORTUNG_INLINE void gaussianGroups(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                                  std::size_t groups, float* out) {
+  for (std::size_t g = 0; g < groups; ++g) {
+    for (std::size_t lane = 0; lane < kBlocksAGroup; ++lane) {
+      const Block c = philox(seed, stream, block + g * kBlocksAGroup + lane);
+      const Pair low = boxMuller(c.words[0], c.words[1]);
+      const Pair high = boxMuller(c.words[2], c.words[3]);
+      float* numbers = out + g * kNumbersAGroup + lane * kNumbersABlock;
+      numbers[0] = low.first;
+      numbers[1] = low.second;
+      numbers[2] = high.first;
+      numbers[3] = high.second;
+    }
+  }
+}
+
+/// Whole groups of blocks from @p block on, for each instruction set.
+using Groups = void (*)(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                        std::size_t groups, float* out);
+
+void uniformPortable(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n,
+                     float* out) {
+  uniformGroups(seed, stream, block, n, out);
+}
+void gaussianPortable(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n,
+                      float* out) {
+  gaussianGroups(seed, stream, block, n, out);
+}
+#ifdef ORTUNG_X86
+ORTUNG_AVX2 void uniformAvx2(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                             std::size_t n, float* out) {
+  uniformGroups(seed, stream, block, n, out);
+}
+ORTUNG_AVX2 void gaussianAvx2(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                              std::size_t n, float* out) {
+  gaussianGroups(seed, stream, block, n, out);
+}
+ORTUNG_AVX512 void uniformAvx512(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                                 std::size_t n, float* out) {
+  uniformGroups(seed, stream, block, n, out);
+}
+ORTUNG_AVX512 void gaussianAvx512(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                                  std::size_t n, float* out) {
+  gaussianGroups(seed, stream, block, n, out);
+}
+#else
+constexpr Groups uniformAvx2 = uniformPortable, uniformAvx512 = uniformPortable;
+constexpr Groups gaussianAvx2 = gaussianPortable, gaussianAvx512 = gaussianPortable;
+#endif
+
+Groups pick(Groups portable, Groups avx2, Groups avx512) {
+  switch (instructionSet()) {
+    case InstructionSet::kAvx512:
+      return avx512;
+    case InstructionSet::kAvx2:
+      return avx2;
+    case InstructionSet::kPortable:
+      break;
+  }
+  return portable;
+}
+
+/// Fills @p out from number @p first of the stream on: whole groups in place, its ends from a
+/// spare.
+void fill(Groups make, std::uint64_t seed, std::uint64_t stream, std::uint64_t first,
+          std::span<float> out) {
+  std::array<float, kNumbersAGroup> spare;
+  while (!out.empty()) {
+    const std::size_t skipped = first % kNumbersABlock;
+    std::size_t done = out.size() / kNumbersAGroup * kNumbersAGroup;
+    if (skipped == 0 && done > 0) {
+      make(seed, stream, first / kNumbersABlock, done / kNumbersAGroup, out.data());
+    } else {
+      // From the middle of a block: only up to the block's end, so that the rest goes in place.
+      done = std::min(out.size(), skipped == 0 ? kNumbersAGroup : kNumbersABlock - skipped);
+      make(seed, stream, first / kNumbersABlock, 1, spare.data());
+      std::copy_n(spare.begin() + static_cast<std::ptrdiff_t>(skipped), done, out.begin());
+    }
+    first += done;
+    out = out.subspan(done);
+  }
+}
+
+}  // namespace
+
+Random::Random(std::uint64_t seed, std::uint64_t stream) : seed_(seed), stream_(stream) {}
+
+void Random::refill() {
+  const Block block = philox(seed_, stream_, block_++);
+  for (int i = 0; i < 4; ++i) words_[i] = block.words[i];
+  used_ = 0;
+}
+
+std::uint32_t Random::next() {
+  if (used_ == 4) refill();
+  return words_[used_++];
+}
+
+double Random::uniform() {
+  const std::uint64_t high = next();
+  return static_cast<double>(((high << 32) | next()) >> 11) * 0x1p-53;
+}
+
+double Random::uniform(double low, double high) { return low + (high - low) * uniform(); }
+
+std::uint64_t Random::below(std::uint64_t n) {
+  assert(n > 0);
+  return static_cast<std::uint64_t>(uniform() * static_cast<double>(n));
+}
+
+double Random::gaussian() {
+  if (hasSpare_) {
+    hasSpare_ = false;
+    return spare_;
+  }
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+  const double angle = 2.0 * std::numbers::pi * uniform();
+  spare_ = radius * std::sin(angle);
+  hasSpare_ = true;
+  return radius * std::cos(angle);
+}
+
+Random Random::fork(std::uint64_t stream) const {
+  // Mixed through the generator itself, so that forks of forks do not collide.
+  const Block mixed = philox(seed_, stream_ ^ 0x9E3779B97F4A7C15ULL, stream);
+  return Random(seed_, (std::uint64_t{mixed.words[0]} << 32) | mixed.words[1]);
+}
+
+void fillUniform(std::uint64_t seed, std::uint64_t stream, std::uint64_t first,
+                 std::span<float> out) {
+  fill(pick(uniformPortable, uniformAvx2, uniformAvx512), seed, stream, first, out);
+}
+
+void fillGaussian(std::uint64_t seed, std::uint64_t stream, std::uint64_t first,
+                  std::span<float> out) {
+  assert(first % 2 == 0);
+  fill(pick(gaussianPortable, gaussianAvx2, gaussianAvx512), seed, stream, first, out);
+}
+
+}  // namespace ortung

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ortung/core/SensorData.hpp"
+#include "ortung/base/Time.hpp"
+
+namespace ortung {
+
+/// One reading on its way: what a record holds in a line and the server sends.
+struct Message {
+  Timestamp stamp = 0;
+  SensorId id;
+  std::vector<std::uint32_t> words;
+
+  bool operator==(const Message&) const = default;
+};
+
+}  // namespace ortung

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/core/SensorData.hpp"
+
+namespace ortung {
+
+/// A plugin that can't be found, loaded or made; the message names it and says why.
+class ORTUNG_API PluginError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~PluginError() override;
+};
+
+/// Finds plugin libraries and makes plugins by name (paper, section 2). Not thread-safe.
+///
+/// Libraries are files ortung_*.so in the search path, loaded when they are first needed: those
+/// with the plugin's name in the file's name first, the rest only if these do not have it. They
+/// stay loaded until the program ends, so plugins may outlive the factory.
+class ORTUNG_API PluginFactory {
+ public:
+  /// What a library offers, for `ortung plugins`.
+  struct Found {
+    std::filesystem::path file;
+    std::string library;    ///< "" if it could not be loaded
+    std::string buildTag;
+    std::string version;
+    struct Entry {
+      std::string interface;
+      std::string name;
+    };
+    std::vector<Entry> entries;
+    std::string error;      ///< why it could not be loaded, or ""
+  };
+
+  PluginFactory() = default;
+  /// @param folders searched in this order
+  explicit PluginFactory(std::vector<std::filesystem::path> folders);
+
+  /// $ORTUNG_PLUGIN_PATH (folders, separated by ':'), then lib/ortung/plugins beside the folder
+  /// of the running program.
+  static std::vector<std::filesystem::path> standardFolders();
+
+  /// @throws PluginError if the file cannot be loaded, exports no plugins, or was built for
+  ///   another ABI; the message says which and what to do
+  void load(const std::filesystem::path& library);
+
+  /// Loads all libraries of the search path; broken ones come with their error.
+  std::vector<Found> list();
+
+  /// Makes the plugin @p name of kind Interface; reads plugins' own errors, too.
+  /// @throws PluginError if there is none
+  /// @throws ConfigError if its constructor refused the parameters, or left one unread
+  template <class Interface>
+  std::unique_ptr<Interface> make(const std::string& name, const Parameters& parameters) {
+    std::unique_ptr<Interface> plugin(
+        static_cast<Interface*>(create(Interface::kInterface, name, parameters)));
+    parameters.refuseUnread();
+    return plugin;
+  }
+
+  /// The data half of a sensor: all features of the device @p name (paper, section 4).
+  /// @throws as make()
+  std::vector<std::unique_ptr<SensorData>> makeData(const std::string& name,
+                                                    const Parameters& parameters);
+
+ private:
+  struct Library {
+    std::filesystem::path file;
+    const PluginInfo* info;
+  };
+  void* create(const std::string& interface, const std::string& name,
+               const Parameters& parameters);
+  const PluginEntry* findEntry(const std::string& interface, const std::string& name) const;
+  std::vector<std::string> loadWhere(const std::string& part);
+
+  std::vector<std::filesystem::path> folders_;
+  std::vector<Library> libraries_;
+};
+
+}  // namespace ortung

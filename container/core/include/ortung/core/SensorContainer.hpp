@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <shared_mutex>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/core/SensorData.hpp"
+
+namespace ortung {
+
+/// What to look for; an empty name (or "*") matches everything (paper, section 3).
+struct SensorQuery {
+  std::string_view model = {};
+  std::string_view type = {};
+  std::string_view feature = {};
+};
+
+/// Reads "LMS200/LRF/*"; the query borrows from @p text. @throws std::invalid_argument
+ORTUNG_API SensorQuery parseSensorQuery(std::string_view text);
+
+/// Owns the sensor data of one robot.
+/// Many writers and readers: writers go through set(), readers of readings hold a ReadLock, so
+/// that they see one consistent frame. The list of features itself must not change while others use it.
+class ORTUNG_API SensorContainer {
+ public:
+  using ReadLock = std::shared_lock<std::shared_mutex>;
+
+  SensorContainer();
+  ~SensorContainer();
+  SensorContainer(const SensorContainer&) = delete;
+  SensorContainer& operator=(const SensorContainer&) = delete;
+
+  /// Takes ownership. @throws std::invalid_argument if the id is already present.
+  SensorData& add(std::unique_ptr<SensorData> data);
+
+  /// The first match in the order of insertion, or nullptr.
+  SensorData* find(const SensorQuery& query) const;
+  /// All matches in the order of insertion.
+  std::vector<SensorData*> findAll(const SensorQuery& query) const;
+  SensorData* findExactly(const SensorId& id) const;
+  std::span<const std::unique_ptr<SensorData>> all() const { return data_; }
+
+  /// Sets one feature's reading. Returns false if the container has no such feature.
+  /// @throws std::invalid_argument for words that the feature refuses
+  bool set(const Message& message);
+  /// Sets all readings of one moment under one lock, or none of them if a feature refuses its
+  /// words; returns how many features it does not have.
+  /// @throws std::invalid_argument for words that a feature refuses
+  std::size_t set(std::span<const Message> frame);
+
+  /// Shared lock over all readings.
+  ReadLock read() const;
+
+  /// Newest reading of the first match as T::Reading, copied under the lock, or nothing.
+  /// T is a format class: container.get<ScanData>({.type = "LRF"}).
+  template <class T>
+  std::optional<typename T::Reading> get(const SensorQuery& query) const {
+    const ReadLock lock = read();
+    const T* data = dynamic_cast<const T*>(find(query));
+    if (data == nullptr || data->sequence() == 0) return std::nullopt;
+    return data->reading();
+  }
+
+  /// Adds ln p(s|l_i) over all features that can weigh (paper, section 5.2: independent features).
+  void getProbability(const SampleView& poses, std::span<float> logProbability) const;
+  /// The product of the probabilities of all features with an expectation at @p pose,
+  /// or kNoExpectation where none has one.
+  double getProbability(const Pose2& pose) const;
+
+ private:
+  std::vector<std::unique_ptr<SensorData>> data_;
+  std::vector<SensorData*> targets_;  ///< of the frame that is being set; kept for its memory
+  mutable std::shared_mutex mutex_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ortung/container/Abi.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/SampleView.hpp"
+#include "ortung/tables/TableFile.hpp"
+#include "ortung/base/Time.hpp"
+
+namespace ortung {
+
+/// Answer of getProbability(pose) when the sensor expects nothing there (paper, section 5.2).
+inline constexpr double kNoExpectation = -1.0;
+
+/// The three names by which a feature is found (paper, section 3).
+/// Each is of [A-Za-z0-9_.-], 1 to 64 characters.
+struct SensorId {
+  std::string model;    ///< device, e.g. "LMS200"
+  std::string type;     ///< kind of sensor, e.g. "LRF"
+  std::string feature;  ///< what it measures, e.g. "180DegreeScan"
+
+  bool operator==(const SensorId&) const = default;
+};
+
+/// "LMS200/LRF/180DegreeScan".
+ORTUNG_API std::string toText(const SensorId& id);
+
+/// Reads the text form. @throws std::invalid_argument saying what is wrong with it.
+ORTUNG_API SensorId parseSensorId(std::string_view text);
+
+/// Newest reading of one feature, and what the feature is expected to read at every pose.
+///
+/// The reading is kept as the words of getData(): the same on the wire, in a record and in memory,
+/// so whoever filled it makes no difference. A plugin derives from this class or, in most cases,
+/// from one of the formats (ScalarData, ScanData, ...).
+/// Not thread-safe; the container locks.
+class ORTUNG_API SensorData {
+ public:
+  static constexpr const char* kInterface = "ortung.SensorData/" ORTUNG_CONTAINER_ABI;
+
+  /// @param mount pose of the sensor in the robot frame
+  /// @throws std::invalid_argument for a bad name or a mount that is not finite
+  explicit SensorData(SensorId id, const Pose2& mount = {});
+  virtual ~SensorData();
+  SensorData(const SensorData&) = delete;
+  SensorData& operator=(const SensorData&) = delete;
+
+  const SensorId& id() const { return id_; }
+  const Pose2& mount() const { return mount_; }
+
+  // --- the reading ---
+  /// Takes a reading (paper, section 4). Words that are refused leave the old one.
+  /// @throws std::invalid_argument naming the feature, what was found and what was expected
+  void setData(Timestamp stamp, std::span<const std::uint32_t> words);
+  /// Throws what setData() would, and takes nothing.
+  void checkData(std::span<const std::uint32_t> words) const;
+  std::span<const std::uint32_t> getData() const { return words_; }
+  Timestamp stamp() const { return stamp_; }
+  /// Counts readings; 0 means that there has been none.
+  std::uint64_t sequence() const { return sequence_; }
+  /// One line on what the words mean, for `ortung check` and the protocol's description.
+  virtual std::string wordsHelp() const = 0;
+
+  // --- the perceptual model ---
+  /// Whether the feature can weigh poses once it has learned.
+  virtual bool localizes() const { return false; }
+  /// Whether learning has ended or tables were loaded.
+  bool isLearned() const { return learned_; }
+
+  /// Starts a sweep over the open cells of @p region, which must outlive it.
+  /// @param headingStep resolution of tables that depend on direction [rad]
+  void beginLearning(const FieldRegion& region, double headingStep);
+  /// How far apart the sweep's headings may be to see everything [rad]; 2 pi: one will do.
+  virtual double headingSpacing() const;
+  /// Takes the present noise-free reading as the expectation with the robot at @p pose
+  /// (paper, section 5.2). The sweep puts the SENSOR, pose * mount(), on the centres of cells.
+  /// @pre beginLearning() came before
+  void learnProbability(const Pose2& pose);
+  void endLearning();
+
+  /// p(s|l) of the present reading in [0, 1], 1 for a perfect match, or kNoExpectation.
+  double getProbability(const Pose2& pose) const;
+  /// Weighs a sample set by the present reading (paper, eq. 7): adds ln p(s|l_i) to
+  /// logProbability[i]. A sample without expectation gets the feature's outlier floor, so it
+  /// never wins against one with a bad expectation. One call a set: the fast path.
+  /// @pre poses.size() == logProbability.size(); isLearned()
+  void getProbability(const SampleView& poses, std::span<float> logProbability) const;
+  /// Whether the present reading says anything about the pose (e.g. at least one valid beam).
+  bool canWeigh() const { return learned_ && sequence_ > 0 && isInformative(); }
+
+  /// What the feature should read at @p pose: metres and radians in the format's order,
+  /// NaN where nothing is expected; empty where there is no expectation at all.
+  virtual std::vector<double> expectation(const Pose2& pose) const;
+
+  /// Everything that shapes the expectation tables ("beams=180 fov_deg=180 ..."), so that a
+  /// table of another sensor is recognised. Noise does not belong here.
+  virtual std::string learningKey() const;
+  /// Writes the tables, each array's name beginning with @p prefix.
+  virtual void saveTables(TableWriter& file, const std::string& prefix) const;
+  /// Uses the tables of a file, without copying. @throws TableError
+  void loadTables(std::shared_ptr<const TableFile> file, const std::string& prefix,
+                  const FieldGrid& grid);
+
+ protected:
+  /// The file loaded from, kept alive for the spans into it; may be null.
+  const std::shared_ptr<const TableFile>& tableFile() const { return file_; }
+
+ private:
+  /// @throws std::invalid_argument saying what was found in the words and what was expected
+  virtual void check(std::span<const std::uint32_t> words) const = 0;
+  /// Makes the reading of words that check() has let through.
+  virtual void decode(std::span<const std::uint32_t> words) = 0;
+  virtual bool isInformative() const { return true; }
+  virtual void startTables(const FieldRegion& region, double headingStep);
+  virtual void learn(const Pose2& robotInField);
+  virtual void finishTables();
+  virtual void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid);
+  /// Writes ln p(s|l) or NaN for "no expectation" for one pose.
+  virtual double logProbabilityAt(const Pose2& pose) const;
+  /// Adds ln p(s|l_i) or the outlier floor.
+  virtual void weigh(const SampleView& poses, std::span<float> logProbability) const;
+
+  SensorId id_;
+  Pose2 mount_;
+  std::vector<std::uint32_t> words_;
+  Timestamp stamp_ = 0;
+  std::uint64_t sequence_ = 0;
+  bool learned_ = false;
+  std::shared_ptr<const TableFile> file_;
+};
+
+}  // namespace ortung

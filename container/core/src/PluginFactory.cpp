@@ -1,0 +1,217 @@
+#include "ortung/core/PluginFactory.hpp"
+
+#include <dlfcn.h>
+#include <elf.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+namespace ortung {
+namespace {
+
+constexpr const char* kSymbol = "ortungPlugins";
+constexpr const char* kSourceKind = "ortung.Source";
+
+/// dlopen of a truncated library kills the process (SIGBUS), so look at its skeleton first.
+void checkIsWhole(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw PluginError(file.string() + ": can't be read");
+  Elf64_Ehdr header{};
+  in.read(reinterpret_cast<char*>(&header), sizeof header);
+  if (in.gcount() != sizeof header || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
+      header.e_ident[EI_CLASS] != ELFCLASS64) {
+    throw PluginError(file.string() + ": is no 64-bit shared library");
+  }
+  const std::uint64_t size = std::filesystem::file_size(file);
+  const std::uint64_t sections = std::uint64_t{header.e_shnum} * header.e_shentsize;
+  if (header.e_shoff > size || sections > size - header.e_shoff) {
+    throw PluginError(file.string() + ": is torn: it has " + std::to_string(size) +
+                      " bytes, expected at least " + std::to_string(header.e_shoff + sections));
+  }
+}
+
+std::string interfaceKind(const std::string& interface) {
+  return interface.substr(0, interface.find('/'));
+}
+
+void checkInfo(const std::filesystem::path& file, const PluginInfo& info) {
+  if (info.abi != kPluginAbi || info.size != sizeof(PluginInfo)) {
+    throw PluginError(file.string() + ": has plugin ABI " + std::to_string(info.abi) +
+                      ", this program has " + std::to_string(kPluginAbi) + "; rebuild the plugin");
+  }
+  if (std::strcmp(info.buildTag, kBuildTag) != 0) {
+    throw PluginError(file.string() + ": was built with " + info.buildTag + ", this program with " +
+                      kBuildTag + "; rebuild the plugin");
+  }
+}
+
+/// Makes a plugin; what its constructor throws comes with the plugin's name.
+void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
+  const std::string who = std::string("plugin '") + entry.name + "': ";
+  try {
+    return entry.create(parameters);
+  } catch (const ConfigError&) {
+    throw;  // names file, line and key already
+  } catch (const PluginError&) {
+    throw;
+  } catch (const std::invalid_argument&) {
+    throw;  // for the reader of the robot file, who knows its line
+  } catch (const std::exception& error) {
+    if (interfaceKind(entry.interface) == kSourceKind) throw;  // names the file it reads
+    throw PluginError(who + error.what());
+  } catch (...) {
+    throw PluginError(who + "threw something that is no std::exception");
+  }
+}
+
+}  // namespace
+
+PluginError::~PluginError() = default;
+
+PluginFactory::PluginFactory(std::vector<std::filesystem::path> folders)
+    : folders_(std::move(folders)) {}
+
+std::vector<std::filesystem::path> PluginFactory::standardFolders() {
+  std::vector<std::filesystem::path> folders;
+  if (const char* variable = std::getenv("ORTUNG_PLUGIN_PATH")) {
+    std::string rest = variable;
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find(':'), rest.size());
+      if (end > 0) folders.emplace_back(rest.substr(0, end));
+      rest.erase(0, end + 1);
+    }
+  }
+  std::error_code none;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", none);
+  if (!none) folders.push_back(program.parent_path().parent_path() / "lib/ortung/plugins");
+  return folders;
+}
+
+void PluginFactory::load(const std::filesystem::path& file) {
+  const bool known = std::any_of(libraries_.begin(), libraries_.end(),
+                                 [&](const Library& l) { return l.file == file; });
+  if (known) return;
+  checkIsWhole(file);
+  void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) throw PluginError(file.string() + ": " + ::dlerror());
+  const auto* info = static_cast<const PluginInfo*>(::dlsym(handle, kSymbol));
+  if (info == nullptr) {
+    throw PluginError(file.string() + ": exports no ORTUNG_PLUGINS, so it is no plugin library");
+  }
+  checkInfo(file, *info);
+  libraries_.push_back({file, info});
+}
+
+/// Loads the libraries ortung_PART*.so of all folders, in the order of the alphabet. Returns why some
+/// could not be loaded: a broken library must not hide the plugins of its neighbours.
+std::vector<std::string> PluginFactory::loadWhere(const std::string& part) {
+  const std::string prefix = "ortung_" + part;
+  std::vector<std::string> complaints;
+  for (const auto& folder : folders_) {
+    std::vector<std::filesystem::path> files;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      const std::string name = entry.path().filename();
+      if (name.starts_with(prefix) && entry.path().extension() == ".so") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+      try {
+        load(file);
+      } catch (const PluginError& error) {
+        complaints.push_back(error.what());
+      }
+    }
+  }
+  return complaints;
+}
+
+std::vector<PluginFactory::Found> PluginFactory::list() {
+  std::vector<Found> all;
+  for (const auto& folder : folders_) {
+    std::vector<std::filesystem::path> files;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      const std::string name = entry.path().filename();
+      if (name.starts_with("ortung_") && entry.path().extension() == ".so") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+      Found found;
+      found.file = file;
+      try {
+        load(file);
+        const auto it = std::find_if(libraries_.begin(), libraries_.end(),
+                                     [&](const Library& l) { return l.file == file; });
+        found.library = it->info->library;
+        found.buildTag = it->info->buildTag;
+        found.version = it->info->version;
+        for (std::size_t i = 0; i < it->info->count; ++i) {
+          found.entries.push_back({it->info->entries[i].interface, it->info->entries[i].name});
+        }
+      } catch (const PluginError& error) {
+        found.error = error.what();
+      }
+      all.push_back(std::move(found));
+    }
+  }
+  return all;
+}
+
+const PluginEntry* PluginFactory::findEntry(const std::string& interface,
+                                            const std::string& name) const {
+  for (const Library& library : libraries_) {
+    for (std::size_t i = 0; i < library.info->count; ++i) {
+      const PluginEntry& entry = library.info->entries[i];
+      if (entry.name != name) continue;
+      if (entry.interface == interface) return &entry;
+      if (interfaceKind(entry.interface) == interfaceKind(interface)) {
+        throw PluginError(library.file.string() + ": plugin " + name + " is of interface " +
+                          entry.interface + ", this program has " + interface +
+                          "; rebuild the plugin");
+      }
+    }
+  }
+  return nullptr;
+}
+
+void* PluginFactory::create(const std::string& interface, const std::string& name,
+                            const Parameters& parameters) {
+  const PluginEntry* entry = findEntry(interface, name);
+  const bool plainName = !name.empty() && name.size() <= 64 &&
+                         std::all_of(name.begin(), name.end(), [](char c) {
+                           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+                         });
+  std::vector<std::string> complaints;
+  if (entry == nullptr && plainName) {
+    // A broken library of this very name is not passed over for another one further on.
+    complaints = loadWhere(name + "_");
+    if (complaints.empty()) entry = findEntry(interface, name);
+  }
+  if (entry == nullptr && complaints.empty()) {
+    complaints = loadWhere("");
+    entry = findEntry(interface, name);
+  }
+  if (entry == nullptr) {
+    std::string folders;
+    for (const auto& folder : folders_) folders += (folders.empty() ? "" : ", ") + folder.string();
+    std::string message = "there is no plugin '" + name + "' of kind " + interfaceKind(interface) + " in " +
+                          (folders.empty() ? "the (empty) search path" : folders) +
+                          "; `ortung plugins` lists what there is";
+    for (const std::string& complaint : complaints) message += "; not loaded: " + complaint;
+    throw PluginError(message);
+  }
+  return createNamed(*entry, parameters);
+}
+
+std::vector<std::unique_ptr<SensorData>> PluginFactory::makeData(const std::string& name,
+                                                                 const Parameters& parameters) {
+  const std::unique_ptr<DeviceData> made(
+      static_cast<DeviceData*>(create(SensorData::kInterface, name, parameters)));
+  parameters.refuseUnread();
+  return std::move(*made);
+}
+
+}  // namespace ortung

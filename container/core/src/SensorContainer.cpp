@@ -1,0 +1,99 @@
+#include "ortung/core/SensorContainer.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+
+namespace ortung {
+namespace {
+
+bool matches(std::string_view wanted, const std::string& name) {
+  return wanted.empty() || wanted == "*" || wanted == name;
+}
+
+bool matches(const SensorQuery& query, const SensorId& id) {
+  return matches(query.model, id.model) && matches(query.type, id.type) &&
+         matches(query.feature, id.feature);
+}
+
+}  // namespace
+
+SensorQuery parseSensorQuery(std::string_view text) {
+  const std::size_t first = text.find('/');
+  const std::size_t second = first == text.npos ? text.npos : text.find('/', first + 1);
+  if (second == text.npos || text.find('/', second + 1) != text.npos) {
+    throw std::invalid_argument("'" + std::string(text) +
+                                "' is not model/type/feature (each may be *)");
+  }
+  return {text.substr(0, first), text.substr(first + 1, second - first - 1),
+          text.substr(second + 1)};
+}
+
+SensorContainer::SensorContainer() = default;
+SensorContainer::~SensorContainer() = default;
+
+SensorData& SensorContainer::add(std::unique_ptr<SensorData> data) {
+  if (findExactly(data->id()) != nullptr) {
+    throw std::invalid_argument("feature already in the container: " + toText(data->id()));
+  }
+  return *data_.emplace_back(std::move(data));
+}
+
+SensorData* SensorContainer::find(const SensorQuery& query) const {
+  const auto it = std::find_if(data_.begin(), data_.end(),
+                               [&](const auto& d) { return matches(query, d->id()); });
+  return it == data_.end() ? nullptr : it->get();
+}
+
+std::vector<SensorData*> SensorContainer::findAll(const SensorQuery& query) const {
+  std::vector<SensorData*> found;
+  for (const auto& data : data_) {
+    if (matches(query, data->id())) found.push_back(data.get());
+  }
+  return found;
+}
+
+SensorData* SensorContainer::findExactly(const SensorId& id) const {
+  const auto it =
+      std::find_if(data_.begin(), data_.end(), [&](const auto& d) { return d->id() == id; });
+  return it == data_.end() ? nullptr : it->get();
+}
+
+bool SensorContainer::set(const Message& message) { return set({&message, 1}) == 0; }
+
+std::size_t SensorContainer::set(std::span<const Message> frame) {
+  const std::unique_lock lock(mutex_);
+  targets_.clear();
+  std::size_t unknown = 0;
+  for (const Message& message : frame) {
+    SensorData* data = targets_.emplace_back(findExactly(message.id));
+    if (data == nullptr) {
+      ++unknown;
+    } else {
+      data->checkData(message.words);
+    }
+  }
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    if (targets_[i] != nullptr) targets_[i]->setData(frame[i].stamp, frame[i].words);
+  }
+  return unknown;
+}
+
+SensorContainer::ReadLock SensorContainer::read() const { return ReadLock(mutex_); }
+
+void SensorContainer::getProbability(const SampleView& poses,
+                                     std::span<float> logProbability) const {
+  for (const auto& data : data_) data->getProbability(poses, logProbability);
+}
+
+double SensorContainer::getProbability(const Pose2& pose) const {
+  double product = kNoExpectation;
+  for (const auto& data : data_) {
+    const double p = data->getProbability(pose);
+    if (p == kNoExpectation) continue;
+    product = product == kNoExpectation ? p : product * p;
+  }
+  return product;
+}
+
+}  // namespace ortung

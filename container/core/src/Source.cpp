@@ -1,0 +1,73 @@
+#include "ortung/core/Source.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace ortung {
+
+Source::~Source() = default;
+
+void Source::writeWorld(const std::filesystem::path&) const {
+  throw std::runtime_error("these readings come without a map, so no world can be written");
+}
+
+SourceText parseSourceText(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::string kind = text.substr(0, colon);
+  const bool wellNamed = !kind.empty() && kind.size() <= 64 &&
+                         std::all_of(kind.begin(), kind.end(), [](char c) {
+                           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+                         });
+  if (colon == text.npos || !wellNamed) {
+    throw std::invalid_argument("source '" + text +
+                                "': expected KIND:PATH[?key=value&...], e.g. record:run.rec");
+  }
+  SourceText source{kind, text.substr(colon + 1), {}};
+  const std::size_t mark = source.path.find('?');
+  if (mark == source.path.npos) return source;
+  std::string options = source.path.substr(mark + 1);
+  source.path.resize(mark);
+  while (!options.empty()) {
+    const std::size_t end = std::min(options.find('&'), options.size());
+    const std::string option = options.substr(0, end);
+    options.erase(0, end + 1);
+    const std::size_t equals = option.find('=');
+    if (equals == option.npos || equals == 0) {
+      throw std::invalid_argument("source '" + text + "': option '" + option + "' is not key=value");
+    }
+    if (!source.options.emplace(option.substr(0, equals), option.substr(equals + 1)).second) {
+      throw std::invalid_argument("source '" + text + "': option '" + option.substr(0, equals) +
+                                  "' is given twice");
+    }
+  }
+  return source;
+}
+
+bool FrameReader::next(std::vector<Message>& frame) {
+  frame.clear();
+  if (!ahead_) {
+    Message first;
+    if (!source_.next(first)) return false;
+    ahead_ = std::move(first);
+  }
+  const Timestamp now = ahead_->stamp;
+  frame.push_back(std::move(*ahead_));
+  ahead_.reset();
+  Message message;
+  while (source_.next(message)) {
+    if (message.stamp == now) {
+      frame.push_back(message);
+      continue;
+    }
+    if (message.stamp < now) {
+      throw std::runtime_error("time runs backwards: " + toText(message.id) + " at " +
+                               std::to_string(message.stamp) + " us after " + std::to_string(now) +
+                               " us");
+    }
+    ahead_ = std::move(message);
+    break;
+  }
+  return true;
+}
+
+}  // namespace ortung

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/tables/EndPointField.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/tables/SensorModel.hpp"
+
+namespace ortung {
+
+/// Points that can't be told apart, e.g. where scan lines of an image cross the field's lines, or
+/// goals that look alike. Words: two a point: [mm] along the floor, [angle]; none: looked and saw
+/// nothing.
+/// Learns an end-point field: a point is probable where one was seen from anywhere. What is not
+/// seen says nothing: it may be hidden.
+class ORTUNG_API PointsData : public SensorData {
+ public:
+  struct Config {
+    double maxRange = 6.0;     ///< points beyond it neither learn nor weigh [m]
+    double fieldOfView = 0.0;  ///< of the sensor [rad]; 0 or 2 pi: all around
+    int usedPoints = 0;        ///< weigh with at most so many, evenly picked; 0: all
+    double cell = 0.05;        ///< edge of the end-point field's cell [m]
+    double margin = 1.0;       ///< how far beyond the field's bounds points may lie [m]
+    SensorModel model{.sigma = 0.1, .sigmaPerMetre = 0.05, .exponent = 0.3};
+  };
+  struct Point {
+    double range = 0.0;    ///< [m]
+    double bearing = 0.0;  ///< in the sensor's frame [rad]
+  };
+  using Reading = std::vector<Point>;
+  static constexpr std::size_t kMostPoints = 4096;
+
+  PointsData(SensorId id, const Pose2& mount, const Config& config);
+  ~PointsData() override;
+
+  const Reading& reading() const { return reading_; }
+  const Config& config() const { return config_; }
+  static std::vector<std::uint32_t> encode(std::span<const Point> points);
+  static void encode(std::span<const Point> points, std::vector<std::uint32_t>& words);
+
+  std::string wordsHelp() const override;
+  bool localizes() const override { return true; }
+  double headingSpacing() const override;
+  /// Distance to the nearest learned point for each point of the reading, as if it were seen at
+  /// @p pose [m].
+  std::vector<double> expectation(const Pose2& pose) const override;
+  std::string learningKey() const override;
+  void saveTables(TableWriter& file, const std::string& prefix) const override;
+
+ private:
+  struct Prepared;
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  bool isInformative() const override;
+  void startTables(const FieldRegion& region, double headingStep) override;
+  void learn(const Pose2& robotInField) override;
+  void finishTables() override;
+  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
+  double logProbabilityAt(const Pose2& pose) const override;
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  void prepare();
+
+  Config config_;
+  FieldGrid grid_;  ///< of the region that was learned
+  EndPointField field_;
+  Reading reading_;
+  std::unique_ptr<Prepared> prepared_;
+};
+
+}  // namespace ortung

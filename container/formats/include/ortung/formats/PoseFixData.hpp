@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/tables/SensorModel.hpp"
+
+namespace ortung {
+
+/// Absolute poses of the robot in the field, each with its covariance: what a sensor that knows the
+/// field finds by itself, e.g. a scanner from walls and goals. Where the field looks alike from
+/// several places, there are several, and one of them is right.
+/// Words: nine a pose: x, y [signed mm], [angle], sigma of x, of y [um] and of the heading
+/// [1/10000 degree], correlations xy, x-heading, y-heading [1/10000 + 10000]; none: not found.
+/// Weighs a pose by its best fix. There is nothing to learn.
+class ORTUNG_API PoseFixData : public SensorData {
+ public:
+  struct Config {
+    double addedSigma = 0.05;         ///< of positions: what the fix does not know [m]
+    double addedHeadingSigma = 0.03;  ///< [rad]
+    SensorModel model{};              ///< outliers and exponent alone
+  };
+  struct Fix {
+    Pose2 pose;  ///< of the robot, in the field frame
+    /// Of x, y [m] and heading [rad], row-major, symmetric.
+    std::array<double, 9> covariance{};
+  };
+  using Reading = std::vector<Fix>;
+  static constexpr std::size_t kMostFixes = 64;
+
+  PoseFixData(SensorId id, const Config& config);
+  ~PoseFixData() override;
+
+  const Reading& reading() const { return reading_; }
+  const Config& config() const { return config_; }
+  /// Sigmas are at least 1 um and 1/10000 degree.
+  static std::vector<std::uint32_t> encode(std::span<const Fix> fixes);
+
+  std::string wordsHelp() const override;
+  bool localizes() const override { return true; }
+  double headingSpacing() const override { return 0.0; }
+  std::string learningKey() const override { return "fix"; }
+
+ private:
+  struct Weighed;  ///< a fix and the inverse of its covariance
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  bool isInformative() const override { return !reading_.empty(); }
+  void startTables(const FieldRegion& region, double headingStep) override;
+  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
+  double logProbabilityAt(const Pose2& pose) const override;
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+
+  Config config_;
+  GaussianTable gaussian_;
+  FieldGrid grid_;
+  Reading reading_;
+  std::vector<Weighed> weighed_;
+};
+
+}  // namespace ortung

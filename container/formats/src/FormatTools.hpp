@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "ortung/formats/Formats.hpp"
+
+/// Small things that several formats need.
+namespace ortung {
+
+inline constexpr double kFullTurn = 2 * std::numbers::pi;
+
+inline void checkWordCount(std::span<const std::uint32_t> words, std::size_t expected) {
+  if (words.size() != expected) {
+    throw std::invalid_argument("found " + std::to_string(words.size()) + " words, expected " +
+                                std::to_string(expected));
+  }
+}
+
+/// Of a list: so many words for each entry. @param what e.g. "three a sighting and at most 4096
+/// sightings"
+inline void checkEntries(std::span<const std::uint32_t> words, std::size_t each, std::size_t most,
+                         const char* what) {
+  if (words.size() % each != 0 || words.size() > most * each) {
+    throw std::invalid_argument("found " + std::to_string(words.size()) + " words, expected " +
+                                what);
+  }
+}
+
+inline void checkAngleWord(std::uint32_t word) {
+  if (word >= words::kAngles) {
+    throw std::invalid_argument("found the angle word " + std::to_string(word) + ", expected below 36000");
+  }
+}
+
+/// How far apart headings may be so that a sensor with this field of view sees everything.
+inline double spacingOf(double fieldOfView) {
+  if (fieldOfView <= 0.0 || fieldOfView >= kFullTurn) return kFullTurn;
+  // Half the field of view, so that nothing hides between the edges of two views.
+  return kFullTurn / std::ceil(2 * kFullTurn / fieldOfView);
+}
+
+std::string mountKey(const Pose2& mount);   ///< "mount=0.1,0,0"
+std::string keyNumber(double value);        ///< "%.9g", for learning keys
+
+/// Shortest signed way from angle b to angle a, each within a few turns.
+inline float angleDifference(float a, float b) {
+  constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+  const float d = (a - b) * (1.0F / kTurn);
+  return (d - std::nearbyintf(d)) * kTurn;
+}
+
+}  // namespace ortung

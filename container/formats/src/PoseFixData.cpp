@@ -1,0 +1,160 @@
+#include "ortung/formats/PoseFixData.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "FormatTools.hpp"
+#include "ortung/base/OneSample.hpp"
+
+namespace ortung {
+namespace {
+
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+constexpr std::size_t kWordsAFix = 9;
+constexpr std::uint32_t kWhole = 10000;                    // of a correlation
+constexpr double kMicro = 1e6;                             // per metre
+constexpr double kFineDegrees = 1.8e6 / std::numbers::pi;  // 1/10000 degree per radian
+constexpr double kLargest = 4e9;                           // of a sigma's word
+
+std::uint32_t sigmaWord(double sigma, double perUnit) {
+  return static_cast<std::uint32_t>(std::clamp(std::nearbyint(sigma * perUnit), 1.0, kLargest));
+}
+
+std::uint32_t correlationWord(double covariance, double a, double b) {
+  const double share = a > 0.0 && b > 0.0 ? std::clamp(covariance / (a * b), -1.0, 1.0) : 0.0;
+  return static_cast<std::uint32_t>(std::nearbyint(share * kWhole) + kWhole);
+}
+
+PoseFixData::Fix decodeFix(std::span<const std::uint32_t> w) {
+  PoseFixData::Fix fix;
+  fix.pose = {words::toSignedMetres(w[0]), words::toSignedMetres(w[1]), words::toAngle(w[2])};
+  const double s[3] = {w[3] / kMicro, w[4] / kMicro, w[5] / kFineDegrees};
+  const auto correlation = [&](std::size_t i) {
+    return (static_cast<double>(w[i]) - kWhole) / kWhole;
+  };
+  const double xy = correlation(6) * s[0] * s[1];
+  const double xt = correlation(7) * s[0] * s[2];
+  const double yt = correlation(8) * s[1] * s[2];
+  fix.covariance = {s[0] * s[0], xy, xt, xy, s[1] * s[1], yt, xt, yt, s[2] * s[2]};
+  return fix;
+}
+
+void checkFix(std::span<const std::uint32_t> w) {
+  checkAngleWord(w[2]);
+  if (w[3] == 0 || w[4] == 0 || w[5] == 0)
+    throw std::invalid_argument("found a sigma of 0, expected at least 1");
+  for (std::size_t i = 6; i < kWordsAFix; ++i)
+    if (w[i] > 2 * kWhole)
+      throw std::invalid_argument("found the correlation word " + std::to_string(w[i]) +
+                                  ", expected at most 20000");
+}
+
+/// The inverse of a covariance to which independent errors were added. Correlations that no
+/// covariance can have are left out.
+Matrix3 informationOf(const PoseFixData::Fix& fix, const PoseFixData::Config& config) {
+  const Eigen::Vector3d added(config.addedSigma * config.addedSigma,
+                              config.addedSigma * config.addedSigma,
+                              config.addedHeadingSigma * config.addedHeadingSigma);
+  Matrix3 covariance = Eigen::Map<const Matrix3>(fix.covariance.data());
+  covariance.diagonal() += added;
+  const double plane = covariance.topLeftCorner<2, 2>().determinant();
+  const double all = covariance.determinant();
+  const double independent = covariance.diagonal().prod();
+  constexpr double kSingular = 1e-6;
+  if (!(plane > kSingular * covariance(0, 0) * covariance(1, 1)) ||
+      !(all > kSingular * independent))
+    covariance = Matrix3(covariance.diagonal().asDiagonal());
+  return covariance.inverse();
+}
+
+}  // namespace
+
+struct PoseFixData::Weighed {
+  Pose2 pose;
+  std::array<double, 9> information;
+
+  /// Distance in standard deviations (Mahalanobis).
+  double sigmas(double x, double y, double theta) const {
+    const double dx = x - pose.x;
+    const double dy = y - pose.y;
+    const double dt = wrapAngle(theta - pose.theta);
+    const auto& i = information;
+    const double squared = i[0] * dx * dx + i[4] * dy * dy + i[8] * dt * dt +
+                           2.0 * (i[1] * dx * dy + i[2] * dx * dt + i[5] * dy * dt);
+    return std::sqrt(std::max(squared, 0.0));
+  }
+};
+
+PoseFixData::PoseFixData(SensorId id, const Config& config)
+    : SensorData(std::move(id)), config_(config), gaussian_(config.model) {
+  if (!(config.addedSigma > 0.0) || !(config.addedHeadingSigma > 0.0))
+    throw std::invalid_argument("the sigmas that are added to a fix must be positive");
+}
+
+PoseFixData::~PoseFixData() = default;
+
+std::vector<std::uint32_t> PoseFixData::encode(std::span<const Fix> fixes) {
+  std::vector<std::uint32_t> out;
+  for (const Fix& fix : fixes) {
+    const auto& c = fix.covariance;
+    const double x = std::sqrt(c[0]);
+    const double y = std::sqrt(c[4]);
+    const double theta = std::sqrt(c[8]);
+    out.insert(out.end(),
+               {words::fromSignedMetres(fix.pose.x), words::fromSignedMetres(fix.pose.y),
+                words::fromAngle(fix.pose.theta), sigmaWord(x, kMicro), sigmaWord(y, kMicro),
+                sigmaWord(theta, kFineDegrees), correlationWord(c[1], x, y),
+                correlationWord(c[2], x, theta), correlationWord(c[5], y, theta)});
+  }
+  return out;
+}
+
+void PoseFixData::check(std::span<const std::uint32_t> words) const {
+  checkEntries(words, kWordsAFix, kMostFixes, "nine a pose and at most 64 poses");
+  for (std::size_t i = 0; i < words.size(); i += kWordsAFix) checkFix(words.subspan(i, kWordsAFix));
+}
+
+void PoseFixData::decode(std::span<const std::uint32_t> words) {
+  reading_.clear();
+  weighed_.clear();
+  for (std::size_t i = 0; i < words.size(); i += kWordsAFix) {
+    reading_.push_back(decodeFix(words.subspan(i, kWordsAFix)));
+    Weighed weighed{reading_.back().pose, {}};
+    Eigen::Map<Matrix3>(weighed.information.data()) = informationOf(reading_.back(), config_);
+    weighed_.push_back(weighed);
+  }
+}
+
+std::string PoseFixData::wordsHelp() const {
+  return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000, sigma x um, sigma y um, sigma "
+         "heading 1/10000 degree, correlations xy, x-heading, y-heading 1/10000 + 10000] a pose";
+}
+
+void PoseFixData::startTables(const FieldRegion& region, double) { grid_ = region.grid; }
+void PoseFixData::useTables(const TableFile&, const std::string&, const FieldGrid& grid) {
+  grid_ = grid;
+}
+
+double PoseFixData::logProbabilityAt(const Pose2& pose) const {
+  if (grid_.cellAt(pose.x, pose.y) < 0) return std::numeric_limits<double>::quiet_NaN();
+  return weighOne(pose, [this](const SampleView& one, std::span<float> out) { weigh(one, out); });
+}
+
+void PoseFixData::weigh(const SampleView& poses, std::span<float> logProbability) const {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Weighed& fix : weighed_)
+      nearest = std::min(
+          nearest, fix.sigmas(static_cast<double>(poses.x[i]), static_cast<double>(poses.y[i]),
+                              static_cast<double>(poses.theta[i])));
+    logProbability[i] += gaussian_(static_cast<float>(nearest));
+  }
+}
+
+}  // namespace ortung

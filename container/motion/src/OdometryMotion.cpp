@@ -1,0 +1,277 @@
+#include "ortung/motion/OdometryMotion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "MotionFit.hpp"
+#include "ortung/base/InstructionSet.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/base/SinCos.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::size_t kBlock = 256;         ///< samples whose noise is drawn at once
+constexpr std::size_t kNumbersASample = 4;  ///< first turn, way, second turn, sideways
+constexpr float kSlip = 4.0F;               ///< times the noise of samples that slip
+constexpr double kMostSlip = 0.2;           ///< that is learned
+constexpr double kSmallestSigma = 0.005;    ///< that is learned
+constexpr double kMostWayBias = 0.5;        ///< of a way
+constexpr double kShortestWay = 1e-3;       ///< below, a way has no direction of its own [m]
+
+double square(double value) { return value * value; }
+
+/// A change of pose as turn, way, turn; driving backwards is a negative way.
+struct Turns {
+  double first;
+  double way;
+  double second;
+};
+
+Turns decompose(const Pose2& change) {
+  const double way = std::hypot(change.x, change.y);
+  if (way < kShortestWay) return {0.0, way, change.theta};
+  const double direction = std::atan2(change.y, change.x);
+  if (std::abs(direction) <= std::numbers::pi / 2)
+    return {direction, way, wrapAngle(change.theta - direction)};
+  const double backwards = wrapAngle(direction + std::numbers::pi);
+  return {backwards, -way, wrapAngle(change.theta - backwards)};
+}
+
+/// One step's motion and its noise, in single precision.
+struct Step {
+  float turn1;
+  float way;
+  float turn2;
+  float sigmaTurn1;
+  float sigmaWay;
+  float sigmaTurn2;
+  float sigmaSideways;
+};
+
+/// Moves @p n samples by numbers of mean 0 and sigma 1, kNumbersASample each.
+ORTUNG_INLINE void moveAll(const Step& step, const float* noise, std::size_t n, float* __restrict x,
+                           float* __restrict y, float* __restrict theta) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float* numbers = noise + i * kNumbersASample;
+    const float heading = theta[i] + step.turn1 + step.sigmaTurn1 * numbers[0];
+    const float way = step.way + step.sigmaWay * numbers[1];
+    const float sideways = step.sigmaSideways * numbers[3];
+    const SinCos direction = sinCos(heading);
+    x[i] += way * direction.cos - sideways * direction.sin;
+    y[i] += way * direction.sin + sideways * direction.cos;
+    theta[i] = heading + step.turn2 + step.sigmaTurn2 * numbers[2];
+  }
+}
+
+using Move = void (*)(const Step& step, const float* noise, std::size_t n, float* x, float* y,
+                      float* theta);
+
+void movePortable(const Step& step, const float* noise, std::size_t n, float* x, float* y,
+                  float* theta) {
+  moveAll(step, noise, n, x, y, theta);
+}
+#ifdef ORTUNG_X86
+ORTUNG_AVX2 void moveAvx2(const Step& step, const float* noise, std::size_t n, float* x, float* y,
+                          float* theta) {
+  moveAll(step, noise, n, x, y, theta);
+}
+ORTUNG_AVX512 void moveAvx512(const Step& step, const float* noise, std::size_t n, float* x,
+                              float* y, float* theta) {
+  moveAll(step, noise, n, x, y, theta);
+}
+#endif
+
+Move pickMove() {
+#ifdef ORTUNG_X86
+  if (instructionSet() == InstructionSet::kAvx512) return moveAvx512;
+  if (instructionSet() == InstructionSet::kAvx2) return moveAvx2;
+#endif
+  return movePortable;
+}
+
+/// Reads what may stand in [motion].
+OdometryNoise readNoise(const Parameters& motion) {
+  motion.textOr("plugin", "");
+  OdometryCorrection::read(motion);
+  return OdometryNoise::read(motion);
+}
+
+/// Enlarges the noise of every so manyth sample.
+void slip(double share, std::uint64_t first, std::size_t n, float* noise) {
+  if (share <= 0.0) return;
+  const auto period = static_cast<std::uint64_t>(std::lround(1.0 / share));
+  for (std::uint64_t i = (period - first % period) % period; i < n; i += period) {
+    for (std::size_t k = 0; k < kNumbersASample; ++k) noise[i * kNumbersASample + k] *= kSlip;
+  }
+}
+
+/// sigma of a learned variance, or @p old if nothing was learned. A drive that was too short to
+/// show any noise does not prove that there is none.
+double learnedSigma(double variance, double old) {
+  return variance < 0.0 ? old : std::max(std::sqrt(variance), kSmallestSigma);
+}
+
+}  // namespace
+
+/// Errors of odometry in all drives so far; the last one may go on.
+struct OdometryMotion::Learning {
+  std::vector<std::vector<MotionError>> turns{1};
+  std::vector<std::vector<MotionError>> ways{1};
+};
+
+void OdometryNoise::check() const {
+  for (const double sigma :
+       {turnPerTurn, turnPerMetre, wayPerMetre, wayPerTurn, floorMetres, floorRadians}) {
+    if (!(sigma >= 0.0 && sigma <= 100.0))
+      throw std::invalid_argument("odometry noise must be in [0, 100]");
+  }
+  if (!(slipShare >= 0.0 && slipShare <= 0.5))
+    throw std::invalid_argument("odometry noise: the share that slips must be in [0, 0.5]");
+}
+
+OdometryNoise OdometryNoise::read(const Parameters& p) {
+  OdometryNoise n;
+  const Range range{0.0, 100.0};
+  n.turnPerTurn = p.numberOr("turn_per_turn", n.turnPerTurn, range);
+  n.turnPerMetre = p.numberOr("turn_per_m", n.turnPerMetre, range);
+  n.wayPerMetre = p.numberOr("way_per_m", n.wayPerMetre, range);
+  n.wayPerTurn = p.numberOr("way_per_turn", n.wayPerTurn, range);
+  n.floorMetres = p.numberOr("floor_m", n.floorMetres, range);
+  n.floorRadians = kDegree * p.numberOr("floor_deg", n.floorRadians / kDegree, range);
+  n.slipShare = p.numberOr("slip_share", n.slipShare, {0.0, 0.5});
+  p.refuseUnread();
+  return n;
+}
+
+Pose2 OdometryCorrection::apply(const Pose2& change) const {
+  const double turn = (turnScale - 1.0) * change.theta + turnBiasPerMetre * change.x;
+  double scale = wayScale;
+  if (wayBiasPerRadian != 0.0) {
+    const double way = std::hypot(change.x, change.y);
+    const double more = wayBiasPerRadian * std::abs(change.theta);
+    if (way > 0.0) scale += std::clamp(more / way, -kMostWayBias, kMostWayBias);
+  }
+  if (turn == 0.0 && scale == 1.0) return change;
+  // The way points along half of the turn.
+  const double c = scale * std::cos(turn / 2.0);
+  const double s = scale * std::sin(turn / 2.0);
+  return {c * change.x - s * change.y, s * change.x + c * change.y, wrapAngle(change.theta + turn)};
+}
+
+OdometryCorrection OdometryCorrection::read(const Parameters& p) {
+  OdometryCorrection c;
+  c.wayScale = p.numberOr("way_scale", c.wayScale, {0.5, 2.0});
+  c.turnScale = p.numberOr("turn_scale", c.turnScale, {0.5, 2.0});
+  c.turnBiasPerMetre =
+      kDegree * p.numberOr("turn_bias_deg_per_m", c.turnBiasPerMetre / kDegree, {-180.0, 180.0});
+  c.wayBiasPerRadian = p.numberOr("way_bias_m_per_rad", c.wayBiasPerRadian, {-10.0, 10.0});
+  c.delay = p.numberOr("delay_s", c.delay, {-0.3, 2.0});
+  return c;
+}
+
+OdometryMotion::OdometryMotion(const OdometryNoise& noise, const OdometryCorrection& correction)
+    : noise_(noise), correction_(correction) {
+  noise_.check();
+  setDelay(correction_.delay);
+}
+
+OdometryMotion::OdometryMotion(const Parameters& motion)
+    : OdometryMotion(readNoise(motion), OdometryCorrection::read(motion)) {}
+
+OdometryMotion::~OdometryMotion() = default;
+
+void OdometryMotion::learnMotion(const Pose2& odometryChange, const Pose2& trueChange) {
+  if (!isFinite(odometryChange) || !isFinite(trueChange)) return;
+  if (!learning_) learning_ = std::make_unique<Learning>();
+  const double turn = odometryChange.theta;
+  const double way = std::hypot(odometryChange.x, odometryChange.y);
+  // Along where odometry says the way went; a way that is none points along half of the turn.
+  const double direction =
+      way < kShortestWay ? turn / 2.0 : std::atan2(odometryChange.y, odometryChange.x);
+  const double trueWay = trueChange.x * std::cos(direction) + trueChange.y * std::sin(direction);
+  learning_->turns.back().push_back(
+      {wrapAngle(trueChange.theta - turn), {turn, odometryChange.x}, {std::abs(turn), way}});
+  learning_->ways.back().push_back(
+      {trueWay - way, {way, way < kShortestWay ? 0.0 : std::abs(turn)}, {way, std::abs(turn)}});
+}
+
+void OdometryMotion::endDrive() {
+  if (!learning_ || learning_->turns.back().empty()) return;
+  learning_->turns.emplace_back();
+  learning_->ways.emplace_back();
+}
+
+double OdometryMotion::endLearning() {
+  const MotionFit turns = fitMotion(learning_ ? learning_->turns : Learning().turns);
+  const MotionFit ways = fitMotion(learning_->ways);
+  noise_.turnPerTurn = learnedSigma(turns.variance[0], noise_.turnPerTurn);
+  noise_.turnPerMetre = learnedSigma(turns.variance[1], noise_.turnPerMetre);
+  noise_.wayPerMetre = learnedSigma(ways.variance[0], noise_.wayPerMetre);
+  noise_.wayPerTurn = learnedSigma(ways.variance[1], noise_.wayPerTurn);
+  noise_.slipShare = std::min(std::max(turns.outliers, ways.outliers), kMostSlip);
+  noise_.check();
+  correction_.turnScale = std::clamp(1.0 + turns.scale[0], 0.5, 2.0);
+  correction_.turnBiasPerMetre = std::clamp(turns.scale[1], -3.0, 3.0);
+  correction_.wayScale = std::clamp(1.0 + ways.scale[0], 0.5, 2.0);
+  correction_.wayBiasPerRadian = std::clamp(ways.scale[1], -10.0, 10.0);
+  return turns.logLikelihood + ways.logLikelihood;
+}
+
+Parameters OdometryMotion::settings() const {
+  Parameters p("learned motion");
+  p.set("turn_per_turn", noise_.turnPerTurn);
+  p.set("turn_per_m", noise_.turnPerMetre);
+  p.set("way_per_m", noise_.wayPerMetre);
+  p.set("way_per_turn", noise_.wayPerTurn);
+  p.set("slip_share", noise_.slipShare);
+  p.set("floor_m", noise_.floorMetres);
+  p.set("floor_deg", noise_.floorRadians / kDegree);
+  p.set("way_scale", correction_.wayScale);
+  p.set("turn_scale", correction_.turnScale);
+  p.set("turn_bias_deg_per_m", correction_.turnBiasPerMetre / kDegree);
+  p.set("way_bias_m_per_rad", correction_.wayBiasPerRadian);
+  p.set("delay_s", delay());
+  return p;
+}
+
+void OdometryMotion::sampleMotion(const MovableSamples& samples, const Pose2& odometryChange,
+                                  std::uint64_t seed, std::uint64_t stream,
+                                  std::uint64_t first) const {
+  const Turns turns = decompose(correction_.apply(odometryChange));
+  const double turning = std::abs(turns.first) + std::abs(turns.second);
+  const double turnByWay =
+      0.5 * square(noise_.turnPerMetre) * std::abs(turns.way);  // half for each turn
+  const auto sigmaFirst =
+      static_cast<float>(std::sqrt(square(noise_.turnPerTurn) * std::abs(turns.first) + turnByWay));
+  const auto sigmaSecond =
+      static_cast<float>(std::sqrt(square(noise_.turnPerTurn) * std::abs(turns.second) + turnByWay +
+                                   square(noise_.floorRadians)));
+  const auto sigmaWay = static_cast<float>(
+      std::sqrt(square(noise_.wayPerMetre) * std::abs(turns.way) +
+                square(noise_.wayPerTurn) * turning + square(noise_.floorMetres)));
+  const Step step{static_cast<float>(turns.first),
+                  static_cast<float>(turns.way),
+                  static_cast<float>(turns.second),
+                  sigmaFirst,
+                  sigmaWay,
+                  sigmaSecond,
+                  static_cast<float>(noise_.floorMetres)};
+  const Move move = pickMove();
+  std::array<float, kBlock * kNumbersASample> noise;
+  for (std::size_t begin = 0; begin < samples.x.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, samples.x.size() - begin);
+    fillGaussian(seed, stream, (first + begin) * kNumbersASample,
+                 std::span(noise).first(count * kNumbersASample));
+    slip(noise_.slipShare, first + begin, count, noise.data());
+    move(step, noise.data(), count, samples.x.data() + begin, samples.y.data() + begin,
+         samples.theta.data() + begin);
+  }
+}
+
+}  // namespace ortung

@@ -1,0 +1,70 @@
+#include "ortung/motion/OdometryTrack.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ortung {
+namespace {
+
+constexpr double kLongestExtrapolation = 0.3;  // [s]
+
+/// The part @p share of a change of pose, along the arc that it is the end of.
+Pose2 part(const Pose2& change, double share) {
+  // The chord of an arc points along half its turn and is way * sinc(turn / 2) long.
+  const double half = change.theta / 2.0;
+  const double partHalf = share * half;
+  const double sincs = std::abs(half) < 1e-6 ? share : std::sin(partHalf) / std::sin(half);
+  const double c = sincs * std::cos(partHalf - half);
+  const double s = sincs * std::sin(partHalf - half);
+  return {c * change.x - s * change.y, s * change.x + c * change.y, share * change.theta};
+}
+
+/// Where a robot is after moving with constant velocities [m/s], [rad/s], seen from where it was.
+Pose2 arc(double v, double w, double seconds) {
+  const double turn = w * seconds;
+  const double way = v * seconds;
+  return {way * std::cos(turn / 2), way * std::sin(turn / 2), turn};
+}
+
+}  // namespace
+
+OdometryTrack::OdometryTrack(double kept) : kept_(kept) {}
+
+void OdometryTrack::add(Timestamp stamp, const Pose2& pose, double v, double w) {
+  // A clock that was set back begins anew; of two readings of one moment the later stays.
+  if (!readings_.empty() && stamp < readings_.back().stamp) readings_.clear();
+  if (!readings_.empty() && stamp == readings_.back().stamp) readings_.pop_back();
+  readings_.push_back({stamp, pose, v, w});
+  while (readings_.size() > 2 && toSeconds(stamp - readings_[1].stamp) > kept_)
+    readings_.pop_front();
+}
+
+std::deque<OdometryTrack::Reading>::const_iterator OdometryTrack::behind(Timestamp stamp) const {
+  return std::upper_bound(readings_.begin(), readings_.end(), stamp,
+                          [](Timestamp t, const Reading& r) { return t < r.stamp; });
+}
+
+std::optional<Pose2> OdometryTrack::at(Timestamp stamp) const {
+  if (readings_.empty()) return std::nullopt;
+  const auto next = behind(stamp);
+  if (next == readings_.begin() || next == readings_.end()) {
+    const Reading& nearest = next == readings_.begin() ? readings_.front() : readings_.back();
+    const double seconds =
+        std::clamp(toSeconds(stamp - nearest.stamp), -kLongestExtrapolation, kLongestExtrapolation);
+    return nearest.pose * arc(nearest.v, nearest.w, seconds);
+  }
+  const Reading& before = *std::prev(next);
+  const double share = toSeconds(stamp - before.stamp) / toSeconds(next->stamp - before.stamp);
+  return before.pose * part(inverse(before.pose) * next->pose, share);
+}
+
+double OdometryTrack::gapAt(Timestamp stamp) const {
+  const auto next = behind(stamp);
+  if (next == readings_.begin()) return std::numeric_limits<double>::infinity();
+  if (next == readings_.end()) {
+    return stamp == readings_.back().stamp ? 0.0 : std::numeric_limits<double>::infinity();
+  }
+  return toSeconds(next->stamp - std::prev(next)->stamp);
+}
+
+}  // namespace ortung

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "ortung/robot/RobotFile.hpp"
+
+namespace ortung {
+
+/// Reads a robot file that a stranger sent: at most kMaxNetworkConfigBytes, plugins of a list only, and
+/// nothing that could name a file of this computer: no text with a slash, no key `path` or `..._file`.
+/// @param name what errors call it
+/// @param plugins names that are permitted
+/// @throws ConfigError
+ORTUNG_API RobotConfig readNetworkRobot(std::string_view toml, const std::string& name,
+                                        std::span<const std::string> plugins);
+
+}  // namespace ortung

@@ -1,0 +1,69 @@
+#include "ortung/robot/NetworkRobot.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "ortung/robot/TomlFile.hpp"
+
+namespace ortung {
+namespace {
+
+/// Looks at every value of a robot file for what a stranger must not say.
+class Inspection {
+ public:
+  Inspection(const std::string& name, std::span<const std::string> plugins)
+      : name_(name), plugins_(plugins) {}
+
+  void inspect(const toml::table& table) const {
+    for (const auto& [key, node] : table) inspect(key.str(), node);
+  }
+
+ private:
+  void inspect(std::string_view key, const toml::node& node) const {
+    if (key == "path" || key == "file" || key.ends_with("_file") || key.ends_with("_path"))
+      refuse(key, node, "names a file, which a configuration from the network must not");
+    if (const auto* text = node.as_string()) inspectText(key, *text);
+    if (const auto* table = node.as_table()) inspect(*table);
+    if (const auto* list = node.as_array())
+      for (const toml::node& entry : *list) inspect(key, entry);
+  }
+
+  void inspectText(std::string_view key, const toml::value<std::string>& value) const {
+    const std::string& text = value.get();
+    const bool strange = std::any_of(text.begin(), text.end(), [](char c) {
+      return c == '/' || c == '\\' || (c >= 0 && c < 0x20) || c == 0x7F;
+    });
+    if (strange)
+      refuse(key, value, "has a slash or a control character, which a configuration from the "
+                         "network must not");
+    if (key == "plugin" && std::find(plugins_.begin(), plugins_.end(), text) == plugins_.end())
+      refuse(key, value, "is not one of the plugins of this server:" + list());
+  }
+
+  std::string list() const {
+    std::string text;
+    for (const std::string& plugin : plugins_) text += " " + plugin;
+    return text;
+  }
+
+  [[noreturn]] void refuse(std::string_view key, const toml::node& node,
+                           const std::string& what) const {
+    throw ConfigError(name_ + ":" + std::to_string(node.source().begin.line) + ": " +
+                      std::string(key) + " " + what);
+  }
+
+  const std::string& name_;
+  std::span<const std::string> plugins_;
+};
+
+}  // namespace
+
+RobotConfig readNetworkRobot(std::string_view toml, const std::string& name,
+                             std::span<const std::string> plugins) {
+  const Parameters parameters = parseToml(toml, name, kMaxNetworkConfigBytes);
+  Inspection(name, plugins).inspect(toml::parse(toml, name));  // it has passed parseToml's bounds
+  return readRobot(parameters);
+}
+
+}  // namespace ortung

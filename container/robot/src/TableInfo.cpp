@@ -1,0 +1,129 @@
+#include "ortung/robot/TableInfo.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+namespace ortung {
+namespace {
+
+constexpr int kFormat = 1;
+constexpr const char* kMeta = "meta.json";
+using Json = nlohmann::json;
+
+/// The member @p key of kind T, or an error that names the file and the key.
+template <class T>
+T take(const TableFile& file, const Json& json, const char* key) {
+  try {
+    return json.at(key).get<T>();
+  } catch (const Json::exception&) {
+    throw TableError(file.path().string() + ": " + kMeta + ": '" + key + "' is missing or of the wrong kind");
+  }
+}
+
+FieldRegion readRegion(const TableFile& file, const Json& meta) {
+  FieldRegion region;
+  FieldGrid& grid = region.grid;
+  grid.originX = take<double>(file, meta, "origin_x_m");
+  grid.originY = take<double>(file, meta, "origin_y_m");
+  grid.cell = take<double>(file, meta, "cell_m");
+  const TableArray& open = file.array("open");
+  if (open.shape.size() != 2 || open.shape[0] > 1u << 20 || open.shape[1] > 1u << 20) {
+    throw TableError(file.path().string() + ": table open has an impossible shape");
+  }
+  grid.rows = static_cast<int>(open.shape[0]);
+  grid.columns = static_cast<int>(open.shape[1]);
+  for (const auto& [name, mask] : {std::pair("open", &region.open), {"standable", &region.standable}}) {
+    const auto cells = file.get<std::uint8_t>(name, open.shape);
+    mask->assign(cells.begin(), cells.end());
+  }
+  try {
+    region.check();
+  } catch (const std::invalid_argument& error) {
+    throw TableError(file.path().string() + ": " + error.what());
+  }
+  return region;
+}
+
+}  // namespace
+
+void writeTables(const std::filesystem::path& file, const SensorContainer& container,
+                 const TableInfo& info) {
+  TableWriter writer(file);
+  Json meta;
+  meta["format"] = "ortung tables";
+  meta["version"] = kFormat;
+  meta["world"] = info.world;
+  meta["world_fingerprint"] = info.worldFingerprint;
+  meta["robot"] = info.robot;
+  meta["heading_step_rad"] = info.headingStep;
+  const FieldGrid& grid = info.region.grid;
+  meta["origin_x_m"] = grid.originX;
+  meta["origin_y_m"] = grid.originY;
+  meta["cell_m"] = grid.cell;
+  meta["features"] = Json::array();
+  const std::vector<std::size_t> shape = {static_cast<std::size_t>(grid.rows),
+                                          static_cast<std::size_t>(grid.columns)};
+  writer.add<std::uint8_t>("open", shape, info.region.open);
+  writer.add<std::uint8_t>("standable", shape, info.region.standable);
+  std::set<std::string> prefixes;
+  for (const auto& data : container.all()) {
+    if (!data->isLearned()) continue;
+    std::string prefix = data->id().model + "." + data->id().type + "." + data->id().feature + ".";
+    // "a.b/c/d" and "a/b.c/d" look alike here.
+    while (!prefixes.insert(prefix).second) prefix = "_" + prefix;
+    data->saveTables(writer, prefix);
+    meta["features"].push_back({{"id", toText(data->id())}, {"key", data->learningKey()}, {"prefix", prefix}});
+  }
+  writer.addText(kMeta, meta.dump(1) + "\n");
+  writer.commit();
+}
+
+TableInfo readTableInfo(const TableFile& file) {
+  const Json meta = Json::parse(file.text(kMeta), nullptr, false);
+  if (meta.is_discarded() || !meta.is_object()) {
+    throw TableError(file.path().string() + ": " + kMeta + " is no JSON object");
+  }
+  const int version = take<int>(file, meta, "version");
+  if (take<std::string>(file, meta, "format") != "ortung tables" || version != kFormat) {
+    throw TableError(file.path().string() + ": has format version " + std::to_string(version) +
+                     ", this program reads " + std::to_string(kFormat) + "; learn the tables again");
+  }
+  TableInfo info;
+  info.world = take<std::string>(file, meta, "world");
+  info.worldFingerprint = take<std::string>(file, meta, "world_fingerprint");
+  info.robot = take<std::string>(file, meta, "robot");
+  info.headingStep = take<double>(file, meta, "heading_step_rad");
+  if (!(info.headingStep > 1e-4 && info.headingStep <= 2 * std::numbers::pi)) {
+    throw TableError(file.path().string() + ": the heading step is not in (0.0001, 2 pi]");
+  }
+  info.region = readRegion(file, meta);
+  for (const Json& feature : take<std::vector<Json>>(file, meta, "features")) {
+    info.features.push_back({take<std::string>(file, feature, "id"), take<std::string>(file, feature, "key"),
+                             take<std::string>(file, feature, "prefix")});
+  }
+  return info;
+}
+
+TableInfo loadTables(const std::shared_ptr<const TableFile>& file, const SensorContainer& container) {
+  TableInfo info = readTableInfo(*file);
+  for (const auto& data : container.all()) {
+    if (!data->localizes()) continue;
+    const std::string id = toText(data->id());
+    const auto it = std::find_if(info.features.begin(), info.features.end(),
+                                 [&](const TableInfo::Feature& f) { return f.id == id; });
+    if (it == info.features.end()) {
+      throw TableError(file->path().string() + ": has no tables of " + id +
+                       ", so it was learned for another robot ('" + info.robot + "'); learn again");
+    }
+    if (it->key != data->learningKey()) {
+      throw TableError(file->path().string() + ": the tables of " + id + " were learned for another sensor: found '" +
+                       it->key + "', the robot file says '" + data->learningKey() + "'; learn again");
+    }
+    data->loadTables(file, it->prefix, info.region.grid);
+  }
+  return info;
+}
+
+}  // namespace ortung

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/TableFile.hpp"
+
+namespace ortung {
+
+/// Levels 0..254 for ranges, fine where the sensor is fine: one sensor sigma is the same number of
+/// levels at every range, so a sensor model over the difference of levels serves all ranges.
+/// Level 255 means "nothing within range".
+class ORTUNG_API RangeScale {
+ public:
+  static constexpr std::uint8_t kNothing = 255;
+
+  RangeScale() = default;
+  /// @param maxRange readings at or beyond it see nothing [m]
+  RangeScale(double maxRange, double sigma, double sigmaPerMetre);
+
+  std::uint8_t level(double range) const;   ///< kNothing at or beyond maxRange
+  double range(std::uint8_t level) const;   ///< middle of the level [m]; maxRange for kNothing
+  double levelsPerSigma() const { return levelsPerSigma_; }
+  double maxRange() const { return maxRange_; }
+
+ private:
+  double place(double range) const;
+  double maxRange_ = 1.0;
+  double sigma_ = 1.0;
+  double sigmaPerMetre_ = 0.0;
+  double levelsPerSigma_ = 1.0;
+};
+
+/// Expected range by cell and direction in the field frame, one byte each (RangeScale levels).
+/// The ray table: one serves all beams of a scan, since a beam's expectation depends on
+/// heading + beam angle. It also serves as the pose table of range cones.
+/// Rows exist for open cells only; the directions of a cell lie contiguously, their beginning
+/// repeated behind the end so that a run of `longestRun` directions never wraps.
+class ORTUNG_API DirectionTable {
+ public:
+  static constexpr int kSlack = 64;
+  static constexpr int kMostDirections = 36000;
+
+  DirectionTable() = default;
+
+  /// @param directions directions a turn, at least 1; direction k is 2 pi k / directions
+  void start(const FieldRegion& region, int directions, int longestRun);
+  /// Sets the level of the direction nearest to @p angle, unless an angle nearer to that direction
+  /// was learned before. Cells that are not open are ignored.
+  void learn(double x, double y, double angle, std::uint8_t level);
+  /// Gives directions that no angle fell on the level of a neighbour at most kWidestGap away,
+  /// drops rows that still have holes, and repeats the beginnings of rows behind their ends.
+  void finish();
+  static constexpr int kWidestGap = 2;
+
+  int directions() const { return directions_; }
+  double step() const;  ///< [rad]
+  const FieldGrid& grid() const { return grid_; }
+  /// Row of levels of the cell that holds the point, or nullptr.
+  /// directions() + longestRun entries can be read, and kSlack more bytes belong to the table, so
+  /// that whole vectors may be loaded.
+  const std::uint8_t* row(double x, double y) const {
+    const std::ptrdiff_t cell = grid_.cellAt(x, y);
+    return cell < 0 ? nullptr : rowOfCell(cell);
+  }
+  const std::uint8_t* rowOfCell(std::ptrdiff_t cell) const {
+    const std::int32_t row = rowOf_[static_cast<std::size_t>(cell)];
+    return row < 0 ? nullptr : levels_.data() + static_cast<std::size_t>(row) * stride_;
+  }
+  /// Nearest direction to @p angle, in [0, directions()).
+  int directionOf(double angle) const;
+
+  std::span<const std::int32_t> rowIndex() const { return rowOf_; }
+  std::span<const std::uint8_t> levels() const { return levels_; }
+  std::size_t stride() const { return stride_; }
+
+  void save(TableWriter& file, const std::string& prefix) const;
+  /// @param longestRunOf longest run by number of directions, as given to start()
+  /// @throws TableError also for row numbers outside of the table
+  void load(const TableFile& file, const std::string& prefix, const FieldGrid& grid,
+            const std::function<int(int)>& longestRunOf);
+
+ private:
+  FieldGrid grid_;
+  int directions_ = 1;
+  std::size_t stride_ = 1;
+  std::vector<std::int32_t> ownRowOf_;
+  std::vector<std::uint8_t> ownLevels_;
+  std::vector<std::uint8_t> closeness_;  ///< while learning: of the angle learned; 0: none yet
+  std::span<const std::int32_t> rowOf_;
+  std::span<const std::uint8_t> levels_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+
+namespace ortung {
+
+/// Square cells over the field. Cell (column, row) covers
+/// [originX + column * cell, originX + (column + 1) * cell) and likewise in y;
+/// its index is row * columns + column.
+struct FieldGrid {
+  double originX = 0.0;  ///< [m], lower left corner
+  double originY = 0.0;  ///< [m]
+  double cell = 0.1;     ///< edge of a cell [m], positive
+  int columns = 0;
+  int rows = 0;
+
+  std::size_t size() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+  /// Index of the cell that holds the point, or -1 outside (and for NaN).
+  std::ptrdiff_t cellAt(double x, double y) const {
+    const double column = std::floor((x - originX) / cell);
+    const double row = std::floor((y - originY) / cell);
+    if (!(column >= 0 && row >= 0 && column < columns && row < rows)) return -1;
+    return static_cast<std::ptrdiff_t>(row) * columns + static_cast<std::ptrdiff_t>(column);
+  }
+  double centreX(std::size_t index) const {
+    return originX + (static_cast<double>(index % static_cast<std::size_t>(columns)) + 0.5) * cell;
+  }
+  double centreY(std::size_t index) const {
+    return originY + (static_cast<double>(index / static_cast<std::size_t>(columns)) + 0.5) * cell;
+  }
+  bool operator==(const FieldGrid&) const = default;
+};
+
+/// The part of the plane that is learned: where a sensor can be and where the robot can stand.
+/// Both masks have grid.size() entries, 0 or 1.
+struct FieldRegion {
+  FieldGrid grid;
+  std::vector<std::uint8_t> open;       ///< centre of the cell is not inside anything solid
+  std::vector<std::uint8_t> standable;  ///< the robot's body fits with its centre here
+
+  /// @throws std::invalid_argument when sizes do not fit or nothing is standable
+  ORTUNG_API void check() const;
+};
+
+}  // namespace ortung

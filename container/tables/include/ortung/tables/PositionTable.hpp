@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/TableFile.hpp"
+
+namespace ortung {
+
+/// Expectation by position (x, y), for what does not depend on heading: distances, and directions
+/// in the field frame. One 16-bit level a cell.
+class ORTUNG_API CellTable {
+ public:
+  static constexpr std::uint16_t kNone = 0xFFFF;  ///< no expectation in this cell
+
+  void start(const FieldGrid& grid);
+  void set(double x, double y, std::uint16_t level);  ///< outside the grid: ignored
+  std::uint16_t at(double x, double y) const {
+    const std::ptrdiff_t cell = grid_.cellAt(x, y);
+    return cell < 0 ? kNone : levels_[static_cast<std::size_t>(cell)];
+  }
+  const FieldGrid& grid() const { return grid_; }
+  std::span<const std::uint16_t> levels() const { return levels_; }
+  void save(TableWriter& file, const std::string& name) const;  ///< shape (rows, columns)
+  void load(const TableFile& file, const std::string& name, const FieldGrid& grid);
+
+ private:
+  FieldGrid grid_;
+  std::vector<std::uint16_t> own_;         ///< while learning
+  std::span<const std::uint16_t> levels_;  ///< own_ or the mapped file
+};
+
+/// Distance by position [m]; one level is `metresPerLevel`.
+class ORTUNG_API PositionTable {
+ public:
+  explicit PositionTable(double maxRange);
+  void start(const FieldGrid& grid) { cells_.start(grid); }
+  void learn(double x, double y, double range);
+  /// Expected distance [m], or NaN.
+  float at(double x, double y) const;
+  double metresPerLevel() const { return metresPerLevel_; }
+  CellTable& cells() { return cells_; }
+  const CellTable& cells() const { return cells_; }
+
+ private:
+  double metresPerLevel_;
+  CellTable cells_;
+};
+
+/// Direction in the field frame by position; the expected bearing is this minus the heading.
+/// One level is 2 pi / 65535.
+class ORTUNG_API BearingTable {
+ public:
+  static constexpr double kRadiansPerLevel = 2 * std::numbers::pi / 65535;
+  void start(const FieldGrid& grid) { cells_.start(grid); }
+  void learn(double x, double y, double directionInField);
+  /// Expected direction in the field frame [rad], or NaN.
+  float at(double x, double y) const;
+  CellTable& cells() { return cells_; }
+  const CellTable& cells() const { return cells_; }
+
+ private:
+  CellTable cells_;
+};
+
+}  // namespace ortung

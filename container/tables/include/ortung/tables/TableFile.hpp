@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+
+namespace ortung {
+
+/// A table file that can't be used; the message names the file, what was found and expected.
+class ORTUNG_API TableError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~TableError() override;
+};
+
+enum class ElementType : std::uint8_t { kUint8, kUint16, kInt32, kFloat32, kFloat64 };
+
+/// One array of a table file: row-major, little-endian, 64-byte aligned in the file.
+struct TableArray {
+  std::string name;
+  ElementType type = ElementType::kUint8;
+  std::vector<std::size_t> shape;
+  std::span<const std::byte> bytes;
+};
+
+/// Writes a table file: a store-only zip of .npy arrays and meta.json, so `numpy.load` reads it.
+/// The old file stays whole until commit() has put the new one in its place.
+class ORTUNG_API TableWriter {
+ public:
+  explicit TableWriter(std::filesystem::path file);
+  ~TableWriter();  ///< without commit(): leaves nothing behind
+  TableWriter(const TableWriter&) = delete;
+  TableWriter& operator=(const TableWriter&) = delete;
+
+  /// Adds one array; its bytes are written at once. @p name of [A-Za-z0-9_.-], unique.
+  template <class T>
+  void add(const std::string& name, std::vector<std::size_t> shape, std::span<const T> values);
+  void addBytes(const TableArray& array);
+
+  /// Adds a text member, e.g. meta.json.
+  void addText(const std::string& name, const std::string& text);
+
+  /// Writes the directory, syncs and renames. @throws TableError
+  void commit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A table file, memory-mapped and read-only; spans stay valid while it lives.
+class ORTUNG_API TableFile {
+ public:
+  /// Maps the file and checks structure, sizes and checksums of all members.
+  /// @throws TableError
+  explicit TableFile(const std::filesystem::path& file);
+  ~TableFile();
+  TableFile(const TableFile&) = delete;
+  TableFile& operator=(const TableFile&) = delete;
+
+  const std::filesystem::path& path() const;
+  const std::vector<TableArray>& arrays() const;
+  std::string text(const std::string& name) const;  ///< @throws TableError if missing
+
+  /// The array @p name as elements of T. @throws TableError if it is missing, of another type or
+  /// does not have the shape @p shape (0 = any extent).
+  template <class T>
+  std::span<const T> get(const std::string& name, const std::vector<std::size_t>& shape) const;
+  const TableArray& array(const std::string& name) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// --- templates -----------------------------------------------------------------------------
+template <class T>
+struct ElementOf;
+template <>
+struct ElementOf<std::uint8_t> { static constexpr ElementType kType = ElementType::kUint8; };
+template <>
+struct ElementOf<std::uint16_t> { static constexpr ElementType kType = ElementType::kUint16; };
+template <>
+struct ElementOf<std::int32_t> { static constexpr ElementType kType = ElementType::kInt32; };
+template <>
+struct ElementOf<float> { static constexpr ElementType kType = ElementType::kFloat32; };
+template <>
+struct ElementOf<double> { static constexpr ElementType kType = ElementType::kFloat64; };
+
+ORTUNG_API void checkArray(const TableFile& file, const TableArray& array, ElementType type,
+                           const std::vector<std::size_t>& shape);
+
+template <class T>
+void TableWriter::add(const std::string& name, std::vector<std::size_t> shape,
+                      std::span<const T> values) {
+  addBytes({name, ElementOf<T>::kType, std::move(shape), std::as_bytes(values)});
+}
+
+template <class T>
+std::span<const T> TableFile::get(const std::string& name,
+                                  const std::vector<std::size_t>& shape) const {
+  const TableArray& found = array(name);
+  checkArray(*this, found, ElementOf<T>::kType, shape);
+  return {reinterpret_cast<const T*>(found.bytes.data()), found.bytes.size() / sizeof(T)};
+}
+
+}  // namespace ortung

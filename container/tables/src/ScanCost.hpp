@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/InstructionSet.hpp"
+
+/// Cost of a scan against rows of expected levels: the inner loop of weighting.
+namespace ortung {
+
+inline constexpr std::size_t kScanBlock = 64;  ///< readings are padded to a multiple of this
+inline constexpr std::size_t kLevelDifferences =
+    32;  ///< the sensor model's table; the last entry is the floor
+
+/// A reading in the terms of a row of expected levels, beam j of the row's run at index j.
+struct ScanReading {
+  std::span<const std::uint8_t> levels;  ///< RangeScale levels, size a multiple of kScanBlock
+  std::span<const std::uint8_t> caps;    ///< greatest cost of each beam; 0: not used (and padding)
+  std::array<std::uint8_t, kLevelDifferences> costs{};  ///< by difference of levels, not falling
+};
+
+/// costs[i] = sum over beams j of min(caps[j], reading.costs[min(31, |rows[i][j] - levels[j]|)]).
+/// Rows must be readable for levels.size() bytes. All kernels give the same sums.
+using ScanCostKernel = void (*)(const ScanReading& reading,
+                                std::span<const std::uint8_t* const> rows, std::uint32_t* costs);
+
+/// The kernel for an instruction set, or nullptr if this machine (or build) does not have it.
+ORTUNG_API ScanCostKernel scanCostKernel(InstructionSet set);
+
+/// The kernel for instructionSet().
+ORTUNG_API ScanCostKernel scanCostKernel();
+
+}  // namespace ortung

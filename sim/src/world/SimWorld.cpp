@@ -1,0 +1,200 @@
+#include "ortung/sim/SimWorld.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "BodyRays.hpp"
+#include "FreeSpace.hpp"
+#include "RayCaster.hpp"
+#include "WorldModel.hpp"
+#include "ortung/base/Parameters.hpp"
+
+namespace ortung {
+
+SimWorld::~SimWorld() = default;
+
+namespace {
+
+constexpr std::size_t kMaxBodies = 4096;
+constexpr Range kBodySize{0.001, 100.0};  ///< [m]
+
+bool isSane(const RayFan& fan) {
+  for (const double value : {fan.x, fan.y, fan.z, fan.firstAngle, fan.angleStep, fan.elevation})
+    if (!std::isfinite(value)) return false;
+  return fan.maxRange >= 0.0 && std::isfinite(fan.maxRange);
+}
+
+class ModelledWorld final : public SimWorld {
+ public:
+  explicit ModelledWorld(WorldModel model)
+      : model_(std::move(model)),
+        fingerprint_(fingerprintOf(model_)),
+        space_(model_),
+        rays_(makeMesh(model_)),
+        lines_(linesOf(model_)) {
+    for (const Primitive& primitive : model_.primitives)
+      if (primitive.isSolid()) objects_.push_back(objectOf(primitive));
+    fixedObjects_ = objects_.size();
+  }
+
+  const std::string& name() const override { return model_.name; }
+  std::string fingerprint() const override { return fingerprint_; }
+  FieldRegion region(double cell, const RobotSize& robot) const override {
+    return space_.region(cell, robot);
+  }
+  std::span<const Landmark> landmarks() const override { return model_.landmarks; }
+  std::span<const FieldLine> lines() const override { return lines_; }
+  std::span<const WorldObject> objects() const override { return objects_; }
+  const PhysicsConfig& physics() const override { return model_.physics; }
+  bool isFree(double x, double y, const RobotSize& size) const override {
+    return space_.isFree(x, y, size);
+  }
+
+  void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const override {
+    if (!isSane(fan)) {
+      std::fill(ranges.begin(), ranges.end(),
+                fan.maxRange > 0.0 ? static_cast<float>(fan.maxRange) : 0.0f);
+      return;
+    }
+    rays_.castFan(fan, ranges);
+    bodies_.castFan(fan, ignore, ranges);
+  }
+
+  bool isVisible(double x0, double y0, double z0, double x1, double y1, double z1,
+                 RobotNumber ignore, double slack) const override {
+    const std::array<double, 3> way{x1 - x0, y1 - y0, z1 - z0};
+    const double length = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    if (!std::isfinite(length) || std::isnan(slack)) return false;
+    if (length <= slack) return true;
+    const std::array<double, 3> from{x0, y0, z0};
+    const std::array<double, 3> direction{way[0] / length, way[1] / length, way[2] / length};
+    return !rays_.isBlocked(from, direction, length - slack) &&
+           !bodies_.isBlocked(from, direction, length - slack, ignore);
+  }
+
+  RobotNumber addBody(const MovingBody& body, const Pose2& pose) override {
+    checkPieces(body.pieces);
+    if (!isFinite(pose)) throw std::invalid_argument("a body's pose that is not finite");
+    if (numbers_.size() >= kMaxBodies)
+      throw std::invalid_argument("there are " + std::to_string(kMaxBodies) +
+                                  " moving bodies already, which is the most");
+    const RobotNumber number = ++lastNumber_;
+    WorldObject object;
+    object.kind = body.kind;
+    object.name = body.name;
+    object.colour = body.colour;
+    object.isMovable = true;
+    object.robot = body.kind == "robot" ? number : 0;
+    object.pose = pose;
+    measure(body.pieces, object);
+    numbers_.push_back(number);
+    objects_.push_back(std::move(object));
+    bodies_.add(body.pieces, number, pose);
+    return number;
+  }
+
+  void moveBody(RobotNumber body, const Pose2& pose, const Twist& velocity) override {
+    if (!isFinite(pose)) throw std::invalid_argument("a body's pose that is not finite");
+    const std::size_t place = find(body);
+    objects_[fixedObjects_ + place].pose = pose;
+    objects_[fixedObjects_ + place].velocity = velocity;
+    bodies_.move(place, pose);
+  }
+
+  void reshapeBody(RobotNumber body, std::span<const Primitive> pieces) override {
+    const std::size_t place = find(body);
+    checkPieces(pieces);
+    bodies_.reshape(place, pieces);
+    measure(pieces, objects_[fixedObjects_ + place]);
+  }
+
+  void removeBody(RobotNumber body) override {
+    const std::size_t place = find(body);
+    bodies_.remove(place);
+    objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(fixedObjects_ + place));
+    numbers_.erase(numbers_.begin() + static_cast<std::ptrdiff_t>(place));
+  }
+
+  Solids solids() const override {
+    Solids solids;
+    solids.bounds = model_.bounds;
+    for (const Primitive& primitive : model_.primitives)
+      if (primitive.isSolid()) solids.primitives.push_back(primitive);
+    for (const GridBody& body : model_.grids)
+      forOutline(body, [&](const Point2& from, const Point2& to) {
+        solids.walls.push_back({from, to, body.zLow, body.zHigh});
+      });
+    return solids;
+  }
+  std::span<const Primitive> movables() const override { return model_.movables; }
+
+ private:
+  static void checkPieces(std::span<const Primitive> pieces) {
+    if (pieces.empty()) throw std::invalid_argument("a moving body has no pieces");
+    for (const Primitive& piece : pieces) {
+      const Box2 box = boundsOf(piece);
+      const double least = piece.shape == Primitive::Shape::triangle
+                               ? std::min(box.xHigh - box.xLow, box.yHigh - box.yLow)
+                               : 2.0 * std::min(piece.halfX, piece.halfY);
+      const double height = piece.zHigh - piece.zLow;
+      for (const double coordinate : {box.xLow, box.xHigh, box.yLow, box.yHigh, piece.zLow})
+        if (!(std::abs(coordinate) <= kBodySize.high))
+          throw std::invalid_argument("a piece of a moving body is " + std::to_string(coordinate) +
+                                      " m away from its middle, expected at most 100");
+      if (!(least >= kBodySize.low) || !(height >= kBodySize.low && height <= kBodySize.high))
+        throw std::invalid_argument("a piece of a moving body is " + std::to_string(least) +
+                                    " m wide and " + std::to_string(height) +
+                                    " m high, expected 0.001 to 100");
+    }
+  }
+
+  /// The extent of a body around its own origin.
+  static void measure(std::span<const Primitive> pieces, WorldObject& object) {
+    object.halfX = object.halfY = object.radius = 0.0;
+    object.zLow = pieces.front().zLow;
+    object.zHigh = pieces.front().zHigh;
+    object.isRound = pieces.size() == 1 && pieces.front().shape == Primitive::Shape::ellipse;
+    for (const Primitive& piece : pieces) {
+      const Box2 box = boundsOf(piece);
+      object.halfX = std::max({object.halfX, std::abs(box.xLow), std::abs(box.xHigh)});
+      object.halfY = std::max({object.halfY, std::abs(box.yLow), std::abs(box.yHigh)});
+      object.zLow = std::min(object.zLow, piece.zLow);
+      object.zHigh = std::max(object.zHigh, piece.zHigh);
+      object.radius = std::max(object.radius, reachOf(piece));
+    }
+  }
+
+  std::size_t find(RobotNumber body) const {
+    const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), body);
+    if (found == numbers_.end() || *found != body)
+      throw std::invalid_argument("there is no moving body " + std::to_string(body));
+    return static_cast<std::size_t>(found - numbers_.begin());
+  }
+
+  WorldModel model_;
+  std::string fingerprint_;
+  FreeSpace space_;
+  RayCaster rays_;
+  std::vector<FieldLine> lines_;
+  std::vector<WorldObject> objects_;  ///< first what is fixed, then what moves
+  std::size_t fixedObjects_ = 0;
+  BodyRays bodies_;
+  std::vector<RobotNumber> numbers_;  ///< of moving bodies, in the order of objects_, rising
+  RobotNumber lastNumber_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<SimWorld> readWorld(const std::filesystem::path& file) {
+  WorldModel model = readWorldModel(file);
+  try {
+    return std::make_unique<ModelledWorld>(std::move(model));
+  } catch (const std::runtime_error& error) {
+    throw ConfigError(file.string() + ": " + error.what());
+  } catch (const std::logic_error& error) {  // too many walls
+    throw ConfigError(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace ortung

@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "PrimitiveFile.hpp"
+#include "ReadTables.hpp"
+#include "WorldModel.hpp"
+#include "ortung/robot/TomlFile.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMaxPrimitives = 65536;
+constexpr std::size_t kMaxGrids = 16;
+constexpr double kDefaultMarkHeight = 0.5;  ///< [m]
+constexpr Range kIdentity{0.0, 4294967295.0};
+constexpr double kBallMass = 0.43;  ///< of a football of size 5 [kg]
+constexpr std::size_t kMaxMovables = 256;
+
+/// A kind that nothing here knows is most likely misspelt, unless it is that of a landmark.
+std::string readKind(const Parameters& table, bool hasIdentity) {
+  static constexpr std::array kKinds{"wall", "goal", "post", "line", "ball", "obstacle", "other"};
+  const std::string kind = table.textOr("kind", "obstacle");
+  const bool known = std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
+  if (known || (hasIdentity && isWord(kind))) return kind;
+  std::string choices;
+  for (const char* choice : kKinds) choices += (choices.empty() ? "" : ", ") + std::string(choice);
+  table.fail("kind", "is \"" + kind + "\", expected one of " + choices +
+                         "; only a landmark (with an identity) may be of another kind, of "
+                         "[A-Za-z0-9_-]{1,64}");
+}
+
+/// A ball rolls unless the file says otherwise; all else stands unless it says so.
+void readMechanics(const Parameters& table, Primitive& primitive) {
+  if (table.has("friction")) primitive.friction = table.number("friction", {0.0, 10.0});
+  if (table.has("restitution")) primitive.restitution = table.number("restitution", {0.0, 1.0});
+  const bool isBall = primitive.kind == "ball";
+  primitive.isMovable = table.flagOr("movable", isBall);
+  if (!primitive.isMovable) {
+    if (table.has("mass_kg")) table.fail("mass_kg", "does not fit what is not movable");
+    return;
+  }
+  if (primitive.identity)
+    table.fail("identity", "does not fit what is movable: landmarks stay where they are");
+  if (!isBall && !table.has("mass_kg"))
+    table.fail("mass_kg", "is missing, which everything movable needs but a ball");
+  primitive.mass =
+      isBall ? table.numberOr("mass_kg", kBallMass, kMass) : table.number("mass_kg", kMass);
+}
+
+void readCommon(const Parameters& table, Primitive& primitive) {
+  primitive.name = table.textOr("name", "");
+  checkPrintable(table, "name", primitive.name);
+  if (table.has("identity"))
+    primitive.identity = static_cast<std::uint32_t>(table.integer("identity", kIdentity));
+  primitive.kind = readKind(table, primitive.identity.has_value());
+  primitive.colour = readColour(table);
+  if (!primitive.isSolid()) {
+    if (table.has("z_m")) table.fail("z_m", "does not fit a line, which is flat");
+    primitive.zHigh = 0.0;
+    return;
+  }
+  readHeights(table, primitive);
+  readMechanics(table, primitive);
+}
+
+Primitive readPrimitive(const Parameters& table, Primitive::Shape shape) {
+  Primitive primitive;
+  primitive.shape = shape;
+  readCommon(table, primitive);
+  readOutline(table, primitive);
+  if (primitive.isSolid() || shape != Primitive::Shape::ellipse) return primitive;
+  // Circles painted on the floor.
+  primitive.stroke = table.numberOr("stroke_m", 0.0, {0.0, 10.0});
+  const auto arc = table.numbersOr("arc_deg", {0.0, 360.0}, 2, {-360.0, 720.0});
+  if (!(arc[0] < arc[1] && arc[1] - arc[0] <= 360.0))
+    table.fail("arc_deg", "must be [from, to] with from below to by at most 360");
+  primitive.arcFrom = radians(arc[0]);
+  primitive.arcTo = radians(arc[1]);
+  return primitive;
+}
+
+GridBody readGrid(const Parameters& table, const std::filesystem::path& folder) {
+  GridBody body;
+  Primitive heights;
+  readHeights(table, heights);
+  body.zLow = heights.zLow;
+  body.zHigh = heights.zHigh;
+  const double margin = table.numberOr("unknown_margin_m", 0.5, {0.0, 100.0});
+  const double depthInCells = table.numberOr("surface_depth_cells", 0.0, {0.0, 1.0});
+  checkPrintable(table, "name", table.textOr("name", ""));
+  const std::string map = table.text("map");
+  if (map.empty() || map.find('\0') != std::string::npos) table.fail("map", "names no file");
+  try {
+    body.map = readGridMap(folder / map);
+  } catch (const MapError& error) {
+    table.fail("map", error.what());
+  }
+  body.surfaceDepth = depthInCells * body.map.cell;
+  markUnknownNearFree(body.map, margin);
+  return body;
+}
+
+Landmark readLandmark(const Parameters& table) {
+  Landmark mark;
+  checkPrintable(table, "name", table.textOr("name", ""));
+  mark.identity = static_cast<std::uint32_t>(table.integer("identity", kIdentity));
+  mark.kind = table.text("kind");
+  if (!isWord(mark.kind)) table.fail("kind", "must be of [A-Za-z0-9_-]{1,64}");
+  const auto position = table.numbers("position_m", -1, kCoordinate);
+  if (position.size() != 2 && position.size() != 3)
+    table.fail("position_m", "must be [x, y] or [x, y, z]");
+  mark.x = position[0];
+  mark.y = position[1];
+  mark.z = position.size() == 3 ? position[2] : kDefaultMarkHeight;
+  return mark;
+}
+
+class Extent {
+ public:
+  void add(const Box2& box) {
+    if (isEmpty_) box_ = box;
+    isEmpty_ = false;
+    box_ = {std::min(box_.xLow, box.xLow), std::max(box_.xHigh, box.xHigh),
+            std::min(box_.yLow, box.yLow), std::max(box_.yHigh, box.yHigh)};
+  }
+  bool isEmpty() const { return isEmpty_; }
+  const Box2& box() const { return box_; }
+
+ private:
+  bool isEmpty_ = true;
+  Box2 box_;
+};
+
+Extent extentOf(const WorldModel& world) {
+  Extent extent;
+  for (const Primitive& primitive : world.primitives) extent.add(boundsOf(primitive));
+  for (const GridBody& body : world.grids) {
+    const GridMap& map = body.map;
+    extent.add({map.originX, map.originX + map.columns * map.cell, map.originY,
+                map.originY + map.rows * map.cell});
+  }
+  for (const Landmark& mark : world.landmarks) extent.add({mark.x, mark.x, mark.y, mark.y});
+  return extent;
+}
+
+void readBounds(const Parameters& file, const Parameters& table, WorldModel& world) {
+  const Extent extent = extentOf(world);
+  if (extent.isEmpty())
+    throw ConfigError(file.where() +
+                      ": the world is empty, expected at least one [[rectangle]], "
+                      "[[ellipse]], [[triangle]], [[grid]] or [[landmark]]");
+  const Box2& box = extent.box();
+  const auto x = table.numbersOr("x_m", {box.xLow, box.xHigh}, 2, kCoordinate);
+  const auto y = table.numbersOr("y_m", {box.yLow, box.yHigh}, 2, kCoordinate);
+  if (!(x[1] - x[0] >= kSize.low)) table.fail("x_m", "must be [low, high] with low below high");
+  if (!(y[1] - y[0] >= kSize.low)) table.fail("y_m", "must be [low, high] with low below high");
+  world.bounds = {x[0], x[1], y[0], y[1]};
+}
+
+void addLandmarks(const Parameters& file, WorldModel& world) {
+  for (const Primitive& primitive : world.primitives) {
+    if (!primitive.identity) continue;
+    world.landmarks.push_back({*primitive.identity, primitive.kind, primitive.centre.x,
+                               primitive.centre.y, 0.5 * (primitive.zLow + primitive.zHigh)});
+  }
+  std::set<std::pair<std::string, std::uint32_t>> seen;
+  for (const Landmark& mark : world.landmarks)
+    if (!seen.emplace(mark.kind, mark.identity).second)
+      throw ConfigError(file.where() + ": two landmarks are " + mark.kind + " " +
+                        std::to_string(mark.identity) + ", expected one of each kind and identity");
+  std::sort(world.landmarks.begin(), world.landmarks.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.kind, a.identity) < std::tie(b.kind, b.identity);
+  });
+}
+
+}  // namespace
+
+WorldModel readWorldModel(const std::filesystem::path& file) {
+  const Parameters toml = readToml(file);
+  const Parameters about = toml.table("world");
+  WorldModel world;
+  world.name = about.textOr("name", file.stem().string());
+  checkPrintable(about, "name", world.name);
+  const std::array<std::pair<const char*, Primitive::Shape>, 3> shapes{
+      {{"rectangle", Primitive::Shape::rectangle},
+       {"ellipse", Primitive::Shape::ellipse},
+       {"triangle", Primitive::Shape::triangle}}};
+  for (const auto& [key, shape] : shapes)
+    for (const auto& table : readTables(toml, key, kMaxPrimitives))
+      world.primitives.push_back(readPrimitive(table, shape));
+  for (const auto& table : readTables(toml, "landmark", kMaxPrimitives))
+    world.landmarks.push_back(readLandmark(table));
+  const auto grids = readTables(toml, "grid", kMaxGrids);
+  for (const auto& table : grids) world.grids.push_back(readGrid(table, file.parent_path()));
+  const auto fixed = std::stable_partition(world.primitives.begin(), world.primitives.end(),
+                                           [](const Primitive& p) { return !p.isMovable; });
+  world.movables.assign(std::make_move_iterator(fixed),
+                        std::make_move_iterator(world.primitives.end()));
+  world.primitives.erase(fixed, world.primitives.end());
+  if (world.movables.size() > kMaxMovables)
+    throw ConfigError(file.string() + ": " + std::to_string(world.movables.size()) +
+                      " primitives are movable, expected at most 256");
+  world.physics = PhysicsConfig::read(toml.table("physics"));
+  addLandmarks(toml, world);
+  readBounds(toml, about, world);
+  toml.refuseUnread();
+  return world;
+}
+
+}  // namespace ortung
