@@ -28,7 +28,8 @@ MclConfig readMcl(const LocalizationArguments& arguments, const RobotConfig& rob
 
 /// Four numbers of --motion in place of those of the robot file.
 Parameters withNumbers(const std::string& text, const Parameters& robotFile) {
-  const std::vector<std::string> names = {"turn_per_turn", "turn_per_m", "way_per_m", "way_per_turn"};
+  const std::vector<std::string> names = {"turn_per_turn", "turn_per_m", "way_per_m",
+                                          "way_per_turn"};
   const std::vector<double> numbers = parseNumbers(text, "--motion", names);
   Parameters motion("--motion");
   for (const char* key : {"floor_m", "floor_deg"}) {
@@ -54,7 +55,8 @@ std::unique_ptr<MotionModel> readMotion(const LocalizationArguments& arguments, 
 }
 
 double millisecondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
 }
 
 }  // namespace
@@ -66,7 +68,8 @@ std::unique_ptr<MotionModel> makeMotion(const Parameters& motion, PluginFactory&
 Parameters readMotionFile(const std::filesystem::path& file) {
   const Parameters parameters = readToml(file);
   if (!parameters.has("motion")) {
-    throw ConfigError(file.string() + ": has no table [motion], expected one as in a robot file or as "
+    throw ConfigError(file.string() +
+                      ": has no table [motion], expected one as in a robot file or as "
                       "`ortung learn-motion` writes it");
   }
   return parameters.table("motion");
@@ -100,27 +103,29 @@ void checkWorld(const std::string& sourceName, const Source& source,
 }
 
 Localization::Start Localization::Start::read(const LocalizationArguments& arguments) {
-  const std::vector<double> sigmas = parseNumbers(arguments.startSigma, "--start-sigma", {"m", "deg"});
+  const std::vector<double> sigmas =
+      parseNumbers(arguments.startSigma, "--start-sigma", {"m", "deg"});
   if (sigmas[0] < 0.0 || sigmas[1] < 0.0) {
     throw UsageError("--start-sigma is '" + arguments.startSigma + "', expected numbers >= 0");
   }
   Start start{Kind::kGlobal, {}, sigmas[0], radians(sigmas[1])};
   if (arguments.start == "truth") start.kind = Kind::kTruth;
   if (arguments.start == "global" || arguments.start == "truth") return start;
-  const std::vector<double> pose = parseNumbers(arguments.start, "--start", {"x", "y", "theta_deg"});
+  const std::vector<double> pose =
+      parseNumbers(arguments.start, "--start", {"x", "y", "theta_deg"});
   start.kind = Kind::kPose;
   start.pose = {pose[0], pose[1], wrapAngle(radians(pose[2]))};
   return start;
 }
 
 Localization::Localization(const LocalizationArguments& arguments)
-    : sourceName_(arguments.source), start_(Start::read(arguments)),
+    : sourceName_(arguments.source),
+      start_(Start::read(arguments)),
       robot_(openRobot(arguments.robot, arguments.tables)),
       source_(openSource(arguments.source, arguments.robot, robot_->factory)),
       feeder_(std::make_unique<Feeder>(arguments.source, *source_, robot_->container)),
       config_(readMcl(arguments, robot_->config)),
-      mcl_(std::make_unique<Mcl>(config_, robot_->tables.region,
-                                 readMotion(arguments, *robot_))),
+      mcl_(std::make_unique<Mcl>(config_, robot_->tables.region, readMotion(arguments, *robot_))),
       waitsForTruth_(start_.kind == Start::Kind::kTruth) {
   checkWorld(arguments.source, *source_, arguments.tables, robot_->tables, arguments.anyWorld);
   if (start_.kind == Start::Kind::kGlobal) mcl_->startGlobal();

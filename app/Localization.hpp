@@ -9,9 +9,9 @@
 
 #include "Commands.hpp"
 #include "Sources.hpp"
-#include "ortung/robot/RobotFile.hpp"
 #include "ortung/mcl/Evaluation.hpp"
 #include "ortung/mcl/Mcl.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TableInfo.hpp"
 
 namespace ortung::app {
@@ -62,7 +62,6 @@ class Localization {
   const MclConfig& config() const { return config_; }
 
  private:
-
   /// Where the samples start, as the command line says.
   struct Start {
     enum class Kind { kGlobal, kTruth, kPose } kind = Kind::kGlobal;
@@ -84,7 +83,7 @@ class Localization {
   std::unique_ptr<Mcl> mcl_;
   std::function<void(const Feeder&)> listener_;
   bool waitsForTruth_ = false;
-  double milliseconds_ = 0.0;       ///< of updates since the last one that weighed
+  double milliseconds_ = 0.0;  ///< of updates since the last one that weighed
 };
 
 }  // namespace ortung::app

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "Console.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/PoseData.hpp"
 
 namespace ortung::app {
 namespace {
@@ -63,8 +63,7 @@ bool Feeder::next() {
     for (const Message& message : frame_) look(message);
     container_.set(frame_);
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(
-        fmt::format("{}: reading at {} us: {}", name_, stamp_, error.what()));
+    throw std::runtime_error(fmt::format("{}: reading at {} us: {}", name_, stamp_, error.what()));
   }
   return true;
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/core/PluginFactory.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Record.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/core/Source.hpp"
@@ -39,7 +39,7 @@ class Feeder {
   /// @throws std::runtime_error naming the source, the time and what is wrong with a reading
   bool next();
 
-  Timestamp stamp() const { return stamp_; }            ///< of the present moment
+  Timestamp stamp() const { return stamp_; }  ///< of the present moment
   double seconds() const { return toSeconds(stamp_) - toSeconds(first_); }  ///< since the first one
   std::size_t moments() const { return moments_; }
   double progress() const { return source_.progress(); }

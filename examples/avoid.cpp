@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "ortung/client/RemoteRobot.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 /// The nearest thing in the middle third of the scan [m]. Beams that saw nothing valid are NaN.
 static float nearestAhead(const std::vector<float>& ranges) {

@@ -18,7 +18,7 @@ packages=(
   # training of motion networks
   libdlib-dev libblas-dev
   # tests and benchmarks
-  libgtest-dev libbenchmark-dev librapidcheck-dev clang-19 libclang-rt-19-dev python3 python3-numpy
+  libgtest-dev libbenchmark-dev librapidcheck-dev clang-19 libclang-rt-19-dev clang-format-19 python3 python3-numpy
 )
 
 missing=()

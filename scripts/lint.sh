@@ -1,7 +1,12 @@
 #!/usr/bin/env bash
-# Runs clang-tidy with our .clang-tidy: lint.sh [FILE...]  All sources without a file; that takes minutes.
+# lint.sh --format   whether all sources are formatted as .clang-format says; seconds
+# lint.sh [FILE...]  that, and clang-tidy with our .clang-tidy; all sources without a file, which takes minutes
 set -euo pipefail
 cd "$(dirname "$0")/.."
+format=${CLANG_FORMAT:-clang-format-19}
+command -v "$format" >/dev/null || { echo "lint: $format is not there: install it, or set CLANG_FORMAT" >&2; exit 1; }
+git ls-files -z '*.cpp' '*.hpp' '*.c' '*.h' | xargs -0 "$format" --dry-run --Werror
+[[ ${1:-} != --format ]] || { echo "lint: all files are formatted"; exit 0; }
 tidy=${CLANG_TIDY:-clang-tidy-19}
 command -v "$tidy" >/dev/null || { echo "lint: $tidy is not there: install it, or set CLANG_TIDY" >&2; exit 1; }
 

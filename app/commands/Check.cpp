@@ -12,11 +12,11 @@
 #include "Interrupt.hpp"
 #include "Localization.hpp"
 #include "Numbers.hpp"
+#include "ortung/robot/TableInfo.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/RobotShape.hpp"
 #include "ortung/sim/Scene.hpp"
 #include "ortung/sim_api/Drive.hpp"
-#include "ortung/robot/TableInfo.hpp"
 
 namespace ortung::app {
 namespace {
@@ -62,15 +62,16 @@ std::string landmarksOf(const SimWorld& world) {
 
 void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
   constexpr double kCell = 0.1;  // of `ortung learn`
-  const RobotSize size =
-      arguments.robot.empty() ? RobotSize{RobotConfig().radius} : sizeOf(readRobot(arguments.robot));
+  const RobotSize size = arguments.robot.empty() ? RobotSize{RobotConfig().radius}
+                                                 : sizeOf(readRobot(arguments.robot));
   const std::unique_ptr<SimWorld> world = readWorld(file);
   const FieldRegion region = world->region(kCell, size);
-  fmt::print("{}: world '{}', fingerprint {}\n  {}\n  {} x {} cells of {} m, {} open, {} where a robot "
-             "of radius {:g} m and height {:g} m can stand\n  {}\n",
-             printable(file.string()), printable(world->name()), world->fingerprint(),
-             bounds(region.grid), region.grid.columns, region.grid.rows, kCell, countOf(region.open),
-             countOf(region.standable), size.radius, size.height, printable(landmarksOf(*world)));
+  fmt::print(
+      "{}: world '{}', fingerprint {}\n  {}\n  {} x {} cells of {} m, {} open, {} where a robot "
+      "of radius {:g} m and height {:g} m can stand\n  {}\n",
+      printable(file.string()), printable(world->name()), world->fingerprint(), bounds(region.grid),
+      region.grid.columns, region.grid.rows, kCell, countOf(region.open), countOf(region.standable),
+      size.radius, size.height, printable(landmarksOf(*world)));
 }
 
 void checkSceneFile(const fs::path& file) {
@@ -118,12 +119,13 @@ void checkTables(const fs::path& file, const CheckArguments& arguments) {
   }
   if (!arguments.robot.empty()) loadTables(tables, openRobot(arguments.robot)->container);
   const FieldGrid& grid = info.region.grid;
-  fmt::print("{}: tables of robot '{}' in world '{}', fingerprint {}, {:.1f} MB\n  {}\n  {} x {} cells of "
-             "{:g} m, {} open, {} standable; directions every {:g} degrees\n",
-             printable(file.string()), printable(info.robot), printable(info.world),
-             printable(info.worldFingerprint), static_cast<double>(fs::file_size(file)) / 1e6,
-             bounds(grid), grid.columns, grid.rows, grid.cell, countOf(info.region.open),
-             countOf(info.region.standable), degrees(info.headingStep));
+  fmt::print(
+      "{}: tables of robot '{}' in world '{}', fingerprint {}, {:.1f} MB\n  {}\n  {} x {} cells of "
+      "{:g} m, {} open, {} standable; directions every {:g} degrees\n",
+      printable(file.string()), printable(info.robot), printable(info.world),
+      printable(info.worldFingerprint), static_cast<double>(fs::file_size(file)) / 1e6,
+      bounds(grid), grid.columns, grid.rows, grid.cell, countOf(info.region.open),
+      countOf(info.region.standable), degrees(info.headingStep));
   for (const TableInfo::Feature& feature : info.features) {
     fmt::print("  {:<40} {}\n", printable(feature.id), printable(feature.key));
   }
@@ -150,26 +152,33 @@ void checkRecord(const fs::path& file, const CheckArguments& arguments) {
     try {
       robot->container.set(message);
     } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(fmt::format("{}: reading at {} us: {}", file.string(), message.stamp, error.what()));
+      throw std::runtime_error(
+          fmt::format("{}: reading at {} us: {}", file.string(), message.stamp, error.what()));
     }
   }
   const std::string world = source.worldFingerprint();
-  fmt::print("{}: record, world {}, {} readings, {} to {} us ({:.3f} s)\n", printable(file.string()),
-             world.empty() ? "not known" : printable(world), all, first, last,
-             toSeconds(last) - toSeconds(first));
+  fmt::print("{}: record, world {}, {} readings, {} to {} us ({:.3f} s)\n",
+             printable(file.string()), world.empty() ? "not known" : printable(world), all, first,
+             last, toSeconds(last) - toSeconds(first));
   for (const auto& [feature, count] : readings) {
     const bool lacks = robot && robot->container.findExactly(parseSensorId(feature)) == nullptr;
-    fmt::print("  {:<40} {:>9} readings{}\n", feature, count, lacks ? ", not in the robot file" : "");
+    fmt::print("  {:<40} {:>9} readings{}\n", feature, count,
+               lacks ? ", not in the robot file" : "");
   }
 }
 
 void checkFile(const fs::path& file, const CheckArguments& arguments) {
   switch (kindOf(file)) {
-    case Kind::kWorld: return checkWorldFile(file, arguments);
-    case Kind::kScene: return checkSceneFile(file);
-    case Kind::kRobot: return checkRobotFile(file);
-    case Kind::kTables: return checkTables(file, arguments);
-    case Kind::kRecord: return checkRecord(file, arguments);
+    case Kind::kWorld:
+      return checkWorldFile(file, arguments);
+    case Kind::kScene:
+      return checkSceneFile(file);
+    case Kind::kRobot:
+      return checkRobotFile(file);
+    case Kind::kTables:
+      return checkTables(file, arguments);
+    case Kind::kRecord:
+      return checkRecord(file, arguments);
   }
 }
 

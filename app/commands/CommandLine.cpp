@@ -1,10 +1,10 @@
 #include "CommandLine.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -71,14 +71,20 @@ constexpr const char* kSource =
 void addLearn(Builder& build, CLI::App& app) {
   const auto a = build.command<LearnArguments>(
       app, "learn", "Learn what a robot's sensors read all over a world",
-      "ortung learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml --out f2000.ortung",
+      "ortung learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml --out "
+      "f2000.ortung",
       runLearn);
   build.option("--world", a->world, "World file (TOML)")->required();
   build.option("--robot", a->robot, "Robot file (TOML)")->required();
   build.option("--out", a->out, "Table file to write")->required();
-  build.option("--cell", a->cell, "Edge of a cell [m]")->check(within(0.01, 10.0))->capture_default_str();
-  build.option("--heading-step", a->headingStepDeg, "Resolution of directions [degrees]; divides a turn")
-      ->check(within(0.1, 90.0))->capture_default_str();
+  build.option("--cell", a->cell, "Edge of a cell [m]")
+      ->check(within(0.01, 10.0))
+      ->capture_default_str();
+  build
+      .option("--heading-step", a->headingStepDeg,
+              "Resolution of directions [degrees]; divides a turn")
+      ->check(within(0.1, 90.0))
+      ->capture_default_str();
   build.flag("--progress", a->progress, kProgress);
 }
 
@@ -88,17 +94,23 @@ void addLearnMotion(Builder& build, CLI::App& app) {
       "ortung learn-motion run1.rec run2.rec --robot robot.toml --out motion.toml", runLearnMotion);
   build.option("sources", a->sources, "Records, or sources KIND:PATH?key=value")->required();
   build.option("--robot", a->robot, "Robot file (TOML)")->required();
-  build.option("--out", a->out, "File to write, with the table [motion] for a robot file or eval --motion")
+  build
+      .option("--out", a->out,
+              "File to write, with the table [motion] for a robot file or eval --motion")
       ->required();
   build.option("--plugin", a->plugin, "Motion model to teach; `ortung plugins` lists them")
       ->capture_default_str();
-  build.option("--motion", a->motion, "File with [motion] to begin with, e.g. with a network; in place of --plugin");
+  build.option("--motion", a->motion,
+               "File with [motion] to begin with, e.g. with a network; in place of --plugin");
   build.option("--interval", a->interval, "Length of the shortest pieces of motion [s]")
-      ->check(within(0.05, 60.0))->capture_default_str();
+      ->check(within(0.05, 60.0))
+      ->capture_default_str();
   build.option("--from", a->from, "Learn from here on only, a share of each log's time")
-      ->check(within(0.0, 1.0))->capture_default_str();
+      ->check(within(0.0, 1.0))
+      ->capture_default_str();
   build.option("--to", a->to, "Learn up to here only, a share of each log's time")
-      ->check(within(0.0, 1.0))->capture_default_str();
+      ->check(within(0.0, 1.0))
+      ->capture_default_str();
   build.option("--delay", a->delay, "How far odometry is ahead of the robot [s]; default: learned")
       ->check(within(-0.3, 2.0));
   build.flag("--progress", a->progress, kProgress);
@@ -108,22 +120,30 @@ void addTrainMotion(Builder& build, CLI::App& app) {
   const auto a = build.command<TrainMotionArguments>(
       app, "train-motion", "Train a neural network on how a robot answers to commands",
       "ortung train-motion run.rec --robot robot.toml --out motion.json", runTrainMotion);
-  build.option("sources", a->sources, "Records, or sources KIND:PATH?key=value, with ground truth")->required();
+  build.option("sources", a->sources, "Records, or sources KIND:PATH?key=value, with ground truth")
+      ->required();
   build.option("--robot", a->robot, "Robot file (TOML)")->required();
   build.option("--out", a->out, "Network to write (JSON)")->required();
-  build.option("--commands-from", a->commandsFrom,
-               "Where odometry has the commanded velocities: its own velocities, the last two words of its "
-               "motion_data, or auto: motion_data where there is some")
-      ->check(CLI::IsMember({"auto", "velocities", "motion_data"}))->capture_default_str();
-  build.option("--step", a->step, "Time that a prediction covers [s]")->check(within(0.01, 1.0))
+  build
+      .option("--commands-from", a->commandsFrom,
+              "Where odometry has the commanded velocities: its own velocities, the last two words "
+              "of its "
+              "motion_data, or auto: motion_data where there is some")
+      ->check(CLI::IsMember({"auto", "velocities", "motion_data"}))
+      ->capture_default_str();
+  build.option("--step", a->step, "Time that a prediction covers [s]")
+      ->check(within(0.01, 1.0))
       ->capture_default_str();
   build.option("--commands", a->commands, "How many of the newest commands the network sees")
-      ->check(within(1, 64))->capture_default_str();
+      ->check(within(1, 64))
+      ->capture_default_str();
   build.option("--hidden", a->hidden, "Widths of the layers between")->capture_default_str();
-  build.option("--iterations", a->iterations, "Steps of the training")->check(within(1, 100000))
+  build.option("--iterations", a->iterations, "Steps of the training")
+      ->check(within(1, 100000))
       ->capture_default_str();
   build.option("--hold-out", a->holdOut, "Share of each log, at its end, to test with")
-      ->check(within(0.0, 0.9))->capture_default_str();
+      ->check(within(0.0, 0.9))
+      ->capture_default_str();
   build.option("--seed", a->seed, "Seed of the first weights")->capture_default_str();
   build.flag("--progress", a->progress, kProgress);
 }
@@ -144,50 +164,59 @@ void addLocalization(Builder& build, LocalizationArguments& a) {
   build.option("--motion", a.motion,
                "File with [motion], e.g. of `ortung learn-motion`, or odometry noise "
                "turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
-  build.flag("--any-world", a.anyWorld, "Go on although the source comes from another world than the tables");
+  build.flag("--any-world", a.anyWorld,
+             "Go on although the source comes from another world than the tables");
   build.flag("--progress", a.progress, kProgress);
 }
 
 void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
-  const auto a = build.command<EvalArguments>(
-      app, "eval", "Localize and compare with ground truth",
-      "ortung eval --source record:run.rec --robot robot.toml --tables hall.ortung --report run.html",
-      runEval);
+  const auto a = build.command<EvalArguments>(app, "eval", "Localize and compare with ground truth",
+                                              "ortung eval --source record:run.rec --robot "
+                                              "robot.toml --tables hall.ortung --report run.html",
+                                              runEval);
   a->commandLine = commandLine;
   addLocalization(build, a->localization);
   build.option("--json", a->json, "Write the figures as JSON");
   build.option("--report", a->report, "Write a page with map, charts and figures");
   build.option("--record", a->record, "Write all readings as a record");
-  build.option("--converged-within", a->convergedWithin, "Error m,deg below which the filter has converged")
+  build
+      .option("--converged-within", a->convergedWithin,
+              "Error m,deg below which the filter has converged")
       ->capture_default_str();
 }
 
 void addLocalize(Builder& build, CLI::App& app) {
-  const auto a = build.command<LocalizeArguments>(
-      app, "localize", "Localize and write poses with covariance",
-      "ortung localize --source record:run.rec --robot robot.toml --tables hall.ortung --out poses.txt",
-      runLocalize);
+  const auto a =
+      build.command<LocalizeArguments>(app, "localize", "Localize and write poses with covariance",
+                                       "ortung localize --source record:run.rec --robot robot.toml "
+                                       "--tables hall.ortung --out poses.txt",
+                                       runLocalize);
   addLocalization(build, a->localization);
   build.option("--out", a->out, "File to write; default: stdout");
 }
 
 void addImport(Builder& build, CLI::App& app) {
-  const auto a = build.command<ImportArguments>(
-      app, "import", "Turn a foreign log into a record",
-      "ortung import mrclam data/ds6 --out ds6-3.rec --robot 3 --world ds6.toml --robot-file ds6-3.toml",
-      runImport);
+  const auto a =
+      build.command<ImportArguments>(app, "import", "Turn a foreign log into a record",
+                                     "ortung import mrclam data/ds6 --out ds6-3.rec --robot 3 "
+                                     "--world ds6.toml --robot-file ds6-3.toml",
+                                     runImport);
   build.option("kind", a->kind, "Kind of source; `ortung plugins` lists them")->required();
   build.option("source", a->source, "File or folder to read")->required();
   build.option("--out", a->out, "Record file to write")->required();
-  build.option("--world", a->world, "Also write the world file, and the maps that it names beside it");
+  build.option("--world", a->world,
+               "Also write the world file, and the maps that it names beside it");
   build.option("--robot-file", a->robotFile, "Also write a robot file that fits");
   build.option("--option", a->options, "key=value, an option of the source; may be given again")
-      ->expected(1)->take_all();
+      ->expected(1)
+      ->take_all();
   for (const char* key : {"robot", "laser_x"}) {
     const bool isRobot = std::string_view(key) == "robot";
     build.app().add_option_function<std::string>(
         isRobot ? "--robot" : "--laser-x",
-        [a, key](const std::string& value) { a->options.push_back(fmt::format("{}={}", key, value)); },
+        [a, key](const std::string& value) {
+          a->options.push_back(fmt::format("{}={}", key, value));
+        },
         isRobot ? "Number of the robot; short for --option robot=N"
                 : "Place of the laser on the robot's x axis [m]; short for --option laser_x=M");
   }
@@ -199,22 +228,29 @@ void addImport(Builder& build, CLI::App& app) {
 void addShow(Builder& build, CLI::App& app) {
   const auto a = build.command<ShowArguments>(
       app, "show", "Draw a feature's expectation, or the probability of a reading, over the field",
-      "ortung show hall.ortung --robot robot.toml --feature 'LMS200/LRF/*' --record run.rec --at 12.5 --out heat.png",
+      "ortung show hall.ortung --robot robot.toml --feature 'LMS200/LRF/*' --record run.rec --at "
+      "12.5 --out heat.png",
       runShow);
   build.option("tables", a->tables, "Table file of `ortung learn`")->required();
   build.option("--robot", a->robot, "Robot file (TOML)")->required();
-  build.option("--feature", a->features,
-               "model/type/feature, * for any; given again: the product of all that match")
-      ->required()->expected(1)->take_all();
+  build
+      .option("--feature", a->features,
+              "model/type/feature, * for any; given again: the product of all that match")
+      ->required()
+      ->expected(1)
+      ->take_all();
   build.option("--out", a->out, "Picture to write (PNG)")->required();
   build.option("--record", a->record, "Record with the reading to weigh");
   build.option("--source", a->source, "Or any source with the reading to weigh");
   build.option("--at", a->at, "Time of the reading after the first one [s]")
-      ->check(within(0.0, 1e9))->capture_default_str();
-  build.option("--heading", a->headingDeg,
-               "Heading of the robot [degrees]; default: 0 without a reading, else the best of all")
+      ->check(within(0.0, 1e9))
+      ->capture_default_str();
+  build
+      .option("--heading", a->headingDeg,
+              "Heading of the robot [degrees]; default: 0 without a reading, else the best of all")
       ->check(within(-360.0, 360.0));
-  build.option("--beam", a->beam, "Which of the feature's values, from 0")->check(within(0, 8191))
+  build.option("--beam", a->beam, "Which of the feature's values, from 0")
+      ->check(within(0, 8191))
       ->capture_default_str();
   build.flag("--log", a->logarithmic, "Grey even in the logarithm of the probability");
   build.flag("--progress", a->progress, kProgress);
@@ -222,7 +258,8 @@ void addShow(Builder& build, CLI::App& app) {
 
 void addCheck(Builder& build, CLI::App& app) {
   const auto a = build.command<CheckArguments>(
-      app, "check", "Say what worlds, robots, tables and records contain, and what is wrong with them",
+      app, "check",
+      "Say what worlds, robots, tables and records contain, and what is wrong with them",
       "ortung check hall.ortung --world hall.toml --robot robot.toml", runCheck);
   build.option("files", a->files, "Files; their contents say what they are")->required();
   build.option("--world", a->world, "World that the tables must have been learned in");
@@ -230,17 +267,25 @@ void addCheck(Builder& build, CLI::App& app) {
 }
 
 void addServing(Builder& build, ServingArguments& a) {
-  build.option("--listen", a.listen, "[ADDRESS:]PORT for clients; 0: a free port; see docs/protocol.md");
-  build.option("--allow-control", a.control,
-               "Name of a client that may pause, step, reset, ... the world; 'all' for all; may be given again")
-      ->expected(1)->take_all();
+  build.option("--listen", a.listen,
+               "[ADDRESS:]PORT for clients; 0: a free port; see docs/protocol.md");
+  build
+      .option("--allow-control", a.control,
+              "Name of a client that may pause, step, reset, ... the world; 'all' for all; may be "
+              "given again")
+      ->expected(1)
+      ->take_all();
   build.option("--token-file", a.tokens,
                "File with a line 'NAME TOKEN' for each client that may come in, * for any name");
   build.option("--idle", a.idle, "Clients that keep silent for so long are dropped [s]")
-      ->check(within(1.0, 1e6))->capture_default_str();
-  build.option("--speed", a.speed, "Times real time")->check(within(0.001, 1000.0))->capture_default_str();
+      ->check(within(1.0, 1e6))
+      ->capture_default_str();
+  build.option("--speed", a.speed, "Times real time")
+      ->check(within(0.001, 1000.0))
+      ->capture_default_str();
   build.flag("--free-run", a.freeRun, "As fast as possible instead of in real time");
-  build.flag("--lockstep", a.lockstep, "The world goes on only when all lockstep clients ask for it");
+  build.flag("--lockstep", a.lockstep,
+             "The world goes on only when all lockstep clients ask for it");
 }
 
 void addSim(Builder& build, CLI::App& app) {
@@ -250,9 +295,14 @@ void addSim(Builder& build, CLI::App& app) {
       "  ortung sim maps/fields/f2000.toml --listen 7777",
       runSim);
   build.option("world", a->world, "World or scene file (TOML)")->required();
-  build.option("--robot", a->robots, "Robot file (TOML) of a robot that wanders about; may be given again")
-      ->expected(1)->take_all();
-  build.option("--duration", a->duration, "Time to simulate [s]; default: the scene's, or until a signal")
+  build
+      .option("--robot", a->robots,
+              "Robot file (TOML) of a robot that wanders about; may be given again")
+      ->expected(1)
+      ->take_all();
+  build
+      .option("--duration", a->duration,
+              "Time to simulate [s]; default: the scene's, or until a signal")
       ->check(within(0.0, 1e6));
   build.option("--record", a->record, "Write all readings of one robot as a record");
   build.option("--recorded", a->recorded, "Name of the robot to record; default: the first");
@@ -260,7 +310,9 @@ void addSim(Builder& build, CLI::App& app) {
   build.option("--threads", a->threads, "Threads that sense; the result does not depend on it")
       ->check(within(1, 256));
   build.option("--seed", a->seed, "Seed of all random numbers")->capture_default_str();
-  build.option("--cycle-ms", a->cycleMs, "Time between two steps of the simulation [ms]; default: the world's")
+  build
+      .option("--cycle-ms", a->cycleMs,
+              "Time between two steps of the simulation [ms]; default: the world's")
       ->check(within(0.1, 1000.0));
   build.flag("--no-noise", a->noNoise, "Sensors and odometry without noise");
   addServing(build, a->serving);
@@ -299,8 +351,11 @@ int printError(const CLI::App& app, const CLI::ParseError& error, const std::str
 }
 
 std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of(
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%") == std::string::npos;
+  const bool plain =
+      !word.empty() &&
+      word.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%") ==
+          std::string::npos;
   if (plain) return word;
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -317,8 +372,9 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   CLI::App app("Ortung: learn what sensors see, and localize with it.", "ortung");
   app.set_version_flag("--version", "ortung " ORTUNG_VERSION);
   app.require_subcommand(1);
-  app.footer("Example:\n  ortung learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml "
-             "--out f2000.ortung");
+  app.footer(
+      "Example:\n  ortung learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml "
+      "--out f2000.ortung");
   Builder build(parsed);
   addLearn(build, app);
   addLearnMotion(build, app);

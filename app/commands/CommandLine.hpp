@@ -7,8 +7,8 @@ namespace ortung::app {
 
 /// What the command line asks for.
 struct ParsedCommand {
-  std::string name;           ///< of the subcommand
-  std::function<int()> run;   ///< empty: help or an error was printed, end with exitCode
+  std::string name;          ///< of the subcommand
+  std::function<int()> run;  ///< empty: help or an error was printed, end with exitCode
   int exitCode = 0;
 };
 

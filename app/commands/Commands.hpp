@@ -24,26 +24,26 @@ struct LearnMotionArguments {
   std::vector<std::string> sources;  ///< records, or "KIND:PATH?key=value"
   std::filesystem::path robot;
   std::filesystem::path out;
-  std::string plugin = "odometry";   ///< the motion model to teach ...
-  std::filesystem::path motion;      ///< ... or a file with [motion] to begin with; "" for none
-  double interval = 0.5;             ///< of the shortest pieces [s]
-  double from = 0.0;                 ///< part of each log to learn from, as shares of its time
+  std::string plugin = "odometry";  ///< the motion model to teach ...
+  std::filesystem::path motion;     ///< ... or a file with [motion] to begin with; "" for none
+  double interval = 0.5;            ///< of the shortest pieces [s]
+  double from = 0.0;                ///< part of each log to learn from, as shares of its time
   double to = 1.0;
-  std::optional<double> delay;       ///< of odometry [s]; nothing: learned
+  std::optional<double> delay;  ///< of odometry [s]; nothing: learned
   bool progress = false;
 };
 int runLearnMotion(const LearnMotionArguments& arguments);
 
 struct TrainMotionArguments {
-  std::vector<std::string> sources;     ///< records, or "KIND:PATH?key=value"
+  std::vector<std::string> sources;  ///< records, or "KIND:PATH?key=value"
   std::filesystem::path robot;
   std::filesystem::path out;
-  std::string commandsFrom = "auto";    ///< or "velocities" or "motion_data" of odometry
-  double step = 0.1;                    ///< of a prediction [s]
-  std::size_t commands = 5;             ///< newest ones that the network sees
-  std::string hidden = "24,24";         ///< widths of layers
+  std::string commandsFrom = "auto";  ///< or "velocities" or "motion_data" of odometry
+  double step = 0.1;                  ///< of a prediction [s]
+  std::size_t commands = 5;           ///< newest ones that the network sees
+  std::string hidden = "24,24";       ///< widths of layers
   std::size_t iterations = 300;
-  double holdOut = 0.25;                ///< share of each log at its end
+  double holdOut = 0.25;  ///< share of each log at its end
   std::uint64_t seed = 1;
   bool progress = false;
 };
@@ -51,7 +51,7 @@ int runTrainMotion(const TrainMotionArguments& arguments);
 
 /// What eval and localize have in common.
 struct LocalizationArguments {
-  std::string source;            ///< "KIND:PATH?key=value"
+  std::string source;  ///< "KIND:PATH?key=value"
   std::filesystem::path robot;
   std::filesystem::path tables;
   std::uint64_t seed = 1;
@@ -59,24 +59,24 @@ struct LocalizationArguments {
   std::optional<unsigned> threads;
   std::string start = "global";  ///< or "truth" or "x,y,theta_deg"
   std::string startSigma = "0.3,10";
-  std::string motion;            ///< file, "turn_per_turn,turn_per_m,way_per_m,way_per_turn" or ""
+  std::string motion;  ///< file, "turn_per_turn,turn_per_m,way_per_m,way_per_turn" or ""
   bool anyWorld = false;
   bool progress = false;
 };
 
 struct EvalArguments {
   LocalizationArguments localization;
-  std::filesystem::path json;    ///< "" for none, as the next two
+  std::filesystem::path json;  ///< "" for none, as the next two
   std::filesystem::path report;
   std::filesystem::path record;
   std::string convergedWithin = "0.5,15";
-  std::string commandLine;       ///< for the report
+  std::string commandLine;  ///< for the report
 };
 int runEval(const EvalArguments& arguments);
 
 struct LocalizeArguments {
   LocalizationArguments localization;
-  std::filesystem::path out;     ///< "": stdout
+  std::filesystem::path out;  ///< "": stdout
 };
 int runLocalize(const LocalizeArguments& arguments);
 
@@ -84,10 +84,10 @@ struct ImportArguments {
   std::string kind;
   std::string source;
   std::filesystem::path out;
-  std::filesystem::path world;      ///< "" for none, as the next
+  std::filesystem::path world;  ///< "" for none, as the next
   std::filesystem::path robotFile;
-  std::vector<std::string> options; ///< "key=value"
-  std::filesystem::path withRobot;  ///< robot file for sources that need one; "" for none
+  std::vector<std::string> options;  ///< "key=value"
+  std::filesystem::path withRobot;   ///< robot file for sources that need one; "" for none
   bool force = false;
   bool progress = false;
 };
@@ -98,10 +98,10 @@ struct ShowArguments {
   std::filesystem::path robot;
   std::vector<std::string> features;  ///< "model/type/feature", any of them
   std::filesystem::path out;
-  std::filesystem::path record;     ///< "" for none
-  std::string source;               ///< "" for none
-  double at = 0.0;                  ///< of the reading [s] after the first one
-  std::optional<double> headingDeg; ///< [degrees]
+  std::filesystem::path record;      ///< "" for none
+  std::string source;                ///< "" for none
+  double at = 0.0;                   ///< of the reading [s] after the first one
+  std::optional<double> headingDeg;  ///< [degrees]
   std::size_t beam = 0;
   bool logarithmic = false;
   bool progress = false;
@@ -110,18 +110,18 @@ int runShow(const ShowArguments& arguments);
 
 struct CheckArguments {
   std::vector<std::filesystem::path> files;
-  std::filesystem::path world;   ///< "" for none, as the next
+  std::filesystem::path world;  ///< "" for none, as the next
   std::filesystem::path robot;
 };
 int runCheck(const CheckArguments& arguments);
 
 /// What sim and serve have in common when they serve clients.
 struct ServingArguments {
-  std::string listen;                  ///< "[ADDRESS:]PORT"
-  std::vector<std::string> control;    ///< names of clients that may control, "*": all
-  std::filesystem::path tokens;        ///< file with a line "NAME TOKEN" for each; "" for none
-  double idle = 30.0;                  ///< [s] without a line from a client
-  double speed = 1.0;                  ///< times real time
+  std::string listen;                ///< "[ADDRESS:]PORT"
+  std::vector<std::string> control;  ///< names of clients that may control, "*": all
+  std::filesystem::path tokens;      ///< file with a line "NAME TOKEN" for each; "" for none
+  double idle = 30.0;                ///< [s] without a line from a client
+  double speed = 1.0;                ///< times real time
   bool freeRun = false;
   bool lockstep = false;
 };
@@ -134,15 +134,15 @@ struct ServeArguments {
 int runServe(const ServeArguments& arguments);
 
 struct SimArguments {
-  std::filesystem::path world;        ///< or a scene
+  std::filesystem::path world;                ///< or a scene
   std::vector<std::filesystem::path> robots;  ///< robot files: they wander about
-  std::optional<double> duration;     ///< [s]; default: the scene's, or until a signal
-  std::filesystem::path record;       ///< "" for none, as the next
+  std::optional<double> duration;             ///< [s]; default: the scene's, or until a signal
+  std::filesystem::path record;               ///< "" for none, as the next
   std::filesystem::path trace;
-  std::string recorded;               ///< name of the robot to record; "": the first
+  std::string recorded;  ///< name of the robot to record; "": the first
   unsigned threads = 1;
   std::uint64_t seed = 1;
-  std::optional<double> cycleMs;      ///< default: the world's
+  std::optional<double> cycleMs;  ///< default: the world's
   bool noNoise = false;
   ServingArguments serving;
 };

@@ -65,8 +65,9 @@ void warnOfGaps(const RunResult& run) {
                              "nothing to localize with");
   }
   if (run.figures.comparedSteps > 0) return;
-  warn(run.figures.source + " gave no ground truth for any update (a feature of type "
-                            "groundTruth), so there are no errors; `ortung localize` gives poses");
+  warn(run.figures.source +
+       " gave no ground truth for any update (a feature of type "
+       "groundTruth), so there are no errors; `ortung localize` gives poses");
 }
 
 }  // namespace

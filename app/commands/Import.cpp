@@ -101,9 +101,9 @@ std::string makeWorld(const Source& source, const Workshop& workshop) {
 void makeRobot(const Source& source, const Workshop& workshop, const ImportArguments& arguments) {
   const std::string toml = source.robotToml();
   if (toml.empty()) {
-    throw std::runtime_error(fmt::format("{}:{}: does not say what robot it is from; write {} by hand",
-                                         arguments.kind, arguments.source,
-                                         arguments.robotFile.string()));
+    throw std::runtime_error(
+        fmt::format("{}:{}: does not say what robot it is from; write {} by hand", arguments.kind,
+                    arguments.source, arguments.robotFile.string()));
   }
   writeFile(workshop.file(), toml);
   readRobot(workshop.file());
@@ -134,7 +134,8 @@ Written copyMessages(Source& source, RecordWriter& record, bool bar) {
 void print(const Written& written, const ImportArguments& arguments, std::size_t messages) {
   fmt::print("{}: {} readings over {:.3f} s\n", arguments.out.string(), messages,
              toSeconds(written.last) - toSeconds(written.first));
-  for (const auto& [feature, count] : written.readings) fmt::print("  {:<48} {:>9}\n", feature, count);
+  for (const auto& [feature, count] : written.readings)
+    fmt::print("  {:<48} {:>9}\n", feature, count);
   if (!arguments.world.empty()) fmt::print("{}: world\n", arguments.world.string());
   if (!arguments.robotFile.empty()) fmt::print("{}: robot\n", arguments.robotFile.string());
 }
@@ -163,7 +164,8 @@ int runImport(const ImportArguments& arguments) {
   RecordWriter record(arguments.out, fingerprint);
   const Written written = copyMessages(*source, record, arguments.progress);
   if (record.messages() == 0) {
-    throw std::runtime_error(fmt::format("{}:{}: holds no reading", arguments.kind, arguments.source));
+    throw std::runtime_error(
+        fmt::format("{}:{}: holds no reading", arguments.kind, arguments.source));
   }
   record.commit();
   if (world) world->deliver();

@@ -11,9 +11,9 @@
 #include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
+#include "ortung/robot/TableInfo.hpp"
 #include "ortung/sim/Learner.hpp"
 #include "ortung/sim/RobotShape.hpp"
-#include "ortung/robot/TableInfo.hpp"
 
 namespace ortung::app {
 namespace {
@@ -22,8 +22,10 @@ namespace {
 double headingStep(double stepDeg) {
   const double steps = 360.0 / stepDeg;
   if (std::abs(steps - std::round(steps)) > 1e-6) {
-    throw UsageError(fmt::format("--heading-step is {}, expected degrees that divide a turn, "
-                                 "e.g. 1, 2 or 2.5", stepDeg));
+    throw UsageError(
+        fmt::format("--heading-step is {}, expected degrees that divide a turn, "
+                    "e.g. 1, 2 or 2.5",
+                    stepDeg));
   }
   return 2.0 * kPi / std::round(steps);
 }
@@ -41,13 +43,15 @@ TableInfo describe(const SimWorld& world, const Robot& robot, const FieldRegion&
 }
 
 std::size_t countOf(const std::vector<std::uint8_t>& mask) {
-  return static_cast<std::size_t>(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
+  return static_cast<std::size_t>(
+      std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
 }
 
 std::size_t learnedFeatures(const SensorContainer& container) {
   const auto all = container.all();
-  return static_cast<std::size_t>(std::count_if(
-      all.begin(), all.end(), [](const auto& data) { return data->localizes() && data->isLearned(); }));
+  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const auto& data) {
+    return data->localizes() && data->isLearned();
+  }));
 }
 
 }  // namespace
@@ -73,12 +77,13 @@ int runLearn(const LearnArguments& arguments) {
   writeTables(arguments.out, robot->container, describe(*world, *robot, region, step));
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  fmt::print("{}: {} features of {} in {} ({}), {} x {} cells of {:g} m, {} open, {} standable, "
-             "{:.1f} MB, {:.2f} s\n",
-             arguments.out.string(), learnedFeatures(robot->container), robot->config.name,
-             world->name(), world->fingerprint(), region.grid.columns, region.grid.rows,
-             region.grid.cell, countOf(region.open), countOf(region.standable),
-             static_cast<double>(std::filesystem::file_size(arguments.out)) / 1e6, seconds);
+  fmt::print(
+      "{}: {} features of {} in {} ({}), {} x {} cells of {:g} m, {} open, {} standable, "
+      "{:.1f} MB, {:.2f} s\n",
+      arguments.out.string(), learnedFeatures(robot->container), robot->config.name, world->name(),
+      world->fingerprint(), region.grid.columns, region.grid.rows, region.grid.cell,
+      countOf(region.open), countOf(region.standable),
+      static_cast<double>(std::filesystem::file_size(arguments.out)) / 1e6, seconds);
   return 0;
 }
 

@@ -16,7 +16,11 @@
 #include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung::app {
 namespace {
@@ -54,7 +58,8 @@ std::vector<SensorData*> featuresOf(const Robot& robot, const ShowArguments& arg
   std::set<const SensorData*> wanted;
   for (const std::string& text : arguments.features) {
     const std::vector<SensorData*> matches = robot.container.findAll(readQuery(text));
-    const bool any = std::any_of(matches.begin(), matches.end(), [](auto* f) { return f->localizes(); });
+    const bool any =
+        std::any_of(matches.begin(), matches.end(), [](auto* f) { return f->localizes(); });
     if (!any) {
       throw std::runtime_error(
           fmt::format("{}: no feature with a perceptual model matches '{}', expected one of {}",
@@ -78,7 +83,8 @@ Unit unitOf(const SensorData& feature, std::size_t index) {
   const Unit metres{"m", 1.0};
   const Unit angle{"deg", 180.0 / kPi};
   if (dynamic_cast<const BearingData*>(&feature) != nullptr) return angle;
-  if (dynamic_cast<const LandmarksData*>(&feature) != nullptr) return index % 2 == 0 ? metres : angle;
+  if (dynamic_cast<const LandmarksData*>(&feature) != nullptr)
+    return index % 2 == 0 ? metres : angle;
   if (dynamic_cast<const ScalarData*>(&feature) != nullptr ||
       dynamic_cast<const ScanData*>(&feature) != nullptr ||
       dynamic_cast<const ConeData*>(&feature) != nullptr) {
@@ -106,16 +112,18 @@ HeatMap expectationMap(const Robot& robot, const SensorData& feature,
   }
   if (arguments.beam >= most) {
     throw std::runtime_error(
-        most == 0 ? fmt::format("{}: {} keeps no expected values that could be drawn; with a reading "
-                                "(--record) its probability can be",
-                                arguments.tables.string(), toText(feature.id()))
-                  : fmt::format("{}: --beam is {}, but {} has {} values", arguments.tables.string(),
-                                arguments.beam, toText(feature.id()), most));
+        most == 0
+            ? fmt::format("{}: {} keeps no expected values that could be drawn; with a reading "
+                          "(--record) its probability can be",
+                          arguments.tables.string(), toText(feature.id()))
+            : fmt::format("{}: --beam is {}, but {} has {} values", arguments.tables.string(),
+                          arguments.beam, toText(feature.id()), most));
   }
   map.unit = unit.name;
   map.caption = fmt::format("expectation of {}", toText(feature.id()));
   if (most > 1) map.caption += fmt::format(" [{}]", arguments.beam);
-  if (feature.headingSpacing() < 6.28) map.caption += fmt::format(", heading {:.4g} deg", degrees(heading));
+  if (feature.headingSpacing() < 6.28)
+    map.caption += fmt::format(", heading {:.4g} deg", degrees(heading));
   return map;
 }
 
@@ -167,7 +175,8 @@ std::vector<double> headingsOf(const Robot& robot, const std::vector<SensorData*
   double spacing = robot.tables.headingStep;
   for (const SensorData* feature : features) spacing = std::min(spacing, feature->headingSpacing());
   constexpr double kMostHeadings = 3600.0;
-  const int count = static_cast<int>(std::lround(std::clamp(2.0 * kPi / spacing, 1.0, kMostHeadings)));
+  const int count =
+      static_cast<int>(std::lround(std::clamp(2.0 * kPi / spacing, 1.0, kMostHeadings)));
   std::vector<double> headings;
   for (int i = 0; i < count; ++i) headings.push_back(2.0 * kPi * i / count);
   return headings;
@@ -178,9 +187,10 @@ HeatMap probabilityMap(const Robot& robot, std::vector<SensorData*> features,
                        const ShowArguments& arguments) {
   std::erase_if(features, [](const SensorData* feature) { return !feature->canWeigh(); });
   if (features.empty()) {
-    throw std::runtime_error(fmt::format(
-        "{}: no feature that matches '{}' has a reading that says anything by {} s; try a later --at",
-        sourceText(arguments), fmt::join(arguments.features, "', '"), arguments.at));
+    throw std::runtime_error(
+        fmt::format("{}: no feature that matches '{}' has a reading that says anything by {} s; "
+                    "try a later --at",
+                    sourceText(arguments), fmt::join(arguments.features, "', '"), arguments.at));
   }
   const FieldRegion& region = robot.tables.region;
   HeatMap map;
@@ -233,8 +243,10 @@ int runShow(const ShowArguments& arguments) {
   HeatMap map;
   if (sourceText(arguments).empty()) {
     if (features.size() > 1) {
-      throw UsageError(fmt::format("--feature matches {} features, expected one (or a reading, by "
-                                   "--record): {}", features.size(), namesOf(features)));
+      throw UsageError(
+          fmt::format("--feature matches {} features, expected one (or a reading, by "
+                      "--record): {}",
+                      features.size(), namesOf(features)));
     }
     map = expectationMap(*robot, *features[0], arguments);
   } else {

@@ -14,8 +14,8 @@
 #include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
-#include "ortung/sim_api/Drive.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
+#include "ortung/sim_api/Drive.hpp"
 
 namespace ortung::app {
 namespace {

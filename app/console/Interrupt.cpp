@@ -1,8 +1,7 @@
 #include "Interrupt.hpp"
 
-#include <csignal>
-
 #include <atomic>
+#include <csignal>
 
 namespace ortung::app {
 namespace {

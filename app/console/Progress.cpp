@@ -1,8 +1,7 @@
 #include "Progress.hpp"
 
-#include <unistd.h>
-
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +25,9 @@ std::string timeLeft(double share, double seconds) {
 }  // namespace
 
 Progress::Progress(std::string work, bool bar)
-    : work_(std::move(work)), bar_(bar || isatty(STDERR_FILENO) == 1), start_(Clock::now()),
+    : work_(std::move(work)),
+      bar_(bar || isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
       next_(bar_ ? start_ : start_ + kBetweenLines) {}
 
 Progress::~Progress() {

@@ -8,7 +8,8 @@
 #include "Interrupt.hpp"
 #include "Localization.hpp"
 #include "Sources.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung::app {
 namespace {

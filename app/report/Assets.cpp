@@ -3,7 +3,7 @@
 #include <cstddef>
 
 // Names that `ld -b binary` gives to the ends of a file.
-#define ORTUNG_ASSET(name)                     \
+#define ORTUNG_ASSET(name)                        \
   extern "C" const char _binary_##name##_start[]; \
   extern "C" const char _binary_##name##_end[]
 ORTUNG_ASSET(dygraph_min_js);
@@ -31,11 +31,7 @@ std::string_view dygraphsStyle() {
 std::string_view synchronizerScript() {
   return between(_binary_synchronizer_js_start, _binary_synchronizer_js_end);
 }
-std::string_view reportStyle() {
-  return between(_binary_report_css_start, _binary_report_css_end);
-}
-std::string_view reportScript() {
-  return between(_binary_report_js_start, _binary_report_js_end);
-}
+std::string_view reportStyle() { return between(_binary_report_css_start, _binary_report_css_end); }
+std::string_view reportScript() { return between(_binary_report_js_start, _binary_report_js_end); }
 
 }  // namespace ortung::app::assets

@@ -5,9 +5,9 @@
 /// Files that are linked into the program; see CMakeLists.txt.
 namespace ortung::app::assets {
 
-std::string_view dygraphsScript();       ///< dygraphs, MIT
+std::string_view dygraphsScript();  ///< dygraphs, MIT
 std::string_view dygraphsStyle();
-std::string_view synchronizerScript();   ///< of dygraphs
+std::string_view synchronizerScript();  ///< of dygraphs
 std::string_view reportStyle();
 std::string_view reportScript();
 

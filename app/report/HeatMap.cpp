@@ -8,13 +8,13 @@
 namespace ortung::app {
 namespace {
 
-constexpr int kWantedWidth = 800;   // [pixels]
-constexpr int kMostHeight = 4000;   // [pixels], for zooming only
+constexpr int kWantedWidth = 800;  // [pixels]
+constexpr int kMostHeight = 4000;  // [pixels], for zooming only
 constexpr int kMostZoom = 40;
 constexpr int kMargin = 12;
 constexpr int kBarHeight = 16;
 constexpr int kTicks = 5;
-constexpr int kLetters = 2;         // size of a font pixel
+constexpr int kLetters = 2;  // size of a font pixel
 constexpr int kLineHeight = 12 * kLetters;
 constexpr double kLeastShare = 1e-6;  // of a scale's top: where logarithmic ones end
 constexpr Colour kPaper{255, 255, 255};
@@ -37,7 +37,8 @@ double darkness(const HeatMap& map, const HeatMap::Scale& scale, double value) {
 
 Colour grey(double dark) {
   // The palest grey stays apart from the paper, the darkest from the outlines.
-  const auto level = static_cast<std::uint8_t>(std::lround(250.0 - 225.0 * std::clamp(dark, 0.0, 1.0)));
+  const auto level =
+      static_cast<std::uint8_t>(std::lround(250.0 - 225.0 * std::clamp(dark, 0.0, 1.0)));
   return {level, level, level};
 }
 

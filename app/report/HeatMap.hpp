@@ -5,19 +5,19 @@
 #include <vector>
 
 #include "Picture.hpp"
-#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung::app {
 
 /// Values over the field (paper, Fig. 7): the darker, the greater.
 struct HeatMap {
   const FieldRegion* region = nullptr;
-  std::vector<double> values;     ///< one a cell; NaN: none
+  std::vector<double> values;  ///< one a cell; NaN: none
   std::string caption;
-  std::string unit;               ///< of the values; may be ""
-  bool logarithmic = false;       ///< grey is even in the values' logarithms; values are positive
-  std::optional<Pose2> truth;     ///< marked in red
+  std::string unit;            ///< of the values; may be ""
+  bool logarithmic = false;    ///< grey is even in the values' logarithms; values are positive
+  std::optional<Pose2> truth;  ///< marked in red
 
   struct Scale {
     double low = 0.0;   ///< white

@@ -23,7 +23,8 @@ constexpr std::size_t kVerticesOfCharacter = 80;  // about 270 bytes are usual, 
 }  // namespace
 
 Picture::Picture(int width, int height, Colour background)
-    : width_(width), height_(height),
+    : width_(width),
+      height_(height),
       rgb_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
   fill(0, 0, width, height, background);
 }
@@ -71,9 +72,8 @@ void Picture::text(int x, int y, int scale, Colour colour, const std::string& te
   std::string ascii = text;
   std::replace_if(ascii.begin(), ascii.end(), [](char c) { return c < 32 || c > 126; }, '?');
   std::vector<FontVertex> corners(kVerticesOfCharacter * (ascii.size() + 1));
-  const int rectangles =
-      stb_easy_font_print(0.0F, 0.0F, ascii.data(), nullptr, corners.data(),
-                          static_cast<int>(corners.size() * sizeof(FontVertex)));
+  const int rectangles = stb_easy_font_print(0.0F, 0.0F, ascii.data(), nullptr, corners.data(),
+                                             static_cast<int>(corners.size() * sizeof(FontVertex)));
   for (int i = 0; i < rectangles; ++i) {
     const FontVertex& upperLeft = corners[4 * static_cast<std::size_t>(i)];
     const FontVertex& lowerRight = corners[4 * static_cast<std::size_t>(i) + 2];

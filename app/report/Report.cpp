@@ -40,11 +40,10 @@ std::vector<Element> thin(const std::vector<Element>& elements, Value value) {
   std::vector<Element> kept;
   for (std::size_t i = 0; i < elements.size(); i += bucket) {
     const auto begin = elements.begin() + static_cast<std::ptrdiff_t>(i);
-    const auto end = elements.begin() +
-                     static_cast<std::ptrdiff_t>(std::min(i + bucket, elements.size()));
-    kept.push_back(*std::max_element(begin, end, [&](const Element& a, const Element& b) {
-      return value(a) < value(b);
-    }));
+    const auto end =
+        elements.begin() + static_cast<std::ptrdiff_t>(std::min(i + bucket, elements.size()));
+    kept.push_back(*std::max_element(
+        begin, end, [&](const Element& a, const Element& b) { return value(a) < value(b); }));
   }
   return kept;
 }
@@ -118,13 +117,16 @@ std::string legend(bool hasTruth) {
 std::string charts(bool hasTruth) {
   std::string html = R"(<section class="charts">)";
   if (hasTruth) {
-    html += R"(<h2>Position error <small>m, with the filter's own 1 sigma</small></h2><div id="position" class="chart"></div>)"
-            R"(<h2>Heading error <small>degrees, with the filter's own 1 sigma</small></h2><div id="heading" class="chart"></div>)";
+    html +=
+        R"(<h2>Position error <small>m, with the filter's own 1 sigma</small></h2><div id="position" class="chart"></div>)"
+        R"(<h2>Heading error <small>degrees, with the filter's own 1 sigma</small></h2><div id="heading" class="chart"></div>)";
   } else {
-    html += R"(<p class="note">The source gave no ground truth, so there are no errors to show.</p>)";
+    html +=
+        R"(<p class="note">The source gave no ground truth, so there are no errors to show.</p>)";
   }
-  return html + R"(<h2>Samples <small>logarithmic</small></h2><div id="samples" class="chart"></div>)"
-                R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";
+  return html +
+         R"(<h2>Samples <small>logarithmic</small></h2><div id="samples" class="chart"></div>)"
+         R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";
 }
 
 std::string settings(const RunResult& run) {
@@ -177,12 +179,23 @@ std::string escapeHtml(std::string_view text) {
   escaped.reserve(text.size());
   for (const char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      case '"': escaped += "&quot;"; break;
-      case '\'': escaped += "&#39;"; break;
-      default: escaped += c;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
     }
   }
   return escaped;

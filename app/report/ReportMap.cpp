@@ -1,8 +1,8 @@
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <cmath>
 #include <span>
 
@@ -15,10 +15,10 @@ namespace {
 constexpr Colour kSolid{58, 66, 80};
 constexpr Colour kNotStandable{226, 231, 238};
 constexpr Colour kStandable{255, 255, 255};
-constexpr int kMaxPixels = 4096;     ///< of the map's longer side
+constexpr int kMaxPixels = 4096;  ///< of the map's longer side
 // A path is not drawn over steps that are longer and faster than this: nobody drove them.
-constexpr double kJump = 1.0;        ///< [m]
-constexpr double kJumpSpeed = 3.0;   ///< [m/s]
+constexpr double kJump = 1.0;       ///< [m]
+constexpr double kJumpSpeed = 3.0;  ///< [m/s]
 constexpr std::size_t kMaxPoints = 20000;
 
 std::string base64(std::span<const std::byte> bytes) {
@@ -41,8 +41,9 @@ std::string maskPng(const FieldRegion& region) {
   Picture picture(width, height, kSolid);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const auto cell = static_cast<std::size_t>(y * every) * static_cast<std::size_t>(grid.columns) +
-                        static_cast<std::size_t>(x * every);
+      const auto cell =
+          static_cast<std::size_t>(y * every) * static_cast<std::size_t>(grid.columns) +
+          static_cast<std::size_t>(x * every);
       if (region.open[cell] == 0) continue;
       picture.set(x, height - 1 - y, region.standable[cell] != 0 ? kStandable : kNotStandable);
     }
@@ -59,7 +60,8 @@ class Path {
     const double seconds = toSeconds(stamp) - toSeconds(lastStamp_);
     const bool jumps = empty_ || (way > kJump && way > kJumpSpeed * seconds);
     // "h0" makes a lonely point visible: its round cap is drawn.
-    text_ += fmt::format(fmt::runtime(jumps ? "M{:.3f} {:.3f}h0" : "L{:.3f} {:.3f}"), pose.x, pose.y);
+    text_ +=
+        fmt::format(fmt::runtime(jumps ? "M{:.3f} {:.3f}h0" : "L{:.3f} {:.3f}"), pose.x, pose.y);
     last_ = pose;
     lastStamp_ = stamp;
     empty_ = false;
@@ -87,10 +89,9 @@ std::string mark(const Pose2& pose, double radius, const char* kind) {
 }
 
 std::string scaleBar(double x, double y, double length, double size) {
-  return fmt::format(
-      R"(<g class="bar"><path d="M{0:.3f} {1:.3f}v{4:.3f}h{2:.3f}v-{4:.3f}"/>)"
-      R"(<text x="{3:.3f}" y="{1:.3f}" font-size="{5:.3f}">{2:g} m</text></g>)",
-      x, y, length, x + 0.5 * length, 0.4 * size, size);
+  return fmt::format(R"(<g class="bar"><path d="M{0:.3f} {1:.3f}v{4:.3f}h{2:.3f}v-{4:.3f}"/>)"
+                     R"(<text x="{3:.3f}" y="{1:.3f}" font-size="{5:.3f}">{2:g} m</text></g>)",
+                     x, y, length, x + 0.5 * length, 0.4 * size, size);
 }
 
 }  // namespace
@@ -126,9 +127,10 @@ std::string mapSvg(const RunResult& run) {
     svg += mark(points.front().truth, 0.5 * size, "start");
     svg += mark(points.back().truth, 0.5 * size, "end");
   }
-  svg += fmt::format(R"(<circle id="truth-now" class="now truth" r="{0:.3f}" visibility="hidden"/>)"
-                     R"(<circle id="estimate-now" class="now estimate" r="{0:.3f}" visibility="hidden"/></g>)",
-                     0.6 * size);
+  svg += fmt::format(
+      R"(<circle id="truth-now" class="now truth" r="{0:.3f}" visibility="hidden"/>)"
+      R"(<circle id="estimate-now" class="now estimate" r="{0:.3f}" visibility="hidden"/></g>)",
+      0.6 * size);
   svg += scaleBar(grid.originX + 0.5 * size, -grid.originY + 1.4 * size, barLength(width), size);
   return svg + "</svg>";
 }

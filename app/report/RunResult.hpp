@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/robot/RobotFile.hpp"
 #include "ortung/mcl/Evaluation.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TableInfo.hpp"
 
 namespace ortung::app {
@@ -16,9 +16,9 @@ struct RunResult {
   Timestamp first = 0;                  ///< of the first reading
   std::vector<PoseEstimate> estimates;  ///< of all updates, also where the truth is not known
   std::uint64_t seed = 0;
-  std::size_t particles = 0;            ///< most samples
-  std::string robot;                    ///< file
-  std::string tables;                   ///< file
+  std::size_t particles = 0;  ///< most samples
+  std::string robot;          ///< file
+  std::string tables;         ///< file
   TableInfo tableInfo;
   std::string commandLine;
 };

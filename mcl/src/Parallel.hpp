@@ -15,9 +15,11 @@ template <class Work>
 void forEachChunk(std::size_t n, unsigned threads, const Work& work) {
   const std::size_t chunks = (n + kChunk - 1) / kChunk;
   const auto run = [&](std::size_t begin, std::size_t stride) {
-    for (std::size_t c = begin; c < chunks; c += stride) work(c * kChunk, std::min(kChunk, n - c * kChunk));
+    for (std::size_t c = begin; c < chunks; c += stride)
+      work(c * kChunk, std::min(kChunk, n - c * kChunk));
   };
-  const std::size_t workers = std::min<std::size_t>(threads, chunks / 2);  // a thread costs as much as a chunk
+  const std::size_t workers =
+      std::min<std::size_t>(threads, chunks / 2);  // a thread costs as much as a chunk
   if (workers < 2) {
     run(0, 1);
     return;

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/mcl/SampleSet.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 

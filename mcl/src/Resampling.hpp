@@ -18,7 +18,8 @@ ORTUNG_API double effectiveSamples(std::span<const double> weights);
 
 /// Low-variance resampling (Thrun, Burgard, Fox, table 4.4): @p n indices, each i about
 /// n * weights[i] times. @param offset in [0, 1) @pre the weights sum to 1
-ORTUNG_API std::vector<std::uint32_t> lowVariance(std::span<const double> weights, std::size_t n, double offset);
+ORTUNG_API std::vector<std::uint32_t> lowVariance(std::span<const double> weights, std::size_t n,
+                                                  double offset);
 
 /// The samples at these indices, all of the same weight.
 SampleSet taken(const SampleSet& from, std::span<const std::uint32_t> indices);

@@ -3,10 +3,14 @@
 #include <map>
 #include <stdexcept>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/base/NewFile.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/SourceOptions.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/ScalarData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 
@@ -15,15 +19,15 @@ namespace {
 
 constexpr int kRobots = 5;  // subjects 1 to 5 are robots, the others landmarks
 constexpr double kMaxSubject = 1e6;
-// The field reaches this far beyond the landmarks [m]; robots went 1.25 m beyond at most. It does not
-// depend on the robot, so that one world, and one table, serves all robots of a run.
+// The field reaches this far beyond the landmarks [m]; robots went 1.25 m beyond at most. It does
+// not depend on the robot, so that one world, and one table, serves all robots of a run.
 constexpr double kMargin = 2.0;
 constexpr double kMaxRange = 10.0;      // [m]; the farthest reading of all runs is 9.6
 constexpr double kMaxVelocity = 100.0;  // [m/s], [rad/s]
 
 // Near those measured against Vicon over all robots of run 6 (realsensors/README.md). Ranges and
-// bearings err alike from image to image (each robot has its own bias, of bearings up to 0.8 degrees),
-// hence the exponent and a sigma of bearings wider than the spread.
+// bearings err alike from image to image (each robot has its own bias, of bearings up to 0.8
+// degrees), hence the exponent and a sigma of bearings wider than the spread.
 constexpr const char* kModels = R"(range_sigma_m = 0.08
 range_sigma_per_m = 0.03
 bearing_sigma_deg = 1.2

@@ -9,8 +9,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Record.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung {
 namespace {

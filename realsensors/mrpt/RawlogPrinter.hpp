@@ -16,8 +16,8 @@
 #include <span>
 #include <string>
 
-#include "ortung/core/Message.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/core/Message.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 
 namespace ortung {

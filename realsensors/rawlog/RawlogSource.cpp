@@ -5,11 +5,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/Record.hpp"
 #include "ortung/core/SourceOptions.hpp"
+#include "ortung/formats/PoseData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 #include "ortung/realsensors/MapFiles.hpp"

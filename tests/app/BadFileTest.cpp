@@ -51,8 +51,8 @@ TEST_F(BadFile, MissingMapImageIsNamed) {
 
 TEST_F(BadFile, MissingFilesAreNamed) {
   std::filesystem::remove(path("robot.toml"));
-  expectRefused(ortung({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"), "--out",
-                        path("hall.ortung")}),
+  expectRefused(ortung({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"),
+                        "--out", path("hall.ortung")}),
                 1, "ortung learn: " + path("robot.toml"), {});
 }
 
@@ -63,8 +63,8 @@ TEST_F(BadFile, WhatIsNoTomlIsNamedWithItsLine) {
 
 TEST_F(BadFile, ControlCharactersDoNotReachTheTerminal) {
   replace("robot.toml", "plugin = \"lrf\"", "plugin = \"a\\u001B[2Jb\"");
-  const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"),
-                                  "--out", path("hall.ortung")});
+  const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot",
+                                  path("robot.toml"), "--out", path("hall.ortung")});
   EXPECT_EQ(outcome.exitCode, 1);
   EXPECT_EQ(outcome.err.find('\033'), std::string::npos) << outcome.err;
 }
@@ -89,8 +89,8 @@ TEST_F(BadFile, PluginOfAnotherBuildIsRefusedWithBothBuilds) {
     }
     write(name, bytes);
   }
-  const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"),
-                                  "--out", path("hall.ortung")},
+  const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot",
+                                  path("robot.toml"), "--out", path("hall.ortung")},
                                  {"ORTUNG_PLUGIN_PATH=" + path("plugins")});
   expectRefused(outcome, 1, "ortung learn: ", {"ortung_lrf", "container 9.", "container 0."});
   EXPECT_FALSE(std::filesystem::exists(path("hall.ortung")));

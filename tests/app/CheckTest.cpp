@@ -10,8 +10,8 @@ using Check = Workspace;
 TEST_F(Check, SaysWhatEachKindOfFileContains) {
   learnTables();
   recordRun();
-  const Outcome outcome =
-      ortung({"check", path("hall.toml"), path("robot.toml"), path("hall.ortung"), path("run.rec")});
+  const Outcome outcome = ortung(
+      {"check", path("hall.toml"), path("robot.toml"), path("hall.ortung"), path("run.rec")});
   EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
   for (const char* part : {"world 'hall', fingerprint", "x -3 to 3 m, y -2 to 2 m", "robot 'scout'",
                            "LMS200/LRF/180DegreeScan", "tables of robot 'scout' in world 'hall'",
@@ -32,16 +32,18 @@ TEST_F(Check, GoesOnBehindABadFileAndEndsWithCode1) {
 
 TEST_F(Check, TellsWhetherTablesBelongToWorldAndRobot) {
   learnTables();
-  const std::vector<std::string> command = {"check",   path("hall.ortung"), "--world", path("hall.toml"),
-                                            "--robot", path("robot.toml")};
+  const std::vector<std::string> command = {
+      "check", path("hall.ortung"), "--world", path("hall.toml"), "--robot", path("robot.toml")};
   const Outcome fits = ortung(command);
   EXPECT_EQ(fits.exitCode, 0) << fits.err;
   EXPECT_NE(fits.out.find("fits " + path("hall.toml")), std::string::npos);
   replace("hall.toml", "center_m = [2.4, -1.0]", "center_m = [2.3, -1.0]");
-  expectRefused(ortung(command), 1, "ortung check: " + path("hall.ortung"), {"learned in the world"});
+  expectRefused(ortung(command), 1, "ortung check: " + path("hall.ortung"),
+                {"learned in the world"});
   replace("hall.toml", "center_m = [2.3, -1.0]", "center_m = [2.4, -1.0]");
   replace("robot.toml", "beams = 60", "beams = 61");
-  expectRefused(ortung(command), 1, "ortung check: " + path("hall.ortung"), {"LMS200/LRF/180DegreeScan"});
+  expectRefused(ortung(command), 1, "ortung check: " + path("hall.ortung"),
+                {"LMS200/LRF/180DegreeScan"});
 }
 
 }  // namespace

@@ -46,8 +46,11 @@ TEST(GoldenTexts, EstimatesOfPoses) {
   PoseEstimate estimate;
   std::string text(kEstimatesHeader);
   appendEstimate(estimate, text);
-  estimate = {-1500000, {1.23456, -2.5, -3.14159265}, {1e-4, 2e-7, 3, 4, 5e10, 6, 7, 8, 0.09},
-              0.98765, 100000};
+  estimate = {-1500000,
+              {1.23456, -2.5, -3.14159265},
+              {1e-4, 2e-7, 3, 4, 5e10, 6, 7, 8, 0.09},
+              0.98765,
+              100000};
   appendEstimate(estimate, text);
   expectGolden("estimates.txt", text);
 }

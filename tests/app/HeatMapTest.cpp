@@ -1,10 +1,10 @@
-#include "HeatMap.hpp"
-
 #include <gtest/gtest.h>
 #include <png.h>
 
 #include <cmath>
 #include <limits>
+
+#include "HeatMap.hpp"
 
 namespace ortung::app {
 namespace {

@@ -8,8 +8,9 @@ namespace {
 using Learn = Workspace;
 
 TEST_F(Learn, SaysHowMuchItLearnedAndRepeatsItBitForBit) {
-  const std::vector<std::string> command = {"learn",   "--world", path("hall.toml"), "--robot",
-                                            path("robot.toml"), "--out",   path("hall.ortung")};
+  const std::vector<std::string> command = {
+      "learn", "--world",          path("hall.toml"), "--robot", path("robot.toml"),
+      "--out", path("hall.ortung")};
   const Outcome outcome = ortung(command);
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   // 6 x 4 m in cells of 0.1 m.
@@ -35,8 +36,8 @@ TEST_F(Learn, LeavesTheOldFileWholeWhenInterrupted) {
 }
 
 TEST_F(Learn, RefusesAnOutputItCannotWriteBeforeItWorks) {
-  const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"),
-                                  "--out", path("none/hall.ortung")});
+  const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot",
+                                  path("robot.toml"), "--out", path("none/hall.ortung")});
   expectRefused(outcome, 1, "ortung learn: " + path("none/hall.ortung"), {"there is no folder"});
 }
 

@@ -16,9 +16,9 @@ class Localization : public Workspace {
     recordRun();
   }
   Outcome run(const std::string& command, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {command,    "--source", "record:" + path("run.rec"),
-                                          "--robot",  path("robot.toml"), "--tables",
-                                          path("hall.ortung")};
+    std::vector<std::string> arguments = {
+        command,    "--source",         "record:" + path("run.rec"), "--robot", path("robot.toml"),
+        "--tables", path("hall.ortung")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return ortung(arguments);
   }
@@ -136,7 +136,8 @@ TEST_F(Localization, ReadingOfAnotherShapeIsRefusedWithTimeAndFeature) {
   const std::size_t scan = text.find("LMS200/LRF/180DegreeScan");
   const std::size_t end = text.find('\n', scan);
   write("run.rec", text.replace(scan, end - scan, "LMS200/LRF/180DegreeScan 2 1000 1000"));
-  expectRefused(run("eval"), 1, "ortung eval: record:", {" us: ", "LMS200/LRF/180DegreeScan", "60"});
+  expectRefused(run("eval"), 1,
+                "ortung eval: record:", {" us: ", "LMS200/LRF/180DegreeScan", "60"});
 }
 
 TEST_F(Localization, TruncatedTablesAreRefused) {
@@ -150,14 +151,16 @@ TEST_F(Localization, TruncatedTablesAreRefused) {
 
 TEST_F(Localization, TablesOfAnotherRobotAreRefusedWithBothSettings) {
   replace("robot.toml", "fov_deg = 180", "fov_deg = 200");
-  expectRefused(run("eval"), 1, "ortung eval: " + path("hall.ortung"), {"LMS200/LRF/180DegreeScan"});
+  expectRefused(run("eval"), 1, "ortung eval: " + path("hall.ortung"),
+                {"LMS200/LRF/180DegreeScan"});
   EXPECT_EQ(run("eval", {"--any-world"}).exitCode, 1);
 }
 
 TEST_F(Localization, TablesOfAnotherWorldAreRefusedUnlessAskedFor) {
   replace("hall.toml", "center_m = [2.4, -1.0]", "center_m = [2.3, -1.0]");
   learnTables();
-  expectRefused(run("eval"), 1, "ortung eval: record:" + path("run.rec"), {"was learned in the world", "--any-world"});
+  expectRefused(run("eval"), 1, "ortung eval: record:" + path("run.rec"),
+                {"was learned in the world", "--any-world"});
   const Outcome outcome = run("eval", {"--any-world"});
   EXPECT_EQ(outcome.exitCode, 0);
   EXPECT_NE(outcome.err.find("warning"), std::string::npos);
@@ -165,11 +168,13 @@ TEST_F(Localization, TablesOfAnotherWorldAreRefusedUnlessAskedFor) {
 
 TEST_F(Localization, SourcesWithUnknownKindOrOptionAreRefused) {
   const auto with = [&](const std::string& source) {
-    return ortung({"eval", "--source", source, "--robot", path("robot.toml"), "--tables", path("hall.ortung")});
+    return ortung({"eval", "--source", source, "--robot", path("robot.toml"), "--tables",
+                   path("hall.ortung")});
   };
   expectRefused(with(path("run.rec")), 2, "ortung eval: source", {"KIND:PATH"});
   expectRefused(with("telepathy:x"), 1, "ortung eval: ", {"telepathy"});
-  expectRefused(with("record:" + path("run.rec") + "?speed=2"), 2, "ortung eval: record:", {"speed"});
+  expectRefused(with("record:" + path("run.rec") + "?speed=2"), 2,
+                "ortung eval: record:", {"speed"});
   expectRefused(with("sim:" + path("hall.toml") + "?sped=2"), 1, "ortung eval: sim:", {"sped"});
 }
 

@@ -1,8 +1,7 @@
-#include "Numbers.hpp"
-
 #include <gtest/gtest.h>
 
 #include "Console.hpp"
+#include "Numbers.hpp"
 
 namespace ortung::app {
 namespace {
@@ -20,7 +19,9 @@ TEST(Numbers, RefusesEverythingElse) {
 
 TEST(Console, TextWithControlCharactersBecomesPrintable) {
   EXPECT_EQ(printable("a\033[2Jb\n"), "a\\x1b[2Jb\\x0a");
-  EXPECT_EQ(printable("\xC2\x9B" "1m"), "\xC2\\x9b1m");  // the one-character form of ESC [
+  EXPECT_EQ(printable("\xC2\x9B"
+                      "1m"),
+            "\xC2\\x9b1m");  // the one-character form of ESC [
   EXPECT_EQ(printable("M\xC3\xBCnchen"), "M\xC3\xBCnchen");
 }
 

@@ -1,11 +1,11 @@
-#include "OutputFile.hpp"
-
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <fstream>
 #include <iterator>
 #include <string>
+
+#include "OutputFile.hpp"
 
 namespace ortung::app {
 namespace {
@@ -38,7 +38,8 @@ TEST_F(OutputFile, NamesTheMissingFolderBeforeWorkBegins) {
     checkOutput(folder_ / "none" / "a.txt");
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("there is no folder"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("there is no folder"), std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(checkOutput(folder_), std::runtime_error);
   EXPECT_NO_THROW(checkOutput(folder_ / "a.txt"));

@@ -69,8 +69,8 @@ Program::Program(const std::vector<std::string>& arguments,
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
-  const int failed = posix_spawn(&process_, ORTUNG_PROGRAM, &actions, nullptr, pointers(words).data(),
-                                 pointers(variables).data());
+  const int failed = posix_spawn(&process_, ORTUNG_PROGRAM, &actions, nullptr,
+                                 pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
   close(out[1]);
   close(err[1]);

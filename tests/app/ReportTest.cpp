@@ -1,9 +1,8 @@
-#include "Report.hpp"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "Report.hpp"
 #include "SyntheticRun.hpp"
 
 namespace ortung::app {

@@ -1,10 +1,9 @@
-#include "RunResult.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "RunResult.hpp"
 #include "SyntheticRun.hpp"
 
 namespace ortung::app {

@@ -9,9 +9,10 @@ TEST_F(Workspace, TraceOfASceneIsWrittenAsItWas) {
   write("hall.toml", read("hall.toml") +
                          "[[ellipse]]\nkind = \"ball\"\nname = \"a,b\"\ncenter_m = [0.5, -1.25]\n"
                          "size_m = [0.22, 0.22]\nz_m = [0, 0.22]\nmovable = true\nmass_kg = 0.4\n");
-  write("robot.toml", read("robot.toml") +
-                          "[[manipulator]]\nname = \"kicker\"\n[[manipulator.state]]\nname = \"in\"\n"
-                          "[[manipulator]]\nname = \"flaps\"\n[[manipulator.state]]\nname = \"open\"\n");
+  write("robot.toml",
+        read("robot.toml") +
+            "[[manipulator]]\nname = \"kicker\"\n[[manipulator.state]]\nname = \"in\"\n"
+            "[[manipulator]]\nname = \"flaps\"\n[[manipulator.state]]\nname = \"open\"\n");
   write("scene.toml",
         "[scene]\nworld = \"hall.toml\"\n[[robot]]\nfile = \"robot.toml\"\nname = \"anna\"\n"
         "start = { x_m = -1.5, y_m = 0.25, theta_deg = 90 }\n");

@@ -38,8 +38,9 @@ TEST(Usage, WrongUsageEndsWithCode2AndOneLine) {
 class WrongNumber : public Workspace {};
 
 TEST_F(WrongNumber, EndsWithCode2AndSaysWhatWasExpected) {
-  const std::vector<std::string> learn = {"learn",   "--world", path("hall.toml"),  "--robot", path("robot.toml"),
-                                          "--out",   path("t.ortung")};
+  const std::vector<std::string> learn = {"learn",         "--world",          path("hall.toml"),
+                                          "--robot",       path("robot.toml"), "--out",
+                                          path("t.ortung")};
   const auto with = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return ortung(arguments);
@@ -47,12 +48,15 @@ TEST_F(WrongNumber, EndsWithCode2AndSaysWhatWasExpected) {
   expectRefused(with(learn, {"--cell", "0"}), 2, "ortung learn: --cell", {"0.01 to 10"});
   expectRefused(with(learn, {"--cell", "nan"}), 2, "ortung learn: --cell", {"'nan'"});
   expectRefused(with(learn, {"--cell", "0.1m"}), 2, "ortung learn: --cell", {"'0.1m'"});
-  expectRefused(with(learn, {"--heading-step", "7"}), 2, "ortung learn: --heading-step is 7", {"divide"});
-  const std::vector<std::string> eval = {"eval",     "--source", "record:" + path("none.rec"), "--robot",
-                                         path("robot.toml"), "--tables", path("none.ortung")};
+  expectRefused(with(learn, {"--heading-step", "7"}), 2, "ortung learn: --heading-step is 7",
+                {"divide"});
+  const std::vector<std::string> eval = {
+      "eval",     "--source",         "record:" + path("none.rec"), "--robot", path("robot.toml"),
+      "--tables", path("none.ortung")};
   expectRefused(with(eval, {"--particles", "0"}), 2, "ortung eval: --particles", {});
   expectRefused(with(eval, {"--particles", "1e300"}), 2, "ortung eval: --particles", {});
-  expectRefused(with(eval, {"--converged-within", "0.5"}), 2, "ortung eval: --converged-within", {"\"m,deg\""});
+  expectRefused(with(eval, {"--converged-within", "0.5"}), 2, "ortung eval: --converged-within",
+                {"\"m,deg\""});
   EXPECT_EQ(files(), (std::vector<std::string>{"hall.toml", "robot.toml"}));
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "ortung/base/Random.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung::bench {
 namespace {

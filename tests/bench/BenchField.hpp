@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "ortung/tables/FieldRegion.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/mcl/SampleSet.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 /// What the benchmarks share: a field in closed form, clouds of samples on it, and stopwatches.
 namespace ortung::bench {

@@ -7,6 +7,9 @@
 
 #include "BenchField.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/ScalarData.hpp"
 
 namespace ortung::bench {
 namespace {

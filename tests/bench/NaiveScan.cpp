@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "BenchField.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung::bench {
 namespace {

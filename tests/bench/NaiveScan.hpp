@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/base/SampleView.hpp"
 
 namespace ortung::bench {

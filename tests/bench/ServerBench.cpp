@@ -232,8 +232,8 @@ void latency(const char* file, const std::string& robot, int clients, double her
     reply = one.lines(lines);
   }
   Echo echo(reply, clients);
-  std::vector<double> taken = ask(
-      echo.port(), [&](Client&) { return lines; }, clients, hertz, seconds);
+  std::vector<double> taken =
+      ask(echo.port(), [&](Client&) { return lines; }, clients, hertz, seconds);
   print("echo  ", clients, hertz, taken);
   std::printf("\n");
 }

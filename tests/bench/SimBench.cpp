@@ -11,8 +11,8 @@
 
 #include "ArenaStarts.hpp"
 #include "BareBox2d.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/robot/TomlFile.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 namespace ortung::bench {

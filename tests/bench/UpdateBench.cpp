@@ -13,6 +13,8 @@
 #include "NaiveScan.hpp"
 #include "Resampling.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/mcl/Mcl.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
 

@@ -11,6 +11,7 @@
 #include "NaiveScan.hpp"
 #include "ScanCost.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/formats/ScanData.hpp"
 #ifdef ORTUNG_BENCH_MRPT
 #include "MrptScan.hpp"
 #endif

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "ortung/client/ClockOffset.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/client/ClockOffset.hpp"
 
 namespace ortung {
 namespace {

@@ -8,7 +8,8 @@
 #include "Files.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/client/ortung_client.h"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/server/ServedSimulation.hpp"
 
 namespace ortung::test {

@@ -77,9 +77,8 @@ TEST(TcpSource, WhereLockstepIsNotPermittedItFollowsUnlessItIsAskedFor) {
   BoardConfig config;
   config.speed = 20.0;
   const RunningBoard board(world, config);
-  const std::string why = messageOf<ServerRefused>([&] {
-    open(board.port(), {{"lockstep", "on"}});
-  });
+  const std::string why =
+      messageOf<ServerRefused>([&] { open(board.port(), {{"lockstep", "on"}}); });
   EXPECT_NE(why.find("LOCKSTEP makes all others wait"), std::string::npos) << why;
   const auto source = open(board.port(), {{"cycle_ms", "5"}, {"duration", "0.5"}});
   Message message;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/ScalarData.hpp"
 #include "ortung/mcl/Mcl.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
 

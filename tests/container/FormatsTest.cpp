@@ -5,6 +5,13 @@
 
 #include "FakeRoom.hpp"
 #include "Files.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 namespace {

@@ -5,14 +5,19 @@
 #include <numbers>
 
 #include "Golden.hpp"
-#include "ortung/motion/MotionNetwork.hpp"
-#include "ortung/robot/RobotFile.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/core/Record.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PointsData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
-#include "ortung/core/Record.hpp"
-#include "ortung/robot/TableInfo.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/formats/ScanData.hpp"
+#include "ortung/motion/MotionNetwork.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/robot/TableInfo.hpp"
 
 namespace ortung {
 namespace {

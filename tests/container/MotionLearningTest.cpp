@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "ortung/motion/OdometryMotion.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {

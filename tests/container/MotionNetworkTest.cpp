@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
-#include "ortung/motion/MotionNetwork.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/motion/MotionNetwork.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
 
 namespace ortung {

@@ -34,9 +34,7 @@ TEST(ObstaclesData, ReadsShapesAndNeverLocalizes) {
 
 TEST(ObstaclesData, RefusesHostileWords) {
   ObstaclesData data(kId);
-  EXPECT_EQ(messageOf<std::invalid_argument>([&] {
-              data.setData(2, Words{2, 0, 0, 0, 0});
-            }),
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { data.setData(2, Words{2, 0, 0, 0, 0}); }),
             "M1/T/F: found the shape 2, expected 0 for a circle or 1 for a segment");
   EXPECT_NE(messageOf<std::invalid_argument>([&] { data.setData(2, Words(4, 0)); }), "");
   EXPECT_NE(messageOf<std::invalid_argument>([&] { data.setData(2, Words(5 * 1025, 0)); }), "");

@@ -65,13 +65,9 @@ TEST(Parameters, SaysWhereAndWhatIsWrong) {
   const Parameters p = example();
   EXPECT_EQ(complaint([&] { p.number("gone"); }), "x.toml: gone is missing");
   EXPECT_EQ(complaint([&] { p.number("text"); }), "x.toml:4: text is a text, expected a number");
-  EXPECT_EQ(complaint([&] {
-              p.number("flag", {0, 1});
-            }),
+  EXPECT_EQ(complaint([&] { p.number("flag", {0, 1}); }),
             "x.toml:1: flag is a flag (true/false), expected a number in [0, 1]");
-  EXPECT_EQ(complaint([&] {
-              p.number("real", {3, 4});
-            }),
+  EXPECT_EQ(complaint([&] { p.number("real", {3, 4}); }),
             "x.toml:3: real is 2.5, must be in [3, 4]");
   EXPECT_EQ(complaint([&] { p.numberOr("real", 3, {.low = 3}); }),
             "x.toml:3: real is 2.5, must be at least 3");
@@ -82,24 +78,18 @@ TEST(Parameters, SaysWhereAndWhatIsWrong) {
             "x.toml:3: real is 2.5, expected a whole number");
   EXPECT_EQ(complaint([&] { p.integer("huge"); }),
             "x.toml:10: huge is 1e+300, expected a whole number");
-  EXPECT_EQ(complaint([&] {
-              p.integerOr("whole", 1, {8, 9});
-            }),
+  EXPECT_EQ(complaint([&] { p.integerOr("whole", 1, {8, 9}); }),
             "x.toml:2: whole is 7, must be in [8, 9]");
   EXPECT_EQ(complaint([&] { p.text("whole"); }),
             "x.toml:2: whole is a whole number, expected a text");
-  EXPECT_EQ(complaint([&] {
-              p.choiceOr("text", "x", {"x", "y"});
-            }),
+  EXPECT_EQ(complaint([&] { p.choiceOr("text", "x", {"x", "y"}); }),
             "x.toml:4: text is 'abc', must be one of: x, y");
   EXPECT_EQ(complaint([&] { p.flagOr("real", true); }),
             "x.toml:3: real is a number, expected true or false");
   EXPECT_EQ(complaint([&] { p.numbers("real"); }),
             "x.toml:3: real is a number, expected a list of numbers");
   EXPECT_EQ(complaint([&] { p.numbers("list", 3); }), "x.toml:5: list has 2 entries, expected 3");
-  EXPECT_EQ(complaint([&] {
-              p.numbersOr("list", {}, -1, {2, 9});
-            }),
+  EXPECT_EQ(complaint([&] { p.numbersOr("list", {}, -1, {2, 9}); }),
             "x.toml:5: list is 1, must be in [2, 9]");
   EXPECT_EQ(complaint([&] { p.numbers("words"); }), "x.toml:6: words is a text, expected a number");
   EXPECT_EQ(complaint([&] { p.texts("text"); }),

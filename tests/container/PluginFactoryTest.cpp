@@ -3,9 +3,9 @@
 #include <cstdlib>
 
 #include "Files.hpp"
-#include "ortung/motion/MotionModel.hpp"
-#include "ortung/core/PluginFactory.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/motion/MotionModel.hpp"
 
 namespace ortung {
 namespace {
@@ -150,9 +150,8 @@ TEST(PluginFactory, PluginsOutliveIt) {
   }
   ASSERT_EQ(data.size(), 2u);
   data[0]->setData(1, std::vector<std::uint32_t>{5});
-  EXPECT_EQ(messageOf<std::invalid_argument>([&] {
-              data[1]->setData(1, std::vector<std::uint32_t>{5, 6});
-            }),
+  EXPECT_EQ(messageOf<std::invalid_argument>(
+                [&] { data[1]->setData(1, std::vector<std::uint32_t>{5, 6}); }),
             "good/test/distance1: found 2 words, expected 1");
 }
 

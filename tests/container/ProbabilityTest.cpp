@@ -5,6 +5,12 @@
 #include <memory>
 
 #include "FakeRoom.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/formats/ScanData.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung {
 namespace {

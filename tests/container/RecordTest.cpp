@@ -127,7 +127,8 @@ TEST(RecordLine, SurvivesAHundredThousandMutations) {
     const std::string again = lineOf(*parsed);
     ASSERT_EQ(parseLine(again), parsed) << line;
     // Only zeros before a number can be more than what would be written.
-    ASSERT_EQ(std::count(again.begin(), again.end(), ' '), std::count(line.begin(), line.end(), ' '))
+    ASSERT_EQ(std::count(again.begin(), again.end(), ' '),
+              std::count(line.begin(), line.end(), ' '))
         << line;
     ASSERT_LE(again.size(), line.size()) << line;
   }
@@ -159,7 +160,9 @@ TEST(Record, ComesBackWithItsWorld) {
 TEST(Record, WithoutCommitTheOldFileStaysAndNothingElse) {
   const TemporaryFolder folder;
   writeBytes(folder / "run.rec", "old");
-  { RecordWriter(folder / "run.rec").write({1, {"a", "b", "c"}, {1}}); }
+  {
+    RecordWriter(folder / "run.rec").write({1, {"a", "b", "c"}, {1}});
+  }
   EXPECT_EQ(test::readBytes(folder / "run.rec"), "old");
   EXPECT_EQ(folder.files(), 1u);
 }

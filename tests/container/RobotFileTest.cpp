@@ -51,9 +51,7 @@ TEST(RobotFile, SensorNamesHaveDefaultsAndAreChecked) {
   const Parameters good = parseToml("model = 'LMS200'\n", "r.toml");
   EXPECT_EQ(sensorIdOf(good, {"any", "LRF", "scan"}), (SensorId{"LMS200", "LRF", "scan"}));
   const Parameters bad = parseToml("model = 'LMS 200'\n", "r.toml");
-  EXPECT_EQ(complaint([&] {
-              sensorIdOf(bad, {"any", "LRF", "scan"});
-            }),
+  EXPECT_EQ(complaint([&] { sensorIdOf(bad, {"any", "LRF", "scan"}); }),
             "r.toml:1: model and its companions: the sensor's model must be 1 to 64 characters of "
             "[A-Za-z0-9_.-]");
 }

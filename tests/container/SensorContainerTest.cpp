@@ -4,9 +4,11 @@
 #include <thread>
 
 #include "Files.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung {
 namespace {
@@ -61,9 +63,7 @@ TEST(SensorContainer, FindsExactlyOne) {
 TEST(SensorContainer, RefusesASecondFeatureOfOneName) {
   SensorContainer container;
   addPose(container, {"A", "b", "c"});
-  EXPECT_EQ(messageOf<std::invalid_argument>([&] {
-              addPose(container, {"A", "b", "c"});
-            }),
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { addPose(container, {"A", "b", "c"}); }),
             "feature already in the container: A/b/c");
   EXPECT_EQ(container.all().size(), 1u);
 }
@@ -105,9 +105,7 @@ TEST(SensorContainer, CountsMessagesOfFeaturesItDoesNotHave) {
 TEST(SensorContainer, NamesTheFeatureWhoseWordsItRefuses) {
   SensorContainer container;
   fill(container);
-  EXPECT_EQ(messageOf<std::invalid_argument>([&] {
-              container.set({1, {"A", "t", "1"}, {1}});
-            }),
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { container.set({1, {"A", "t", "1"}, {1}}); }),
             "A/t/1: found 1 words, expected 3");
 }
 

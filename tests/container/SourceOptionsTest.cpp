@@ -31,9 +31,8 @@ TEST(SourceOptions, ANumberIsInItsRangeOrNotGiven) {
   EXPECT_FALSE(optionNumber(options("other", "0.5"), "speed", Range{0, 1}).has_value());
   EXPECT_EQ(optionNumber(options("other", "0.5"), "speed", 0.25, Range{0, 1}), 0.25);
   for (const char* text : {"1.5", "-0.1", "", "1,1", "nan"})
-    EXPECT_EQ(test::messageOf<ConfigError>([&] {
-                optionNumber(options("speed", text), "speed", Range{0, 1});
-              }),
+    EXPECT_EQ(test::messageOf<ConfigError>(
+                  [&] { optionNumber(options("speed", text), "speed", Range{0, 1}); }),
               std::string("sim:x: speed is \"") + text + "\", must be a number in [0, 1]");
 }
 

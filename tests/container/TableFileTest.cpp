@@ -78,13 +78,9 @@ TEST(TableFile, SaysWhichTableIsMissingOrOther) {
   EXPECT_EQ(messageOf<TableError>([&] { file.array("gone"); }), name + ": has no table gone");
   EXPECT_EQ(messageOf<TableError>([&] { (void)file.text("gone.json"); }),
             name + ": has no member gone.json, so it is no table file");
-  EXPECT_EQ(messageOf<TableError>([&] {
-              file.get<float>("ints", {2, 1, 2});
-            }),
+  EXPECT_EQ(messageOf<TableError>([&] { file.get<float>("ints", {2, 1, 2}); }),
             name + ": table ints has <i4 2 x 1 x 2, expected <f4 2 x 1 x 2");
-  EXPECT_EQ(messageOf<TableError>([&] {
-              file.get<std::int32_t>("ints", {0, 4});
-            }),
+  EXPECT_EQ(messageOf<TableError>([&] { file.get<std::int32_t>("ints", {0, 4}); }),
             name + ": table ints has <i4 2 x 1 x 2, expected <i4 any x 4");
 }
 

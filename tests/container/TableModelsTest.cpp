@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "FakeRoom.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/tables/DirectionTable.hpp"
 #include "ortung/tables/EndPointField.hpp"
 #include "ortung/tables/PositionTable.hpp"

@@ -5,8 +5,13 @@
 
 #include "FakeRoom.hpp"
 #include "Files.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/robot/RobotFile.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/robot/TableInfo.hpp"
 
 namespace ortung {

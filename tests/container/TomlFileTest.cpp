@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "Files.hpp"
-#include "ortung/robot/TomlFile.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/robot/TomlFile.hpp"
 
 namespace ortung {
 namespace {
@@ -36,9 +36,7 @@ TEST(Toml, BecomesParameters) {
 TEST(Toml, ErrorsNameTheLine) {
   const Parameters p =
       parseToml("# one\n[t]\n  fov_deg = 400\n\n[[s]]\nn = 'x'\n", "robots/a.toml");
-  EXPECT_EQ(complaint([&] {
-              p.table("t").number("fov_deg", {0, 360});
-            }),
+  EXPECT_EQ(complaint([&] { p.table("t").number("fov_deg", {0, 360}); }),
             "robots/a.toml:3: fov_deg is 400, must be in [0, 360]");
   EXPECT_EQ(complaint([&] { p.tables("s")[0].number("n"); }),
             "robots/a.toml:6: n is a text, expected a number");

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "Seeded.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung::words {
 namespace {

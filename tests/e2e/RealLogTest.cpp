@@ -13,11 +13,13 @@ TEST(RealLog, RobotAmongLandmarksIsTrackedFromAnUnknownStart) {
   const Folder folder;
   folder.run({"import", "mrclam", kRun, "--robot", "2", "--out", folder.path("run.rec"), "--world",
               folder.path("world.toml"), "--robot-file", folder.path("robot.toml")});
-  folder.run({"check", folder.path("run.rec"), folder.path("world.toml"), folder.path("robot.toml")});
+  folder.run(
+      {"check", folder.path("run.rec"), folder.path("world.toml"), folder.path("robot.toml")});
   folder.run({"learn", "--world", folder.path("world.toml"), "--robot", folder.path("robot.toml"),
               "--out", folder.path("world.ortung"), "--cell", "0.05"});
-  const auto figures = folder.eval({"--source", "record:" + folder.path("run.rec"), "--robot",
-                                    folder.path("robot.toml"), "--tables", folder.path("world.ortung")});
+  const auto figures =
+      folder.eval({"--source", "record:" + folder.path("run.rec"), "--robot",
+                   folder.path("robot.toml"), "--tables", folder.path("world.ortung")});
   EXPECT_GT(figures["duration_s"].get<double>(), 600.0);
   EXPECT_FALSE(figures["converged_after_s"].is_null());
   // Ranges to landmarks are good to 0.06-0.24 m, and dead reckoning drifts 0.24-0.53 m a minute.

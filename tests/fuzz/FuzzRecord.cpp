@@ -1,5 +1,5 @@
-// A record file, whole, each of its lines, and readings in binary form; what was read is written and
-// read again.
+// A record file, whole, each of its lines, and readings in binary form; what was read is written
+// and read again.
 #include <sys/mman.h>
 #include <unistd.h>
 

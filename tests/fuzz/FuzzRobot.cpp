@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "ortung/robot/NetworkRobot.hpp"
 #include "ortung/core/PluginFactory.hpp"
+#include "ortung/robot/NetworkRobot.hpp"
 
 namespace {
 

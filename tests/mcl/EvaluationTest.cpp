@@ -51,9 +51,8 @@ TEST(Interpolate, GoesStraightAndTheShortWayRound) {
 
 TEST(Evaluation, ConvergesWhenTheErrorStaysSmallForFiveSeconds) {
   // Small at 3..5 s (too short), then from 10 s on.
-  const auto result = resultOf([](int t) {
-    return Pose2{(t >= 3 && t <= 5) || t >= 10 ? 0.1 : 2.0, 0, 0};
-  });
+  const auto result =
+      resultOf([](int t) { return Pose2{(t >= 3 && t <= 5) || t >= 10 ? 0.1 : 2.0, 0, 0}; });
   ASSERT_TRUE(result.convergedAfter.has_value());
   EXPECT_DOUBLE_EQ(*result.convergedAfter, 10.0);
   EXPECT_NEAR(result.positionRmse, 0.1, 1e-12) << "over the time after convergence only";

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "FakeRoom.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScalarData.hpp"
 #include "ortung/mcl/Mcl.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
 

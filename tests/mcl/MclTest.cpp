@@ -6,6 +6,8 @@
 
 #include "FakeRun.hpp"
 #include "Files.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScalarData.hpp"
 #include "ortung/mcl/Mcl.hpp"
 
 namespace ortung {

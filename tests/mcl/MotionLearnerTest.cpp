@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "ortung/motion/OdometryMotion.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/mcl/MotionLearner.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {

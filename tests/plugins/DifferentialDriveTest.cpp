@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "MotionRig.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung {
 namespace {

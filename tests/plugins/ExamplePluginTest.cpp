@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "FakeWorld.hpp"
-#include "ortung/robot/TomlFile.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/PluginFactory.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

@@ -1,6 +1,6 @@
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/PoseData.hpp"
 
 namespace ortung {
 namespace {

@@ -3,7 +3,8 @@
 
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ObjectsData.hpp"
 #include "ortung/formats/PointsData.hpp"
 

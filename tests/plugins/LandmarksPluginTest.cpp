@@ -3,7 +3,9 @@
 
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/ScalarData.hpp"
 
 namespace ortung {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "Files.hpp"
 #include "MotionRig.hpp"
+#include "ortung/formats/Words.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
-#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 namespace {

@@ -1,6 +1,7 @@
 #include "FakeWorld.hpp"
 #include "SensorRig.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung {
 namespace {

@@ -5,10 +5,11 @@
 #include <map>
 #include <set>
 
-#include "ortung/robot/RobotFile.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
 namespace ortung {

@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "LogTesting.hpp"
-#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 namespace {

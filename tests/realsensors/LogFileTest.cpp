@@ -60,13 +60,9 @@ TEST(LogFile, NamesPlaceFoundAndExpectedInErrors) {
   ASSERT_TRUE(file.nextRecord());
   EXPECT_EQ(errorOf([&] { file.number(1, "a range [m]"); }),
             path + ":1: found 'nan' in field 2, expected a range [m], a number");
-  EXPECT_EQ(errorOf([&] {
-              file.number(3, "a range [m]", {0, 90});
-            }),
+  EXPECT_EQ(errorOf([&] { file.number(3, "a range [m]", {0, 90}); }),
             path + ":1: found '300' in field 4, expected a range [m], a number in [0, 90]");
-  EXPECT_EQ(errorOf([&] {
-              file.integer(2, "a count", {0, 90});
-            }),
+  EXPECT_EQ(errorOf([&] { file.integer(2, "a count", {0, 90}); }),
             path + ":1: found '2.5' in field 3, expected a count, a whole number in [0, 90]");
   EXPECT_EQ(errorOf([&] { file.number(9, "a range [m]"); }),
             path + ":1: found 4 fields, expected a range [m], a number");

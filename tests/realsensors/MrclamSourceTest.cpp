@@ -1,5 +1,6 @@
 #include "LogTesting.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/Words.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 
 namespace ortung {

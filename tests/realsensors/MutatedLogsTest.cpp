@@ -26,7 +26,8 @@ void expectReadOrRefused(const std::string& source, const std::string& folder, i
     const std::string text = error.what();
     EXPECT_NE(text.find(folder), std::string::npos) << text;
     EXPECT_LT(text.size(), 1000u);
-    // How UndefinedBehaviorSanitizer ends a helper (CMakePresets.json), whose messages nobody reads.
+    // How UndefinedBehaviorSanitizer ends a helper (CMakePresets.json), whose messages nobody
+    // reads.
     EXPECT_EQ(text.find("ended with status 77"), std::string::npos) << text;
   }
 }

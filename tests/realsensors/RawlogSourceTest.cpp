@@ -1,7 +1,6 @@
 #include <cstdlib>
 
 #include "LogTesting.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/base/HelperProgram.hpp"
 
 namespace ortung {

@@ -2,7 +2,8 @@
 #include <fstream>
 
 #include "LogTesting.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung {
 namespace {
@@ -173,8 +174,9 @@ TEST_F(ScanlogSource, WritesAWorldWithACopyOfItsMap) {
   folder_.write("out/keep", "");
   const auto source = makeSource("scanlog:" + path() + "/log");  // the map lies one folder above
   source->writeWorld(folder_.path() / "out/hall.toml");
-  EXPECT_EQ(readBytes(folder_.path() / "out/hall.toml"),
-            "[world]\nname = \"hall\"\n\n[[grid]]\nmap = \"hall.yaml\"\nsurface_depth_cells = 0.5\n");
+  EXPECT_EQ(
+      readBytes(folder_.path() / "out/hall.toml"),
+      "[world]\nname = \"hall\"\n\n[[grid]]\nmap = \"hall.yaml\"\nsurface_depth_cells = 0.5\n");
   EXPECT_EQ(readBytes(folder_.path() / "out/hall.yaml"),
             "image: hall.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n");
   EXPECT_EQ(readBytes(folder_.path() / "out/hall.pgm"), "P5\n2 1\n255\nab");

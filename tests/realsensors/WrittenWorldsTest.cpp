@@ -5,9 +5,9 @@
 #include <ostream>
 
 #include "LogTesting.hpp"
+#include "ortung/formats/PoseData.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TomlFile.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
 namespace ortung {

@@ -5,8 +5,9 @@
 #include <functional>
 #include <numbers>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 // Counts what this process asks of the memory, in all its libraries.

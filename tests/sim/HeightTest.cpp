@@ -88,7 +88,8 @@ TEST(Height, MeansTheSameToThePhysics) {
     } catch (const std::invalid_argument&) {
       isTaken = false;
     }
-    ASSERT_EQ(isTaken, isFree) << pose.x << " " << pose.y << " " << size.radius << " " << size.height;
+    ASSERT_EQ(isTaken, isFree) << pose.x << " " << pose.y << " " << size.radius << " "
+                               << size.height;
     refused += isFree ? 0 : 1;
     ++compared;
   }

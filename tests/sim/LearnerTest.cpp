@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "FakeWorld.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/robot/TomlFile.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/sim/Learner.hpp"
 
 namespace ortung {

@@ -98,9 +98,7 @@ size_m = [0.4, 0.3]
 TEST(Refused, TwoRobotsOfOneName) {
   Field field;
   field.simulation.addRobot(named("one"), field.factory, {-4, -2, 0});
-  expectIn(complaint([&] {
-             field.simulation.addRobot(named("one"), field.factory, {4, -2, 0});
-           }),
+  expectIn(complaint([&] { field.simulation.addRobot(named("one"), field.factory, {4, -2, 0}); }),
            {"robot one", "name"});
 }
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "FakeWorld.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/robot/TomlFile.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 namespace ortung {

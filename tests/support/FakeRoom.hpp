@@ -6,9 +6,10 @@
 #include <numbers>
 #include <vector>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 /// A world of which everything is known in closed form: an empty rectangular room around the
 /// origin, with points in it that can be told apart.

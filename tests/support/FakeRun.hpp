@@ -3,6 +3,9 @@
 #include <memory>
 
 #include "FakeRoom.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/mcl/Mcl.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
 

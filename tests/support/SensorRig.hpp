@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/robot/TomlFile.hpp"
 #include "ortung/core/PluginFactory.hpp"
+#include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

@@ -35,8 +35,8 @@ std::string numberWithin(const Range& range) {
 }
 
 const char* kindOf(const Parameters::Node& node) {
-  static constexpr const char* kKinds[] = {"a flag (true/false)", "a whole number", "a number",
-                                           "a text",              "a list",         "a table"};
+  static constexpr const char* kKinds[] = {
+      "a flag (true/false)", "a whole number", "a number", "a text", "a list", "a table"};
   return kKinds[node.value.index()];
 }
 
@@ -164,9 +164,11 @@ std::vector<double> Parameters::numbers(const std::string& key, int count,
                                         const Range& range) const {
   const Node& node = need(key);
   const auto* list = std::get_if<List>(&node.value);
-  if (list == nullptr) fail(key, std::string("is ") + kindOf(node) + ", expected a list of numbers");
+  if (list == nullptr)
+    fail(key, std::string("is ") + kindOf(node) + ", expected a list of numbers");
   if (count >= 0 && list->size() != static_cast<std::size_t>(count)) {
-    fail(key, "has " + std::to_string(list->size()) + " entries, expected " + std::to_string(count));
+    fail(key,
+         "has " + std::to_string(list->size()) + " entries, expected " + std::to_string(count));
   }
   std::vector<double> values;
   values.reserve(list->size());
@@ -197,7 +199,8 @@ Parameters Parameters::table(const std::string& key) const {
   const Node* node = look(key);
   if (node == nullptr) return Parameters(table_->where);
   const auto* table = std::get_if<Parameters>(&node->value);
-  if (table == nullptr) fail(key, std::string("is ") + kindOf(*node) + ", expected a table [" + key + "]");
+  if (table == nullptr)
+    fail(key, std::string("is ") + kindOf(*node) + ", expected a table [" + key + "]");
   return *table;
 }
 
@@ -205,11 +208,13 @@ std::vector<Parameters> Parameters::tables(const std::string& key) const {
   const Node* node = look(key);
   if (node == nullptr) return {};
   const auto* list = std::get_if<List>(&node->value);
-  if (list == nullptr) fail(key, std::string("is ") + kindOf(*node) + ", expected tables [[" + key + "]]");
+  if (list == nullptr)
+    fail(key, std::string("is ") + kindOf(*node) + ", expected tables [[" + key + "]]");
   std::vector<Parameters> tables;
   for (const Node& entry : *list) {
     const auto* table = std::get_if<Parameters>(&entry.value);
-    if (table == nullptr) fail(key, std::string("holds ") + kindOf(entry) + ", expected tables only");
+    if (table == nullptr)
+      fail(key, std::string("holds ") + kindOf(entry) + ", expected tables only");
     tables.push_back(*table);
   }
   return tables;

@@ -22,7 +22,8 @@ void writeBinary(const Message& message, std::string& out) {
   std::size_t next = out.size();
   out.resize(next + kBytesAWord * message.words.size());
   for (const std::uint32_t word : message.words)
-    for (int shift = 0; shift < 32; shift += 8) out[next++] = static_cast<char>(word >> shift & 0xFF);
+    for (int shift = 0; shift < 32; shift += 8)
+      out[next++] = static_cast<char>(word >> shift & 0xFF);
 }
 
 std::optional<Message> parseBinary(std::string_view& bytes, std::string* why) {

@@ -104,8 +104,8 @@ void PluginFactory::load(const std::filesystem::path& file) {
   libraries_.push_back({file, info});
 }
 
-/// Loads the libraries ortung_PART*.so of all folders, in the order of the alphabet. Returns why some
-/// could not be loaded: a broken library must not hide the plugins of its neighbours.
+/// Loads the libraries ortung_PART*.so of all folders, in the order of the alphabet. Returns why
+/// some could not be loaded: a broken library must not hide the plugins of its neighbours.
 std::vector<std::string> PluginFactory::loadWhere(const std::string& part) {
   const std::string prefix = "ortung_" + part;
   std::vector<std::string> complaints;
@@ -114,7 +114,8 @@ std::vector<std::string> PluginFactory::loadWhere(const std::string& part) {
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
       const std::string name = entry.path().filename();
-      if (name.starts_with(prefix) && entry.path().extension() == ".so") files.push_back(entry.path());
+      if (name.starts_with(prefix) && entry.path().extension() == ".so")
+        files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
@@ -135,7 +136,8 @@ std::vector<PluginFactory::Found> PluginFactory::list() {
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
       const std::string name = entry.path().filename();
-      if (name.starts_with("ortung_") && entry.path().extension() == ".so") files.push_back(entry.path());
+      if (name.starts_with("ortung_") && entry.path().extension() == ".so")
+        files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
@@ -180,10 +182,10 @@ const PluginEntry* PluginFactory::findEntry(const std::string& interface,
 void* PluginFactory::create(const std::string& interface, const std::string& name,
                             const Parameters& parameters) {
   const PluginEntry* entry = findEntry(interface, name);
-  const bool plainName = !name.empty() && name.size() <= 64 &&
-                         std::all_of(name.begin(), name.end(), [](char c) {
-                           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-                         });
+  const bool plainName =
+      !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+      });
   std::vector<std::string> complaints;
   if (entry == nullptr && plainName) {
     // A broken library of this very name is not passed over for another one further on.
@@ -197,8 +199,8 @@ void* PluginFactory::create(const std::string& interface, const std::string& nam
   if (entry == nullptr) {
     std::string folders;
     for (const auto& folder : folders_) folders += (folders.empty() ? "" : ", ") + folder.string();
-    std::string message = "there is no plugin '" + name + "' of kind " + interfaceKind(interface) + " in " +
-                          (folders.empty() ? "the (empty) search path" : folders) +
+    std::string message = "there is no plugin '" + name + "' of kind " + interfaceKind(interface) +
+                          " in " + (folders.empty() ? "the (empty) search path" : folders) +
                           "; `ortung plugins` lists what there is";
     for (const std::string& complaint : complaints) message += "; not loaded: " + complaint;
     throw PluginError(message);

@@ -50,8 +50,9 @@ bool readLine(std::istream& in, std::string& line) {
   while (line.size() <= kLongestLine) {
     in.getline(piece, sizeof piece);
     const auto count = static_cast<std::size_t>(in.gcount());
-    const bool filled = in.fail() && !in.eof() && !in.bad() && count > 0;  // no end of line within the piece
-    const bool ended = !in.fail() && !in.eof();                            // the end of line counts, too
+    const bool filled =
+        in.fail() && !in.eof() && !in.bad() && count > 0;  // no end of line within the piece
+    const bool ended = !in.fail() && !in.eof();            // the end of line counts, too
     line.append(piece, ended ? count - 1 : count);
     if (!filled) return !line.empty() || ended;
     in.clear(in.rdstate() & ~std::ios::failbit);
@@ -136,8 +137,9 @@ RecordSource::RecordSource(const std::filesystem::path& file)
   in_.read(magic, sizeof magic);
   const std::string_view found(magic, static_cast<std::size_t>(in_.gcount()));
   if (found != std::string(kRecordMagic) + "\n") {
-    throw std::runtime_error(file.string() + ":1: found " + quoted(found.substr(0, found.find('\n'))) +
-                             ", expected '" + std::string(kRecordMagic) + "'");
+    throw std::runtime_error(file.string() + ":1: found " +
+                             quoted(found.substr(0, found.find('\n'))) + ", expected '" +
+                             std::string(kRecordMagic) + "'");
   }
   lineNumber_ = 1;
   done_ = static_cast<double>(sizeof magic);

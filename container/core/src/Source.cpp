@@ -14,10 +14,10 @@ void Source::writeWorld(const std::filesystem::path&) const {
 SourceText parseSourceText(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);
-  const bool wellNamed = !kind.empty() && kind.size() <= 64 &&
-                         std::all_of(kind.begin(), kind.end(), [](char c) {
-                           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-                         });
+  const bool wellNamed =
+      !kind.empty() && kind.size() <= 64 && std::all_of(kind.begin(), kind.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+      });
   if (colon == text.npos || !wellNamed) {
     throw std::invalid_argument("source '" + text +
                                 "': expected KIND:PATH[?key=value&...], e.g. record:run.rec");
@@ -33,7 +33,8 @@ SourceText parseSourceText(const std::string& text) {
     options.erase(0, end + 1);
     const std::size_t equals = option.find('=');
     if (equals == option.npos || equals == 0) {
-      throw std::invalid_argument("source '" + text + "': option '" + option + "' is not key=value");
+      throw std::invalid_argument("source '" + text + "': option '" + option +
+                                  "' is not key=value");
     }
     if (!source.options.emplace(option.substr(0, equals), option.substr(equals + 1)).second) {
       throw std::invalid_argument("source '" + text + "': option '" + option.substr(0, equals) +

@@ -1,3 +1,5 @@
+#include "ortung/formats/BearingData.hpp"
+
 #include <limits>
 
 #include "FormatTools.hpp"

@@ -1,3 +1,5 @@
+#include "ortung/formats/ConeData.hpp"
+
 #include <limits>
 
 #include "CellLookup.hpp"
@@ -34,7 +36,8 @@ void ConeData::decode(std::span<const std::uint32_t> words) {
 
 void ConeData::prepare() {
   for (int level = 0; level < 256; ++level) {
-    logByLevel_[static_cast<std::size_t>(level)] = logProbabilityOf(static_cast<std::uint8_t>(level));
+    logByLevel_[static_cast<std::size_t>(level)] =
+        logProbabilityOf(static_cast<std::uint8_t>(level));
   }
 }
 
@@ -53,7 +56,8 @@ float ConeData::logProbabilityOf(std::uint8_t level) const {
 bool ConeData::isInformative() const { return !std::isnan(reading_); }
 
 std::string ConeData::wordsHelp() const {
-  return "[distance mm]; 0: not valid; from " + keyNumber(config_.maxRange * 1000) + " on: nothing seen";
+  return "[distance mm]; 0: not valid; from " + keyNumber(config_.maxRange * 1000) +
+         " on: nothing seen";
 }
 
 void ConeData::startTables(const FieldRegion& region, double headingStep) {
@@ -97,12 +101,15 @@ void ConeData::weigh(const SampleView& poses, std::span<float> logProbability) c
 }
 
 std::string ConeData::learningKey() const {
-  return "cone opening_rad=" + keyNumber(config_.openingAngle) + " max_range_m=" + keyNumber(config_.maxRange) +
-         " scale=" + keyNumber(config_.model.sigma) + "," + keyNumber(config_.model.sigmaPerMetre) + " " +
-         mountKey(mount());
+  return "cone opening_rad=" + keyNumber(config_.openingAngle) +
+         " max_range_m=" + keyNumber(config_.maxRange) +
+         " scale=" + keyNumber(config_.model.sigma) + "," + keyNumber(config_.model.sigmaPerMetre) +
+         " " + mountKey(mount());
 }
 
-void ConeData::saveTables(TableWriter& file, const std::string& prefix) const { table_.save(file, prefix); }
+void ConeData::saveTables(TableWriter& file, const std::string& prefix) const {
+  table_.save(file, prefix);
+}
 
 void ConeData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
   table_.load(file, prefix, grid, [](int) { return 1; });

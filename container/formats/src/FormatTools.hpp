@@ -7,7 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "ortung/formats/Formats.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/formats/Words.hpp"
 
 /// Small things that several formats need.
 namespace ortung {
@@ -33,7 +34,8 @@ inline void checkEntries(std::span<const std::uint32_t> words, std::size_t each,
 
 inline void checkAngleWord(std::uint32_t word) {
   if (word >= words::kAngles) {
-    throw std::invalid_argument("found the angle word " + std::to_string(word) + ", expected below 36000");
+    throw std::invalid_argument("found the angle word " + std::to_string(word) +
+                                ", expected below 36000");
   }
 }
 
@@ -44,8 +46,8 @@ inline double spacingOf(double fieldOfView) {
   return kFullTurn / std::ceil(2 * kFullTurn / fieldOfView);
 }
 
-std::string mountKey(const Pose2& mount);   ///< "mount=0.1,0,0"
-std::string keyNumber(double value);        ///< "%.9g", for learning keys
+std::string mountKey(const Pose2& mount);  ///< "mount=0.1,0,0"
+std::string keyNumber(double value);       ///< "%.9g", for learning keys
 
 /// Shortest signed way from angle b to angle a, each within a few turns.
 inline float angleDifference(float a, float b) {

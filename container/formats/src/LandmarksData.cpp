@@ -1,3 +1,5 @@
+#include "ortung/formats/LandmarksData.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -117,9 +119,10 @@ double LandmarksData::logProbabilityAt(const Pose2& pose) const {
       continue;
     }
     const double bearing = landmark.bearing.at(sensor.x, sensor.y) - sensor.theta;
-    sum +=
-        rangeGaussian_(static_cast<float>((sighting.range - range) / config_.range.sigmaAt(sighting.range))) +
-        bearingGaussian_(static_cast<float>(wrapAngle(sighting.bearing - bearing) / config_.bearing.sigma));
+    sum += rangeGaussian_(static_cast<float>((sighting.range - range) /
+                                             config_.range.sigmaAt(sighting.range))) +
+           bearingGaussian_(
+               static_cast<float>(wrapAngle(sighting.bearing - bearing) / config_.bearing.sigma));
   }
   return expects ? sum : std::numeric_limits<double>::quiet_NaN();
 }

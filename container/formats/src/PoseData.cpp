@@ -1,3 +1,5 @@
+#include "ortung/formats/PoseData.hpp"
+
 #include "FormatTools.hpp"
 
 namespace ortung {
@@ -22,7 +24,8 @@ void PoseData::check(std::span<const std::uint32_t> words) const {
 }
 
 void PoseData::decode(std::span<const std::uint32_t> words) {
-  reading_ = {words::toSignedMetres(words[0]), words::toSignedMetres(words[1]), words::toAngle(words[2])};
+  reading_ = {words::toSignedMetres(words[0]), words::toSignedMetres(words[1]),
+              words::toAngle(words[2])};
 }
 
 std::string PoseData::wordsHelp() const {

@@ -1,3 +1,5 @@
+#include "ortung/formats/ScalarData.hpp"
+
 #include <limits>
 
 #include "FormatTools.hpp"

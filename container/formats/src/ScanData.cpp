@@ -1,3 +1,5 @@
+#include "ortung/formats/ScanData.hpp"
+
 #include <algorithm>
 #include <limits>
 

@@ -6,7 +6,7 @@
 
 #include "EndPointWeigher.hpp"
 #include "ScanCost.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 
@@ -21,7 +21,7 @@ struct ScanData::Prepared {
   std::array<std::uint8_t, kLevelDifferences> costs{};
   float nats = 0.0F;            ///< ln p of a cost of 1, exponent included (negative)
   std::uint32_t floorCost = 0;  ///< of a sample without expectation
-  EndPointWeigher endPoints;  ///< against an end-point field
+  EndPointWeigher endPoints;    ///< against an end-point field
 };
 
 }  // namespace ortung

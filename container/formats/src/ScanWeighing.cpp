@@ -8,6 +8,7 @@
 #include "ScanCost.hpp"
 #include "ScanPrepared.hpp"
 #include "ortung/base/OneSample.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 namespace {

@@ -35,8 +35,9 @@ class Inspection {
       return c == '/' || c == '\\' || (c >= 0 && c < 0x20) || c == 0x7F;
     });
     if (strange)
-      refuse(key, value, "has a slash or a control character, which a configuration from the "
-                         "network must not");
+      refuse(key, value,
+             "has a slash or a control character, which a configuration from the "
+             "network must not");
     if (key == "plugin" && std::find(plugins_.begin(), plugins_.end(), text) == plugins_.end())
       refuse(key, value, "is not one of the plugins of this server:" + list());
   }

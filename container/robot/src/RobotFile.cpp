@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "ortung/formats/PoseData.hpp"
 #include "ortung/robot/TomlFile.hpp"
-#include "ortung/formats/Formats.hpp"
 
 namespace ortung {
 namespace {
@@ -26,19 +26,21 @@ RobotConfig readRobot(const Parameters& file) {
   for (Parameters& sensor : file.tables("sensor")) {
     robot.sensors.push_back({sensor.text("plugin"), sensor});
   }
-  if (robot.sensors.empty()) file.fail("sensor", "is missing: a robot file has at least one [[sensor]]");
+  if (robot.sensors.empty())
+    file.fail("sensor", "is missing: a robot file has at least one [[sensor]]");
   if (robot.sensors.size() > kMostSensors) file.fail("sensor", "occurs more than 64 times");
   robot.motion = file.table("motion");
   robot.mcl = file.table("mcl");
   robot.drive = file.table("drive");
   // What stands inside the sections is checked by whoever reads them; other sections are unknown.
   body.refuseUnread();
-  static const std::vector<std::string> kSections = {"robot", "sensor",      "motion", "mcl",
-                                                     "drive", "body", "manipulator"};
+  static const std::vector<std::string> kSections = {"robot", "sensor", "motion",     "mcl",
+                                                     "drive", "body",   "manipulator"};
   for (const std::string& key : file.keys()) {
     if (std::find(kSections.begin(), kSections.end(), key) == kSections.end()) {
-      file.fail(key, "is not known here; sections of a robot file are [robot], [[sensor]], [motion], "
-                     "[mcl], [drive], [[body]] and [[manipulator]]");
+      file.fail(key,
+                "is not known here; sections of a robot file are [robot], [[sensor]], [motion], "
+                "[mcl], [drive], [[body]] and [[manipulator]]");
     }
   }
   return robot;
@@ -55,10 +57,12 @@ std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig&
       for (auto& data : factory.makeData(sensor.plugin, sensor.parameters)) {
         const bool isTruth = data->id().type == "groundTruth";
         if (isTruth && dynamic_cast<const PoseData*>(data.get()) == nullptr)
-          throw std::invalid_argument(toText(data->id()) + " is not a true pose; no other feature may "
+          throw std::invalid_argument(toText(data->id()) +
+                                      " is not a true pose; no other feature may "
                                       "have the type groundTruth");
         device.data.push_back(&container.add(std::move(data)));
-        if (container.all().size() > kMostFeatures) throw std::invalid_argument("more than 4096 features");
+        if (container.all().size() > kMostFeatures)
+          throw std::invalid_argument("more than 4096 features");
       }
     } catch (const std::invalid_argument& error) {
       sensor.parameters.fail("plugin", "'" + sensor.plugin + "': " + error.what());

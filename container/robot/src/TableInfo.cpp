@@ -18,7 +18,8 @@ T take(const TableFile& file, const Json& json, const char* key) {
   try {
     return json.at(key).get<T>();
   } catch (const Json::exception&) {
-    throw TableError(file.path().string() + ": " + kMeta + ": '" + key + "' is missing or of the wrong kind");
+    throw TableError(file.path().string() + ": " + kMeta + ": '" + key +
+                     "' is missing or of the wrong kind");
   }
 }
 
@@ -34,7 +35,8 @@ FieldRegion readRegion(const TableFile& file, const Json& meta) {
   }
   grid.rows = static_cast<int>(open.shape[0]);
   grid.columns = static_cast<int>(open.shape[1]);
-  for (const auto& [name, mask] : {std::pair("open", &region.open), {"standable", &region.standable}}) {
+  for (const auto& [name, mask] :
+       {std::pair("open", &region.open), {"standable", &region.standable}}) {
     const auto cells = file.get<std::uint8_t>(name, open.shape);
     mask->assign(cells.begin(), cells.end());
   }
@@ -74,7 +76,8 @@ void writeTables(const std::filesystem::path& file, const SensorContainer& conta
     // "a.b/c/d" and "a/b.c/d" look alike here.
     while (!prefixes.insert(prefix).second) prefix = "_" + prefix;
     data->saveTables(writer, prefix);
-    meta["features"].push_back({{"id", toText(data->id())}, {"key", data->learningKey()}, {"prefix", prefix}});
+    meta["features"].push_back(
+        {{"id", toText(data->id())}, {"key", data->learningKey()}, {"prefix", prefix}});
   }
   writer.addText(kMeta, meta.dump(1) + "\n");
   writer.commit();
@@ -88,7 +91,8 @@ TableInfo readTableInfo(const TableFile& file) {
   const int version = take<int>(file, meta, "version");
   if (take<std::string>(file, meta, "format") != "ortung tables" || version != kFormat) {
     throw TableError(file.path().string() + ": has format version " + std::to_string(version) +
-                     ", this program reads " + std::to_string(kFormat) + "; learn the tables again");
+                     ", this program reads " + std::to_string(kFormat) +
+                     "; learn the tables again");
   }
   TableInfo info;
   info.world = take<std::string>(file, meta, "world");
@@ -100,13 +104,15 @@ TableInfo readTableInfo(const TableFile& file) {
   }
   info.region = readRegion(file, meta);
   for (const Json& feature : take<std::vector<Json>>(file, meta, "features")) {
-    info.features.push_back({take<std::string>(file, feature, "id"), take<std::string>(file, feature, "key"),
+    info.features.push_back({take<std::string>(file, feature, "id"),
+                             take<std::string>(file, feature, "key"),
                              take<std::string>(file, feature, "prefix")});
   }
   return info;
 }
 
-TableInfo loadTables(const std::shared_ptr<const TableFile>& file, const SensorContainer& container) {
+TableInfo loadTables(const std::shared_ptr<const TableFile>& file,
+                     const SensorContainer& container) {
   TableInfo info = readTableInfo(*file);
   for (const auto& data : container.all()) {
     if (!data->localizes()) continue;
@@ -118,8 +124,9 @@ TableInfo loadTables(const std::shared_ptr<const TableFile>& file, const SensorC
                        ", so it was learned for another robot ('" + info.robot + "'); learn again");
     }
     if (it->key != data->learningKey()) {
-      throw TableError(file->path().string() + ": the tables of " + id + " were learned for another sensor: found '" +
-                       it->key + "', the robot file says '" + data->learningKey() + "'; learn again");
+      throw TableError(file->path().string() + ": the tables of " + id +
+                       " were learned for another sensor: found '" + it->key +
+                       "', the robot file says '" + data->learningKey() + "'; learn again");
     }
     data->loadTables(file, it->prefix, info.region.grid);
   }

@@ -10,12 +10,12 @@ namespace ortung {
 namespace {
 
 // The parser recurses for dots and brackets: bound them before it sees the text.
-constexpr int kMostDots = 1024;        ///< of keys, in one statement
+constexpr int kMostDots = 1024;  ///< of keys, in one statement
 constexpr int kMostOpenBrackets = 64;
-constexpr int kDeepest = 64;           ///< tables and lists within each other
+constexpr int kDeepest = 64;  ///< tables and lists within each other
 
-/// What the parser will see of a text: characters outside of comments and quoted texts. Where the two
-/// of us disagree on quotes, the parser has met an error.
+/// What the parser will see of a text: characters outside of comments and quoted texts. Where the
+/// two of us disagree on quotes, the parser has met an error.
 class Outside {
  public:
   explicit Outside(std::string_view text) : rest_(text) {}
@@ -43,7 +43,8 @@ class Outside {
   void skipQuoted(char quote) {
     const std::string three(3, quote);
     const bool longText = rest_.starts_with(three);
-    const std::string_view end = longText ? std::string_view(three) : std::string_view(three).substr(2);
+    const std::string_view end =
+        longText ? std::string_view(three) : std::string_view(three).substr(2);
     rest_.remove_prefix(end.size());
     while (!rest_.empty() && !rest_.starts_with(end)) {
       if (rest_.front() == '\n' && !longText) return;  // an error, which the parser tells
@@ -81,8 +82,9 @@ void checkNesting(std::string_view text, const std::string& name) {
     open -= (c == ']' || c == '}') ? 1 : 0;
     if (c == '\n' && open <= 0) dots = 0;
     if (dots > kMostDots || open > kMostOpenBrackets) {
-      throw ConfigError(name + ":" + std::to_string(outside.line()) + ": is nested too deep or has more than " +
-                        std::to_string(kMostDots) + " dots in one statement");
+      throw ConfigError(name + ":" + std::to_string(outside.line()) +
+                        ": is nested too deep or has more than " + std::to_string(kMostDots) +
+                        " dots in one statement");
     }
   }
 }
@@ -93,8 +95,8 @@ Parameters::Node convert(const toml::node& node, const std::string& name, int de
   Parameters::Node result;
   result.line = static_cast<int>(node.source().begin.line);
   if (depth > kDeepest) {
-    throw ConfigError(name + ":" + std::to_string(result.line) + ": has more than " + std::to_string(kDeepest) +
-                      " tables and lists within each other");
+    throw ConfigError(name + ":" + std::to_string(result.line) + ": has more than " +
+                      std::to_string(kDeepest) + " tables and lists within each other");
   }
   if (const auto* flag = node.as_boolean()) {
     result.value = flag->get();
@@ -111,14 +113,16 @@ Parameters::Node convert(const toml::node& node, const std::string& name, int de
   } else if (const auto* table = node.as_table()) {
     result.value = convert(*table, name, depth + 1);
   } else {
-    throw ConfigError(name + ":" + std::to_string(result.line) + ": dates and times are not used here");
+    throw ConfigError(name + ":" + std::to_string(result.line) +
+                      ": dates and times are not used here");
   }
   return result;
 }
 
 Parameters convert(const toml::table& table, const std::string& name, int depth) {
   Parameters result(name);
-  for (const auto& [key, node] : table) result.set(std::string(key.str()), convert(node, name, depth));
+  for (const auto& [key, node] : table)
+    result.set(std::string(key.str()), convert(node, name, depth));
   return result;
 }
 

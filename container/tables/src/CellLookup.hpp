@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/SampleView.hpp"
 #include "ortung/base/SinCos.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 

@@ -40,8 +40,10 @@ double RangeScale::range(std::uint8_t level) const {
 }
 
 void DirectionTable::start(const FieldRegion& region, int directions, int longestRun) {
-  if (directions < 1 || directions > kMostDirections || longestRun < 1 || longestRun > directions + 1) {
-    throw std::invalid_argument("a direction table has 1 to 36000 directions and runs of at most a turn");
+  if (directions < 1 || directions > kMostDirections || longestRun < 1 ||
+      longestRun > directions + 1) {
+    throw std::invalid_argument(
+        "a direction table has 1 to 36000 directions and runs of at most a turn");
   }
   grid_ = region.grid;
   directions_ = directions;
@@ -76,8 +78,9 @@ void DirectionTable::learn(double x, double y, double angle, std::uint8_t level)
   const auto remainder = static_cast<int>(static_cast<std::int64_t>(nearest) % directions_);
   const int direction = remainder < 0 ? remainder + directions_ : remainder;
   const auto closeness = static_cast<std::uint8_t>(std::clamp(255.0 - 500.0 * offset, 1.0, 255.0));
-  const std::size_t place = static_cast<std::size_t>(ownRowOf_[static_cast<std::size_t>(cell)]) * stride_ +
-                            static_cast<std::size_t>(direction);
+  const std::size_t place =
+      static_cast<std::size_t>(ownRowOf_[static_cast<std::size_t>(cell)]) * stride_ +
+      static_cast<std::size_t>(direction);
   if (closeness <= closeness_[place]) return;
   closeness_[place] = closeness;
   ownLevels_[place] = level;
@@ -125,8 +128,9 @@ void DirectionTable::finish() {
 void DirectionTable::save(TableWriter& file, const std::string& prefix) const {
   const std::int32_t directions = directions_;
   file.add<std::int32_t>(prefix + "directions", {1}, std::span(&directions, 1));
-  file.add<std::int32_t>(prefix + "row_of_cell",
-                         {static_cast<std::size_t>(grid_.rows), static_cast<std::size_t>(grid_.columns)}, rowOf_);
+  file.add<std::int32_t>(
+      prefix + "row_of_cell",
+      {static_cast<std::size_t>(grid_.rows), static_cast<std::size_t>(grid_.columns)}, rowOf_);
   file.add<std::uint8_t>(prefix + "levels", {levels_.size()}, levels_);
 }
 
@@ -134,18 +138,21 @@ void DirectionTable::load(const TableFile& file, const std::string& prefix, cons
                           const std::function<int(int)>& longestRunOf) {
   const int directions = file.get<std::int32_t>(prefix + "directions", {1})[0];
   const auto rowOf = file.get<std::int32_t>(
-      prefix + "row_of_cell", {static_cast<std::size_t>(grid.rows), static_cast<std::size_t>(grid.columns)});
+      prefix + "row_of_cell",
+      {static_cast<std::size_t>(grid.rows), static_cast<std::size_t>(grid.columns)});
   const auto levels = file.get<std::uint8_t>(prefix + "levels", {0});
   if (directions < 1 || directions > kMostDirections || levels.size() < kSlack) {
-    throw TableError(file.path().string() + ": table " + prefix + "directions is " + std::to_string(directions) +
-                     ", expected 1 to 36000");
+    throw TableError(file.path().string() + ": table " + prefix + "directions is " +
+                     std::to_string(directions) + ", expected 1 to 36000");
   }
   const std::size_t stride = static_cast<std::size_t>(directions + longestRunOf(directions) - 1);
   const auto rows = static_cast<std::int64_t>((levels.size() - kSlack) / stride);
   const bool whole = (levels.size() - kSlack) % stride == 0;
-  const bool inside = std::all_of(rowOf.begin(), rowOf.end(), [&](std::int32_t row) { return row >= -1 && row < rows; });
+  const bool inside = std::all_of(rowOf.begin(), rowOf.end(),
+                                  [&](std::int32_t row) { return row >= -1 && row < rows; });
   if (!whole || !inside) {
-    throw TableError(file.path().string() + ": table " + prefix + "levels does not fit its row numbers");
+    throw TableError(file.path().string() + ": table " + prefix +
+                     "levels does not fit its row numbers");
   }
   grid_ = grid;
   directions_ = directions;

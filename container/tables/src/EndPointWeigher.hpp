@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "ortung/tables/EndPointField.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/SampleView.hpp"
+#include "ortung/tables/EndPointField.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {

@@ -26,7 +26,8 @@ void CellTable::set(double x, double y, std::uint16_t level) {
 
 void CellTable::save(TableWriter& file, const std::string& name) const {
   file.add<std::uint16_t>(
-      name, {static_cast<std::size_t>(grid_.rows), static_cast<std::size_t>(grid_.columns)}, levels_);
+      name, {static_cast<std::size_t>(grid_.rows), static_cast<std::size_t>(grid_.columns)},
+      levels_);
 }
 
 void CellTable::load(const TableFile& file, const std::string& name, const FieldGrid& grid) {
@@ -51,7 +52,8 @@ float PositionTable::at(double x, double y) const {
 }
 
 void BearingTable::learn(double x, double y, double directionInField) {
-  const int level = static_cast<int>(std::lround(std::remainder(directionInField, 2 * std::numbers::pi) * kPerRadian));
+  const int level = static_cast<int>(
+      std::lround(std::remainder(directionInField, 2 * std::numbers::pi) * kPerRadian));
   cells_.set(x, y, static_cast<std::uint16_t>((level + kTurn) % kTurn));
 }
 

@@ -22,7 +22,8 @@ struct Kind {
   std::string_view descriptor;
   std::size_t size;
 };
-constexpr std::array<Kind, 5> kKinds = {{{"|u1", 1}, {"<u2", 2}, {"<i4", 4}, {"<f4", 4}, {"<f8", 8}}};
+constexpr std::array<Kind, 5> kKinds = {
+    {{"|u1", 1}, {"<u2", 2}, {"<i4", 4}, {"<f4", 4}, {"<f8", 8}}};
 
 /// Moves @p rest behind @p expected, or says that it does not begin with it.
 bool skip(std::string_view& rest, std::string_view expected) {
@@ -56,14 +57,17 @@ std::optional<std::size_t> bytesOf(const std::vector<std::size_t>& shape, std::s
 /// Reads a .npy member as TableWriter writes it.
 std::optional<TableArray> parseNpy(const zip::Entry& entry) {
   const std::string_view all(reinterpret_cast<const char*>(entry.bytes.data()), entry.bytes.size());
-  if (all.size() < 64 || all.substr(0, 8) != std::string_view("\x93NUMPY\x01\x00", 8)) return std::nullopt;
-  const std::size_t header = 10u + static_cast<unsigned char>(all[8]) + 256u * static_cast<unsigned char>(all[9]);
+  if (all.size() < 64 || all.substr(0, 8) != std::string_view("\x93NUMPY\x01\x00", 8))
+    return std::nullopt;
+  const std::size_t header =
+      10u + static_cast<unsigned char>(all[8]) + 256u * static_cast<unsigned char>(all[9]);
   if (header > all.size() || header % 64 != 0) return std::nullopt;
   std::string_view rest = all.substr(10, header - 10);
   if (!skip(rest, "{'descr': '")) return std::nullopt;
   const auto kind = std::find_if(kKinds.begin(), kKinds.end(),
                                  [&](const Kind& k) { return skip(rest, k.descriptor); });
-  if (kind == kKinds.end() || !skip(rest, "', 'fortran_order': False, 'shape': (")) return std::nullopt;
+  if (kind == kKinds.end() || !skip(rest, "', 'fortran_order': False, 'shape': ("))
+    return std::nullopt;
   auto shape = parseShape(rest);
   if (!shape || !skip(rest, ", }")) return std::nullopt;
   const auto size = bytesOf(*shape, kind->size);
@@ -76,7 +80,8 @@ std::optional<TableArray> parseNpy(const zip::Entry& entry) {
 std::string shapeText(const std::vector<std::size_t>& shape) {
   std::string text;
   for (const std::size_t extent : shape) {
-    text += (text.empty() ? "" : " x ") + (extent == 0 ? std::string("any") : std::to_string(extent));
+    text +=
+        (text.empty() ? "" : " x ") + (extent == 0 ? std::string("any") : std::to_string(extent));
   }
   return text;
 }
@@ -96,11 +101,12 @@ struct TableFile::Impl {
   }
   void map() {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    struct stat status {};
+    struct stat status{};
     const bool fine = file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
     void* address = MAP_FAILED;
     if (fine && status.st_size > 0) {
-      address = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+      address = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE,
+                       file, 0);
     }
     if (file >= 0) ::close(file);
     if (!fine) throw TableError(path.string() + ": can't be read");
@@ -125,7 +131,9 @@ TableFile::TableFile(const std::filesystem::path& file) : impl_(std::make_unique
       throw TableError(file.string() + ": member " + entry.name + " is not aligned to 64 bytes");
     }
     auto array = parseNpy(entry);
-    if (!array) throw TableError(file.string() + ": member " + entry.name + " is no array of a kind that is used here");
+    if (!array)
+      throw TableError(file.string() + ": member " + entry.name +
+                       " is no array of a kind that is used here");
     impl_->arrays.push_back(std::move(*array));
   }
 }
@@ -161,7 +169,8 @@ void checkArray(const TableFile& file, const TableArray& array, ElementType type
     throw TableError(file.path().string() + ": table " + array.name + " has " +
                      std::string(kKinds[static_cast<std::size_t>(array.type)].descriptor) + " " +
                      shapeText(array.shape) + ", expected " +
-                     std::string(kKinds[static_cast<std::size_t>(type)].descriptor) + " " + shapeText(shape));
+                     std::string(kKinds[static_cast<std::size_t>(type)].descriptor) + " " +
+                     shapeText(shape));
   }
 }
 

@@ -58,15 +58,20 @@ struct TableWriter::Impl {
   }
   void put(std::string_view text) { put(std::as_bytes(std::span(text))); }
   void add(const std::string& name, const std::string& header, std::span<const std::byte> bytes) {
-    if (!names.insert(name).second) throw TableError(file.string() + ": member " + name + " is written twice");
-    if (names.size() > zip::kMostMembers) throw TableError(file.string() + ": more than 65535 tables");
-    if (name.size() > zip::kLongestName) throw TableError(file.string() + ": the name " + name + " is too long");
+    if (!names.insert(name).second)
+      throw TableError(file.string() + ": member " + name + " is written twice");
+    if (names.size() > zip::kMostMembers)
+      throw TableError(file.string() + ": more than 65535 tables");
+    if (name.size() > zip::kLongestName)
+      throw TableError(file.string() + ": the name " + name + " is too long");
     const std::uint64_t size = header.size() + bytes.size();
     if (offset + size > std::numeric_limits<std::uint32_t>::max() - (1u << 20)) {
-      throw TableError(file.string() + ": tables of more than 4 GiB; choose larger cells or fewer directions");
+      throw TableError(file.string() +
+                       ": tables of more than 4 GiB; choose larger cells or fewer directions");
     }
     const std::uint32_t crc = zip::crc32(bytes, zip::crc32(std::as_bytes(std::span(header))));
-    const zip::Member member{name, crc, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(offset)};
+    const zip::Member member{name, crc, static_cast<std::uint32_t>(size),
+                             static_cast<std::uint32_t>(offset)};
     put(zip::localHeader(member));
     put(header);
     put(bytes);

@@ -52,8 +52,10 @@ Number take(std::span<const std::byte> bytes, std::size_t offset) {
   return value;
 }
 
-std::optional<std::string> takeName(std::span<const std::byte> bytes, std::size_t offset, std::size_t size) {
-  if (size == 0 || size > kLongestName || offset > bytes.size() || size > bytes.size() - offset) return std::nullopt;
+std::optional<std::string> takeName(std::span<const std::byte> bytes, std::size_t offset,
+                                    std::size_t size) {
+  if (size == 0 || size > kLongestName || offset > bytes.size() || size > bytes.size() - offset)
+    return std::nullopt;
   std::string name(reinterpret_cast<const char*>(bytes.data()) + offset, size);
   for (const char c : name) {
     const bool fine = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -64,8 +66,8 @@ std::optional<std::string> takeName(std::span<const std::byte> bytes, std::size_
 }
 
 /// @param free in: where the member before ends; out: where this one does
-std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& entry, std::size_t& next,
-                       std::size_t& free) {
+std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& entry,
+                       std::size_t& next, std::size_t& free) {
   if (at > file.size() || file.size() - at < kDirectorySize ||
       take<std::uint32_t>(file, at) != kDirectoryMagic) {
     return "its directory is damaged";
@@ -75,11 +77,13 @@ std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& e
   const std::size_t packed = take<std::uint32_t>(file, at + 20);
   const std::size_t size = take<std::uint32_t>(file, at + 24);
   const std::size_t nameSize = take<std::uint16_t>(file, at + 28);
-  const std::size_t skip = std::size_t{take<std::uint16_t>(file, at + 30)} + take<std::uint16_t>(file, at + 32);
+  const std::size_t skip =
+      std::size_t{take<std::uint16_t>(file, at + 30)} + take<std::uint16_t>(file, at + 32);
   const std::size_t local = take<std::uint32_t>(file, at + 42);
   const auto name = takeName(file, at + kDirectorySize, nameSize);
   if (!name) return "a member has a bad name";
-  if (method != 0 || packed != size) return "member " + *name + " is compressed, expected it stored";
+  if (method != 0 || packed != size)
+    return "member " + *name + " is compressed, expected it stored";
   // Members that overlap would make a small file take long to check.
   if (local < free || local > file.size() || file.size() - local < kLocalSize ||
       take<std::uint32_t>(file, local) != kLocalMagic) {
@@ -176,7 +180,8 @@ std::string read(std::span<const std::byte> file, std::vector<Entry>& entries) {
   const std::size_t end = file.size() - kEndSize;
   const std::size_t count = take<std::uint16_t>(file, end + 10);
   std::size_t at = take<std::uint32_t>(file, end + 16);
-  if (at > end || take<std::uint32_t>(file, end + 12) != end - at) return "its directory is damaged";
+  if (at > end || take<std::uint32_t>(file, end + 12) != end - at)
+    return "its directory is damaged";
   std::size_t free = 0;
   std::set<std::string> names;
   for (std::size_t i = 0; i < count; ++i) {

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "../common/OdometryErrors.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/Words.hpp"
 #include "ortung/sim_api/Drive.hpp"
 
 namespace ortung {
@@ -132,8 +132,10 @@ class DifferentialDrive : public Drive {
     return {speed_ * settings_.errors.distanceScale, 0.0, turn_ * settings_.errors.turnScale};
   }
   std::span<const std::uint32_t> motionData() const override { return motionData_; }
-  std::string motionDataHelp() const override { return "left, right wheel speed [2^31 + mm/s], commanded velocities [2^31 + mm/s, "
-           "2^31 + 1/100 degree/s]"; }
+  std::string motionDataHelp() const override {
+    return "left, right wheel speed [2^31 + mm/s], commanded velocities [2^31 + mm/s, "
+           "2^31 + 1/100 degree/s]";
+  }
 
  private:
   Wheels wheelsOf(const Twist& velocity) const {
@@ -186,7 +188,8 @@ class DifferentialDrive : public Drive {
   Wheels lost_;  ///< in the last cycle [m]
   Encoder left_;
   Encoder right_;
-  std::array<std::uint32_t, 4> motionData_{words::kOffset, words::kOffset, words::kOffset, words::kOffset};
+  std::array<std::uint32_t, 4> motionData_{words::kOffset, words::kOffset, words::kOffset,
+                                           words::kOffset};
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-#include "ortung/motion/OdometryMotion.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 // A robot that drives where it faces moves by turn, way, turn. "odometry" is the same for robots
 // whose kind of drive nobody told.

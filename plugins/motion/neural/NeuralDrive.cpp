@@ -4,8 +4,8 @@
 
 #include "../common/OdometryErrors.hpp"
 #include "NeuralSettings.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/Words.hpp"
 #include "ortung/sim_api/Drive.hpp"
 
 namespace ortung {

@@ -1,7 +1,7 @@
 #include "NeuralSettings.hpp"
-#include "ortung/formats/Formats.hpp"
-#include "ortung/motion/OdometryMotion.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/Words.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {

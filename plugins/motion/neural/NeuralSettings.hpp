@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "ortung/motion/MotionNetwork.hpp"
 #include "ortung/base/Parameters.hpp"
+#include "ortung/motion/MotionNetwork.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
 
 namespace ortung {

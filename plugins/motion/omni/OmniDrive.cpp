@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "../common/OdometryErrors.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/Words.hpp"
 #include "ortung/sim_api/Drive.hpp"
 
 namespace ortung {

@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 
-#include "ortung/motion/OdometryMotion.hpp"
-#include "ortung/core/Plugin.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/base/SinCos.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {

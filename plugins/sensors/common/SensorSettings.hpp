@@ -6,10 +6,10 @@
 #include <numbers>
 #include <string>
 
-#include "ortung/robot/RobotFile.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/robot/RobotFile.hpp"
 
 namespace ortung {
 

@@ -1,5 +1,6 @@
 #include "CompassSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/BearingData.hpp"
 
 namespace ortung {
 namespace {

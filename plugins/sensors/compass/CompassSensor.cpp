@@ -1,5 +1,6 @@
 #include "CompassSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/Words.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

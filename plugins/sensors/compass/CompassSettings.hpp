@@ -1,7 +1,7 @@
 #pragma once
 
 #include "../common/SensorSettings.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
 

@@ -1,6 +1,6 @@
 #include "GroundTruthSettings.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/PoseData.hpp"
 
 namespace ortung {
 namespace {

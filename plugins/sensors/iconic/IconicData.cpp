@@ -1,5 +1,6 @@
 #include "IconicSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/LandmarksData.hpp"
 
 namespace ortung {
 namespace {

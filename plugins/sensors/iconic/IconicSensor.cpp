@@ -5,6 +5,7 @@
 #include "Colours.hpp"
 #include "IconicSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/LandmarksData.hpp"
 #include "ortung/sim_api/Noise.hpp"
 #include "ortung/sim_api/Rays2.hpp"
 #include "ortung/sim_api/Sensor.hpp"

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "../common/SensorSettings.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ObjectsData.hpp"
 #include "ortung/formats/PointsData.hpp"
+#include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
 

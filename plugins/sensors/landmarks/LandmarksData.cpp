@@ -1,5 +1,9 @@
+#include "ortung/formats/LandmarksData.hpp"
+
 #include "LandmarksSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/ScalarData.hpp"
 
 namespace ortung {
 namespace {

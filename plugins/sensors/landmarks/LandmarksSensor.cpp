@@ -5,6 +5,8 @@
 
 #include "LandmarksSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/Words.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "../common/SensorSettings.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
 

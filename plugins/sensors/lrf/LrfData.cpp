@@ -1,5 +1,6 @@
 #include "LrfSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 namespace {

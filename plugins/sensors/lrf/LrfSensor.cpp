@@ -5,6 +5,7 @@
 
 #include "LrfSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

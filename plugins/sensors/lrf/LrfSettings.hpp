@@ -1,7 +1,8 @@
 #pragma once
 
 #include "../common/SensorSettings.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/ScanData.hpp"
+#include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
 

@@ -6,6 +6,7 @@
 #include "LrfIconicSettings.hpp"
 #include "WallMatcher.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/sim_api/Noise.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 

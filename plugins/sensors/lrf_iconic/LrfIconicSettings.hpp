@@ -7,6 +7,7 @@
 #include "ScanShapes.hpp"
 #include "ortung/formats/ObstaclesData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 

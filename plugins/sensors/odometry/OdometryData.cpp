@@ -1,5 +1,6 @@
+#include "ortung/formats/OdometryData.hpp"
+
 #include "OdometrySettings.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Plugin.hpp"
 
 namespace ortung {

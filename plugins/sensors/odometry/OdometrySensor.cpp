@@ -1,6 +1,6 @@
 #include "OdometrySettings.hpp"
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/OdometryData.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

@@ -1,5 +1,6 @@
 #include "SonarSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/ConeData.hpp"
 
 namespace ortung {
 namespace {

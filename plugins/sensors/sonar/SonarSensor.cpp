@@ -5,6 +5,7 @@
 
 #include "SonarSettings.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/ConeData.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "../common/SensorSettings.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
 

@@ -3,12 +3,12 @@
 #include <optional>
 #include <string_view>
 
-#include "ortung/robot/RobotFile.hpp"
-#include "ortung/robot/TomlFile.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
 #include "ortung/core/SourceOptions.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/RoutePlanner.hpp"
 #include "ortung/sim/Scene.hpp"
 #include "ortung/sim/Simulation.hpp"

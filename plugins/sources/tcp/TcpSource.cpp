@@ -6,10 +6,10 @@
 #include <thread>
 
 #include "ortung/client/RobotSession.hpp"
-#include "ortung/robot/TomlFile.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/Source.hpp"
 #include "ortung/core/SourceOptions.hpp"
+#include "ortung/robot/TomlFile.hpp"
 
 namespace ortung {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/OdometryData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 
 namespace ortung {

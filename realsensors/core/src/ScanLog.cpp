@@ -4,8 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/SourceOptions.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/Words.hpp"
 #include "ortung/realsensors/MapFiles.hpp"
 
 namespace ortung {

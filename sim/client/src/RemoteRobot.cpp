@@ -7,9 +7,9 @@
 #include <mutex>
 #include <thread>
 
+#include "ortung/core/PluginFactory.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TomlFile.hpp"
-#include "ortung/core/PluginFactory.hpp"
 
 namespace ortung {
 namespace {

@@ -68,8 +68,7 @@ bool isName(std::string_view name) {
 
 std::string printable(std::string_view text, std::size_t mostCharacters) {
   std::string safe(text.substr(0, mostCharacters));
-  std::replace_if(
-      safe.begin(), safe.end(), [](char c) { return !isPrintable(c); }, '?');
+  std::replace_if(safe.begin(), safe.end(), [](char c) { return !isPrintable(c); }, '?');
   return text.size() > mostCharacters ? safe + "..." : safe;
 }
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "CheckedDrive.hpp"
-#include "ortung/formats/Formats.hpp"
+#include "ortung/formats/PoseData.hpp"
 
 namespace ortung {
 namespace {
@@ -199,7 +199,9 @@ Pose2 SimRobot::plan(Timestamp now, double dt) {
     if (driver_) driver_->command(state_.pose, now, *drive_);
     const Pose2 change = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
     if (isSane(change, dt) && isFinite(drive_->velocity())) return planned_ = change;
-    report(now, "its drive gave a motion that is not finite, or faster than 1000 m/s, and is switched off");
+    report(
+        now,
+        "its drive gave a motion that is not finite, or faster than 1000 m/s, and is switched off");
   } catch (const std::exception& error) {
     report(now, std::string("its drive failed and is switched off: ") + error.what());
   }

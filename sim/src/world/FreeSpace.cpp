@@ -47,8 +47,7 @@ bool isMetBy(const Body& body, double height) {
 FreeSpace::FreeSpace(const WorldModel& world) : bounds_(world.bounds) {
   for (const Primitive& primitive : world.primitives)
     if (primitive.isSolid()) bodies_.push_back(&primitive);
-  for (const GridBody& body : world.grids)
-    grids_.push_back({&body, distanceToOccupied(body.map)});
+  for (const GridBody& body : world.grids) grids_.push_back({&body, distanceToOccupied(body.map)});
 }
 
 bool FreeSpace::isInField(double x, double y, double radius) const {

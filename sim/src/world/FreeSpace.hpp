@@ -15,7 +15,8 @@ class FreeSpace {
   /// @param world must outlive this
   explicit FreeSpace(const WorldModel& world);
 
-  /// Whether a cylinder touches nothing solid, lies in the field, and has its centre in known space.
+  /// Whether a cylinder touches nothing solid, lies in the field, and has its centre in known
+  /// space.
   bool isFree(double x, double y, const RobotSize& size) const;
   /// As SimWorld::region().
   FieldRegion region(double cell, const RobotSize& robot) const;

@@ -1,6 +1,6 @@
-#include "ortung/formats/Formats.hpp"
-#include "ortung/motion/MotionModel.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/motion/MotionModel.hpp"
 
 namespace ortung {
 namespace {

@@ -1,6 +1,5 @@
 #include <stdexcept>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Plugin.hpp"
 
 /// Plugins whose constructors fail in every way that C++ offers.

@@ -2,8 +2,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "ortung/formats/Formats.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/PoseData.hpp"
 #include "ortung/sim_api/Drive.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 

@@ -30,20 +30,20 @@ struct EvaluationPoint {
 /// The figures of one run. Errors are over the time after convergence; NaN where there are none.
 struct EvaluationResult {
   std::string source;
-  std::size_t steps = 0;             ///< updates
-  std::size_t comparedSteps = 0;     ///< updates at whose time the truth is known
-  double duration = 0.0;             ///< of the run [s]
+  std::size_t steps = 0;          ///< updates
+  std::size_t comparedSteps = 0;  ///< updates at whose time the truth is known
+  double duration = 0.0;          ///< of the run [s]
   double particlesMean = 0.0;
-  double positionRmse = 0.0;         ///< [m]
-  double positionMedian = 0.0;       ///< [m]
-  double positionP95 = 0.0;          ///< [m]
-  double headingRmse = 0.0;          ///< [rad]
+  double positionRmse = 0.0;             ///< [m]
+  double positionMedian = 0.0;           ///< [m]
+  double positionP95 = 0.0;              ///< [m]
+  double headingRmse = 0.0;              ///< [rad]
   std::optional<double> convergedAfter;  ///< [s] from the first reading
-  double lostShare = 0.0;            ///< share of the time after convergence with error above 1 m
+  double lostShare = 0.0;  ///< share of the time after convergence with error above 1 m
   double updateMsP50 = 0.0;
   double updateMsP99 = 0.0;
-  double realtimeFactor = 0.0;       ///< duration / time spent in updates
-  double neesMean = 0.0;             ///< normalized estimation error squared; 3 if consistent
+  double realtimeFactor = 0.0;  ///< duration / time spent in updates
+  double neesMean = 0.0;        ///< normalized estimation error squared; 3 if consistent
   std::vector<EvaluationPoint> points;
 };
 
@@ -76,7 +76,7 @@ class ORTUNG_API Evaluation {
 };
 
 /// Truth at a time, by interpolation, or nothing where it is not known.
-ORTUNG_API std::optional<Pose2> interpolate(
-    const std::vector<std::pair<Timestamp, Pose2>>& truth, Timestamp stamp, double longestGap);
+ORTUNG_API std::optional<Pose2> interpolate(const std::vector<std::pair<Timestamp, Pose2>>& truth,
+                                            Timestamp stamp, double longestGap);
 
 }  // namespace ortung

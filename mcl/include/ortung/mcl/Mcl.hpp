@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "ortung/tables/FieldRegion.hpp"
-#include "ortung/motion/MotionModel.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/mcl/SampleSet.hpp"
+#include "ortung/motion/MotionModel.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "ortung/robot/RobotFile.hpp"
 #include "ortung/base/Export.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SimWorld.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 

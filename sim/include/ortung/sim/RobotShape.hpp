@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ortung/robot/RobotFile.hpp"
 #include "ortung/base/Export.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/Primitive.hpp"
 #include "ortung/sim_api/World.hpp"
 

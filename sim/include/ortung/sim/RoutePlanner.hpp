@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/sim/SimWorld.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 

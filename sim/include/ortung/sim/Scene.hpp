@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ortung/robot/RobotFile.hpp"
 #include "ortung/base/Export.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/Driver.hpp"
 #include "ortung/sim/RoutePlanner.hpp"
 #include "ortung/sim/Simulation.hpp"

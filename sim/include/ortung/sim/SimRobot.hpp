@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "ortung/robot/RobotFile.hpp"
 #include "ortung/base/Export.hpp"
-#include "ortung/core/Message.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/core/Message.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/Driver.hpp"
 #include "ortung/sim/RobotShape.hpp"
 #include "ortung/sim_api/Drive.hpp"

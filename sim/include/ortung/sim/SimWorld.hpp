@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/sim/PhysicsConfig.hpp"
 #include "ortung/sim/Primitive.hpp"
 #include "ortung/sim_api/World.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 

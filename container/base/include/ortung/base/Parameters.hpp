@@ -53,7 +53,8 @@ class ORTUNG_API Parameters {
   double numberOr(const std::string& key, double fallback, const Range& range = {}) const;
   /// A whole number within @p range. @throws ConfigError
   std::int64_t integer(const std::string& key, const Range& range = {}) const;
-  std::int64_t integerOr(const std::string& key, std::int64_t fallback, const Range& range = {}) const;
+  std::int64_t integerOr(const std::string& key, std::int64_t fallback,
+                         const Range& range = {}) const;
   std::string text(const std::string& key) const;
   std::string textOr(const std::string& key, const std::string& fallback) const;
   /// One of @p choices. @throws ConfigError listing them
@@ -61,7 +62,8 @@ class ORTUNG_API Parameters {
                        const std::vector<std::string>& choices) const;
   bool flagOr(const std::string& key, bool fallback) const;
   /// A list of finite numbers within @p range; @p count of them, or any number if it is -1.
-  std::vector<double> numbers(const std::string& key, int count = -1, const Range& range = {}) const;
+  std::vector<double> numbers(const std::string& key, int count = -1,
+                              const Range& range = {}) const;
   std::vector<double> numbersOr(const std::string& key, const std::vector<double>& fallback,
                                 int count = -1, const Range& range = {}) const;
   std::vector<std::string> texts(const std::string& key) const;

@@ -15,11 +15,11 @@ class ORTUNG_API Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
-  std::uint32_t next();               ///< 32 uniform bits
-  double uniform();                   ///< in [0, 1)
+  std::uint32_t next();  ///< 32 uniform bits
+  double uniform();      ///< in [0, 1)
   double uniform(double low, double high);
   std::uint64_t below(std::uint64_t n);  ///< in [0, n); @pre n > 0
-  double gaussian();                  ///< mean 0, sigma 1
+  double gaussian();                     ///< mean 0, sigma 1
 
   /// An independent generator of the same seed.
   Random fork(std::uint64_t stream) const;

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "ortung/core/SensorData.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/core/SensorData.hpp"
 
 namespace ortung {
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "ortung/container/Abi.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Parameters.hpp"
+#include "ortung/container/Abi.hpp"
 #include "ortung/core/SensorData.hpp"
 
 namespace ortung {
@@ -68,8 +68,10 @@ constexpr PluginEntry provideData(const char* name) {
 
 /// Put once into a plugin library: ORTUNG_PLUGINS("lrf", ortung::provideData<makeLrf>("lrf"));
 /// Constant data, not a registering object: the host checks it before it runs our code.
-#define ORTUNG_PLUGINS(library, ...)                                                    \
-  static constexpr ::ortung::PluginEntry ortungEntries[] = {__VA_ARGS__};               \
-  extern "C" ORTUNG_API constinit const ::ortung::PluginInfo ortungPlugins = {          \
-      ::ortung::kPluginAbi, sizeof(::ortung::PluginInfo), ::ortung::kBuildTag, library, \
-      ORTUNG_CONTAINER_ABI, ortungEntries, std::size(ortungEntries)}
+#define ORTUNG_PLUGINS(library, ...)                                           \
+  static constexpr ::ortung::PluginEntry ortungEntries[] = {__VA_ARGS__};      \
+  extern "C" ORTUNG_API constinit const ::ortung::PluginInfo ortungPlugins = { \
+      ::ortung::kPluginAbi,    sizeof(::ortung::PluginInfo),                   \
+      ::ortung::kBuildTag,     library,                                        \
+      ORTUNG_CONTAINER_ABI,    ortungEntries,                                  \
+      std::size(ortungEntries)}

@@ -29,7 +29,7 @@ class ORTUNG_API PluginFactory {
   /// What a library offers, for `ortung plugins`.
   struct Found {
     std::filesystem::path file;
-    std::string library;    ///< "" if it could not be loaded
+    std::string library;  ///< "" if it could not be loaded
     std::string buildTag;
     std::string version;
     struct Entry {
@@ -37,7 +37,7 @@ class ORTUNG_API PluginFactory {
       std::string name;
     };
     std::vector<Entry> entries;
-    std::string error;      ///< why it could not be loaded, or ""
+    std::string error;  ///< why it could not be loaded, or ""
   };
 
   PluginFactory() = default;
@@ -76,8 +76,7 @@ class ORTUNG_API PluginFactory {
     std::filesystem::path file;
     const PluginInfo* info;
   };
-  void* create(const std::string& interface, const std::string& name,
-               const Parameters& parameters);
+  void* create(const std::string& interface, const std::string& name, const Parameters& parameters);
   const PluginEntry* findEntry(const std::string& interface, const std::string& name) const;
   std::vector<std::string> loadWhere(const std::string& part);
 

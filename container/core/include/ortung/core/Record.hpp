@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/core/Message.hpp"
 #include "ortung/base/NewFile.hpp"
+#include "ortung/core/Message.hpp"
 #include "ortung/core/Source.hpp"
 
 namespace ortung {
@@ -21,10 +21,11 @@ namespace ortung {
 ORTUNG_API void writeLine(const Message& message, std::string& line);
 
 /// Reads such a line: exactly one blank between two words, none elsewhere. Nothing for anything
-/// else; then @p why (if given) says what is wrong. Never throws, never allocates more than the line is long.
+/// else; then @p why (if given) says what is wrong. Never throws, never allocates more than the
+/// line is long.
 ORTUNG_API std::optional<Message> parseLine(std::string_view line, std::string* why = nullptr);
 
-inline constexpr std::size_t kMaxWords = 1u << 24;      ///< words of one reading
+inline constexpr std::size_t kMaxWords = 1u << 24;  ///< words of one reading
 inline constexpr std::string_view kRecordMagic = "# ortung record 1";
 
 /// Writes a record file: kRecordMagic, "# key value" lines (keys: world, robot, note), then

@@ -25,7 +25,8 @@ ORTUNG_API SensorQuery parseSensorQuery(std::string_view text);
 
 /// Owns the sensor data of one robot.
 /// Many writers and readers: writers go through set(), readers of readings hold a ReadLock, so
-/// that they see one consistent frame. The list of features itself must not change while others use it.
+/// that they see one consistent frame. The list of features itself must not change while others use
+/// it.
 class ORTUNG_API SensorContainer {
  public:
   using ReadLock = std::shared_lock<std::shared_mutex>;

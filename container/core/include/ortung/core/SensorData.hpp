@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "ortung/container/Abi.hpp"
 #include "ortung/base/Export.hpp"
-#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/SampleView.hpp"
-#include "ortung/tables/TableFile.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/container/Abi.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/TableFile.hpp"
 
 namespace ortung {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "ortung/container/Abi.hpp"
 #include "ortung/base/Export.hpp"
-#include "ortung/core/Message.hpp"
 #include "ortung/base/Parameters.hpp"
+#include "ortung/container/Abi.hpp"
+#include "ortung/core/Message.hpp"
 #include "ortung/core/SensorContainer.hpp"
 
 namespace ortung {

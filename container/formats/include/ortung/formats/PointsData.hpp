@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "ortung/tables/EndPointField.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/tables/EndPointField.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {

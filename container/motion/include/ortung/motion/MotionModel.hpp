@@ -4,12 +4,12 @@
 #include <optional>
 #include <span>
 
-#include "ortung/container/Abi.hpp"
 #include "ortung/base/Export.hpp"
-#include "ortung/motion/OdometryTrack.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/container/Abi.hpp"
+#include "ortung/motion/OdometryTrack.hpp"
 
 namespace ortung {
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "ortung/motion/MotionModel.hpp"
 #include "ortung/base/Parameters.hpp"
+#include "ortung/motion/MotionModel.hpp"
 
 namespace ortung {
 

@@ -8,8 +8,9 @@
 
 namespace ortung {
 
-/// Reads a robot file that a stranger sent: at most kMaxNetworkConfigBytes, plugins of a list only, and
-/// nothing that could name a file of this computer: no text with a slash, no key `path` or `..._file`.
+/// Reads a robot file that a stranger sent: at most kMaxNetworkConfigBytes, plugins of a list only,
+/// and nothing that could name a file of this computer: no text with a slash, no key `path` or
+/// `..._file`.
 /// @param name what errors call it
 /// @param plugins names that are permitted
 /// @throws ConfigError

@@ -21,13 +21,13 @@ struct SensorConfig {
 /// The same file configures client, server, learner and real robot.
 struct RobotConfig {
   std::string name;
-  double radius = 0.25;     ///< of the body's circle around the robot's origin [m]
-  double mass = 10.0;       ///< [kg]
-  Parameters about;         ///< the whole [robot]
+  double radius = 0.25;  ///< of the body's circle around the robot's origin [m]
+  double mass = 10.0;    ///< [kg]
+  Parameters about;      ///< the whole [robot]
   std::vector<SensorConfig> sensors;
-  Parameters motion;        ///< [motion], may be empty
-  Parameters mcl;           ///< [mcl], may be empty
-  Parameters drive;         ///< [drive]: limits of the simulated robot, may be empty
+  Parameters motion;                     ///< [motion], may be empty
+  Parameters mcl;                        ///< [mcl], may be empty
+  Parameters drive;                      ///< [drive]: limits of the simulated robot, may be empty
   std::vector<Parameters> body;          ///< [[body]]: shapes of the simulated robot, may be none
   std::vector<Parameters> manipulators;  ///< [[manipulator]] of the simulated robot, may be none
 };

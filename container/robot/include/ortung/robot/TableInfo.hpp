@@ -13,15 +13,15 @@ namespace ortung {
 
 /// What a table file says of itself.
 struct TableInfo {
-  std::string world;             ///< the world's name
+  std::string world;  ///< the world's name
   std::string worldFingerprint;
-  std::string robot;             ///< the robot's name
-  double headingStep = 0.0;      ///< [rad]
+  std::string robot;         ///< the robot's name
+  double headingStep = 0.0;  ///< [rad]
   FieldRegion region;
   struct Feature {
-    std::string id;              ///< "model/type/feature"
-    std::string key;             ///< SensorData::learningKey()
-    std::string prefix;          ///< of its arrays' names
+    std::string id;      ///< "model/type/feature"
+    std::string key;     ///< SensorData::learningKey()
+    std::string prefix;  ///< of its arrays' names
   };
   std::vector<Feature> features;
 };

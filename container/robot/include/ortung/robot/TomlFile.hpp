@@ -8,8 +8,8 @@
 
 namespace ortung {
 
-inline constexpr std::size_t kMaxConfigBytes = 1u << 20;         ///< a file from disk
-inline constexpr std::size_t kMaxNetworkConfigBytes = 64u << 10; ///< a text from the network
+inline constexpr std::size_t kMaxConfigBytes = 1u << 20;          ///< a file from disk
+inline constexpr std::size_t kMaxNetworkConfigBytes = 64u << 10;  ///< a text from the network
 
 /// Reads a TOML file into Parameters whose errors name file and line.
 /// @throws ConfigError if it is missing, too large, nested too deep or no TOML

@@ -23,8 +23,8 @@ class ORTUNG_API RangeScale {
   /// @param maxRange readings at or beyond it see nothing [m]
   RangeScale(double maxRange, double sigma, double sigmaPerMetre);
 
-  std::uint8_t level(double range) const;   ///< kNothing at or beyond maxRange
-  double range(std::uint8_t level) const;   ///< middle of the level [m]; maxRange for kNothing
+  std::uint8_t level(double range) const;  ///< kNothing at or beyond maxRange
+  double range(std::uint8_t level) const;  ///< middle of the level [m]; maxRange for kNothing
   double levelsPerSigma() const { return levelsPerSigma_; }
   double maxRange() const { return maxRange_; }
 

@@ -12,11 +12,11 @@ namespace ortung {
 /// match and `outliers` where nothing fits. The paper's table holds densities; we leave out the
 /// factor 1 / (sigma sqrt(2 pi)), which is the same for all poses, to keep p in [0, 1].
 struct ORTUNG_API SensorModel {
-  double sigma = 0.05;          ///< noise at range 0 [m or rad], positive
-  double sigmaPerMetre = 0.0;   ///< noise grows by this per metre of range
-  double outliers = 0.05;       ///< floor of p, in (0, 1)
-  double maxRangeMass = 0.2;    ///< floor of p for a reading of "nothing within range", in (0, 1)
-  double exponent = 1.0;        ///< p is raised to this: below 1 where readings are not independent
+  double sigma = 0.05;         ///< noise at range 0 [m or rad], positive
+  double sigmaPerMetre = 0.0;  ///< noise grows by this per metre of range
+  double outliers = 0.05;      ///< floor of p, in (0, 1)
+  double maxRangeMass = 0.2;   ///< floor of p for a reading of "nothing within range", in (0, 1)
+  double exponent = 1.0;       ///< p is raised to this: below 1 where readings are not independent
 
   double sigmaAt(double range) const { return sigma + sigmaPerMetre * range; }
   /// ln of p for a residual of @p sigmas standard deviations, exponent not applied.

@@ -84,15 +84,25 @@ class ORTUNG_API TableFile {
 template <class T>
 struct ElementOf;
 template <>
-struct ElementOf<std::uint8_t> { static constexpr ElementType kType = ElementType::kUint8; };
+struct ElementOf<std::uint8_t> {
+  static constexpr ElementType kType = ElementType::kUint8;
+};
 template <>
-struct ElementOf<std::uint16_t> { static constexpr ElementType kType = ElementType::kUint16; };
+struct ElementOf<std::uint16_t> {
+  static constexpr ElementType kType = ElementType::kUint16;
+};
 template <>
-struct ElementOf<std::int32_t> { static constexpr ElementType kType = ElementType::kInt32; };
+struct ElementOf<std::int32_t> {
+  static constexpr ElementType kType = ElementType::kInt32;
+};
 template <>
-struct ElementOf<float> { static constexpr ElementType kType = ElementType::kFloat32; };
+struct ElementOf<float> {
+  static constexpr ElementType kType = ElementType::kFloat32;
+};
 template <>
-struct ElementOf<double> { static constexpr ElementType kType = ElementType::kFloat64; };
+struct ElementOf<double> {
+  static constexpr ElementType kType = ElementType::kFloat64;
+};
 
 ORTUNG_API void checkArray(const TableFile& file, const TableArray& array, ElementType type,
                            const std::vector<std::size_t>& shape);

@@ -37,7 +37,8 @@ class ORTUNG_API ScanLogSource : public LogSource {
                const std::optional<Pose2>& odometry);
   void addOdometry(const LogFile& file, Timestamp stamp, const Pose2& pose);
   void addTruth(const LogFile& file, Timestamp stamp, const Pose2& pose);
-  /// Commanded velocities [m/s], [rad/s], in force from then on; they become odometry's motion data.
+  /// Commanded velocities [m/s], [rad/s], in force from then on; they become odometry's motion
+  /// data.
   void addCommand(const LogFile& file, Timestamp stamp, double v, double w);
 
   /// Call when all is added. @throws std::runtime_error if there was no scan

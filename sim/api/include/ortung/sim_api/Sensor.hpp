@@ -5,8 +5,8 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Random.hpp"
-#include "ortung/core/SensorData.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/core/SensorData.hpp"
 #include "ortung/sim_api/Abi.hpp"
 #include "ortung/sim_api/World.hpp"
 

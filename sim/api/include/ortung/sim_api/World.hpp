@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/sim_api/Twist.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "ortung/client/RobotSession.hpp"
 #include "ortung/base/Export.hpp"
-#include "ortung/core/SensorContainer.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/client/RobotSession.hpp"
+#include "ortung/core/SensorContainer.hpp"
 
 namespace ortung {
 

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "ortung/client/ClockOffset.hpp"
 #include "ortung/base/Export.hpp"
-#include "ortung/core/Message.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/client/ClockOffset.hpp"
+#include "ortung/core/Message.hpp"
 
 namespace ortung {
 

@@ -34,8 +34,7 @@ ORTUNG_C_API ortung_robot* ortung_connect(const char* host, uint16_t port, const
 ORTUNG_C_API void ortung_disconnect(ortung_robot* robot);
 
 /* Velocities: [m/s] and [rad/s]. */
-ORTUNG_C_API int ortung_set_velocity(ortung_robot* robot, double translational,
-                                     double rotational);
+ORTUNG_C_API int ortung_set_velocity(ortung_robot* robot, double translational, double rotational);
 /* The command vector of the robot's drive. */
 ORTUNG_C_API int ortung_set_motion(ortung_robot* robot, const double* command, size_t count);
 /* state: its name, or its number from 0 */

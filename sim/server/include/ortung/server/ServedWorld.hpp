@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "ortung/robot/RobotFile.hpp"
 #include "ortung/base/Export.hpp"
-#include "ortung/core/Message.hpp"
 #include "ortung/base/Pose2.hpp"
-#include "ortung/core/SensorContainer.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/robot/RobotFile.hpp"
 
 namespace ortung {
 

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/PositionTable.hpp"
+#include "ortung/tables/SensorModel.hpp"
+
+namespace ortung {
+
+/// One bearing [rad] in the sensor's frame, e.g. post3Bearing. Words: [angle], or none.
+/// Learns a bearing table.
+class ORTUNG_API BearingData : public SensorData {
+ public:
+  struct Config {
+    double fieldOfView = 0.0;  ///< [rad]; 0 or 2 pi: all around
+    SensorModel model{.sigma = 0.02};
+  };
+  using Reading = std::optional<double>;
+
+  BearingData(SensorId id, const Pose2& mount, const Config& config);
+  ~BearingData() override;
+
+  Reading reading() const { return reading_; }
+  static std::vector<std::uint32_t> encode(const Reading& reading);
+
+  std::string wordsHelp() const override;
+  bool localizes() const override { return true; }
+  double headingSpacing() const override;
+  std::vector<double> expectation(const Pose2& pose) const override;
+  std::string learningKey() const override;
+  void saveTables(TableWriter& file, const std::string& prefix) const override;
+
+ private:
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  bool isInformative() const override { return reading_.has_value(); }
+  void startTables(const FieldRegion& region, double headingStep) override;
+  void learn(const Pose2& robotInField) override;
+  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
+  double logProbabilityAt(const Pose2& pose) const override;
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+
+  Config config_;
+  GaussianTable gaussian_;
+  BearingTable table_;
+  Reading reading_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/tables/DirectionTable.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/SensorModel.hpp"
+
+namespace ortung {
+
+/// Distance to the nearest obstacle within a cone. Words: [mm]; at or above the greatest range:
+/// nothing seen; 0: not valid. Learns a pose table.
+class ORTUNG_API ConeData : public SensorData {
+ public:
+  struct Config {
+    double openingAngle = 0.35;  ///< whole angle [rad]
+    double maxRange = 3.0;       ///< [m]
+    SensorModel model{.sigma = 0.03, .sigmaPerMetre = 0.02, .outliers = 0.1};
+  };
+  /// [m]; +infinity: nothing within range; NaN: not valid
+  using Reading = double;
+
+  ConeData(SensorId id, const Pose2& mount, const Config& config);
+  ~ConeData() override;
+
+  Reading reading() const { return reading_; }
+  const Config& config() const { return config_; }
+  static std::uint32_t encode(Reading reading, double maxRange);
+
+  std::string wordsHelp() const override;
+  bool localizes() const override { return true; }
+  double headingSpacing() const override { return headingStep_; }
+  std::vector<double> expectation(const Pose2& pose) const override;
+  std::string learningKey() const override;
+  void saveTables(TableWriter& file, const std::string& prefix) const override;
+
+ private:
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  bool isInformative() const override;
+  void startTables(const FieldRegion& region, double headingStep) override;
+  void learn(const Pose2& robotInField) override;
+  void finishTables() override;
+  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
+  double logProbabilityAt(const Pose2& pose) const override;
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  void prepare();
+  float logProbabilityOf(std::uint8_t level) const;
+
+  Config config_;
+  RangeScale scale_;
+  DirectionTable table_;
+  double headingStep_ = 0.1;
+  Reading reading_ = 0.0;
+  std::vector<float> logByLevel_;  ///< ln p of the present reading by expected level
+};
+
+}  // namespace ortung

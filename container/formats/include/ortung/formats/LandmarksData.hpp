@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/PositionTable.hpp"
+#include "ortung/tables/SensorModel.hpp"
+
+namespace ortung {
+
+/// Ranges and bearings of identified landmarks seen at one moment.
+/// Words: three a landmark: identity, [mm], [angle]; none: looked and saw nothing.
+/// Learns a position and a bearing table for each landmark of its list.
+class ORTUNG_API LandmarksData : public SensorData {
+ public:
+  struct Config {
+    std::vector<std::uint32_t> identities;  ///< landmarks that can be told apart; not empty, unique
+    double maxRange = 20.0;                 ///< [m]
+    double fieldOfView = 0.0;               ///< [rad]; 0 or 2 pi: all around
+    SensorModel range{};
+    SensorModel bearing{.sigma = 0.02};
+  };
+  struct Sighting {
+    std::uint32_t identity = 0;
+    double range = 0.0;    ///< [m]
+    double bearing = 0.0;  ///< in the sensor's frame [rad]
+  };
+  using Reading = std::vector<Sighting>;
+
+  LandmarksData(SensorId id, const Pose2& mount, Config config);
+  ~LandmarksData() override;
+
+  const Reading& reading() const { return reading_; }
+  static std::vector<std::uint32_t> encode(const Reading& reading);
+  static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
+  const Config& config() const { return config_; }
+
+  std::string wordsHelp() const override;
+  bool localizes() const override { return true; }
+  double headingSpacing() const override;
+  /// Range and bearing of each landmark of the list, in its order.
+  std::vector<double> expectation(const Pose2& pose) const override;
+  std::string learningKey() const override;
+  void saveTables(TableWriter& file, const std::string& prefix) const override;
+
+ private:
+  struct Landmark {
+    PositionTable range;
+    BearingTable bearing;
+  };
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  bool isInformative() const override;
+  void startTables(const FieldRegion& region, double headingStep) override;
+  void learn(const Pose2& robotInField) override;
+  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
+  double logProbabilityAt(const Pose2& pose) const override;
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  std::ptrdiff_t indexOf(std::uint32_t identity) const;
+
+  Config config_;
+  GaussianTable rangeGaussian_;
+  GaussianTable bearingGaussian_;
+  std::vector<Landmark> landmarks_;  ///< in the order of config_.identities
+  Reading reading_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+
+namespace ortung {
+
+/// Pose in the odometry frame and velocities (paper, section 4). Words: x, y [signed mm],
+/// [angle], translational velocity [signed mm/s], rotational velocity [signed 1/100 degree/s],
+/// then up to 16 of the motion plugin's own.
+class ORTUNG_API OdometryData : public SensorData {
+ public:
+  struct Reading {
+    Pose2 pose;                          ///< in the odometry frame
+    double translationalVelocity = 0.0;  ///< along the robot's x axis [m/s]
+    double rotationalVelocity = 0.0;     ///< [rad/s]
+    std::vector<std::uint32_t> motionData;
+  };
+  explicit OdometryData(SensorId id);
+  ~OdometryData() override;
+  const Reading& reading() const { return reading_; }
+  static std::vector<std::uint32_t> encode(const Reading& reading);
+  static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
+  std::string wordsHelp() const override;
+
+ private:
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  Reading reading_;
+};
+
+}  // namespace ortung

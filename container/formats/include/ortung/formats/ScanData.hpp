@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/tables/DirectionTable.hpp"
+#include "ortung/tables/EndPointField.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/SensorModel.hpp"
+
+namespace ortung {
+
+/// Ranges at evenly spaced bearings, counter-clockwise. Words: one [mm] a beam; 0: no valid
+/// measurement; at or above the greatest range: nothing seen.
+/// Learns a ray table or an end-point field.
+class ORTUNG_API ScanData : public SensorData {
+ public:
+  enum class Perception { kRays, kEndPoints };
+  struct Config {
+    int beams = 180;          ///< 1 to 8192
+    double firstAngle = 0.0;  ///< of beam 0 in the sensor's frame [rad]
+    double angleStep = 0.0;   ///< between beams [rad], positive; beams * angleStep <= 2 pi
+    double minRange = 0.0;    ///< readings below it are not valid [m]
+    double maxRange = 8.0;    ///< [m]
+    Perception perception = Perception::kRays;
+    int usedBeams = 0;           ///< thin to about this many; 0: all that differ in the table
+    double endPointCell = 0.05;  ///< edge of an end-point field's cell [m]
+    /// The exponent is that of ray tables: their cells make neighbouring beams err alike.
+    SensorModel model{.sigma = 0.05, .sigmaPerMetre = 0.01, .exponent = 0.06};
+  };
+  /// A good exponent for end-point fields, which do not round the pose.
+  static constexpr double kEndPointExponent = 0.3;
+  struct Reading {
+    double firstAngle = 0.0;    ///< [rad]
+    double angleStep = 0.0;     ///< [rad]
+    std::vector<float> ranges;  ///< [m]; NaN: not valid; +infinity: nothing within range
+  };
+
+  ScanData(SensorId id, const Pose2& mount, const Config& config);
+  ~ScanData() override;
+
+  Reading reading() const;
+  const Config& config() const { return config_; }
+  /// NaN becomes 0, anything at or beyond @p maxRange (and infinity) one word above it.
+  static void encode(std::span<const float> ranges, double maxRange,
+                     std::vector<std::uint32_t>& words);
+
+  std::string wordsHelp() const override;
+  bool localizes() const override { return true; }
+  double headingSpacing() const override;
+  /// Range of each beam [m]; the greatest range where nothing is expected to be seen.
+  /// With an end-point field: empty, since that does not keep ranges.
+  std::vector<double> expectation(const Pose2& pose) const override;
+  std::string learningKey() const override;
+  void saveTables(TableWriter& file, const std::string& prefix) const override;
+
+ private:
+  struct Prepared;  ///< the reading in the table's terms: levels, caps, end points
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  bool isInformative() const override;
+  void startTables(const FieldRegion& region, double headingStep) override;
+  void learn(const Pose2& robotInField) override;
+  void finishTables() override;
+  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
+  double logProbabilityAt(const Pose2& pose) const override;
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  void prepare();
+  void prepareRays();
+  void prepareEndPoints();
+  void weighRays(const SampleView& poses, std::span<float> logProbability) const;
+  void weighEndPoints(const SampleView& poses, std::span<float> logProbability) const;
+  int runLength(int directions) const;
+
+  Config config_;
+  RangeScale scale_;
+  FieldGrid grid_;  ///< of the tables
+  DirectionTable rays_;
+  EndPointField endPoints_;
+  std::vector<float> ranges_;
+  std::unique_ptr<Prepared> prepared_;
+};
+
+}  // namespace ortung
