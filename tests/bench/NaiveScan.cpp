@@ -17,7 +17,7 @@ const ScanData::Config kDefaults;  // of the sensor model
 
 NaiveScan::NaiveScan(double headingStepDegrees)
     : headings_(static_cast<int>(std::lround(kDegrees / headingStepDegrees))),
-      scale_(kMaxRange, kDefaults.model.sigma, kDefaults.model.sigmaPerMetre),
+      scale_(kMaxRange, kDefaults.resolution),
       sensorModel_(kLevels * kLevels) {
   const FieldGrid& grid = fieldRegion().grid;
   const auto headings = static_cast<std::size_t>(headings_);
@@ -42,7 +42,8 @@ NaiveScan::NaiveScan(double headingStepDegrees)
       const double levels = static_cast<double>(e) - static_cast<double>(m);
       sensorModel_[e * kLevels + m] =
           static_cast<float>(kDefaults.model.exponent *
-                             kDefaults.model.logProbability(levels / scale_.levelsPerSigma()));
+                             kDefaults.model.logProbability(
+                                 levels / scale_.levelsPerSigma(0.0, kDefaults.model.sigma)));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "FakeRoom.hpp"
+#include "Files.hpp"
 #include "ortung/formats/BearingData.hpp"
 #include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/LandmarksData.hpp"
@@ -135,52 +136,100 @@ TEST_F(Learned, ConeKnowsAllFourCases) {
 /// The scan's formula in double precision, with ranges in levels as the table keeps them.
 double scanProbability(const Room& room, const Pose2& sensor, const ScanData::Config& c,
                        const std::vector<float>& ranges) {
-  const RangeScale scale(c.maxRange, c.model.sigma, c.model.sigmaPerMetre);
+  const RangeScale scale(c.maxRange, c.resolution);
   double sum = 0.0;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     if (std::isnan(ranges[i])) continue;
     const double angle = sensor.theta + c.firstAngle + static_cast<double>(i) * c.angleStep;
     const int expected = scale.level(room.range(sensor.x, sensor.y, angle));
     const int seen = scale.level(static_cast<double>(ranges[i]));
-    const double sigmas = std::abs(expected - seen) / scale.levelsPerSigma();
+    const double known = std::min(static_cast<double>(ranges[i]), c.maxRange);
+    const double sigmas =
+        std::abs(expected - seen) / scale.levelsPerSigma(known, c.model.sigmaAt(known));
     const double p = modelled(sigmas, 1.0, c.model.outliers);
     sum += std::log(seen == RangeScale::kNothing ? std::max(p, c.model.maxRangeMass) : p);
   }
   return std::exp(c.model.exponent * sum);
 }
 
+/// A scan whose noise is @p sigma and grows by @p sigmaPerMetre.
+ScanData::Config scanOfNoise(double sigma, double sigmaPerMetre) {
+  return {.beams = 181,
+          .firstAngle = -kPi / 2,
+          .angleStep = kPi / 180,
+          .maxRange = 6.0,
+          .model = {.sigma = sigma,
+                    .sigmaPerMetre = sigmaPerMetre,
+                    .outliers = 0.1,
+                    .maxRangeMass = 0.25,
+                    .exponent = 0.05}};
+}
+
 TEST_F(Learned, RaysMultiplyTheBeamsOfAScan) {
-  const ScanData::Config config{.beams = 181,
-                                .firstAngle = -kPi / 2,
-                                .angleStep = kPi / 180,
-                                .maxRange = 6.0,
-                                .model = {.sigma = 0.1,
-                                          .sigmaPerMetre = 0.02,
-                                          .outliers = 0.1,
-                                          .maxRangeMass = 0.25,
-                                          .exponent = 0.05}};
-  ScanData data(kId, mount_, config);
-  learnEverywhere(data, region_, kPi / 180,
-                  [&](const Pose2& s) { return test::scanWords(room_, s, config); });
-  Random random(3);
-  for (int i = 0; i < 200; ++i) {
-    const std::size_t cell = random.below(region_.grid.size());
-    // Headings of whole degrees, so that beams fall on the table's directions.
-    const Pose2 sensor{region_.grid.centreX(cell), region_.grid.centreY(cell),
-                       static_cast<double>(random.below(360)) * kPi / 180};
-    const Pose2 seenFrom{sensor.x + 0.2 * random.gaussian(), sensor.y,
-                         sensor.theta + 0.02 * random.gaussian()};
-    if (!room_.contains(seenFrom.x, seenFrom.y)) continue;
-    Words words = test::scanWords(room_, seenFrom, config);
-    for (std::uint32_t& word : words)
-      word = random.below(10) == 0 ? 0 : random.below(10) == 0 ? 9999 : word;
-    data.setData(1, words);
-    const double expected = scanProbability(room_, sensor, config, data.reading().ranges);
-    // A beam's cost is rounded to 1/250 of the floor's: ln 10 / 250 nats, by half; and millimetres
-    // may fall on another level.
-    EXPECT_NEAR(std::log(data.getProbability(sensor * inverse(mount_))), std::log(expected),
-                0.05 * (181 * 0.5 * std::log(10.0) / 250 + 0.3));
+  // Noise that grows as the table's levels do, faster, slower, not at all; finer and coarser.
+  const std::vector<std::pair<double, double>> noises = {{0.05, 0.01}, {0.1, 0.02}, {0.02, 0.05},
+                                                         {0.2, 0.01},  {0.1, 0.0},  {0.03, 0.0}};
+  for (const auto& [sigma, sigmaPerMetre] : noises) {
+    const ScanData::Config config = scanOfNoise(sigma, sigmaPerMetre);
+    const bool isLikeTheTable = sigmaPerMetre == 0.2 * sigma;
+    ScanData data(kId, mount_, config);
+    learnEverywhere(data, region_, kPi / 180,
+                    [&](const Pose2& s) { return test::scanWords(room_, s, config); });
+    Random random(3);
+    for (int i = 0; i < 200; ++i) {
+      const std::size_t cell = random.below(region_.grid.size());
+      // Headings of whole degrees, so that beams fall on the table's directions.
+      const Pose2 sensor{region_.grid.centreX(cell), region_.grid.centreY(cell),
+                         static_cast<double>(random.below(360)) * kPi / 180};
+      const Pose2 seenFrom{sensor.x + 2.0 * sigma * random.gaussian(), sensor.y,
+                           sensor.theta + 0.02 * random.gaussian()};
+      if (!room_.contains(seenFrom.x, seenFrom.y)) continue;
+      Words words = test::scanWords(room_, seenFrom, config);
+      for (std::uint32_t& word : words)
+        word = random.below(10) == 0 ? 0 : random.below(10) == 0 ? 9999 : word;
+      data.setData(1, words);
+      const double expected = scanProbability(room_, sensor, config, data.reading().ranges);
+      // A beam's cost is rounded to 1/250 of the floor's: ln 10 / 250 nats, by half; and
+      // millimetres may fall on another level. Where one table of costs serves beams of different
+      // sigmas, differences are rounded to its entries and steps to an eighth of an octave, which
+      // is less than 0.08 nats a beam, even where a level is wider than a sigma.
+      const double stepping = isLikeTheTable ? 0.0 : 181 * 0.08;
+      EXPECT_NEAR(std::log(data.getProbability(sensor * inverse(mount_))), std::log(expected),
+                  0.05 * (181 * 0.5 * std::log(10.0) / 250 + 0.3 + stepping))
+          << sigma << " " << sigmaPerMetre;
+    }
   }
+}
+
+/// Learns with one noise, weighs with another: what a table holds does not depend on it.
+TEST_F(Learned, NoiseMayChangeWithoutNewTables) {
+  const ScanData::Config config = scanOfNoise(0.05, 0.01);
+  const ScanData::Config other = scanOfNoise(0.15, 0.0);
+  ScanData learned(kId, mount_, config);
+  ScanData noisier(kId, mount_, other);
+  EXPECT_EQ(learned.learningKey(), noisier.learningKey());
+  const auto words = [&](const Pose2& s) { return test::scanWords(room_, s, config); };
+  learnEverywhere(learned, region_, kPi / 180, words);
+  learnEverywhere(noisier, region_, kPi / 180, words);
+  const test::TemporaryFolder folder;
+  TableWriter first(folder / "first");
+  learned.saveTables(first, "");
+  first.commit();
+  TableWriter second(folder / "second");
+  noisier.saveTables(second, "");
+  second.commit();
+  EXPECT_EQ(test::readBytes(folder / "first"), test::readBytes(folder / "second"));
+  ScanData loaded(kId, mount_, other);
+  loaded.loadTables(std::make_shared<TableFile>(folder / "first"), "", region_.grid);
+  const Pose2 seenFrom = sensor_ * Pose2{0.1, 0.0, 0.0};
+  for (ScanData* data : {&learned, &noisier, &loaded}) data->setData(1, words(seenFrom));
+  EXPECT_EQ(loaded.getProbability(robot_), noisier.getProbability(robot_));
+  EXPECT_GT(loaded.getProbability(robot_), learned.getProbability(robot_));
+
+  ConeData::Config cone;
+  const ConeData narrow(kId, mount_, cone);
+  cone.model.sigma *= 3.0;
+  EXPECT_EQ(narrow.learningKey(), ConeData(kId, mount_, cone).learningKey());
 }
 
 TEST_F(Learned, EndPointsMultiplyTheirDistancesToTheWalls) {

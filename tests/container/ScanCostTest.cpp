@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace {
 struct Problem {
   std::vector<std::uint8_t> levels;
   std::vector<std::uint8_t> caps;
+  std::vector<std::uint8_t> steps;  ///< none for every second problem
   std::vector<std::uint8_t> table;  ///< rows lie in it at odd places
   std::vector<const std::uint8_t*> rows;
   ScanReading reading;
@@ -37,7 +39,13 @@ Problem makeProblem(std::size_t blocks, std::size_t rows, std::uint64_t seed) {
   for (std::uint8_t& cap : p.caps)
     cap = random.below(4) == 0 ? 0 : static_cast<std::uint8_t>(random.below(256));
   for (std::size_t i = 0; i < rows; ++i) p.rows.push_back(p.table.data() + 1 + 7 * i);
-  p.reading = {p.levels, p.caps, {}};
+  if (seed % 2 != 0) {
+    const bool isWide = random.below(2) == 0;  // or few kinds, as scans have
+    for (std::size_t j = 0; j < n; ++j)
+      p.steps.push_back(
+          static_cast<std::uint8_t>(isWide ? random.below(128) : 127 - 20 * random.below(3)));
+  }
+  p.reading = {p.levels, p.caps, p.steps, static_cast<int>(random.below(kMostShift + 1)), {}};
   for (std::uint8_t& cost : p.reading.costs) cost = static_cast<std::uint8_t>(random.below(256));
   std::sort(p.reading.costs.begin(), p.reading.costs.end());
   return p;
@@ -50,8 +58,10 @@ std::vector<std::uint32_t> reference(const Problem& p) {
     std::uint32_t sum = 0;
     for (std::size_t j = 0; j < p.levels.size(); ++j) {
       const int difference = std::abs(static_cast<int>(row[j]) - static_cast<int>(p.levels[j]));
+      const double step = p.steps.empty() ? 1.0 : std::ldexp(p.steps[j], -p.reading.shift);
+      const double steps = std::floor(std::min(difference * step, 1e3) + 0.5);
       sum += std::min<std::uint32_t>(
-          p.caps[j], p.reading.costs[static_cast<std::size_t>(std::min(31, difference))]);
+          p.caps[j], p.reading.costs[static_cast<std::size_t>(std::min(31.0, steps))]);
     }
     sums.push_back(sum);
   }

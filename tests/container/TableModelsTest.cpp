@@ -100,7 +100,7 @@ TEST(BearingTable, KeepsEveryDirectionWithinHalfALevel) {
 
 TEST(RangeScale, GivesBackTheMiddleOfEachLevel) {
   for (const double perMetre : {0.0, 0.01, 0.1}) {
-    const RangeScale scale(8.0, 0.05, perMetre);
+    const RangeScale scale(8.0, {.metres = 0.05, .perMetre = perMetre});
     int used = 0;
     for (int level = 0; level < 255; ++level) {
       const double range = scale.range(static_cast<std::uint8_t>(level));
@@ -113,8 +113,8 @@ TEST(RangeScale, GivesBackTheMiddleOfEachLevel) {
   }
 }
 
-TEST(RangeScale, OneSigmaIsTheSameNumberOfLevelsAtEveryRange) {
-  const RangeScale scale(80.0, 0.03, 0.02);
+TEST(RangeScale, NoiseLikeTheResolutionIsTheSameNumberOfLevelsAtEveryRange) {
+  const RangeScale scale(80.0, {.metres = 0.03, .perMetre = 0.02});
   for (const double range : {0.5, 2.0, 10.0, 40.0, 70.0}) {
     const double sigma = 0.03 + 0.02 * range;
     // A small step, in levels, against its length in sigmas: the definition of the scale.
@@ -127,12 +127,14 @@ TEST(RangeScale, OneSigmaIsTheSameNumberOfLevelsAtEveryRange) {
     const double sigmas = (std::log1p(0.02 * (range + 3.5 * sigma) / 0.03) -
                            std::log1p(0.02 * (range - 2.5 * sigma) / 0.03)) /
                           0.02;
-    EXPECT_NEAR(levels, sigmas * scale.levelsPerSigma(), 0.2);  // of about 7.5: levels are whole
+    EXPECT_NEAR(levels, sigmas * scale.levelsPerSigma(range, sigma),
+                0.2);  // of about 7.5: levels are whole
+    EXPECT_NEAR(levels, sigmas * scale.levelsPerSigma(range, 3.0 * sigma) / 3.0, 0.2);
   }
 }
 
 TEST(RangeScale, RisesAndSeesNothingFromTheGreatestRangeOn) {
-  const RangeScale scale(8.0, 0.05, 0.01);
+  const RangeScale scale(8.0, {.metres = 0.05, .perMetre = 0.01});
   int last = 0;
   for (double range = 0.0; range < 8.0; range += 0.001) {
     const int level = scale.level(range);
@@ -140,7 +142,7 @@ TEST(RangeScale, RisesAndSeesNothingFromTheGreatestRangeOn) {
     ASSERT_LE(level - last, 1);
     last = level;
     ASSERT_NEAR(scale.range(static_cast<std::uint8_t>(level)), range,
-                0.6 * (0.05 + 0.01 * range) / scale.levelsPerSigma());
+                0.6 * (0.05 + 0.01 * range) / scale.levelsPerSigma(range, 0.05 + 0.01 * range));
   }
   for (const double range : {8.0, 9.0, static_cast<double>(INFINITY), static_cast<double>(NAN)}) {
     EXPECT_EQ(scale.level(range), RangeScale::kNothing);

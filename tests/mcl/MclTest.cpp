@@ -268,8 +268,15 @@ struct Hostile : SensorData {
   bool localizes() const override { return true; }
   void check(std::span<const std::uint32_t>) const override {}
   void decode(std::span<const std::uint32_t>) override {}
-  void weigh(const SampleView&, std::span<float> logProbability) const override {
-    for (std::size_t i = 0; i < logProbability.size(); ++i) logProbability[i] += answer(i);
+  std::shared_ptr<const Weigher> makeWeigher() const override {
+    struct Answers : Weigher {
+      explicit Answers(std::function<float(std::size_t)> a) : answer(std::move(a)) {}
+      void weigh(const SampleView&, std::span<float> logProbability) const override {
+        for (std::size_t i = 0; i < logProbability.size(); ++i) logProbability[i] += answer(i);
+      }
+      std::function<float(std::size_t)> answer;
+    };
+    return std::make_shared<Answers>(answer);
   }
   std::function<float(std::size_t)> answer;
 };

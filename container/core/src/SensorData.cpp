@@ -1,9 +1,6 @@
 #include "ortung/core/SensorData.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -70,6 +67,7 @@ void SensorData::setData(Timestamp stamp, std::span<const std::uint32_t> words) 
   words_.assign(words.begin(), words.end());
   stamp_ = stamp;
   ++sequence_;
+  forgetWeigher();
 }
 
 void SensorData::beginLearning(const FieldRegion& region, double headingStep) {
@@ -88,24 +86,37 @@ void SensorData::learnProbability(const Pose2& pose) { learn(pose); }
 void SensorData::endLearning() {
   finishTables();
   learned_ = localizes();
+  forgetWeigher();
+}
+
+std::shared_ptr<const Weigher> SensorData::weigher() const {
+  if (!learned_ || sequence_ == 0) return nullptr;
+  const std::lock_guard lock(weigherMutex_);
+  if (!isWeigherMade_) weigher_ = makeWeigher();
+  isWeigherMade_ = true;
+  return weigher_;
+}
+
+void SensorData::forgetWeigher() {
+  const std::lock_guard lock(weigherMutex_);
+  weigher_.reset();
+  isWeigherMade_ = false;
 }
 
 double SensorData::getProbability(const Pose2& pose) const {
-  if (!canWeigh()) return kNoExpectation;
-  const double logProbability = logProbabilityAt(pose);
-  return std::isnan(logProbability) ? kNoExpectation : std::exp(logProbability);
+  const auto now = weigher();
+  return now ? now->getProbability(pose) : kNoExpectation;
 }
 
 void SensorData::getProbability(const SampleView& poses, std::span<float> logProbability) const {
-  assert(poses.size() == logProbability.size());
-  if (canWeigh()) weigh(poses, logProbability);
+  if (const auto now = weigher()) now->getProbability(poses, logProbability);
 }
 
 void SensorData::loadTables(std::shared_ptr<const TableFile> file, const std::string& prefix,
                             const FieldGrid& grid) {
-  useTables(*file, prefix, grid);
-  file_ = std::move(file);
+  useTables(file, prefix, grid);
   learned_ = true;
+  forgetWeigher();
 }
 
 std::vector<double> SensorData::expectation(const Pose2&) const { return {}; }
@@ -114,11 +125,8 @@ void SensorData::saveTables(TableWriter&, const std::string&) const {}
 void SensorData::startTables(const FieldRegion&, double) {}
 void SensorData::learn(const Pose2&) {}
 void SensorData::finishTables() {}
-void SensorData::useTables(const TableFile&, const std::string&, const FieldGrid&) {}
-
-double SensorData::logProbabilityAt(const Pose2&) const {
-  return std::numeric_limits<double>::quiet_NaN();
-}
-void SensorData::weigh(const SampleView&, std::span<float>) const {}
+void SensorData::useTables(const std::shared_ptr<const TableFile>&, const std::string&,
+                           const FieldGrid&) {}
+std::shared_ptr<const Weigher> SensorData::makeWeigher() const { return nullptr; }
 
 }  // namespace ortung

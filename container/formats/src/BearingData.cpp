@@ -7,8 +7,54 @@
 
 namespace ortung {
 
+namespace {
+
+class BearingWeigher final : public Weigher {
+ public:
+  BearingWeigher(std::shared_ptr<const BearingTable> table,
+                 std::shared_ptr<const GaussianTable> gaussian, const Pose2& mount, double reading,
+                 double sigma)
+      : table_(std::move(table)),
+        gaussian_(std::move(gaussian)),
+        mount_(mount),
+        reading_(reading),
+        sigma_(sigma) {}
+
+ private:
+  double logProbabilityAt(const Pose2& pose) const override {
+    const Pose2 sensor = pose * mount_;
+    const double expected = wrapAngle(table_->at(sensor.x, sensor.y) - sensor.theta);
+    if (std::isnan(expected)) return std::numeric_limits<double>::quiet_NaN();
+    return (*gaussian_)(static_cast<float>(wrapAngle(reading_ - expected) / sigma_));
+  }
+
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override {
+    const auto reading = static_cast<float>(reading_);
+    const auto perSigma = static_cast<float>(1.0 / sigma_);
+    TableWeigher weigher(table_->cells().grid());
+    forEachPoseBlock<TableWeigher::kBlock>(
+        poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+          weigher.start(sensor, n);
+          weigher.addBearing(*table_, *gaussian_, reading, perSigma, logProbability.data() + first);
+        });
+  }
+
+  PoseResolution resolution() const override { return {.metres = table_->cells().grid().cell}; }
+
+  std::shared_ptr<const BearingTable> table_;
+  std::shared_ptr<const GaussianTable> gaussian_;
+  Pose2 mount_;
+  double reading_;  ///< [rad]
+  double sigma_;    ///< [rad]
+};
+
+}  // namespace
+
 BearingData::BearingData(SensorId id, const Pose2& mount, const Config& config)
-    : SensorData(std::move(id), mount), config_(config), gaussian_(config.model) {}
+    : SensorData(std::move(id), mount),
+      config_(config),
+      gaussian_(std::make_shared<GaussianTable>(config.model)),
+      table_(std::make_shared<BearingTable>()) {}
 
 BearingData::~BearingData() = default;
 
@@ -32,33 +78,25 @@ std::string BearingData::wordsHelp() const {
 }
 double BearingData::headingSpacing() const { return spacingOf(config_.fieldOfView); }
 
-void BearingData::startTables(const FieldRegion& region, double) { table_.start(region.grid); }
+void BearingData::startTables(const FieldRegion& region, double) {
+  table_ = std::make_shared<BearingTable>();
+  table_->start(region.grid);
+}
 
 void BearingData::learn(const Pose2& robotInField) {
   const Pose2 sensor = robotInField * mount();
-  if (reading_) table_.learn(sensor.x, sensor.y, sensor.theta + *reading_);
+  if (reading_) table_->learn(sensor.x, sensor.y, sensor.theta + *reading_);
 }
 
 std::vector<double> BearingData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
-  return {wrapAngle(table_.at(sensor.x, sensor.y) - sensor.theta)};
+  return {wrapAngle(table_->at(sensor.x, sensor.y) - sensor.theta)};
 }
 
-double BearingData::logProbabilityAt(const Pose2& pose) const {
-  const double expected = expectation(pose)[0];
-  if (std::isnan(expected)) return std::numeric_limits<double>::quiet_NaN();
-  return gaussian_(static_cast<float>(wrapAngle(*reading_ - expected) / config_.model.sigma));
-}
-
-void BearingData::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  const auto reading = static_cast<float>(*reading_);
-  const auto perSigma = static_cast<float>(1.0 / config_.model.sigma);
-  TableWeigher weigher(table_.cells().grid());
-  forEachPoseBlock<TableWeigher::kBlock>(
-      poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-        weigher.start(sensor, n);
-        weigher.addBearing(table_, gaussian_, reading, perSigma, logProbability.data() + first);
-      });
+std::shared_ptr<const Weigher> BearingData::makeWeigher() const {
+  if (!reading_) return nullptr;
+  return std::make_shared<BearingWeigher>(table_, gaussian_, mount(), *reading_,
+                                          config_.model.sigma);
 }
 
 std::string BearingData::learningKey() const {
@@ -66,12 +104,14 @@ std::string BearingData::learningKey() const {
 }
 
 void BearingData::saveTables(TableWriter& file, const std::string& prefix) const {
-  table_.cells().save(file, prefix + "direction");
+  table_->cells().save(file, prefix + "direction");
 }
 
-void BearingData::useTables(const TableFile& file, const std::string& prefix,
+void BearingData::useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
                             const FieldGrid& grid) {
-  table_.cells().load(file, prefix + "direction", grid);
+  auto table = std::make_shared<BearingTable>();
+  table->cells().load(file, prefix + "direction", grid);
+  table_ = std::move(table);
 }
 
 }  // namespace ortung

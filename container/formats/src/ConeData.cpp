@@ -1,5 +1,7 @@
 #include "ortung/formats/ConeData.hpp"
 
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "CellLookup.hpp"
@@ -7,11 +9,66 @@
 
 namespace ortung {
 
+namespace {
+
+class ConeWeigher final : public Weigher {
+ public:
+  ConeWeigher(std::shared_ptr<const DirectionTable> table, const Pose2& mount,
+              const RangeScale& scale, const SensorModel& model, double reading)
+      : table_(std::move(table)), mount_(mount), floor_(static_cast<float>(model.logFloor())) {
+    for (int level = 0; level < 256; ++level) {
+      logByLevel_[static_cast<std::size_t>(level)] =
+          logProbabilityOf(static_cast<std::uint8_t>(level), scale, model, reading);
+    }
+  }
+
+ private:
+  static float logProbabilityOf(std::uint8_t level, const RangeScale& scale,
+                                const SensorModel& model, double reading) {
+    const bool sees = std::isfinite(reading);
+    const bool shouldSee = level != RangeScale::kNothing;
+    if (sees && shouldSee) {
+      const double sigmas = (reading - scale.range(level)) / model.sigmaAt(reading);
+      return static_cast<float>(model.exponent * model.logProbability(sigmas));
+    }
+    if (sees == shouldSee) return 0.0F;
+    return static_cast<float>(model.exponent *
+                              std::log(sees ? model.outliers : model.maxRangeMass));
+  }
+
+  double logProbabilityAt(const Pose2& pose) const override {
+    const Pose2 sensor = pose * mount_;
+    const std::uint8_t* row = table_->row(sensor.x, sensor.y);
+    if (row == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    return logByLevel_[row[table_->directionOf(sensor.theta)]];
+  }
+
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override {
+    const CellLookup lookup(table_->grid());
+    forEachSensorPose(poses, mount_, [&](std::size_t i, float x, float y, float theta) {
+      const std::ptrdiff_t cell = lookup(x, y);
+      const std::uint8_t* row = cell < 0 ? nullptr : table_->rowOfCell(cell);
+      logProbability[i] += row == nullptr ? floor_ : logByLevel_[row[table_->directionOf(theta)]];
+    });
+  }
+
+  PoseResolution resolution() const override {
+    return {.metres = table_->grid().cell, .radians = table_->step()};
+  }
+
+  std::shared_ptr<const DirectionTable> table_;
+  Pose2 mount_;
+  float floor_;
+  std::array<float, 256> logByLevel_{};  ///< ln p of the reading by expected level
+};
+
+}  // namespace
+
 ConeData::ConeData(SensorId id, const Pose2& mount, const Config& config)
     : SensorData(std::move(id), mount),
       config_(config),
-      scale_(config.maxRange, config.model.sigma, config.model.sigmaPerMetre),
-      logByLevel_(256, 0.0F) {}
+      scale_(config.maxRange, config.resolution),
+      table_(std::make_shared<DirectionTable>()) {}
 
 ConeData::~ConeData() = default;
 
@@ -31,29 +88,7 @@ void ConeData::decode(std::span<const std::uint32_t> words) {
   } else {
     reading_ = range >= config_.maxRange ? std::numeric_limits<double>::infinity() : range;
   }
-  if (isLearned()) prepare();
 }
-
-void ConeData::prepare() {
-  for (int level = 0; level < 256; ++level) {
-    logByLevel_[static_cast<std::size_t>(level)] =
-        logProbabilityOf(static_cast<std::uint8_t>(level));
-  }
-}
-
-float ConeData::logProbabilityOf(std::uint8_t level) const {
-  const SensorModel& model = config_.model;
-  const bool sees = std::isfinite(reading_);
-  const bool shouldSee = level != RangeScale::kNothing;
-  if (sees && shouldSee) {
-    const double sigmas = (reading_ - scale_.range(level)) / model.sigmaAt(reading_);
-    return static_cast<float>(model.exponent * model.logProbability(sigmas));
-  }
-  if (sees == shouldSee) return 0.0F;
-  return static_cast<float>(model.exponent * std::log(sees ? model.outliers : model.maxRangeMass));
-}
-
-bool ConeData::isInformative() const { return !std::isnan(reading_); }
 
 std::string ConeData::wordsHelp() const {
   return "[distance mm]; 0: not valid; from " + keyNumber(config_.maxRange * 1000) +
@@ -63,58 +98,47 @@ std::string ConeData::wordsHelp() const {
 void ConeData::startTables(const FieldRegion& region, double headingStep) {
   const int directions = std::max(1, static_cast<int>(std::lround(kFullTurn / headingStep)));
   headingStep_ = kFullTurn / directions;
-  table_.start(region, directions, 1);
+  table_ = std::make_shared<DirectionTable>();
+  table_->start(region, directions, 1);
 }
 
 void ConeData::learn(const Pose2& robotInField) {
   const Pose2 sensor = robotInField * mount();
-  if (!std::isnan(reading_)) table_.learn(sensor.x, sensor.y, sensor.theta, scale_.level(reading_));
+  if (!std::isnan(reading_))
+    table_->learn(sensor.x, sensor.y, sensor.theta, scale_.level(reading_));
 }
 
-void ConeData::finishTables() {
-  table_.finish();
-  prepare();
-}
+void ConeData::finishTables() { table_->finish(); }
 
 std::vector<double> ConeData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
-  const std::uint8_t* row = table_.row(sensor.x, sensor.y);
+  const std::uint8_t* row = table_->row(sensor.x, sensor.y);
   if (row == nullptr) return {};
-  return {scale_.range(row[table_.directionOf(sensor.theta)])};
+  return {scale_.range(row[table_->directionOf(sensor.theta)])};
 }
 
-double ConeData::logProbabilityAt(const Pose2& pose) const {
-  const Pose2 sensor = pose * mount();
-  const std::uint8_t* row = table_.row(sensor.x, sensor.y);
-  if (row == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  return logByLevel_[row[table_.directionOf(sensor.theta)]];
-}
-
-void ConeData::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  const CellLookup lookup(table_.grid());
-  const auto floor = static_cast<float>(config_.model.logFloor());
-  forEachSensorPose(poses, mount(), [&](std::size_t i, float x, float y, float theta) {
-    const std::ptrdiff_t cell = lookup(x, y);
-    const std::uint8_t* row = cell < 0 ? nullptr : table_.rowOfCell(cell);
-    logProbability[i] += row == nullptr ? floor : logByLevel_[row[table_.directionOf(theta)]];
-  });
+std::shared_ptr<const Weigher> ConeData::makeWeigher() const {
+  if (std::isnan(reading_)) return nullptr;
+  return std::make_shared<ConeWeigher>(table_, mount(), scale_, config_.model, reading_);
 }
 
 std::string ConeData::learningKey() const {
   return "cone opening_rad=" + keyNumber(config_.openingAngle) +
          " max_range_m=" + keyNumber(config_.maxRange) +
-         " scale=" + keyNumber(config_.model.sigma) + "," + keyNumber(config_.model.sigmaPerMetre) +
-         " " + mountKey(mount());
+         " scale=" + keyNumber(config_.resolution.metres) + "," +
+         keyNumber(config_.resolution.perMetre) + " " + mountKey(mount());
 }
 
 void ConeData::saveTables(TableWriter& file, const std::string& prefix) const {
-  table_.save(file, prefix);
+  table_->save(file, prefix);
 }
 
-void ConeData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
-  table_.load(file, prefix, grid, [](int) { return 1; });
-  headingStep_ = table_.step();
-  prepare();
+void ConeData::useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                         const FieldGrid& grid) {
+  auto table = std::make_shared<DirectionTable>();
+  table->load(file, prefix, grid, [](int) { return 1; });
+  table_ = std::move(table);
+  headingStep_ = table_->step();
 }
 
 }  // namespace ortung

@@ -14,18 +14,104 @@ constexpr std::size_t kMostSightings = 4096;
 
 }  // namespace
 
+struct LandmarksData::Model {
+  explicit Model(const Config& c)
+      : range(c.range), bearing(c.bearing), ranges(c.range), bearings(c.bearing) {}
+  SensorModel range;
+  SensorModel bearing;
+  GaussianTable ranges;
+  GaussianTable bearings;
+};
+
+struct LandmarksData::Tables {
+  struct Landmark {
+    PositionTable range;
+    BearingTable bearing;
+  };
+  explicit Tables(const Config& config) {
+    landmarks.reserve(config.identities.size());
+    for (std::size_t i = 0; i < config.identities.size(); ++i)
+      landmarks.push_back({PositionTable(config.maxRange), {}});
+  }
+  std::vector<Landmark> landmarks;  ///< in the order of the list of identities
+};
+
+class LandmarksData::Sight final : public Weigher {
+ public:
+  Sight(std::shared_ptr<const Model> model, std::shared_ptr<const Tables> tables,
+        const Pose2& mount)
+      : model_(std::move(model)), tables_(std::move(tables)), mount_(mount) {}
+
+  void add(std::size_t index, const Sighting& sighting) {
+    known_.push_back({&tables_->landmarks[index], sighting.range, sighting.bearing,
+                      model_->range.sigmaAt(sighting.range)});
+  }
+  bool isEmpty() const { return known_.empty(); }
+
+ private:
+  struct Known {
+    const Tables::Landmark* landmark;
+    double range;    ///< [m]
+    double bearing;  ///< [rad]
+    double sigma;    ///< of the range [m]
+  };
+
+  double logProbabilityAt(const Pose2& pose) const override {
+    const Pose2 sensor = pose * mount_;
+    const double floor = model_->range.logFloor() + model_->bearing.logFloor();
+    double sum = 0.0;
+    bool expects = false;
+    for (const Known& k : known_) {
+      const double range = k.landmark->range.at(sensor.x, sensor.y);
+      expects = expects || !std::isnan(range);
+      if (std::isnan(range)) {
+        sum += floor;  // seen from where nobody ever saw it
+        continue;
+      }
+      const double bearing = k.landmark->bearing.at(sensor.x, sensor.y) - sensor.theta;
+      sum += model_->ranges(static_cast<float>((k.range - range) / k.sigma)) +
+             model_->bearings(
+                 static_cast<float>(wrapAngle(k.bearing - bearing) / model_->bearing.sigma));
+    }
+    return expects ? sum : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override {
+    const auto perBearingSigma = static_cast<float>(1.0 / model_->bearing.sigma);
+    TableWeigher weigher(tables_->landmarks.front().range.cells().grid());
+    forEachPoseBlock<TableWeigher::kBlock>(
+        poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+          float* out = logProbability.data() + first;
+          weigher.start(sensor, n);
+          for (const Known& k : known_) {
+            weigher.addDistance(k.landmark->range, model_->ranges, static_cast<float>(k.range),
+                                static_cast<float>(1.0 / k.sigma), out);
+            weigher.addBearing(k.landmark->bearing, model_->bearings, static_cast<float>(k.bearing),
+                               perBearingSigma, out);
+          }
+        });
+  }
+
+  PoseResolution resolution() const override {
+    return {.metres = tables_->landmarks.front().range.cells().grid().cell};
+  }
+
+  std::shared_ptr<const Model> model_;
+  std::shared_ptr<const Tables> tables_;
+  Pose2 mount_;
+  std::vector<Known> known_;
+};
+
 LandmarksData::LandmarksData(SensorId id, const Pose2& mount, Config config)
     : SensorData(std::move(id), mount),
       config_(std::move(config)),
-      rangeGaussian_(config_.range),
-      bearingGaussian_(config_.bearing) {
+      model_(std::make_shared<Model>(config_)),
+      tables_(std::make_shared<Tables>(config_)) {
   std::vector<std::uint32_t> sorted = config_.identities;
   std::sort(sorted.begin(), sorted.end());
   if (sorted.empty() || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
     throw std::invalid_argument("the landmarks' identities must be at least one and unique");
   }
-  for (std::size_t i = 0; i < sorted.size(); ++i)
-    landmarks_.push_back({PositionTable(config_.maxRange), {}});
 }
 
 LandmarksData::~LandmarksData() = default;
@@ -70,13 +156,9 @@ std::ptrdiff_t LandmarksData::indexOf(std::uint32_t identity) const {
   return it == config_.identities.end() ? -1 : it - config_.identities.begin();
 }
 
-bool LandmarksData::isInformative() const {
-  return std::any_of(reading_.begin(), reading_.end(),
-                     [this](const Sighting& s) { return indexOf(s.identity) >= 0; });
-}
-
 void LandmarksData::startTables(const FieldRegion& region, double) {
-  for (Landmark& landmark : landmarks_) {
+  tables_ = std::make_shared<Tables>(config_);
+  for (Tables::Landmark& landmark : tables_->landmarks) {
     landmark.range.start(region.grid);
     landmark.bearing.start(region.grid);
   }
@@ -87,7 +169,7 @@ void LandmarksData::learn(const Pose2& robotInField) {
   for (const Sighting& sighting : reading_) {
     const std::ptrdiff_t index = indexOf(sighting.identity);
     if (index < 0 || sighting.range > config_.maxRange) continue;
-    Landmark& landmark = landmarks_[static_cast<std::size_t>(index)];
+    Tables::Landmark& landmark = tables_->landmarks[static_cast<std::size_t>(index)];
     landmark.range.learn(sensor.x, sensor.y, sighting.range);
     landmark.bearing.learn(sensor.x, sensor.y, sensor.theta + sighting.bearing);
   }
@@ -96,64 +178,20 @@ void LandmarksData::learn(const Pose2& robotInField) {
 std::vector<double> LandmarksData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
   std::vector<double> expected;
-  for (const Landmark& landmark : landmarks_) {
+  for (const Tables::Landmark& landmark : tables_->landmarks) {
     expected.push_back(landmark.range.at(sensor.x, sensor.y));
     expected.push_back(wrapAngle(landmark.bearing.at(sensor.x, sensor.y) - sensor.theta));
   }
   return expected;
 }
 
-double LandmarksData::logProbabilityAt(const Pose2& pose) const {
-  const Pose2 sensor = pose * mount();
-  const double floor = config_.range.logFloor() + config_.bearing.logFloor();
-  double sum = 0.0;
-  bool expects = false;
+std::shared_ptr<const Weigher> LandmarksData::makeWeigher() const {
+  auto sight = std::make_shared<Sight>(model_, tables_, mount());
   for (const Sighting& sighting : reading_) {
     const std::ptrdiff_t index = indexOf(sighting.identity);
-    if (index < 0) continue;
-    const Landmark& landmark = landmarks_[static_cast<std::size_t>(index)];
-    const double range = landmark.range.at(sensor.x, sensor.y);
-    expects = expects || !std::isnan(range);
-    if (std::isnan(range)) {
-      sum += floor;  // seen from where nobody ever saw it
-      continue;
-    }
-    const double bearing = landmark.bearing.at(sensor.x, sensor.y) - sensor.theta;
-    sum += rangeGaussian_(static_cast<float>((sighting.range - range) /
-                                             config_.range.sigmaAt(sighting.range))) +
-           bearingGaussian_(
-               static_cast<float>(wrapAngle(sighting.bearing - bearing) / config_.bearing.sigma));
+    if (index >= 0) sight->add(static_cast<std::size_t>(index), sighting);
   }
-  return expects ? sum : std::numeric_limits<double>::quiet_NaN();
-}
-
-void LandmarksData::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  struct Known {
-    const Landmark* landmark;
-    float range;
-    float bearing;
-    float perRangeSigma;
-  };
-  std::vector<Known> known;
-  for (const Sighting& sighting : reading_) {
-    const std::ptrdiff_t index = indexOf(sighting.identity);
-    if (index < 0) continue;
-    known.push_back({&landmarks_[static_cast<std::size_t>(index)],
-                     static_cast<float>(sighting.range), static_cast<float>(sighting.bearing),
-                     static_cast<float>(1.0 / config_.range.sigmaAt(sighting.range))});
-  }
-  const auto perBearingSigma = static_cast<float>(1.0 / config_.bearing.sigma);
-  TableWeigher weigher(landmarks_.front().range.cells().grid());
-  forEachPoseBlock<TableWeigher::kBlock>(
-      poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-        float* out = logProbability.data() + first;
-        weigher.start(sensor, n);
-        for (const Known& k : known) {
-          weigher.addDistance(k.landmark->range, rangeGaussian_, k.range, k.perRangeSigma, out);
-          weigher.addBearing(k.landmark->bearing, bearingGaussian_, k.bearing, perBearingSigma,
-                             out);
-        }
-      });
+  return sight->isEmpty() ? nullptr : sight;
 }
 
 std::string LandmarksData::learningKey() const {
@@ -166,20 +204,22 @@ std::string LandmarksData::learningKey() const {
 }
 
 void LandmarksData::saveTables(TableWriter& file, const std::string& prefix) const {
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+  for (std::size_t i = 0; i < tables_->landmarks.size(); ++i) {
     const std::string name = prefix + std::to_string(config_.identities[i]);
-    landmarks_[i].range.cells().save(file, name + ".distance");
-    landmarks_[i].bearing.cells().save(file, name + ".direction");
+    tables_->landmarks[i].range.cells().save(file, name + ".distance");
+    tables_->landmarks[i].bearing.cells().save(file, name + ".direction");
   }
 }
 
-void LandmarksData::useTables(const TableFile& file, const std::string& prefix,
-                              const FieldGrid& grid) {
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+void LandmarksData::useTables(const std::shared_ptr<const TableFile>& file,
+                              const std::string& prefix, const FieldGrid& grid) {
+  auto tables = std::make_shared<Tables>(config_);
+  for (std::size_t i = 0; i < tables->landmarks.size(); ++i) {
     const std::string name = prefix + std::to_string(config_.identities[i]);
-    landmarks_[i].range.cells().load(file, name + ".distance", grid);
-    landmarks_[i].bearing.cells().load(file, name + ".direction", grid);
+    tables->landmarks[i].range.cells().load(file, name + ".distance", grid);
+    tables->landmarks[i].bearing.cells().load(file, name + ".direction", grid);
   }
+  tables_ = std::move(tables);
 }
 
 }  // namespace ortung

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "FormatTools.hpp"
-#include "ortung/base/OneSample.hpp"
 
 namespace ortung {
 namespace {
@@ -73,9 +72,8 @@ Matrix3 informationOf(const PoseFixData::Fix& fix, const PoseFixData::Config& co
   return covariance.inverse();
 }
 
-}  // namespace
-
-struct PoseFixData::Weighed {
+/// A fix and the inverse of its covariance.
+struct Weighed {
   Pose2 pose;
   std::array<double, 9> information;
 
@@ -91,8 +89,45 @@ struct PoseFixData::Weighed {
   }
 };
 
+class PoseFixWeigher final : public Weigher {
+ public:
+  PoseFixWeigher(const PoseFixData::Reading& fixes, const PoseFixData::Config& config,
+                 std::shared_ptr<const GaussianTable> gaussian, const FieldGrid& grid)
+      : gaussian_(std::move(gaussian)), grid_(grid) {
+    for (const PoseFixData::Fix& fix : fixes) {
+      fixes_.push_back({fix.pose, {}});
+      Eigen::Map<Matrix3>(fixes_.back().information.data()) = informationOf(fix, config);
+    }
+  }
+
+ private:
+  double logProbabilityAt(const Pose2& pose) const override {
+    if (grid_.cellAt(pose.x, pose.y) < 0) return std::numeric_limits<double>::quiet_NaN();
+    return Weigher::logProbabilityAt(pose);
+  }
+
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Weighed& fix : fixes_)
+        nearest = std::min(
+            nearest, fix.sigmas(static_cast<double>(poses.x[i]), static_cast<double>(poses.y[i]),
+                                static_cast<double>(poses.theta[i])));
+      logProbability[i] += (*gaussian_)(static_cast<float>(nearest));
+    }
+  }
+
+  std::vector<Weighed> fixes_;
+  std::shared_ptr<const GaussianTable> gaussian_;
+  FieldGrid grid_;
+};
+
+}  // namespace
+
 PoseFixData::PoseFixData(SensorId id, const Config& config)
-    : SensorData(std::move(id)), config_(config), gaussian_(config.model) {
+    : SensorData(std::move(id)),
+      config_(config),
+      gaussian_(std::make_shared<GaussianTable>(config.model)) {
   if (!(config.addedSigma > 0.0) || !(config.addedHeadingSigma > 0.0))
     throw std::invalid_argument("the sigmas that are added to a fix must be positive");
 }
@@ -122,12 +157,8 @@ void PoseFixData::check(std::span<const std::uint32_t> words) const {
 
 void PoseFixData::decode(std::span<const std::uint32_t> words) {
   reading_.clear();
-  weighed_.clear();
   for (std::size_t i = 0; i < words.size(); i += kWordsAFix) {
     reading_.push_back(decodeFix(words.subspan(i, kWordsAFix)));
-    Weighed weighed{reading_.back().pose, {}};
-    Eigen::Map<Matrix3>(weighed.information.data()) = informationOf(reading_.back(), config_);
-    weighed_.push_back(weighed);
   }
 }
 
@@ -137,24 +168,14 @@ std::string PoseFixData::wordsHelp() const {
 }
 
 void PoseFixData::startTables(const FieldRegion& region, double) { grid_ = region.grid; }
-void PoseFixData::useTables(const TableFile&, const std::string&, const FieldGrid& grid) {
+void PoseFixData::useTables(const std::shared_ptr<const TableFile>&, const std::string&,
+                            const FieldGrid& grid) {
   grid_ = grid;
 }
 
-double PoseFixData::logProbabilityAt(const Pose2& pose) const {
-  if (grid_.cellAt(pose.x, pose.y) < 0) return std::numeric_limits<double>::quiet_NaN();
-  return weighOne(pose, [this](const SampleView& one, std::span<float> out) { weigh(one, out); });
-}
-
-void PoseFixData::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Weighed& fix : weighed_)
-      nearest = std::min(
-          nearest, fix.sigmas(static_cast<double>(poses.x[i]), static_cast<double>(poses.y[i]),
-                              static_cast<double>(poses.theta[i])));
-    logProbability[i] += gaussian_(static_cast<float>(nearest));
-  }
+std::shared_ptr<const Weigher> PoseFixData::makeWeigher() const {
+  if (reading_.empty()) return nullptr;
+  return std::make_shared<PoseFixWeigher>(reading_, config_, gaussian_, grid_);
 }
 
 }  // namespace ortung

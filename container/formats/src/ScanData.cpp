@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "EndPointWeigher.hpp"
 #include "FormatTools.hpp"
-#include "ScanPrepared.hpp"
 
 namespace ortung {
 namespace {
@@ -46,11 +46,18 @@ int viewsFor(const ScanData::Config& config, int directions) {
 
 }  // namespace
 
+struct ScanData::Learning {
+  std::vector<std::uint8_t> levelOfWord;
+  int views = 0;  ///< headings a turn; 0: not known yet
+};
+
 ScanData::ScanData(SensorId id, const Pose2& mount, const Config& config)
     : SensorData(std::move(id), mount),
       config_(config),
-      scale_(config.maxRange, config.model.sigma, config.model.sigmaPerMetre),
-      prepared_(std::make_unique<Prepared>()) {
+      scale_(config.maxRange, config.resolution),
+      rays_(std::make_shared<DirectionTable>()),
+      endPoints_(std::make_shared<EndPointTables>()),
+      learning_(std::make_unique<Learning>()) {
   if (config.beams < 1 || config.beams > kMostBeams || !(config.angleStep > 0.0) ||
       config.beams * config.angleStep > kFullTurn + config.angleStep) {
     throw std::invalid_argument("a scan has 1 to 8192 beams that span at most a turn");
@@ -90,12 +97,6 @@ void ScanData::decode(std::span<const std::uint32_t> words) {
                  : range >= config_.maxRange ? std::numeric_limits<float>::infinity()
                                              : static_cast<float>(range);
   }
-  if (isLearned()) prepare();
-}
-
-bool ScanData::isInformative() const {
-  return config_.perception == Perception::kRays ? prepared_->floorCost > 0
-                                                 : !prepared_->endPoints.empty();
 }
 
 std::string ScanData::wordsHelp() const {
@@ -106,7 +107,7 @@ std::string ScanData::wordsHelp() const {
 }
 
 double ScanData::headingSpacing() const {
-  if (prepared_->views > 0) return kFullTurn / prepared_->views;
+  if (learning_->views > 0) return kFullTurn / learning_->views;
   return kFullTurn / fewestViews(config_);
 }
 
@@ -120,18 +121,20 @@ int ScanData::runLength(int directions) const {
 // --- learning ------------------------------------------------------------------------------
 
 void ScanData::startTables(const FieldRegion& region, double headingStep) {
-  grid_ = region.grid;
   if (config_.perception == Perception::kEndPoints) {
-    endPoints_.start(region.grid, config_.endPointCell, 2 * config_.endPointCell);
+    endPoints_ = std::make_shared<EndPointTables>();
+    endPoints_->region = region.grid;
+    endPoints_->field.start(region.grid, config_.endPointCell, 2 * config_.endPointCell);
     return;
   }
   const int directions = std::max(1, static_cast<int>(std::lround(kFullTurn / headingStep)));
-  rays_.start(region, directions, runLength(directions));
-  prepared_->views = viewsFor(config_, directions);
+  rays_ = std::make_shared<DirectionTable>();
+  rays_->start(region, directions, runLength(directions));
+  learning_->views = viewsFor(config_, directions);
   // The last word is beyond the greatest range, and stands for all that are.
-  prepared_->levelOfWord.resize(words::fromMetres(config_.maxRange) + 2);
-  for (std::uint32_t word = 0; word < prepared_->levelOfWord.size(); ++word) {
-    prepared_->levelOfWord[word] = scale_.level(words::toMetres(word));
+  learning_->levelOfWord.resize(words::fromMetres(config_.maxRange) + 2);
+  for (std::uint32_t word = 0; word < learning_->levelOfWord.size(); ++word) {
+    learning_->levelOfWord[word] = scale_.level(words::toMetres(word));
   }
 }
 
@@ -144,22 +147,23 @@ void ScanData::learn(const Pose2& robotInField) {
     const auto range = static_cast<double>(ranges_[i]);
     if (std::isnan(range)) continue;
     if (config_.perception == Perception::kRays) {
-      const std::size_t word = std::min<std::size_t>(words[i], prepared_->levelOfWord.size() - 1);
-      rays_.learn(sensor.x, sensor.y, angle, prepared_->levelOfWord[word]);
+      const std::size_t word = std::min<std::size_t>(words[i], learning_->levelOfWord.size() - 1);
+      rays_->learn(sensor.x, sensor.y, angle, learning_->levelOfWord[word]);
     } else if (std::isfinite(range)) {
-      endPoints_.mark(sensor.x + range * std::cos(angle), sensor.y + range * std::sin(angle));
+      endPoints_->field.mark(sensor.x + range * std::cos(angle),
+                             sensor.y + range * std::sin(angle));
     }
   }
 }
 
 void ScanData::finishTables() {
   if (config_.perception == Perception::kRays) {
-    rays_.finish();
-    prepared_->levelOfWord = {};
+    rays_->finish();
+    learning_->levelOfWord = {};
   } else {
-    endPoints_.finish();
+    endPoints_->field.finish();
+    endPoints_->complete(config_.model, config_.maxRange);
   }
-  prepare();
 }
 
 std::string ScanData::learningKey() const {
@@ -169,39 +173,44 @@ std::string ScanData::learningKey() const {
                     " step_rad=" + keyNumber(config_.angleStep) +
                     " max_range_m=" + keyNumber(config_.maxRange) +
                     " perception=" + (rays ? "rays" : "endpoints");
-  key += rays ? " scale=" + keyNumber(config_.model.sigma) + "," +
-                    keyNumber(config_.model.sigmaPerMetre)
+  key += rays ? " scale=" + keyNumber(config_.resolution.metres) + "," +
+                    keyNumber(config_.resolution.perMetre)
               : " cell_m=" + keyNumber(config_.endPointCell);
   return key + " " + mountKey(mount());
 }
 
 void ScanData::saveTables(TableWriter& file, const std::string& prefix) const {
   if (config_.perception == Perception::kRays) {
-    rays_.save(file, prefix);
+    rays_->save(file, prefix);
   } else {
-    endPoints_.save(file, prefix);
+    endPoints_->field.save(file, prefix);
   }
 }
 
-void ScanData::useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) {
-  grid_ = grid;
+void ScanData::useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                         const FieldGrid& grid) {
   if (config_.perception == Perception::kRays) {
-    rays_.load(file, prefix, grid, [this](int directions) { return runLength(directions); });
+    auto rays = std::make_shared<DirectionTable>();
+    rays->load(file, prefix, grid, [this](int directions) { return runLength(directions); });
+    rays_ = std::move(rays);
   } else {
-    endPoints_.load(file, prefix);
+    auto endPoints = std::make_shared<EndPointTables>();
+    endPoints->region = grid;
+    endPoints->field.load(file, prefix);
+    endPoints->complete(config_.model, config_.maxRange);
+    endPoints_ = std::move(endPoints);
   }
-  prepare();
 }
 
 std::vector<double> ScanData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
   const std::uint8_t* row =
-      config_.perception == Perception::kRays ? rays_.row(sensor.x, sensor.y) : nullptr;
+      config_.perception == Perception::kRays ? rays_->row(sensor.x, sensor.y) : nullptr;
   if (row == nullptr) return {};
   std::vector<double> expected;
   for (int i = 0; i < config_.beams; ++i) {
     expected.push_back(scale_.range(
-        row[rays_.directionOf(sensor.theta + config_.firstAngle + i * config_.angleStep)]));
+        row[rays_->directionOf(sensor.theta + config_.firstAngle + i * config_.angleStep)]));
   }
   return expected;
 }

@@ -1,13 +1,14 @@
 /// ScanData's perceptual model: how probable a scan is at a pose.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "CellLookup.hpp"
+#include "EndPointWeigher.hpp"
 #include "FormatTools.hpp"
 #include "ScanCost.hpp"
-#include "ScanPrepared.hpp"
-#include "ortung/base/OneSample.hpp"
 #include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
@@ -17,81 +18,9 @@ constexpr std::uint8_t kLargestCost = 250;  ///< of one beam: the outlier floor 
 /// Samples whose rows are looked up and prefetched at a time.
 constexpr std::size_t kSamplesABlock = 64;
 constexpr std::size_t kCacheLine = 64;  ///< [bytes]
-
-}  // namespace
-
-void ScanData::prepare() {
-  if (config_.perception == Perception::kRays) {
-    prepareRays();
-  } else {
-    prepareEndPoints();
-  }
-}
-
-/// Brings the reading to the table's directions: for each direction of the run the nearest beam.
-void ScanData::prepareRays() {
-  const SensorModel& model = config_.model;
-  const double unit = -std::log(model.outliers) / kLargestCost;  // nats of a cost of 1
-  const auto quantize = [unit](double logProbability) {
-    return static_cast<std::uint8_t>(
-        std::clamp(std::nearbyint(-logProbability / unit), 0.0, double{kLargestCost}));
-  };
-  for (std::size_t d = 0; d < kLevelDifferences; ++d) {
-    prepared_->costs[d] =
-        quantize(model.logProbability(static_cast<double>(d) / scale_.levelsPerSigma()));
-  }
-  prepared_->costs.back() = kLargestCost;
-  const int run = runLength(rays_.directions());
-  const std::size_t padded =
-      (static_cast<std::size_t>(run) + kScanBlock - 1) / kScanBlock * kScanBlock;
-  prepared_->levels.assign(padded, 0);
-  prepared_->caps.assign(padded, 0);
-  const int thin = config_.usedBeams > 0 ? std::max(1, run / config_.usedBeams) : 1;
-  prepared_->floorCost = 0;
-  for (int j = 0; j < run; j += thin) {
-    const double place = j * rays_.step() / config_.angleStep;
-    const auto beam = std::min<long>(std::lround(place), config_.beams - 1);
-    if (std::abs(place - static_cast<double>(beam)) * config_.angleStep > 0.51 * rays_.step())
-      continue;
-    const float range = ranges_[static_cast<std::size_t>(beam)];
-    if (std::isnan(range)) continue;
-    const auto at = static_cast<std::size_t>(j);
-    prepared_->levels[at] = scale_.level(static_cast<double>(range));
-    prepared_->caps[at] = std::isinf(range) ? quantize(std::log(model.maxRangeMass)) : kLargestCost;
-    prepared_->floorCost += prepared_->caps[at];
-  }
-  prepared_->nats = static_cast<float>(-unit * model.exponent);
-}
-
-void ScanData::prepareEndPoints() {
-  prepared_->endPoints.start(config_.model, config_.maxRange, endPoints_);
-  const int thin = config_.usedBeams > 0 ? std::max(1, config_.beams / config_.usedBeams) : 1;
-  for (int i = 0; i < config_.beams; i += thin) {
-    const float range = ranges_[static_cast<std::size_t>(i)];
-    if (!std::isfinite(range)) continue;  // a beam that sees nothing has no end
-    prepared_->endPoints.add(mount(), static_cast<double>(range),
-                             config_.firstAngle + i * config_.angleStep);
-  }
-}
-
-double ScanData::logProbabilityAt(const Pose2& pose) const {
-  const Pose2 sensor = pose * mount();
-  const bool rays = config_.perception == Perception::kRays;
-  const bool expects =
-      rays ? rays_.row(sensor.x, sensor.y) != nullptr : grid_.cellAt(sensor.x, sensor.y) >= 0;
-  if (!expects) return std::numeric_limits<double>::quiet_NaN();
-  return weighOne(pose, [this](const SampleView& one, std::span<float> out) { weigh(one, out); });
-}
-
-void ScanData::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  if (config_.perception == Perception::kRays) {
-    weighRays(poses, logProbability);
-  } else {
-    weighEndPoints(poses, logProbability);
-  }
-}
-
-namespace {
+/// Steps of cost are chosen from a scale of so many an octave, so that few occur in one scan.
+constexpr double kStepsAnOctave = 8.0;
+constexpr double kMostEntriesALevel = 3.9;  ///< of the table of costs
 
 /// Where samples look into the ray table, a block of them at a time: without branches and calls, so
 /// that the compiler vectorizes it.
@@ -122,15 +51,114 @@ struct RayPlaces {
   }
 };
 
-}  // namespace
+/// A scan in the terms of a ray table: for each direction of the run the nearest beam.
+class RayWeigher final : public Weigher {
+ public:
+  RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& mount, double firstAngle,
+             const SensorModel& model, std::size_t run)
+      : rays_(std::move(rays)),
+        mount_(mount),
+        firstAngle_(static_cast<float>(firstAngle)),
+        model_(model),
+        run_(run),
+        unit_(-std::log(model.outliers) / kLargestCost),
+        nats_(static_cast<float>(-unit_ * model.exponent)) {
+    const std::size_t padded = (run + kScanBlock - 1) / kScanBlock * kScanBlock;
+    levels_.assign(padded, 0);
+    caps_.assign(padded, 0);
+    levelsPerSigma_.assign(run, 0.0);
+  }
 
-void ScanData::weighRays(const SampleView& poses, std::span<float> logProbability) const {
-  const ScanReading reading{prepared_->levels, prepared_->caps, prepared_->costs};
+  /// A beam at place @p at of the run. @param range [m]; +infinity: sees nothing
+  void add(std::size_t at, double range, const RangeScale& scale) {
+    levels_[at] = scale.level(range);
+    caps_[at] = std::isinf(range) ? quantize(std::log(model_.maxRangeMass)) : kLargestCost;
+    floorCost_ += caps_[at];
+    const double known = std::min(range, scale.maxRange());
+    levelsPerSigma_[at] = scale.levelsPerSigma(known, model_.sigmaAt(known));
+  }
+
+  /// Once all beams are there. @returns whether any of them says something
+  bool complete();
+
+ private:
+  void setSteps(double entries, double least);
+  std::uint8_t quantize(double logProbability) const {
+    return static_cast<std::uint8_t>(
+        std::clamp(std::nearbyint(-logProbability / unit_), 0.0, double{kLargestCost}));
+  }
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  double logProbabilityAt(const Pose2& pose) const override {
+    const Pose2 sensor = pose * mount_;
+    const bool expects = rays_->row(sensor.x, sensor.y) != nullptr;
+    return expects ? Weigher::logProbabilityAt(pose) : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  PoseResolution resolution() const override {
+    return {.metres = rays_->grid().cell, .radians = rays_->step()};
+  }
+
+  std::shared_ptr<const DirectionTable> rays_;
+  Pose2 mount_;
+  float firstAngle_;
+  SensorModel model_;
+  std::size_t run_;                   ///< directions that the scan spans
+  double unit_;                       ///< nats of a cost of 1
+  float nats_;                        ///< ln p of a cost of 1, exponent included (negative)
+  std::vector<std::uint8_t> levels_;  ///< by direction from the first beam on, padded
+  std::vector<std::uint8_t> caps_;
+  std::vector<std::uint8_t> steps_;  ///< none: all of 1
+  int shift_ = 0;
+  std::array<std::uint8_t, kLevelDifferences> costs_{};
+  std::uint32_t floorCost_ = 0;         ///< of a sample without expectation
+  std::vector<double> levelsPerSigma_;  ///< by direction, where there is a beam
+};
+
+/// One table of costs serves beams of different noise: a difference of levels of each counts so
+/// many entries of the table as it is sigmas. The table is as fine as the finest levels, unless it
+/// would end before only the floor is left, or the coarsest levels would be too many of its
+/// entries.
+bool RayWeigher::complete() {
+  if (floorCost_ == 0) return false;
+  const double reach = std::sqrt(-2.0 * std::log(model_.outliers)) + 0.5;  // [sigma]
+  double most = 0.0;                                                       // levels in a sigma
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t at = 0; at < run_; ++at) {
+    if (caps_[at] == 0) continue;
+    most = std::max(most, levelsPerSigma_[at]);
+    least = std::min(least, levelsPerSigma_[at]);
+  }
+  const double entries =
+      std::min({most, (kLevelDifferences - 2) / reach, kMostEntriesALevel * least});  // in a sigma
+  for (std::size_t d = 0; d < kLevelDifferences; ++d)
+    costs_[d] = quantize(model_.logProbability(static_cast<double>(d) / entries));
+  costs_.back() = kLargestCost;
+  // Where noise grows like the levels do, all of them are one entry.
+  if (least < most || entries < most) setSteps(entries, least);
+  levelsPerSigma_ = {};
+  return true;
+}
+
+void RayWeigher::setSteps(double entries, double least) {
+  constexpr double kLargestStep = 127.0;
+  const double shift = std::floor(std::log2(kLargestStep * least / entries));
+  shift_ = static_cast<int>(std::clamp(shift, 0.0, double{kMostShift}));
+  steps_.assign(levels_.size(), 0);
+  for (std::size_t at = 0; at < run_; ++at) {
+    if (caps_[at] == 0) continue;
+    const double octaves =
+        std::nearbyint(std::log2(entries / levelsPerSigma_[at]) * kStepsAnOctave) / kStepsAnOctave;
+    const double step = std::nearbyint(std::exp2(octaves + shift_));
+    steps_[at] = static_cast<std::uint8_t>(std::clamp(step, 1.0, kLargestStep));
+  }
+}
+
+void RayWeigher::weigh(const SampleView& poses, std::span<float> logProbability) const {
+  const ScanReading reading{levels_, caps_, steps_, shift_, costs_};
   const ScanCostKernel kernel = scanCostKernel();
-  const float floor = prepared_->nats * static_cast<float>(prepared_->floorCost);
-  const auto run = static_cast<std::size_t>(runLength(rays_.directions()));
-  const std::int32_t* rowOf = rays_.rowIndex().data();
-  const std::uint8_t* levels = rays_.levels().data();
+  const float floor = nats_ * static_cast<float>(floorCost_);
+  const std::int32_t* rowOf = rays_->rowIndex().data();
+  const std::uint8_t* levels = rays_->levels().data();
   RayPlaces places;
   // Two blocks take turns: the rows of one are on their way while the other's costs are added up.
   struct Block {
@@ -143,13 +171,13 @@ void ScanData::weighRays(const SampleView& poses, std::span<float> logProbabilit
     std::array<std::uint32_t, kSamplesABlock> costs;
     kernel(reading, {block.rows.data(), block.size}, costs.data());
     for (std::size_t k = 0; k < block.size; ++k) {
-      logProbability[block.sampleOf[k]] += prepared_->nats * static_cast<float>(costs[k]);
+      logProbability[block.sampleOf[k]] += nats_ * static_cast<float>(costs[k]);
     }
   };
   std::size_t current = 0;
   forEachPoseBlock<kSamplesABlock>(
-      poses, mount(), [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-        places.find(grid_, rays_.directions(), static_cast<float>(config_.firstAngle), sensor, n);
+      poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+        places.find(rays_->grid(), rays_->directions(), firstAngle_, sensor, n);
         Block& block = blocks[current];
         block.size = 0;
         for (std::size_t k = 0; k < n; ++k) {
@@ -158,11 +186,11 @@ void ScanData::weighRays(const SampleView& poses, std::span<float> logProbabilit
             logProbability[first + k] += floor;
             continue;
           }
-          const std::uint8_t* from = levels + static_cast<std::size_t>(row) * rays_.stride() +
+          const std::uint8_t* from = levels + static_cast<std::size_t>(row) * rays_->stride() +
                                      static_cast<std::size_t>(places.direction[k]);
-          for (std::size_t line = 0; line < run; line += kCacheLine)
+          for (std::size_t line = 0; line < run_; line += kCacheLine)
             __builtin_prefetch(from + line);
-          __builtin_prefetch(from + run - 1);
+          __builtin_prefetch(from + run_ - 1);
           block.rows[block.size] = from;
           block.sampleOf[block.size++] = static_cast<std::uint32_t>(first + k);
         }
@@ -173,8 +201,38 @@ void ScanData::weighRays(const SampleView& poses, std::span<float> logProbabilit
   add(blocks[1 - current]);
 }
 
-void ScanData::weighEndPoints(const SampleView& poses, std::span<float> logProbability) const {
-  prepared_->endPoints.weigh(grid_, endPoints_, mount(), poses, logProbability);
+}  // namespace
+
+std::shared_ptr<const Weigher> ScanData::makeWeigher() const {
+  return config_.perception == Perception::kRays ? makeRayWeigher() : makeEndPointWeigher();
+}
+
+std::shared_ptr<const Weigher> ScanData::makeRayWeigher() const {
+  const int run = runLength(rays_->directions());
+  auto weigher = std::make_shared<RayWeigher>(rays_, mount(), config_.firstAngle, config_.model,
+                                              static_cast<std::size_t>(run));
+  const int thin = config_.usedBeams > 0 ? std::max(1, run / config_.usedBeams) : 1;
+  for (int j = 0; j < run; j += thin) {
+    const double place = j * rays_->step() / config_.angleStep;
+    const auto beam = std::min<long>(std::lround(place), config_.beams - 1);
+    if (std::abs(place - static_cast<double>(beam)) * config_.angleStep > 0.51 * rays_->step())
+      continue;
+    const float range = ranges_[static_cast<std::size_t>(beam)];
+    if (!std::isnan(range))
+      weigher->add(static_cast<std::size_t>(j), static_cast<double>(range), scale_);
+  }
+  return weigher->complete() ? weigher : nullptr;
+}
+
+std::shared_ptr<const Weigher> ScanData::makeEndPointWeigher() const {
+  auto weigher = std::make_shared<EndPointWeigher>(endPoints_, mount());
+  const int thin = config_.usedBeams > 0 ? std::max(1, config_.beams / config_.usedBeams) : 1;
+  for (int i = 0; i < config_.beams; i += thin) {
+    const float range = ranges_[static_cast<std::size_t>(i)];
+    if (!std::isfinite(range)) continue;  // a beam that sees nothing has no end
+    weigher->add(static_cast<double>(range), config_.firstAngle + i * config_.angleStep);
+  }
+  return weigher->isEmpty() ? nullptr : weigher;
 }
 
 }  // namespace ortung

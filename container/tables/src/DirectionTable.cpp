@@ -9,35 +9,8 @@ namespace ortung {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kLastLevel = 254.0;
-// The sensor model is a table over 32 differences of levels; it must reach at least 5 sigma.
-constexpr double kMostLevelsPerSigma = 6.0;
 
 }  // namespace
-
-RangeScale::RangeScale(double maxRange, double sigma, double sigmaPerMetre)
-    : maxRange_(maxRange), sigma_(sigma), sigmaPerMetre_(sigmaPerMetre) {
-  levelsPerSigma_ = std::min(kLastLevel / place(maxRange), kMostLevelsPerSigma);
-}
-
-/// Range in sigmas: the integral of dr / sigma(r).
-double RangeScale::place(double range) const {
-  if (sigmaPerMetre_ == 0.0) return range / sigma_;
-  return std::log1p(sigmaPerMetre_ * range / sigma_) / sigmaPerMetre_;
-}
-
-std::uint8_t RangeScale::level(double range) const {
-  if (!(range < maxRange_)) return kNothing;
-  const double level = std::nearbyint(levelsPerSigma_ * place(std::max(range, 0.0)));
-  return static_cast<std::uint8_t>(std::min(level, kLastLevel));
-}
-
-double RangeScale::range(std::uint8_t level) const {
-  if (level == kNothing) return maxRange_;
-  const double sigmas = level / levelsPerSigma_;
-  if (sigmaPerMetre_ == 0.0) return sigmas * sigma_;
-  return std::expm1(sigmas * sigmaPerMetre_) * sigma_ / sigmaPerMetre_;
-}
 
 void DirectionTable::start(const FieldRegion& region, int directions, int longestRun) {
   if (directions < 1 || directions > kMostDirections || longestRun < 1 ||
@@ -134,8 +107,9 @@ void DirectionTable::save(TableWriter& file, const std::string& prefix) const {
   file.add<std::uint8_t>(prefix + "levels", {levels_.size()}, levels_);
 }
 
-void DirectionTable::load(const TableFile& file, const std::string& prefix, const FieldGrid& grid,
-                          const std::function<int(int)>& longestRunOf) {
+void DirectionTable::load(const std::shared_ptr<const TableFile>& shared, const std::string& prefix,
+                          const FieldGrid& grid, const std::function<int(int)>& longestRunOf) {
+  const TableFile& file = *shared;
   const int directions = file.get<std::int32_t>(prefix + "directions", {1})[0];
   const auto rowOf = file.get<std::int32_t>(
       prefix + "row_of_cell",
@@ -159,6 +133,7 @@ void DirectionTable::load(const TableFile& file, const std::string& prefix, cons
   stride_ = stride;
   rowOf_ = rowOf;
   levels_ = levels;
+  file_ = shared;
   ownRowOf_.clear();
   ownLevels_.clear();
 }

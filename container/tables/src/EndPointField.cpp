@@ -106,7 +106,9 @@ void EndPointField::save(TableWriter& file, const std::string& prefix) const {
       {static_cast<std::size_t>(grid_.rows), static_cast<std::size_t>(grid_.columns)}, levels_);
 }
 
-void EndPointField::load(const TableFile& file, const std::string& prefix) {
+void EndPointField::load(const std::shared_ptr<const TableFile>& shared,
+                         const std::string& prefix) {
+  const TableFile& file = *shared;
   const auto place = file.get<double>(prefix + "end_point_grid", {3});
   const TableArray& array = file.array(prefix + "end_points");
   const auto levels = file.get<std::uint8_t>(prefix + "end_points", {0, 0});
@@ -119,6 +121,7 @@ void EndPointField::load(const TableFile& file, const std::string& prefix) {
   grid_ = {place[0], place[1], place[2], static_cast<int>(array.shape[1]),
            static_cast<int>(array.shape[0])};
   levels_ = levels;
+  file_ = shared;
   own_.clear();
 }
 

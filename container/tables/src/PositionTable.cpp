@@ -30,10 +30,12 @@ void CellTable::save(TableWriter& file, const std::string& name) const {
       levels_);
 }
 
-void CellTable::load(const TableFile& file, const std::string& name, const FieldGrid& grid) {
-  levels_ = file.get<std::uint16_t>(
+void CellTable::load(const std::shared_ptr<const TableFile>& file, const std::string& name,
+                     const FieldGrid& grid) {
+  levels_ = file->get<std::uint16_t>(
       name, {static_cast<std::size_t>(grid.rows), static_cast<std::size_t>(grid.columns)});
   grid_ = grid;
+  file_ = file;
   own_.clear();
 }
 

@@ -18,49 +18,61 @@ std::size_t usedLength(const ScanReading& reading) {
   return n;
 }
 
-std::uint8_t costOf(const ScanReading& reading, int difference, std::uint8_t cap) {
-  const auto index = static_cast<std::size_t>(
-      std::min(std::abs(difference), static_cast<int>(kLevelDifferences) - 1));
+std::uint8_t costOf(const ScanReading& reading, int difference, std::uint8_t cap, int step) {
+  const int steps = (std::abs(difference) * step + (1 << reading.shift) / 2) >> reading.shift;
+  const auto index =
+      static_cast<std::size_t>(std::min(steps, static_cast<int>(kLevelDifferences) - 1));
   return std::min(reading.costs[index], cap);
+}
+
+int stepOf(const ScanReading& reading, std::size_t j) {
+  return reading.steps.empty() ? 1 << reading.shift : int{reading.steps[j]};
 }
 
 void addOneByOne(const ScanReading& reading, const std::uint8_t* row, std::size_t n,
                  std::uint32_t& cost) {
   for (std::size_t j = 0; j < n; ++j) {
-    cost += costOf(reading, int{row[j]} - int{reading.levels[j]}, reading.caps[j]);
+    cost +=
+        costOf(reading, int{row[j]} - int{reading.levels[j]}, reading.caps[j], stepOf(reading, j));
   }
 }
 
-/// Costs by signed difference of levels, for each cap that occurs: one lookup a reading, and no
-/// branch. Readings have two or three caps.
+/// Costs by signed difference of levels, for each cap and step that occurs together: one lookup a
+/// reading, and no branch. Readings have two or three caps, and few steps.
 class CostTables {
  public:
   explicit CostTables(const ScanReading& reading) : reading_(reading) {}
 
-  /// Costs by expected level for reading @p j, or nullptr if there are too many caps.
+  /// Costs by expected level for reading @p j, or nullptr if there are too many kinds.
   const std::uint8_t* byLevel(std::size_t j) {
-    const std::uint8_t cap = reading_.caps[j];
+    const Kind kind{reading_.caps[j], stepOf(reading_, j)};
     std::size_t i = 0;
-    while (i < count_ && capOf_[i] != cap) ++i;
+    while (i < count_ && kinds_[i] != kind) ++i;
     if (i == kMost) return nullptr;
-    if (i == count_) make(cap);
+    if (i == count_) make(kind);
     return tables_[i].data() + kLevels - reading_.levels[j];
   }
 
  private:
-  static constexpr std::size_t kMost = 4;
+  struct Kind {
+    std::uint8_t cap = 0;
+    int step = 0;
+    bool operator==(const Kind&) const = default;
+  };
+  static constexpr std::size_t kMost = 32;
   static constexpr int kLevels = 256;
 
-  void make(std::uint8_t cap) {
+  void make(const Kind& kind) {
     for (int d = -kLevels; d < kLevels; ++d) {
-      tables_[count_][static_cast<std::size_t>(d + kLevels)] = costOf(reading_, d, cap);
+      tables_[count_][static_cast<std::size_t>(d + kLevels)] =
+          costOf(reading_, d, kind.cap, kind.step);
     }
-    capOf_[count_++] = cap;
+    kinds_[count_++] = kind;
   }
 
   const ScanReading& reading_;
   std::size_t count_ = 0;
-  std::array<std::uint8_t, kMost> capOf_{};
+  std::array<Kind, kMost> kinds_{};
   std::array<std::array<std::uint8_t, 2 * kLevels>, kMost> tables_;
 };
 
@@ -94,6 +106,7 @@ void portable(const ScanReading& reading, std::span<const std::uint8_t* const> r
 #ifdef ORTUNG_X86
 
 // A shuffle looks up 16 entries at once; two and a blend make the table of 32.
+template <bool kHasSteps>
 ORTUNG_AVX2 void avx2(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
                       std::uint32_t* costs) {
   const auto* table = reinterpret_cast<const __m128i*>(reading.costs.data());
@@ -101,6 +114,9 @@ ORTUNG_AVX2 void avx2(const ScanReading& reading, std::span<const std::uint8_t* 
   const __m256i high = _mm256_broadcastsi128_si256(_mm_loadu_si128(table + 1));
   const __m256i last = _mm256_set1_epi8(31);
   const __m256i fifteen = _mm256_set1_epi8(15);
+  const __m256i half = _mm256_set1_epi16(static_cast<std::int16_t>((1 << reading.shift) / 2));
+  const __m128i shift = _mm_cvtsi32_si128(reading.shift);
+  const __m256i lowBytes = _mm256_set1_epi16(0xFF);
   const std::size_t n = usedLength(reading);  // up to 31 more are read, whose caps are 0
   for (std::size_t i = 0; i < rows.size(); ++i) {
     __m256i sum = _mm256_setzero_si256();
@@ -110,7 +126,18 @@ ORTUNG_AVX2 void avx2(const ScanReading& reading, std::span<const std::uint8_t* 
           _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.levels.data() + j));
       const __m256i cap =
           _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.caps.data() + j));
-      const __m256i distance = _mm256_or_si256(_mm256_subs_epu8(e, z), _mm256_subs_epu8(z, e));
+      __m256i distance = _mm256_or_si256(_mm256_subs_epu8(e, z), _mm256_subs_epu8(z, e));
+      if constexpr (kHasSteps) {  // even and odd bytes apart, as products have 16 bits
+        const __m256i step =
+            _mm256_loadu_si256(reinterpret_cast<const __m256i*>(reading.steps.data() + j));
+        const __m256i even = _mm256_add_epi16(
+            _mm256_maddubs_epi16(distance, _mm256_and_si256(step, lowBytes)), half);
+        const __m256i odd = _mm256_add_epi16(
+            _mm256_maddubs_epi16(distance, _mm256_andnot_si256(lowBytes, step)), half);
+        distance = _mm256_or_si256(
+            _mm256_min_epi16(_mm256_srl_epi16(even, shift), lowBytes),
+            _mm256_slli_epi16(_mm256_min_epi16(_mm256_srl_epi16(odd, shift), lowBytes), 8));
+      }
       const __m256i index = _mm256_min_epu8(distance, last);
       const __m256i cost =
           _mm256_blendv_epi8(_mm256_shuffle_epi8(low, index), _mm256_shuffle_epi8(high, index),
@@ -118,9 +145,9 @@ ORTUNG_AVX2 void avx2(const ScanReading& reading, std::span<const std::uint8_t* 
       sum = _mm256_add_epi64(sum,
                              _mm256_sad_epu8(_mm256_min_epu8(cost, cap), _mm256_setzero_si256()));
     }
-    const __m128i half =
+    const __m128i both =
         _mm_add_epi64(_mm256_castsi256_si128(sum), _mm256_extracti128_si256(sum, 1));
-    costs[i] = static_cast<std::uint32_t>(_mm_cvtsi128_si64(half) + _mm_extract_epi64(half, 1));
+    costs[i] = static_cast<std::uint32_t>(_mm_cvtsi128_si64(both) + _mm_extract_epi64(both, 1));
   }
 }
 
@@ -128,6 +155,7 @@ ORTUNG_AVX2 void avx2(const ScanReading& reading, std::span<const std::uint8_t* 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+template <bool kHasSteps>
 ORTUNG_AVX512 void avx512(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
                           std::uint32_t* costs) {
   const auto* table = reinterpret_cast<const __m128i*>(reading.costs.data());
@@ -135,11 +163,24 @@ ORTUNG_AVX512 void avx512(const ScanReading& reading, std::span<const std::uint8
   const __m512i high = _mm512_broadcast_i32x4(_mm_loadu_si128(table + 1));
   const __m512i last = _mm512_set1_epi8(31);
   const __m512i fifteen = _mm512_set1_epi8(15);
+  const __m512i half = _mm512_set1_epi16(static_cast<std::int16_t>((1 << reading.shift) / 2));
+  const __m128i shift = _mm_cvtsi32_si128(reading.shift);
+  const __m512i lowBytes = _mm512_set1_epi16(0xFF);
   const std::size_t n = usedLength(reading);
   const auto add = [&](__m512i sum, __m512i e, std::size_t j) ORTUNG_AVX512 {
     const __m512i z = _mm512_loadu_si512(reading.levels.data() + j);
     const __m512i cap = _mm512_loadu_si512(reading.caps.data() + j);
-    const __m512i distance = _mm512_or_si512(_mm512_subs_epu8(e, z), _mm512_subs_epu8(z, e));
+    __m512i distance = _mm512_or_si512(_mm512_subs_epu8(e, z), _mm512_subs_epu8(z, e));
+    if constexpr (kHasSteps) {
+      const __m512i step = _mm512_loadu_si512(reading.steps.data() + j);
+      const __m512i even =
+          _mm512_add_epi16(_mm512_maddubs_epi16(distance, _mm512_and_si512(step, lowBytes)), half);
+      const __m512i odd = _mm512_add_epi16(
+          _mm512_maddubs_epi16(distance, _mm512_andnot_si512(lowBytes, step)), half);
+      distance = _mm512_or_si512(
+          _mm512_min_epi16(_mm512_srl_epi16(even, shift), lowBytes),
+          _mm512_slli_epi16(_mm512_min_epi16(_mm512_srl_epi16(odd, shift), lowBytes), 8));
+    }
     const __m512i index = _mm512_min_epu8(distance, last);
     const __m512i cost = _mm512_mask_shuffle_epi8(
         _mm512_shuffle_epi8(low, index), _mm512_cmpgt_epu8_mask(index, fifteen), high, index);
@@ -157,6 +198,13 @@ ORTUNG_AVX512 void avx512(const ScanReading& reading, std::span<const std::uint8
 }
 #pragma GCC diagnostic pop
 
+/// The one of two kernels that a reading needs.
+template <ScanCostKernel kWhole, ScanCostKernel kStepped>
+void eitherOf(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
+              std::uint32_t* costs) {
+  (reading.steps.empty() ? kWhole : kStepped)(reading, rows, costs);
+}
+
 #endif
 
 }  // namespace
@@ -164,8 +212,8 @@ ORTUNG_AVX512 void avx512(const ScanReading& reading, std::span<const std::uint8
 ScanCostKernel scanCostKernel(InstructionSet set) {
   if (!hasInstructionSet(set)) return nullptr;
 #ifdef ORTUNG_X86
-  if (set == InstructionSet::kAvx2) return avx2;
-  if (set == InstructionSet::kAvx512) return avx512;
+  if (set == InstructionSet::kAvx2) return eitherOf<avx2<false>, avx2<true>>;
+  if (set == InstructionSet::kAvx512) return eitherOf<avx512<false>, avx512<true>>;
 #endif
   return portable;
 }

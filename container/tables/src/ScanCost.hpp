@@ -19,11 +19,16 @@ inline constexpr std::size_t kLevelDifferences =
 struct ScanReading {
   std::span<const std::uint8_t> levels;  ///< RangeScale levels, size a multiple of kScanBlock
   std::span<const std::uint8_t> caps;    ///< greatest cost of each beam; 0: not used (and padding)
-  std::array<std::uint8_t, kLevelDifferences> costs{};  ///< by difference of levels, not falling
+  /// What a difference of levels counts for each beam, in units of 2^-shift, in [0, 127]; none: 1.
+  std::span<const std::uint8_t> steps;
+  int shift = 0;                                        ///< in [0, kMostShift]
+  std::array<std::uint8_t, kLevelDifferences> costs{};  ///< by steps of difference, not falling
 };
+inline constexpr int kMostShift = 9;  ///< products and half a unit have 15 bits
 
-/// costs[i] = sum over beams j of min(caps[j], reading.costs[min(31, |rows[i][j] - levels[j]|)]).
-/// Rows must be readable for levels.size() bytes. All kernels give the same sums.
+/// costs[i] = sum over beams j of min(caps[j], reading.costs[min(31, d_j)]), where d_j is
+/// |rows[i][j] - levels[j]|, times steps[j] / 2^shift and rounded to the nearest if there are
+/// steps. Rows must be readable for levels.size() bytes. All kernels give the same sums.
 using ScanCostKernel = void (*)(const ScanReading& reading,
                                 std::span<const std::uint8_t* const> rows, std::uint32_t* costs);
 

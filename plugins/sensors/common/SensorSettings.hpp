@@ -10,6 +10,7 @@
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/SensorData.hpp"
 #include "ortung/robot/RobotFile.hpp"
+#include "ortung/tables/RangeScale.hpp"
 
 namespace ortung {
 
@@ -37,6 +38,12 @@ inline Mounting readMounting(const Parameters& sensor, double z) {
 /// Reads period_s, the time between two readings [s]; 0: every cycle.
 inline double readPeriod(const Parameters& sensor, double fallback) {
   return sensor.numberOr("period_s", fallback, {0.0, 3600.0});
+}
+
+/// Reads resolution_m and resolution_per_m, of a table of ranges.
+inline RangeResolution readResolution(const Parameters& sensor, const RangeResolution& fallback) {
+  return {.metres = sensor.numberOr("resolution_m", fallback.metres, {1e-3, 10.0}),
+          .perMetre = sensor.numberOr("resolution_per_m", fallback.perMetre, {0.0, 1.0})};
 }
 
 /// Reads a share, in [0, 1].

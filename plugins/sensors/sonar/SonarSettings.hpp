@@ -67,6 +67,7 @@ inline SonarSettings readSonarSettings(const Parameters& p) {
   s.cone.maxRange = p.numberOr("max_range_m", 3.0, {0.05, 100.0});
   s.minRange = p.numberOr("min_range_m", 0.0, {0.0, s.cone.maxRange});
   s.cone.model = SensorModel::read(p, "sigma_m", s.cone.model);
+  s.cone.resolution = readResolution(p, s.cone.resolution);
   s.period = readPeriod(p, 0.1);
   s.noiseSigma = p.numberOr("noise_sigma_m", s.cone.model.sigma, {0.0, 10.0});
   s.noiseSigmaPerMetre = p.numberOr("noise_sigma_per_m", s.cone.model.sigmaPerMetre, {0.0, 1.0});

@@ -15,12 +15,14 @@
 namespace ortung {
 
 /// Monte Carlo localization (paper, section 5.2) on the container's interface alone: it knows
-/// neither sensors nor where their readings come from. Not thread-safe; it takes the container's
-/// read lock while it looks at it.
+/// neither sensors nor where their readings come from. Not thread-safe. The container may be filled
+/// by other threads meanwhile: update() holds its read lock only while it takes what is new, not
+/// while it computes.
 class ORTUNG_API Mcl {
  public:
-  /// @param region where the robot can stand; must outlive this
-  Mcl(const MclConfig& config, const FieldRegion& region, std::unique_ptr<MotionModel> motion);
+  /// @param region where the robot can stand
+  /// @throws std::invalid_argument if that is nowhere, or for a configuration that makes no sense
+  Mcl(const MclConfig& config, FieldRegion region, std::unique_ptr<MotionModel> motion);
   ~Mcl();
   Mcl(const Mcl&) = delete;
   Mcl& operator=(const Mcl&) = delete;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,13 +13,11 @@
 #include "ortung/base/SampleView.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/container/Abi.hpp"
+#include "ortung/core/Weigher.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 #include "ortung/tables/TableFile.hpp"
 
 namespace ortung {
-
-/// Answer of getProbability(pose) when the sensor expects nothing there (paper, section 5.2).
-inline constexpr double kNoExpectation = -1.0;
 
 /// The three names by which a feature is found (paper, section 3).
 /// Each is of [A-Za-z0-9_.-], 1 to 64 characters.
@@ -41,7 +40,7 @@ ORTUNG_API SensorId parseSensorId(std::string_view text);
 /// The reading is kept as the words of getData(): the same on the wire, in a record and in memory,
 /// so whoever filled it makes no difference. A plugin derives from this class or, in most cases,
 /// from one of the formats (ScalarData, ScanData, ...).
-/// Not thread-safe; the container locks.
+/// Not thread-safe; the container locks. What is const may be called by many readers at a time.
 class ORTUNG_API SensorData {
  public:
   static constexpr const char* kInterface = "ortung.SensorData/" ORTUNG_CONTAINER_ABI;
@@ -75,7 +74,7 @@ class ORTUNG_API SensorData {
   /// Whether learning has ended or tables were loaded.
   bool isLearned() const { return learned_; }
 
-  /// Starts a sweep over the open cells of @p region, which must outlive it.
+  /// Starts a sweep over the open cells of @p region.
   /// @param headingStep resolution of tables that depend on direction [rad]
   void beginLearning(const FieldRegion& region, double headingStep);
   /// How far apart the sweep's headings may be to see everything [rad]; 2 pi: one will do.
@@ -86,22 +85,24 @@ class ORTUNG_API SensorData {
   void learnProbability(const Pose2& pose);
   void endLearning();
 
-  /// p(s|l) of the present reading in [0, 1], 1 for a perfect match, or kNoExpectation.
+  /// What the present reading says about poses. It stays as it is when the next reading comes.
+  /// Null before learning, without a reading, and for a reading that says nothing about the pose
+  /// (e.g. no valid beam). Made when it is first asked for.
+  std::shared_ptr<const Weigher> weigher() const;
+  /// p(s|l) of the present reading, see Weigher; kNoExpectation if it has none.
   double getProbability(const Pose2& pose) const;
-  /// Weighs a sample set by the present reading (paper, eq. 7): adds ln p(s|l_i) to
-  /// logProbability[i]. A sample without expectation gets the feature's outlier floor, so it
-  /// never wins against one with a bad expectation. One call a set: the fast path.
-  /// @pre poses.size() == logProbability.size(); isLearned()
+  /// Weighs a sample set by the present reading, see Weigher; nothing is added if it has none.
+  /// @pre poses.size() == logProbability.size()
   void getProbability(const SampleView& poses, std::span<float> logProbability) const;
-  /// Whether the present reading says anything about the pose (e.g. at least one valid beam).
-  bool canWeigh() const { return learned_ && sequence_ > 0 && isInformative(); }
+  /// Whether the present reading says anything about the pose.
+  bool canWeigh() const { return weigher() != nullptr; }
 
   /// What the feature should read at @p pose: metres and radians in the format's order,
   /// NaN where nothing is expected; empty where there is no expectation at all.
   virtual std::vector<double> expectation(const Pose2& pose) const;
 
   /// Everything that shapes the expectation tables ("beams=180 fov_deg=180 ..."), so that a
-  /// table of another sensor is recognised. Noise does not belong here.
+  /// table of another sensor is recognised. Noise does not belong here: tables hold whatever it is.
   virtual std::string learningKey() const;
   /// Writes the tables, each array's name beginning with @p prefix.
   virtual void saveTables(TableWriter& file, const std::string& prefix) const;
@@ -109,24 +110,21 @@ class ORTUNG_API SensorData {
   void loadTables(std::shared_ptr<const TableFile> file, const std::string& prefix,
                   const FieldGrid& grid);
 
- protected:
-  /// The file loaded from, kept alive for the spans into it; may be null.
-  const std::shared_ptr<const TableFile>& tableFile() const { return file_; }
-
  private:
   /// @throws std::invalid_argument saying what was found in the words and what was expected
   virtual void check(std::span<const std::uint32_t> words) const = 0;
   /// Makes the reading of words that check() has let through.
   virtual void decode(std::span<const std::uint32_t> words) = 0;
-  virtual bool isInformative() const { return true; }
   virtual void startTables(const FieldRegion& region, double headingStep);
   virtual void learn(const Pose2& robotInField);
   virtual void finishTables();
-  virtual void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid);
-  /// Writes ln p(s|l) or NaN for "no expectation" for one pose.
-  virtual double logProbabilityAt(const Pose2& pose) const;
-  /// Adds ln p(s|l_i) or the outlier floor.
-  virtual void weigh(const SampleView& poses, std::span<float> logProbability) const;
+  /// Tables share in the file that they are spans into.
+  virtual void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                         const FieldGrid& grid);
+  /// Of the present reading; null if that says nothing about the pose. What it shares with this
+  /// feature (tables) must not change any more.
+  virtual std::shared_ptr<const Weigher> makeWeigher() const;
+  void forgetWeigher();
 
   SensorId id_;
   Pose2 mount_;
@@ -134,7 +132,9 @@ class ORTUNG_API SensorData {
   Timestamp stamp_ = 0;
   std::uint64_t sequence_ = 0;
   bool learned_ = false;
-  std::shared_ptr<const TableFile> file_;
+  mutable std::mutex weigherMutex_;  ///< readers ask for it at the same time
+  mutable std::shared_ptr<const Weigher> weigher_;
+  mutable bool isWeigherMade_ = false;
 };
 
 }  // namespace ortung

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ namespace ortung {
 class ORTUNG_API ConeData : public SensorData {
  public:
   struct Config {
-    double openingAngle = 0.35;  ///< whole angle [rad]
-    double maxRange = 3.0;       ///< [m]
+    double openingAngle = 0.35;                                    ///< whole angle [rad]
+    double maxRange = 3.0;                                         ///< [m]
+    RangeResolution resolution{.metres = 0.03, .perMetre = 0.02};  ///< of the table
     SensorModel model{.sigma = 0.03, .sigmaPerMetre = 0.02, .outliers = 0.1};
   };
   /// [m]; +infinity: nothing within range; NaN: not valid
@@ -42,22 +44,18 @@ class ORTUNG_API ConeData : public SensorData {
  private:
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  bool isInformative() const override;
   void startTables(const FieldRegion& region, double headingStep) override;
   void learn(const Pose2& robotInField) override;
   void finishTables() override;
-  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
-  double logProbabilityAt(const Pose2& pose) const override;
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
-  void prepare();
-  float logProbabilityOf(std::uint8_t level) const;
+  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                 const FieldGrid& grid) override;
+  std::shared_ptr<const Weigher> makeWeigher() const override;
 
   Config config_;
   RangeScale scale_;
-  DirectionTable table_;
+  std::shared_ptr<DirectionTable> table_;
   double headingStep_ = 0.1;
   Reading reading_ = 0.0;
-  std::vector<float> logByLevel_;  ///< ln p of the present reading by expected level
 };
 
 }  // namespace ortung

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,7 +10,6 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
 #include "ortung/tables/FieldRegion.hpp"
-#include "ortung/tables/PositionTable.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
@@ -50,24 +50,21 @@ class ORTUNG_API LandmarksData : public SensorData {
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
-  struct Landmark {
-    PositionTable range;
-    BearingTable bearing;
-  };
+  struct Model;   ///< what stays: how probable residuals are
+  struct Tables;  ///< of each landmark
+  class Sight;    ///< the weigher
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  bool isInformative() const override;
   void startTables(const FieldRegion& region, double headingStep) override;
   void learn(const Pose2& robotInField) override;
-  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
-  double logProbabilityAt(const Pose2& pose) const override;
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                 const FieldGrid& grid) override;
+  std::shared_ptr<const Weigher> makeWeigher() const override;
   std::ptrdiff_t indexOf(std::uint32_t identity) const;
 
   Config config_;
-  GaussianTable rangeGaussian_;
-  GaussianTable bearingGaussian_;
-  std::vector<Landmark> landmarks_;  ///< in the order of config_.identities
+  std::shared_ptr<const Model> model_;
+  std::shared_ptr<Tables> tables_;
   Reading reading_;
 };
 

@@ -7,10 +7,11 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
-#include "ortung/tables/EndPointField.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
+
+struct EndPointTables;
 
 /// Points that can't be told apart, e.g. where scan lines of an image cross the field's lines, or
 /// goals that look alike. Words: two a point: [mm] along the floor, [angle]; none: looked and saw
@@ -52,23 +53,18 @@ class ORTUNG_API PointsData : public SensorData {
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
-  struct Prepared;
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  bool isInformative() const override;
   void startTables(const FieldRegion& region, double headingStep) override;
   void learn(const Pose2& robotInField) override;
   void finishTables() override;
-  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
-  double logProbabilityAt(const Pose2& pose) const override;
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
-  void prepare();
+  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                 const FieldGrid& grid) override;
+  std::shared_ptr<const Weigher> makeWeigher() const override;
 
   Config config_;
-  FieldGrid grid_;  ///< of the region that was learned
-  EndPointField field_;
+  std::shared_ptr<EndPointTables> tables_;
   Reading reading_;
-  std::unique_ptr<Prepared> prepared_;
 };
 
 }  // namespace ortung

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,20 +47,17 @@ class ORTUNG_API PoseFixData : public SensorData {
   std::string learningKey() const override { return "fix"; }
 
  private:
-  struct Weighed;  ///< a fix and the inverse of its covariance
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  bool isInformative() const override { return !reading_.empty(); }
   void startTables(const FieldRegion& region, double headingStep) override;
-  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
-  double logProbabilityAt(const Pose2& pose) const override;
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                 const FieldGrid& grid) override;
+  std::shared_ptr<const Weigher> makeWeigher() const override;
 
   Config config_;
-  GaussianTable gaussian_;
+  std::shared_ptr<const GaussianTable> gaussian_;
   FieldGrid grid_;
   Reading reading_;
-  std::vector<Weighed> weighed_;
 };
 
 }  // namespace ortung

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,16 +42,15 @@ class ORTUNG_API ScalarData : public SensorData {
  private:
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  bool isInformative() const override { return reading_.has_value(); }
   void startTables(const FieldRegion& region, double headingStep) override;
   void learn(const Pose2& robotInField) override;
-  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
-  double logProbabilityAt(const Pose2& pose) const override;
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                 const FieldGrid& grid) override;
+  std::shared_ptr<const Weigher> makeWeigher() const override;
 
   Config config_;
-  GaussianTable gaussian_;
-  PositionTable table_;
+  std::shared_ptr<const GaussianTable> gaussian_;
+  std::shared_ptr<PositionTable> table_;
   Reading reading_;
 };
 

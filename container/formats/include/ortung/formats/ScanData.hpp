@@ -9,11 +9,12 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
 #include "ortung/tables/DirectionTable.hpp"
-#include "ortung/tables/EndPointField.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
+
+struct EndPointTables;
 
 /// Ranges at evenly spaced bearings, counter-clockwise. Words: one [mm] a beam; 0: no valid
 /// measurement; at or above the greatest range: nothing seen.
@@ -27,6 +28,7 @@ class ORTUNG_API ScanData : public SensorData {
     double angleStep = 0.0;   ///< between beams [rad], positive; beams * angleStep <= 2 pi
     double minRange = 0.0;    ///< readings below it are not valid [m]
     double maxRange = 8.0;    ///< [m]
+    RangeResolution resolution{.metres = 0.05, .perMetre = 0.01};  ///< of a ray table
     Perception perception = Perception::kRays;
     int usedBeams = 0;           ///< thin to about this many; 0: all that differ in the table
     double endPointCell = 0.05;  ///< edge of an end-point field's cell [m]
@@ -60,30 +62,25 @@ class ORTUNG_API ScanData : public SensorData {
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
-  struct Prepared;  ///< the reading in the table's terms: levels, caps, end points
+  struct Learning;  ///< what only a sweep needs
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  bool isInformative() const override;
   void startTables(const FieldRegion& region, double headingStep) override;
   void learn(const Pose2& robotInField) override;
   void finishTables() override;
-  void useTables(const TableFile& file, const std::string& prefix, const FieldGrid& grid) override;
-  double logProbabilityAt(const Pose2& pose) const override;
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
-  void prepare();
-  void prepareRays();
-  void prepareEndPoints();
-  void weighRays(const SampleView& poses, std::span<float> logProbability) const;
-  void weighEndPoints(const SampleView& poses, std::span<float> logProbability) const;
+  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+                 const FieldGrid& grid) override;
+  std::shared_ptr<const Weigher> makeWeigher() const override;
+  std::shared_ptr<const Weigher> makeRayWeigher() const;
+  std::shared_ptr<const Weigher> makeEndPointWeigher() const;
   int runLength(int directions) const;
 
   Config config_;
   RangeScale scale_;
-  FieldGrid grid_;  ///< of the tables
-  DirectionTable rays_;
-  EndPointField endPoints_;
+  std::shared_ptr<DirectionTable> rays_;
+  std::shared_ptr<EndPointTables> endPoints_;
   std::vector<float> ranges_;
-  std::unique_ptr<Prepared> prepared_;
+  std::unique_ptr<Learning> learning_;
 };
 
 }  // namespace ortung

@@ -2,39 +2,17 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/RangeScale.hpp"
 #include "ortung/tables/TableFile.hpp"
 
 namespace ortung {
-
-/// Levels 0..254 for ranges, fine where the sensor is fine: one sensor sigma is the same number of
-/// levels at every range, so a sensor model over the difference of levels serves all ranges.
-/// Level 255 means "nothing within range".
-class ORTUNG_API RangeScale {
- public:
-  static constexpr std::uint8_t kNothing = 255;
-
-  RangeScale() = default;
-  /// @param maxRange readings at or beyond it see nothing [m]
-  RangeScale(double maxRange, double sigma, double sigmaPerMetre);
-
-  std::uint8_t level(double range) const;  ///< kNothing at or beyond maxRange
-  double range(std::uint8_t level) const;  ///< middle of the level [m]; maxRange for kNothing
-  double levelsPerSigma() const { return levelsPerSigma_; }
-  double maxRange() const { return maxRange_; }
-
- private:
-  double place(double range) const;
-  double maxRange_ = 1.0;
-  double sigma_ = 1.0;
-  double sigmaPerMetre_ = 0.0;
-  double levelsPerSigma_ = 1.0;
-};
 
 /// Expected range by cell and direction in the field frame, one byte each (RangeScale levels).
 /// The ray table: one serves all beams of a scan, since a beam's expectation depends on
@@ -82,8 +60,8 @@ class ORTUNG_API DirectionTable {
   void save(TableWriter& file, const std::string& prefix) const;
   /// @param longestRunOf longest run by number of directions, as given to start()
   /// @throws TableError also for row numbers outside of the table
-  void load(const TableFile& file, const std::string& prefix, const FieldGrid& grid,
-            const std::function<int(int)>& longestRunOf);
+  void load(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+            const FieldGrid& grid, const std::function<int(int)>& longestRunOf);
 
  private:
   FieldGrid grid_;
@@ -94,6 +72,7 @@ class ORTUNG_API DirectionTable {
   std::vector<std::uint8_t> closeness_;  ///< while learning: of the angle learned; 0: none yet
   std::span<const std::int32_t> rowOf_;
   std::span<const std::uint8_t> levels_;
+  std::shared_ptr<const TableFile> file_;  ///< kept for the spans; may be null
 };
 
 }  // namespace ortung

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,12 +31,13 @@ class ORTUNG_API EndPointField {
   double metresPerLevel() const { return grid_.cell / kPerCell; }
 
   void save(TableWriter& file, const std::string& prefix) const;
-  void load(const TableFile& file, const std::string& prefix);
+  void load(const std::shared_ptr<const TableFile>& file, const std::string& prefix);
 
  private:
   FieldGrid grid_;
   std::vector<std::uint8_t> own_;
   std::span<const std::uint8_t> levels_;
+  std::shared_ptr<const TableFile> file_;  ///< kept for levels_; may be null
 };
 
 }  // namespace ortung

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <string>
@@ -27,12 +28,14 @@ class ORTUNG_API CellTable {
   const FieldGrid& grid() const { return grid_; }
   std::span<const std::uint16_t> levels() const { return levels_; }
   void save(TableWriter& file, const std::string& name) const;  ///< shape (rows, columns)
-  void load(const TableFile& file, const std::string& name, const FieldGrid& grid);
+  void load(const std::shared_ptr<const TableFile>& file, const std::string& name,
+            const FieldGrid& grid);
 
  private:
   FieldGrid grid_;
   std::vector<std::uint16_t> own_;         ///< while learning
   std::span<const std::uint16_t> levels_;  ///< own_ or the mapped file
+  std::shared_ptr<const TableFile> file_;  ///< kept for levels_; may be null
 };
 
 /// Distance by position [m]; one level is `metresPerLevel`.

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "CellLookup.hpp"
 
 namespace ortung {
 
-void EndPointWeigher::start(const SensorModel& model, double maxRange, const EndPointField& field) {
-  maxRange_ = maxRange;
-  floor_ = static_cast<float>(model.logFloor());
+void EndPointTables::complete(const SensorModel& model, double greatestRange) {
+  maxRange = greatestRange;
+  floor = static_cast<float>(model.logFloor());
   for (std::size_t c = 0; c < kRangeClasses; ++c) {
     const double range = (static_cast<double>(c) + 0.5) / kRangeClasses * maxRange;
     // Half a cell's width is not the sensor's fault.
@@ -19,30 +21,40 @@ void EndPointWeigher::start(const SensorModel& model, double maxRange, const End
       logByLevel_[c][level] =
           static_cast<float>(model.exponent * model.logProbability(distance / sigma));
     }
-    logByLevel_[c][255] = floor_;
+    logByLevel_[c][255] = floor;
   }
-  endX_.clear();
-  endY_.clear();
-  endLog_.clear();
 }
 
-void EndPointWeigher::add(const Pose2& mount, double range, double bearing) {
-  const Pose2 end = mount * Pose2{range * std::cos(bearing), range * std::sin(bearing), 0};
-  const auto rangeClass = static_cast<std::size_t>(range / maxRange_ * kRangeClasses);
+const float* EndPointTables::logByLevel(double range) const {
+  const auto rangeClass = static_cast<std::size_t>(range / maxRange * kRangeClasses);
+  return logByLevel_[std::min(rangeClass, kRangeClasses - 1)].data();
+}
+
+EndPointWeigher::EndPointWeigher(std::shared_ptr<const EndPointTables> tables, const Pose2& mount)
+    : tables_(std::move(tables)), mount_(mount) {}
+
+void EndPointWeigher::add(double range, double bearing) {
+  const Pose2 end = mount_ * Pose2{range * std::cos(bearing), range * std::sin(bearing), 0};
   endX_.push_back(static_cast<float>(end.x));
   endY_.push_back(static_cast<float>(end.y));
-  endLog_.push_back(logByLevel_[std::min(rangeClass, kRangeClasses - 1)].data());
+  endLog_.push_back(tables_->logByLevel(range));
 }
 
-void EndPointWeigher::weigh(const FieldGrid& region, const EndPointField& field, const Pose2& mount,
-                            const SampleView& poses, std::span<float> logProbability) const {
-  const CellLookup inRegion(region);
+double EndPointWeigher::logProbabilityAt(const Pose2& pose) const {
+  const Pose2 sensor = pose * mount_;
+  const bool isInside = tables_->region.cellAt(sensor.x, sensor.y) >= 0;
+  return isInside ? Weigher::logProbabilityAt(pose) : std::numeric_limits<double>::quiet_NaN();
+}
+
+void EndPointWeigher::weigh(const SampleView& poses, std::span<float> logProbability) const {
+  const EndPointField& field = tables_->field;
+  const CellLookup inRegion(tables_->region);
   const CellLookup lookup(field.grid());
   const std::uint8_t* levels = field.levels().data();
   const std::size_t count = endX_.size();
-  const float floor = floor_;
-  const auto mountX = static_cast<float>(mount.x);
-  const auto mountY = static_cast<float>(mount.y);
+  const float floor = tables_->floor;
+  const auto mountX = static_cast<float>(mount_.x);
+  const auto mountY = static_cast<float>(mount_.y);
   constexpr std::size_t kPointsABlock = 64;
   std::array<std::int32_t, kPointsABlock> cells;
   for (std::size_t i = 0; i < poses.size(); ++i) {

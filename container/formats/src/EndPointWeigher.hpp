@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/Weigher.hpp"
+#include "ortung/tables/EndPointField.hpp"
+#include "ortung/tables/SensorModel.hpp"
+
+namespace ortung {
+
+/// An end-point field with all that weighing points against it needs, whatever the reading.
+struct EndPointTables {
+  FieldGrid region;       ///< where the sensor may be
+  EndPointField field;    ///< where points should lie
+  double maxRange = 1.0;  ///< of points; their sigma grows with range [m]
+  float floor = 0.0F;     ///< ln p of a point that fits nowhere
+
+  /// Computes ln p by distance, once the field is complete.
+  void complete(const SensorModel& model, double greatestRange);
+  /// ln p by level of the field, of points at a range [m].
+  const float* logByLevel(double range) const;
+
+ private:
+  static constexpr std::size_t kRangeClasses = 8;
+  std::array<std::array<float, 256>, kRangeClasses> logByLevel_{};
+};
+
+/// Weighs samples by points that should lie where an end-point field was marked: ends of a scan's
+/// beams, points on lines.
+class EndPointWeigher final : public Weigher {
+ public:
+  /// @param mount of the sensor that sees the points
+  EndPointWeigher(std::shared_ptr<const EndPointTables> tables, const Pose2& mount);
+  void add(double range, double bearing);
+  bool isEmpty() const { return endX_.empty(); }
+
+ private:
+  /// The floor for each point where the sensor is outside of the region.
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  double logProbabilityAt(const Pose2& pose) const override;
+
+  std::shared_ptr<const EndPointTables> tables_;
+  Pose2 mount_;
+  // In the robot frame.
+  std::vector<float> endX_;           ///< [m]
+  std::vector<float> endY_;           ///< [m]
+  std::vector<const float*> endLog_;  ///< ln p by level, for its range
+};
+
+}  // namespace ortung

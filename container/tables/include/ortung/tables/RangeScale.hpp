@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+#include "ortung/base/Export.hpp"
+
+namespace ortung {
+
+/// How finely a table keeps ranges, relative to each other: coarser the farther away, as most
+/// sensors measure. It is the table's own, so that tables serve whatever noise a sensor has.
+struct RangeResolution {
+  double metres = 0.05;    ///< at range 0, positive
+  double perMetre = 0.01;  ///< grows by this per metre of range, not negative
+
+  double at(double range) const { return metres + perMetre * range; }
+};
+
+/// Levels 0..254 for ranges, as wide at every range as the resolution there says. There are always
+/// about 254 of them, but none narrower than a sixth of the resolution.
+/// Level 255 means "nothing within range".
+class ORTUNG_API RangeScale {
+ public:
+  static constexpr std::uint8_t kNothing = 255;
+
+  RangeScale() = default;
+  /// @param maxRange readings at or beyond it see nothing [m]
+  RangeScale(double maxRange, const RangeResolution& resolution);
+
+  std::uint8_t level(double range) const;  ///< kNothing at or beyond maxRange
+  double range(std::uint8_t level) const;  ///< middle of the level [m]; maxRange for kNothing
+  /// How many levels lie within one sigma of a reading with noise of @p sigma at @p range [m].
+  double levelsPerSigma(double range, double sigma) const {
+    return levelsPerUnit_ * (sigma / resolution_.at(range));
+  }
+  double maxRange() const { return maxRange_; }
+
+ private:
+  double place(double range) const;
+  double maxRange_ = 1.0;
+  RangeResolution resolution_;
+  double levelsPerUnit_ = 1.0;  ///< of the resolution
+};
+
+}  // namespace ortung
