@@ -39,6 +39,7 @@ TableInfo describe(const SimWorld& world, const Robot& robot, const FieldRegion&
   info.robot = robot.config.name;
   info.headingStep = step;
   info.region = region;
+  info.field = fieldModelOf(world);
   return info;
 }
 

@@ -82,7 +82,7 @@ class Tables : public ::testing::Test {
     writeTables(file_, robot.container, infoOf(region_));
   }
   std::shared_ptr<const TableFile> open() const { return std::make_shared<TableFile>(file_); }
-  std::string complaintOf(const SensorContainer& container) const {
+  std::string complaintOf(SensorContainer& container) const {
     return messageOf<TableError>([&] { loadTables(open(), container); });
   }
   const TemporaryFolder folder_;
@@ -144,14 +144,14 @@ TEST_F(Tables, OfAnotherRobotAreRefusedByName) {
 }
 
 TEST_F(Tables, OfAnotherSensorAreRefusedWithBothSettings) {
-  const Robot other(91);
+  Robot other(91);
   const std::string told = complaintOf(other.container);
   EXPECT_TRUE(told.starts_with(
       file_.string() +
       ": the tables of LMS200/LRF/rays were learned for another sensor: found 'scan beams=90 "))
       << told;
   EXPECT_NE(told.find("', the robot file says 'scan beams=91 "), std::string::npos) << told;
-  const Robot moved(90, {0.1, 0, 0});
+  Robot moved(90, {0.1, 0, 0});
   EXPECT_NE(complaintOf(moved.container)
                 .find("mount=0,0,0', the robot file says 'distance max_range_m=20 fov_rad=0 "
                       "mount=0.1,0,0'"),

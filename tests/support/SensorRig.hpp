@@ -8,26 +8,32 @@
 #include <vector>
 
 #include "ortung/core/PluginFactory.hpp"
+#include "ortung/core/SensorContainer.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {
 
-/// Both halves of one sensor plugin, made from the same settings.
+/// All halves of one sensor plugin, made from the same settings.
 struct SensorRig {
   SensorRig(const std::string& plugin, const std::string& toml)
       : factory(PluginFactory::standardFolders()) {
     const Parameters settings = parseToml(toml, "test.toml");
-    owned = factory.makeData(plugin, settings);
+    for (auto& one : factory.makeData(plugin, settings))
+      data.push_back(&container.add(std::move(one)));
     sensor = factory.make<Sensor>(plugin, settings);
-    for (const auto& one : owned) data.push_back(one.get());
+    if (auto extractor = factory.makeIfThere<Extractor>(plugin, settings))
+      container.add(plugin, std::move(extractor), data);
+    container.connect();
   }
 
   /// Generates data with the robot at @p pose.
   void sense(const World& world, const Pose2& pose, Random* noise = nullptr) {
     RobotState state;
     state.pose = pose;
+    container.setField(std::make_shared<FieldModel>(fieldModelOf(world)));
     sensor->generateData(world, state, noise, ++now, data);
+    container.extract();
   }
 
   template <class T>
@@ -36,7 +42,7 @@ struct SensorRig {
   }
 
   PluginFactory factory;
-  std::vector<std::unique_ptr<SensorData>> owned;
+  SensorContainer container;
   std::unique_ptr<Sensor> sensor;
   std::vector<SensorData*> data;
   Timestamp now = 0;

@@ -4,6 +4,8 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "Extraction.hpp"
+
 namespace ortung {
 namespace {
 
@@ -11,12 +13,12 @@ bool matches(std::string_view wanted, const std::string& name) {
   return wanted.empty() || wanted == "*" || wanted == name;
 }
 
+}  // namespace
+
 bool matches(const SensorQuery& query, const SensorId& id) {
   return matches(query.model, id.model) && matches(query.type, id.type) &&
          matches(query.feature, id.feature);
 }
-
-}  // namespace
 
 SensorQuery parseSensorQuery(std::string_view text) {
   const std::size_t first = text.find('/');
@@ -29,7 +31,7 @@ SensorQuery parseSensorQuery(std::string_view text) {
           text.substr(second + 1)};
 }
 
-SensorContainer::SensorContainer() = default;
+SensorContainer::SensorContainer() : extraction_(std::make_unique<Extraction>()) {}
 SensorContainer::~SensorContainer() = default;
 
 SensorData& SensorContainer::add(std::unique_ptr<SensorData> data) {
@@ -37,6 +39,21 @@ SensorData& SensorContainer::add(std::unique_ptr<SensorData> data) {
     throw std::invalid_argument("feature already in the container: " + toText(data->id()));
   }
   return *data_.emplace_back(std::move(data));
+}
+
+void SensorContainer::add(std::string name, std::unique_ptr<Extractor> extractor,
+                          std::vector<SensorData*> outputs) {
+  extraction_->add(std::move(name), std::move(extractor), std::move(outputs));
+}
+
+void SensorContainer::connect() { extraction_->connect(data_); }
+
+void SensorContainer::setField(std::shared_ptr<const FieldModel> field) {
+  extraction_->setField(std::move(field));
+}
+
+void SensorContainer::extract() {
+  if (!extraction_->isEmpty()) extraction_->run(mutex_);
 }
 
 SensorData* SensorContainer::find(const SensorQuery& query) const {
@@ -62,6 +79,14 @@ SensorData* SensorContainer::findExactly(const SensorId& id) const {
 bool SensorContainer::set(const Message& message) { return set({&message, 1}) == 0; }
 
 std::size_t SensorContainer::set(std::span<const Message> frame) {
+  bool isRead = false;
+  const std::size_t unknown = take(frame, isRead);
+  if (isRead) extract();
+  return unknown;
+}
+
+/// @param isRead out: whether something is made of a feature in the frame
+std::size_t SensorContainer::take(std::span<const Message> frame, bool& isRead) {
   const std::unique_lock lock(mutex_);
   targets_.clear();
   std::size_t unknown = 0;
@@ -74,7 +99,10 @@ std::size_t SensorContainer::set(std::span<const Message> frame) {
     }
   }
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    if (targets_[i] != nullptr) targets_[i]->setData(frame[i].stamp, frame[i].words);
+    if (targets_[i] != nullptr) {
+      targets_[i]->setData(frame[i].stamp, frame[i].words);
+      isRead = isRead || extraction_->reads(*targets_[i]);
+    }
   }
   return unknown;
 }

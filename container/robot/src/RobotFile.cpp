@@ -67,10 +67,17 @@ std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig&
     } catch (const std::invalid_argument& error) {
       sensor.parameters.fail("plugin", "'" + sensor.plugin + "': " + error.what());
     }
+    if (auto extractor = factory.makeIfThere<Extractor>(sensor.plugin, sensor.parameters))
+      container.add(sensor.plugin, std::move(extractor), device.data);
     devices.push_back(std::move(device));
   }
   if (container.find({.type = "groundTruth"}) == nullptr) {
     container.add(std::make_unique<PoseData>(SensorId{"reference", "groundTruth", "pose"}));
+  }
+  try {
+    container.connect();
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(robot.about.where() + ": " + error.what());
   }
   return devices;
 }

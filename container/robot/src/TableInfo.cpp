@@ -5,6 +5,8 @@
 #include <numbers>
 #include <set>
 
+#include "FieldModelJson.hpp"
+
 namespace ortung {
 namespace {
 
@@ -64,6 +66,7 @@ void writeTables(const std::filesystem::path& file, const SensorContainer& conta
   meta["origin_x_m"] = grid.originX;
   meta["origin_y_m"] = grid.originY;
   meta["cell_m"] = grid.cell;
+  if (!info.field.isEmpty()) meta["field"] = toJson(info.field);
   meta["features"] = Json::array();
   const std::vector<std::size_t> shape = {static_cast<std::size_t>(grid.rows),
                                           static_cast<std::size_t>(grid.columns)};
@@ -103,6 +106,13 @@ TableInfo readTableInfo(const TableFile& file) {
     throw TableError(file.path().string() + ": the heading step is not in (0.0001, 2 pi]");
   }
   info.region = readRegion(file, meta);
+  if (meta.contains("field")) {
+    try {
+      info.field = fieldModelOf(meta["field"]);
+    } catch (const std::exception& error) {
+      throw TableError(file.path().string() + ": " + kMeta + ": field: " + error.what());
+    }
+  }
   for (const Json& feature : take<std::vector<Json>>(file, meta, "features")) {
     info.features.push_back({take<std::string>(file, feature, "id"),
                              take<std::string>(file, feature, "key"),
@@ -111,8 +121,7 @@ TableInfo readTableInfo(const TableFile& file) {
   return info;
 }
 
-TableInfo loadTables(const std::shared_ptr<const TableFile>& file,
-                     const SensorContainer& container) {
+TableInfo loadTables(const std::shared_ptr<const TableFile>& file, SensorContainer& container) {
   TableInfo info = readTableInfo(*file);
   for (const auto& data : container.all()) {
     if (!data->localizes()) continue;
@@ -130,6 +139,7 @@ TableInfo loadTables(const std::shared_ptr<const TableFile>& file,
     }
     data->loadTables(file, it->prefix, info.region.grid);
   }
+  container.setField(std::make_shared<FieldModel>(info.field));
   return info;
 }
 

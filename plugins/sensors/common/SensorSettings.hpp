@@ -8,7 +8,7 @@
 
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
-#include "ortung/core/SensorData.hpp"
+#include "ortung/core/SensorContainer.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/tables/RangeScale.hpp"
 
@@ -44,6 +44,15 @@ inline double readPeriod(const Parameters& sensor, double fallback) {
 inline RangeResolution readResolution(const Parameters& sensor, const RangeResolution& fallback) {
   return {.metres = sensor.numberOr("resolution_m", fallback.metres, {1e-3, 10.0}),
           .perMetre = sensor.numberOr("resolution_per_m", fallback.perMetre, {0.0, 1.0})};
+}
+
+/// Refuses a text that is not "model/type/feature" (each may be "*").
+inline void checkQuery(const Parameters& sensor, const std::string& key) {
+  try {
+    parseSensorQuery(sensor.text(key));
+  } catch (const std::invalid_argument& error) {
+    sensor.fail(key, error.what());
+  }
 }
 
 /// Reads a share, in [0, 1].

@@ -1,3 +1,4 @@
+#include "LrfIconicExtractor.hpp"
 #include "LrfIconicSettings.hpp"
 #include "ortung/core/Plugin.hpp"
 
@@ -12,10 +13,15 @@ DeviceData makeLrfIconic(const Parameters& p) {
   data.push_back(std::make_unique<ObstaclesData>(id, s.mounting.pose));
   id.feature = "position";
   data.push_back(std::make_unique<PoseFixData>(id, s.fix));
+  if (s.reads.empty()) {
+    id.feature = LrfIconicSettings::kScan;
+    data.push_back(std::make_unique<ScanData>(id, s.mounting.pose, s.scan));
+  }
   return data;
 }
 
 }  // namespace
 }  // namespace ortung
 
-ORTUNG_PLUGINS("lrf_iconic_data", ortung::provideData<ortung::makeLrfIconic>("lrf_iconic"));
+ORTUNG_PLUGINS("lrf_iconic_data", ortung::provideData<ortung::makeLrfIconic>("lrf_iconic"),
+               ortung::provide<ortung::Extractor, ortung::LrfIconicExtractor>("lrf_iconic"));

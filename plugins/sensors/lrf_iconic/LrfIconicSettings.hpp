@@ -11,30 +11,51 @@
 
 namespace ortung {
 
-/// Settings of both halves of the laser range finder that says what it sees.
+/// Settings of all halves of the laser range finder that says what it sees.
 struct LrfIconicSettings {
-  SensorId id;  ///< its feature is not used
+  static constexpr const char* kScan = "scan";  ///< feature of its own scan
+
+  std::string reads;  ///< scan of another device: "model/type/feature"; "": its own
+  SensorId id;        ///< its feature is not used
   Mounting mounting;
-  ScanData::Config scan;  ///< beams and ranges alone
+  ScanData::Config scan;  ///< of its own
   ScanShapesConfig shapes;
   PoseFixData::Config fix;
   double shareMatched = 0.6;  ///< of points on straight pieces that must be of walls
   int mostFixes = 8;
+  double rangeSigma = 0.03;  ///< of the scan, as the matcher takes it, at range 0 [m]
+  double rangeSigmaPerMetre = 0.0;
   double period = 0.1;       ///< [s]
   double noiseSigma = 0.03;  ///< of simulated ranges at range 0 [m]
   double noiseSigmaPerMetre = 0.0;
   double dropoutShare = 0.0;
 };
 
-/// Reads all settings of both halves. @throws ConfigError
+/// Reads what describes its own scan and its simulation.
+inline void readOwnScan(const Parameters& p, LrfIconicSettings& s) {
+  readBeams(p, s.scan);
+  s.scan.maxRange = p.numberOr("max_range_m", 8.0, {0.05, 1000.0});
+  s.scan.minRange = p.numberOr("min_range_m", 0.0, {0.0, s.scan.maxRange});
+  s.scan.localizes = false;  // what is made of it does
+  s.period = readPeriod(p, 0.1);
+  s.noiseSigma = p.numberOr("noise_sigma_m", s.noiseSigma, {0.0, 10.0});
+  s.noiseSigmaPerMetre = p.numberOr("noise_sigma_per_m", 0.0, {0.0, 1.0});
+  s.dropoutShare = readShare(p, "dropout_share");
+}
+
+/// Reads all settings of all halves. @throws ConfigError
 inline LrfIconicSettings readLrfIconicSettings(const Parameters& p) {
   LrfIconicSettings s;
   if (p.has("feature")) p.fail("feature", "is given, but the features are obstacles and position");
   s.id = sensorIdOf(p, {"LMS200", "LRF", "iconic"});
   s.mounting = readMounting(p, 0.3);
-  readBeams(p, s.scan);
-  s.scan.maxRange = p.numberOr("max_range_m", 8.0, {0.05, 1000.0});
-  s.scan.minRange = p.numberOr("min_range_m", 0.0, {0.0, s.scan.maxRange});
+  s.reads = p.textOr("reads", "");
+  if (s.reads.empty())
+    readOwnScan(p, s);
+  else
+    checkQuery(p, "reads");
+  s.rangeSigma = p.numberOr("range_sigma_m", s.noiseSigma, {0.0, 10.0});
+  s.rangeSigmaPerMetre = p.numberOr("range_sigma_per_m", s.noiseSigmaPerMetre, {0.0, 1.0});
   s.shapes.breakDistance = p.numberOr("break_m", s.shapes.breakDistance, {0.01, 10.0});
   s.shapes.lineTolerance = p.numberOr("line_tolerance_m", s.shapes.lineTolerance, {0.001, 1.0});
   s.shapes.shortest = p.numberOr("shortest_line_m", s.shapes.shortest, {0.05, 10.0});
@@ -45,10 +66,6 @@ inline LrfIconicSettings readLrfIconicSettings(const Parameters& p) {
   s.fix.addedHeadingSigma = radians(p.numberOr("sigma_deg", 2.0, {1e-3, 180.0}));
   s.fix.model.outliers = p.numberOr("outliers", 0.05, {1e-6, 1.0 - 1e-6});
   s.fix.model.exponent = p.numberOr("exponent", 1.0, {1e-3, 1.0});
-  s.period = readPeriod(p, 0.1);
-  s.noiseSigma = p.numberOr("noise_sigma_m", s.noiseSigma, {0.0, 10.0});
-  s.noiseSigmaPerMetre = p.numberOr("noise_sigma_per_m", 0.0, {0.0, 1.0});
-  s.dropoutShare = readShare(p, "dropout_share");
   return s;
 }
 

@@ -3,30 +3,19 @@
 #include <span>
 #include <vector>
 
+#include "ortung/base/StraightPieces.hpp"
+
 namespace ortung {
-
-/// A point of a scan, in the sensor's frame.
-struct ScanPoint {
-  double x = 0.0;  ///< [m]
-  double y = 0.0;  ///< [m]
-};
-
-/// A straight piece of outline. The sensor is on its left, looking from the first end to the last.
-struct ScanSegment {
-  ScanPoint from;
-  ScanPoint to;
-  std::vector<ScanPoint> points;  ///< of the scan
-};
 
 /// A round or small piece of outline.
 struct ScanCircle {
-  ScanPoint middle;
+  PlanePoint middle;
   double radius = 0.0;  ///< [m]
 };
 
 /// What a scan is taken apart into.
 struct ScanShapes {
-  std::vector<ScanSegment> segments;
+  std::vector<StraightPiece> segments;  ///< in the sensor's frame; it is on their left
   std::vector<ScanCircle> circles;
 };
 
@@ -39,8 +28,7 @@ struct ScanShapesConfig {
 };
 
 /// Takes a scan apart: into outlines where neighbours are far from each other, those into straight
-/// segments (split where a point is farthest from the chord: Ramer 1972, Douglas and Peucker 1973),
-/// each a total least squares line; small outlines become circles (Kasa 1976).
+/// segments; small outlines become circles (Kasa 1976).
 /// @param ranges counter-clockwise [m]; not finite: nothing
 ScanShapes shapesOf(std::span<const float> ranges, double firstAngle, double angleStep,
                     const ScanShapesConfig& config);

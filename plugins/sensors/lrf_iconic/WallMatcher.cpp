@@ -16,56 +16,41 @@ constexpr double kSamePlace = 0.3;        // poses nearer than this are one [m]
 constexpr double kSameHeading = 0.1;      // [rad]
 constexpr double kFewestSine = 0.34;      // of the angle between two pieces: 20 degrees
 
-double lengthOf(const ScanSegment& s) { return std::hypot(s.to.x - s.from.x, s.to.y - s.from.y); }
-double lengthOf(const WallLine& w) { return std::hypot(w.x1 - w.x0, w.y1 - w.y0); }
-double directionOf(const ScanSegment& s) {
+double lengthOf(const StraightPiece& s) { return std::hypot(s.to.x - s.from.x, s.to.y - s.from.y); }
+double lengthOf(const FieldWall& w) { return std::hypot(w.x1 - w.x0, w.y1 - w.y0); }
+double directionOf(const StraightPiece& s) {
   return std::atan2(s.to.y - s.from.y, s.to.x - s.from.x);
 }
-double directionOf(const WallLine& w) { return std::atan2(w.y1 - w.y0, w.x1 - w.x0); }
+double directionOf(const FieldWall& w) { return std::atan2(w.y1 - w.y0, w.x1 - w.x0); }
 
-ScanPoint moved(const Pose2& frame, const ScanPoint& p) {
+PlanePoint moved(const Pose2& frame, const PlanePoint& p) {
   const double c = std::cos(frame.theta);
   const double s = std::sin(frame.theta);
   return {frame.x + c * p.x - s * p.y, frame.y + s * p.x + c * p.y};
 }
 
 /// Signed distance to a wall's line, positive on the side from which it is seen [m].
-double offsetFrom(const WallLine& wall, const ScanPoint& p) {
+double offsetFrom(const FieldWall& wall, const PlanePoint& p) {
   return ((wall.x1 - wall.x0) * (p.y - wall.y0) - (wall.y1 - wall.y0) * (p.x - wall.x0)) /
          lengthOf(wall);
 }
 
 /// Whether the foot of @p p lies on the wall, or up to @p slack beyond its ends.
-bool isBeside(const WallLine& wall, const ScanPoint& p, double slack) {
+bool isBeside(const FieldWall& wall, const PlanePoint& p, double slack) {
   const double length = lengthOf(wall);
   const double along =
       ((wall.x1 - wall.x0) * (p.x - wall.x0) + (wall.y1 - wall.y0) * (p.y - wall.y0)) / length;
   return along >= -slack && along <= length + slack;
 }
 
-/// The sides of a rectangle, clockwise: outside is on the left.
-void addSides(const WorldObject& o, double shortest, std::vector<WallLine>& walls) {
-  const ScanPoint corners[] = {
-      {-o.halfX, -o.halfY}, {-o.halfX, o.halfY}, {o.halfX, o.halfY}, {o.halfX, -o.halfY}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const ScanPoint a = moved(o.pose, corners[i]);
-    const ScanPoint b = moved(o.pose, corners[(i + 1) % 4]);
-    const WallLine side{a.x, a.y, b.x, b.y};
-    if (lengthOf(side) >= shortest) walls.push_back(side);
-  }
-}
-
 }  // namespace
 
-std::vector<WallLine> wallLinesOf(const World& world, double z, double shortest) {
-  std::vector<WallLine> walls;
-  for (const WorldObject& o : world.objects()) {
-    const bool isOfField = (o.kind == "wall" || o.kind == "goal") && !o.isMovable && !o.isRound;
-    if (isOfField && o.zLow <= z && z <= o.zHigh) addSides(o, shortest, walls);
+std::vector<FieldWall> wallsAt(const FieldModel& field, double z, double shortest) {
+  std::vector<FieldWall> walls;
+  for (const FieldWall& wall : field.walls) {
+    if (walls.size() == kMostWalls) break;
+    if (wall.zLow <= z && z <= wall.zHigh && lengthOf(wall) >= shortest) walls.push_back(wall);
   }
-  std::stable_sort(walls.begin(), walls.end(),
-                   [](const WallLine& a, const WallLine& b) { return lengthOf(a) > lengthOf(b); });
-  if (walls.size() > kMostWalls) walls.resize(kMostWalls);
   return walls;
 }
 
@@ -74,14 +59,14 @@ struct WallMatcher::Candidate {
   int explained = 0;
 };
 
-WallMatcher::WallMatcher(std::span<const WallLine> walls, const WallMatcherConfig& config)
+WallMatcher::WallMatcher(std::span<const FieldWall> walls, const WallMatcherConfig& config)
     : walls_(walls), config_(config) {}
 
 /// The nearest wall that a piece in this direction can be of, or null.
-const WallLine* WallMatcher::wallOf(const ScanPoint& inField, double direction) const {
-  const WallLine* nearest = nullptr;
+const FieldWall* WallMatcher::wallOf(const PlanePoint& inField, double direction) const {
+  const FieldWall* nearest = nullptr;
   double reach = config_.reach;
-  for (const WallLine& wall : walls_) {
+  for (const FieldWall& wall : walls_) {
     const double off = std::abs(offsetFrom(wall, inField));
     if (off >= reach || !isBeside(wall, inField, config_.reach)) continue;
     if (std::abs(wrapAngle(directionOf(wall) - direction)) > config_.angle) continue;
@@ -91,11 +76,11 @@ const WallLine* WallMatcher::wallOf(const ScanPoint& inField, double direction) 
   return nearest;
 }
 
-int WallMatcher::explained(std::span<const ScanSegment> segments, const Pose2& sensor) const {
+int WallMatcher::explained(std::span<const StraightPiece> segments, const Pose2& sensor) const {
   int count = 0;
-  for (const ScanSegment& segment : segments) {
+  for (const StraightPiece& segment : segments) {
     const double direction = sensor.theta + directionOf(segment);
-    for (const ScanPoint& point : segment.points)
+    for (const PlanePoint& point : segment.points)
       count += wallOf(moved(sensor, point), direction) != nullptr ? 1 : 0;
   }
   return count;
@@ -103,22 +88,22 @@ int WallMatcher::explained(std::span<const ScanSegment> segments, const Pose2& s
 
 /// Poses at which two pieces lie on two walls.
 std::vector<WallMatcher::Candidate> WallMatcher::candidates(
-    std::span<const ScanSegment> segments) const {
+    std::span<const StraightPiece> segments) const {
   std::vector<Candidate> found;
-  const auto lies = [this](const WallLine& wall, const ScanSegment& s, const Pose2& sensor) {
+  const auto lies = [this](const FieldWall& wall, const StraightPiece& s, const Pose2& sensor) {
     return isBeside(wall, moved(sensor, s.from), config_.reach) &&
            isBeside(wall, moved(sensor, s.to), config_.reach);
   };
-  const auto tryPair = [&](const ScanSegment& a, const ScanSegment& b, const WallLine& u,
-                           const WallLine& v) {
+  const auto tryPair = [&](const StraightPiece& a, const StraightPiece& b, const FieldWall& u,
+                           const FieldWall& v) {
     const double turnA = wrapAngle(directionOf(u) - directionOf(a));
     const double turnB = wrapAngle(directionOf(v) - directionOf(b));
     if (std::abs(wrapAngle(turnA - turnB)) > config_.angle) return;
     const double shareB = lengthOf(b) / (lengthOf(a) + lengthOf(b));
     Pose2 sensor{0.0, 0.0, wrapAngle(turnA + shareB * wrapAngle(turnB - turnA))};
     // Both pieces' middles must come to lie on the walls' lines.
-    const auto middle = [](const ScanSegment& s) {
-      return ScanPoint{0.5 * (s.from.x + s.to.x), 0.5 * (s.from.y + s.to.y)};
+    const auto middle = [](const StraightPiece& s) {
+      return PlanePoint{0.5 * (s.from.x + s.to.x), 0.5 * (s.from.y + s.to.y)};
     };
     const double offA = offsetFrom(u, moved(sensor, middle(a)));
     const double offB = offsetFrom(v, moved(sensor, middle(b)));
@@ -142,26 +127,26 @@ std::vector<WallMatcher::Candidate> WallMatcher::candidates(
     for (std::size_t j = i + 1; j < tried; ++j) {
       const double between = directionOf(segments[j]) - directionOf(segments[i]);
       if (std::abs(std::sin(between)) < kFewestSine) continue;
-      for (const WallLine& u : walls_)
-        for (const WallLine& v : walls_) tryPair(segments[i], segments[j], u, v);
+      for (const FieldWall& u : walls_)
+        for (const FieldWall& v : walls_) tryPair(segments[i], segments[j], u, v);
     }
   }
   return found;
 }
 
 /// Least squares of the points' distances from their walls, over the robot's pose.
-bool WallMatcher::refine(std::span<const ScanSegment> segments, const Pose2& mount,
+bool WallMatcher::refine(std::span<const StraightPiece> segments, const Pose2& mount,
                          PoseFixData::Fix& fix) const {
   Eigen::Matrix3d normal;
   for (int step = 0; step < kRefinements; ++step) {
     normal.setZero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     const Pose2 sensor = fix.pose * mount;
-    for (const ScanSegment& segment : segments) {
+    for (const StraightPiece& segment : segments) {
       const double direction = sensor.theta + directionOf(segment);
-      for (const ScanPoint& point : segment.points) {
-        const ScanPoint p = moved(sensor, point);
-        const WallLine* wall = wallOf(p, direction);
+      for (const PlanePoint& point : segment.points) {
+        const PlanePoint p = moved(sensor, point);
+        const FieldWall* wall = wallOf(p, direction);
         if (wall == nullptr) continue;
         const double nx = -(wall->y1 - wall->y0) / lengthOf(*wall);
         const double ny = (wall->x1 - wall->x0) / lengthOf(*wall);
@@ -184,14 +169,14 @@ bool WallMatcher::refine(std::span<const ScanSegment> segments, const Pose2& mou
   return isFinite(fix.pose) && covariance.diagonal().minCoeff() > 0.0;
 }
 
-std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const ScanSegment> segments,
+std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const StraightPiece> segments,
                                                  const Pose2& mount) const {
-  std::vector<ScanSegment> sorted(segments.begin(), segments.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const ScanSegment& a, const ScanSegment& b) {
-    return lengthOf(a) > lengthOf(b);
-  });
+  std::vector<StraightPiece> sorted(segments.begin(), segments.end());
+  std::stable_sort(
+      sorted.begin(), sorted.end(),
+      [](const StraightPiece& a, const StraightPiece& b) { return lengthOf(a) > lengthOf(b); });
   std::size_t points = 0;
-  for (const ScanSegment& segment : sorted) points += segment.points.size();
+  for (const StraightPiece& segment : sorted) points += segment.points.size();
   std::vector<Candidate> found = candidates(sorted);
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return a.explained > b.explained;
@@ -209,7 +194,7 @@ std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const ScanSegment> se
   return fixes;
 }
 
-bool WallMatcher::isOfWall(const ScanSegment& segment, const Pose2& mount,
+bool WallMatcher::isOfWall(const StraightPiece& segment, const Pose2& mount,
                            const Pose2& robot) const {
   const Pose2 sensor = robot * mount;
   const double direction = sensor.theta + directionOf(segment);

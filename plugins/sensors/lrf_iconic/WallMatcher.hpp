@@ -5,21 +5,13 @@
 
 #include "ScanShapes.hpp"
 #include "ortung/formats/PoseFixData.hpp"
-#include "ortung/sim_api/World.hpp"
+#include "ortung/tables/FieldModel.hpp"
 
 namespace ortung {
 
-/// A straight surface of the field. Who sees it is on its left, looking along it.
-struct WallLine {
-  double x0 = 0.0;  ///< in the field frame [m]
-  double y0 = 0.0;
-  double x1 = 0.0;
-  double y1 = 0.0;
-};
-
-/// The sides of the fixed walls and goals that a scanner at height @p z meets, the longest first,
-/// without what is shorter than @p shortest.
-std::vector<WallLine> wallLinesOf(const World& world, double z, double shortest);
+/// The walls and goals that a scanner at height @p z meets, the longest first, without what is
+/// shorter than @p shortest [m].
+std::vector<FieldWall> wallsAt(const FieldModel& field, double z, double shortest);
 
 struct WallMatcherConfig {
   double reach = 0.25;        ///< a point this near to a wall may be of it [m]
@@ -34,26 +26,26 @@ struct WallMatcherConfig {
 /// Gauss-Newton on the points' distances from their walls, whose normal matrix is the information.
 class WallMatcher {
  public:
-  /// @param walls directed, see WallLine; must outlive it
-  WallMatcher(std::span<const WallLine> walls, const WallMatcherConfig& config);
+  /// @param walls must outlive it
+  WallMatcher(std::span<const FieldWall> walls, const WallMatcherConfig& config);
 
   /// Poses of the robot that fit as well as the best, none if nothing fits.
   /// @param mount pose of the scanner in the robot frame
-  std::vector<PoseFixData::Fix> match(std::span<const ScanSegment> segments,
+  std::vector<PoseFixData::Fix> match(std::span<const StraightPiece> segments,
                                       const Pose2& mount) const;
 
   /// Whether a piece lies on a wall with the robot at @p robot.
-  bool isOfWall(const ScanSegment& segment, const Pose2& mount, const Pose2& robot) const;
+  bool isOfWall(const StraightPiece& segment, const Pose2& mount, const Pose2& robot) const;
 
  private:
   struct Candidate;
-  std::vector<Candidate> candidates(std::span<const ScanSegment> segments) const;
-  const WallLine* wallOf(const ScanPoint& inField, double direction) const;
-  int explained(std::span<const ScanSegment> segments, const Pose2& sensor) const;
-  bool refine(std::span<const ScanSegment> segments, const Pose2& mount,
+  std::vector<Candidate> candidates(std::span<const StraightPiece> segments) const;
+  const FieldWall* wallOf(const PlanePoint& inField, double direction) const;
+  int explained(std::span<const StraightPiece> segments, const Pose2& sensor) const;
+  bool refine(std::span<const StraightPiece> segments, const Pose2& mount,
               PoseFixData::Fix& fix) const;
 
-  std::span<const WallLine> walls_;
+  std::span<const FieldWall> walls_;
   WallMatcherConfig config_;
 };
 

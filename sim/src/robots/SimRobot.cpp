@@ -118,6 +118,7 @@ std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
                       "' failed in generateData and is switched off: it threw no std::exception");
     }
   }
+  extract(now);
   if (inFrame_ > 0) addGroundTruth(now);
   return {frame_.data(), inFrame_};
 }
@@ -130,6 +131,23 @@ Message& SimRobot::nextMessage() {
 void SimRobot::generate(Mounted& mounted, const World& world, Timestamp now) {
   mounted.sensor->generateData(world, state_, noise_ ? &mounted.random : nullptr, now,
                                mounted.data);
+  collect(mounted, now);
+}
+
+/// Features that are made of others: after all sensors, whichever order they have.
+void SimRobot::extract(Timestamp now) {
+  if (!extracts_ || inFrame_ == 0) return;
+  try {
+    container_.extract();
+  } catch (const ExtractorError& error) {
+    extracts_ = false;
+    report(now, std::string(error.what()) + "; nothing is made of other features any more");
+  }
+  for (Mounted& mounted : sensors_) collect(mounted, now);
+}
+
+/// Messages of what is new.
+void SimRobot::collect(Mounted& mounted, Timestamp now) {
   for (std::size_t i = 0; i < mounted.data.size(); ++i) {
     const SensorData& data = *mounted.data[i];
     if (data.sequence() == mounted.seen[i]) continue;

@@ -54,7 +54,9 @@ void Simulation::Config::check() const {
 }
 
 Simulation::Simulation(std::unique_ptr<SimWorld> world, const Config& config)
-    : config_(config), world_(std::move(world)) {
+    : config_(config),
+      world_(std::move(world)),
+      field_(std::make_shared<FieldModel>(fieldModelOf(*world_))) {
   config_.check();
   cycle_ = fromSeconds(config_.cycle.value_or(world_->physics().cycle));
   physics_ = std::make_unique<Physics>(world_->physics(), world_->solids());
@@ -93,6 +95,7 @@ SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory
                                   ": another robot has this name, expected one of its own");
   const Random random(config_.seed, kRobots * (added_ + 1));
   auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
+  robot->container().setField(field_);
   const RobotShape& shape = robot->shape();
   const std::vector<Primitive> pieces =
       shape.piecesWith({robot->manipulatorStates().begin(), robot->manipulatorStates().end()});

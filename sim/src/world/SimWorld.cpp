@@ -6,6 +6,7 @@
 
 #include "BodyRays.hpp"
 #include "FreeSpace.hpp"
+#include "MapWalls.hpp"
 #include "RayCaster.hpp"
 #include "WorldModel.hpp"
 #include "ortung/base/Parameters.hpp"
@@ -36,6 +37,7 @@ class ModelledWorld final : public SimWorld {
     for (const Primitive& primitive : model_.primitives)
       if (primitive.isSolid()) objects_.push_back(objectOf(primitive));
     fixedObjects_ = objects_.size();
+    for (const GridBody& body : model_.grids) addMapWalls(body, mapWalls_);
   }
 
   const std::string& name() const override { return model_.name; }
@@ -46,6 +48,7 @@ class ModelledWorld final : public SimWorld {
   std::span<const Landmark> landmarks() const override { return model_.landmarks; }
   std::span<const FieldLine> lines() const override { return lines_; }
   std::span<const WorldObject> objects() const override { return objects_; }
+  std::span<const FieldWall> mapWalls() const override { return mapWalls_; }
   const PhysicsConfig& physics() const override { return model_.physics; }
   bool isFree(double x, double y, const RobotSize& size) const override {
     return space_.isFree(x, y, size);
@@ -177,6 +180,7 @@ class ModelledWorld final : public SimWorld {
   FreeSpace space_;
   RayCaster rays_;
   std::vector<FieldLine> lines_;
+  std::vector<FieldWall> mapWalls_;
   std::vector<WorldObject> objects_;  ///< first what is fixed, then what moves
   std::size_t fixedObjects_ = 0;
   BodyRays bodies_;

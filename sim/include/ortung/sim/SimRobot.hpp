@@ -76,6 +76,8 @@ class ORTUNG_API SimRobot {
 
   struct Mounted;
   void generate(Mounted& mounted, const World& world, Timestamp now);
+  void extract(Timestamp now);
+  void collect(Mounted& mounted, Timestamp now);
   void addGroundTruth(Timestamp now);
   Message& nextMessage();
   void report(Timestamp now, const std::string& what);
@@ -87,7 +89,8 @@ class ORTUNG_API SimRobot {
   SensorData* truth_ = nullptr;  ///< ground truth that no sensor gives, or null
   std::unique_ptr<Drive> drive_;
   bool driveWorks_ = true;
-  Pose2 planned_;  ///< change of pose that the drive wanted last
+  bool extracts_ = true;  ///< until an extractor fails
+  Pose2 planned_;         ///< change of pose that the drive wanted last
   std::unique_ptr<Driver> driver_;
   RobotState state_;
   Random odometryRandom_;

@@ -84,6 +84,7 @@ class ORTUNG_API Simulation {
 
   Config config_;
   std::unique_ptr<SimWorld> world_;
+  std::shared_ptr<const FieldModel> field_;  ///< what robots know of the world beforehand
   std::unique_ptr<Physics> physics_;
   std::unique_ptr<Workers> workers_;
   std::vector<std::unique_ptr<SimRobot>> robots_;

@@ -66,6 +66,14 @@ class ORTUNG_API PluginFactory {
     return plugin;
   }
 
+  /// The same, or null if the libraries loaded so far do not have it: for a half that a plugin may
+  /// have or not, once another half was made.
+  template <class Interface>
+  std::unique_ptr<Interface> makeIfThere(const std::string& name, const Parameters& parameters) {
+    if (findEntry(Interface::kInterface, name) == nullptr) return nullptr;
+    return make<Interface>(name, parameters);
+  }
+
   /// The data half of a sensor: all features of the device @p name (paper, section 4).
   /// @throws as make()
   std::vector<std::unique_ptr<SensorData>> makeData(const std::string& name,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/core/Extractor.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
 
@@ -22,6 +23,11 @@ struct SensorQuery {
 
 /// Reads "LMS200/LRF/*"; the query borrows from @p text. @throws std::invalid_argument
 ORTUNG_API SensorQuery parseSensorQuery(std::string_view text);
+
+/// Whether a name matches in all three parts.
+ORTUNG_API bool matches(const SensorQuery& query, const SensorId& id);
+
+class Extraction;
 
 /// Owns the sensor data of one robot.
 /// Many writers and readers: writers go through set(), readers of readings hold a ReadLock, so
@@ -39,6 +45,20 @@ class ORTUNG_API SensorContainer {
   /// Takes ownership. @throws std::invalid_argument if the id is already present.
   SensorData& add(std::unique_ptr<SensorData> data);
 
+  /// From now on, @p outputs are made of other features. @param name what errors call it
+  /// Messages for them are taken, too, until their inputs have readings.
+  void add(std::string name, std::unique_ptr<Extractor> extractor,
+           std::vector<SensorData*> outputs);
+  /// Once all features and extractors are there: finds what reads what.
+  /// @throws std::invalid_argument for an extractor whose input is not there, and for circles, with
+  ///   the names of all that are in them
+  void connect();
+  /// What is known of the field; readings that are made before know nothing of it.
+  void setField(std::shared_ptr<const FieldModel> field);
+  /// Makes features of others that have new readings: whoever writes without set() calls it.
+  /// @throws ExtractorError
+  void extract();
+
   /// The first match in the order of insertion, or nullptr.
   SensorData* find(const SensorQuery& query) const;
   /// All matches in the order of insertion.
@@ -46,12 +66,14 @@ class ORTUNG_API SensorContainer {
   SensorData* findExactly(const SensorId& id) const;
   std::span<const std::unique_ptr<SensorData>> all() const { return data_; }
 
-  /// Sets one feature's reading. Returns false if the container has no such feature.
-  /// @throws std::invalid_argument for words that the feature refuses
+  /// Sets one feature's reading, and makes what is made of it. Returns false if the container has
+  /// no such feature.
+  /// @throws std::invalid_argument for words that the feature refuses; ExtractorError
   bool set(const Message& message);
   /// Sets all readings of one moment under one lock, or none of them if a feature refuses its
-  /// words; returns how many features it does not have.
-  /// @throws std::invalid_argument for words that a feature refuses
+  /// words; then makes what is made of them, without the lock. Returns how many features it does
+  /// not have.
+  /// @throws std::invalid_argument for words that a feature refuses; ExtractorError
   std::size_t set(std::span<const Message> frame);
 
   /// Shared lock over all readings.
@@ -74,8 +96,11 @@ class ORTUNG_API SensorContainer {
   double getProbability(const Pose2& pose) const;
 
  private:
+  std::size_t take(std::span<const Message> frame, bool& isRead);
+
   std::vector<std::unique_ptr<SensorData>> data_;
   std::vector<SensorData*> targets_;  ///< of the frame that is being set; kept for its memory
+  std::unique_ptr<Extraction> extraction_;
   mutable std::shared_mutex mutex_;
 };
 

@@ -30,6 +30,7 @@ class ORTUNG_API ScanData : public SensorData {
     double maxRange = 8.0;    ///< [m]
     RangeResolution resolution{.metres = 0.05, .perMetre = 0.01};  ///< of a ray table
     Perception perception = Perception::kRays;
+    bool localizes = true;       ///< false: it only serves others, e.g. an Extractor
     int usedBeams = 0;           ///< thin to about this many; 0: all that differ in the table
     double endPointCell = 0.05;  ///< edge of an end-point field's cell [m]
     /// The exponent is that of ray tables: their cells make neighbouring beams err alike.
@@ -53,7 +54,7 @@ class ORTUNG_API ScanData : public SensorData {
                      std::vector<std::uint32_t>& words);
 
   std::string wordsHelp() const override;
-  bool localizes() const override { return true; }
+  bool localizes() const override { return config_.localizes; }
   double headingSpacing() const override;
   /// Range of each beam [m]; the greatest range where nothing is expected to be seen.
   /// With an end-point field: empty, since that does not keep ranges.

@@ -42,7 +42,8 @@ struct Device {
   std::vector<SensorData*> data;
 };
 
-/// Makes the data of all sensors and adds them to @p container; adds a groundTruth/pose feature
+/// Makes the data of all sensors and adds them to @p container, with the extractors of those that
+/// have one, and connects them; adds a groundTruth/pose feature
 /// ("reference/groundTruth/pose") if no sensor gives one. @throws ConfigError, PluginError
 ORTUNG_API std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig& robot,
                                              PluginFactory& factory);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/tables/FieldModel.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 #include "ortung/tables/TableFile.hpp"
 
@@ -24,6 +25,7 @@ struct TableInfo {
     std::string prefix;  ///< of its arrays' names
   };
   std::vector<Feature> features;
+  FieldModel field = {};  ///< what does not move in the world; may be empty
 };
 
 /// Writes all learned features of @p container. @throws TableError
@@ -33,10 +35,11 @@ ORTUNG_API void writeTables(const std::filesystem::path& file, const SensorConta
 /// Reads and checks what a table file says of itself. @throws TableError
 ORTUNG_API TableInfo readTableInfo(const TableFile& file);
 
-/// Gives every localizing feature of @p container its tables.
+/// Gives every localizing feature of @p container its tables, and the container what is known of
+/// the field.
 /// @throws TableError naming the feature that the file lacks or that was learned for a sensor with
 ///   other settings, and both settings
 ORTUNG_API TableInfo loadTables(const std::shared_ptr<const TableFile>& file,
-                                const SensorContainer& container);
+                                SensorContainer& container);
 
 }  // namespace ortung

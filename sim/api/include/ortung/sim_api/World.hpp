@@ -9,7 +9,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/sim_api/Twist.hpp"
-#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/FieldModel.hpp"
 
 namespace ortung {
 
@@ -24,34 +24,8 @@ struct RayFan {
   double maxRange = 8.0;    ///< [m]
 };
 
-/// Something with an identity that a sensor can recognise, e.g. a corner post.
-struct Landmark {
-  std::uint32_t identity = 0;  ///< its number within its kind: post 3
-  std::string kind;            ///< "post"
-  double x = 0.0;              ///< [m]
-  double y = 0.0;              ///< [m]
-  double z = 0.0;              ///< height at which it is looked at [m]
-};
-
 /// Which robot's own body rays ignore; 0: none.
 using RobotNumber = std::uint32_t;
-
-/// A line painted on the floor: straight, or along an ellipse. A filled spot is an arc whose width
-/// is twice its radius. The border of a painted triangle is three straight lines of width 0.
-struct FieldLine {
-  enum class Shape { straight, arc };
-  Shape shape = Shape::straight;
-  double x0 = 0.0, y0 = 0.0;  ///< one end of a straight line's middle [m]
-  double x1 = 0.0, y1 = 0.0;  ///< the other end [m]
-  double x = 0.0, y = 0.0;    ///< middle of the ellipse along which an arc runs [m]
-  double radiusX = 0.0;       ///< of the arc's middle line along the ellipse's own x axis [m]
-  double radiusY = 0.0;       ///< [m]
-  double angle = 0.0;         ///< of the ellipse's own x axis in the field [rad]
-  double from = 0.0;          ///< parameter t of (radiusX cos t, radiusY sin t), where it begins
-  double to = 0.0;            ///< and ends [rad]; from < to
-  double width = 0.0;         ///< [m]
-  std::string colour;         ///< "white", "#rrggbb" or empty
-};
 
 /// A body that a sensor may recognise: a ball, a robot, a post, an obstacle, ...
 struct WorldObject {
@@ -101,9 +75,15 @@ class ORTUNG_API World {
   /// tables are learned there is nothing that moves.
   virtual std::span<const WorldObject> objects() const { return {}; }
 
+  /// Straight walls of maps, as whole walls rather than cells. None of a world without maps.
+  virtual std::span<const FieldWall> mapWalls() const { return {}; }
+
   /// Whether something of this size that stands at a place touches nothing solid that is as high
   /// as it, and lies within the field: it fits under a crossbar if it is no higher.
   virtual bool isFree(double x, double y, const RobotSize& size) const = 0;
 };
+
+/// What a robot may know of a world beforehand: all of it that does not move.
+ORTUNG_API FieldModel fieldModelOf(const World& world);
 
 }  // namespace ortung

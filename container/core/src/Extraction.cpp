@@ -1,0 +1,127 @@
+#include "Extraction.hpp"
+
+#include <algorithm>
+
+#include "ortung/core/SensorContainer.hpp"
+
+namespace ortung {
+
+void Extraction::add(std::string name, std::unique_ptr<Extractor> extractor,
+                     std::vector<SensorData*> outputs) {
+  Step step;
+  step.name = std::move(name);
+  step.extractor = std::move(extractor);
+  step.outputs = std::move(outputs);
+  step.words.resize(step.outputs.size());
+  steps_.push_back(std::move(step));
+}
+
+void Extraction::connect(std::span<const std::unique_ptr<SensorData>> features) {
+  for (Step& step : steps_) {
+    step.inputs.clear();
+    for (const std::string& text : step.extractor->inputs()) {
+      const SensorQuery query = parseSensorQuery(text);
+      const auto found = std::find_if(features.begin(), features.end(),
+                                      [&](const auto& data) { return matches(query, data->id()); });
+      if (found == features.end())
+        throw std::invalid_argument("'" + step.name + "' reads " + text +
+                                    ", which no sensor of this robot gives");
+      step.inputs.push_back(found->get());
+    }
+    step.seen.assign(step.inputs.size(), 0);
+  }
+  order();
+}
+
+/// Sorts by what reads what: first those whose inputs no other step makes.
+void Extraction::order() {
+  std::vector<Step> sorted;
+  const auto has = [](const auto& list, const SensorData* data) {
+    return std::find(list.begin(), list.end(), data) != list.end();
+  };
+  // What a device reads of its own features, something else fills.
+  const auto isMadeBy = [&](const Step& maker, const SensorData* data) {
+    return has(maker.outputs, data) && !has(maker.inputs, data);
+  };
+  const auto waits = [&](const Step& step) {
+    return std::any_of(step.inputs.begin(), step.inputs.end(), [&](const SensorData* input) {
+      return std::any_of(steps_.begin(), steps_.end(),
+                         [&](const Step& other) { return isMadeBy(other, input); });
+    });
+  };
+  while (!steps_.empty()) {
+    const auto next =
+        std::find_if(steps_.begin(), steps_.end(), [&](const Step& step) { return !waits(step); });
+    if (next == steps_.end()) {
+      std::string names;
+      for (const Step& step : steps_) names += (names.empty() ? "'" : ", '") + step.name + "'";
+      throw std::invalid_argument("features are made of each other in a circle: " + names);
+    }
+    sorted.push_back(std::move(*next));
+    steps_.erase(next);
+  }
+  steps_ = std::move(sorted);
+}
+
+bool Extraction::reads(const SensorData& data) const {
+  return std::any_of(steps_.begin(), steps_.end(), [&](const Step& step) {
+    return std::find(step.inputs.begin(), step.inputs.end(), &data) != step.inputs.end();
+  });
+}
+
+/// Whoever comes while another one is at it leaves a number behind, by which that one sees that it
+/// is not done yet.
+void Extraction::run(std::shared_mutex& lock) {
+  ++asked_;
+  while (true) {
+    const std::unique_lock running(running_, std::try_to_lock);
+    if (!running) return;
+    const std::uint64_t done = asked_;
+    runAll(lock);
+    if (asked_ == done) return;
+  }
+}
+
+void Extraction::runAll(std::shared_mutex& lock) {
+  for (Step& step : steps_) {
+    Timestamp stamp = 0;
+    try {
+      {
+        const std::shared_lock reading(lock);
+        if (!take(step, stamp)) continue;
+      }
+      std::fill(step.words.begin(), step.words.end(), std::nullopt);
+      step.extractor->extract(*field_, step.words);
+      const std::unique_lock writing(lock);
+      put(step, stamp);
+    } catch (const std::exception& error) {
+      throw ExtractorError("the extractor of '" + step.name + "' failed: " + error.what());
+    } catch (...) {
+      throw ExtractorError("the extractor of '" + step.name +
+                           "' failed: it threw no std::exception");
+    }
+  }
+}
+
+/// Whether there is something new. @param stamp of the newest input
+bool Extraction::take(Step& step, Timestamp& stamp) {
+  bool isNew = false;
+  std::vector<const SensorData*> readings;
+  for (std::size_t i = 0; i < step.inputs.size(); ++i) {
+    const SensorData& input = *step.inputs[i];
+    isNew = isNew || input.sequence() != step.seen[i];
+    step.seen[i] = input.sequence();
+    readings.push_back(input.sequence() > 0 ? &input : nullptr);
+    if (input.sequence() > 0)
+      stamp = readings.size() == 1 ? input.stamp() : std::max(stamp, input.stamp());
+  }
+  if (isNew) step.extractor->take(readings);
+  return isNew;
+}
+
+void Extraction::put(Step& step, Timestamp stamp) {
+  for (std::size_t i = 0; i < step.outputs.size(); ++i)
+    if (step.words[i]) step.outputs[i]->setData(stamp, *step.words[i]);
+}
+
+}  // namespace ortung

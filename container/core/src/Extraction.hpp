@@ -1,0 +1,54 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <string>
+#include <vector>
+
+#include "ortung/core/Extractor.hpp"
+
+namespace ortung {
+
+/// The extractors of a container, in an order in which each finds its inputs made.
+/// run() is thread-safe; the rest belongs to setting up.
+class Extraction {
+ public:
+  void add(std::string name, std::unique_ptr<Extractor> extractor,
+           std::vector<SensorData*> outputs);
+  /// Finds inputs and order. @throws std::invalid_argument for inputs that are not there or depend
+  /// on what is made of them
+  void connect(std::span<const std::unique_ptr<SensorData>> features);
+  void setField(std::shared_ptr<const FieldModel> field) { field_ = std::move(field); }
+
+  /// Whether anything is made of a feature.
+  bool reads(const SensorData& data) const;
+  bool isEmpty() const { return steps_.empty(); }
+  /// Makes whatever has new inputs. If another thread is at it, that one does it.
+  /// @param lock of the container
+  /// @throws ExtractorError
+  void run(std::shared_mutex& lock);
+
+ private:
+  struct Step {
+    std::string name;
+    std::unique_ptr<Extractor> extractor;
+    std::vector<SensorData*> outputs;
+    std::vector<const SensorData*> inputs;
+    std::vector<std::uint64_t> seen;  ///< by input: sequence number of the last reading taken
+    std::vector<std::optional<Extractor::Words>> words;
+  };
+  static bool take(Step& step, Timestamp& stamp);
+  static void put(Step& step, Timestamp stamp);
+  void runAll(std::shared_mutex& lock);
+  void order();
+
+  std::vector<Step> steps_;
+  std::shared_ptr<const FieldModel> field_ = std::make_shared<FieldModel>();
+  std::mutex running_;
+  std::atomic<std::uint64_t> asked_ = 0;
+};
+
+}  // namespace ortung

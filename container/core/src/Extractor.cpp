@@ -1,0 +1,8 @@
+#include "ortung/core/Extractor.hpp"
+
+namespace ortung {
+
+ExtractorError::~ExtractorError() = default;
+Extractor::~Extractor() = default;
+
+}  // namespace ortung

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Pose2.hpp"
+
+namespace ortung {
+
+/// Something with an identity that a sensor can recognise, e.g. a corner post.
+struct Landmark {
+  std::uint32_t identity = 0;  ///< its number within its kind: post 3
+  std::string kind;            ///< "post"
+  double x = 0.0;              ///< [m]
+  double y = 0.0;              ///< [m]
+  double z = 0.0;              ///< height at which it is looked at [m]
+};
+
+/// A line painted on the floor: straight, or along an ellipse. A filled spot is an arc whose width
+/// is twice its radius. The border of a painted triangle is three straight lines of width 0.
+struct FieldLine {
+  enum class Shape { straight, arc };
+  Shape shape = Shape::straight;
+  double x0 = 0.0, y0 = 0.0;  ///< one end of a straight line's middle [m]
+  double x1 = 0.0, y1 = 0.0;  ///< the other end [m]
+  double x = 0.0, y = 0.0;    ///< middle of the ellipse along which an arc runs [m]
+  double radiusX = 0.0;       ///< of the arc's middle line along the ellipse's own x axis [m]
+  double radiusY = 0.0;       ///< [m]
+  double angle = 0.0;         ///< of the ellipse's own x axis in the field [rad]
+  double from = 0.0;          ///< parameter t of (radiusX cos t, radiusY sin t), where it begins
+  double to = 0.0;            ///< and ends [rad]; from < to
+  double width = 0.0;         ///< [m]
+  std::string colour;         ///< "white", "#rrggbb" or empty
+};
+
+/// A straight surface of something solid that does not move. Who sees it has it on the right: the
+/// solid is on the right of the way from the first end to the second, the free side on its left.
+struct FieldWall {
+  double x0 = 0.0;  ///< in the field frame [m]
+  double y0 = 0.0;
+  double x1 = 0.0;
+  double y1 = 0.0;
+  double zLow = 0.0;    ///< [m]
+  double zHigh = 0.0;   ///< [m]
+  bool ofGoal = false;  ///< or of a wall
+};
+
+/// A goal: a body whose mouth looks along its own x axis or against it.
+struct FieldGoal {
+  std::string name;    ///< as in the world file
+  std::string colour;  ///< "blue", "#rrggbb" or empty
+  Pose2 pose;          ///< of its middle, in the field frame
+  double halfX = 0.0;  ///< half its extent along its own axes [m]
+  double halfY = 0.0;  ///< [m]
+  double zHigh = 0.0;  ///< [m]
+};
+
+/// What a robot knows of the field beforehand, besides what its sensors learn: for features that
+/// are made of other features (Extractor). The learner takes it from the world and keeps it with
+/// the tables.
+struct FieldModel {
+  std::vector<FieldLine> lines;
+  std::vector<FieldWall> walls;  ///< the longest first
+  std::vector<FieldGoal> goals;
+  std::vector<Landmark> landmarks;
+
+  bool isEmpty() const {
+    return lines.empty() && walls.empty() && goals.empty() && landmarks.empty();
+  }
+};
+
+}  // namespace ortung

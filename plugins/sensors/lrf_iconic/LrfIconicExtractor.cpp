@@ -1,0 +1,74 @@
+#include "LrfIconicExtractor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "WallMatcher.hpp"
+
+namespace ortung {
+
+LrfIconicExtractor::LrfIconicExtractor(const Parameters& p) : settings_(readLrfIconicSettings(p)) {}
+
+std::vector<std::string> LrfIconicExtractor::inputs() const {
+  if (!settings_.reads.empty()) return {settings_.reads};
+  SensorId scan = settings_.id;
+  scan.feature = LrfIconicSettings::kScan;
+  return {toText(scan)};
+}
+
+void LrfIconicExtractor::take(std::span<const SensorData* const> inputs) {
+  const auto* scan = dynamic_cast<const ScanData*>(inputs[0]);
+  if (scan == nullptr)
+    throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
+  scan_ = scan->reading();
+  for (float& range : scan_.ranges)
+    if (std::isinf(range)) range = std::numeric_limits<float>::quiet_NaN();
+  mount_ = scan->mount();
+  maxRange_ = scan->config().maxRange;
+}
+
+void LrfIconicExtractor::extract(const FieldModel& field, std::span<std::optional<Words>> words) {
+  const ScanShapes shapes =
+      shapesOf(scan_.ranges, scan_.firstAngle, scan_.angleStep, settings_.shapes);
+  const std::vector<FieldWall> walls =
+      wallsAt(field, settings_.mounting.z, settings_.shapes.shortest);
+  // Matching is no better than the scan's rounding, however little noise there is.
+  constexpr double kFinest = 0.005;  // [m]
+  const double sigma = settings_.rangeSigma + settings_.rangeSigmaPerMetre * 0.5 * maxRange_;
+  const WallMatcher matcher(walls, {.rangeSigma = std::max(kFinest, sigma),
+                                    .shareMatched = settings_.shareMatched,
+                                    .mostFixes = settings_.mostFixes});
+  const std::vector<PoseFixData::Fix> fixes = matcher.match(shapes.segments, mount_);
+  words[0] = ObstaclesData::encode(obstacles(shapes, matcher, fixes));
+  // Who knows no walls can't say that there is no position.
+  if (!walls.empty()) words[1] = PoseFixData::encode(fixes);
+}
+
+/// What is no wall; without a position, everything.
+ObstaclesData::Reading LrfIconicExtractor::obstacles(
+    const ScanShapes& shapes, const WallMatcher& matcher,
+    const std::vector<PoseFixData::Fix>& fixes) const {
+  ObstaclesData::Reading list;
+  for (const ScanCircle& c : shapes.circles)
+    list.push_back({.shape = ObstaclesData::Shape::kCircle,
+                    .x = c.middle.x,
+                    .y = c.middle.y,
+                    .radius = c.radius});
+  for (const StraightPiece& s : shapes.segments) {
+    const bool isWall = std::any_of(fixes.begin(), fixes.end(), [&](const PoseFixData::Fix& fix) {
+      return matcher.isOfWall(s, mount_, fix.pose);
+    });
+    if (isWall) continue;
+    list.push_back({.shape = ObstaclesData::Shape::kSegment,
+                    .x = s.from.x,
+                    .y = s.from.y,
+                    .radius = 0.0,
+                    .endX = s.to.x,
+                    .endY = s.to.y});
+  }
+  if (list.size() > ObstaclesData::kMostObstacles) list.resize(ObstaclesData::kMostObstacles);
+  return list;
+}
+
+}  // namespace ortung

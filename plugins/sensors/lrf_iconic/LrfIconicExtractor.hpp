@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "LrfIconicSettings.hpp"
+#include "ScanShapes.hpp"
+#include "ortung/core/Extractor.hpp"
+
+namespace ortung {
+
+class WallMatcher;
+
+/// Takes a scan apart, and compares its straight pieces with the field's walls and goals: the same
+/// for simulated, recorded and real scans. Features: obstacles, position.
+class LrfIconicExtractor : public Extractor {
+ public:
+  explicit LrfIconicExtractor(const Parameters& p);
+
+  std::vector<std::string> inputs() const override;
+  void take(std::span<const SensorData* const> inputs) override;
+  void extract(const FieldModel& field, std::span<std::optional<Words>> words) override;
+
+ private:
+  ObstaclesData::Reading obstacles(const ScanShapes& shapes, const WallMatcher& matcher,
+                                   const std::vector<PoseFixData::Fix>& fixes) const;
+
+  LrfIconicSettings settings_;
+  ScanData::Reading scan_;
+  Pose2 mount_;            ///< of the scanner in the robot frame
+  double maxRange_ = 0.0;  ///< [m]
+};
+
+}  // namespace ortung

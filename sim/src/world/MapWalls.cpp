@@ -1,0 +1,133 @@
+#include "MapWalls.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ortung/base/StraightPieces.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kShortest = 0.3;  // [m]
+constexpr std::size_t kMostWalls = 4096;
+constexpr double kRaggedCells = 1.2;  // how far from straight a drawn wall may be
+
+/// Directions of an outline: the way goes along the edge of an occupied cell with the free cell on
+/// its left. In the order of turning left.
+enum Way : std::uint8_t { kEast, kNorth, kWest, kSouth, kWays };
+constexpr std::array<int, kWays> kColumns = {1, 0, -1, 0};
+constexpr std::array<int, kWays> kRows = {0, 1, 0, -1};
+
+/// Follows the edges between occupied and free cells.
+class Outlines {
+ public:
+  explicit Outlines(const GridMap& map)
+      : map_(map),
+        isLeft_(static_cast<std::size_t>(map.columns + 1) * static_cast<std::size_t>(map.rows + 1),
+                0) {
+    for (int row = 0; row <= map.rows; ++row)
+      for (int column = 0; column <= map.columns; ++column)
+        for (int way = 0; way < kWays; ++way)
+          if (isEdge(column, row, way)) at(column, row) |= bit(way);
+  }
+
+  /// Calls found(points, isClosed) with the middles of the edges of each outline.
+  template <class Found>
+  void forEach(const Found& found) {
+    for (int row = 0; row <= map_.rows; ++row)
+      for (int column = 0; column <= map_.columns; ++column)
+        while (at(column, row) != 0) found(follow(column, row));
+  }
+
+ private:
+  static std::uint8_t bit(int way) { return static_cast<std::uint8_t>(1U << way); }
+  std::uint8_t& at(int column, int row) {
+    return isLeft_[static_cast<std::size_t>(row) * static_cast<std::size_t>(map_.columns + 1) +
+                   static_cast<std::size_t>(column)];
+  }
+  bool is(int column, int row, bool occupied) const {
+    if (column < 0 || row < 0 || column >= map_.columns || row >= map_.rows) return false;
+    const GridCell cell = map_.at(column, row);
+    return occupied ? cell == GridCell::occupied
+                    : cell == GridCell::free || cell == GridCell::unknownNearFree;
+  }
+  /// Whether the edge from a corner of cells has a free cell on its left and a solid on its right.
+  bool isEdge(int column, int row, int way) const {
+    constexpr std::array<int, kWays> leftColumn = {0, -1, -1, 0};
+    constexpr std::array<int, kWays> leftRow = {0, 0, -1, -1};
+    const auto left = static_cast<std::size_t>(way);
+    const auto right = static_cast<std::size_t>((way + kWays - 1) % kWays);
+    return is(column + leftColumn[left], row + leftRow[left], false) &&
+           is(column + leftColumn[right], row + leftRow[right], true);
+  }
+
+  std::vector<PlanePoint> follow(int column, int row) {
+    std::vector<PlanePoint> points;
+    const int firstColumn = column;
+    const int firstRow = row;
+    int way = 0;
+    while (at(column, row) != 0) {
+      // Where two outlines touch, turn left: they stay two.
+      for (const int turn : {1, 0, 3, 2}) {
+        const int next = (way + turn) % kWays;
+        if ((at(column, row) & bit(next)) == 0) continue;
+        way = next;
+        break;
+      }
+      at(column, row) = static_cast<std::uint8_t>(at(column, row) & ~bit(way));
+      const auto w = static_cast<std::size_t>(way);
+      points.push_back({map_.originX + (column + 0.5 * kColumns[w]) * map_.cell,
+                        map_.originY + (row + 0.5 * kRows[w]) * map_.cell});
+      column += kColumns[w];
+      row += kRows[w];
+    }
+    if (column == firstColumn && row == firstRow) beginAtACorner(points);
+    return points;
+  }
+
+  /// Closed outlines must not begin in the middle of a wall: what is farthest from the middle is a
+  /// corner.
+  static void beginAtACorner(std::vector<PlanePoint>& points) {
+    PlanePoint mean;
+    for (const PlanePoint& p : points) {
+      mean.x += p.x / static_cast<double>(points.size());
+      mean.y += p.y / static_cast<double>(points.size());
+    }
+    const auto isNearer = [&](const PlanePoint& a, const PlanePoint& b) {
+      return distance(a, mean) < distance(b, mean);
+    };
+    std::rotate(points.begin(), std::max_element(points.begin(), points.end(), isNearer),
+                points.end());
+  }
+
+  const GridMap& map_;
+  std::vector<std::uint8_t> isLeft_;  ///< by corner of cells: ways of edges that begin there
+};
+
+double lengthOf(const FieldWall& w) { return std::hypot(w.x1 - w.x0, w.y1 - w.y0); }
+
+}  // namespace
+
+void addMapWalls(const GridBody& body, std::vector<FieldWall>& walls) {
+  const StraightPiecesConfig config{
+      .tolerance = kRaggedCells * body.map.cell, .shortest = kShortest, .fewestPoints = 3};
+  std::vector<FieldWall> found;
+  Outlines(body.map).forEach([&](const std::vector<PlanePoint>& outline) {
+    for (const StraightPiece& piece : straightPiecesOf(outline, config)) {
+      // Rays end behind the outline: so does the wall that is seen.
+      const double length = distance(piece.from, piece.to);
+      const double x = body.surfaceDepth * (piece.to.y - piece.from.y) / length;
+      const double y = -body.surfaceDepth * (piece.to.x - piece.from.x) / length;
+      found.push_back({piece.from.x + x, piece.from.y + y, piece.to.x + x, piece.to.y + y,
+                       body.zLow, body.zHigh, false});
+    }
+  });
+  std::stable_sort(found.begin(), found.end(), [](const FieldWall& a, const FieldWall& b) {
+    return lengthOf(a) > lengthOf(b);
+  });
+  if (found.size() > kMostWalls) found.resize(kMostWalls);
+  walls.insert(walls.end(), found.begin(), found.end());
+}
+
+}  // namespace ortung
