@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "WorldFiles.hpp"
-#include "ortung/sim/Scene.hpp"
+#include "ortung/sim/SceneRun.hpp"
 
 namespace ortung::test {
 namespace {
@@ -12,16 +12,16 @@ namespace {
 struct Played {
   explicit Played(double seconds, const Simulation::Config& config = {}) {
     const Scene scene = Scene::read(ORTUNG_SOURCE_DIR "/maps/scenes/kick.toml");
-    player = std::make_unique<ScenePlayer>(scene, config, factory);
-    while (toSeconds(player->simulation().now()) < seconds) player->step();
+    run = std::make_unique<SceneRun>(scene, config, factory);
+    while (toSeconds(run->simulation().now()) < seconds) run->step();
   }
   const SimRobot& robot(const std::string& name) const {
-    return *player->simulation().robots()[player->find(name).value()];
+    return *run->simulation().robots()[run->find(name).value()];
   }
-  const Simulation::Thing& ball() const { return player->simulation().things()[0]; }
+  const Simulation::Thing& ball() const { return run->simulation().things()[0]; }
 
   PluginFactory factory{PluginFactory::standardFolders()};
-  std::unique_ptr<ScenePlayer> player;
+  std::unique_ptr<SceneRun> run;
 };
 
 double speedOf(const Twist& velocity) { return std::hypot(velocity.x, velocity.y); }

@@ -37,6 +37,8 @@ std::string currentErrorText() {
     return "ERR argument " + printable(error.what());
   } catch (const std::exception& error) {
     return "ERR internal " + printable(error.what());
+  } catch (...) {  // commands of whoever hosts the board may throw anything
+    return "ERR internal it threw no std::exception";
   }
 }
 
@@ -45,6 +47,7 @@ WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
     : world_(world),
       config_(config),
       onCycle_(std::move(onCycle)),
+      livePeriod_(world.livePeriod()),
       speed_(config.speed),
       isFree_(config.pace != Pace::kRealTime) {
   for (Resident& resident : world_.residents()) {
@@ -96,7 +99,8 @@ bool WorldKeeper::mayAdvance() const {
 }
 
 /// What the clock shows at most before the next cycle, however late that is: one cycle more.
-Timestamp WorldKeeper::latest() const { return world_.now() + cycle_; }
+/// A live world's clock can't be held up.
+Timestamp WorldKeeper::latest() const { return isLive() ? kNever : world_.now() + cycle_; }
 
 void WorldKeeper::anchor(Timestamp wall) {
   anchorStamp_ = world_.now();
@@ -112,6 +116,7 @@ Timestamp WorldKeeper::due() {
     wasBlocked_ = true;
     return kNever;
   }
+  if (isLive()) return nextLook_;
   if (isFree_ || isPaused_) {
     if (std::exchange(wasBlocked_, false)) anchor(wallTime());
     return 0;
@@ -133,7 +138,10 @@ Timestamp WorldKeeper::due() {
 }
 
 void WorldKeeper::run(const std::function<bool()>& goesOn) {
-  anchor(wallTime());
+  if (isLive())
+    follow(wallTime() - livePeriod_);  // the first look is due at once
+  else
+    anchor(wallTime());
   while (!isStopped_ && (!goesOn || goesOn())) {
     const Timestamp next = due();
     const Timestamp now = wallTime();
@@ -193,11 +201,13 @@ void WorldKeeper::cycle(Timestamp due) {
     fail(error.what());
     return;
   }
-  cycle_ = world_.now() - stamp;
+  cycle_ = isLive() ? livePeriod_ : world_.now() - stamp;
   const double behind = static_cast<double>(begin - due) * speed_;
   if (!isFree_ && !isPaused_ && behind > static_cast<double>(cycle_)) ++missed_;
   for (const auto& [id, robot] : robots_) robot.readings->publish(world_.readings(id));
-  if (isFree_ || isPaused_)
+  if (isLive())
+    follow(begin);
+  else if (isFree_ || isPaused_)
     clock_.set(world_.now(), begin, 0.0);
   else
     clock_.permit(latest());
@@ -233,18 +243,38 @@ void WorldKeeper::fail(const std::string& why) {
   if (stepsDone_) std::exchange(stepsDone_, {})(text);
 }
 
+/// Sets the clock by that of a live world, and when to look at it again.
+void WorldKeeper::follow(Timestamp looked) {
+  wasBlocked_ = false;
+  clock_.set(world_.now(), wallTime(), 1.0);
+  nextLook_ = looked + livePeriod_;
+}
+
+void WorldKeeper::refuseIfLive(const char* what) const {
+  if (isLive())
+    throw ServeError("live", std::string("this is a running robot: its time can't be ") + what);
+}
+
+void WorldKeeper::pause() {
+  refuseIfLive("paused");
+  isPaused_ = true;
+}
+
 void WorldKeeper::setSpeed(double speed) {
+  refuseIfLive("made faster or slower");
   isFree_ = speed == 0.0;
   if (!isFree_) speed_ = speed;
   anchor(wallTime());
 }
 
 void WorldKeeper::resume() {
+  refuseIfLive("paused");
   isPaused_ = false;
   wasBlocked_ = true;  // the clock has stood still
 }
 
 void WorldKeeper::step(std::uint64_t cycles, Done done) {
+  refuseIfLive("stepped");
   if (!isPaused_) throw ServeError("state", "STEP is for a simulation that is paused");
   if (steps_ > 0) throw ServeError("state", "there are steps under way already");
   if (!failure_.empty() || world_.isAtEnd()) throw ServeError("end", "there is nothing to come");
@@ -253,6 +283,7 @@ void WorldKeeper::step(std::uint64_t cycles, Done done) {
 }
 
 void WorldKeeper::reset(std::optional<std::uint64_t> seed) {
+  refuseIfLive("started over");
   world_.reset(seed);
   failure_.clear();
   score = {};
@@ -275,8 +306,9 @@ WorldKeeper::Client& WorldKeeper::client(ClientId id) {
   return found->second;
 }
 
-void WorldKeeper::join(ClientId client, const std::string& name) {
+void WorldKeeper::join(ClientId client, const std::string& name, bool isOperator) {
   clients_[client].name = name;
+  clients_[client].isOperator = isOperator;
   clientCount_ = clients_.size();
 }
 
@@ -284,6 +316,9 @@ void WorldKeeper::leave(ClientId client) {
   const auto found = clients_.find(client);
   if (found == clients_.end()) return;
   for (const RobotId robot : found->second.robots) remove(robot);
+  for (const auto& [robot, commander] : commanders_)
+    if (commander == client) halt(robot);
+  std::erase_if(commanders_, [&](const auto& entry) { return entry.second == client; });
   clients_.erase(found);
   clientCount_ = clients_.size();
   robotCount_ = robots_.size();
@@ -348,6 +383,31 @@ void WorldKeeper::checkOwner(ClientId client, RobotId robot) const {
     throw ServeError("not-yours", "robot " + std::to_string(robot) + " belongs to another client");
 }
 
+RobotCommands& WorldKeeper::commands(ClientId id, RobotId robot) {
+  if (!isLive()) {
+    checkOwner(id, robot);
+    return world_.commands(robot);
+  }
+  if (!client(id).isOperator)
+    throw ServeError("role", "commanding a running robot needs the role operator");
+  RobotCommands& commands = world_.commands(robot);
+  commanders_[robot] = id;
+  return commands;
+}
+
+/// A robot on a simulated field leaves it with its client; a live one must not drive on alone.
+void WorldKeeper::halt(RobotId robot) {
+  try {
+    RobotCommands& commands = world_.commands(robot);
+    commands.setTranslationalVelocity(0.0);
+    commands.setRotationalVelocity(0.0);
+  } catch (const std::exception& error) {
+    if (config_.log)
+      config_.log("robot " + std::to_string(robot) +
+                  " could not be stopped when its commander left: " + error.what());
+  }
+}
+
 std::shared_ptr<RobotReadings> WorldKeeper::readings(RobotId robot) const {
   const auto found = robots_.find(robot);
   if (found == robots_.end())
@@ -356,6 +416,7 @@ std::shared_ptr<RobotReadings> WorldKeeper::readings(RobotId robot) const {
 }
 
 void WorldKeeper::setLockstep(ClientId id, bool isLockstep) {
+  if (isLockstep) refuseIfLive("held up");
   Client& its = client(id);
   its.isLockstep = isLockstep;
   if (!isLockstep && its.waiting) {
