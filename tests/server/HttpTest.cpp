@@ -107,16 +107,18 @@ TEST(Http, WhoeverHostsTheBoardMayTakeTheConnection) {
     ::close(socket);
     return true;
   };
-  const RunningBoard board(world, config);
-  TestClient client(board.port());
-  client.send(kGet.substr(0, 20));
-  client.send(kGet.substr(20));
-  EXPECT_EQ(client.rest(), "HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\nhi");
-  EXPECT_EQ(taken, kGet);
-  TestClient other(board.port());
-  other.send("GET /else HTTP/1.1\r\n\r\n");
-  EXPECT_TRUE(other.rest().starts_with("HTTP/1.1 501 "));
-  EXPECT_TRUE(TestClient(board.port()).ask("HELLO ortung/1").starts_with("OK HELLO"));
+  {
+    const RunningBoard board(world, config);
+    TestClient client(board.port());
+    client.send(kGet.substr(0, 20));
+    client.send(kGet.substr(20));
+    EXPECT_EQ(client.rest(), "HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\nhi");
+    TestClient other(board.port());
+    other.send("GET /else HTTP/1.1\r\n\r\n");
+    EXPECT_TRUE(other.rest().starts_with("HTTP/1.1 501 "));
+    EXPECT_TRUE(TestClient(board.port()).ask("HELLO ortung/1").starts_with("OK HELLO"));
+  }
+  EXPECT_EQ(taken, kGet);  // the board's threads have ended
 }
 
 TEST(Http, AFailureOfWhoeverTakesItHarmsNobody) {
