@@ -166,6 +166,18 @@ TEST_F(ServedContainerTest, OperatorsCommandItAndItStopsWhenTheyLeave) {
   EXPECT_EQ(motors_.told(), "v5 w-2 wheels1 v0 w0 ");
 }
 
+TEST_F(ServedContainerTest, ItStopsWhenTheServerEnds) {
+  const auto world = served(&motors_);
+  {
+    const RunningBoard board(*world, config_);
+    TestClient olga(board.port());
+    olga.ask("HELLO ortung/1 name=olga");
+    EXPECT_EQ(olga.ask("VELOCITY v_m_s=0.5"), "OK VELOCITY");
+    EXPECT_EQ(motors_.told(), "v5 ");
+  }
+  EXPECT_EQ(motors_.told(), "v5 v0 w0 ");
+}
+
 TEST_F(ServedContainerTest, WithoutCommandsNobodyCommandsIt) {
   const auto world = served();
   const RunningBoard board(*world, config_);

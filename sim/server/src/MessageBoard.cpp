@@ -195,10 +195,12 @@ void MessageBoard::run(const std::function<bool()>& goesOn) {
   try {
     parts_->keeper_.run(goesOn);
   } catch (...) {
+    parts_->keeper_.haltCommanded();
     asio::post(parts_->io_, [this] { parts_->shutDown(); });
     clients.join();
     throw;
   }
+  parts_->keeper_.haltCommanded();
   asio::post(parts_->io_, [this] { parts_->shutDown(); });
   clients.join();
 }

@@ -395,6 +395,11 @@ RobotCommands& WorldKeeper::commands(ClientId id, RobotId robot) {
   return commands;
 }
 
+void WorldKeeper::haltCommanded() {
+  for (const auto& [robot, commander] : commanders_) halt(robot);
+  commanders_.clear();
+}
+
 /// A robot on a simulated field leaves it with its client; a live one must not drive on alone.
 void WorldKeeper::halt(RobotId robot) {
   try {

@@ -36,6 +36,8 @@ class WorldKeeper {
 
   void give(Order order, Done done);
   void run(const std::function<bool()>& goesOn);
+  /// Stops the live robots that clients have commanded; for the end of run(), on its thread.
+  void haltCommanded();
   void stop();
   BoardStatistics statistics() const;
   const BoardClock& clock() const { return clock_; }
