@@ -48,9 +48,8 @@ struct BoardToken {
 /// @param socket connected and non-blocking; nothing is read from it any more
 /// @param head all that was read: the request's head with the empty line that ends it, at most
 ///   BoardLimits::httpHead bytes, and whatever has come behind it
-/// @returns whether it has taken the connection: then the socket is its own, to be closed when it
-/// is
-///   done; otherwise the board answers that it is no web server, and closes it
+/// @returns whether it has taken the connection: then it closes the socket when it is done;
+///   otherwise the board answers that it is no web server, and closes it
 /// Called on the thread that talks to clients, so it must not wait; it may throw: not taken.
 using HttpTaker = std::function<bool(int socket, const std::string& head)>;
 
