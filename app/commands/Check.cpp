@@ -15,7 +15,7 @@
 #include "ortung/robot/TableInfo.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/RobotShape.hpp"
-#include "ortung/sim/Scene.hpp"
+#include "ortung/sim/SceneRun.hpp"
 #include "ortung/sim_api/Drive.hpp"
 
 namespace ortung::app {
@@ -77,9 +77,9 @@ void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
 void checkSceneFile(const fs::path& file) {
   const Scene scene = Scene::read(file);
   PluginFactory factory(PluginFactory::standardFolders());
-  const ScenePlayer player(scene, {}, factory);
+  const SceneRun run(scene, {}, factory);
   fmt::print("{}: scene in the world '{}', {} robots, {} commands\n", printable(file.string()),
-             printable(player.simulation().world().name()), scene.robots.size(),
+             printable(run.simulation().world().name()), scene.robots.size(),
              scene.commands.size());
 }
 

@@ -15,8 +15,8 @@
 #include "Progress.hpp"
 #include "Serving.hpp"
 #include "ortung/core/Record.hpp"
-#include "ortung/server/ServedSimulation.hpp"
-#include "ortung/sim/Scene.hpp"
+#include "ortung/served/ServedSimulation.hpp"
+#include "ortung/sim/SceneRun.hpp"
 
 namespace ortung::app {
 namespace {
@@ -118,12 +118,12 @@ int play(const SimArguments& arguments) {
     if (!file->empty()) checkOutput(*file);
   const Scene scene = sceneOf(arguments);
   PluginFactory factory(PluginFactory::standardFolders());
-  ScenePlayer player(scene, configOf(arguments), factory);
-  Simulation& simulation = player.simulation();
+  SceneRun run(scene, configOf(arguments), factory);
+  Simulation& simulation = run.simulation();
   const std::string recorded = arguments.recorded.empty() && !scene.robots.empty()
                                    ? scene.robots.front().name
                                    : arguments.recorded;
-  const auto robot = player.find(recorded);
+  const auto robot = run.find(recorded);
   std::unique_ptr<RecordWriter> record;
   if (!arguments.record.empty()) {
     if (scene.robots.empty()) throw UsageError("--record: there is no robot; see --robot");
@@ -139,7 +139,7 @@ int play(const SimArguments& arguments) {
     Progress progress("simulating", false);
     while (interruptSignal() == 0 && !(duration && simulation.now() > fromSeconds(*duration))) {
       if (!arguments.trace.empty()) trace.add(simulation);
-      player.step();
+      run.step();
       ++cycles;
       if (record)
         for (const Message& message : simulation.readings(*robot)) record->write(message);

@@ -22,8 +22,8 @@
 #include <thread>
 #include <vector>
 
+#include "ortung/served/ServedSimulation.hpp"
 #include "ortung/server/MessageBoard.hpp"
-#include "ortung/server/ServedSimulation.hpp"
 
 namespace {
 

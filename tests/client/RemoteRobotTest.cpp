@@ -10,7 +10,7 @@
 #include "ortung/client/ortung_client.h"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScanData.hpp"
-#include "ortung/server/ServedSimulation.hpp"
+#include "ortung/served/ServedSimulation.hpp"
 
 namespace ortung::test {
 namespace {
@@ -39,7 +39,7 @@ TEST(RemoteRobot, TheContainerFillsItselfAndTheRobotMoves) {
   const RunningBoard board(world, config);
   RemoteRobot robot(kRobot, to(board.port()));
   EXPECT_TRUE(robot.isConnected());
-  EXPECT_TRUE(robot.setRotationalVelocity(1.0)) << robot.trouble();
+  robot.setRotationalVelocity(1.0);
   const auto turned = [&] {
     const auto odometry = robot.container().get<OdometryData>({.type = "odometry"});
     return odometry && std::abs(odometry->pose.theta) > 0.2;
@@ -78,7 +78,8 @@ TEST(RemoteRobot, WhatTheServerRefusesIsTold) {
   ServedSimulation world(kWorld, {});
   const RunningBoard board(world, onPort(0));
   RemoteRobot robot(kRobot, to(board.port()));
-  EXPECT_FALSE(robot.setManipulator("arm", "up"));
+  EXPECT_THROW(robot.setMotion(std::vector<double>(9)), std::invalid_argument);
+  EXPECT_THROW(robot.setManipulator("arm", "up"), std::invalid_argument);
   EXPECT_NE(robot.trouble().find("no manipulator 'arm'"), std::string::npos) << robot.trouble();
   EXPECT_TRUE(robot.isConnected());
 
@@ -103,13 +104,13 @@ TEST(RemoteRobot, AServerThatDiesIsToldAndFoundAgain) {
   board.reset();
   while (robot.isConnected()) std::this_thread::yield();
   EXPECT_NE(robot.trouble().find("127.0.0.1:" + std::to_string(port)), std::string::npos);
-  EXPECT_FALSE(robot.setTranslationalVelocity(0.1));
+  EXPECT_THROW(robot.setTranslationalVelocity(0.1), ConnectionLost);
 
   ServedSimulation again(kWorld, {});
   const RunningBoard next(again, onPort(port));
   ASSERT_TRUE(robot.waitForUpdate(20.0)) << robot.trouble();
   EXPECT_TRUE(robot.isConnected());
-  EXPECT_TRUE(robot.setTranslationalVelocity(0.1)) << robot.trouble();
+  robot.setTranslationalVelocity(0.1);
   const std::lock_guard lock(mutex);
   ASSERT_GE(told.size(), 2u);
   EXPECT_TRUE(told.back().starts_with("connected again")) << told.back();
@@ -149,7 +150,7 @@ TEST(RemoteRobot, ReadingsInBinaryFormAreTheSame) {
     options.cycle = 0.0;
     options.session.isBinary = isBinary;
     RemoteRobot robot(kRobot, options);
-    ASSERT_TRUE(robot.setRotationalVelocity(1.0));
+    robot.setRotationalVelocity(1.0);
     ASSERT_TRUE(robot.next(50)) << robot.trouble();
     ASSERT_TRUE(robot.update()) << robot.trouble();  // nothing is new
     const auto words = robot.container().find({.type = "LRF"})->getData();

@@ -7,7 +7,7 @@
 #include "ortung/client/RobotSession.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
-#include "ortung/server/ServedSimulation.hpp"
+#include "ortung/served/ServedSimulation.hpp"
 
 namespace ortung::test {
 namespace {

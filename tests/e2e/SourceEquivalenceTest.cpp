@@ -10,8 +10,8 @@
 #include "Files.hpp"
 #include "Localization.hpp"
 #include "ortung/client/RemoteRobot.hpp"
+#include "ortung/served/ServedSimulation.hpp"
 #include "ortung/server/ServedRecord.hpp"
-#include "ortung/server/ServedSimulation.hpp"
 
 namespace ortung::test {
 namespace {

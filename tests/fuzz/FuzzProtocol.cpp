@@ -7,6 +7,7 @@
 
 #include "../server/CountingWorld.hpp"
 #include "Conversation.hpp"
+#include "Http.hpp"
 
 namespace {
 
@@ -65,11 +66,29 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
+/// Says the same again, and whatever the words are, as they are.
+BoardCommand echo() {
+  return {"ECHO", "", false, [](const BoardCommand::Call& call) {
+            BoardCommand::Reply reply{"", call.words};
+            for (const auto& [key, value] : call.keys) reply.lines.push_back(key + "=" + value);
+            return reply;
+          }};
+}
+
+void judge(std::string_view bytes) {
+  const std::size_t head = httpHeadLength(bytes);
+  require(head == bytes.npos || head <= bytes.size());
+  if (speechOf(bytes) == Speech::kHttp) require(!httpAnswer(bytes, "400", "no").empty());
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string_view rest(reinterpret_cast<const char*>(data), size);
+  judge(rest);
   test::CountingWorld world(3);
   BoardConfig config;
+  config.commands = {echo()};
   config.pace = Pace::kLockstep;
   config.control = {"*"};
   config.limits.output = 20'000;
@@ -89,7 +108,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::make_shared<Conversation>(inlineHost, id, std::make_unique<SlowOutlet>()));
 
   std::size_t speaker = 0;
-  std::string_view rest(reinterpret_cast<const char*>(data), size);
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find_first_of("\xFE\xFF"), rest.size());
     inlineHost.conversations[speaker]->receive(rest.substr(0, end));

@@ -18,13 +18,15 @@ deny() {
 }
 
 foreign='mrpt|opencv|embree|GL/|box2d|boost|spdlog|fmt/|CLI/'
-deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|client)|$foreign"
+deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|served|client)|$foreign"
 deny 'container' 'toml\+\+|toml\.|nlohmann' 'container/robot/'
-deny 'mcl' "ortung/(sim|sim_api|realsensors|server|client|robot)|toml|nlohmann|$foreign"
-deny 'sim/api' "ortung/(mcl|sim|realsensors|robot|server|client)/|toml|nlohmann|$foreign"
+deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client|robot)|toml|nlohmann|$foreign"
+deny 'sim/api' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|nlohmann|$foreign"
 deny 'sim' 'ortung/(mcl|realsensors)|mrpt|opencv'
-deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server)/|toml|nlohmann|$foreign"
-deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/server/src/(Session\.|MessageBoard\.cpp)'
+deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nlohmann|$foreign"
+deny 'sim/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
+deny 'sim/src sim/include' 'ortung/(server|served|client)/'
+deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/server/src/(Arrival\.|Session\.|MessageBoard\.cpp)'
 deny 'plugins' 'ortung/(mcl|realsensors)|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
 deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
@@ -45,7 +47,7 @@ done
 
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include sim/include sim/api/include sim/server/include \
-              sim/client/include; do
+              sim/served/include sim/client/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

@@ -11,7 +11,7 @@ namespace ortung::test {
 
 /// A world without physics: each robot has a counter of cycles and an image of many words, and
 /// remembers what it was told. Cycles take 10 ms.
-class CountingWorld : public ServedWorld {
+class CountingWorld : public ServedWorld, private RobotCommands {
  public:
   explicit CountingWorld(std::size_t imageWords = 0) : imageWords_(imageWords) {}
   ~CountingWorld() override = default;
@@ -38,15 +38,9 @@ class CountingWorld : public ServedWorld {
   }
   void removeRobot(RobotId robot) override { frames_.erase(robot); }
   std::span<const Message> readings(RobotId robot) const override { return frames_.at(robot); }
-  void setTranslationalVelocity(RobotId, double) override { ++commands_; }
-  void setRotationalVelocity(RobotId, double) override { ++commands_; }
-  void setMotion(RobotId, std::span<const double>) override { ++commands_; }
+  RobotCommands& commands(RobotId) override { return *this; }
   std::vector<std::string> abilities(RobotId) const override {
     return {"drive nothing", "manipulator kicker rest kicking"};
-  }
-  void setManipulator(RobotId, const std::string& name, const std::string&) override {
-    if (name != "kicker") throw ServeError("no-manipulator", "there is only a kicker");
-    ++commands_;
   }
   void reset(std::optional<std::uint64_t>) override {
     now_ = 0;
@@ -61,6 +55,14 @@ class CountingWorld : public ServedWorld {
   void failAt(std::int64_t cycle) { failingCycle_ = cycle; }
 
  private:
+  void setTranslationalVelocity(double) override { ++commands_; }
+  void setRotationalVelocity(double) override { ++commands_; }
+  void setMotion(std::span<const double>) override { ++commands_; }
+  void setManipulator(std::string_view name, std::string_view) override {
+    if (name != "kicker") throw std::invalid_argument("there is only a kicker");
+    ++commands_;
+  }
+
   const SensorId counter_{"counter", "counter", "cycle"};
   const SensorId image_{"camera", "camera", "image"};
   std::size_t imageWords_;

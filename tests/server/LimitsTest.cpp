@@ -6,7 +6,6 @@
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "Token.hpp"
-#include "ortung/server/ServedSimulation.hpp"
 
 namespace ortung::test {
 namespace {
@@ -82,17 +81,6 @@ TEST(Limits, SensorsThatWouldHoldUpAllOthersAreRefused) {
       "ERR limit the robot's sensors need 2000 rays a second, at most 1999 are permitted: fewer "
       "beams, or longer periods");
   EXPECT_EQ(valueOf(client.ask("STATUS"), "robots"), "0");
-}
-
-TEST(Limits, BeamsAndPeriodsCountAsRays) {
-  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {});
-  const RunningBoard board(world, {});
-  TestClient client(board.port());
-  const std::string scanner = "[[sensor]]\nplugin = \"lrf\"\nbeams = 8000\nfov_deg = 180\n";
-  EXPECT_TRUE(client.join(scanner + "period_s = 0.01\n")
-                  .starts_with("ERR limit the robot's sensors need 800000 rays a second"));
-  client.send("CREATE slow\n" + scanner + "period_s = 0.1\n");
-  EXPECT_TRUE(client.ask(".").starts_with("OK CREATE"));
 }
 
 TEST(Limits, OneClientTooManyIsTold) {
@@ -247,28 +235,6 @@ TEST(Security, TokensAreComparedWhole) {
   for (const char* other : {"", "abc", "abcde", "abcdabcd", "bbcd", "abce"})
     EXPECT_FALSE(isSameInConstantTime("abcd", other)) << other;
   EXPECT_FALSE(isSameInConstantTime("", "a"));
-}
-
-TEST(Security, AWebBrowserIsSentAwayAtOnce) {
-  CountingWorld world;
-  const RunningBoard board(world, {});
-  for (const char* request : {"POST /x HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\nHELLO ortung/1\nSTATUS\n",
-                              "Host: evil\r\nHELLO ortung/1\n"}) {
-    TestClient client(board.port());
-    client.send(request);
-    EXPECT_EQ(client.rest(), "* ERR http this is no web server\n");
-  }
-}
-
-TEST(Security, NoFeatureTakesThePlaceOfTheTruePose) {
-  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {});
-  const RunningBoard board(world, {});
-  TestClient client(board.port());
-  EXPECT_EQ(
-      client.join("[[sensor]]\nplugin = \"lrf\"\nmodel = \"reference\"\n"
-                  "type = \"groundTruth\"\nfeature = \"pose\"\n"),
-      "ERR configuration robot file:2: plugin 'lrf': reference/groundTruth/pose is not a true "
-      "pose; no other feature may have the type groundTruth");
 }
 
 TEST(Security, ARobotFileNamesPluginsOfTheListAndNoFiles) {

@@ -1,40 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "BoardClock.hpp"
 #include "CountingWorld.hpp"
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/core/Record.hpp"
-#include "ortung/server/ServedSimulation.hpp"
 
 namespace ortung::test {
 namespace {
-
-TEST(Protocol, TheSessionOfThePageIsReplayedByteForByte) {
-  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
-  const RunningBoard board(world, lockstepConfig());
-  TestClient client(board.port());
-  std::ifstream page(ORTUNG_SOURCE_DIR "/docs/protocol.md");
-  std::string text;
-  while (std::getline(page, text) && text != "```session") {
-  }
-  int replies = 0;
-  while (std::getline(page, text) && text != "```") {
-    ASSERT_TRUE(text.starts_with("> ") || text.starts_with("< ")) << text;
-    const std::string line = text.substr(2);
-    if (text[0] == '>') {
-      client.send(line + "\n");
-      continue;
-    }
-    EXPECT_EQ(client.bytes(line.size() + 1), line + "\n");
-    ++replies;
-  }
-  EXPECT_GT(replies, 20);
-  EXPECT_EQ(client.line(), "(closed)");  // after BYE
-}
 
 TEST(Protocol, NothingIsAnsweredBeforeTheGreeting) {
   CountingWorld world;
@@ -301,27 +275,6 @@ TEST(Protocol, OperatorsControlTheSimulation) {
   EXPECT_EQ(client.ask("SPEED 20"), "OK SPEED");
   EXPECT_EQ(client.ask("RESUME"), "OK RESUME now=50000");
   EXPECT_EQ(client.ask("STEP"), "ERR state STEP is for a simulation that is paused");
-}
-
-TEST(Protocol, ManipulatorsAreSetByNameOrNumber) {
-  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/msl.toml", {.noise = false});
-  const RunningBoard board(world, lockstepConfig());
-  TestClient client(board.port());
-  ASSERT_TRUE(client.join(readBytes(ORTUNG_SOURCE_DIR "/maps/robots/msl_omni.toml"), "striker")
-                  .starts_with("OK CREATE"));
-  const std::string reply = client.ask("DESCRIBE robot");
-  std::string kicker;
-  for (int lines = std::stoi(valueOf(reply, "lines")); lines > 0; --lines) {
-    const std::string line = client.line();
-    if (line.starts_with("manipulator kicker ")) kicker = line.substr(19);
-  }
-  const std::string first = kicker.substr(0, kicker.find(' '));
-  ASSERT_FALSE(first.empty());
-  EXPECT_EQ(client.ask("MANIPULATOR kicker " + first), "OK MANIPULATOR");
-  EXPECT_EQ(client.ask("MANIPULATOR kicker 1"), "OK MANIPULATOR");
-  EXPECT_TRUE(client.ask("MANIPULATOR kicker 99")
-                  .starts_with("ERR no-manipulator manipulator kicker has the states " + kicker));
-  EXPECT_TRUE(client.ask("MANIPULATOR arm up").starts_with("ERR no-manipulator robot 1"));
 }
 
 TEST(Protocol, ClientsTouchTheirOwnRobotsOnly) {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "WorldFiles.hpp"
-#include "ortung/sim/Scene.hpp"
+#include "ortung/sim/SceneRun.hpp"
 
 namespace ortung::test {
 namespace {
@@ -12,16 +12,16 @@ namespace {
 struct Played {
   explicit Played(double seconds, const Simulation::Config& config = {}) {
     const Scene scene = Scene::read(ORTUNG_SOURCE_DIR "/maps/scenes/kick.toml");
-    player = std::make_unique<ScenePlayer>(scene, config, factory);
-    while (toSeconds(player->simulation().now()) < seconds) player->step();
+    run = std::make_unique<SceneRun>(scene, config, factory);
+    while (toSeconds(run->simulation().now()) < seconds) run->step();
   }
   const SimRobot& robot(const std::string& name) const {
-    return *player->simulation().robots()[player->find(name).value()];
+    return *run->simulation().robots()[run->find(name).value()];
   }
-  const Simulation::Thing& ball() const { return player->simulation().things()[0]; }
+  const Simulation::Thing& ball() const { return run->simulation().things()[0]; }
 
   PluginFactory factory{PluginFactory::standardFolders()};
-  std::unique_ptr<ScenePlayer> player;
+  std::unique_ptr<SceneRun> run;
 };
 
 double speedOf(const Twist& velocity) { return std::hypot(velocity.x, velocity.y); }
@@ -145,6 +145,63 @@ TEST(Manipulator, IsNamedWhenItIsNotThere) {
             "robot kicker: its manipulator kicker has no state 'up', but rest, kick");
 }
 
+TEST(RobotCommands, AreGivenByNumberOfAStateToo) {
+  Kicker kicker;
+  RobotCommands& commands = kicker.robot;
+  commands.setManipulator("kicker", "1");
+  kicker.simulation.step();
+  EXPECT_EQ(kicker.robot.manipulatorStates()[0], 1u);
+  EXPECT_THROW(commands.setManipulator("kicker", "2"), std::invalid_argument);
+}
+
+/// Drives ahead for ever.
+struct Ahead : Driver {
+  void command(const Pose2&, Timestamp, Drive& drive) override {
+    drive.setTranslationalVelocity(0.5);
+  }
+};
+
+TEST(RobotCommands, ReplaceTheDriverOnceTheyAreTaken) {
+  Kicker kicker;
+  RobotCommands& commands = kicker.robot;
+  kicker.simulation.placeThing(0, {3.0, 3.0, 0.0});
+  kicker.robot.setDriver(std::make_unique<Ahead>());
+  const auto way = [&] {
+    const double before = kicker.robot.state().pose.x;
+    for (int i = 0; i < 100; ++i) kicker.simulation.step();
+    return kicker.robot.state().pose.x - before;
+  };
+  EXPECT_THROW(commands.setTranslationalVelocity(std::nan("")), std::invalid_argument);
+  EXPECT_THROW(commands.setMotion(std::vector<double>{1.0}), std::invalid_argument);
+  commands.setManipulator("kicker", "kick");
+  EXPECT_GT(way(), 0.1);
+  commands.setTranslationalVelocity(0.0);
+  way();  // brakes
+  EXPECT_EQ(way(), 0.0);
+}
+
+TEST(SceneRun, CarriesARobotElsewhereWithoutItsOdometry) {
+  const Kicker kicker;  // its files
+  Scene scene;
+  scene.world = kicker.worldFile;
+  SceneRobot robot;
+  robot.file = kicker.robotFile;
+  robot.name = "lost";
+  robot.start = Pose2{1.0, 1.0, 0.0};
+  robot.kidnaps = {0, 50'000};
+  scene.robots.push_back(robot);
+  PluginFactory factory(PluginFactory::standardFolders());
+  SceneRun run(scene, {.noise = false}, factory);
+  const SimRobot& lost = *run.simulation().robots().front();
+  std::vector<Pose2> places = {lost.state().pose};
+  while (run.simulation().now() < 200'000) {
+    run.step();
+    if (distance(places.back(), lost.state().pose) > 0.0) places.push_back(lost.state().pose);
+  }
+  EXPECT_EQ(places.size(), 3u);
+  EXPECT_EQ(distance(lost.state().odometry, Pose2{}), 0.0);
+}
+
 std::string complaintOf(const std::string& toml) {
   const TemporaryFolder folder;
   try {
@@ -157,6 +214,9 @@ std::string complaintOf(const std::string& toml) {
 
 TEST(SceneFile, SaysWhatIsWrong) {
   const std::string head = "[scene]\nworld = \"w.toml\"\n";
+  EXPECT_NE(complaintOf(head + "[[robot]]\nfile = \"r.toml\"\nname = \"a\"\nkidnap_s = [2, 2]\n")
+                .find("kidnap_s must be rising times"),
+            std::string::npos);
   EXPECT_NE(complaintOf(head).find("robot is missing"), std::string::npos) << complaintOf(head);
   const std::string robot = head + "[[robot]]\nfile = \"r.toml\"\nname = \"one\"\n";
   EXPECT_EQ(complaintOf(robot), "");

@@ -9,9 +9,8 @@
 #include "ortung/core/SourceOptions.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TomlFile.hpp"
-#include "ortung/sim/RoutePlanner.hpp"
 #include "ortung/sim/Scene.hpp"
-#include "ortung/sim/Simulation.hpp"
+#include "ortung/sim/SceneRun.hpp"
 
 namespace ortung {
 namespace {
@@ -63,10 +62,6 @@ std::vector<Timestamp> kidnapsOption(const Parameters& p) {
 struct Run {
   Timestamp duration;
   Simulation::Config simulation;
-  std::optional<Pose2> start;
-  std::vector<FloorPoint> waypoints;
-  std::optional<double> speed;  ///< [m/s]
-  std::vector<Timestamp> kidnaps;
 
   static Run read(const Parameters& p) {
     Run run;
@@ -75,173 +70,88 @@ struct Run {
       run.simulation.cycle = *cycle / 1000.0;
     run.simulation.seed = seedOption(p);
     run.simulation.noise = p.choiceOr("noise", "on", {"on", "off"}) == "on";
-    run.start = optionPose(p, "start");
-    run.waypoints = waypointsOption(p);
-    run.speed = optionNumber(p, "speed", {0.0, 20.0});
-    run.kidnaps = kidnapsOption(p);
     return run;
   }
 };
 
-std::filesystem::path robotFileOf(const Parameters& p) {
-  const std::string file = p.textOr("robot_file", "");
-  if (file.empty())
+/// The scene of the file; who goes where it says itself.
+Scene readScene(const Parameters& p) {
+  for (const char* key : {"start", "waypoints", "speed", "kidnap"})
+    if (p.has(key)) p.fail(key, "does not fit a scene, which says itself who goes where");
+  p.textOr("robot_file", "");  // the scene names its own
+  return Scene::read(p.text("path"));
+}
+
+/// A scene of one robot in the world of the file: it wanders about, or follows waypoints.
+Scene sceneOfOne(const Parameters& p) {
+  Scene scene;
+  scene.world = p.text("path");
+  SceneRobot robot;
+  robot.file = p.textOr("robot_file", "");
+  if (robot.file.empty())
     p.fail("robot_file", "is missing; the simulator needs a robot file, e.g. robots/pioneer.toml");
-  return file;
+  robot.name = readRobot(robot.file).name;
+  robot.start = optionPose(p, "start");
+  robot.waypoints = waypointsOption(p);
+  robot.wanders = robot.waypoints.empty();
+  robot.speed = optionNumber(p, "speed", {0.0, 20.0});
+  robot.kidnaps = kidnapsOption(p);
+  scene.robots.push_back(robot);
+  return scene;
 }
 
-double shareOf(Timestamp now, Timestamp duration) {
-  return std::min(toSeconds(now) / toSeconds(std::max(duration, Timestamp{1})), 1.0);
-}
-
-/// One robot that drives about a simulated world.
-class RobotSource : public Source {
+/// Source "sim": what one robot senses in a scripted scene, or alone in a world.
+class SimSource : public Source {
  public:
-  explicit RobotSource(const Parameters& p)
-      : worldFile_(p.text("path")),
-        robotFile_(robotFileOf(p)),
-        run_(Run::read(p)),
+  explicit SimSource(const Parameters& p)
+      : options_(Run::read(p)),
+        isScene_(Scene::isScene(p.text("path"))),
+        scene_(isScene_ ? readScene(p) : sceneOfOne(p)),
         factory_(PluginFactory::standardFolders()),
-        simulation_(readWorld(worldFile_), run_.simulation),
-        robotToml_(readTomlText(robotFile_)),
-        config_(readRobot(parseToml(robotToml_, robotFile_.string()))),
-        planner_(simulation_.world(), sizeOf(config_)),
-        placing_(simulation_.random(kPlacing)),
-        robot_(&enter()) {
-    DriveLimits limits = robot_->drive().limits();
-    if (run_.speed) limits.speed = std::min(limits.speed, *run_.speed);
-    robot_->setDriver(run_.waypoints.empty()
-                          ? makeWanderer(planner_, limits, simulation_.random(kWandering))
-                          : makeFollower(run_.waypoints, limits));
-  }
-  ~RobotSource() override = default;
-
-  bool next(Message& message) override {
-    while (sent_ == frame_.size()) {
-      if (simulation_.now() > run_.duration) return false;
-      kidnap();
-      simulation_.step();
-      frame_ = simulation_.readings(0);
-      sent_ = 0;
-    }
-    message = frame_[sent_++];
-    return true;
-  }
-
-  double progress() const override { return shareOf(simulation_.now(), run_.duration); }
-  std::string worldFingerprint() const override { return simulation_.world().fingerprint(); }
-  std::string robotToml() const override { return robotToml_; }
-
- private:
-  static constexpr std::uint64_t kPlacing = 0;
-  static constexpr std::uint64_t kWandering = 1;
-  static constexpr int kAttempts = 200;  ///< to find room beside what is movable
-
-  SimRobot& enter() {
-    for (int attempt = 1;; ++attempt) {
-      const Pose2 start = run_.start ? *run_.start : planner_.randomPose(placing_);
-      try {
-        return simulation_.addRobot(config_, factory_, start);
-      } catch (const std::invalid_argument&) {
-        if (run_.start || attempt == kAttempts) throw;
-      }
-    }
-  }
-
-  void kidnap() {
-    if (kidnapped_ == run_.kidnaps.size() || simulation_.now() < run_.kidnaps[kidnapped_]) return;
-    ++kidnapped_;
-    for (int attempt = 1;; ++attempt) {
-      try {
-        return simulation_.place(*robot_, planner_.randomPose(placing_));
-      } catch (const std::invalid_argument&) {
-        if (attempt == kAttempts) throw;
-      }
-    }
-  }
-
-  std::filesystem::path worldFile_;
-  std::filesystem::path robotFile_;
-  Run run_;
-  PluginFactory factory_;
-  Simulation simulation_;
-  std::string robotToml_;
-  RobotConfig config_;
-  RoutePlanner planner_;
-  Random placing_;
-  SimRobot* robot_;  ///< the simulation's
-  std::span<const Message> frame_;
-  std::size_t sent_ = 0;
-  std::size_t kidnapped_ = 0;
-};
-
-/// What one robot of a scripted scene senses.
-class SceneSource : public Source {
- public:
-  explicit SceneSource(const Parameters& p)
-      : scene_(Scene::read(p.text("path"))),
-        run_(Run::read(p)),
-        factory_(PluginFactory::standardFolders()),
-        player_(scene_, run_.simulation, factory_) {
-    p.textOr("robot_file", "");  // the scene names its own
-    for (const char* key : {"start", "waypoints", "speed", "kidnap"})
-      if (p.has(key)) p.fail(key, "does not fit a scene, which says itself who goes where");
-    if (!p.has("duration") && scene_.duration) run_.duration = fromSeconds(*scene_.duration);
-    const std::string name = p.textOr("robot", scene_.robots.front().name);
-    const auto found = player_.find(name);
+        run_(scene_, options_.simulation, factory_),
+        fingerprint_(run_.simulation().world().fingerprint()) {
+    if (!p.has("duration") && scene_.duration) options_.duration = fromSeconds(*scene_.duration);
+    const std::string first = scene_.robots.front().name;
+    const std::string name = isScene_ ? p.textOr("robot", first) : first;
+    const auto found = run_.find(name);
     if (!found) p.fail("robot", "is \"" + name + "\", which is not in the scene");
     robot_ = *found;
     for (const SceneRobot& robot : scene_.robots)
-      if (robot.name == name) file_ = robot.file;
+      if (robot.name == name) robotToml_ = readTomlText(robot.file);
   }
-  ~SceneSource() override = default;
+  ~SimSource() override = default;
 
   bool next(Message& message) override {
     while (sent_ == frame_.size()) {
-      if (player_.simulation().now() > run_.duration) return false;
-      player_.step();
-      frame_ = player_.simulation().readings(robot_);
+      if (now() > options_.duration) return false;
+      run_.step();
+      frame_ = run_.simulation().readings(robot_);
       sent_ = 0;
     }
     message = frame_[sent_++];
     return true;
   }
 
-  double progress() const override { return shareOf(now(), run_.duration); }
+  double progress() const override {
+    const Timestamp duration = std::max(options_.duration, Timestamp{1});
+    return std::min(toSeconds(now()) / toSeconds(duration), 1.0);
+  }
   std::string worldFingerprint() const override { return fingerprint_; }
-  std::string robotToml() const override { return readTomlText(file_); }
+  std::string robotToml() const override { return robotToml_; }
 
  private:
-  Timestamp now() const { return player_.simulation().now(); }
+  Timestamp now() const { return run_.simulation().now(); }
 
+  Run options_;
+  bool isScene_;
   Scene scene_;
-  Run run_;
   PluginFactory factory_;
-  ScenePlayer player_;
-  std::string fingerprint_ = player_.simulation().world().fingerprint();
-  std::filesystem::path file_;
+  SceneRun run_;
+  std::string fingerprint_;
+  std::string robotToml_;
   std::size_t robot_ = 0;
   std::span<const Message> frame_;
   std::size_t sent_ = 0;
-};
-
-/// Source "sim": a world with one robot, or a scene.
-class SimSource : public Source {
- public:
-  explicit SimSource(const Parameters& p) {
-    if (Scene::isScene(p.text("path")))
-      source_ = std::make_unique<SceneSource>(p);
-    else
-      source_ = std::make_unique<RobotSource>(p);
-  }
-  ~SimSource() override = default;
-  bool next(Message& message) override { return source_->next(message); }
-  double progress() const override { return source_->progress(); }
-  std::string worldFingerprint() const override { return source_->worldFingerprint(); }
-  std::string robotToml() const override { return source_->robotToml(); }
-
- private:
-  std::unique_ptr<Source> source_;
 };
 
 }  // namespace

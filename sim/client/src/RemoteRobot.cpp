@@ -97,23 +97,35 @@ struct RemoteRobot::Parts {
     news.notify_all();
   }
 
-  /// Does something with the session; whatever goes wrong becomes trouble.
+  /// Does something with the session; whatever goes wrong becomes trouble and is thrown.
   template <class Action>
-  bool attempt(Action action) {
+  void perform(Action action) {
     const std::lock_guard lock(talking);
-    if (!session && !(options.reconnects && tryToConnect())) return false;
+    if (!session && !(options.reconnects && tryToConnect()))
+      throw ConnectionLost("not connected to " + options.session.server());
     try {
       action();
-      return true;
     } catch (const ConnectionLost& error) {
       report(error.what());  // before it shows as not connected
       drop();
       pause = kFirstPause;
       nextAttempt = steady_clock::now();
+      throw;
     } catch (const std::exception& error) {  // refused, or words that a feature refuses
       report(error.what());
+      throw;
     }
-    return false;
+  }
+
+  /// The same, for whoever looks at the trouble later.
+  template <class Action>
+  bool attempt(Action action) {
+    try {
+      perform(action);
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
   }
 
   bool tryToConnect() {
@@ -192,20 +204,20 @@ RemoteRobot::~RemoteRobot() = default;
 
 SensorContainer& RemoteRobot::container() { return parts_->container; }
 
-bool RemoteRobot::setTranslationalVelocity(double metresPerSecond) {
-  return parts_->attempt([&] { parts_->session->setTranslationalVelocity(metresPerSecond); });
+void RemoteRobot::setTranslationalVelocity(double metresPerSecond) {
+  parts_->perform([&] { parts_->session->setTranslationalVelocity(metresPerSecond); });
 }
 
-bool RemoteRobot::setRotationalVelocity(double radiansPerSecond) {
-  return parts_->attempt([&] { parts_->session->setRotationalVelocity(radiansPerSecond); });
+void RemoteRobot::setRotationalVelocity(double radiansPerSecond) {
+  parts_->perform([&] { parts_->session->setRotationalVelocity(radiansPerSecond); });
 }
 
-bool RemoteRobot::setMotion(std::span<const double> command) {
-  return parts_->attempt([&] { parts_->session->setMotion(command); });
+void RemoteRobot::setMotion(std::span<const double> command) {
+  parts_->perform([&] { parts_->session->setMotion(command); });
 }
 
-bool RemoteRobot::setManipulator(const std::string& manipulator, const std::string& state) {
-  return parts_->attempt([&] { parts_->session->setManipulator(manipulator, state); });
+void RemoteRobot::setManipulator(std::string_view manipulator, std::string_view state) {
+  parts_->perform([&] { parts_->session->setManipulator(manipulator, state); });
 }
 
 bool RemoteRobot::say(const std::string& text) {

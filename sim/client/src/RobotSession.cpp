@@ -173,22 +173,34 @@ std::optional<std::vector<Message>> RobotSession::next(std::uint64_t cycles) {
   }
 }
 
+void RobotSession::tell(const std::string& request) {
+  try {
+    ask(request);
+  } catch (const ServerRefused& refusal) {
+    for (const char* code : {"argument", "number", "no-manipulator"})
+      if (refusal.code() == code) throw std::invalid_argument(refusal.what());
+    throw;
+  }
+}
+
 void RobotSession::setTranslationalVelocity(double metresPerSecond) {
-  ask("VELOCITY v_m_s=" + shown(metresPerSecond));
+  tell("VELOCITY v_m_s=" + shown(metresPerSecond));
 }
 
 void RobotSession::setRotationalVelocity(double radiansPerSecond) {
-  ask("VELOCITY w_rad_s=" + shown(radiansPerSecond));
+  tell("VELOCITY w_rad_s=" + shown(radiansPerSecond));
 }
 
 void RobotSession::setMotion(std::span<const double> command) {
   std::string request = "MOTION";
   for (const double number : command) request += " " + shown(number);
-  ask(request);
+  tell(request);
 }
 
-void RobotSession::setManipulator(const std::string& manipulator, const std::string& state) {
-  ask("MANIPULATOR " + manipulator + " " + state);
+void RobotSession::setManipulator(std::string_view manipulator, std::string_view state) {
+  std::string request = "MANIPULATOR ";
+  request.append(manipulator).append(" ").append(state);
+  tell(request);
 }
 
 void RobotSession::say(const std::string& text) { ask("SAY " + text); }

@@ -57,17 +57,24 @@ void ortung_disconnect(ortung_robot* robot) { delete robot; }
 
 int ortung_set_velocity(ortung_robot* robot, double translational, double rotational) {
   return guarded([&] {
-    return robot->remote.setTranslationalVelocity(translational) &&
-           robot->remote.setRotationalVelocity(rotational);
+    robot->remote.setTranslationalVelocity(translational);
+    robot->remote.setRotationalVelocity(rotational);
+    return true;
   });
 }
 
 int ortung_set_motion(ortung_robot* robot, const double* command, size_t count) {
-  return guarded([&] { return robot->remote.setMotion({command, count}); });
+  return guarded([&] {
+    robot->remote.setMotion({command, count});
+    return true;
+  });
 }
 
 int ortung_set_manipulator(ortung_robot* robot, const char* manipulator, const char* state) {
-  return guarded([&] { return robot->remote.setManipulator(manipulator, state); });
+  return guarded([&] {
+    robot->remote.setManipulator(manipulator, state);
+    return true;
+  });
 }
 
 int ortung_update(ortung_robot* robot) {

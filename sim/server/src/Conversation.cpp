@@ -5,12 +5,25 @@
 
 namespace ortung::server {
 
+namespace {
+
+constexpr std::size_t kLongestReply = 4096;  // line of a command of the host
+
+RobotId liveRobotOf(const ServedWorld& world) {
+  if (world.livePeriod() == 0) return 0;
+  const std::vector<Resident> residents = world.residents();
+  return residents.empty() ? 0 : residents.front().robot;
+}
+
+}  // namespace
+
 Outlet::~Outlet() = default;
 
 Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worldKeeper)
     : config(boardConfig),
       description(world.describe()),
       plugins(world.plugins()),
+      liveRobot(liveRobotOf(world)),
       keeper(worldKeeper) {}
 Host::~Host() = default;
 
@@ -104,17 +117,9 @@ bool Conversation::takeLine() {
   return true;
 }
 
-bool Conversation::looksLikeHttp(std::string_view line) const {
-  return line.find(" HTTP/") != line.npos || line.starts_with("Host:");
-}
-
 void Conversation::handleLine(std::string_view line) {
   if (configuration_) {
     handleConfigurationLine(line);
-    return;
-  }
-  if (!hasJoined_ && looksLikeHttp(line)) {
-    dismiss("ERR http this is no web server");
     return;
   }
   if (line.empty()) return;
@@ -138,16 +143,60 @@ void Conversation::dispatch(Request& request) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const Command& command) {
     return command.name == request.command();
   });
-  if (found == all.end())
+  const BoardCommand* added = found == all.end() ? findAdded(request.command()) : nullptr;
+  if (found == all.end() && added == nullptr)
     throw ServeError("unknown",
                      "there is no command " + printable(request.command()) + "; HELP lists them");
   const bool isGreeting =
       request.command() == "HELLO" || request.command() == "HELP" || request.command() == "BYE";
   if (!hasJoined_ && !isGreeting) throw ServeError("hello", "say HELLO ortung/1 first");
-  if (!isGreeting && role_ < found->role)
-    throw ServeError("role", request.command() + " needs the role " + toText(found->role) +
-                                 ", this client is a " + toText(role_));
+  if (added != nullptr) {
+    callAdded(*added, request);
+    return;
+  }
+  if (!isGreeting) checkRole(request.command(), found->role);
   (this->*found->handle)(request);
+}
+
+void Conversation::checkRole(const std::string& command, Role least) const {
+  if (role_ < least)
+    throw ServeError("role", command + " needs the role " + toText(least) + ", this client is a " +
+                                 toText(role_));
+}
+
+// --- commands of whoever hosts the board
+
+bool Conversation::knows(std::string_view command) {
+  const auto& all = commands();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Command& known) { return known.name == command; });
+}
+
+const BoardCommand* Conversation::findAdded(const std::string& name) const {
+  const auto& added = host_.config.commands;
+  const auto found = std::find_if(added.begin(), added.end(), [&](const BoardCommand& command) {
+    return command.name == name;
+  });
+  return found == added.end() ? nullptr : &*found;
+}
+
+void Conversation::callAdded(const BoardCommand& command, Request& request) {
+  if (command.needsControl) checkRole(command.name, Role::kOperator);
+  const BoardCommand::Call call{name_, request.takeWords(), request.takeKeys()};
+  auto lines = std::make_shared<std::string>();
+  order(
+      request.tag(),
+      [&command, call, lines](WorldKeeper&, WorldKeeper::Done&) {
+        const BoardCommand::Reply reply = command.handle(call);
+        std::string text = "OK " + command.name;
+        if (!reply.words.empty()) text += " " + printable(reply.words, kLongestReply);
+        if (!reply.lines.empty()) text += " lines=" + std::to_string(reply.lines.size());
+        for (const std::string& line : reply.lines) *lines += printable(line, kLongestReply) + '\n';
+        return std::optional<std::string>(text);
+      },
+      [lines](Conversation& self, const std::string& tag, const std::string& text) {
+        self.reply(tag, text, *lines);
+      });
 }
 
 // --- output

@@ -48,6 +48,7 @@ class Host {
   const BoardConfig config;
   const WorldDescription description;
   const std::vector<std::string> plugins;
+  const RobotId liveRobot;  ///< the robot of a live world; 0: it is not live
   WorldKeeper& keeper;
 };
 
@@ -80,6 +81,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
     return !isOver_ && (isWaiting() || input_.find('\n', taken_) != std::string::npos);
   }
   ClientId id() const { return id_; }
+  /// Whether the protocol has this command.
+  static bool knows(std::string_view command);
 
  private:
   enum class Role { kViewer, kPlayer, kOperator };
@@ -90,6 +93,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
     const char* help;
   };
   static const std::vector<Command>& commands();
+  const BoardCommand* findAdded(const std::string& name) const;
   static const char* toText(Role role);
 
   /// A robot as this client sees it.
@@ -122,13 +126,14 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void handleLine(std::string_view line);
   void handleConfigurationLine(std::string_view line);
   void dispatch(Request& request);
+  void checkRole(const std::string& command, Role least) const;
+  void callAdded(const BoardCommand& command, Request& request);
   void reply(const std::string& tag, std::string_view text, std::string_view body = {});
   void error(const std::string& tag, std::string_view text);
   void refuse(const std::string& tag, const std::string& text);
   void order(const std::string& tag, WorldKeeper::Order run, Then then = {},
              bool holdsLines = false);
   void answer(const std::string& tag, std::function<void(Conversation&)> say);
-  bool looksLikeHttp(std::string_view line) const;
 
   // ConversationRobots.cpp
   void create(Request& request);
@@ -146,6 +151,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void lockstep(Request& request);
   void next(Request& request);
   RobotId takeRobot(Request& request) const;
+  void checkMayWatch(RobotId robot) const;
   Choice takeChoice(Request& request, bool again) const;
   void fetch(Request& request, bool again);
   void sendReadings(const std::string& tag, const char* command, RobotId robot,

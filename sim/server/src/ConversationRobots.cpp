@@ -16,12 +16,23 @@ constexpr std::int64_t kLastRobot = 0xFFFFFFFF;
 
 using Reply = std::optional<std::string>;
 
+/// Gives what a robot does not take a code of its own.
+template <class Command>
+void refusedAs(const char* code, const Command& command) {
+  try {
+    command();
+  } catch (const std::invalid_argument& error) {
+    throw ServeError(code, error.what());
+  }
+}
+
 }  // namespace
 
-/// robot=N, or the client's first.
+/// robot=N, or the client's first; the only one of a live world.
 RobotId Conversation::takeRobot(Request& request) const {
   if (const auto robot = request.takeInteger("robot", 1, kLastRobot))
     return static_cast<RobotId>(*robot);
+  if (owned_.empty() && host_.liveRobot != 0) return host_.liveRobot;
   if (owned_.empty()) throw ServeError("no-robot", "this client has no robot; CREATE makes one");
   return *owned_.begin();
 }
@@ -29,6 +40,8 @@ RobotId Conversation::takeRobot(Request& request) const {
 // --- creating and removing
 
 void Conversation::create(Request& request) {
+  if (host_.liveRobot != 0)
+    throw ServeError("live", "this is a running robot: no other can join it");
   RobotWish wish;
   wish.name = request.takeWord("a name for the robot");
   if (!isName(wish.name)) throw ServeError("syntax", "a robot's name is 1 to 32 of [A-Za-z0-9_-]");
@@ -146,9 +159,9 @@ void Conversation::velocity(Request& request) {
   request.refuseRest();
   if (!v && !w) throw ServeError("syntax", "VELOCITY needs v_m_s or w_rad_s");
   order(request.tag(), [id = id_, robot, v, w](WorldKeeper& keeper, WorldKeeper::Done&) {
-    keeper.checkOwner(id, robot);
-    if (v) keeper.world().setTranslationalVelocity(robot, *v);
-    if (w) keeper.world().setRotationalVelocity(robot, *w);
+    RobotCommands& commands = keeper.commands(id, robot);
+    if (v) commands.setTranslationalVelocity(*v);
+    if (w) commands.setRotationalVelocity(*w);
     return Reply("OK VELOCITY");
   });
 }
@@ -161,8 +174,8 @@ void Conversation::motion(Request& request) {
   request.refuseRest();
   if (command.empty()) throw ServeError("syntax", "MOTION needs numbers");
   order(request.tag(), [id = id_, robot, command](WorldKeeper& keeper, WorldKeeper::Done&) {
-    keeper.checkOwner(id, robot);
-    keeper.world().setMotion(robot, command);
+    RobotCommands& commands = keeper.commands(id, robot);
+    refusedAs("number", [&] { commands.setMotion(command); });
     return Reply("OK MOTION");
   });
 }
@@ -175,8 +188,8 @@ void Conversation::manipulator(Request& request) {
   if (!isName(name) || !isName(state))
     throw ServeError("syntax", "a manipulator and its state are 1 to 32 of [A-Za-z0-9_-]");
   order(request.tag(), [id = id_, robot, name, state](WorldKeeper& keeper, WorldKeeper::Done&) {
-    keeper.checkOwner(id, robot);
-    keeper.world().setManipulator(robot, name, state);
+    RobotCommands& commands = keeper.commands(id, robot);
+    refusedAs("no-manipulator", [&] { commands.setManipulator(name, state); });
     return Reply("OK MANIPULATOR");
   });
 }
@@ -211,11 +224,16 @@ void Conversation::sendReadings(const std::string& tag, const char* command, Rob
   reply(tag, head, body);
 }
 
+/// Players play against each other; a live robot has no opponents.
+void Conversation::checkMayWatch(RobotId robot) const {
+  if (role_ == Role::kPlayer && !owned_.contains(robot) && host_.liveRobot == 0)
+    throw ServeError("not-yours", "players see the readings of their own robots only");
+}
+
 /// The readings of another client's robot, which operators and viewers may see.
 void Conversation::foreignReadings(const std::string& tag, const char* command, RobotId robot,
                                    const Choice& choice) {
-  if (role_ == Role::kPlayer)
-    throw ServeError("not-yours", "players see the readings of their own robots only");
+  checkMayWatch(robot);
   auto found = std::make_shared<std::shared_ptr<RobotReadings>>();
   order(
       tag,
@@ -255,8 +273,7 @@ void Conversation::subscribe(Request& request) {
   const RobotId robot = takeRobot(request);
   const Choice choice = takeChoice(request, false);
   request.refuseRest();
-  if (!owned_.contains(robot) && role_ == Role::kPlayer)
-    throw ServeError("not-yours", "players see the readings of their own robots only");
+  checkMayWatch(robot);
   auto found = std::make_shared<std::shared_ptr<RobotReadings>>();
   order(
       request.tag(),

@@ -63,7 +63,7 @@ void Conversation::hello(Request& request) {
   hasJoined_ = true;
   order(request.tag(), [id = id_, name, role, host = &host_](WorldKeeper& keeper,
                                                              WorldKeeper::Done&) {
-    keeper.join(id, name);
+    keeper.join(id, name, role == Role::kOperator);
     return Reply("OK HELLO ortung/1 client=" + std::to_string(id) + " role=" + toText(role) +
                  " kind=" + host->description.kind + " world=" + oneWord(host->description.name) +
                  " now=" + std::to_string(keeper.clock().at(wallTime())) +
@@ -85,8 +85,12 @@ void Conversation::help(Request& request) {
   std::string lines;
   for (const Command& command : commands())
     lines += std::string(command.name) + (*command.help != 0 ? " " : "") + command.help + '\n';
-  answer(request.tag(), [tag = request.tag(), lines](Conversation& self) {
-    self.reply(tag, "OK HELP lines=" + std::to_string(commands().size()), lines);
+  const auto& added = host_.config.commands;
+  for (const BoardCommand& command : added)
+    lines += command.name + (command.help.empty() ? "" : " ") + command.help + '\n';
+  const std::size_t count = commands().size() + added.size();
+  answer(request.tag(), [tag = request.tag(), lines, count](Conversation& self) {
+    self.reply(tag, "OK HELP lines=" + std::to_string(count), lines);
   });
 }
 

@@ -9,6 +9,8 @@
 #include <boost/asio/thread_pool.hpp>
 #include <thread>
 
+#include "Arrival.hpp"
+#include "BoardChecks.hpp"
 #include "Session.hpp"
 
 namespace ortung {
@@ -16,11 +18,12 @@ namespace {
 
 namespace asio = boost::asio;
 using asio::ip::tcp;
+using server::Arrival;
 using server::Session;
 
 constexpr int kBacklog = 128;
 
-void check(const BoardConfig& config) {
+void checkAddress(const BoardConfig& config) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
   boost::system::error_code error;
   const auto address = asio::ip::make_address(config.address, error);
@@ -29,17 +32,12 @@ void check(const BoardConfig& config) {
            "', expected numbers, e.g. 127.0.0.1 or ::1");
   if (!address.is_loopback() && config.tokens.empty())
     refuse(config.address + " can be reached from other computers: that needs a token");
-  for (const BoardToken& token : config.tokens)
-    if (token.token.size() < 8)
-      refuse("the token of '" + token.name + "' has less than 8 characters");
-  if (!(config.speed >= 0.001 && config.speed <= 1000.0))
-    refuse("the speed is " + std::to_string(config.speed) + ", must be in [0.001, 1000]");
 }
 
 }  // namespace
 
-/// Everything of the board: the host of the conversations.
-struct MessageBoard::Parts final : server::Host {
+/// Everything of the board: who lets connections in, and the host of the conversations.
+struct MessageBoard::Parts final : server::Host, server::Porter {
   Parts(ServedWorld& world, const BoardConfig& boardConfig)
       : Host(world, boardConfig, keeper_),
         keeper_(world, boardConfig, [this] { onCycle(); }),
@@ -107,17 +105,33 @@ struct MessageBoard::Parts final : server::Host {
 
   void admit(tcp::socket socket) {
     const server::ClientId id = ++lastClient_;
-    const auto session = std::make_shared<Session>(std::move(socket), *this, id);
-    const bool isFull = sessions_.size() >= config.limits.sessions;
-    sessions_[id] = session;
-    if (isFull)
+    const bool isFull = sessions_.size() + arrivals_.size() >= config.limits.sessions;
+    if (isFull) {
+      const auto session =
+          std::make_shared<Session>(std::move(socket), *this, id, server::wallTime());
+      sessions_[id] = session;
       session->dismiss("ERR limit there are " + std::to_string(config.limits.sessions) +
                        " clients already");
-    else
-      session->start();
+      return;
+    }
+    const auto arrival = std::make_shared<Arrival>(std::move(socket), *this, config, id);
+    arrivals_[id] = arrival;
+    arrival->start();
   }
 
-  /// Looks after all sessions now and then.
+  void enter(tcp::socket socket, server::ClientId id, Timestamp since,
+             std::string_view bytes) override {
+    arrivals_.erase(id);
+    const auto session = std::make_shared<Session>(std::move(socket), *this, id, since);
+    sessions_[id] = session;
+    session->start(bytes);
+  }
+
+  void leave(server::ClientId id) override {
+    post([this, id] { arrivals_.erase(id); });  // later: a loop over all may be under way
+  }
+
+  /// Looks after all connections now and then.
   void look() {
     const BoardLimits& limits = config.limits;
     const double shortest = std::min({limits.handshake, limits.idle, limits.stall, 1.0});
@@ -125,6 +139,7 @@ struct MessageBoard::Parts final : server::Host {
     timer_.async_wait([this](const boost::system::error_code& cancelled) {
       if (cancelled || isEnding_) return;
       const Timestamp now = server::wallTime();
+      for (const auto& [id, arrival] : arrivals_) arrival->look(now);
       for (const auto& [id, session] : sessions_) session->look(now);
       look();
     });
@@ -140,6 +155,8 @@ struct MessageBoard::Parts final : server::Host {
     acceptor_.close(ignored);
     timer_.cancel();
     retry_.cancel();
+    for (const auto& [id, arrival] : arrivals_) arrival->close();
+    arrivals_.clear();
     for (const auto& [id, session] : sessions_) {
       session->dismiss("BYE the server ends");
       session->close();
@@ -152,6 +169,7 @@ struct MessageBoard::Parts final : server::Host {
   tcp::acceptor acceptor_;
   asio::steady_timer timer_;
   asio::steady_timer retry_{io_};
+  std::map<server::ClientId, std::shared_ptr<Arrival>> arrivals_;
   std::map<server::ClientId, std::shared_ptr<Session>> sessions_;
   server::ClientId lastClient_ = 0;
   std::uint16_t port_ = 0;
@@ -162,7 +180,8 @@ struct MessageBoard::Parts final : server::Host {
 };
 
 MessageBoard::MessageBoard(ServedWorld& world, const BoardConfig& config) {
-  check(config);
+  checkAddress(config);
+  server::checkBoard(config, world);
   parts_ = std::make_unique<Parts>(world, config);
   parts_->listen();
 }
@@ -176,10 +195,12 @@ void MessageBoard::run(const std::function<bool()>& goesOn) {
   try {
     parts_->keeper_.run(goesOn);
   } catch (...) {
+    parts_->keeper_.haltCommanded();
     asio::post(parts_->io_, [this] { parts_->shutDown(); });
     clients.join();
     throw;
   }
+  parts_->keeper_.haltCommanded();
   asio::post(parts_->io_, [this] { parts_->shutDown(); });
   clients.join();
 }

@@ -114,6 +114,12 @@ void Request::split(std::string_view line) {
 
 std::vector<std::string> Request::takeWords() { return std::exchange(words_, {}); }
 
+std::map<std::string, std::string> Request::takeKeys() {
+  std::map<std::string, std::string> keys;
+  for (auto& [key, value] : std::exchange(keys_, {})) keys[key] = std::move(value);
+  return keys;
+}
+
 std::string Request::takeWord(const char* what) {
   if (words_.empty()) refuse(command_ + " needs " + what);
   std::string word = std::move(words_.front());

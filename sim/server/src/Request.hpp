@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,8 @@ class Request {
   const std::string& fault() const { return fault_; }
 
   std::vector<std::string> takeWords();
+  /// All that is left of key=value; of a key that is there twice the last value.
+  std::map<std::string, std::string> takeKeys();
   /// The next word. @param what what the error calls it
   std::string takeWord(const char* what);
   std::optional<std::string> takeText(std::string_view key);

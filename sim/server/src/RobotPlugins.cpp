@@ -1,18 +1,17 @@
-#include "RobotPlugins.hpp"
+#include "ortung/server/RobotPlugins.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace ortung {
 
-std::vector<std::string> robotPlugins(PluginFactory& factory) {
+std::vector<std::string> robotPlugins(PluginFactory& factory,
+                                      std::span<const std::string_view> interfaces) {
   std::set<std::string> names;
   for (const PluginFactory::Found& library : factory.list())
-    for (const PluginFactory::Found::Entry& entry : library.entries) {
-      // Sources read files and players belong to whoever runs the server.
-      const bool isOfRobot = !entry.interface.starts_with("ortung.Source/") &&
-                             !entry.interface.starts_with("ortung.Player/");
-      if (isOfRobot) names.insert(entry.name);
-    }
+    for (const PluginFactory::Found::Entry& entry : library.entries)
+      if (std::find(interfaces.begin(), interfaces.end(), entry.interface) != interfaces.end())
+        names.insert(entry.name);
   if (names.empty())
     throw PluginError(
         "no plugin that robots are made of could be loaded; `ortung plugins` says why");

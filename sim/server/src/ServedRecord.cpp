@@ -1,10 +1,13 @@
 #include "ortung/server/ServedRecord.hpp"
 
-#include "RobotPlugins.hpp"
+#include "ortung/motion/MotionModel.hpp"
+#include "ortung/server/RobotPlugins.hpp"
 
 namespace ortung {
 namespace {
 
+// A robot file names what feels and moves; of a record nothing but the data is made.
+constexpr std::string_view kInterfaces[] = {SensorData::kInterface, MotionModel::kInterface};
 constexpr Timestamp kPause = 100'000;  // between the end of a record and its repetition [us]
 
 }  // namespace
@@ -18,7 +21,7 @@ ServedRecord::ServedRecord(std::filesystem::path file, bool repeats)
     : file_(std::move(file)),
       repeats_(repeats),
       factory_(PluginFactory::standardFolders()),
-      plugins_(robotPlugins(factory_)) {
+      plugins_(robotPlugins(factory_, kInterfaces)) {
   open();
   if (isAtEnd_) throw std::runtime_error(file_.string() + ": has no readings");
 }
@@ -83,6 +86,11 @@ void ServedRecord::removeRobot(RobotId robot) { guests_.erase(robot); }
 void ServedRecord::check(RobotId robot) const {
   if (!guests_.contains(robot))
     throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
+}
+
+RobotCommands& ServedRecord::commands(RobotId robot) {
+  check(robot);
+  return deaf_;
 }
 
 std::span<const Message> ServedRecord::readings(RobotId robot) const {

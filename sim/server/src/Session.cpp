@@ -31,21 +31,22 @@ class Session::SocketOutlet final : public Outlet {
   Session& session_;
 };
 
-Session::Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id)
+Session::Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id, Timestamp since)
     : socket_(std::move(socket)),
       host_(host),
       limits_(host.config.limits),
       conversation_(
           std::make_shared<Conversation>(host, id, std::make_unique<SocketOutlet>(*this))),
-      started_(wallTime()),
-      heard_(started_),
-      progressed_(started_) {}
+      started_(since),
+      heard_(wallTime()),
+      progressed_(heard_) {}
 
-void Session::start() {
+void Session::start(std::string_view bytes) {
   boost::system::error_code ignored;
   socket_.non_blocking(true, ignored);
   socket_.set_option(boost::asio::ip::tcp::no_delay(true), ignored);
   socket_.set_option(boost::asio::socket_base::keep_alive(true), ignored);
+  conversation_->receive(bytes);
   read();
 }
 

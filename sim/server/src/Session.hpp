@@ -13,9 +13,11 @@ namespace ortung::server {
 /// All calls come from the thread of the io_context.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id);
+  /// @param since when it was accepted, on the computer's clock
+  Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id, Timestamp since);
 
-  void start();
+  /// @param bytes what the client has said already
+  void start(std::string_view bytes);
   /// Ends it if the client keeps still for too long. @param now on the computer's clock
   void look(Timestamp now);
   /// Says a last word and closes as soon as it is read.

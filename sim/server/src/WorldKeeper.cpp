@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 
 #include "Request.hpp"
@@ -37,6 +36,8 @@ std::string currentErrorText() {
     return "ERR argument " + printable(error.what());
   } catch (const std::exception& error) {
     return "ERR internal " + printable(error.what());
+  } catch (...) {  // commands of whoever hosts the board may throw anything
+    return "ERR internal it threw no std::exception";
   }
 }
 
@@ -45,6 +46,7 @@ WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
     : world_(world),
       config_(config),
       onCycle_(std::move(onCycle)),
+      livePeriod_(world.livePeriod()),
       speed_(config.speed),
       isFree_(config.pace != Pace::kRealTime) {
   for (Resident& resident : world_.residents()) {
@@ -96,7 +98,8 @@ bool WorldKeeper::mayAdvance() const {
 }
 
 /// What the clock shows at most before the next cycle, however late that is: one cycle more.
-Timestamp WorldKeeper::latest() const { return world_.now() + cycle_; }
+/// A live world's clock can't be held up.
+Timestamp WorldKeeper::latest() const { return isLive() ? kNever : world_.now() + cycle_; }
 
 void WorldKeeper::anchor(Timestamp wall) {
   anchorStamp_ = world_.now();
@@ -112,6 +115,7 @@ Timestamp WorldKeeper::due() {
     wasBlocked_ = true;
     return kNever;
   }
+  if (isLive()) return nextLook_;
   if (isFree_ || isPaused_) {
     if (std::exchange(wasBlocked_, false)) anchor(wallTime());
     return 0;
@@ -133,7 +137,10 @@ Timestamp WorldKeeper::due() {
 }
 
 void WorldKeeper::run(const std::function<bool()>& goesOn) {
-  anchor(wallTime());
+  if (isLive())
+    follow(wallTime() - livePeriod_);  // the first look is due at once
+  else
+    anchor(wallTime());
   while (!isStopped_ && (!goesOn || goesOn())) {
     const Timestamp next = due();
     const Timestamp now = wallTime();
@@ -193,11 +200,13 @@ void WorldKeeper::cycle(Timestamp due) {
     fail(error.what());
     return;
   }
-  cycle_ = world_.now() - stamp;
+  cycle_ = isLive() ? livePeriod_ : world_.now() - stamp;
   const double behind = static_cast<double>(begin - due) * speed_;
   if (!isFree_ && !isPaused_ && behind > static_cast<double>(cycle_)) ++missed_;
   for (const auto& [id, robot] : robots_) robot.readings->publish(world_.readings(id));
-  if (isFree_ || isPaused_)
+  if (isLive())
+    follow(begin);
+  else if (isFree_ || isPaused_)
     clock_.set(world_.now(), begin, 0.0);
   else
     clock_.permit(latest());
@@ -233,18 +242,38 @@ void WorldKeeper::fail(const std::string& why) {
   if (stepsDone_) std::exchange(stepsDone_, {})(text);
 }
 
+/// Sets the clock by that of a live world, and when to look at it again.
+void WorldKeeper::follow(Timestamp looked) {
+  wasBlocked_ = false;
+  clock_.set(world_.now(), wallTime(), 1.0);
+  nextLook_ = looked + livePeriod_;
+}
+
+void WorldKeeper::refuseIfLive(const char* what) const {
+  if (isLive())
+    throw ServeError("live", std::string("this is a running robot: its time can't be ") + what);
+}
+
+void WorldKeeper::pause() {
+  refuseIfLive("paused");
+  isPaused_ = true;
+}
+
 void WorldKeeper::setSpeed(double speed) {
+  refuseIfLive("made faster or slower");
   isFree_ = speed == 0.0;
   if (!isFree_) speed_ = speed;
   anchor(wallTime());
 }
 
 void WorldKeeper::resume() {
+  refuseIfLive("paused");
   isPaused_ = false;
   wasBlocked_ = true;  // the clock has stood still
 }
 
 void WorldKeeper::step(std::uint64_t cycles, Done done) {
+  refuseIfLive("stepped");
   if (!isPaused_) throw ServeError("state", "STEP is for a simulation that is paused");
   if (steps_ > 0) throw ServeError("state", "there are steps under way already");
   if (!failure_.empty() || world_.isAtEnd()) throw ServeError("end", "there is nothing to come");
@@ -253,6 +282,7 @@ void WorldKeeper::step(std::uint64_t cycles, Done done) {
 }
 
 void WorldKeeper::reset(std::optional<std::uint64_t> seed) {
+  refuseIfLive("started over");
   world_.reset(seed);
   failure_.clear();
   score = {};
@@ -267,95 +297,10 @@ std::string WorldKeeper::stateText() const {
   return world_.isReady() && isLockstepReady() ? "running" : "waiting";
 }
 
-// --- clients and their robots
-
-WorldKeeper::Client& WorldKeeper::client(ClientId id) {
-  const auto found = clients_.find(id);
-  if (found == clients_.end()) throw ServeError("internal", "the client has left");
-  return found->second;
-}
-
-void WorldKeeper::join(ClientId client, const std::string& name) {
-  clients_[client].name = name;
-  clientCount_ = clients_.size();
-}
-
-void WorldKeeper::leave(ClientId client) {
-  const auto found = clients_.find(client);
-  if (found == clients_.end()) return;
-  for (const RobotId robot : found->second.robots) remove(robot);
-  clients_.erase(found);
-  clientCount_ = clients_.size();
-  robotCount_ = robots_.size();
-}
-
-std::shared_ptr<RobotReadings> WorldKeeper::createRobot(ClientId owner, RobotWish wish) {
-  Client& its = client(owner);
-  if (its.robots.size() >= config_.limits.robots)
-    throw ServeError("limit",
-                     "a client has at most " + std::to_string(config_.limits.robots) + " robots");
-  const RobotId robot = lastRobot_ + 1;
-  const std::string name = wish.name;
-  ServedRobot served = world_.addRobot(robot, std::move(wish));
-  lastRobot_ = robot;
-  try {
-    checkLimits(served);
-  } catch (...) {
-    world_.removeRobot(robot);
-    throw;
-  }
-  auto readings = std::make_shared<RobotReadings>(robot, name, std::move(served.features));
-  its.robots.insert(robot);
-  robots_[robot] = {owner, readings};
-  robotCount_ = robots_.size();
-  return readings;
-}
-
-void WorldKeeper::checkLimits(const ServedRobot& robot) const {
-  const BoardLimits& limits = config_.limits;
-  if (robot.features.size() > limits.features)
-    throw ServeError("limit", "the robot has " + std::to_string(robot.features.size()) +
-                                  " features, at most " + std::to_string(limits.features) +
-                                  " are permitted");
-  if (robot.raysPerSecond > limits.rays)
-    throw ServeError(
-        "limit", "the robot's sensors need " + std::to_string(std::llround(robot.raysPerSecond)) +
-                     " rays a second, at most " + std::to_string(std::llround(limits.rays)) +
-                     " are permitted: fewer beams, or longer periods");
-}
-
-void WorldKeeper::removeRobot(ClientId owner, RobotId robot) {
-  checkOwner(owner, robot);
-  remove(robot);
-  client(owner).robots.erase(robot);
-  robotCount_ = robots_.size();
-}
-
-void WorldKeeper::remove(RobotId robot) {
-  world_.removeRobot(robot);
-  const auto found = robots_.find(robot);
-  found->second.readings->retire();
-  robots_.erase(found);
-}
-
-void WorldKeeper::checkOwner(ClientId client, RobotId robot) const {
-  const auto found = robots_.find(robot);
-  if (found == robots_.end())
-    throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
-  if (found->second.owner == kNobody)
-    throw ServeError("not-yours", "robot " + std::to_string(robot) + " belongs to the world");
-  if (found->second.owner != client)
-    throw ServeError("not-yours", "robot " + std::to_string(robot) + " belongs to another client");
-}
-
-std::shared_ptr<RobotReadings> WorldKeeper::readings(RobotId robot) const {
-  const auto found = robots_.find(robot);
-  if (found == robots_.end())
-    throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
-  return found->second.readings;
-}
+// --- lockstep
 
 void WorldKeeper::setLockstep(ClientId id, bool isLockstep) {
+  if (isLockstep) refuseIfLive("held up");
   Client& its = client(id);
   its.isLockstep = isLockstep;
   if (!isLockstep && its.waiting) {

@@ -36,6 +36,8 @@ class WorldKeeper {
 
   void give(Order order, Done done);
   void run(const std::function<bool()>& goesOn);
+  /// Stops the live robots that clients have commanded; for the end of run(), on its thread.
+  void haltCommanded();
   void stop();
   BoardStatistics statistics() const;
   const BoardClock& clock() const { return clock_; }
@@ -45,18 +47,20 @@ class WorldKeeper {
 
   // --- for orders; refusals are ServeErrors
   ServedWorld& world() { return world_; }
-  void join(ClientId client, const std::string& name);
+  void join(ClientId client, const std::string& name, bool isOperator);
   void leave(ClientId client);
   std::shared_ptr<RobotReadings> createRobot(ClientId client, RobotWish wish);
   void removeRobot(ClientId client, RobotId robot);
   /// @throws ServeError unless @p robot belongs to @p client
   void checkOwner(ClientId client, RobotId robot) const;
+  /// Through which @p client commands @p robot: its own one, or as an operator a live one.
+  RobotCommands& commands(ClientId client, RobotId robot);
   std::shared_ptr<RobotReadings> readings(RobotId robot) const;
 
   void setLockstep(ClientId client, bool isLockstep);
   void next(ClientId client, std::uint64_t cycles, Done done);
 
-  void pause() { isPaused_ = true; }
+  void pause();
   void resume();
   void step(std::uint64_t cycles, Done done);
   void setSpeed(double speed);
@@ -71,6 +75,7 @@ class WorldKeeper {
 
   struct Client {
     std::string name;
+    bool isOperator = false;
     std::set<RobotId> robots;
     bool isLockstep = false;
     std::uint64_t cycles = 0;  ///< that it has asked for
@@ -97,6 +102,10 @@ class WorldKeeper {
   void cycle(Timestamp due);
   void finishCycle();
   void fail(const std::string& why);
+  bool isLive() const { return livePeriod_ > 0; }
+  void refuseIfLive(const char* what) const;
+  void follow(Timestamp looked);
+  void halt(RobotId robot);
   void anchor(Timestamp wall);
   Timestamp latest() const;
   void remove(RobotId robot);
@@ -115,6 +124,8 @@ class WorldKeeper {
   std::map<ClientId, Client> clients_;
   std::map<RobotId, Robot> robots_;
   RobotId lastRobot_ = 0;
+  const Timestamp livePeriod_;              ///< see ServedWorld [us]
+  std::map<RobotId, ClientId> commanders_;  ///< of live robots: who commanded them last
   bool isPaused_ = false;
   std::uint64_t steps_ = 0;  ///< to be made although it is paused
   Done stepsDone_;
@@ -124,6 +135,7 @@ class WorldKeeper {
   bool wasBlocked_ = true;
   Timestamp anchorStamp_ = 0;
   Timestamp anchorWall_ = 0;
+  Timestamp nextLook_ = 0;    ///< at a live world, on the computer's clock
   Timestamp cycle_ = 0;       ///< length of the last one on the world's clock [us]
   std::size_t executed_ = 0;  ///< orders since the last cycle
   Timestamp spent_ = 0;       ///< with them [us]

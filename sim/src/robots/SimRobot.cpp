@@ -40,6 +40,14 @@ Twist toRobot(const Twist& inField, double heading) {
   return {c * inField.x + s * inField.y, c * inField.y - s * inField.x, inField.theta};
 }
 
+/// Place of the state that has this name, or else this number.
+std::optional<std::size_t> findState(const Manipulator& manipulator, std::string_view state) {
+  if (const auto named = manipulator.find(state)) return named;
+  for (std::size_t i = 0; i < manipulator.states.size(); ++i)
+    if (state == std::to_string(i)) return i;
+  return std::nullopt;
+}
+
 }  // namespace
 
 struct SimRobot::Mounted {
@@ -170,13 +178,28 @@ void SimRobot::addGroundTruth(Timestamp now) {
   message.words = truthWords_;
 }
 
+void SimRobot::setTranslationalVelocity(double metresPerSecond) {
+  drive_->setTranslationalVelocity(metresPerSecond);
+  driver_.reset();
+}
+
+void SimRobot::setRotationalVelocity(double radiansPerSecond) {
+  drive_->setRotationalVelocity(radiansPerSecond);
+  driver_.reset();
+}
+
+void SimRobot::setMotion(std::span<const double> command) {
+  drive_->setCommand(command);
+  driver_.reset();
+}
+
 void SimRobot::setManipulator(std::string_view manipulator, std::string_view state) {
   std::string known;
   for (std::size_t i = 0; i < shape_.manipulators.size(); ++i) {
     const Manipulator& one = shape_.manipulators[i];
     known += (known.empty() ? "" : ", ") + one.name;
     if (one.name != manipulator) continue;
-    const auto found = one.find(state);
+    const auto found = findState(one, state);
     if (found) {
       wantedStates_[i] = *found;
       return;

@@ -46,6 +46,11 @@ SceneRobot readRobotOf(const Parameters& table, const std::filesystem::path& fol
   if (robot.wanders && !robot.waypoints.empty())
     table.fail("waypoints_m", "is given beside wanders; expected one of the two");
   if (table.has("speed_m_s")) robot.speed = table.number("speed_m_s", {0.0, 100.0});
+  for (const double seconds : table.numbersOr("kidnap_s", {}, -1, kTime)) {
+    robot.kidnaps.push_back(fromSeconds(seconds));
+    if (robot.kidnaps.size() > 1 && robot.kidnaps.back() <= robot.kidnaps.end()[-2])
+      table.fail("kidnap_s", "must be rising times");
+  }
   table.refuseUnread();
   return robot;
 }

@@ -9,6 +9,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/core/RobotCommands.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/Driver.hpp"
@@ -21,28 +22,32 @@ namespace ortung {
 /// One robot of a simulation: shape, drive, sensors, and the container that they fill.
 /// A plugin that throws is switched off, and problems() tells which one and why.
 /// Not thread-safe; readers of the container hold its lock.
-class ORTUNG_API SimRobot {
+class ORTUNG_API SimRobot : public RobotCommands {
  public:
   /// @param random of this robot alone
   /// @param noise whether sensors and odometry have noise
   /// @throws ConfigError, PluginError
   SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start,
            const Random& random, bool noise);
-  ~SimRobot();
+  ~SimRobot() override;
   SimRobot(const SimRobot&) = delete;
   SimRobot& operator=(const SimRobot&) = delete;
 
   /// Who commands the drive from now on; null: nobody.
   void setDriver(std::unique_ptr<Driver> driver) { driver_ = std::move(driver); }
 
-  /// Sets a manipulator. It moves in the cycle that begins.
-  /// @throws std::invalid_argument for one that the robot does not have, saying what it has
-  void setManipulator(std::string_view manipulator, std::string_view state);
+  // --- commands; whoever tells it to move replaces its driver
+  void setTranslationalVelocity(double metresPerSecond) override;
+  void setRotationalVelocity(double radiansPerSecond) override;
+  void setMotion(std::span<const double> command) override;
+  /// It moves in the cycle that begins.
+  void setManipulator(std::string_view manipulator, std::string_view state) override;
+
   /// The present state of each manipulator of shape(), as its place among the states.
   std::span<const std::size_t> manipulatorStates() const { return manipulatorStates_; }
 
-  /// Commands go through here: numbers that are not finite, and command vectors of another size,
-  /// are refused with std::invalid_argument that names the robot.
+  /// What drivers command and tell limits by. Numbers that are not finite, and command vectors of
+  /// another size, are refused with std::invalid_argument that names the robot.
   Drive& drive() { return *drive_; }
 
   /// What its sensors cost [rays/s] in a world with cycles of a length [s], see Sensor::rays().

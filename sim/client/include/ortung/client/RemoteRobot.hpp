@@ -28,25 +28,27 @@ struct RemoteOptions {
   std::function<void(const std::string&)> onTrouble;
 };
 
-/// A robot on a server's field: a container that fills itself, and calls to move (paper, section
-/// 3). Thread-safe; readers of the container hold its lock.
-class ORTUNG_API RemoteRobot {
+/// A robot on a server's field: a container that fills itself, and commands (paper, section 3).
+/// Thread-safe; readers of the container hold its lock.
+class ORTUNG_API RemoteRobot : public RobotCommands {
  public:
   /// Connects, sends the robot file, and starts to update the container.
   /// @throws ConfigError, PluginError for the robot file; ConnectionLost, ServerRefused
   RemoteRobot(const std::filesystem::path& robotFile, const RemoteOptions& options);
-  ~RemoteRobot();
+  ~RemoteRobot() override;
   RemoteRobot(const RemoteRobot&) = delete;
   RemoteRobot& operator=(const RemoteRobot&) = delete;
 
   SensorContainer& container();
 
-  // --- commands; false if the server did not take them: trouble() says why
-  bool setTranslationalVelocity(double metresPerSecond);
-  bool setRotationalVelocity(double radiansPerSecond);
-  bool setMotion(std::span<const double> command);
-  /// @param state its name, or its number from 0
-  bool setManipulator(const std::string& manipulator, const std::string& state);
+  // --- commands, whose errors are those of RobotSession; trouble() tells them, too. While there is
+  // no connection they throw ConnectionLost; a robot that comes back has to be commanded again
+  void setTranslationalVelocity(double metresPerSecond) override;
+  void setRotationalVelocity(double radiansPerSecond) override;
+  void setMotion(std::span<const double> command) override;
+  void setManipulator(std::string_view manipulator, std::string_view state) override;
+
+  // --- what follows returns whether it was done; if not, trouble() says why
   bool say(const std::string& text);
   /// Brings the container up to date now.
   bool update();

@@ -13,6 +13,7 @@
 #include "ortung/base/Pose2.hpp"
 #include "ortung/client/ClockOffset.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/core/RobotCommands.hpp"
 
 namespace ortung {
 
@@ -57,13 +58,14 @@ struct SessionOptions {
 
 /// A connection to a message board with one robot on its field: the protocol of docs/protocol.md as
 /// function calls. Each call asks and waits for the answer. Not thread-safe.
-/// @throws ConnectionLost, ServerRefused from all members
-class ORTUNG_API RobotSession {
+/// @throws ConnectionLost, ServerRefused from all members; commands throw std::invalid_argument
+///   where the server says that the robot does not take them
+class ORTUNG_API RobotSession : public RobotCommands {
  public:
   /// Connects and creates the robot.
   /// @param robotToml text of the robot file
   RobotSession(const SessionOptions& options, std::string_view robotToml);
-  ~RobotSession();
+  ~RobotSession() override;
   RobotSession(const RobotSession&) = delete;
   RobotSession& operator=(const RobotSession&) = delete;
 
@@ -71,11 +73,10 @@ class ORTUNG_API RobotSession {
   /// "simulation" or "record".
   const std::string& kind() const { return kind_; }
 
-  void setTranslationalVelocity(double metresPerSecond);
-  void setRotationalVelocity(double radiansPerSecond);
-  void setMotion(std::span<const double> command);
-  /// @param state its name, or its number from 0
-  void setManipulator(const std::string& manipulator, const std::string& state);
+  void setTranslationalVelocity(double metresPerSecond) override;
+  void setRotationalVelocity(double radiansPerSecond) override;
+  void setMotion(std::span<const double> command) override;
+  void setManipulator(std::string_view manipulator, std::string_view state) override;
   void say(const std::string& text);
 
   /// Readings that are new, oldest first, stamped by the server's clock.
@@ -105,6 +106,7 @@ class ORTUNG_API RobotSession {
 
  private:
   std::string exchange(const std::string& request, double timeout);
+  void tell(const std::string& request);
   std::vector<Message> takeReadings(const std::string& reply);
   std::string withForm(std::string request) const;
   std::size_t countOf(const std::string& reply, std::string_view key, std::size_t most) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/server/BoardCommand.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung {
@@ -21,12 +22,13 @@ struct BoardLimits {
   std::size_t features = 1024;            ///< a robot
   double rays = 250'000.0;                ///< that a robot's sensors need [1/s], see Sensor::rays()
   std::size_t sessions = 256;             ///< clients at a time
+  std::size_t httpHead = 16u << 10;       ///< of a request of a web browser [bytes]
   std::size_t output = 1u << 20;          ///< waiting to be read by a client [bytes]; more: dropped
   std::size_t orders = 64;                ///< of a client, waiting for the world
   std::size_t errors = 100;               ///< of a client in a row; more: dropped
-  double handshake = 5.0;                 ///< from connecting to HELLO [s]
-  double idle = 30.0;                     ///< without a line from a client, subscribers apart [s]
-  double stall = 10.0;                    ///< with output that a client does not read [s]
+  double handshake = 5.0;  ///< from connecting to HELLO, or to the end of HTTP's head [s]
+  double idle = 30.0;      ///< without a line from a client, subscribers apart [s]
+  double stall = 10.0;     ///< with output that a client does not read [s]
 };
 
 /// How time passes.
@@ -42,6 +44,15 @@ struct BoardToken {
   std::string token;
 };
 
+/// Is given what speaks HTTP to the board's port instead of the protocol.
+/// @param socket connected and non-blocking; nothing is read from it any more
+/// @param head all that was read: the request's head with the empty line that ends it, at most
+///   BoardLimits::httpHead bytes, and whatever has come behind it
+/// @returns whether it has taken the connection: then it closes the socket when it is done;
+///   otherwise the board answers that it is no web server, and closes it
+/// Called on the thread that talks to clients, so it must not wait; it may throw: not taken.
+using HttpTaker = std::function<bool(int socket, const std::string& head)>;
+
 struct BoardConfig {
   std::string address = "127.0.0.1";  ///< to listen on; others than loopback need tokens
   std::uint16_t port = 0;             ///< 0: the system chooses
@@ -50,6 +61,8 @@ struct BoardConfig {
   Pace pace = Pace::kRealTime;
   double speed = 1.0;
   BoardLimits limits;
+  std::vector<BoardCommand> commands;  ///< beside those of the protocol
+  HttpTaker http;                      ///< empty: the board answers that it is no web server
   /// Told what happens, one line each, from any thread; may be empty.
   std::function<void(const std::string&)> log;
 };
@@ -65,10 +78,11 @@ struct BoardStatistics {
 ///
 /// One thread, that of run(), owns the world; one more talks to all clients. They exchange orders
 /// and readings, so no client can make the world wait.
+/// Not thread-safe, but for what says so.
 class ORTUNG_API MessageBoard {
  public:
   /// Listens from now on.
-  /// @param world borrowed
+  /// @param world borrowed; a live one is served in real time at its own speed
   /// @throws std::invalid_argument for a configuration that makes no sense
   /// @throws std::runtime_error if it can't listen there
   MessageBoard(ServedWorld& world, const BoardConfig& config);

@@ -16,6 +16,7 @@ namespace ortung {
 /// A record for the message board, as if it were a simulator: a cycle is a moment of the record,
 /// and every robot gets those of its readings that its configuration has. It begins when the first
 /// robot is there. Commands of motion and manipulators are taken and come to nothing.
+/// Not thread-safe.
 class ORTUNG_API ServedRecord : public ServedWorld {
  public:
   /// @param repeats whether it starts over at the end, time going on
@@ -33,18 +34,22 @@ class ORTUNG_API ServedRecord : public ServedWorld {
   std::vector<std::string> abilities(RobotId) const override { return {}; }
   void removeRobot(RobotId robot) override;
   std::span<const Message> readings(RobotId robot) const override;
-  void setTranslationalVelocity(RobotId robot, double) override { check(robot); }
-  void setRotationalVelocity(RobotId robot, double) override { check(robot); }
-  void setMotion(RobotId robot, std::span<const double>) override { check(robot); }
-  void setManipulator(RobotId robot, const std::string&, const std::string&) override {
-    check(robot);
-  }
+  RobotCommands& commands(RobotId robot) override;
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;
 
  private:
   struct Guest;
+  /// Takes all commands, and nothing comes of them.
+  class Deaf final : public RobotCommands {
+   public:
+    ~Deaf() override = default;
+    void setTranslationalVelocity(double) override {}
+    void setRotationalVelocity(double) override {}
+    void setMotion(std::span<const double>) override {}
+    void setManipulator(std::string_view, std::string_view) override {}
+  };
   void open();
   void readAhead();
   void check(RobotId robot) const;
@@ -61,6 +66,7 @@ class ORTUNG_API ServedRecord : public ServedWorld {
   bool hasBegun_ = false;
   bool isAtEnd_ = false;
   std::map<RobotId, std::unique_ptr<Guest>> guests_;
+  Deaf deaf_;
 };
 
 }  // namespace ortung

@@ -11,6 +11,7 @@
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/core/RobotCommands.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/robot/RobotFile.hpp"
 
@@ -61,11 +62,12 @@ struct Resident {
 struct WorldDescription {
   std::string name;
   std::string fingerprint;  ///< "" if it is not known
-  std::string kind;         ///< "simulation" or "record"
+  std::string kind;         ///< "simulation", "record" or "robot"
 };
 
-/// What the message board serves: a simulation, or a record as if it were one.
-/// Owned by one thread; refusals are ServeErrors (or the errors of configurations and plugins).
+/// What the message board serves: a simulation, a record as if it were one, a running robot.
+/// Not thread-safe: one thread owns it. Refusals are ServeErrors, or the errors of configurations
+/// and plugins.
 class ORTUNG_API ServedWorld {
  public:
   virtual ~ServedWorld();
@@ -73,8 +75,12 @@ class ORTUNG_API ServedWorld {
   virtual WorldDescription describe() const = 0;
   /// Names of the plugins that clients may use in the configurations of robots.
   virtual std::vector<std::string> plugins() const = 0;
-  /// Stamp of the readings that the next step gives.
+  /// Stamp of the readings that the next step gives; if it is live, the time of its clock.
   virtual Timestamp now() const = 0;
+  /// How long the board waits between two steps of a world whose time goes on whatever the board
+  /// does [us]: a live one, such as a running robot. It can't be paused, made faster, reset, or
+  /// joined by robots of clients. 0: its time is the board's.
+  virtual Timestamp livePeriod() const { return 0; }
   /// Whether it may begin.
   virtual bool isReady() const { return true; }
   /// Whether there is nothing left to step to.
@@ -91,13 +97,8 @@ class ORTUNG_API ServedWorld {
   /// What the robot's sensors gave in the last cycle; valid until the next call of anything.
   virtual std::span<const Message> readings(RobotId robot) const = 0;
 
-  virtual void setTranslationalVelocity(RobotId robot, double metresPerSecond) = 0;
-  virtual void setRotationalVelocity(RobotId robot, double radiansPerSecond) = 0;
-  /// The motion plugin's own command.
-  virtual void setMotion(RobotId robot, std::span<const double> command) = 0;
-  /// @param state name of a state, or its number from 0
-  virtual void setManipulator(RobotId robot, const std::string& manipulator,
-                              const std::string& state) = 0;
+  /// Through which a robot is commanded; valid until the next call of anything.
+  virtual RobotCommands& commands(RobotId robot) = 0;
 
   /// Starts over: time, chance and robots as at their beginning.
   virtual void reset(std::optional<std::uint64_t> seed) = 0;
@@ -106,6 +107,6 @@ class ORTUNG_API ServedWorld {
 };
 
 /// The features of a container.
-std::vector<ServedFeature> servedFeatures(const SensorContainer& container);
+ORTUNG_API std::vector<ServedFeature> servedFeatures(const SensorContainer& container);
 
 }  // namespace ortung

@@ -1,14 +1,18 @@
-#include "ortung/server/ServedSimulation.hpp"
+#include "ortung/served/ServedSimulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "RobotPlugins.hpp"
+#include "ortung/motion/MotionModel.hpp"
+#include "ortung/server/RobotPlugins.hpp"
 
 namespace ortung {
 namespace {
 
+// What a robot of a client may be made of. Sources and players are for whoever runs the server.
+constexpr std::string_view kInterfaces[] = {SensorData::kInterface, Sensor::kInterface,
+                                            Drive::kInterface, MotionModel::kInterface};
 constexpr std::size_t kMostPlanners = 8;  // each keeps a plan of the floor for one size
 
 }  // namespace
@@ -16,8 +20,7 @@ constexpr std::size_t kMostPlanners = 8;  // each keeps a plan of the floor for 
 struct ServedSimulation::Guest {
   RobotWish wish;
   SimRobot* robot = nullptr;  ///< the simulation's
-  bool wanders = false;       ///< nobody has commanded it yet
-  bool isResident = false;    ///< of the scene: the player of the scene lets it in
+  bool isResident = false;    ///< of the scene, which has let it in
 };
 
 ServedSimulation::ServedSimulation(const std::filesystem::path& file,
@@ -28,8 +31,8 @@ ServedSimulation::ServedSimulation(Scene scene, const Simulation::Config& config
     : scene_(std::move(scene)),
       config_(config),
       factory_(PluginFactory::standardFolders()),
-      plugins_(robotPlugins(factory_)),
-      player_(std::make_unique<ScenePlayer>(scene_, config_, factory_)),
+      plugins_(robotPlugins(factory_, kInterfaces)),
+      run_(std::make_unique<SceneRun>(scene_, config_, factory_)),
       entered_(scene_.robots.size()) {
   for (const SceneRobot& robot : scene_.robots) {
     auto guest = std::make_unique<Guest>();
@@ -58,12 +61,12 @@ std::vector<Resident> ServedSimulation::residents() const {
 
 /// A planner costs time and memory, so clients can't have as many as they like.
 void ServedSimulation::preparePlanner(const RobotSize& size) {
-  if (!player_->hasPlanner(size) && player_->planners() >= kMostPlanners)
+  if (!run_->hasPlanner(size) && run_->planners() >= kMostPlanners)
     throw ServeError("limit", "robots of " + std::to_string(kMostPlanners) +
                                   " different sizes are here already; give a start, and do not "
                                   "ask for wandering");
   try {
-    player_->planner(size);
+    run_->planner(size);
   } catch (const std::invalid_argument& error) {
     throw ServeError("no-room", error.what());
   }
@@ -73,17 +76,17 @@ void ServedSimulation::preparePlanner(const RobotSize& size) {
 /// anywhere.
 void ServedSimulation::enter(RobotId robot, Guest& guest) {
   if (guest.isResident) {
-    guest.robot = simulation().robots()[*player_->find(guest.wish.name)].get();
+    guest.robot = simulation().robots()[*run_->find(guest.wish.name)].get();
     return;
   }
   RobotConfig config = guest.wish.config;
   // Clients name their robots as they like, so two of them may like the same.
-  if (player_->find(config.name)) config.name += "-" + std::to_string(robot);
+  if (run_->find(config.name)) config.name += "-" + std::to_string(robot);
   const bool isRestart = guests_.contains(robot);
   if (guest.wish.wanders || !guest.wish.start) preparePlanner(sizeOf(config));
   const std::uint64_t number = entered_;
   const auto add = [&](const std::optional<Pose2>& start) {
-    guest.robot = &player_->addRobot(config, factory_, start, number);
+    guest.robot = &run_->addRobot(config, factory_, start, number);
   };
   try {
     add(guest.wish.start);
@@ -93,8 +96,7 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
     add(std::nullopt);
   }
   ++entered_;
-  guest.wanders = guest.wish.wanders;
-  if (guest.wanders) player_->letWander(*guest.robot, number);
+  if (guest.wish.wanders) run_->letWander(*guest.robot, number);
 }
 
 ServedRobot ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
@@ -120,13 +122,7 @@ SimRobot& ServedSimulation::find(RobotId robot) const {
   return *found;
 }
 
-SimRobot& ServedSimulation::commanded(RobotId robot) {
-  SimRobot& found = find(robot);
-  Guest& its = guest(robot);
-  if (its.wanders) found.setDriver(nullptr);
-  its.wanders = false;
-  return found;
-}
+RobotCommands& ServedSimulation::commands(RobotId robot) { return find(robot); }
 
 void ServedSimulation::removeRobot(RobotId robot) {
   const Guest& leaving = guest(robot);
@@ -142,23 +138,6 @@ std::span<const Message> ServedSimulation::readings(RobotId robot) const {
   return {};
 }
 
-void ServedSimulation::setTranslationalVelocity(RobotId robot, double metresPerSecond) {
-  commanded(robot).drive().setTranslationalVelocity(metresPerSecond);
-}
-
-void ServedSimulation::setRotationalVelocity(RobotId robot, double radiansPerSecond) {
-  commanded(robot).drive().setRotationalVelocity(radiansPerSecond);
-}
-
-void ServedSimulation::setMotion(RobotId robot, std::span<const double> command) {
-  const Drive& drive = find(robot).drive();
-  if (command.size() != drive.commandSize())
-    throw ServeError("number",
-                     "found " + std::to_string(command.size()) + " numbers, this drive expects " +
-                         std::to_string(drive.commandSize()) + ": " + drive.commandHelp());
-  commanded(robot).drive().setCommand(command);
-}
-
 std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
   SimRobot& found = find(robot);
   std::vector<std::string> lines = {"drive " + found.drive().commandHelp()};
@@ -170,31 +149,11 @@ std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
   return lines;
 }
 
-void ServedSimulation::setManipulator(RobotId robot, const std::string& manipulator,
-                                      const std::string& state) {
-  SimRobot& found = find(robot);
-  for (const Manipulator& one : found.shape().manipulators) {
-    if (one.name != manipulator) continue;
-    for (std::size_t i = 0; i < one.states.size(); ++i) {
-      if (state != one.states[i].name && state != std::to_string(i)) continue;
-      commanded(robot).setManipulator(manipulator, one.states[i].name);
-      return;
-    }
-    std::string names;
-    for (const ManipulatorState& known : one.states) names += " " + known.name;
-    throw ServeError("no-manipulator", "manipulator " + manipulator + " has the states" + names +
-                                           " (0 to " + std::to_string(one.states.size() - 1) + ")");
-  }
-  throw ServeError("no-manipulator", "robot " + std::to_string(robot) + " (" +
-                                         guest(robot).wish.name + ") has no manipulator '" +
-                                         manipulator + "'");
-}
-
 void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
   Simulation::Config config = config_;
   if (seed) config.seed = *seed;
-  auto fresh = std::make_unique<ScenePlayer>(scene_, config, factory_);
-  player_ = std::move(fresh);
+  auto fresh = std::make_unique<SceneRun>(scene_, config, factory_);
+  run_ = std::move(fresh);
   config_ = config;
   entered_ = scene_.robots.size();
   for (auto& [id, guest] : guests_) {

@@ -4,7 +4,7 @@
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
-#include "ortung/server/ServedSimulation.hpp"
+#include "ortung/served/ServedSimulation.hpp"
 
 namespace ortung::test {
 namespace {

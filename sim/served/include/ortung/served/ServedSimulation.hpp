@@ -6,35 +6,32 @@
 
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/server/ServedWorld.hpp"
-#include "ortung/sim/Scene.hpp"
+#include "ortung/sim/SceneRun.hpp"
 
 namespace ortung {
 
 /// A simulated world for the message board, with the robots and the script of a scene if it is one;
 /// a script's end is not the world's. Robots of clients start and wander as those of the source
 /// `sim` do: the first robot of a server started with the same seed does the same, bit for bit.
+/// Not thread-safe.
 class ORTUNG_API ServedSimulation : public ServedWorld {
  public:
   /// @param file of a world or a scene @throws as the other one
   ServedSimulation(const std::filesystem::path& file, const Simulation::Config& config);
-  /// @throws ConfigError, PluginError, std::invalid_argument for what ScenePlayer refuses
+  /// @throws ConfigError, PluginError, std::invalid_argument for what SceneRun refuses
   ServedSimulation(Scene scene, const Simulation::Config& config);
   ~ServedSimulation() override;
 
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return plugins_; }
   Timestamp now() const override { return simulation().now(); }
-  void step() override { player_->step(); }
+  void step() override { run_->step(); }
   std::vector<Resident> residents() const override;
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
   std::span<const Message> readings(RobotId robot) const override;
-  void setTranslationalVelocity(RobotId robot, double metresPerSecond) override;
-  void setRotationalVelocity(RobotId robot, double radiansPerSecond) override;
-  void setMotion(RobotId robot, std::span<const double> command) override;
-  void setManipulator(RobotId robot, const std::string& manipulator,
-                      const std::string& state) override;
+  RobotCommands& commands(RobotId robot) override;
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;
@@ -42,9 +39,8 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
  private:
   struct Guest;
   Guest& guest(RobotId robot) const;
-  SimRobot& commanded(RobotId robot);
   SimRobot& find(RobotId robot) const;
-  Simulation& simulation() const { return player_->simulation(); }
+  Simulation& simulation() const { return run_->simulation(); }
   void enter(RobotId robot, Guest& guest);
   void preparePlanner(const RobotSize& size);
 
@@ -52,7 +48,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   Simulation::Config config_;
   PluginFactory factory_;
   std::vector<std::string> plugins_;
-  std::unique_ptr<ScenePlayer> player_;
+  std::unique_ptr<SceneRun> run_;
   std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
   std::uint64_t entered_;  ///< robots since the last reset: each has chances of its own
 };

@@ -1,4 +1,4 @@
-#include "ortung/sim/Scene.hpp"
+#include "ortung/sim/SceneRun.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -14,10 +14,14 @@ DriveLimits limitsOf(SimRobot& robot, std::optional<double> speed) {
   return limits;
 }
 
+std::invalid_argument foundNoRoom(const std::string& robot) {
+  return std::invalid_argument("found no room for robot " + robot + " at " +
+                               std::to_string(kAttempts) + " places");
+}
+
 }  // namespace
 
-ScenePlayer::ScenePlayer(const Scene& scene, const Simulation::Config& config,
-                         PluginFactory& factory)
+SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory)
     : scene_(scene), simulation_(std::make_unique<Simulation>(readWorld(scene.world), config)) {
   // Those with a place of their own first, so that nobody stands there already.
   for (const bool hasStart : {true, false})
@@ -27,45 +31,65 @@ ScenePlayer::ScenePlayer(const Scene& scene, const Simulation::Config& config,
   for (const ScenePlacement& placement : scene_.placements) needThing(placement.thing);
 }
 
-ScenePlayer::~ScenePlayer() = default;
+SceneRun::~SceneRun() = default;
 
-void ScenePlayer::addRobot(const SceneRobot& robot, std::size_t place, PluginFactory& factory) {
+void SceneRun::addRobot(const SceneRobot& robot, std::size_t place, PluginFactory& factory) {
   RobotConfig config = readRobot(robot.file);
   config.name = robot.name;
-  SimRobot& added = addRobot(config, factory, robot.start, place);
+  Random placing = simulation_->random(2 * place);
+  SimRobot& added = enter(config, factory, robot.start, placing);
   if (robot.wanders) letWander(added, place, robot.speed);
   if (!robot.waypoints.empty())
     added.setDriver(makeFollower(robot.waypoints, limitsOf(added, robot.speed)));
+  if (!robot.kidnaps.empty()) kidnapped_.push_back({added, robot.kidnaps, placing});
 }
 
-SimRobot& ScenePlayer::addRobot(const RobotConfig& config, PluginFactory& factory,
-                                const std::optional<Pose2>& start, std::uint64_t number) {
+SimRobot& SceneRun::addRobot(const RobotConfig& config, PluginFactory& factory,
+                             const std::optional<Pose2>& start, std::uint64_t number) {
   Random placing = simulation_->random(2 * number);
+  return enter(config, factory, start, placing);
+}
+
+SimRobot& SceneRun::enter(const RobotConfig& config, PluginFactory& factory,
+                          const std::optional<Pose2>& start, Random& placing) {
   for (int attempt = 1;; ++attempt) {
     const Pose2 pose = start ? *start : planner(sizeOf(config)).randomPose(placing);
     try {
       return simulation_->addRobot(config, factory, pose);
     } catch (const std::invalid_argument&) {
       if (start) throw;
-      if (attempt == kAttempts)
-        throw std::invalid_argument("found no room for robot " + config.name + " at " +
-                                    std::to_string(kAttempts) + " places");
+      if (attempt == kAttempts) throw foundNoRoom(config.name);
     }
   }
 }
 
-void ScenePlayer::letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed) {
+void SceneRun::kidnap(Kidnapped& kidnapped) {
+  if (kidnapped.next == kidnapped.moments.size() ||
+      simulation_->now() < kidnapped.moments[kidnapped.next])
+    return;
+  ++kidnapped.next;
+  const RoutePlanner& floor = planner(sizeOf(kidnapped.robot.config()));
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return simulation_->place(kidnapped.robot, floor.randomPose(kidnapped.placing));
+    } catch (const std::invalid_argument&) {
+      if (attempt == kAttempts) throw foundNoRoom(kidnapped.robot.config().name);
+    }
+  }
+}
+
+void SceneRun::letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed) {
   robot.setDriver(makeWanderer(planner(sizeOf(robot.config())), limitsOf(robot, speed),
                                simulation_->random(2 * number + 1)));
 }
 
-const RoutePlanner& ScenePlayer::planner(const RobotSize& size) {
+const RoutePlanner& SceneRun::planner(const RobotSize& size) {
   const auto known = planners_.find(size);
   if (known != planners_.end()) return known->second;
   return planners_.try_emplace(size, simulation_->world(), size).first->second;
 }
 
-std::optional<std::size_t> ScenePlayer::find(const std::string& robot) const {
+std::optional<std::size_t> SceneRun::find(const std::string& robot) const {
   const auto robots = simulation_->robots();
   const auto found = std::find_if(robots.begin(), robots.end(),
                                   [&](const auto& one) { return one->config().name == robot; });
@@ -73,40 +97,39 @@ std::optional<std::size_t> ScenePlayer::find(const std::string& robot) const {
   return static_cast<std::size_t>(found - robots.begin());
 }
 
-std::size_t ScenePlayer::need(const std::string& robot) const {
+std::size_t SceneRun::need(const std::string& robot) const {
   const auto found = find(robot);
   if (!found)
     throw std::invalid_argument("a command is for robot '" + robot + "', which is not there");
   return *found;
 }
 
-std::size_t ScenePlayer::needThing(const std::string& thing) const {
+std::size_t SceneRun::needThing(const std::string& thing) const {
   const auto things = simulation_->things();
   for (std::size_t i = 0; i < things.size(); ++i)
     if (things[i].name == thing) return i;
   throw std::invalid_argument("the world has nothing movable of the name '" + thing + "'");
 }
 
-void ScenePlayer::step() {
+void SceneRun::step() {
   const Timestamp now = simulation_->now();
   while (nextPlacement_ < scene_.placements.size() && scene_.placements[nextPlacement_].at <= now)
     put(scene_.placements[nextPlacement_++]);
   while (nextCommand_ < scene_.commands.size() && scene_.commands[nextCommand_].at <= now)
     obey(scene_.commands[nextCommand_++]);
+  for (Kidnapped& kidnapped : kidnapped_) kidnap(kidnapped);
   simulation_->step();
 }
 
-void ScenePlayer::put(const ScenePlacement& placement) {
+void SceneRun::put(const ScenePlacement& placement) {
   simulation_->placeThing(needThing(placement.thing), placement.pose, placement.velocity);
 }
 
-void ScenePlayer::obey(const SceneCommand& command) {
+void SceneRun::obey(const SceneCommand& command) {
   SimRobot& robot = *simulation_->robots()[need(command.robot)];
-  const bool drives = command.translational || command.rotational || !command.vector.empty();
-  if (drives) robot.setDriver(nullptr);
-  if (command.translational) robot.drive().setTranslationalVelocity(*command.translational);
-  if (command.rotational) robot.drive().setRotationalVelocity(*command.rotational);
-  if (!command.vector.empty()) robot.drive().setCommand(command.vector);
+  if (command.translational) robot.setTranslationalVelocity(*command.translational);
+  if (command.rotational) robot.setRotationalVelocity(*command.rotational);
+  if (!command.vector.empty()) robot.setMotion(command.vector);
   if (!command.manipulator.empty()) robot.setManipulator(command.manipulator, command.state);
 }
 

@@ -1,0 +1,7 @@
+#include "ortung/core/RobotCommands.hpp"
+
+namespace ortung {
+
+RobotCommands::~RobotCommands() = default;
+
+}  // namespace ortung

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/sim/RoutePlanner.hpp"
+#include "ortung/sim/Scene.hpp"
+#include "ortung/sim/Simulation.hpp"
+
+namespace ortung {
+
+/// A scene under way: a simulation of its own with the scene's robots in it, and the script.
+/// Not thread-safe.
+class ORTUNG_API SceneRun {
+ public:
+  /// @param factory must outlive this
+  /// @throws ConfigError, PluginError, std::invalid_argument for commands to what is not there
+  SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory);
+  ~SceneRun();
+  SceneRun(const SceneRun&) = delete;
+  SceneRun& operator=(const SceneRun&) = delete;
+
+  /// One cycle: what the script says is due, then everything moves.
+  /// @throws std::invalid_argument for a command that its robot refuses, and for a robot to be
+  ///   carried elsewhere that finds no room
+  void step();
+
+  Simulation& simulation() { return *simulation_; }
+  const Simulation& simulation() const { return *simulation_; }
+  /// Place of a robot among those of the simulation, or nothing.
+  std::optional<std::size_t> find(const std::string& robot) const;
+
+  /// Adds a robot that the scene does not have.
+  /// @param start in the field frame; none: anywhere
+  /// @param number of its streams of chance; the scene's own robots have those from 0
+  /// @throws std::invalid_argument if there is no room; ConfigError, PluginError
+  SimRobot& addRobot(const RobotConfig& config, PluginFactory& factory,
+                     const std::optional<Pose2>& start, std::uint64_t number);
+  /// Lets a robot drive about by itself. @param number as for addRobot() @param speed at most [m/s]
+  void letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed = std::nullopt);
+  /// The plan of the floor for robots of a size, made when it is first asked for.
+  /// @throws std::invalid_argument if such a robot fits nowhere
+  const RoutePlanner& planner(const RobotSize& size);
+  bool hasPlanner(const RobotSize& size) const { return planners_.contains(size); }
+  std::size_t planners() const { return planners_.size(); }
+
+ private:
+  /// A robot that is carried elsewhere now and then.
+  struct Kidnapped {
+    SimRobot& robot;
+    std::vector<Timestamp> moments;
+    Random placing;  ///< goes on where that of its start ended
+    std::size_t next = 0;
+  };
+  void addRobot(const SceneRobot& robot, std::size_t place, PluginFactory& factory);
+  SimRobot& enter(const RobotConfig& config, PluginFactory& factory,
+                  const std::optional<Pose2>& start, Random& placing);
+  void kidnap(Kidnapped& kidnapped);
+  void obey(const SceneCommand& command);
+  void put(const ScenePlacement& placement);
+  std::size_t need(const std::string& robot) const;
+  std::size_t needThing(const std::string& thing) const;
+
+  Scene scene_;
+  std::map<RobotSize, RoutePlanner> planners_;  ///< outlive the drivers
+  std::unique_ptr<Simulation> simulation_;
+  std::vector<Kidnapped> kidnapped_;
+  std::size_t nextCommand_ = 0;
+  std::size_t nextPlacement_ = 0;
+};
+
+}  // namespace ortung

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace ortung {
+
+/// A command that whoever hosts a message board adds to the protocol; HELP lists it. The board
+/// refuses one without name or handler, or whose name is another's or one of the protocol's.
+struct BoardCommand {
+  /// What a client said: "NAME word ... key=value ...".
+  struct Call {
+    std::string client;  ///< its name
+    std::vector<std::string> words;
+    std::map<std::string, std::string> keys;  ///< the last one of each counts
+  };
+  /// "OK NAME words" or, if there are lines, "OK NAME words lines=N" and the lines behind it. What
+  /// is not printable ASCII becomes '?'.
+  struct Reply {
+    std::string words;  ///< e.g. "angle_deg=30"; may be empty
+    std::vector<std::string> lines;
+  };
+
+  std::string name;           ///< capitals, digits and '_', beginning with a capital, at most 32
+  std::string help;           ///< its arguments and what it does, one line; may be empty
+  bool needsControl = false;  ///< whether it is for operators; otherwise it is for all
+  /// Executes it, on the thread of MessageBoard::run(), between two steps of the world: it may use
+  /// the world, and whatever takes long holds it up.
+  /// @throws ServeError to refuse it, answered as "ERR code text"; other errors as the board's own
+  std::function<Reply(const Call&)> handle;
+};
+
+}  // namespace ortung

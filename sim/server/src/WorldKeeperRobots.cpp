@@ -1,0 +1,128 @@
+// Clients, their robots, and who may command which.
+#include <cmath>
+
+#include "WorldKeeper.hpp"
+
+namespace ortung::server {
+
+WorldKeeper::Client& WorldKeeper::client(ClientId id) {
+  const auto found = clients_.find(id);
+  if (found == clients_.end()) throw ServeError("internal", "the client has left");
+  return found->second;
+}
+
+void WorldKeeper::join(ClientId client, const std::string& name, bool isOperator) {
+  clients_[client].name = name;
+  clients_[client].isOperator = isOperator;
+  clientCount_ = clients_.size();
+}
+
+void WorldKeeper::leave(ClientId client) {
+  const auto found = clients_.find(client);
+  if (found == clients_.end()) return;
+  for (const RobotId robot : found->second.robots) remove(robot);
+  for (const auto& [robot, commander] : commanders_)
+    if (commander == client) halt(robot);
+  std::erase_if(commanders_, [&](const auto& entry) { return entry.second == client; });
+  clients_.erase(found);
+  clientCount_ = clients_.size();
+  robotCount_ = robots_.size();
+}
+
+std::shared_ptr<RobotReadings> WorldKeeper::createRobot(ClientId owner, RobotWish wish) {
+  Client& its = client(owner);
+  if (its.robots.size() >= config_.limits.robots)
+    throw ServeError("limit",
+                     "a client has at most " + std::to_string(config_.limits.robots) + " robots");
+  const RobotId robot = lastRobot_ + 1;
+  const std::string name = wish.name;
+  ServedRobot served = world_.addRobot(robot, std::move(wish));
+  lastRobot_ = robot;
+  try {
+    checkLimits(served);
+  } catch (...) {
+    world_.removeRobot(robot);
+    throw;
+  }
+  auto readings = std::make_shared<RobotReadings>(robot, name, std::move(served.features));
+  its.robots.insert(robot);
+  robots_[robot] = {owner, readings};
+  robotCount_ = robots_.size();
+  return readings;
+}
+
+void WorldKeeper::checkLimits(const ServedRobot& robot) const {
+  const BoardLimits& limits = config_.limits;
+  if (robot.features.size() > limits.features)
+    throw ServeError("limit", "the robot has " + std::to_string(robot.features.size()) +
+                                  " features, at most " + std::to_string(limits.features) +
+                                  " are permitted");
+  if (robot.raysPerSecond > limits.rays)
+    throw ServeError(
+        "limit", "the robot's sensors need " + std::to_string(std::llround(robot.raysPerSecond)) +
+                     " rays a second, at most " + std::to_string(std::llround(limits.rays)) +
+                     " are permitted: fewer beams, or longer periods");
+}
+
+void WorldKeeper::removeRobot(ClientId owner, RobotId robot) {
+  checkOwner(owner, robot);
+  remove(robot);
+  client(owner).robots.erase(robot);
+  robotCount_ = robots_.size();
+}
+
+void WorldKeeper::remove(RobotId robot) {
+  world_.removeRobot(robot);
+  const auto found = robots_.find(robot);
+  found->second.readings->retire();
+  robots_.erase(found);
+}
+
+void WorldKeeper::checkOwner(ClientId client, RobotId robot) const {
+  const auto found = robots_.find(robot);
+  if (found == robots_.end())
+    throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
+  if (found->second.owner == kNobody)
+    throw ServeError("not-yours", "robot " + std::to_string(robot) + " belongs to the world");
+  if (found->second.owner != client)
+    throw ServeError("not-yours", "robot " + std::to_string(robot) + " belongs to another client");
+}
+
+RobotCommands& WorldKeeper::commands(ClientId id, RobotId robot) {
+  if (!isLive()) {
+    checkOwner(id, robot);
+    return world_.commands(robot);
+  }
+  if (!client(id).isOperator)
+    throw ServeError("role", "commanding a running robot needs the role operator");
+  RobotCommands& commands = world_.commands(robot);
+  commanders_[robot] = id;
+  return commands;
+}
+
+void WorldKeeper::haltCommanded() {
+  for (const auto& [robot, commander] : commanders_) halt(robot);
+  commanders_.clear();
+}
+
+/// A robot on a simulated field leaves it with its client; a live one must not drive on alone.
+void WorldKeeper::halt(RobotId robot) {
+  try {
+    RobotCommands& commands = world_.commands(robot);
+    commands.setTranslationalVelocity(0.0);
+    commands.setRotationalVelocity(0.0);
+  } catch (const std::exception& error) {
+    if (config_.log)
+      config_.log("robot " + std::to_string(robot) +
+                  " could not be stopped when its commander left: " + error.what());
+  }
+}
+
+std::shared_ptr<RobotReadings> WorldKeeper::readings(RobotId robot) const {
+  const auto found = robots_.find(robot);
+  if (found == robots_.end())
+    throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
+  return found->second.readings;
+}
+
+}  // namespace ortung::server

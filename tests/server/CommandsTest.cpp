@@ -1,0 +1,106 @@
+// Commands that whoever hosts the board adds to the protocol.
+#include <gtest/gtest.h>
+
+#include "CountingWorld.hpp"
+#include "Files.hpp"
+#include "RunningBoard.hpp"
+#include "TestClient.hpp"
+
+namespace ortung::test {
+namespace {
+
+/// Says what it was told: its caller, words and keys.
+BoardCommand echo(const std::string& name = "ECHO") {
+  return {name, "WORD ... [key=value ...], the same again", false,
+          [](const BoardCommand::Call& call) {
+            if (call.words.empty()) throw ServeError("syntax", "ECHO needs words");
+            BoardCommand::Reply reply;
+            reply.words = "from=" + call.client;
+            for (const std::string& word : call.words) reply.lines.push_back(word);
+            for (const auto& [key, value] : call.keys) reply.lines.push_back(key + "=" + value);
+            return reply;
+          }};
+}
+
+TEST(Commands, OfTheHostAreAnsweredInTheirTurn) {
+  CountingWorld world;
+  BoardConfig config;
+  config.commands = {echo()};
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  EXPECT_EQ(client.ask("ECHO a"), "ERR hello say HELLO ortung/1 first");
+  client.ask("HELLO ortung/1 name=anna role=viewer");
+  client.send("#1 echo one two key=3 key=4\n#2 TIME\n");
+  EXPECT_EQ(client.line(), "#1 OK ECHO from=anna lines=3");
+  EXPECT_EQ(client.line(), "one");
+  EXPECT_EQ(client.line(), "two");
+  EXPECT_EQ(client.line(), "key=4");
+  EXPECT_TRUE(client.line().starts_with("#2 OK TIME"));
+  EXPECT_EQ(client.ask("#3 ECHO"), "#3 ERR syntax ECHO needs words");
+}
+
+TEST(Commands, OfTheHostStandBehindTheProtocolsInHelp) {
+  CountingWorld world;
+  BoardConfig config;
+  config.commands = {echo()};
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  std::string last;
+  for (int lines = std::stoi(valueOf(client.ask("HELP"), "lines")); lines > 0; --lines)
+    last = client.line();
+  EXPECT_EQ(last, "ECHO WORD ... [key=value ...], the same again");
+}
+
+TEST(Commands, SomeAreForOperators) {
+  CountingWorld world;
+  BoardConfig config;
+  config.control = {"olga"};
+  config.commands = {echo("SECRET")};
+  config.commands.front().needsControl = true;
+  const RunningBoard board(world, config);
+  TestClient anna(board.port());
+  anna.ask("HELLO ortung/1 name=anna");
+  EXPECT_EQ(anna.ask("SECRET x"),
+            "ERR role SECRET needs the role operator, this client is a player");
+  TestClient olga(board.port());
+  olga.ask("HELLO ortung/1 name=olga");
+  EXPECT_EQ(olga.ask("SECRET x"), "OK SECRET from=olga lines=1");
+}
+
+TEST(Commands, TheirErrorsAndStrangeTextsHarmNobody) {
+  CountingWorld world;
+  BoardConfig config;
+  config.commands = {
+      {"BREAK", "", false,
+       [](const auto&) -> BoardCommand::Reply { throw std::runtime_error("ouch"); }},
+      {"THROW", "", false, [](const auto&) -> BoardCommand::Reply { throw 5; }},
+      {"BELL", "", false, [](const auto&) { return BoardCommand::Reply{"a\nb", {"\x07"}}; }}};
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  EXPECT_EQ(client.ask("BREAK"), "ERR internal ouch");
+  EXPECT_EQ(client.ask("THROW"), "ERR internal it threw no std::exception");
+  EXPECT_EQ(client.ask("BELL"), "OK BELL a?b lines=1");
+  EXPECT_EQ(client.line(), "?");
+}
+
+TEST(Commands, ThatMakeNoSenseAreRefusedAtConstruction) {
+  CountingWorld world;
+  const auto complaint = [&](const std::vector<BoardCommand>& commands) {
+    BoardConfig config;
+    config.commands = commands;
+    return messageOf<std::invalid_argument>([&] { MessageBoard(world, config); });
+  };
+  EXPECT_EQ(complaint({echo("HELLO")}), "the command 'HELLO' is one of the protocol's own");
+  EXPECT_EQ(complaint({echo("READ")}), "the command 'READ' is one of the protocol's own");
+  EXPECT_EQ(complaint({echo(), echo()}), "the command 'ECHO' is there twice");
+  for (const char* name : {"", "echo", "E CHO", "1ECHO", "E\n"})
+    EXPECT_NE(complaint({echo(name)}).find("must be of capitals"), std::string::npos) << name;
+  EXPECT_EQ(complaint({{"ECHO", "", false, {}}}), "the command 'ECHO' has nobody who executes it");
+  BoardCommand chatty = echo();
+  chatty.help = "two\nlines";
+  EXPECT_NE(complaint({chatty}).find("has a help that is not one line"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ortung::test
