@@ -6,7 +6,8 @@ if(ORTUNG_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-set(CMAKE_INSTALL_RPATH $ORIGIN/../lib $ORIGIN $ORIGIN/../..)
+# Of programs in bin/ and libexec/ortung/, of libraries, of plugins in lib/ortung/plugins/.
+set(CMAKE_INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR} $ORIGIN/../../${CMAKE_INSTALL_LIBDIR} $ORIGIN $ORIGIN/../..)
 
 # Warnings, and no fused multiply-add: the same bits whatever instruction set is chosen at run time.
 function(ortung_options target)
