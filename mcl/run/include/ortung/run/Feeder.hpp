@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/Record.hpp"
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/core/Source.hpp"
+
+namespace ortung {
+
+/// Type of the feature that holds ground truth.
+inline constexpr const char* kGroundTruth = "groundTruth";
+
+/// Fills a container from a source, moment by moment in the order of time, and keeps an eye on what
+/// passes. Not thread-safe; the container may be read by others meanwhile.
+class ORTUNG_API Feeder {
+ public:
+  /// @param name what errors call the source
+  /// @param source as @p container must outlive this
+  Feeder(std::string name, Source& source, SensorContainer& container);
+
+  /// Also writes everything that passes into @p record, which must outlive this.
+  void recordInto(RecordWriter& record) { record_ = &record; }
+
+  /// Fills in the next moment; false at the end.
+  /// @throws std::runtime_error naming the source, the time and what is wrong with a reading
+  bool next();
+
+  Timestamp stamp() const { return stamp_; }  ///< of the present moment
+  double seconds() const { return toSeconds(stamp_) - toSeconds(first_); }  ///< since the first one
+  std::size_t moments() const { return moments_; }
+  /// Share of the source that has been read, in [0, 1], or -1 if it has no end.
+  double progress() const { return source_.progress(); }
+
+  /// Ground truth of the present moment, if the source gave it then. Never comes from the
+  /// container, so it is there for every robot file; the first feature that gives it wins.
+  const std::optional<Pose2>& truth() const { return truth_; }
+
+  /// How many readings came of features that the container lacks, by "model/type/feature"; at most
+  /// 1000 names. They are passed over, so whoever runs this may want to say so.
+  const std::map<std::string, std::size_t>& unknown() const { return unknown_; }
+
+ private:
+  void look(const Message& message);
+
+  std::string name_;
+  Source& source_;
+  SensorContainer& container_;
+  RecordWriter* record_ = nullptr;
+  FrameReader reader_;
+  std::vector<Message> frame_;
+  Timestamp first_ = 0;
+  Timestamp stamp_ = 0;
+  std::size_t moments_ = 0;
+  std::optional<SensorId> truthId_;
+  std::optional<Pose2> truth_;
+  std::map<std::string, std::size_t> unknown_;
+};
+
+}  // namespace ortung
