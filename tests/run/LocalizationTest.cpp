@@ -54,7 +54,7 @@ TEST_F(Localizing, TakesWhatIsOpenedAlready) {
   }
 }
 
-TEST_F(Localizing, ReadingsMayComeFromAnotherThread) {
+TEST_F(Localizing, ReadingsMayComeFromOtherThreads) {
   Localization localization(config());
   std::thread device([&] {
     for (const auto& moment : moments) localization.container().set(moment);
