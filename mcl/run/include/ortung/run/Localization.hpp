@@ -68,7 +68,7 @@ class ORTUNG_API Localization {
   /// @throws ConfigError, PluginError, TableError, SourceTextError, WorldMismatch,
   ///   std::invalid_argument for settings out of their range, std::runtime_error of the source
   explicit Localization(const LocalizationConfig& config);
-  /// On an opened robot with tables and an opened source, which may be null. The paths and the
+  /// On an opened robot with tables, and an opened source or null. The paths and the
   /// source's text in @p config are no more than what errors call them.
   /// @throws as above
   Localization(std::unique_ptr<Robot> robot, std::unique_ptr<Source> source,
@@ -89,7 +89,7 @@ class ORTUNG_API Localization {
   /// Looks at the container's readings: the new estimate if they weighed the belief.
   std::optional<PoseEstimate> update();
 
-  /// Begins anew; readings that were looked at before don't count again.
+  /// Begins anew; the container's present readings count again. @throws std::invalid_argument
   void start(const LocalizationStart& start);
   /// False while the start waits for ground truth.
   bool isStarted() const { return !waitsForTruth_; }
