@@ -6,7 +6,8 @@ if(ORTUNG_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-set(CMAKE_INSTALL_RPATH $ORIGIN/../lib $ORIGIN $ORIGIN/../..)
+# Of programs in bin/ and libexec/ortung/, of libraries, of plugins in lib/ortung/plugins/.
+set(CMAKE_INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR} $ORIGIN/../../${CMAKE_INSTALL_LIBDIR} $ORIGIN $ORIGIN/../..)
 
 # Warnings, and no fused multiply-add: the same bits whatever instruction set is chosen at run time.
 function(ortung_options target)
@@ -41,9 +42,26 @@ function(ortung_library name)
     EXPORT_NAME ${name}
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
     VERIFY_INTERFACE_HEADER_SETS ON) # every public header compiles alone
+  ortung_component(${name} "${ARG_PUBLIC}" "${ARG_PRIVATE}")
   install(TARGETS ${target} EXPORT ortung_${name} FILE_SET HEADERS FILE_SET abi)
   install(EXPORT ortung_${name} NAMESPACE ortung:: FILE ortung_${name}.cmake
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung)
+endfunction()
+
+# Notes for the package what the component is built on: our libraries, which must be loaded before it, and
+# packages of others whose targets its users link. The package loads components in the order of these notes,
+# which is that of their dependencies.
+function(ortung_component name public private)
+  set(needs ${public} ${private})
+  list(FILTER needs INCLUDE REGEX "^ortung::")
+  list(TRANSFORM needs REPLACE "^ortung::" "")
+  set(packages ${public})
+  list(FILTER packages INCLUDE REGEX "^[^$:]+::")  # a target's package is what stands before its name
+  list(FILTER packages EXCLUDE REGEX "^ortung::")
+  list(TRANSFORM packages REPLACE "::.*" "")
+  set_property(GLOBAL APPEND PROPERTY ORTUNG_COMPONENTS ${name})
+  set_property(GLOBAL APPEND_STRING PROPERTY ORTUNG_COMPONENT_NOTES
+    "set(ortung_${name}_NEEDS ${needs})\nset(ortung_${name}_PACKAGES ${packages})\n")
 endfunction()
 
 # Writes <ortung/NAME/Abi.hpp>: a fingerprint of the public headers. It is part of every
@@ -81,6 +99,8 @@ endfunction()
 
 function(ortung_install_package)
   include(CMakePackageConfigHelpers)
+  get_property(components GLOBAL PROPERTY ORTUNG_COMPONENTS)
+  get_property(notes GLOBAL PROPERTY ORTUNG_COMPONENT_NOTES)
   write_basic_package_version_file(ortungConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   configure_package_config_file(cmake/ortungConfig.cmake.in ortungConfig.cmake
     INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung)

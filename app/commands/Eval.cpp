@@ -1,16 +1,18 @@
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
 #include "Commands.hpp"
 #include "Console.hpp"
-#include "Localization.hpp"
+#include "Localizing.hpp"
 #include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
 #include "Report.hpp"
 #include "RunResult.hpp"
+#include "SourceArguments.hpp"
 
 namespace ortung::app {
 namespace {
@@ -41,14 +43,15 @@ RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& op
   Evaluation evaluation(options);
   RunResult run;
   bool any = false;
-  localization.onMoment([&](const Feeder& feeder) {
+  const auto onMoment = [&](const Feeder& feeder) {
     if (!any) run.first = feeder.stamp();
     any = true;
     evaluation.addTime(feeder.stamp());
     if (feeder.truth()) evaluation.addTruth(feeder.stamp(), *feeder.truth());
-  });
+  };
   Progress progress("localizing", arguments.localization.progress);
-  while (const std::optional<EvaluationStep> step = localization.next()) {
+  while (const std::optional<EvaluationStep> step =
+             nextStep(localization, arguments.localization, onMoment)) {
     evaluation.addStep(*step);
     run.estimates.push_back(step->estimate);
     progress.update(localization.feeder().progress());
@@ -75,20 +78,20 @@ void warnOfGaps(const RunResult& run) {
 int runEval(const EvalArguments& arguments) {
   const Evaluation::Options options = readOptions(arguments);
   checkOutputs(arguments);
-  Localization localization(arguments.localization);
+  const std::unique_ptr<Localization> localization = openLocalization(arguments.localization);
   std::optional<RecordWriter> record;
   if (!arguments.record.empty()) {
-    record.emplace(arguments.record, localization.source().worldFingerprint());
-    localization.feeder().recordInto(*record);
+    record.emplace(arguments.record, localization->source().worldFingerprint());
+    localization->feeder().recordInto(*record);
   }
-  RunResult run = evaluate(arguments, options, localization);
-  run.seed = localization.config().seed;
-  run.particles = localization.config().maxSamples;
+  RunResult run = evaluate(arguments, options, *localization);
+  run.seed = localization->mclConfig().seed;
+  run.particles = localization->mclConfig().maxSamples;
   run.robot = arguments.localization.robot.string();
   run.tables = arguments.localization.tables.string();
-  run.tableInfo = localization.robot().tables;
+  run.tableInfo = localization->robot().tables;
   run.commandLine = arguments.commandLine;
-  localization.feeder().warnOfUnknown();
+  warnOfUnknown(arguments.localization.source, localization->feeder());
   warnOfGaps(run);
   if (record) record->commit();
   if (!arguments.json.empty()) writeFile(arguments.json, toJson(run));

@@ -10,7 +10,7 @@
 #include "Interrupt.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
-#include "Sources.hpp"
+#include "SourceArguments.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
@@ -146,7 +146,7 @@ int runImport(const ImportArguments& arguments) {
   const SourceText text = sourceText(arguments);
   checkOutput(arguments.out);
   PluginFactory factory(PluginFactory::standardFolders());
-  const std::unique_ptr<Source> source = openSource(text, arguments.withRobot, factory);
+  const std::unique_ptr<Source> source = openSourceArgument(text, arguments.withRobot, factory);
 
   std::optional<Workshop> world;
   std::optional<Workshop> robot;

@@ -7,11 +7,11 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
-#include "Localization.hpp"
 #include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
 #include "ortung/robot/TableInfo.hpp"
+#include "ortung/run/Robot.hpp"
 #include "ortung/sim/Learner.hpp"
 #include "ortung/sim/RobotShape.hpp"
 

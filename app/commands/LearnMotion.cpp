@@ -5,13 +5,13 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
-#include "Localization.hpp"
 #include "MotionLogs.hpp"
 #include "MotionToml.hpp"
 #include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
 #include "ortung/mcl/MotionLearner.hpp"
+#include "ortung/run/Robot.hpp"
 
 namespace ortung::app {
 namespace {

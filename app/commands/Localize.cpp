@@ -1,30 +1,33 @@
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "Commands.hpp"
 #include "EstimatesText.hpp"
-#include "Localization.hpp"
+#include "Localizing.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
+#include "SourceArguments.hpp"
 
 namespace ortung::app {
 
 int runLocalize(const LocalizeArguments& arguments) {
   const bool toFile = !arguments.out.empty();
   if (toFile) checkOutput(arguments.out);
-  Localization localization(arguments.localization);
+  const LocalizationArguments& run = arguments.localization;
+  const std::unique_ptr<Localization> localization = openLocalization(run);
   std::string text(kEstimatesHeader);
   std::size_t updates = 0;
   {
-    Progress progress("localizing", arguments.localization.progress);
-    while (const std::optional<EvaluationStep> step = localization.next()) {
+    Progress progress("localizing", run.progress);
+    while (const std::optional<EvaluationStep> step = nextStep(*localization, run)) {
       ++updates;
       appendEstimate(step->estimate, text);
       if (toFile) {
-        progress.update(localization.feeder().progress());
+        progress.update(localization->feeder().progress());
         continue;
       }
       // Whoever reads our output gets each pose as soon as it is known.
@@ -33,9 +36,9 @@ int runLocalize(const LocalizeArguments& arguments) {
       text.clear();
     }
   }
-  localization.feeder().warnOfUnknown();
+  warnOfUnknown(run.source, localization->feeder());
   if (updates == 0) {
-    throw std::runtime_error(arguments.localization.source +
+    throw std::runtime_error(run.source +
                              ": gave no reading of any feature that the tables know, so there is "
                              "nothing to localize with");
   }

@@ -2,30 +2,30 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "HeatMap.hpp"
 #include "Interrupt.hpp"
-#include "Localization.hpp"
 #include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
+#include "SourceArguments.hpp"
 #include "ortung/formats/BearingData.hpp"
 #include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/formats/ScanData.hpp"
+#include "ortung/run/Feeder.hpp"
+#include "ortung/run/FieldMaps.hpp"
+#include "ortung/run/Robot.hpp"
 
 namespace ortung::app {
 namespace {
-
-constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 SensorQuery readQuery(const std::string& feature) {
   try {
@@ -94,22 +94,14 @@ Unit unitOf(const SensorData& feature, std::size_t index) {
 }
 
 /// What one feature is expected to read all over the field (Fig. 7a).
-HeatMap expectationMap(const Robot& robot, const SensorData& feature,
-                       const ShowArguments& arguments) {
-  const FieldRegion& region = robot.tables.region;
+HeatMap drawnExpectation(const Robot& robot, const SensorData& feature,
+                         const ShowArguments& arguments) {
   const double heading = wrapAngle(radians(arguments.headingDeg.value_or(0.0)));
   const Unit unit = unitOf(feature, arguments.beam);
   HeatMap map;
-  map.region = &region;
-  map.values.assign(region.grid.size(), kNoValue);
-  std::size_t most = 0;
-  for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {
-    if (region.open[cell] == 0) continue;
-    const std::vector<double> expected =
-        feature.expectation({region.grid.centreX(cell), region.grid.centreY(cell), heading});
-    most = std::max(most, expected.size());
-    if (arguments.beam < expected.size()) map.values[cell] = unit.factor * expected[arguments.beam];
-  }
+  map.region = &robot.tables.region;
+  ExpectationMap expected = expectationMap(*map.region, feature, arguments.beam, heading);
+  const std::size_t most = expected.count;
   if (arguments.beam >= most) {
     throw std::runtime_error(
         most == 0
@@ -119,6 +111,8 @@ HeatMap expectationMap(const Robot& robot, const SensorData& feature,
             : fmt::format("{}: --beam is {}, but {} has {} values", arguments.tables.string(),
                           arguments.beam, toText(feature.id()), most));
   }
+  map.values = std::move(expected.values);
+  for (double& value : map.values) value *= unit.factor;
   map.unit = unit.name;
   map.caption = fmt::format("expectation of {}", toText(feature.id()));
   if (most > 1) map.caption += fmt::format(" [{}]", arguments.beam);
@@ -135,7 +129,7 @@ std::string sourceText(const ShowArguments& arguments) {
 /// Fills the container with the readings up to the wanted moment; returns the newest truth.
 std::optional<Pose2> fillUntil(const ShowArguments& arguments, Robot& robot) {
   const std::string name = sourceText(arguments);
-  const std::unique_ptr<Source> source = openSource(name, arguments.robot, robot.factory);
+  const std::unique_ptr<Source> source = openSourceArgument(name, arguments.robot, robot.factory);
   Feeder feeder(name, *source, robot.container);
   std::optional<Pose2> truth;
   double last = 0.0;
@@ -149,42 +143,15 @@ std::optional<Pose2> fillUntil(const ShowArguments& arguments, Robot& robot) {
       fmt::format("{}: ends after {:.3f} s, but --at is {}", name, last, arguments.at));
 }
 
-/// Cells and their poses for one heading, as the container's fast path wants them.
-struct Cells {
-  std::vector<std::size_t> index;
-  std::vector<float> x;
-  std::vector<float> y;
-  std::vector<float> theta;
-  std::vector<float> logProbability;
-
-  explicit Cells(const FieldRegion& region) {
-    for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {
-      if (region.open[cell] == 0) continue;
-      index.push_back(cell);
-      x.push_back(static_cast<float>(region.grid.centreX(cell)));
-      y.push_back(static_cast<float>(region.grid.centreY(cell)));
-    }
-    theta.resize(index.size());
-    logProbability.resize(index.size());
-  }
-};
-
 std::vector<double> headingsOf(const Robot& robot, const std::vector<SensorData*>& features,
                                const ShowArguments& arguments) {
   if (arguments.headingDeg) return {radians(*arguments.headingDeg)};
-  double spacing = robot.tables.headingStep;
-  for (const SensorData* feature : features) spacing = std::min(spacing, feature->headingSpacing());
-  constexpr double kMostHeadings = 3600.0;
-  const int count =
-      static_cast<int>(std::lround(std::clamp(2.0 * kPi / spacing, 1.0, kMostHeadings)));
-  std::vector<double> headings;
-  for (int i = 0; i < count; ++i) headings.push_back(2.0 * kPi * i / count);
-  return headings;
+  return mapHeadings(robot.tables.headingStep, features);
 }
 
 /// p(s given l) all over the field, the best heading of each cell (Fig. 7b).
-HeatMap probabilityMap(const Robot& robot, std::vector<SensorData*> features,
-                       const ShowArguments& arguments) {
+HeatMap drawnProbability(const Robot& robot, std::vector<SensorData*> features,
+                         const ShowArguments& arguments) {
   std::erase_if(features, [](const SensorData* feature) { return !feature->canWeigh(); });
   if (features.empty()) {
     throw std::runtime_error(
@@ -192,26 +159,15 @@ HeatMap probabilityMap(const Robot& robot, std::vector<SensorData*> features,
                     "try a later --at",
                     sourceText(arguments), fmt::join(arguments.features, "', '"), arguments.at));
   }
-  const FieldRegion& region = robot.tables.region;
   HeatMap map;
-  map.region = &region;
-  map.values.assign(region.grid.size(), kNoValue);
-  Cells cells(region);
+  map.region = &robot.tables.region;
   Progress progress("weighing", arguments.progress);
   const std::vector<double> headings = headingsOf(robot, features, arguments);
-  for (std::size_t i = 0; i < headings.size(); ++i) {
+  map.values = probabilityMap(*map.region, features, headings, [&](double share) {
     checkInterrupt();
-    progress.update(static_cast<double>(i) / static_cast<double>(headings.size()));
-    std::fill(cells.theta.begin(), cells.theta.end(), static_cast<float>(headings[i]));
-    std::fill(cells.logProbability.begin(), cells.logProbability.end(), 0.0F);
-    for (const SensorData* feature : features) {
-      feature->getProbability(SampleView{cells.x, cells.y, cells.theta}, cells.logProbability);
-    }
-    for (std::size_t k = 0; k < cells.index.size(); ++k) {
-      double& best = map.values[cells.index[k]];
-      best = std::fmax(best, std::exp(static_cast<double>(cells.logProbability[k])));
-    }
-  }
+    progress.update(share);
+    return true;
+  });
   map.caption = fmt::format("p({}) at {:g} s", fmt::join(arguments.features, ", "), arguments.at);
   if (features.size() > 1) map.caption += fmt::format(", {} features", features.size());
   map.logarithmic = arguments.logarithmic;
@@ -248,10 +204,10 @@ int runShow(const ShowArguments& arguments) {
                       "--record): {}",
                       features.size(), namesOf(features)));
     }
-    map = expectationMap(*robot, *features[0], arguments);
+    map = drawnExpectation(*robot, *features[0], arguments);
   } else {
     const std::optional<Pose2> truth = fillUntil(arguments, *robot);
-    map = probabilityMap(*robot, features, arguments);
+    map = drawnProbability(*robot, features, arguments);
     map.truth = truth;
   }
   writeFile(arguments.out, draw(map).png());

@@ -7,7 +7,6 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
-#include "Localization.hpp"
 #include "MotionGrid.hpp"
 #include "MotionLogs.hpp"
 #include "NetworkTrainer.hpp"
@@ -15,6 +14,7 @@
 #include "OutputFile.hpp"
 #include "Progress.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
+#include "ortung/run/Robot.hpp"
 #include "ortung/sim_api/Drive.hpp"
 
 namespace ortung::app {

@@ -6,10 +6,11 @@
 #include <stdexcept>
 
 #include "Interrupt.hpp"
-#include "Localization.hpp"
-#include "Sources.hpp"
+#include "SourceArguments.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/Words.hpp"
+#include "ortung/run/Feeder.hpp"
+#include "ortung/run/Robot.hpp"
 
 namespace ortung::app {
 namespace {
@@ -32,7 +33,7 @@ void readAll(const std::string& text, const std::filesystem::path& robotFile, Pr
   const std::string name = text.find(':') == std::string::npos ? "record:" + text : text;
   const std::unique_ptr<Robot> robot = openRobot(robotFile);
   const OdometryData& odometry = odometryOf(*robot, robotFile);
-  const std::unique_ptr<Source> source = openSource(name, robotFile, robot->factory);
+  const std::unique_ptr<Source> source = openSourceArgument(name, robotFile, robot->factory);
   Feeder feeder(name, *source, robot->container);
   std::uint64_t sequence = 0;
   bool hasTruth = false;

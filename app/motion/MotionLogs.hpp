@@ -13,7 +13,7 @@ namespace ortung::app {
 /// @param text "KIND:PATH?key=value", or just the path of a record
 /// @param from, to which part of the log, as shares of its time in [0, 1]
 /// @param model whose odometryAt() is the odometry to learn from; used up
-/// @throws std::runtime_error if it lacks one of them; as openSource()
+/// @throws std::runtime_error if it lacks one of them; as openSourceArgument()
 MotionLog readMotionLog(const std::string& text, const std::filesystem::path& robotFile,
                         double from, double to, MotionModel& model, Progress& progress);
 

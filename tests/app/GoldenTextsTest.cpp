@@ -5,9 +5,9 @@
 
 #include "EstimatesText.hpp"
 #include "Golden.hpp"
-#include "Localization.hpp"
 #include "MotionToml.hpp"
 #include "RunResult.hpp"
+#include "ortung/run/Robot.hpp"
 
 namespace ortung::app {
 namespace {

@@ -205,5 +205,12 @@ TEST(PluginFactory, SearchesTheFoldersOfTheEnvironmentFirst) {
   EXPECT_TRUE(folders[2].string().ends_with("lib/ortung/plugins"));
 }
 
+TEST(PluginFactory, FindsPluginsBesideItsLibraryWhereverTheProgramIs) {
+  ::unsetenv("ORTUNG_PLUGIN_PATH");
+  const auto folders = PluginFactory::standardFolders();
+  ASSERT_EQ(folders.size(), 1u);
+  EXPECT_EQ(folders[0], std::filesystem::canonical(ORTUNG_PLUGINS_DIR));
+}
+
 }  // namespace
 }  // namespace ortung

@@ -9,7 +9,7 @@
 
 #include "Commands.hpp"
 #include "Files.hpp"
-#include "Localization.hpp"
+#include "ortung/run/Localization.hpp"
 
 namespace ortung::test {
 namespace {
@@ -48,22 +48,21 @@ class Omnivision : public testing::Test {
 
   /// What 15 s of a drive give after the first 5 s.
   Counts drive(int seed) const {
-    app::LocalizationArguments arguments;
-    arguments.source = "sim:" + kWorld + "?duration=15&seed=" + std::to_string(seed);
-    arguments.robot = robot_;
-    arguments.tables = folder_ / "msl.ortung";
-    arguments.seed = static_cast<std::uint64_t>(seed);
-    app::Localization localization(arguments);
+    Localization localization(
+        {.robot = robot_,
+         .tables = folder_ / "msl.ortung",
+         .source = "sim:" + kWorld + "?duration=15&seed=" + std::to_string(seed),
+         .seed = static_cast<std::uint64_t>(seed)});
     Counts counts;
-    while (const auto step = localization.next()) {
+    while (const auto estimate = localization.next()) {
       const auto& truth = localization.feeder().truth();
-      if (!truth || step->estimate.stamp < fromSeconds(5.0)) continue;
+      if (!truth || estimate->stamp < fromSeconds(5.0)) continue;
       ++counts.steps;
-      if (isNear(step->estimate.pose, *truth)) {
+      if (isNear(estimate->pose, *truth)) {
         ++counts.right;
-        counts.worst = std::max(counts.worst, distance(step->estimate.pose, *truth));
+        counts.worst = std::max(counts.worst, distance(estimate->pose, *truth));
       }
-      counts.mirrored += isNear(step->estimate.pose, mirrored(*truth)) ? 1 : 0;
+      counts.mirrored += isNear(estimate->pose, mirrored(*truth)) ? 1 : 0;
     }
     return counts;
   }

@@ -8,8 +8,8 @@
 #include "../server/RunningBoard.hpp"
 #include "Commands.hpp"
 #include "Files.hpp"
-#include "Localization.hpp"
 #include "ortung/client/RemoteRobot.hpp"
+#include "ortung/run/Localization.hpp"
 #include "ortung/served/ServedSimulation.hpp"
 #include "ortung/server/ServedRecord.hpp"
 
@@ -45,17 +45,13 @@ class SourceEquivalence : public ::testing::Test {
 
   /// Localizes on a source, and writes what it gave into @p record if that has a name.
   static Outcome localize(const std::string& source, const std::filesystem::path& record = {}) {
-    app::LocalizationArguments arguments;
-    arguments.source = source;
-    arguments.robot = kRobot;
-    arguments.tables = tables();
-    app::Localization localization(arguments);
+    Localization localization({.robot = kRobot, .tables = tables(), .source = source});
     const std::filesystem::path file = record.empty() ? *folder_ / "passing.rec" : record;
     RecordWriter writer(file, localization.source().worldFingerprint());
     localization.feeder().recordInto(writer);
     Outcome run;
-    while (const auto step = localization.next()) {
-      const PoseEstimate& e = step->estimate;
+    while (const auto estimate = localization.next()) {
+      const PoseEstimate& e = *estimate;
       for (const double number : {e.pose.x, e.pose.y, e.pose.theta, e.share})
         run.estimates.push_back(std::bit_cast<std::uint64_t>(number));
       for (const double number : e.covariance)

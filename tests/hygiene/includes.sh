@@ -20,7 +20,11 @@ deny() {
 foreign='mrpt|opencv|embree|GL/|box2d|boost|spdlog|fmt/|CLI/'
 deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|served|client)|$foreign"
 deny 'container' 'toml\+\+|toml\.|nlohmann' 'container/robot/'
-deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client|robot)|toml|nlohmann|$foreign"
+deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign"
+deny 'mcl/include mcl/src' 'ortung/(robot|run)/'
+# The main job as a library: whoever uses it prints by himself and has his own command line.
+headers_of_app=$(ls app/*/*.hpp | xargs -n1 basename | sed 's/\.hpp$//' | paste -sd '|')
+deny 'mcl/run' "(.*/)?($headers_of_app)\\.hpp|unistd|csignal|iostream"
 deny 'sim/api' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|nlohmann|$foreign"
 deny 'sim' 'ortung/(mcl|realsensors)|mrpt|opencv'
 deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nlohmann|$foreign"
@@ -46,7 +50,7 @@ for room in $later; do
 done
 
 # Public headers name no library but the standard one and Eigen.
-for folder in container/*/include mcl/include sim/include sim/api/include sim/server/include \
+for folder in container/*/include mcl/include mcl/run/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done

@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "LibraryFolder.hpp"
+
 namespace ortung {
 namespace {
 
@@ -57,13 +59,19 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   return child;
 }
 
-/// The environment may say where; else beside the running program or where it was installed.
+/// The environment may say where; else beside the running program, or where the library's were
+/// installed or built.
 std::vector<std::filesystem::path> helperFolders() {
   if (const char* folder = std::getenv("ORTUNG_LIBEXEC"); folder && *folder) return {folder};
+  std::vector<std::filesystem::path> folders;
   std::error_code error;
   const auto own = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  if (error) return {};
-  return {own, own.parent_path() / "libexec" / "ortung"};
+  if (!error) folders.push_back(own);
+  const std::filesystem::path library = libraryFolder();
+  if (library.empty()) return folders;
+  folders.push_back((library / ORTUNG_LIBEXEC_FROM_LIB).lexically_normal());
+  folders.push_back(library.parent_path() / "bin");
+  return folders;
 }
 
 /// Everything up to the end, or nothing more than maxBytes + 1.

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "LibraryFolder.hpp"
+
 namespace ortung {
 namespace {
 
@@ -83,9 +85,8 @@ std::vector<std::filesystem::path> PluginFactory::standardFolders() {
       rest.erase(0, end + 1);
     }
   }
-  std::error_code none;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", none);
-  if (!none) folders.push_back(program.parent_path().parent_path() / "lib/ortung/plugins");
+  const std::filesystem::path library = libraryFolder();
+  if (!library.empty()) folders.push_back(library / "ortung/plugins");
   return folders;
 }
 

@@ -10,7 +10,7 @@
 namespace ortung {
 
 /// Where a helper program of ours is: in $ORTUNG_LIBEXEC if that is set, else beside the running
-/// program or in ../libexec/ortung from there.
+/// program, or where those of libortung_container.so were installed (libexec/ortung) or built.
 /// @param about what errors begin with, e.g. the file that is read
 /// @throws std::runtime_error naming these places
 ORTUNG_API std::filesystem::path findHelper(const std::string& name, const std::string& about);

@@ -44,8 +44,8 @@ class ORTUNG_API PluginFactory {
   /// @param folders searched in this order
   explicit PluginFactory(std::vector<std::filesystem::path> folders);
 
-  /// $ORTUNG_PLUGIN_PATH (folders, separated by ':'), then lib/ortung/plugins beside the folder
-  /// of the running program.
+  /// $ORTUNG_PLUGIN_PATH (folders, separated by ':'), then ortung/plugins in the folder of
+  /// libortung_container.so: the plugins that were built or installed with it.
   static std::vector<std::filesystem::path> standardFolders();
 
   /// @throws PluginError if the file cannot be loaded, exports no plugins, or was built for

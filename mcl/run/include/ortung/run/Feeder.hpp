@@ -1,35 +1,28 @@
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
-#include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Record.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/core/Source.hpp"
 
-namespace ortung::app {
+namespace ortung {
 
 /// Type of the feature that holds ground truth.
 inline constexpr const char* kGroundTruth = "groundTruth";
 
-/// Opens "KIND:PATH?key=value". "record" is built in, every other kind is a plugin.
-/// @param robotFile the source's "robot_file"; may be empty
-/// @throws UsageError, PluginError, ConfigError, std::runtime_error
-std::unique_ptr<Source> openSource(const std::string& text, const std::filesystem::path& robotFile,
-                                   PluginFactory& factory);
-std::unique_ptr<Source> openSource(const SourceText& text, const std::filesystem::path& robotFile,
-                                   PluginFactory& factory);
-
-/// Fills a container from a source, moment by moment, and keeps an eye on what passes.
-class Feeder {
+/// Fills a container from a source, moment by moment in the order of time, and keeps an eye on what
+/// passes. Not thread-safe; the container may be read by others meanwhile.
+class ORTUNG_API Feeder {
  public:
   /// @param name what errors call the source
+  /// @param source as @p container must outlive this
   Feeder(std::string name, Source& source, SensorContainer& container);
 
   /// Also writes everything that passes into @p record, which must outlive this.
@@ -42,16 +35,16 @@ class Feeder {
   Timestamp stamp() const { return stamp_; }  ///< of the present moment
   double seconds() const { return toSeconds(stamp_) - toSeconds(first_); }  ///< since the first one
   std::size_t moments() const { return moments_; }
+  /// Share of the source that has been read, in [0, 1], or -1 if it has no end.
   double progress() const { return source_.progress(); }
 
   /// Ground truth of the present moment, if the source gave it then. Never comes from the
   /// container, so it is there for every robot file; the first feature that gives it wins.
   const std::optional<Pose2>& truth() const { return truth_; }
 
-  /// Readings of features that the container lacks, by name.
+  /// How many readings came of features that the container lacks, by "model/type/feature"; at most
+  /// 1000 names. They are passed over, so whoever runs this may want to say so.
   const std::map<std::string, std::size_t>& unknown() const { return unknown_; }
-  /// Says once, on stderr, which features the robot file lacks.
-  void warnOfUnknown() const;
 
  private:
   void look(const Message& message);
@@ -70,4 +63,4 @@ class Feeder {
   std::map<std::string, std::size_t> unknown_;
 };
 
-}  // namespace ortung::app
+}  // namespace ortung

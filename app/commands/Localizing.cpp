@@ -1,0 +1,102 @@
+#include "Localizing.hpp"
+
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Numbers.hpp"
+#include "SourceArguments.hpp"
+
+namespace ortung::app {
+namespace {
+
+LocalizationStart readStart(const LocalizationArguments& arguments) {
+  using Kind = LocalizationStart::Kind;
+  const std::vector<double> sigmas =
+      parseNumbers(arguments.startSigma, "--start-sigma", {"m", "deg"});
+  if (sigmas[0] < 0.0 || sigmas[1] < 0.0) {
+    throw UsageError("--start-sigma is '" + arguments.startSigma + "', expected numbers >= 0");
+  }
+  LocalizationStart start{Kind::kGlobal, {}, sigmas[0], radians(sigmas[1])};
+  if (arguments.start == "truth") start.kind = Kind::kTruth;
+  if (arguments.start == "global" || arguments.start == "truth") return start;
+  const std::vector<double> pose =
+      parseNumbers(arguments.start, "--start", {"x", "y", "theta_deg"});
+  start.kind = Kind::kPose;
+  start.pose = {pose[0], pose[1], wrapAngle(radians(pose[2]))};
+  return start;
+}
+
+/// Four numbers of --motion in place of those of the robot file.
+Parameters withNumbers(const std::string& text, const Parameters& robotFile) {
+  const std::vector<std::string> names = {"turn_per_turn", "turn_per_m", "way_per_m",
+                                          "way_per_turn"};
+  const std::vector<double> numbers = parseNumbers(text, "--motion", names);
+  Parameters motion("--motion");
+  for (const char* key : {"floor_m", "floor_deg"}) {
+    if (robotFile.has(key)) motion.set(key, robotFile.number(key));
+  }
+  if (robotFile.has("plugin")) motion.set("plugin", robotFile.text("plugin"));
+  for (std::size_t i = 0; i < names.size(); ++i) motion.set(names[i], numbers[i]);
+  return motion;
+}
+
+std::optional<Parameters> readMotion(const LocalizationArguments& arguments, Robot& robot) {
+  const std::string& text = arguments.motion;
+  if (text.empty()) return std::nullopt;
+  if (text.find_first_not_of("0123456789+-.eE,") != std::string::npos) return readMotionFile(text);
+  const Parameters motion = withNumbers(text, robot.config.motion);
+  try {
+    makeMotion(motion, robot.factory);  // so that bad numbers are the command line's fault
+  } catch (const ConfigError& error) {
+    throw UsageError(error.what());
+  }
+  return motion;
+}
+
+}  // namespace
+
+std::unique_ptr<Localization> openLocalization(const LocalizationArguments& arguments) {
+  LocalizationConfig config;
+  config.start = readStart(arguments);
+  config.robot = arguments.robot;
+  config.tables = arguments.tables;
+  config.source = arguments.source;
+  config.seed = arguments.seed;
+  config.particles = arguments.particles;
+  config.threads = arguments.threads;
+  config.anyWorld = true;  // the message below names the option
+  std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
+  std::unique_ptr<Source> source =
+      openSourceArgument(arguments.source, arguments.robot, robot->factory);
+  config.motion = readMotion(arguments, *robot);
+  auto localization = std::make_unique<Localization>(std::move(robot), std::move(source), config);
+  const std::string& mismatch = localization->worldMismatch();
+  if (mismatch.empty()) return localization;
+  if (!arguments.anyWorld) {
+    throw std::runtime_error(mismatch + "; learn the tables in the same world, or use --any-world");
+  }
+  warn(mismatch);
+  return localization;
+}
+
+std::optional<EvaluationStep> nextStep(Localization& localization,
+                                       const LocalizationArguments& arguments,
+                                       const std::function<void(const Feeder&)>& onMoment) {
+  while (localization.advance()) {
+    checkInterrupt();
+    if (onMoment) onMoment(localization.feeder());
+    if (const std::optional<PoseEstimate> estimate = localization.update())
+      return EvaluationStep{*estimate, localization.updateMilliseconds()};
+  }
+  if (!localization.isStarted()) {
+    throw std::runtime_error(arguments.source +
+                             ": has no ground truth to start from, expected a feature of type "
+                             "groundTruth; use --start global or --start x,y,theta_deg");
+  }
+  return std::nullopt;
+}
+
+}  // namespace ortung::app

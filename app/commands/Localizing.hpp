@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "Commands.hpp"
+#include "ortung/mcl/Evaluation.hpp"
+#include "ortung/run/Localization.hpp"
+
+namespace ortung::app {
+
+/// What eval and localize do alike: MCL on a source as the command line says. Warns where the
+/// source comes from another world than the tables and --any-world lets it pass.
+/// @throws UsageError; else as ortung::Localization
+std::unique_ptr<Localization> openLocalization(const LocalizationArguments& arguments);
+
+/// The next update of the belief, or nothing at the end of the source.
+/// @param onMoment called for every moment of the source, before it is looked at by MCL
+/// @throws Interrupted, std::runtime_error
+std::optional<EvaluationStep> nextStep(Localization& localization,
+                                       const LocalizationArguments& arguments,
+                                       const std::function<void(const Feeder&)>& onMoment = {});
+
+}  // namespace ortung::app

@@ -1,0 +1,49 @@
+#include "SourceArguments.hpp"
+
+#include <fmt/format.h>
+
+#include "Console.hpp"
+#include "ortung/run/OpenSource.hpp"
+
+namespace ortung::app {
+namespace {
+
+template <class Text>
+std::unique_ptr<Source> open(const Text& text, const std::filesystem::path& robotFile,
+                             PluginFactory& factory) {
+  try {
+    return openSource(text, robotFile, factory);
+  } catch (const SourceTextError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Source> openSourceArgument(const std::string& text,
+                                           const std::filesystem::path& robotFile,
+                                           PluginFactory& factory) {
+  return open(text, robotFile, factory);
+}
+
+std::unique_ptr<Source> openSourceArgument(const SourceText& text,
+                                           const std::filesystem::path& robotFile,
+                                           PluginFactory& factory) {
+  return open(text, robotFile, factory);
+}
+
+void warnOfUnknown(const std::string& name, const Feeder& feeder) {
+  constexpr std::size_t kNamed = 5;
+  const auto& unknown = feeder.unknown();
+  if (unknown.empty()) return;
+  std::string text;
+  std::size_t named = 0;
+  for (const auto& [feature, count] : unknown) {
+    if (named++ == kNamed) break;
+    text += fmt::format("{}{} ({} readings)", named == 1 ? "" : ", ", feature, count);
+  }
+  if (unknown.size() > kNamed) text += fmt::format(" and {} more", unknown.size() - kNamed);
+  warn(fmt::format("{} gives features that the robot file does not have: {}", name, text));
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+
+/// What features expect, and how probable their readings are, all over the field (paper, Fig. 7).
+/// Maps are one value a cell of the region's grid, at its centre; NaN where a cell is not open.
+/// Thread-safe as long as nobody sets readings: hold the container's read lock if others might.
+namespace ortung {
+
+/// What one feature should read over the field (Fig. 7a).
+struct ExpectationMap {
+  std::vector<double> values;  ///< [m] or [rad] by the feature's format; NaN: nothing expected
+  std::size_t count = 0;       ///< values that the feature expects at a pose, at most
+};
+
+/// @param index which of the feature's values, e.g. the beam of a scan; at `count` or above, all
+///   values of the map are NaN
+/// @param heading of the robot [rad]
+ORTUNG_API ExpectationMap expectationMap(const FieldRegion& region, const SensorData& feature,
+                                         std::size_t index, double heading);
+
+/// Headings of a whole turn [rad], as close as the tables of @p features tell apart.
+/// @param headingStep of the tables (TableInfo) [rad]
+ORTUNG_API std::vector<double> mapHeadings(double headingStep,
+                                           std::span<const SensorData* const> features);
+
+/// The product of p(s|l) of the present readings of @p features (Fig. 7b), in [0, 1]: the best of
+/// @p headings for each cell. A feature that can't weigh counts as 1.
+/// @param headings of the robot [rad]
+/// @param goOn asked before each heading with the share done; false: stops with an empty map
+ORTUNG_API std::vector<double> probabilityMap(const FieldRegion& region,
+                                              std::span<const SensorData* const> features,
+                                              std::span<const double> headings,
+                                              const std::function<bool(double)>& goOn = {});
+
+}  // namespace ortung

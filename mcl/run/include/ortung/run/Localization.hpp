@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/core/Source.hpp"
+#include "ortung/mcl/Mcl.hpp"
+#include "ortung/mcl/MclConfig.hpp"
+#include "ortung/mcl/PoseEstimate.hpp"
+#include "ortung/run/Feeder.hpp"
+#include "ortung/run/Robot.hpp"
+
+namespace ortung {
+
+/// Where the samples start.
+struct LocalizationStart {
+  enum class Kind : std::uint8_t {
+    kGlobal,  ///< anywhere: the first reading says where
+    kTruth,   ///< at the first ground truth of the source (without one: in the container)
+    kPose     ///< at `pose`
+  };
+  Kind kind = Kind::kGlobal;
+  Pose2 pose = {};               ///< field frame
+  double sigmaPosition = 0.3;    ///< standard deviation of kTruth and kPose [m], at least 0
+  double sigmaHeading = 0.1745;  ///< the same [rad]
+};
+
+/// What a localization works with; only robot and tables have no default.
+struct LocalizationConfig {
+  std::filesystem::path robot = {};   ///< robot file
+  std::filesystem::path tables = {};  ///< what `ortung learn` wrote for this robot and world
+  std::string source = {};            ///< "KIND:PATH?key=value", or "": the program sets readings
+  std::uint64_t seed = 1;
+  std::optional<std::size_t> particles = {};  ///< in place of the robot file's
+  std::optional<unsigned> threads = {};       ///< of MCL; the result does not depend on it
+  LocalizationStart start = {};
+  std::optional<Parameters> motion = {};  ///< in place of the robot file's [motion]
+  bool anyWorld = false;  ///< take readings of another world than that of the tables
+};
+
+/// Readings come from another world than the one that the tables were learned in.
+class ORTUNG_API WorldMismatch : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  ~WorldMismatch() override;
+};
+
+/// Where one robot is: owns its features, their tables, MCL and, if there is one, the source.
+///
+/// With a source, next() pulls readings until there is a new estimate. Without, the program sets
+/// its readings with container().set() and calls update() when it wants to know.
+///
+/// Any number of threads may set and read readings of container(), while one thread, the same or
+/// another, calls update(); all other members are for that one thread.
+class ORTUNG_API Localization {
+ public:
+  /// Opens what the files and the source's text say.
+  /// @throws ConfigError, PluginError, TableError, SourceTextError, WorldMismatch,
+  ///   std::invalid_argument for settings out of their range, std::runtime_error of the source
+  explicit Localization(const LocalizationConfig& config);
+  /// On an opened robot with tables, and an opened source or null. The paths and the
+  /// source's text in @p config are no more than what errors call them.
+  /// @throws as above
+  Localization(std::unique_ptr<Robot> robot, std::unique_ptr<Source> source,
+               const LocalizationConfig& config);
+  ~Localization();
+  Localization(const Localization&) = delete;
+  Localization& operator=(const Localization&) = delete;
+
+  /// Pulls moments from the source until the belief was weighed: the new estimate, or nothing at
+  /// the end of the source or when @p goOn, asked before each moment, says no.
+  /// @throws std::runtime_error of the source; at the end, too, if the start waits for a ground
+  ///   truth that never came
+  std::optional<PoseEstimate> next(const std::function<bool()>& goOn = {});
+
+  /// Fills in the next moment of the source; false at the end. With update(), next() step by step.
+  /// @throws std::runtime_error of the source, std::logic_error without one
+  bool advance();
+  /// Looks at the container's readings: the new estimate if they weighed the belief.
+  std::optional<PoseEstimate> update();
+
+  /// Begins anew; the container's present readings count again. @throws std::invalid_argument
+  void start(const LocalizationStart& start);
+  /// False while the start waits for ground truth.
+  bool isStarted() const { return !waitsForTruth_; }
+
+  SensorContainer& container() { return robot_->container; }
+  const Robot& robot() const { return *robot_; }
+  const Mcl& mcl() const { return *mcl_; }
+  const MclConfig& mclConfig() const { return mclConfig_; }
+
+  Source& source();  ///< @throws std::logic_error without one
+  Feeder& feeder();  ///< @throws std::logic_error without a source
+  /// How the source's world is not that of the tables, if `anyWorld` let that pass; else "".
+  const std::string& worldMismatch() const { return worldMismatch_; }
+  /// Time that the updates took which led to the newest estimate [ms].
+  double updateMilliseconds() const { return updateMilliseconds_; }
+
+ private:
+  struct Opened {
+    std::unique_ptr<Robot> robot;
+    std::unique_ptr<Source> source;
+  };
+  static Opened open(const LocalizationConfig& config);
+  Localization(Opened opened, const LocalizationConfig& config);
+  void checkWorld(const LocalizationConfig& config);
+  void startAt(const Pose2& pose);
+  std::optional<Pose2> truth() const;
+
+  std::string sourceName_;
+  std::unique_ptr<Robot> robot_;
+  std::unique_ptr<Source> source_;
+  std::unique_ptr<Feeder> feeder_;  ///< null without a source
+  MclConfig mclConfig_;
+  std::unique_ptr<Mcl> mcl_;
+  LocalizationStart start_;
+  bool waitsForTruth_ = false;
+  std::string worldMismatch_;
+  double sinceEstimate_ = 0.0;  ///< time that updates took since the newest estimate [ms]
+  double updateMilliseconds_ = 0.0;
+};
+
+}  // namespace ortung

@@ -1,0 +1,85 @@
+#include "ortung/run/FieldMaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace ortung {
+namespace {
+
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kMostHeadings = 3600.0;
+
+/// Open cells as poses of one heading, which are weighed in one call a feature.
+struct OpenCells {
+  std::vector<std::size_t> index;
+  std::vector<float> x;
+  std::vector<float> y;
+  std::vector<float> theta;
+  std::vector<float> logProbability;
+
+  explicit OpenCells(const FieldRegion& region) {
+    for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {
+      if (region.open[cell] == 0) continue;
+      index.push_back(cell);
+      x.push_back(static_cast<float>(region.grid.centreX(cell)));
+      y.push_back(static_cast<float>(region.grid.centreY(cell)));
+    }
+    theta.resize(index.size());
+    logProbability.resize(index.size());
+  }
+
+  void weigh(std::span<const SensorData* const> features, double heading) {
+    std::fill(theta.begin(), theta.end(), static_cast<float>(heading));
+    std::fill(logProbability.begin(), logProbability.end(), 0.0F);
+    for (const SensorData* feature : features)
+      feature->getProbability(SampleView{x, y, theta}, logProbability);
+  }
+};
+
+}  // namespace
+
+ExpectationMap expectationMap(const FieldRegion& region, const SensorData& feature,
+                              std::size_t index, double heading) {
+  ExpectationMap map;
+  map.values.assign(region.grid.size(), kNoValue);
+  for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {
+    if (region.open[cell] == 0) continue;
+    const std::vector<double> expected =
+        feature.expectation({region.grid.centreX(cell), region.grid.centreY(cell), heading});
+    map.count = std::max(map.count, expected.size());
+    if (index < expected.size()) map.values[cell] = expected[index];
+  }
+  return map;
+}
+
+std::vector<double> mapHeadings(double headingStep, std::span<const SensorData* const> features) {
+  double spacing = headingStep;
+  for (const SensorData* feature : features) spacing = std::min(spacing, feature->headingSpacing());
+  const int count = static_cast<int>(std::lround(std::clamp(kTurn / spacing, 1.0, kMostHeadings)));
+  std::vector<double> headings;
+  for (int i = 0; i < count; ++i) headings.push_back(kTurn * i / count);
+  return headings;
+}
+
+std::vector<double> probabilityMap(const FieldRegion& region,
+                                   std::span<const SensorData* const> features,
+                                   std::span<const double> headings,
+                                   const std::function<bool(double)>& goOn) {
+  std::vector<double> map(region.grid.size(), kNoValue);
+  OpenCells cells(region);
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(headings.size());
+    if (goOn && !goOn(share)) return {};
+    cells.weigh(features, headings[i]);
+    for (std::size_t k = 0; k < cells.index.size(); ++k) {
+      double& best = map[cells.index[k]];
+      best = std::fmax(best, std::exp(static_cast<double>(cells.logProbability[k])));
+    }
+  }
+  return map;
+}
+
+}  // namespace ortung

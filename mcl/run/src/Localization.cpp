@@ -1,0 +1,134 @@
+#include "ortung/run/Localization.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/run/OpenSource.hpp"
+
+namespace ortung {
+namespace {
+
+MclConfig readMcl(const LocalizationConfig& config, const RobotConfig& robot) {
+  MclConfig mcl = MclConfig::read(robot.mcl);
+  mcl.seed = config.seed;
+  if (config.threads) mcl.threads = *config.threads;
+  if (config.particles) {
+    mcl.maxSamples = *config.particles;
+    if (mcl.minSamples > mcl.maxSamples) mcl.minSamples = mcl.maxSamples;
+  }
+  mcl.check();
+  return mcl;
+}
+
+std::unique_ptr<MotionModel> readMotion(const LocalizationConfig& config, Robot& robot) {
+  return makeMotion(config.motion.value_or(robot.config.motion), robot.factory);
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
+}
+
+}  // namespace
+
+WorldMismatch::~WorldMismatch() = default;
+
+Localization::Opened Localization::open(const LocalizationConfig& config) {
+  Opened opened{openRobot(config.robot, config.tables), nullptr};
+  if (!config.source.empty())
+    opened.source = openSource(config.source, config.robot, opened.robot->factory);
+  return opened;
+}
+
+Localization::Localization(const LocalizationConfig& config) : Localization(open(config), config) {}
+
+Localization::Localization(std::unique_ptr<Robot> robot, std::unique_ptr<Source> source,
+                           const LocalizationConfig& config)
+    : Localization(Opened{std::move(robot), std::move(source)}, config) {}
+
+Localization::Localization(Opened opened, const LocalizationConfig& config)
+    : sourceName_(config.source),
+      robot_(std::move(opened.robot)),
+      source_(std::move(opened.source)),
+      mclConfig_(readMcl(config, robot_->config)),
+      mcl_(std::make_unique<Mcl>(mclConfig_, robot_->tables.region, readMotion(config, *robot_))) {
+  if (source_) feeder_ = std::make_unique<Feeder>(sourceName_, *source_, robot_->container);
+  checkWorld(config);
+  start(config.start);
+}
+
+Localization::~Localization() = default;
+
+void Localization::checkWorld(const LocalizationConfig& config) {
+  const TableInfo& tables = robot_->tables;
+  const std::string world = source_ ? source_->worldFingerprint() : "";
+  if (world.empty() || tables.worldFingerprint.empty() || world == tables.worldFingerprint) return;
+  worldMismatch_ = sourceName_ + ": comes from the world " + world + ", but " +
+                   config.tables.string() + " was learned in the world " + tables.worldFingerprint +
+                   " ('" + tables.world + "')";
+  if (!config.anyWorld)
+    throw WorldMismatch(worldMismatch_ + "; learn the tables in the same world, or set anyWorld");
+}
+
+void Localization::start(const LocalizationStart& start) {
+  if (!(start.sigmaPosition >= 0.0 && start.sigmaHeading >= 0.0))
+    throw std::invalid_argument("start: sigmas are " + std::to_string(start.sigmaPosition) +
+                                " m and " + std::to_string(start.sigmaHeading) +
+                                " rad, expected numbers >= 0");
+  start_ = start;
+  waitsForTruth_ = start.kind == LocalizationStart::Kind::kTruth;
+  if (start.kind == LocalizationStart::Kind::kGlobal) mcl_->startGlobal();
+  if (start.kind == LocalizationStart::Kind::kPose) startAt(start.pose);
+}
+
+void Localization::startAt(const Pose2& pose) {
+  mcl_->startAt(pose, start_.sigmaPosition, start_.sigmaHeading);
+  waitsForTruth_ = false;
+}
+
+std::optional<Pose2> Localization::truth() const {
+  if (feeder_) return feeder_->truth();
+  return robot_->container.get<PoseData>({.type = kGroundTruth});
+}
+
+std::optional<PoseEstimate> Localization::update() {
+  if (waitsForTruth_) {
+    const std::optional<Pose2> pose = truth();
+    if (!pose) return std::nullopt;
+    startAt(*pose);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const bool weighed = mcl_->update(robot_->container);
+  sinceEstimate_ += millisecondsSince(begin);
+  if (!weighed) return std::nullopt;
+  updateMilliseconds_ = std::exchange(sinceEstimate_, 0.0);
+  return mcl_->estimate();
+}
+
+bool Localization::advance() { return feeder().next(); }
+
+std::optional<PoseEstimate> Localization::next(const std::function<bool()>& goOn) {
+  while (!goOn || goOn()) {
+    if (!advance()) {
+      if (isStarted()) return std::nullopt;
+      throw std::runtime_error(sourceName_ +
+                               ": has no ground truth to start from, expected a feature of type " +
+                               kGroundTruth);
+    }
+    if (const std::optional<PoseEstimate> estimate = update()) return estimate;
+  }
+  return std::nullopt;
+}
+
+Source& Localization::source() {
+  if (!source_) throw std::logic_error("this localization has no source");
+  return *source_;
+}
+
+Feeder& Localization::feeder() {
+  if (!feeder_) throw std::logic_error("this localization has no source");
+  return *feeder_;
+}
+
+}  // namespace ortung

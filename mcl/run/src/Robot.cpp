@@ -1,0 +1,35 @@
+#include "ortung/run/Robot.hpp"
+
+#include "ortung/robot/TomlFile.hpp"
+
+namespace ortung {
+
+std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile) {
+  auto robot = std::make_unique<Robot>();
+  robot->config = readRobot(robotFile);
+  robot->devices = fillContainer(robot->container, robot->config, robot->factory);
+  return robot;
+}
+
+std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
+                                 const std::filesystem::path& tablesFile) {
+  std::unique_ptr<Robot> robot = openRobot(robotFile);
+  robot->tables = loadTables(std::make_shared<const TableFile>(tablesFile), robot->container);
+  return robot;
+}
+
+std::unique_ptr<MotionModel> makeMotion(const Parameters& motion, PluginFactory& factory) {
+  return factory.make<MotionModel>(motion.textOr("plugin", "odometry"), motion);
+}
+
+Parameters readMotionFile(const std::filesystem::path& file) {
+  const Parameters parameters = readToml(file);
+  if (!parameters.has("motion")) {
+    throw ConfigError(file.string() +
+                      ": has no table [motion], expected one as in a robot file or as "
+                      "`ortung learn-motion` writes it");
+  }
+  return parameters.table("motion");
+}
+
+}  // namespace ortung

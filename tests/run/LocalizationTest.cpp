@@ -1,0 +1,185 @@
+#include <thread>
+
+#include "RoomRun.hpp"
+#include "ortung/run/Localization.hpp"
+
+namespace ortung::test {
+namespace {
+
+using Localizing = RoomRun;
+
+bool same(const PoseEstimate& a, const PoseEstimate& b) {
+  return a.stamp == b.stamp && a.pose.x == b.pose.x && a.pose.y == b.pose.y &&
+         a.pose.theta == b.pose.theta && a.covariance == b.covariance && a.samples == b.samples;
+}
+
+TEST_F(Localizing, FollowsASource) {
+  Localization localization(fromRecord());
+  std::size_t estimates = 0;
+  while (const auto estimate = localization.next()) {
+    ++estimates;
+    ASSERT_TRUE(localization.feeder().truth());
+    EXPECT_LT(distance(estimate->pose, *localization.feeder().truth()), 0.15);  // cells of 0.1 m
+    EXPECT_GT(localization.updateMilliseconds(), 0.0);
+  }
+  EXPECT_GT(estimates, 10U);
+  EXPECT_EQ(localization.feeder().moments(), 41U);
+}
+
+TEST_F(Localizing, ReadingsOfTheProgramGiveWhatASourceGives) {
+  Localization pulled(fromRecord());
+  Localization pushed(config());
+  std::size_t estimates = 0;
+  for (const auto& moment : moments) {
+    pushed.container().set(moment);
+    const auto own = pushed.update();
+    if (!own) continue;
+    const auto other = pulled.next();
+    ASSERT_TRUE(other);
+    EXPECT_TRUE(same(*own, *other)) << "at " << own->stamp << " us";
+    ++estimates;
+  }
+  EXPECT_FALSE(pulled.next());
+  EXPECT_GT(estimates, 10U);
+}
+
+TEST_F(Localizing, TakesWhatIsOpenedAlready) {
+  auto robot = openRobot(robotFile, tables);
+  Localization opened(std::move(robot), std::make_unique<RecordSource>(recordFile), config());
+  Localization named(fromRecord());
+  while (const auto estimate = named.next()) {
+    const auto other = opened.next();
+    ASSERT_TRUE(other);
+    EXPECT_TRUE(same(*estimate, *other));
+  }
+}
+
+TEST_F(Localizing, ReadingsMayComeFromOtherThreads) {
+  Localization localization(config());
+  // Where odometry began must be seen; of all that follows, as much as the threads happen to.
+  localization.container().set(moments[0]);
+  EXPECT_TRUE(localization.update());
+  std::thread device([&] {
+    for (const auto& moment : moments) localization.container().set(moment);
+  });
+  const Timestamp last = moments.back()[0].stamp;
+  std::size_t estimates = 0;
+  bool isLast = false;
+  while (!isLast) {
+    {
+      const auto lock = localization.container().read();
+      isLast = localization.container().find({.type = "LRF"})->stamp() == last;
+    }
+    if (localization.update()) ++estimates;
+  }
+  device.join();
+  EXPECT_GE(estimates, 1U);
+  EXPECT_EQ(localization.mcl().estimate().stamp, last);
+  EXPECT_LT(distance(localization.mcl().estimate().pose, truth), 0.15);
+}
+
+TEST_F(Localizing, ARefusedMomentIsNamedWithSourceAndTime) {
+  moments[3][1].words.pop_back();
+  record("room-1");
+  Localization localization(fromRecord());
+  EXPECT_EQ(messageOf<std::runtime_error>([&] {
+              while (localization.next()) {
+              }
+            }),
+            "record:" + recordFile.string() +
+                ": reading at 300000 us: LMS200/LRF/180DegreeScan: found 30 words, expected 31");
+}
+
+TEST_F(Localizing, ReadingsOfAnotherWorldAreRefusedUnlessAskedFor) {
+  learn("room-2");
+  const std::string facts = "record:" + recordFile.string() +
+                            ": comes from the world room-1, but " + tables.string() +
+                            " was learned in the world room-2 ('room')";
+  EXPECT_EQ(messageOf<WorldMismatch>([&] { Localization refused(fromRecord()); }),
+            facts + "; learn the tables in the same world, or set anyWorld");
+  LocalizationConfig any = fromRecord();
+  any.anyWorld = true;
+  Localization localization(any);
+  EXPECT_EQ(localization.worldMismatch(), facts);
+  EXPECT_TRUE(localization.next());
+  learn("room-1");
+  EXPECT_EQ(Localization(fromRecord()).worldMismatch(), "");
+}
+
+TEST_F(Localizing, StartsAtTheFirstTruth) {
+  LocalizationConfig config = fromRecord();
+  config.start = {LocalizationStart::Kind::kTruth, {}, 0.05, 0.05};
+  Localization localization(config);
+  EXPECT_FALSE(localization.isStarted());
+  const auto estimate = localization.next();
+  ASSERT_TRUE(estimate);
+  EXPECT_TRUE(localization.isStarted());
+  EXPECT_LT(distance(estimate->pose, start), 0.1);
+
+  config.source = "";
+  Localization own(config);
+  own.container().set(std::span(moments[0]).first(2));
+  EXPECT_FALSE(own.update()) << "no truth yet";
+  own.container().set(moments[0]);
+  EXPECT_TRUE(own.update());
+}
+
+TEST_F(Localizing, TruthThatNeverComesIsAnErrorAtTheEnd) {
+  for (auto& moment : moments) moment.pop_back();
+  record("room-1");
+  LocalizationConfig config = fromRecord();
+  config.start.kind = LocalizationStart::Kind::kTruth;
+  Localization localization(config);
+  EXPECT_FALSE(localization.next([] { return false; })) << "stopped before the end";
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { localization.next(); }),
+            "record:" + recordFile.string() +
+                ": has no ground truth to start from, expected a feature of type groundTruth");
+}
+
+TEST_F(Localizing, StopsWhenItsCallerSaysSo) {
+  Localization localization(fromRecord());
+  int asked = 0;
+  while (localization.next([&] { return ++asked <= 5; })) {
+  }
+  EXPECT_EQ(localization.feeder().moments(), 5U);
+}
+
+TEST_F(Localizing, BeginsAnewWhereItIsTold) {
+  Localization localization(fromRecord());
+  while (localization.next()) {
+  }
+  localization.start({LocalizationStart::Kind::kPose, start, 0.01, 0.01});
+  EXPECT_TRUE(localization.isStarted());
+  EXPECT_NEAR(localization.mcl().samples().x.front(), start.x, 0.05);  // five sigmas
+  EXPECT_THROW(localization.start({LocalizationStart::Kind::kPose, start, -1.0, 0.0}),
+               std::invalid_argument);
+}
+
+TEST_F(Localizing, TakesSettingsInPlaceOfTheRobotFiles) {
+  LocalizationConfig config = fromRecord();
+  config.particles = 300;
+  config.seed = 5;
+  config.threads = 2;
+  const Localization localization(config);
+  EXPECT_EQ(localization.mclConfig().maxSamples, 300U);
+  EXPECT_EQ(localization.mclConfig().minSamples, 300U) << "not more than there are at most";
+  EXPECT_EQ(localization.mclConfig().seed, 5U);
+  EXPECT_EQ(localization.mclConfig().threads, 2U);
+  config.particles = 0;
+  EXPECT_THROW(Localization refused(config), std::invalid_argument);
+  config = fromRecord();
+  config.motion = Parameters("mine");
+  config.motion->set("turn_per_trun", 0.1);
+  EXPECT_THROW(Localization refused(config), ConfigError);
+}
+
+TEST_F(Localizing, WithoutASourceThereIsNothingToPull) {
+  Localization localization(config());
+  EXPECT_THROW(localization.next(), std::logic_error);
+  EXPECT_THROW(localization.feeder(), std::logic_error);
+  EXPECT_THROW(localization.source(), std::logic_error);
+  EXPECT_FALSE(localization.update());
+}
+
+}  // namespace
+}  // namespace ortung::test
