@@ -13,6 +13,15 @@ namespace ortung {
 /// shorter than @p shortest [m].
 std::vector<FieldWall> wallsAt(const FieldModel& field, double z, double shortest);
 
+/// A wall with what is asked of it again and again.
+struct MeasuredWall : FieldWall {
+  explicit MeasuredWall(const FieldWall& wall);
+  double length;     ///< [m]
+  double direction;  ///< in the field frame [rad]
+  double cosine;     ///< of the direction
+  double sine;
+};
+
 struct WallMatcherConfig {
   double reach = 0.25;        ///< a point this near to a wall may be of it [m]
   double angle = 0.12;        ///< likewise, of directions [rad]
@@ -26,7 +35,6 @@ struct WallMatcherConfig {
 /// Gauss-Newton on the points' distances from their walls, whose normal matrix is the information.
 class WallMatcher {
  public:
-  /// @param walls must outlive it
   WallMatcher(std::span<const FieldWall> walls, const WallMatcherConfig& config);
 
   /// Poses of the robot that fit as well as the best, none if nothing fits.
@@ -40,12 +48,13 @@ class WallMatcher {
  private:
   struct Candidate;
   std::vector<Candidate> candidates(std::span<const StraightPiece> segments) const;
-  const FieldWall* wallOf(const PlanePoint& inField, double direction) const;
+  bool isContradicted(std::span<const StraightPiece> segments, const Pose2& sensor) const;
+  const MeasuredWall* wallOf(const PlanePoint& inField, double direction) const;
   int explained(std::span<const StraightPiece> segments, const Pose2& sensor) const;
   bool refine(std::span<const StraightPiece> segments, const Pose2& mount,
               PoseFixData::Fix& fix) const;
 
-  std::span<const FieldWall> walls_;
+  std::vector<MeasuredWall> walls_;
   WallMatcherConfig config_;
 };
 
