@@ -33,20 +33,27 @@ void Extraction::connect(std::span<const std::unique_ptr<SensorData>> features) 
   order();
 }
 
+/// What a device reads of its own features, something else fills.
+bool Extraction::Step::makes(const SensorData* data) const {
+  const auto has = [data](const auto& list) {
+    return std::find(list.begin(), list.end(), data) != list.end();
+  };
+  return has(outputs) && !has(inputs);
+}
+
+std::vector<const SensorData*> Extraction::inputsOf(const SensorData& made) const {
+  for (const Step& step : steps_)
+    if (step.makes(&made)) return step.inputs;
+  return {};
+}
+
 /// Sorts by what reads what: first those whose inputs no other step makes.
 void Extraction::order() {
   std::vector<Step> sorted;
-  const auto has = [](const auto& list, const SensorData* data) {
-    return std::find(list.begin(), list.end(), data) != list.end();
-  };
-  // What a device reads of its own features, something else fills.
-  const auto isMadeBy = [&](const Step& maker, const SensorData* data) {
-    return has(maker.outputs, data) && !has(maker.inputs, data);
-  };
   const auto waits = [&](const Step& step) {
     return std::any_of(step.inputs.begin(), step.inputs.end(), [&](const SensorData* input) {
       return std::any_of(steps_.begin(), steps_.end(),
-                         [&](const Step& other) { return isMadeBy(other, input); });
+                         [&](const Step& other) { return other.makes(input); });
     });
   };
   while (!steps_.empty()) {

@@ -25,6 +25,7 @@ class Extraction {
 
   /// Whether anything is made of a feature.
   bool reads(const SensorData& data) const;
+  std::vector<const SensorData*> inputsOf(const SensorData& made) const;
   bool isEmpty() const { return steps_.empty(); }
   /// Makes whatever has new inputs. If another thread is at it, that one does it.
   /// @param lock of the container
@@ -33,6 +34,7 @@ class Extraction {
 
  private:
   struct Step {
+    bool makes(const SensorData* data) const;
     std::string name;
     std::unique_ptr<Extractor> extractor;
     std::vector<SensorData*> outputs;

@@ -48,6 +48,10 @@ void SensorContainer::add(std::string name, std::unique_ptr<Extractor> extractor
 
 void SensorContainer::connect() { extraction_->connect(data_); }
 
+std::vector<const SensorData*> SensorContainer::inputsOf(const SensorData& made) const {
+  return extraction_->inputsOf(made);
+}
+
 void SensorContainer::setField(std::shared_ptr<const FieldModel> field) {
   extraction_->setField(std::move(field));
 }

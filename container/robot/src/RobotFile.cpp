@@ -52,7 +52,7 @@ std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig&
                                   PluginFactory& factory) {
   std::vector<Device> devices;
   for (const SensorConfig& sensor : robot.sensors) {
-    Device device{&sensor, {}};
+    Device device{&sensor, {}, false, &container};
     try {
       for (auto& data : factory.makeData(sensor.plugin, sensor.parameters)) {
         const bool isTruth = data->id().type == "groundTruth";
@@ -67,8 +67,10 @@ std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig&
     } catch (const std::invalid_argument& error) {
       sensor.parameters.fail("plugin", "'" + sensor.plugin + "': " + error.what());
     }
-    if (auto extractor = factory.makeIfThere<Extractor>(sensor.plugin, sensor.parameters))
+    if (auto extractor = factory.makeIfThere<Extractor>(sensor.plugin, sensor.parameters)) {
       container.add(sensor.plugin, std::move(extractor), device.data);
+      device.hasExtractor = true;
+    }
     devices.push_back(std::move(device));
   }
   if (container.find({.type = "groundTruth"}) == nullptr) {

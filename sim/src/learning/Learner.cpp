@@ -4,15 +4,24 @@
 #include <cmath>
 #include <numbers>
 
+#include "MakeSensor.hpp"
+
 namespace ortung {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad]
 
+/// A device with its simulation half, which may be null.
+struct Learning {
+  const Device* device;
+  std::unique_ptr<Sensor> sensor;
+};
+
 /// Features of one device at one place on the robot.
 struct Group {
-  Sensor* sensor;
-  Pose2 robotInSensor;  ///< inverse of the mount
+  const Learning* learning;
+  std::vector<const Learning*> inputs;  ///< what else must generate data before: for made features
+  Pose2 robotInSensor;                  ///< inverse of the mount
   std::vector<SensorData*> data;
 };
 
@@ -27,7 +36,29 @@ bool isSame(const Pose2& a, const Pose2& b) {
   return a.x == b.x && a.y == b.y && a.theta == b.theta;
 }
 
-void addTo(std::vector<Sweep>& sweeps, Sensor& sensor, SensorData& data) {
+/// The devices whose readings a feature is made of, directly or not; none for what a sensor
+/// measures.
+std::vector<const Learning*> inputsOf(const SensorData& made, std::span<const Learning> all) {
+  std::vector<const Learning*> found;
+  std::vector<const SensorData*> open = {&made};
+  while (!open.empty()) {
+    const SensorData* next = open.back();
+    open.pop_back();
+    for (const SensorData* input : all.front().device->container->inputsOf(*next)) {
+      open.push_back(input);
+      for (const Learning& one : all) {
+        const auto& data = one.device->data;
+        const bool has = std::find(data.begin(), data.end(), input) != data.end();
+        const bool isNew = std::find(found.begin(), found.end(), &one) == found.end();
+        if (has && isNew && one.sensor) found.push_back(&one);
+      }
+    }
+  }
+  return found;
+}
+
+void addTo(std::vector<Sweep>& sweeps, const Learning& learning, SensorData& data,
+           std::span<const Learning> all) {
   const double spacing = std::clamp(data.headingSpacing(), 1e-4, kTurn);
   auto sweep = std::find_if(sweeps.begin(), sweeps.end(),
                             [&](const Sweep& s) { return s.spacing == spacing; });
@@ -38,11 +69,26 @@ void addTo(std::vector<Sweep>& sweeps, Sensor& sensor, SensorData& data) {
   }
   const Pose2 robotInSensor = inverse(data.mount());
   auto group = std::find_if(sweep->groups.begin(), sweep->groups.end(), [&](const Group& g) {
-    return g.sensor == &sensor && isSame(g.robotInSensor, robotInSensor);
+    return g.learning == &learning && isSame(g.robotInSensor, robotInSensor);
   });
   if (group == sweep->groups.end())
-    group = sweep->groups.insert(sweep->groups.end(), {&sensor, robotInSensor, {}});
+    group = sweep->groups.insert(sweep->groups.end(), {&learning, {}, robotInSensor, {}});
   group->data.push_back(&data);
+  for (const Learning* input : inputsOf(data, all))
+    if (std::find(group->inputs.begin(), group->inputs.end(), input) == group->inputs.end())
+      group->inputs.push_back(input);
+}
+
+/// Features that are made of others: those are generated first. What is not made at this pose is
+/// not learned there.
+void learnMade(const SimWorld& world, const RobotState& state, const Group& group, Timestamp now) {
+  std::vector<std::uint64_t> before;
+  for (const SensorData* data : group.data) before.push_back(data->sequence());
+  for (const Learning* input : group.inputs)
+    input->sensor->generateData(world, state, nullptr, now, input->device->data);
+  group.learning->device->container->extract();
+  for (std::size_t i = 0; i < group.data.size(); ++i)
+    if (group.data[i]->sequence() != before[i]) group.data[i]->learnProbability(state.pose);
 }
 
 /// One step of the sweep: the sensors stand at @p sensorInField.
@@ -51,8 +97,12 @@ void learnAt(const SimWorld& world, const Pose2& sensorInField, const std::vecto
   RobotState state;
   for (const Group& group : groups) {
     state.pose = sensorInField * group.robotInSensor;
-    group.sensor->generateData(world, state, nullptr, now, group.data);
-    for (SensorData* data : group.data) data->learnProbability(state.pose);
+    if (group.inputs.empty()) {
+      group.learning->sensor->generateData(world, state, nullptr, now, group.data);
+      for (SensorData* data : group.data) data->learnProbability(state.pose);
+    } else {
+      learnMade(world, state, group, now);
+    }
   }
 }
 
@@ -106,18 +156,18 @@ void learn(const SimWorld& world, const FieldRegion& region, const std::vector<D
     throw std::invalid_argument("LearnOptions::headingStep is " +
                                 std::to_string(options.headingStep * 360.0 / kTurn) +
                                 " degrees, must divide 360 degrees");
-  std::vector<std::unique_ptr<Sensor>> sensors;
+  std::vector<Learning> all;
+  for (const Device& device : devices) all.push_back({&device, makeSensor(device, factory)});
+  if (!devices.empty())
+    devices.front().container->setField(std::make_shared<FieldModel>(fieldModelOf(world)));
   std::vector<SensorData*> learning;
   std::vector<Sweep> sweeps;
-  for (const Device& device : devices) {
-    const auto localizes = [](const SensorData* data) { return data->localizes(); };
-    if (std::none_of(device.data.begin(), device.data.end(), localizes)) continue;
-    sensors.push_back(factory.make<Sensor>(device.config->plugin, device.config->parameters));
-    for (SensorData* data : device.data) {
+  for (const Learning& one : all) {
+    for (SensorData* data : one.device->data) {
       if (!data->localizes()) continue;
       data->beginLearning(region, options.headingStep);
       learning.push_back(data);
-      if (data->headingSpacing() > 0.0) addTo(sweeps, *sensors.back(), *data);
+      if (data->headingSpacing() > 0.0) addTo(sweeps, one, *data, all);
     }
   }
   const auto open = static_cast<std::size_t>(std::count_if(

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "CheckedDrive.hpp"
+#include "MakeSensor.hpp"
 #include "ortung/formats/PoseData.hpp"
 
 namespace ortung {
@@ -79,8 +80,8 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
     const Device& device = devices[i];
     hasTruth = hasTruth || std::any_of(device.data.begin(), device.data.end(),
                                        [](SensorData* data) { return isGroundTruth(*data); });
-    auto sensor = factory.make<Sensor>(device.config->plugin, device.config->parameters);
-    const Timestamp period = fromSeconds(sensor->period());
+    auto sensor = makeSensor(device, factory);
+    const Timestamp period = sensor ? fromSeconds(sensor->period()) : 0;
     sensors_.push_back({device.config->plugin, std::move(sensor), device.data,
                         std::vector<std::uint64_t>(device.data.size(), 0),
                         random.fork(kFirstSensor + i), period, 0});

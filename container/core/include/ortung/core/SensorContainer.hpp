@@ -53,6 +53,8 @@ class ORTUNG_API SensorContainer {
   /// @throws std::invalid_argument for an extractor whose input is not there, and for circles, with
   ///   the names of all that are in them
   void connect();
+  /// What a feature is made of, directly; nothing if no extractor makes it.
+  std::vector<const SensorData*> inputsOf(const SensorData& made) const;
   /// What is known of the field; readings that are made before know nothing of it.
   void setField(std::shared_ptr<const FieldModel> field);
   /// Makes features of others that have new readings: whoever writes without set() calls it.

@@ -40,6 +40,8 @@ ORTUNG_API RobotConfig readRobot(const Parameters& parameters);
 struct Device {
   const SensorConfig* config;
   std::vector<SensorData*> data;
+  bool hasExtractor = false;             ///< some of its features are made of others
+  SensorContainer* container = nullptr;  ///< where its features are
 };
 
 /// Makes the data of all sensors and adds them to @p container, with the extractors of those that
