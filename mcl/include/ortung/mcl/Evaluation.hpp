@@ -48,6 +48,7 @@ struct EvaluationResult {
 };
 
 /// Compares estimates with ground truth, which is interpolated between its samples.
+/// Not thread-safe.
 class ORTUNG_API Evaluation {
  public:
   struct Options {

@@ -10,7 +10,7 @@ namespace ortung {
 /// Counter-based random numbers: Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy
 /// as 1, 2, 3", SC 2011). A number depends on seed, stream and its place in the stream alone, so a
 /// result never depends on how work was shared between threads.
-/// Own distributions: those of the standard library differ between vendors.
+/// Own distributions: those of the standard library differ between vendors. Not thread-safe.
 class ORTUNG_API Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);

@@ -31,6 +31,7 @@ inline constexpr std::string_view kRecordMagic = "# ortung record 1";
 /// Writes a record file: kRecordMagic, "# key value" lines (keys: world, robot, note), then
 /// readings. A NewFile: it appears at commit(). @throws std::runtime_error if the file can't be
 /// written
+/// Not thread-safe.
 class ORTUNG_API RecordWriter {
  public:
   explicit RecordWriter(const std::filesystem::path& file,
@@ -47,6 +48,7 @@ class ORTUNG_API RecordWriter {
 };
 
 /// Plays a record file (source kind "record"; part of the container, no plugin needed).
+/// Not thread-safe.
 class ORTUNG_API RecordSource : public Source {
  public:
   /// @throws std::runtime_error if it is not a record, or torn within its head

@@ -53,7 +53,7 @@ struct SourceText {
 /// @throws std::invalid_argument saying what is wrong with the text
 ORTUNG_API SourceText parseSourceText(const std::string& text);
 
-/// Groups the messages of a source by time stamp.
+/// Groups the messages of a source by time stamp. Not thread-safe.
 class ORTUNG_API FrameReader {
  public:
   explicit FrameReader(Source& source) : source_(source) {}

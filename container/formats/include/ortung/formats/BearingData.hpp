@@ -16,7 +16,7 @@
 namespace ortung {
 
 /// One bearing [rad] in the sensor's frame, e.g. post3Bearing. Words: [angle], or none.
-/// Learns a bearing table.
+/// Learns a bearing table. Not thread-safe, see SensorData.
 class ORTUNG_API BearingData : public SensorData {
  public:
   struct Config {

@@ -15,7 +15,7 @@
 namespace ortung {
 
 /// Distance to the nearest obstacle within a cone. Words: [mm]; at or above the greatest range:
-/// nothing seen; 0: not valid. Learns a pose table.
+/// nothing seen; 0: not valid. Learns a pose table. Not thread-safe, see SensorData.
 class ORTUNG_API ConeData : public SensorData {
  public:
   struct Config {

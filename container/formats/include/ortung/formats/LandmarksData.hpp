@@ -17,6 +17,7 @@ namespace ortung {
 /// Ranges and bearings of identified landmarks seen at one moment.
 /// Words: three a landmark: identity, [mm], [angle]; none: looked and saw nothing.
 /// Learns a position and a bearing table for each landmark of its list.
+/// Not thread-safe, see SensorData.
 class ORTUNG_API LandmarksData : public SensorData {
  public:
   struct Config {

@@ -14,6 +14,7 @@ namespace ortung {
 /// the robot's own pose: this feature neither learns nor localizes.
 /// Words: five an object: identity (0: not known), colour, [mm], [angle], radius [mm];
 /// none: looked and saw nothing. A colour is 0xRRGGBB, or kNoColour.
+/// Not thread-safe, see SensorData.
 class ORTUNG_API ObjectsData : public SensorData {
  public:
   static constexpr std::uint32_t kNoColour = 1u << 24;

@@ -14,6 +14,7 @@ namespace ortung {
 /// neither learn nor localize.
 /// Words: five an obstacle: 0, middle x, y [signed mm], radius [mm], 0 for a circle;
 /// 1, x, y, x, y of both ends [signed mm] for a segment; none: looked and saw nothing.
+/// Not thread-safe, see SensorData.
 class ORTUNG_API ObstaclesData : public SensorData {
  public:
   static constexpr std::size_t kMostObstacles = 1024;

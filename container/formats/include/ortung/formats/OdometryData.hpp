@@ -12,7 +12,7 @@ namespace ortung {
 
 /// Pose in the odometry frame and velocities (paper, section 4). Words: x, y [signed mm],
 /// [angle], translational velocity [signed mm/s], rotational velocity [signed 1/100 degree/s],
-/// then up to 16 of the motion plugin's own.
+/// then up to 16 of the motion plugin's own. Not thread-safe, see SensorData.
 class ORTUNG_API OdometryData : public SensorData {
  public:
   struct Reading {

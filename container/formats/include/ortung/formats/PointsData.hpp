@@ -17,7 +17,7 @@ struct EndPointTables;
 /// goals that look alike. Words: two a point: [mm] along the floor, [angle]; none: looked and saw
 /// nothing.
 /// Learns an end-point field: a point is probable where one was seen from anywhere. What is not
-/// seen says nothing: it may be hidden.
+/// seen says nothing: it may be hidden. Not thread-safe, see SensorData.
 class ORTUNG_API PointsData : public SensorData {
  public:
   struct Config {

@@ -11,7 +11,7 @@
 namespace ortung {
 
 /// A pose in the field frame, e.g. ground truth (type "groundTruth"). Words: x, y [signed mm],
-/// [angle].
+/// [angle]. Not thread-safe, see SensorData.
 class ORTUNG_API PoseData : public SensorData {
  public:
   using Reading = Pose2;

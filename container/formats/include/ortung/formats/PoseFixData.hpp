@@ -17,7 +17,7 @@ namespace ortung {
 /// several places, there are several, and one of them is right.
 /// Words: nine a pose: x, y [signed mm], [angle], sigma of x, of y [um] and of the heading
 /// [1/10000 degree], correlations xy, x-heading, y-heading [1/10000 + 10000]; none: not found.
-/// Weighs a pose by its best fix. There is nothing to learn.
+/// Weighs a pose by its best fix. There is nothing to learn. Not thread-safe, see SensorData.
 class ORTUNG_API PoseFixData : public SensorData {
  public:
   struct Config {

@@ -16,7 +16,7 @@
 namespace ortung {
 
 /// One distance [m], e.g. post3Distance. Words: [mm], or none: looked and saw nothing.
-/// Learns a position table.
+/// Learns a position table. Not thread-safe, see SensorData.
 class ORTUNG_API ScalarData : public SensorData {
  public:
   struct Config {

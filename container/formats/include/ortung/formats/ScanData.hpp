@@ -18,7 +18,7 @@ struct EndPointTables;
 
 /// Ranges at evenly spaced bearings, counter-clockwise. Words: one [mm] a beam; 0: no valid
 /// measurement; at or above the greatest range: nothing seen.
-/// Learns a ray table or an end-point field.
+/// Learns a ray table or an end-point field. Not thread-safe, see SensorData.
 class ORTUNG_API ScanData : public SensorData {
  public:
   enum class Perception { kRays, kEndPoints };

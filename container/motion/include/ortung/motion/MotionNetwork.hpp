@@ -21,6 +21,7 @@ struct Velocities {
 /// Layers are full, tanh between them, none behind the last. Inputs: v_t, v_r, then v_t, v_r of
 /// each command, the newest first; outputs: what x, y, theta (robot frame at t0), v_t, v_r at t1
 /// differ by from those of a robot that keeps its velocities. Both are scaled.
+/// Plain data; several threads may call predict() at once.
 class ORTUNG_API MotionNetwork {
  public:
   struct Layer {

@@ -45,6 +45,7 @@ struct OdometryCorrection {
 };
 
 /// Turn, way, turn: fits all robots that drive where they face, and serves others, too.
+/// Not thread-safe, but sampleMotion() may be called by several threads at once.
 class ORTUNG_API OdometryMotion : public MotionModel {
  public:
   explicit OdometryMotion(const OdometryNoise& noise = {},

@@ -19,6 +19,7 @@ namespace ortung {
 /// heading + beam angle. It also serves as the pose table of range cones.
 /// Rows exist for open cells only; the directions of a cell lie contiguously, their beginning
 /// repeated behind the end so that a run of `longestRun` directions never wraps.
+/// Not thread-safe while it is filled; then any number of threads may read it.
 class ORTUNG_API DirectionTable {
  public:
   static constexpr int kSlack = 64;

@@ -17,6 +17,7 @@ namespace ortung {
 /// table: noise-free end points are marked, then distance-transformed (Felzenszwalb and
 /// Huttenlocher, "Distance transforms of sampled functions", 2012).
 /// One byte a cell: kPerCell levels a cell's edge, 255 for "far".
+/// Not thread-safe while it is filled; then any number of threads may read it.
 class ORTUNG_API EndPointField {
  public:
   static constexpr int kPerCell = 8;  ///< levels a cell

@@ -15,6 +15,7 @@ namespace ortung {
 
 /// Expectation by position (x, y), for what does not depend on heading: distances, and directions
 /// in the field frame. One 16-bit level a cell.
+/// Not thread-safe while it is filled; then any number of threads may read it.
 class ORTUNG_API CellTable {
  public:
   static constexpr std::uint16_t kNone = 0xFFFF;  ///< no expectation in this cell
@@ -39,6 +40,7 @@ class ORTUNG_API CellTable {
 };
 
 /// Distance by position [m]; one level is `metresPerLevel`.
+/// Not thread-safe while it is filled; then any number of threads may read it.
 class ORTUNG_API PositionTable {
  public:
   explicit PositionTable(double maxRange);
@@ -57,6 +59,7 @@ class ORTUNG_API PositionTable {
 
 /// Direction in the field frame by position; the expected bearing is this minus the heading.
 /// One level is 2 pi / 65535.
+/// Not thread-safe while it is filled; then any number of threads may read it.
 class ORTUNG_API BearingTable {
  public:
   static constexpr double kRadiansPerLevel = 2 * std::numbers::pi / 65535;

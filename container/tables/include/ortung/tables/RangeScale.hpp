@@ -17,7 +17,7 @@ struct RangeResolution {
 
 /// Levels 0..254 for ranges, as wide at every range as the resolution there says. There are always
 /// about 254 of them, but none narrower than a sixth of the resolution.
-/// Level 255 means "nothing within range".
+/// Level 255 means "nothing within range". Immutable once made.
 class ORTUNG_API RangeScale {
  public:
   static constexpr std::uint8_t kNothing = 255;

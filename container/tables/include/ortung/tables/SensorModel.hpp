@@ -31,6 +31,7 @@ struct ORTUNG_API SensorModel {
 };
 
 /// ln p by residual, computed once: the paper's second table, over |r| / sigma.
+/// Immutable once made.
 class ORTUNG_API GaussianTable {
  public:
   explicit GaussianTable(const SensorModel& model);

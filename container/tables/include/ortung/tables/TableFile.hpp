@@ -31,7 +31,7 @@ struct TableArray {
 };
 
 /// Writes a table file: a store-only zip of .npy arrays and meta.json, so `numpy.load` reads it.
-/// The old file stays whole until commit() has put the new one in its place.
+/// The old file stays whole until commit() has put the new one in its place. Not thread-safe.
 class ORTUNG_API TableWriter {
  public:
   explicit TableWriter(std::filesystem::path file);
@@ -55,7 +55,7 @@ class ORTUNG_API TableWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A table file, memory-mapped and read-only; spans stay valid while it lives.
+/// A table file, memory-mapped and read-only; spans stay valid while it lives. Immutable once made.
 class ORTUNG_API TableFile {
  public:
   /// Maps the file and checks structure, sizes and checksums of all members.

@@ -88,6 +88,7 @@ class ORTUNG_API LogFile {
 
 /// Keeps the stamps of one stream rising. Clocks of old logs jitter, while their lines are in the
 /// right order: a stamp that falls back a little, or stands still, becomes the last one and 1 us.
+/// Not thread-safe.
 class ORTUNG_API LogClock {
  public:
   /// @param jitter greatest step back that is put up with [s]

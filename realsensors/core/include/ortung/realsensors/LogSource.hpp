@@ -45,7 +45,7 @@ class ORTUNG_API LogSource : public Source {
   std::size_t at_ = 0;
 };
 
-/// Odometry poses, whose velocities follow from their differences.
+/// Odometry poses, whose velocities follow from their differences. Not thread-safe.
 class ORTUNG_API PoseOdometry {
  public:
   /// Words of OdometryData for the pose at a time; stamps must not fall.

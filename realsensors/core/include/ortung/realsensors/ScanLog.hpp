@@ -18,7 +18,7 @@ namespace ortung {
 ///
 /// Options: those of ScannerOptions; jitter_s: how far stamps may fall back (default 1); period_s:
 /// ignore the stamps of scans and set them this far apart, in the order of lines. Scans whose
-/// stamps stand still are set in the order of lines anyway, one second apart.
+/// stamps stand still are set in the order of lines anyway, one second apart. Not thread-safe.
 class ORTUNG_API ScanLogSource : public LogSource {
  public:
   ~ScanLogSource() override;

@@ -21,7 +21,7 @@ struct Scanner {
 };
 
 /// What options say of the scanner, instead of its log: laser_x, laser_y [m], laser_yaw_deg: its
-/// mount; max_range_m: readings from here on mean that nothing was seen.
+/// mount; max_range_m: readings from here on mean that nothing was seen. Immutable once made.
 class ORTUNG_API ScannerOptions {
  public:
   /// @throws ConfigError

@@ -26,6 +26,7 @@ struct RobotState {
 /// The simulation half of a sensor plugin: generates data from the world (paper, section 4).
 /// Its constructor takes the same Parameters as the data half; a parameter nobody reads is an
 /// error, so both halves read all settings of the plugin through one common function.
+/// Not thread-safe: calls come one at a time.
 class ORTUNG_API Sensor {
  public:
   static constexpr const char* kInterface = "ortung.Sensor/" ORTUNG_SIM_API_ABI;
