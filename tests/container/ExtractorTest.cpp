@@ -1,6 +1,4 @@
 // Features made of features: order, circles, what is taken when, threads.
-#include "ortung/core/Extractor.hpp"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,6 +7,7 @@
 #include <thread>
 
 #include "Files.hpp"
+#include "ortung/core/Extractor.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/formats/ScalarData.hpp"
 
@@ -19,8 +18,8 @@ using Words = Extractor::Words;
 using test::messageOf;
 
 SensorData& addScalar(SensorContainer& container, const std::string& feature) {
-  return container.add(std::make_unique<ScalarData>(SensorId{"m", "t", feature}, Pose2{},
-                                                    ScalarData::Config{}));
+  return container.add(
+      std::make_unique<ScalarData>(SensorId{"m", "t", feature}, Pose2{}, ScalarData::Config{}));
 }
 
 std::uint32_t wordOf(const SensorData& data) {
@@ -87,7 +86,7 @@ TEST(Extractor, RunsOnlyWhenAnInputIsNew) {
   EXPECT_EQ(b.sequence(), 1u);
 }
 
-TEST(Extractor, TakesMessagesForWhatItCannotMakeYet) {
+TEST(Extractor, LeavesWhatCameReadyMade) {
   SensorContainer container;
   addScalar(container, "a1");
   addScalar(container, "a2");
@@ -99,7 +98,13 @@ TEST(Extractor, TakesMessagesForWhatItCannotMakeYet) {
   EXPECT_EQ(wordOf(b), 500u) << "a2 has no reading yet: nothing is made";
   const std::vector<Message> frame = {{3, {"m", "t", "a2"}, {2}}, {3, b.id(), {600}}};
   container.set(frame);
-  EXPECT_EQ(wordOf(b), 4u) << "what is made here counts";
+  EXPECT_EQ(wordOf(b), 600u) << "of the same moment: the sender made it";
+  container.set({.stamp = 3, .id = {"m", "t", "a2"}, .words = {2}});
+  EXPECT_EQ(wordOf(b), 600u);
+  container.set({.stamp = 4, .id = {"m", "t", "a2"}, .words = {2}});
+  EXPECT_EQ(wordOf(b), 4u);
+  container.set({.stamp = 4, .id = {"m", "t", "a2"}, .words = {5}});
+  EXPECT_EQ(wordOf(b), 7u) << "made here before, so made again";
 }
 
 TEST(Extractor, RefusesCirclesWithTheNamesInThem) {
@@ -115,6 +120,16 @@ TEST(Extractor, RefusesCirclesWithTheNamesInThem) {
   EXPECT_NE(said.find("first"), said.npos) << said;
   EXPECT_NE(said.find("second"), said.npos) << said;
   EXPECT_EQ(said.find("third"), said.npos) << said;
+}
+
+TEST(Extractor, AStarDoesNotMeanItsOwnFeatures) {
+  SensorContainer container;
+  SensorData& b = addScalar(container, "b");
+  addScalar(container, "a");
+  container.add("b", std::make_unique<Sum>(std::vector<std::string>{"*/*/*"}), {&b});
+  container.connect();
+  container.set({.stamp = 1, .id = {"m", "t", "a"}, .words = {3}});
+  EXPECT_EQ(wordOf(b), 4u);
 }
 
 TEST(Extractor, RefusesInputsThatAreNotThere) {
@@ -137,8 +152,7 @@ struct Told : Extractor {
 
 TEST(Extractor, ItsTroubleIsToldByNameAndReadingsStay) {
   const std::vector<std::function<void(std::span<std::optional<Words>>)>> troubles = {
-      [](auto) { throw std::runtime_error("no idea"); },
-      [](auto) { throw 42; },
+      [](auto) { throw std::runtime_error("no idea"); }, [](auto) { throw 42; },
       [](std::span<std::optional<Words>> words) { words[0] = Words{1, 2, 3}; },  // refused words
   };
   for (const auto& trouble : troubles) {
@@ -147,8 +161,8 @@ TEST(Extractor, ItsTroubleIsToldByNameAndReadingsStay) {
     SensorData& b = addScalar(container, "b");
     container.add("broken", std::make_unique<Told>(trouble), {&b});
     container.connect();
-    const auto said = messageOf<ExtractorError>(
-        [&] { container.set({.stamp = 1, .id = a.id(), .words = {5}}); });
+    const auto said =
+        messageOf<ExtractorError>([&] { container.set({.stamp = 1, .id = a.id(), .words = {5}}); });
     EXPECT_NE(said.find("broken"), said.npos) << said;
     EXPECT_EQ(wordOf(a), 5u);
     EXPECT_EQ(b.sequence(), 0u);

@@ -1,10 +1,9 @@
-#include "ortung/base/StraightPieces.hpp"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "ortung/base/Random.hpp"
+#include "ortung/base/StraightPieces.hpp"
 
 namespace ortung {
 namespace {

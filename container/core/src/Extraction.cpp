@@ -13,6 +13,7 @@ void Extraction::add(std::string name, std::unique_ptr<Extractor> extractor,
   step.extractor = std::move(extractor);
   step.outputs = std::move(outputs);
   step.words.resize(step.outputs.size());
+  step.made.resize(step.outputs.size());
   steps_.push_back(std::move(step));
 }
 
@@ -21,8 +22,11 @@ void Extraction::connect(std::span<const std::unique_ptr<SensorData>> features) 
     step.inputs.clear();
     for (const std::string& text : step.extractor->inputs()) {
       const SensorQuery query = parseSensorQuery(text);
-      const auto found = std::find_if(features.begin(), features.end(),
-                                      [&](const auto& data) { return matches(query, data->id()); });
+      const auto found = std::find_if(features.begin(), features.end(), [&](const auto& data) {
+        const bool isOwn =
+            std::find(step.outputs.begin(), step.outputs.end(), data.get()) != step.outputs.end();
+        return matches(query, data->id()) && (!isOwn || toText(data->id()) == text);
+      });
       if (found == features.end())
         throw std::invalid_argument("'" + step.name + "' reads " + text +
                                     ", which no sensor of this robot gives");
@@ -81,10 +85,14 @@ bool Extraction::reads(const SensorData& data) const {
 void Extraction::run(std::shared_mutex& lock) {
   ++asked_;
   while (true) {
-    const std::unique_lock running(running_, std::try_to_lock);
-    if (!running) return;
-    const std::uint64_t done = asked_;
-    runAll(lock);
+    std::uint64_t done = 0;
+    {
+      const std::unique_lock running(running_, std::try_to_lock);
+      if (!running) return;
+      done = asked_;
+      runAll(lock);
+    }
+    // Only once it is unlocked: who failed to lock it before has raised the number before.
     if (asked_ == done) return;
   }
 }
@@ -93,12 +101,14 @@ void Extraction::runAll(std::shared_mutex& lock) {
   for (Step& step : steps_) {
     Timestamp stamp = 0;
     try {
+      std::shared_ptr<const FieldModel> field;
       {
         const std::shared_lock reading(lock);
         if (!take(step, stamp)) continue;
+        field = field_;
       }
       std::fill(step.words.begin(), step.words.end(), std::nullopt);
-      step.extractor->extract(*field_, step.words);
+      step.extractor->extract(*field, step.words);
       const std::unique_lock writing(lock);
       put(step, stamp);
     } catch (const std::exception& error) {
@@ -122,13 +132,30 @@ bool Extraction::take(Step& step, Timestamp& stamp) {
     if (input.sequence() > 0)
       stamp = readings.size() == 1 ? input.stamp() : std::max(stamp, input.stamp());
   }
-  if (isNew) step.extractor->take(readings);
-  return isNew;
+  if (!isNew || step.cameByMessage(stamp)) return false;
+  step.extractor->take(readings);
+  return true;
+}
+
+/// Whether somebody else made all of it of the same inputs, and sent or recorded it: who serves a
+/// robot may know more of the field.
+bool Extraction::Step::cameByMessage(Timestamp stamp) const {
+  bool any = false;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const SensorData& output = *outputs[i];
+    if (!makes(&output)) continue;
+    if (output.sequence() == made[i] || output.stamp() != stamp) return false;
+    any = true;
+  }
+  return any;
 }
 
 void Extraction::put(Step& step, Timestamp stamp) {
-  for (std::size_t i = 0; i < step.outputs.size(); ++i)
-    if (step.words[i]) step.outputs[i]->setData(stamp, *step.words[i]);
+  for (std::size_t i = 0; i < step.outputs.size(); ++i) {
+    if (!step.words[i]) continue;
+    step.outputs[i]->setData(stamp, *step.words[i]);
+    step.made[i] = step.outputs[i]->sequence();
+  }
 }
 
 }  // namespace ortung

@@ -21,6 +21,7 @@ class Extraction {
   /// Finds inputs and order. @throws std::invalid_argument for inputs that are not there or depend
   /// on what is made of them
   void connect(std::span<const std::unique_ptr<SensorData>> features);
+  /// @pre the container is locked, or nobody else is there
   void setField(std::shared_ptr<const FieldModel> field) { field_ = std::move(field); }
 
   /// Whether anything is made of a feature.
@@ -35,12 +36,14 @@ class Extraction {
  private:
   struct Step {
     bool makes(const SensorData* data) const;
+    bool cameByMessage(Timestamp stamp) const;
     std::string name;
     std::unique_ptr<Extractor> extractor;
     std::vector<SensorData*> outputs;
     std::vector<const SensorData*> inputs;
     std::vector<std::uint64_t> seen;  ///< by input: sequence number of the last reading taken
     std::vector<std::optional<Extractor::Words>> words;
+    std::vector<std::uint64_t> made;  ///< by output: sequence number of what was made last
   };
   static bool take(Step& step, Timestamp& stamp);
   static void put(Step& step, Timestamp stamp);

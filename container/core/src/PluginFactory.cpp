@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <span>
 
 #include "LibraryFolder.hpp"
 
@@ -107,9 +108,9 @@ void PluginFactory::load(const std::filesystem::path& file) {
 
 /// Loads the libraries ortung_PART*.so of all folders, in the order of the alphabet. Returns why
 /// some could not be loaded: a broken library must not hide the plugins of its neighbours.
-std::vector<std::string> PluginFactory::loadWhere(const std::string& part) {
+std::vector<PluginFactory::Complaint> PluginFactory::loadWhere(const std::string& part) {
   const std::string prefix = "ortung_" + part;
-  std::vector<std::string> complaints;
+  std::vector<Complaint> complaints;
   for (const auto& folder : folders_) {
     std::vector<std::filesystem::path> files;
     std::error_code none;
@@ -123,7 +124,7 @@ std::vector<std::string> PluginFactory::loadWhere(const std::string& part) {
       try {
         load(file);
       } catch (const PluginError& error) {
-        complaints.push_back(error.what());
+        complaints.push_back({file, error.what()});
       }
     }
   }
@@ -180,6 +181,21 @@ const PluginEntry* PluginFactory::findEntry(const std::string& interface,
   return nullptr;
 }
 
+/// Whether a broken library stands in for one of the same file name further on that has the plugin:
+/// that must not be passed over, while broken neighbours may.
+bool PluginFactory::hides(const std::vector<Complaint>& complaints, const std::string& interface,
+                          const std::string& name) const {
+  return std::any_of(libraries_.begin(), libraries_.end(), [&](const Library& library) {
+    const std::span entries(library.info->entries, library.info->count);
+    const bool hasIt = std::any_of(entries.begin(), entries.end(), [&](const PluginEntry& entry) {
+      return entry.interface == interface && entry.name == name;
+    });
+    return hasIt && std::any_of(complaints.begin(), complaints.end(), [&](const Complaint& c) {
+             return c.file.filename() == library.file.filename();
+           });
+  });
+}
+
 void* PluginFactory::create(const std::string& interface, const std::string& name,
                             const Parameters& parameters) {
   const PluginEntry* entry = findEntry(interface, name);
@@ -187,11 +203,10 @@ void* PluginFactory::create(const std::string& interface, const std::string& nam
       !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
       });
-  std::vector<std::string> complaints;
+  std::vector<Complaint> complaints;
   if (entry == nullptr && plainName) {
-    // A broken library of this very name is not passed over for another one further on.
     complaints = loadWhere(name + "_");
-    if (complaints.empty()) entry = findEntry(interface, name);
+    if (!hides(complaints, interface, name)) entry = findEntry(interface, name);
   }
   if (entry == nullptr && complaints.empty()) {
     complaints = loadWhere("");
@@ -203,7 +218,7 @@ void* PluginFactory::create(const std::string& interface, const std::string& nam
     std::string message = "there is no plugin '" + name + "' of kind " + interfaceKind(interface) +
                           " in " + (folders.empty() ? "the (empty) search path" : folders) +
                           "; `ortung plugins` lists what there is";
-    for (const std::string& complaint : complaints) message += "; not loaded: " + complaint;
+    for (const Complaint& complaint : complaints) message += "; not loaded: " + complaint.what;
     throw PluginError(message);
   }
   return createNamed(*entry, parameters);

@@ -53,6 +53,7 @@ std::vector<const SensorData*> SensorContainer::inputsOf(const SensorData& made)
 }
 
 void SensorContainer::setField(std::shared_ptr<const FieldModel> field) {
+  const std::unique_lock lock(mutex_);
   extraction_->setField(std::move(field));
 }
 

@@ -146,7 +146,8 @@ void LandmarksData::decode(std::span<const std::uint32_t> words) {
 }
 
 std::string LandmarksData::wordsHelp() const {
-  return "[identity, distance mm, bearing 1/100 degree + 18000] a landmark in sight";
+  return "[identity, distance mm, bearing 1/100 degree + 18000] a landmark in sight, or none: "
+         "looked and saw nothing";
 }
 
 double LandmarksData::headingSpacing() const { return spacingOf(config_.fieldOfView); }

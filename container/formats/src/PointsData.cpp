@@ -50,7 +50,7 @@ void PointsData::decode(std::span<const std::uint32_t> words) {
 }
 
 std::string PointsData::wordsHelp() const {
-  return "[distance mm, bearing 1/100 degree + 18000] a point";
+  return "[distance mm, bearing 1/100 degree + 18000] a point, or none: looked and saw nothing";
 }
 
 double PointsData::headingSpacing() const { return spacingOf(config_.fieldOfView); }

@@ -164,7 +164,8 @@ void PoseFixData::decode(std::span<const std::uint32_t> words) {
 
 std::string PoseFixData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000, sigma x um, sigma y um, sigma "
-         "heading 1/10000 degree, correlations xy, x-heading, y-heading 1/10000 + 10000] a pose";
+         "heading 1/10000 degree, correlations xy, x-heading, y-heading 1/10000 + 10000] a pose, "
+         "or none: looked and saw nothing";
 }
 
 void PoseFixData::startTables(const FieldRegion& region, double) { grid_ = region.grid; }

@@ -61,6 +61,7 @@ inline LrfSettings readLrfSettings(const Parameters& p) {
   }
   scan.model = SensorModel::read(p, "sigma_m", scan.model);
   scan.resolution = readResolution(p, scan.resolution);
+  scan.localizes = p.flagOr("localizes", true);
   scan.usedBeams = static_cast<int>(p.integerOr("used_beams", 0, {0, 8192}));
   scan.endPointCell = p.numberOr("endpoint_cell_m", scan.endPointCell, {0.005, 1.0});
   settings.period = readPeriod(p, 0.1);

@@ -50,22 +50,26 @@ ObstaclesData::Reading LrfIconicExtractor::obstacles(
     const ScanShapes& shapes, const WallMatcher& matcher,
     const std::vector<PoseFixData::Fix>& fixes) const {
   ObstaclesData::Reading list;
-  for (const ScanCircle& c : shapes.circles)
-    list.push_back({.shape = ObstaclesData::Shape::kCircle,
-                    .x = c.middle.x,
-                    .y = c.middle.y,
-                    .radius = c.radius});
+  const Pose2 scanner = inverse(settings_.mounting.pose) * mount_;  // in the frame of obstacles
+  const auto inOwn = [&](const PlanePoint& p) { return scanner * Pose2{p.x, p.y, 0.0}; };
+  for (const ScanCircle& c : shapes.circles) {
+    const Pose2 middle = inOwn(c.middle);
+    list.push_back(
+        {.shape = ObstaclesData::Shape::kCircle, .x = middle.x, .y = middle.y, .radius = c.radius});
+  }
   for (const StraightPiece& s : shapes.segments) {
     const bool isWall = std::any_of(fixes.begin(), fixes.end(), [&](const PoseFixData::Fix& fix) {
       return matcher.isOfWall(s, mount_, fix.pose);
     });
     if (isWall) continue;
+    const Pose2 from = inOwn(s.from);
+    const Pose2 to = inOwn(s.to);
     list.push_back({.shape = ObstaclesData::Shape::kSegment,
-                    .x = s.from.x,
-                    .y = s.from.y,
+                    .x = from.x,
+                    .y = from.y,
                     .radius = 0.0,
-                    .endX = s.to.x,
-                    .endY = s.to.y});
+                    .endX = to.x,
+                    .endY = to.y});
   }
   if (list.size() > ObstaclesData::kMostObstacles) list.resize(ObstaclesData::kMostObstacles);
   return list;

@@ -36,7 +36,8 @@ class ORTUNG_API Extractor {
 
   virtual ~Extractor();
 
-  /// What it reads: "model/type/feature", each may be "*"; the first match is taken.
+  /// What it reads: "model/type/feature", each may be "*"; the first match is taken that its own
+  /// device does not have. Features of its own, which something else fills, have their full names.
   virtual std::vector<std::string> inputs() const = 0;
 
   /// Copies what it needs of the readings; the container is locked meanwhile.

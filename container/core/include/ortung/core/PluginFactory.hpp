@@ -84,9 +84,15 @@ class ORTUNG_API PluginFactory {
     std::filesystem::path file;
     const PluginInfo* info;
   };
+  struct Complaint {
+    std::filesystem::path file;
+    std::string what;
+  };
   void* create(const std::string& interface, const std::string& name, const Parameters& parameters);
   const PluginEntry* findEntry(const std::string& interface, const std::string& name) const;
-  std::vector<std::string> loadWhere(const std::string& part);
+  std::vector<Complaint> loadWhere(const std::string& part);
+  bool hides(const std::vector<Complaint>& complaints, const std::string& interface,
+             const std::string& name) const;
 
   std::vector<std::filesystem::path> folders_;
   std::vector<Library> libraries_;

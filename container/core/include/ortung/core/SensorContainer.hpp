@@ -46,7 +46,7 @@ class ORTUNG_API SensorContainer {
   SensorData& add(std::unique_ptr<SensorData> data);
 
   /// From now on, @p outputs are made of other features. @param name what errors call it
-  /// Messages for them are taken, too, until their inputs have readings.
+  /// Where readings of all of them come with those of the inputs, at the same moment, these stand.
   void add(std::string name, std::unique_ptr<Extractor> extractor,
            std::vector<SensorData*> outputs);
   /// Once all features and extractors are there: finds what reads what.
