@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "MotionFit.hpp"
+#include "ortung/base/FastMath.hpp"
 #include "ortung/base/InstructionSet.hpp"
 #include "ortung/base/Random.hpp"
-#include "ortung/base/SinCos.hpp"
 
 namespace ortung {
 namespace {
