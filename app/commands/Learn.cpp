@@ -7,9 +7,9 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
-#include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/robot/TableInfo.hpp"
 #include "ortung/run/Robot.hpp"
 #include "ortung/sim/Learner.hpp"
@@ -27,7 +27,7 @@ double headingStep(double stepDeg) {
                     "e.g. 1, 2 or 2.5",
                     stepDeg));
   }
-  return 2.0 * kPi / std::round(steps);
+  return kTurn / std::round(steps);
 }
 
 /// How the table's features are called in the file.

@@ -4,8 +4,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/FastMath.hpp"
 #include "ortung/base/InstructionSet.hpp"
 
@@ -58,7 +58,7 @@ struct Pair {
 /// Two Gaussian numbers from two words (Box and Muller, 1958).
 ORTUNG_INLINE Pair boxMuller(std::uint32_t a, std::uint32_t b) {
   const float radius = std::sqrt(-2.0F * naturalLog(unit(a) + 0x1p-25F));  // never ln 0
-  const SinCos angle = sinCos(2.0F * std::numbers::pi_v<float> * unit(b));
+  const SinCos angle = sinCos(kTurnFloat * unit(b));
   return {radius * angle.cos, radius * angle.sin};
 }
 
@@ -193,7 +193,7 @@ double Random::gaussian() {
     return spare_;
   }
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-  const double angle = 2.0 * std::numbers::pi * uniform();
+  const double angle = kTurn * uniform();
   spare_ = radius * std::sin(angle);
   hasSpare_ = true;
   return radius * std::cos(angle);

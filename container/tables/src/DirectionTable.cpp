@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "ortung/base/Angles.hpp"
+
 namespace ortung {
-namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-
-}  // namespace
 
 void DirectionTable::start(const FieldRegion& region, int directions, int longestRun) {
   if (directions < 1 || directions > kMostDirections || longestRun < 1 ||

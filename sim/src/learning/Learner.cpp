@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad]
 
 /// Features of one device at one place on the robot.
 struct Group {
