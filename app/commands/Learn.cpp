@@ -62,9 +62,8 @@ int runLearn(const LearnArguments& arguments) {
   const double step = headingStep(arguments.headingStepDeg);
   checkOutput(arguments.out);
   const std::unique_ptr<SimWorld> world = readWorld(arguments.world);
-  FieldRegion region;  // must outlive the container, which learns over it
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
-  region = world->region(arguments.cell, sizeOf(robot->config));
+  const FieldRegion region = world->region(arguments.cell, sizeOf(robot->config));
   region.check();
   {
     Progress progress("learning", arguments.progress);

@@ -15,7 +15,7 @@ std::vector<FieldWall> wallsAt(const FieldModel& field, double z, double shortes
 
 struct WallMatcherConfig {
   double reach = 0.25;        ///< a point this near to a wall may be of it [m]
-  double angle = 0.12;        ///< likewise, of directions [rad]
+  double angle = 0.12;        ///< a piece turned this little against a wall may be of it [rad]
   double rangeSigma = 0.03;   ///< of the scan's points [m]
   double shareMatched = 0.6;  ///< of the points on segments; less, and the pose is wrong
   int mostFixes = 8;          ///< more places that fit as well say too little
@@ -26,7 +26,7 @@ struct WallMatcherConfig {
 /// Gauss-Newton on the points' distances from their walls, whose normal matrix is the information.
 class WallMatcher {
  public:
-  /// @param walls must outlive it
+  /// @param walls borrowed
   WallMatcher(std::span<const FieldWall> walls, const WallMatcherConfig& config);
 
   /// Poses of the robot that fit as well as the best, none if nothing fits.
