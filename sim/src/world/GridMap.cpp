@@ -11,8 +11,8 @@ namespace {
 constexpr double kFarthest = 1e4;  ///< [m], of any coordinate
 
 struct Spread {
-  int column, row;              ///< a cell reached
-  int sourceColumn, sourceRow;  ///< and the free cell it was reached from
+  int column, row;              ///< a cell that was reached
+  int sourceColumn, sourceRow;  ///< the free cell from which it was reached
 };
 
 }  // namespace
