@@ -60,6 +60,12 @@ struct OdometryErrors {
         headingSigma * headingSigma * way + turnSigma * turnSigma * std::abs(turn) / kTurn;
     return turn * turnScale + std::sqrt(variance) * noise.gaussian();
   }
+  /// Change of pose of a robot that drives where it faces. @param way below 0: backwards [m]
+  Pose2 measured(double way, double turn, Random& noise) const {
+    const double itsWay = measuredWay(way, noise);
+    const double itsTurn = measuredTurn(turn, std::abs(way), noise);
+    return {itsWay * std::cos(itsTurn / 2.0), itsWay * std::sin(itsTurn / 2.0), wrapAngle(itsTurn)};
+  }
 };
 
 }  // namespace ortung
