@@ -10,7 +10,7 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
-#include "Numbers.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/core/Record.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/robot/TableInfo.hpp"

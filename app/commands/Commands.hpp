@@ -38,7 +38,7 @@ struct TrainMotionArguments {
   std::vector<std::string> sources;  ///< records, or "KIND:PATH?key=value"
   std::filesystem::path robot;
   std::filesystem::path out;
-  std::string commandsFrom = "auto";  ///< or "velocities" or "motion_data" of odometry
+  std::string commandsFrom = "auto";  ///< "velocities" or "motion_data" of odometry, or "auto"
   double step = 0.1;                  ///< of a prediction [s]
   std::size_t commands = 5;           ///< newest ones that the network sees
   std::string hidden = "24,24";       ///< widths of layers
@@ -57,7 +57,7 @@ struct LocalizationArguments {
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> particles;
   std::optional<unsigned> threads;
-  std::string start = "global";  ///< or "truth" or "x,y,theta_deg"
+  std::string start = "global";  ///< "global", "truth" or "x,y,theta_deg"
   std::string startSigma = "0.3,10";
   std::string motion;  ///< file, "turn_per_turn,turn_per_m,way_per_m,way_per_turn" or ""
   bool anyWorld = false;
@@ -66,9 +66,9 @@ struct LocalizationArguments {
 
 struct EvalArguments {
   LocalizationArguments localization;
-  std::filesystem::path json;  ///< "" for none, as the next two
-  std::filesystem::path report;
-  std::filesystem::path record;
+  std::filesystem::path json;    ///< "" for none
+  std::filesystem::path report;  ///< "" for none
+  std::filesystem::path record;  ///< "" for none
   std::string convergedWithin = "0.5,15";
   std::string commandLine;  ///< for the report
 };
@@ -84,8 +84,8 @@ struct ImportArguments {
   std::string kind;
   std::string source;
   std::filesystem::path out;
-  std::filesystem::path world;  ///< "" for none, as the next
-  std::filesystem::path robotFile;
+  std::filesystem::path world;       ///< "" for none
+  std::filesystem::path robotFile;   ///< "" for none
   std::vector<std::string> options;  ///< "key=value"
   std::filesystem::path withRobot;   ///< robot file for sources that need one; "" for none
   bool force = false;
@@ -110,8 +110,8 @@ int runShow(const ShowArguments& arguments);
 
 struct CheckArguments {
   std::vector<std::filesystem::path> files;
-  std::filesystem::path world;  ///< "" for none, as the next
-  std::filesystem::path robot;
+  std::filesystem::path world;  ///< "" for none
+  std::filesystem::path robot;  ///< "" for none
 };
 int runCheck(const CheckArguments& arguments);
 
@@ -134,12 +134,12 @@ struct ServeArguments {
 int runServe(const ServeArguments& arguments);
 
 struct SimArguments {
-  std::filesystem::path world;                ///< or a scene
+  std::filesystem::path world;                ///< a world or a scene
   std::vector<std::filesystem::path> robots;  ///< robot files: they wander about
   std::optional<double> duration;             ///< [s]; default: the scene's, or until a signal
-  std::filesystem::path record;               ///< "" for none, as the next
-  std::filesystem::path trace;
-  std::string recorded;  ///< name of the robot to record; "": the first
+  std::filesystem::path record;               ///< "" for none
+  std::filesystem::path trace;                ///< "" for none
+  std::string recorded;                       ///< name of the robot to record; "": the first
   unsigned threads = 1;
   std::uint64_t seed = 1;
   std::optional<double> cycleMs;  ///< default: the world's

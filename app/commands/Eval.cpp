@@ -13,6 +13,7 @@
 #include "Report.hpp"
 #include "RunResult.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung::app {
 namespace {

@@ -7,9 +7,9 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
-#include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/robot/TableInfo.hpp"
 #include "ortung/run/Robot.hpp"
 #include "ortung/sim/Learner.hpp"
@@ -27,7 +27,7 @@ double headingStep(double stepDeg) {
                     "e.g. 1, 2 or 2.5",
                     stepDeg));
   }
-  return 2.0 * kPi / std::round(steps);
+  return kTurn / std::round(steps);
 }
 
 /// How the table's features are called in the file.
@@ -62,9 +62,8 @@ int runLearn(const LearnArguments& arguments) {
   const double step = headingStep(arguments.headingStepDeg);
   checkOutput(arguments.out);
   const std::unique_ptr<SimWorld> world = readWorld(arguments.world);
-  FieldRegion region;  // must outlive the container, which learns over it
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
-  region = world->region(arguments.cell, sizeOf(robot->config));
+  const FieldRegion region = world->region(arguments.cell, sizeOf(robot->config));
   region.check();
   {
     Progress progress("learning", arguments.progress);

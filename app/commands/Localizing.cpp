@@ -8,6 +8,7 @@
 #include "Interrupt.hpp"
 #include "Numbers.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung::app {
 namespace {

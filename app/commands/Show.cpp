@@ -11,10 +11,10 @@
 #include "Console.hpp"
 #include "HeatMap.hpp"
 #include "Interrupt.hpp"
-#include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/formats/BearingData.hpp"
 #include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/LandmarksData.hpp"
@@ -81,7 +81,7 @@ struct Unit {
 
 Unit unitOf(const SensorData& feature, std::size_t index) {
   const Unit metres{"m", 1.0};
-  const Unit angle{"deg", 180.0 / kPi};
+  const Unit angle{"deg", degrees(1.0)};
   if (dynamic_cast<const BearingData*>(&feature) != nullptr) return angle;
   if (dynamic_cast<const LandmarksData*>(&feature) != nullptr)
     return index % 2 == 0 ? metres : angle;

@@ -13,6 +13,7 @@
 #include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
 #include "ortung/run/Robot.hpp"
 #include "ortung/sim_api/Drive.hpp"

@@ -13,8 +13,4 @@ namespace ortung::app {
 std::vector<double> parseNumbers(const std::string& text, const std::string& option,
                                  const std::vector<std::string>& names);
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double radians(double degrees) { return degrees * kPi / 180.0; }
-constexpr double degrees(double radians) { return radians * 180.0 / kPi; }
-
 }  // namespace ortung::app

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "Assets.hpp"
-#include "Numbers.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Console.hpp"
-#include "Numbers.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung::app {
 namespace {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/Record.hpp"
@@ -209,15 +209,13 @@ std::string observerToml(const Observer& observer, const std::string& names,
   for (const std::uint32_t identity : identities) {
     list += (list.empty() ? "" : ", ") + std::to_string(identity);
   }
-  const double turn = 2.0 * std::numbers::pi;
-  const double sight = observer.fieldOfView > 0 ? std::min(observer.fieldOfView, turn) : turn;
+  const double sight = observer.fieldOfView > 0 ? std::min(observer.fieldOfView, kTurn) : kTurn;
   return "\n[[sensor]]\nplugin = \"landmarks\"\n" + names + "identities = [" + list +
          "]\npose = { x_m = " + tomlNumber(observer.mount.x) +
          ", y_m = " + tomlNumber(observer.mount.y) +
-         ", theta_deg = " + tomlNumber(observer.mount.theta * 180.0 / std::numbers::pi) +
-         " }\nmax_range_m = " +
+         ", theta_deg = " + tomlNumber(degrees(observer.mount.theta)) + " }\nmax_range_m = " +
          tomlNumber(observer.maxRange > 0 ? std::min(observer.maxRange, 1000.0) : 30.0) +
-         "\nfov_deg = " + tomlNumber(std::max(1.0, sight * 180.0 / std::numbers::pi)) + "\n";
+         "\nfov_deg = " + tomlNumber(std::max(1.0, degrees(sight))) + "\n";
 }
 
 std::string RawlogSource::robotToml() const {

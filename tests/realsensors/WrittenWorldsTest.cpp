@@ -78,9 +78,9 @@ TEST_P(WrittenWorlds, HaveARobotThatTakesAllReadings) {
   }
   std::size_t taken = 0;
   for (const Message& message : readAll(*source)) {
-    SensorData* const data = container.findExactly(message.id);
-    ASSERT_NE(data, nullptr) << toText(message.id);
-    data->setData(message.stamp, message.words);  // throws if the words do not fit
+    SensorData* const feature = container.findExactly(message.id);
+    ASSERT_NE(feature, nullptr) << toText(message.id);
+    feature->setData(message.stamp, message.words);  // throws if the words do not fit
     ++taken;
   }
   EXPECT_GT(taken, 0u);

@@ -135,9 +135,10 @@ TEST(Height, RobotsOfTheLeagueGetUnderTheCrossbarsAndBallsRollThere) {
   Simulation simulation(readWorld(msl), {});
   PluginFactory factory(PluginFactory::standardFolders());
   EXPECT_NO_THROW(simulation.addRobot(robotOf(robot), factory, {11.0, 0.0, 0.0}));
-  for (std::size_t i = 0; i < simulation.things().size(); ++i)
-    if (simulation.things()[i].kind == "ball")
-      EXPECT_NO_THROW(simulation.placeThing(i, {-11.0, 0.5, 0.0})) << "on the goal line";
+  for (std::size_t i = 0; i < simulation.things().size(); ++i) {
+    if (simulation.things()[i].kind != "ball") continue;
+    EXPECT_NO_THROW(simulation.placeThing(i, {-11.0, 0.5, 0.0})) << "on the goal line";
+  }
   EXPECT_GE(simulation.things().size(), 1u);
 }
 

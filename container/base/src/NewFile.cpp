@@ -41,7 +41,8 @@ void NewFile::commit() {
   syncFolder();
 }
 
-/// So that the name survives a power failure, too; the file is in place anyhow.
+/// Writes the folder out, so that the name survives a power failure, too. Fails silently: the file
+/// is in place anyhow.
 void NewFile::syncFolder() const {
   const std::filesystem::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

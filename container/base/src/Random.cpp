@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
+#include "ortung/base/Angles.hpp"
+#include "ortung/base/FastMath.hpp"
 #include "ortung/base/InstructionSet.hpp"
-#include "ortung/base/SinCos.hpp"
 
 namespace ortung {
 namespace {
@@ -51,28 +50,6 @@ ORTUNG_INLINE float unit(std::uint32_t word) {
   return static_cast<float>(static_cast<std::int32_t>(word >> 8)) * 0x1p-24F;
 }
 
-/// ln x for normal positive x, wrong by less than 2e-7 relative to max(1, |ln x|); after S. L.
-/// Moshier's Cephes library (logf.c). Own, for the same reasons as sinCos().
-ORTUNG_INLINE float naturalLog(float x) {
-  const auto bits = std::bit_cast<std::int32_t>(x);
-  const auto half = std::bit_cast<float>((bits & 0x007FFFFF) | 0x3F000000);  // in [0.5, 1)
-  const bool small = half < 0.707106781186547524F;
-  const auto e = static_cast<float>((bits >> 23) - 126 - (small ? 1 : 0));
-  const float m = (small ? half + half : half) - 1.0F;
-  const float z = m * m;
-  float y = 7.0376836292e-2F;
-  y = y * m - 1.1514610310e-1F;
-  y = y * m + 1.1676998740e-1F;
-  y = y * m - 1.2420140846e-1F;
-  y = y * m + 1.4249322787e-1F;
-  y = y * m - 1.6668057665e-1F;
-  y = y * m + 2.0000714765e-1F;
-  y = y * m - 2.4999993993e-1F;
-  y = y * m + 3.3333331174e-1F;
-  y = y * m * z - 2.12194440e-4F * e - 0.5F * z;
-  return m + y + 0.693359375F * e;
-}
-
 struct Pair {
   float first;
   float second;
@@ -81,7 +58,7 @@ struct Pair {
 /// Two Gaussian numbers from two words (Box and Muller, 1958).
 ORTUNG_INLINE Pair boxMuller(std::uint32_t a, std::uint32_t b) {
   const float radius = std::sqrt(-2.0F * naturalLog(unit(a) + 0x1p-25F));  // never ln 0
-  const SinCos angle = sinCos(2.0F * std::numbers::pi_v<float> * unit(b));
+  const SinCos angle = sinCos(kTurnFloat * unit(b));
   return {radius * angle.cos, radius * angle.sin};
 }
 
@@ -216,7 +193,7 @@ double Random::gaussian() {
     return spare_;
   }
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-  const double angle = 2.0 * std::numbers::pi * uniform();
+  const double angle = kTurn * uniform();
   spare_ = radius * std::sin(angle);
   hasSpare_ = true;
   return radius * std::cos(angle);

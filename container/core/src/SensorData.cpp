@@ -1,8 +1,9 @@
 #include "ortung/core/SensorData.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
@@ -72,14 +73,14 @@ void SensorData::setData(Timestamp stamp, std::span<const std::uint32_t> words) 
 
 void SensorData::beginLearning(const FieldRegion& region, double headingStep) {
   region.check();
-  if (!(headingStep > kSmallestHeadingStep) || headingStep > 2 * std::numbers::pi) {
+  if (!(headingStep > kSmallestHeadingStep) || headingStep > kTurn) {
     throw std::invalid_argument(toText(id_) + ": the heading step must be in (0.0001, 2 pi]");
   }
   learned_ = false;
   startTables(region, headingStep);
 }
 
-double SensorData::headingSpacing() const { return 2 * std::numbers::pi; }
+double SensorData::headingSpacing() const { return kTurn; }
 
 void SensorData::learnProbability(const Pose2& pose) { learn(pose); }
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <sstream>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 
@@ -48,7 +49,7 @@ std::optional<Pose2> optionPose(const Parameters& options, const std::string& ke
   const auto numbers = parseNumbers(text);
   if (!numbers || numbers->size() != 3)
     options.fail(key, "is \"" + text + "\", must be x,y,theta in metres and degrees");
-  return Pose2{(*numbers)[0], (*numbers)[1], wrapAngle((*numbers)[2] * std::numbers::pi / 180.0)};
+  return Pose2{(*numbers)[0], (*numbers)[1], wrapAngle(radians((*numbers)[2]))};
 }
 
 }  // namespace ortung

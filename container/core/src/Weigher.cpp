@@ -3,8 +3,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "ortung/base/OneSample.hpp"
-
 namespace ortung {
 
 Weigher::~Weigher() = default;
@@ -20,7 +18,12 @@ void Weigher::getProbability(const SampleView& poses, std::span<float> logProbab
 }
 
 double Weigher::logProbabilityAt(const Pose2& pose) const {
-  return weighOne(pose, [this](const SampleView& one, std::span<float> out) { weigh(one, out); });
+  const auto x = static_cast<float>(pose.x);
+  const auto y = static_cast<float>(pose.y);
+  const auto theta = static_cast<float>(pose.theta);
+  float logProbability = 0.0F;
+  weigh({{&x, 1}, {&y, 1}, {&theta, 1}}, {&logProbability, 1});
+  return static_cast<double>(logProbability);
 }
 
 }  // namespace ortung

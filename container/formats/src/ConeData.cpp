@@ -6,6 +6,7 @@
 
 #include "CellLookup.hpp"
 #include "FormatTools.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 
@@ -96,8 +97,8 @@ std::string ConeData::wordsHelp() const {
 }
 
 void ConeData::startTables(const FieldRegion& region, double headingStep) {
-  const int directions = std::max(1, static_cast<int>(std::lround(kFullTurn / headingStep)));
-  headingStep_ = kFullTurn / directions;
+  const int directions = std::max(1, static_cast<int>(std::lround(kTurn / headingStep)));
+  headingStep_ = kTurn / directions;
   table_ = std::make_shared<DirectionTable>();
   table_->start(region, directions, 1);
 }

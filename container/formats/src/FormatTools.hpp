@@ -2,18 +2,16 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/formats/Words.hpp"
 
 /// Small things that several formats need.
 namespace ortung {
-
-inline constexpr double kFullTurn = 2 * std::numbers::pi;
 
 inline void checkWordCount(std::span<const std::uint32_t> words, std::size_t expected) {
   if (words.size() != expected) {
@@ -41,9 +39,9 @@ inline void checkAngleWord(std::uint32_t word) {
 
 /// How far apart headings may be so that a sensor with this field of view sees everything.
 inline double spacingOf(double fieldOfView) {
-  if (fieldOfView <= 0.0 || fieldOfView >= kFullTurn) return kFullTurn;
+  if (fieldOfView <= 0.0 || fieldOfView >= kTurn) return kTurn;
   // Half the field of view, so that nothing hides between the edges of two views.
-  return kFullTurn / std::ceil(2 * kFullTurn / fieldOfView);
+  return kTurn / std::ceil(2 * kTurn / fieldOfView);
 }
 
 std::string mountKey(const Pose2& mount);  ///< "mount=0.1,0,0"
@@ -51,9 +49,8 @@ std::string keyNumber(double value);       ///< "%.9g", for learning keys
 
 /// Shortest signed way from angle b to angle a, each within a few turns.
 inline float angleDifference(float a, float b) {
-  constexpr float kTurn = 2 * std::numbers::pi_v<float>;
-  const float d = (a - b) * (1.0F / kTurn);
-  return (d - std::nearbyintf(d)) * kTurn;
+  const float d = (a - b) * (1.0F / kTurnFloat);
+  return (d - std::nearbyintf(d)) * kTurnFloat;
 }
 
 }  // namespace ortung

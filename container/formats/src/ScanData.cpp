@@ -5,6 +5,7 @@
 
 #include "EndPointWeigher.hpp"
 #include "FormatTools.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
@@ -13,8 +14,8 @@ constexpr int kMostBeams = 8192;
 
 /// Headings whose scans together span a turn.
 int fewestViews(const ScanData::Config& config) {
-  const double span = std::min(config.beams * config.angleStep, kFullTurn);
-  const auto views = static_cast<int>(std::ceil(kFullTurn / span - 1e-9));
+  const double span = std::min(config.beams * config.angleStep, kTurn);
+  const auto views = static_cast<int>(std::ceil(kTurn / span - 1e-9));
   // One view more than a turn needs: beams of the views interleave, so fewer directions stay empty.
   return views == 1 ? 1 : views + 1;
 }
@@ -24,8 +25,8 @@ bool meetAll(const ScanData::Config& config, int views, int directions) {
   std::vector<bool> met(static_cast<std::size_t>(directions), false);
   for (int view = 0; view < views; ++view) {
     for (int beam = 0; beam < config.beams; ++beam) {
-      const double turns = static_cast<double>(view) / views +
-                           (config.firstAngle + beam * config.angleStep) / kFullTurn;
+      const double turns =
+          static_cast<double>(view) / views + (config.firstAngle + beam * config.angleStep) / kTurn;
       const long direction = std::lround((turns - std::floor(turns)) * directions);
       met[static_cast<std::size_t>(direction % directions)] = true;
     }
@@ -37,8 +38,7 @@ bool meetAll(const ScanData::Config& config, int views, int directions) {
 /// directions.
 int viewsFor(const ScanData::Config& config, int directions) {
   int views = fewestViews(config);
-  if (config.angleStep <= 1.01 * kFullTurn / directions)
-    return views;  // the table fills single holes
+  if (config.angleStep <= 1.01 * kTurn / directions) return views;  // the table fills single holes
   views = std::max(views, directions / config.beams);
   while (views < directions && !meetAll(config, views, directions)) views += 1 + views / 8;
   return std::min(views, directions);
@@ -59,7 +59,7 @@ ScanData::ScanData(SensorId id, const Pose2& mount, const Config& config)
       endPoints_(std::make_shared<EndPointTables>()),
       learning_(std::make_unique<Learning>()) {
   if (config.beams < 1 || config.beams > kMostBeams || !(config.angleStep > 0.0) ||
-      config.beams * config.angleStep > kFullTurn + config.angleStep) {
+      config.beams * config.angleStep > kTurn + config.angleStep) {
     throw std::invalid_argument("a scan has 1 to 8192 beams that span at most a turn");
   }
   ranges_.assign(static_cast<std::size_t>(config.beams), std::numeric_limits<float>::quiet_NaN());
@@ -101,18 +101,18 @@ void ScanData::decode(std::span<const std::uint32_t> words) {
 
 std::string ScanData::wordsHelp() const {
   return "[distance mm] of each of " + std::to_string(config_.beams) + " beams from " +
-         keyNumber(config_.firstAngle * 180 / std::numbers::pi) + " deg in steps of " +
-         keyNumber(config_.angleStep * 180 / std::numbers::pi) + " deg; 0: not valid; from " +
+         keyNumber(degrees(config_.firstAngle)) + " deg in steps of " +
+         keyNumber(degrees(config_.angleStep)) + " deg; 0: not valid; from " +
          keyNumber(config_.maxRange * 1000) + " on: nothing seen";
 }
 
 double ScanData::headingSpacing() const {
-  if (learning_->views > 0) return kFullTurn / learning_->views;
-  return kFullTurn / fewestViews(config_);
+  if (learning_->views > 0) return kTurn / learning_->views;
+  return kTurn / fewestViews(config_);
 }
 
 int ScanData::runLength(int directions) const {
-  const double step = kFullTurn / directions;
+  const double step = kTurn / directions;
   const auto run =
       static_cast<int>(std::lround((config_.beams - 1) * config_.angleStep / step)) + 1;
   return std::min(run, directions);
@@ -127,7 +127,7 @@ void ScanData::startTables(const FieldRegion& region, double headingStep) {
     endPoints_->field.start(region.grid, config_.endPointCell, 2 * config_.endPointCell);
     return;
   }
-  const int directions = std::max(1, static_cast<int>(std::lround(kFullTurn / headingStep)));
+  const int directions = std::max(1, static_cast<int>(std::lround(kTurn / headingStep)));
   rays_ = std::make_shared<DirectionTable>();
   rays_->start(region, directions, runLength(directions));
   learning_->views = viewsFor(config_, directions);

@@ -9,6 +9,7 @@
 #include "EndPointWeigher.hpp"
 #include "FormatTools.hpp"
 #include "ScanCost.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
@@ -32,7 +33,7 @@ struct RayPlaces {
             std::size_t n) {
     const CellLookup lookup(grid);
     const auto turn = static_cast<float>(directions);
-    const auto perRadian = static_cast<float>(directions / kFullTurn);
+    const auto perRadian = static_cast<float>(directions / kTurn);
     constexpr float kMostTurns = 1e6F;  // beyond, single precision knows no direction
     for (std::size_t i = 0; i < n; ++i) cell[i] = lookup.index(poses.x[i], poses.y[i]);
     for (std::size_t i = 0; i < n; ++i) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "FormatTools.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung::words {
 namespace {
@@ -25,8 +26,7 @@ std::uint32_t fromSignedMetres(double metres) { return clampToWord(metres * 1000
 double toSignedMetres(std::uint32_t word) { return (static_cast<double>(word) - kOffset) / 1000.0; }
 
 std::uint32_t fromAngle(double radians) {
-  const double centidegrees =
-      std::nearbyint(std::remainder(radians, 2 * std::numbers::pi) * kCentidegrees);
+  const double centidegrees = std::nearbyint(std::remainder(radians, kTurn) * kCentidegrees);
   return static_cast<std::uint32_t>(centidegrees + 18000.0) % kAngles;
 }
 double toAngle(std::uint32_t word) { return (static_cast<double>(word) - 18000.0) / kCentidegrees; }

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "MotionFit.hpp"
+#include "ortung/base/Angles.hpp"
+#include "ortung/base/FastMath.hpp"
 #include "ortung/base/InstructionSet.hpp"
 #include "ortung/base/Random.hpp"
-#include "ortung/base/SinCos.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kBlock = 256;         ///< samples whose noise is drawn at once
 constexpr std::size_t kNumbersASample = 4;  ///< first turn, way, second turn, sideways
 constexpr float kSlip = 4.0F;               ///< times the noise of samples that slip

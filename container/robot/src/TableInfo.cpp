@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 
 #include "FieldModelJson.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
@@ -102,7 +102,7 @@ TableInfo readTableInfo(const TableFile& file) {
   info.worldFingerprint = take<std::string>(file, meta, "world_fingerprint");
   info.robot = take<std::string>(file, meta, "robot");
   info.headingStep = take<double>(file, meta, "heading_step_rad");
-  if (!(info.headingStep > 1e-4 && info.headingStep <= 2 * std::numbers::pi)) {
+  if (!(info.headingStep > 1e-4 && info.headingStep <= kTurn)) {
     throw TableError(file.path().string() + ": the heading step is not in (0.0001, 2 pi]");
   }
   info.region = readRegion(file, meta);

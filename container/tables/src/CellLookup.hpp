@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ortung/base/FastMath.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/SampleView.hpp"
-#include "ortung/base/SinCos.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {

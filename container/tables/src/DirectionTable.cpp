@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "ortung/base/Angles.hpp"
+
 namespace ortung {
-namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-
-}  // namespace
 
 void DirectionTable::start(const FieldRegion& region, int directions, int longestRun) {
   if (directions < 1 || directions > kMostDirections || longestRun < 1 ||
@@ -44,7 +40,7 @@ int DirectionTable::directionOf(double angle) const {
 void DirectionTable::learn(double x, double y, double angle, std::uint8_t level) {
   const std::ptrdiff_t cell = grid_.cellAt(x, y);
   if (cell < 0 || ownRowOf_[static_cast<std::size_t>(cell)] < 0) return;
-  // As directionOf(), and how far off it is; the learner's innermost loop.
+  // What directionOf() gives, and how far off it is; this is the learner's innermost loop.
   const double steps = angle * (directions_ / kTurn);
   const double nearest = std::nearbyint(steps);
   const double offset = std::abs(steps - nearest);  // 0 to 0.5

@@ -2,55 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "ortung/tables/DistanceTransform.hpp"
 
 namespace ortung {
 namespace {
 
 constexpr std::size_t kMostCells = 1u << 27;
-constexpr float kFar = 1e10F;
-
-/// Squared distance transform of one row or column (Felzenszwalb and Huttenlocher, section 2).
-class LineTransform {
- public:
-  explicit LineTransform(std::size_t longest)
-      : in_(longest), parabola_(longest), border_(longest + 1) {}
-
-  template <class Get, class Set>
-  void run(int n, Get get, Set set) {
-    for (int i = 0; i < n; ++i) in_[at(i)] = get(i);
-    int last = 0;
-    parabola_[0] = 0;
-    border_[0] = -std::numeric_limits<double>::infinity();
-    border_[1] = std::numeric_limits<double>::infinity();
-    for (int q = 1; q < n; ++q) {
-      double crossing = cross(q, parabola_[at(last)]);
-      while (crossing <= border_[at(last)]) crossing = cross(q, parabola_[at(--last)]);
-      parabola_[at(++last)] = q;
-      border_[at(last)] = crossing;
-      border_[at(last + 1)] = std::numeric_limits<double>::infinity();
-    }
-    int k = 0;
-    for (int q = 0; q < n; ++q) {
-      while (border_[at(k + 1)] < static_cast<double>(q)) ++k;
-      const int v = parabola_[at(k)];
-      set(q, square(q - v) + in_[at(v)]);
-    }
-  }
-
- private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  static double square(double cells) {
-    return cells * cells;
-  }  // in long corridors too large for an int
-  double cross(int q, int v) const {
-    return ((in_[at(q)] + square(q)) - (in_[at(v)] + square(v))) / (2.0 * (q - v));
-  }
-  std::vector<double> in_;
-  std::vector<int> parabola_;
-  std::vector<double> border_;
-};
 
 }  // namespace
 
@@ -73,29 +32,14 @@ void EndPointField::mark(double x, double y) {
 }
 
 void EndPointField::finish() {
-  const int columns = grid_.columns;
-  const int rows = grid_.rows;
-  std::vector<float> squared(grid_.size());
-  std::transform(own_.begin(), own_.end(), squared.begin(),
-                 [](std::uint8_t m) { return m != 0 ? 0.0F : kFar; });
-  LineTransform transform(static_cast<std::size_t>(std::max(columns, rows)));
-  const auto at = [&](int column, int row) -> float& {
-    return squared[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                   static_cast<std::size_t>(column)];
-  };
-  for (int column = 0; column < columns; ++column) {
-    transform.run(
-        rows, [&](int row) { return at(column, row); },
-        [&](int row, double v) { at(column, row) = static_cast<float>(v); });
+  DistanceTransform distances(grid_.columns, grid_.rows, own_);
+  auto level = own_.begin();
+  for (int row = 0; row < grid_.rows; ++row) {
+    for (const double squared : distances.squaredOf(row)) {
+      const float cells = std::sqrt(static_cast<float>(squared));
+      *level++ = static_cast<std::uint8_t>(std::min(255.0F, std::nearbyint(cells * kPerCell)));
+    }
   }
-  for (int row = 0; row < rows; ++row) {
-    transform.run(
-        columns, [&](int column) { return at(column, row); },
-        [&](int column, double v) { at(column, row) = static_cast<float>(v); });
-  }
-  std::transform(squared.begin(), squared.end(), own_.begin(), [](float d) {
-    return static_cast<std::uint8_t>(std::min(255.0F, std::nearbyint(std::sqrt(d) * kPerCell)));
-  });
 }
 
 void EndPointField::save(TableWriter& file, const std::string& prefix) const {

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr int kTurn = 65535;  // levels 0..65534, so that CellTable::kNone stays free
-constexpr double kPerRadian = kTurn / (2 * std::numbers::pi);
+constexpr int kDirections = 65535;  // levels 0..65534, so that CellTable::kNone stays free
+constexpr double kPerRadian = kDirections / kTurn;
 
 }  // namespace
 
@@ -54,15 +55,15 @@ float PositionTable::at(double x, double y) const {
 }
 
 void BearingTable::learn(double x, double y, double directionInField) {
-  const int level = static_cast<int>(
-      std::lround(std::remainder(directionInField, 2 * std::numbers::pi) * kPerRadian));
-  cells_.set(x, y, static_cast<std::uint16_t>((level + kTurn) % kTurn));
+  const int level =
+      static_cast<int>(std::lround(std::remainder(directionInField, kTurn) * kPerRadian));
+  cells_.set(x, y, static_cast<std::uint16_t>((level + kDirections) % kDirections));
 }
 
 float BearingTable::at(double x, double y) const {
   const std::uint16_t level = cells_.at(x, y);
   if (level == CellTable::kNone) return std::numeric_limits<float>::quiet_NaN();
-  return static_cast<float>(std::remainder(level / kPerRadian, 2 * std::numbers::pi));
+  return static_cast<float>(std::remainder(level / kPerRadian, kTurn));
 }
 
 }  // namespace ortung

@@ -1,7 +1,8 @@
 #include "ortung/tables/SensorModel.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 
@@ -14,7 +15,7 @@ double SensorModel::logFloor() const { return exponent * std::log(outliers); }
 SensorModel SensorModel::read(const Parameters& p, const std::string& sigmaKey,
                               const SensorModel& defaults) {
   const bool inDegrees = sigmaKey.ends_with("_deg");
-  const double unit = inDegrees ? std::numbers::pi / 180.0 : 1.0;
+  const double unit = inDegrees ? kDegree : 1.0;
   constexpr double kTiny = 1e-6;
   SensorModel model = defaults;
   model.sigma =

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 
 #include "CellLookup.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/tables/PositionTable.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
@@ -43,20 +43,18 @@ class TableWeigher {
   /// Adds ln p of a bearing in the sensor's frame. @param perSigma [1/rad]
   void addBearing(const BearingTable& table, const GaussianTable& gaussian, float reading,
                   float perSigma, float* out) {
-    constexpr float kTurn = 2 * std::numbers::pi_v<float>;
     constexpr float kMostTurns = 1e6F;
-    const auto turnsPerLevel =
-        static_cast<float>(BearingTable::kRadiansPerLevel / (2 * std::numbers::pi));
+    const auto turnsPerLevel = static_cast<float>(BearingTable::kRadiansPerLevel / kTurn);
     take(table.cells());
     for (std::size_t k = 0; k < n_; ++k) {
-      const float turns = (reading + poses_.theta[k]) * (1.0F / kTurn) -
+      const float turns = (reading + poses_.theta[k]) * (1.0F / kTurnFloat) -
                           static_cast<float>(levels_[k]) * turnsPerLevel;
       const int usual =
           static_cast<int>(turns > -kMostTurns) & static_cast<int>(turns < kMostTurns);
       const float bounded = usual != 0 ? turns : 0.0F;
       const auto nearest =
           static_cast<float>(static_cast<std::int32_t>(bounded + (bounded < 0.0F ? -0.5F : 0.5F)));
-      setPlace(k, (bounded - nearest) * kTurn * perSigma);
+      setPlace(k, (bounded - nearest) * kTurnFloat * perSigma);
     }
     add(gaussian, out);
   }

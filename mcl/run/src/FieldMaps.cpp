@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kMostHeadings = 3600.0;
 
 /// Open cells as poses of one heading, which are weighed in one call a feature.

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/sim_api/Twist.hpp"
 
 namespace ortung {
-
-constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// Reads a key in degrees. @throws ConfigError
 inline double radiansOr(const Parameters& p, const std::string& key, double fallback,
@@ -58,9 +56,15 @@ struct OdometryErrors {
   }
   /// @param way driven meanwhile [m], not negative
   double measuredTurn(double turn, double way, Random& noise) const {
-    const double variance = headingSigma * headingSigma * way +
-                            turnSigma * turnSigma * std::abs(turn) / (2.0 * std::numbers::pi);
+    const double variance =
+        headingSigma * headingSigma * way + turnSigma * turnSigma * std::abs(turn) / kTurn;
     return turn * turnScale + std::sqrt(variance) * noise.gaussian();
+  }
+  /// Change of pose of a robot that drives where it faces. @param way below 0: backwards [m]
+  Pose2 measured(double way, double turn, Random& noise) const {
+    const double itsWay = measuredWay(way, noise);
+    const double itsTurn = measuredTurn(turn, std::abs(way), noise);
+    return {itsWay * std::cos(itsTurn / 2.0), itsWay * std::sin(itsTurn / 2.0), wrapAngle(itsTurn)};
   }
 };
 

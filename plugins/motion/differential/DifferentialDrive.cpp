@@ -122,10 +122,7 @@ class DifferentialDrive : public Drive {
         read({way - turn * settings_.axle / 2.0, way + turn * settings_.axle / 2.0}, *noise);
     const double seenWay = (seen.left + seen.right) / 2.0;
     const double seenTurn = (seen.right - seen.left) / settings_.axle;
-    const double measuredWay = settings_.errors.measuredWay(seenWay, *noise);
-    const double measuredTurn = settings_.errors.measuredTurn(seenTurn, std::abs(seenWay), *noise);
-    return {measuredWay * std::cos(measuredTurn / 2.0), measuredWay * std::sin(measuredTurn / 2.0),
-            wrapAngle(measuredTurn)};
+    return settings_.errors.measured(seenWay, seenTurn, *noise);
   }
   Twist measuredVelocity(bool noise) const override {
     if (!noise) return velocity();

@@ -76,10 +76,7 @@ class NeuralDrive : public Drive {
     if (noise == nullptr) return trueChange;
     const double half = trueChange.theta / 2.0;
     const double way = trueChange.x * std::cos(half) + trueChange.y * std::sin(half);
-    const double measuredWay = errors_.measuredWay(way, *noise);
-    const double measuredTurn = errors_.measuredTurn(trueChange.theta, std::abs(way), *noise);
-    return {measuredWay * std::cos(measuredTurn / 2.0), measuredWay * std::sin(measuredTurn / 2.0),
-            wrapAngle(measuredTurn)};
+    return errors_.measured(way, trueChange.theta, *noise);
   }
   Twist measuredVelocity(bool noise) const override {
     if (!noise) return velocity();

@@ -57,7 +57,7 @@ struct OmniSettings {
   double maxWheelSpeed = 3.0;            ///< `max_wheel_speed_m_s` [m/s]
   double wheelAcceleration = 4.0;        ///< `wheel_acceleration_m_s2` [m/s^2]
   double maxSpeed = 0.0;                 ///< `max_speed_m_s`; default: the wheels' limit alone
-  double maxTurn = 0.0;                  ///< `max_turn_deg_s`; likewise
+  double maxTurn = 0.0;                  ///< `max_turn_deg_s`; default: the wheels' limit alone
   OdometryErrors errors;
 
   static OmniSettings read(const Parameters& drive) {

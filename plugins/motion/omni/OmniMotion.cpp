@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "ortung/base/FastMath.hpp"
 #include "ortung/base/Random.hpp"
-#include "ortung/base/SinCos.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
 

@@ -3,9 +3,9 @@
 /// What the [[sensor]] tables of all shipped plugins have in common.
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/SensorContainer.hpp"
@@ -13,10 +13,6 @@
 #include "ortung/tables/RangeScale.hpp"
 
 namespace ortung {
-
-inline constexpr double kTurn = 2.0 * std::numbers::pi;  ///< [rad]
-
-constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// Where a sensor sits on its robot.
 struct Mounting {

@@ -19,9 +19,9 @@ inline const std::vector<std::string> kIconicFeatures = {"lines", "goals",  "pos
 /// Landmarks of one kind: goals or posts.
 struct IconicLandmarks {
   std::string kind;            ///< of the landmarks in the world
-  bool areIdentified = true;   ///< or they all look alike
+  bool areIdentified = true;   ///< false: they all look alike
   LandmarksData::Config list;  ///< if they are identified
-  PointsData::Config points;   ///< if not
+  PointsData::Config points;   ///< if they are not identified
 };
 
 /// Settings of both halves of the iconic camera and of the iconic omnivision, which differ in their

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
@@ -43,8 +44,7 @@ std::vector<std::vector<PlanePoint>> outlinesOf(std::span<const float> ranges, d
   }
   if (outlines.empty()) return outlines;
   // All around, the last outline may go on in the first one.
-  const bool isAround =
-      static_cast<double>(ranges.size()) * angleStep > 2.0 * std::numbers::pi - 1.5 * angleStep;
+  const bool isAround = static_cast<double>(ranges.size()) * angleStep > kTurn - 1.5 * angleStep;
   const bool meet = isAround && std::isfinite(ranges.front()) && std::isfinite(ranges.back()) &&
                     !areApart(outlines.back().back(), outlines.front().front(), angleStep, config);
   std::vector<PlanePoint>& last = outlines.back();

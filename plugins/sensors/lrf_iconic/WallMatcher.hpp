@@ -24,7 +24,7 @@ struct MeasuredWall : FieldWall {
 
 struct WallMatcherConfig {
   double reach = 0.25;        ///< a point this near to a wall may be of it [m]
-  double angle = 0.12;        ///< likewise, of directions [rad]
+  double angle = 0.12;        ///< a piece turned this little against a wall may be of it [rad]
   double rangeSigma = 0.03;   ///< of the scan's points [m]
   double shareMatched = 0.6;  ///< of the points on segments; less, and the pose is wrong
   int mostFixes = 8;          ///< more places that fit as well say too little

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <stdexcept>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/core/SourceOptions.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 
@@ -14,13 +14,9 @@ namespace {
 
 constexpr double kUsefulRange = 30.0;  // [m]; beyond, old SICK scanners see little and spread much
 constexpr int kMaxBeams = 8192;
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// Millionths are enough, and logs have not more.
-double degrees(double radians) {
-  return std::round(radians * 180.0 / std::numbers::pi * 1e6) / 1e6;
-}
-double radians(double degree) { return degree * std::numbers::pi / 180.0; }
+double shortDegrees(double radians) { return std::round(degrees(radians) * 1e6) / 1e6; }
 
 }  // namespace
 
@@ -71,13 +67,13 @@ std::string robotHead(const std::string& path) {
 }
 
 std::string scannerToml(const Scanner& scanner, double period) {
-  const double step = std::min(degrees(scanner.angleStep), 360.0 / scanner.beams);
+  const double step = std::min(shortDegrees(scanner.angleStep), 360.0 / scanner.beams);
   return "\n[[sensor]]\nplugin = \"lrf\"\nmodel = \"laser\"\ntype = \"LRF\"\nfeature = \"scan\"\n"
          "pose = { x_m = " +
          tomlNumber(scanner.mount.x) + ", y_m = " + tomlNumber(scanner.mount.y) +
-         ", theta_deg = " + tomlNumber(degrees(scanner.mount.theta)) +
+         ", theta_deg = " + tomlNumber(shortDegrees(scanner.mount.theta)) +
          " }\nbeams = " + std::to_string(scanner.beams) +
-         "\nfirst_angle_deg = " + tomlNumber(degrees(scanner.firstAngle)) +
+         "\nfirst_angle_deg = " + tomlNumber(shortDegrees(scanner.firstAngle)) +
          "\nangle_step_deg = " + tomlNumber(step) +
          "\nmax_range_m = " + tomlNumber(*scanner.maxRange) + "\nperiod_s = " + tomlNumber(period) +
          "\n# Buildings are full of what no map holds.\n"

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad]
 
 /// Roots of a t^2 + 2 b t + c in ascending order.
 struct Roots {

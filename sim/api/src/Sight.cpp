@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ortung/base/Angles.hpp"
+
 namespace ortung {
 namespace {
 
@@ -24,8 +26,8 @@ std::optional<Sighting> lookAt(const Eye& eye, double x, double y) {
   const double dx = x - eye.pose.x;
   const double dy = y - eye.pose.y;
   const Sighting sighting{std::hypot(dx, dy), wrapAngle(std::atan2(dy, dx) - eye.pose.theta)};
-  const bool isInView = eye.fieldOfView >= 2.0 * std::numbers::pi ||
-                        std::abs(sighting.bearing) <= eye.fieldOfView / 2.0;
+  const bool isInView =
+      eye.fieldOfView >= kTurn || std::abs(sighting.bearing) <= eye.fieldOfView / 2.0;
   if (!isInView || !(sighting.range >= eye.minRange) || !(sighting.range <= eye.maxRange))
     return std::nullopt;
   return sighting;

@@ -117,7 +117,7 @@ struct RemoteRobot::Parts {
     }
   }
 
-  /// The same, for whoever looks at the trouble later.
+  /// Performs an action; false if it failed, for whoever looks at the trouble later.
   template <class Action>
   bool attempt(Action action) {
     try {

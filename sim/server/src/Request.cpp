@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung::server {
@@ -164,8 +164,7 @@ std::optional<Pose2> Request::takePose() {
   if (!x && !y && !degrees && !radians) return std::nullopt;
   if (degrees && radians) refuse("a pose has theta_deg or theta_rad, not both");
   if (!x || !y) refuse("a pose needs x_m and y_m");
-  return Pose2{*x, *y,
-               wrapAngle(radians ? *radians : degrees.value_or(0.0) * std::numbers::pi / 180.0)};
+  return Pose2{*x, *y, wrapAngle(radians ? *radians : ortung::radians(degrees.value_or(0.0)))};
 }
 
 void Request::refuseRest() const {

@@ -25,7 +25,7 @@ struct Query {
 /// How a client wants readings.
 struct Choice {
   std::vector<Query> queries;  ///< none: all features
-  bool again = false;          ///< also what the client has got already
+  bool again = false;          ///< true: also readings that the client has got already
   bool binary = false;
 };
 

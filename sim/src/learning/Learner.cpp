@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "MakeSensor.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad]
 
 /// A device with its simulation half, which may be null.
 struct Learning {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ortung/base/Angles.hpp"
+
 namespace ortung {
 namespace {
 
@@ -61,7 +63,7 @@ std::vector<std::unique_ptr<b2Shape>> ellipse(const Primitive& primitive) {
   const double c = std::cos(primitive.angle);
   const double s = std::sin(primitive.angle);
   const auto corner = [&](int i) {
-    const double t = 2.0 * std::numbers::pi * i / kEllipseCorners;
+    const double t = kTurn * i / kEllipseCorners;
     // On the curve drawn in along its normal.
     const double nx = primitive.halfY * std::cos(t);
     const double ny = primitive.halfX * std::sin(t);

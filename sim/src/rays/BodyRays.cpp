@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Where a ray is within something: from entry to exit.

@@ -39,7 +39,7 @@ class BodyRays {
   struct Piece {
     bool isRound = false;
     std::size_t sides = 0;
-    std::array<std::array<double, 2>, 4> normals{};  ///< rows of the above
+    std::array<std::array<double, 2>, 4> normals{};  ///< rows (xx, xy), of an ellipse also (yx, yy)
     std::array<double, 4> offsets{};                 ///< n . p <= offset
     Point2 middle;                                   ///< in the field [m]
     double reach = 0.0;                              ///< of all of it from its middle [m]

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "PrimitiveFile.hpp"
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {

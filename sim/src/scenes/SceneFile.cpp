@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <numbers>
 
 #include "PrimitiveFile.hpp"
 #include "ReadTables.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Scene.hpp"
 
@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t kMostRobots = 256;
 constexpr std::size_t kMostCommands = 65536;
-constexpr Range kTime{0.0, 1e6};           ///< [s]
-constexpr Range kVelocity{-100.0, 100.0};  ///< [m/s]
-constexpr Range kTurn{-36000.0, 36000.0};  ///< [degree/s]
+constexpr Range kTime{0.0, 1e6};               ///< [s]
+constexpr Range kVelocity{-100.0, 100.0};      ///< [m/s]
+constexpr Range kTurnRate{-36000.0, 36000.0};  ///< [degree/s]
 
 Pose2 readPose(const Parameters& table) {
   Pose2 pose;
@@ -62,7 +62,7 @@ SceneCommand readCommand(const Parameters& table) {
   if (table.has("translational_m_s"))
     command.translational = table.number("translational_m_s", kVelocity);
   if (table.has("rotational_deg_s"))
-    command.rotational = radians(table.number("rotational_deg_s", kTurn));
+    command.rotational = radians(table.number("rotational_deg_s", kTurnRate));
   command.vector = table.numbersOr("command", {}, -1, {-1e6, 1e6});
   command.manipulator = table.textOr("manipulator", "");
   if (!command.manipulator.empty()) command.state = table.text("state");
@@ -77,7 +77,7 @@ ScenePlacement readPlacement(const Parameters& table) {
   placement.pose = readPose(table.table("pose"));
   const auto velocity = table.numbersOr("velocity_m_s", {0.0, 0.0}, 2, kVelocity);
   placement.velocity = {velocity[0], velocity[1],
-                        radians(table.numberOr("rotational_deg_s", 0.0, kTurn))};
+                        radians(table.numberOr("rotational_deg_s", 0.0, kTurnRate))};
   table.refuseUnread();
   return placement;
 }

@@ -10,7 +10,8 @@ namespace ortung {
 /// maxBytes
 std::string readBounded(const std::filesystem::path& file, std::size_t maxBytes);
 
-/// The same, unpacking .gz and .xz; @p maxBytes holds before and after unpacking. @throws MapError
+/// Reads a whole regular file and unpacks .gz and .xz; @p maxBytes holds before and after
+/// unpacking. @throws MapError if it is missing, no file, damaged or too large
 std::string readUnpacked(const std::filesystem::path& file, std::size_t maxBytes);
 
 }  // namespace ortung

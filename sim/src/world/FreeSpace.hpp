@@ -12,13 +12,13 @@ namespace ortung {
 /// their ranges of height overlap. Thread-safe.
 class FreeSpace {
  public:
-  /// @param world must outlive this
+  /// @param world borrowed
   explicit FreeSpace(const WorldModel& world);
 
   /// Whether a cylinder touches nothing solid, lies in the field, and has its centre in known
   /// space.
   bool isFree(double x, double y, const RobotSize& size) const;
-  /// As SimWorld::region().
+  /// Cells with room for a robot, as SimWorld::region() gives them.
   FieldRegion region(double cell, const RobotSize& robot) const;
 
  private:

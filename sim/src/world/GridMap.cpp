@@ -1,84 +1,18 @@
 #include "GridMap.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+
+#include "ortung/tables/DistanceTransform.hpp"
 
 namespace ortung {
 namespace {
 
 constexpr double kFarthest = 1e4;  ///< [m], of any coordinate
 
-/// Distance in cells, along each column, to the nearest occupied cell; far: there is none.
-std::vector<int> distanceInColumn(const GridMap& map, int far) {
-  std::vector<int> distance(map.cells.size(), far);
-  const auto sweep = [&](int row, int previous) {
-    for (int column = 0; column < map.columns; ++column) {
-      int& here = distance[map.index(column, row)];
-      if (map.at(column, row) == GridCell::occupied) {
-        here = 0;
-      } else if (previous >= 0 && previous < map.rows) {
-        here = std::min(here, distance[map.index(column, previous)] + 1);
-      }
-    }
-  };
-  for (int row = 0; row < map.rows; ++row) sweep(row, row - 1);
-  for (int row = map.rows - 1; row >= 0; --row) sweep(row, row + 1);
-  return distance;
-}
-
-/// Lower envelope of the parabolas (x - q)^2 + height[q]^2 (P. Felzenszwalb, D. Huttenlocher,
-/// "Distance Transforms of Sampled Functions", 2012).
-class Envelope {
- public:
-  explicit Envelope(std::size_t n) : place_(n), from_(n + 1) {}
-
-  void build(const int* height, int n, int far) {
-    count_ = 0;
-    for (int q = 0; q < n; ++q) {
-      if (height[q] >= far) continue;
-      double start = -std::numeric_limits<double>::infinity();
-      while (count_ > 0) {
-        start = crossing(height, place_[count_ - 1], q);
-        if (start > from_[count_ - 1]) break;
-        --count_;
-        start = -std::numeric_limits<double>::infinity();
-      }
-      place_[count_] = q;
-      from_[count_] = start;
-      ++count_;
-    }
-  }
-  void read(const int* height, int n, float* out) const {
-    std::size_t k = 0;
-    for (int x = 0; x < n; ++x) {
-      if (count_ == 0) {
-        out[x] = std::numeric_limits<float>::infinity();
-        continue;
-      }
-      while (k + 1 < count_ && from_[k + 1] <= x) ++k;
-      const double dx = x - place_[k];
-      const double dy = height[place_[k]];
-      out[x] = static_cast<float>(std::sqrt(dx * dx + dy * dy));
-    }
-  }
-
- private:
-  static double crossing(const int* height, int p, int q) {
-    const double a = static_cast<double>(height[p]) * height[p] + static_cast<double>(p) * p;
-    const double b = static_cast<double>(height[q]) * height[q] + static_cast<double>(q) * q;
-    return (b - a) / (2.0 * (q - p));
-  }
-
-  std::vector<int> place_;    ///< column of each parabola
-  std::vector<double> from_;  ///< where it begins to be the lowest
-  std::size_t count_ = 0;
-};
-
 struct Spread {
-  int column, row;              ///< a cell reached
-  int sourceColumn, sourceRow;  ///< and the free cell it was reached from
+  int column, row;              ///< a cell that was reached
+  int sourceColumn, sourceRow;  ///< the free cell from which it was reached
 };
 
 }  // namespace
@@ -125,15 +59,17 @@ void markUnknownNearFree(GridMap& map, double margin) {
 }
 
 std::vector<float> distanceToOccupied(const GridMap& map) {
-  const int far = map.rows + map.columns + 1;
-  const std::vector<int> inColumn = distanceInColumn(map, far);
-  std::vector<float> distance(map.cells.size());
-  Envelope envelope(static_cast<std::size_t>(map.columns));
+  std::vector<std::uint8_t> occupied(map.cells.size());
+  std::transform(map.cells.begin(), map.cells.end(), occupied.begin(),
+                 [](GridCell cell) { return cell == GridCell::occupied ? 1 : 0; });
+  DistanceTransform distances(map.columns, map.rows, occupied);
+  std::vector<float> result;
+  result.reserve(map.cells.size());
   for (int row = 0; row < map.rows; ++row) {
-    envelope.build(&inColumn[map.index(0, row)], map.columns, far);
-    envelope.read(&inColumn[map.index(0, row)], map.columns, &distance[map.index(0, row)]);
+    for (const double squared : distances.squaredOf(row))
+      result.push_back(static_cast<float>(std::sqrt(squared)));
   }
-  return distance;
+  return result;
 }
 
 GridMap readGridMap(const std::filesystem::path& file) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
@@ -21,8 +22,6 @@ void readTriangle(const Parameters& table, Primitive& triangle) {
 }
 
 }  // namespace
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 bool isWord(const std::string& text) {
   const auto fits = [](char c) {

@@ -13,8 +13,6 @@ inline constexpr Range kCoordinate{-1e4, 1e4};  ///< [m]
 inline constexpr Range kSize{0.001, 2e4};       ///< [m]
 inline constexpr Range kMass{0.001, 1e5};       ///< [kg]
 
-double radians(double degrees);
-
 /// Whether a text is of [A-Za-z0-9_-]{1,64}.
 bool isWord(const std::string& text);
 

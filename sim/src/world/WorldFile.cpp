@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "PrimitiveFile.hpp"
 #include "ReadTables.hpp"
 #include "WorldModel.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
 namespace ortung {

@@ -28,8 +28,8 @@ struct MotionPair {
 struct MotionLearning {
   double interval = 0.5;        ///< of the shortest pairs, at least [s]
   double longestGap = 5.0;      ///< of truth and of odometry within a pair [s]
-  double earliestDelay = -0.3;  ///< delays that are tried [s]
-  double latestDelay = 0.6;     ///< the same as earliestDelay: that one [s]
+  double earliestDelay = -0.3;  ///< least delay that is tried [s]
+  double latestDelay = 0.6;     ///< greatest one [s]; if it is earliestDelay, no other is tried
 };
 
 /// Pairs of one log, drives apart: the end of each pair is the beginning of the next.
@@ -41,10 +41,10 @@ ORTUNG_API std::vector<std::vector<MotionPair>> motionPairs(const MotionLog& log
 struct LearnedMotion {
   double delay = 0.0;          ///< the most likely one [s]
   double logLikelihood = 0.0;  ///< as of MotionModel::endLearning()
-  double undelayed = 0.0;      ///< the same at a delay of 0 (or what is nearest)
+  double undelayed = 0.0;      ///< logLikelihood at a delay of 0 (or what is nearest)
   std::size_t pairs = 0;
   double metres = 0.0;   ///< driven, as truth says
-  double radians = 0.0;  ///< turned
+  double radians = 0.0;  ///< turned, as truth says
 };
 
 /// Teaches a model what the logs say. The delay of odometry, of which all else depends, is that

@@ -23,10 +23,9 @@ class ORTUNG_API LearnCancelled : public std::runtime_error {
 };
 
 /// The model learner (paper, section 5.2): puts each sensor on the centre of every open cell, in as
-/// many headings as it needs, generates noise-free data and calls learnProbability. Features that are
-/// made of others learn what is made of those there.
+/// many headings as it needs, generates noise-free data and calls learnProbability. Features that
+/// are made of others learn what is made of those there.
 /// @param progress called now and then with the share done, in [0, 1]; returns false to stop
-/// @param region must outlive the container
 /// @throws LearnCancelled
 ORTUNG_API void learn(const SimWorld& world, const FieldRegion& region,
                       const std::vector<Device>& devices, PluginFactory& factory,

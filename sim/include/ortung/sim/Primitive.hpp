@@ -29,14 +29,14 @@ struct Primitive {
   Shape shape = Shape::rectangle;
   Point2 centre;                    ///< of a triangle: its centroid
   double halfX = 0.0;               ///< half the size along its own x axis [m]; not of triangles
-  double halfY = 0.0;               ///< [m]
+  double halfY = 0.0;               ///< half the size along its own y axis [m]; not of triangles
   double angle = 0.0;               ///< of its own x axis in the field [rad]
   std::array<Point2, 3> corners{};  ///< of a triangle
   double zLow = 0.0;                ///< [m]
   double zHigh = 1.0;               ///< [m]
   double stroke = 0.0;   ///< of a line along an ellipse: its width [m]; 0: a filled shape
-  double arcFrom = 0.0;  ///< of such a line: where it begins, from its own x axis [rad]
-  double arcTo = 0.0;    ///< [rad]
+  double arcFrom = 0.0;  ///< of a line along an ellipse: where it begins, from its own x axis [rad]
+  double arcTo = 0.0;    ///< of a line along an ellipse: where it ends, from its own x axis [rad]
   std::string kind;      ///< "wall", "post", ...
   std::string colour;    ///< "blue", "#0000ff" or empty
   std::string name;      ///< anything, or empty
@@ -45,7 +45,7 @@ struct Primitive {
   bool isMovable = false;             ///< a body of its own, or part of the world
   double mass = 0.0;                  ///< of what is movable [kg]
   std::optional<double> friction;     ///< against other bodies; none: the world's
-  std::optional<double> restitution;  ///< likewise
+  std::optional<double> restitution;  ///< against other bodies; none: the world's
 
   bool isSolid() const { return kind != "line"; }
   bool isCircle() const { return shape == Shape::ellipse && halfX == halfY; }

@@ -19,7 +19,7 @@ struct SceneRobot {
   std::string name;
   std::optional<Pose2> start;         ///< in the field frame; none: anywhere
   bool wanders = false;               ///< drives about until its first command
-  std::vector<FloorPoint> waypoints;  ///< or goes from one to the next, and stands at the last
+  std::vector<FloorPoint> waypoints;  ///< it goes from one to the next, and stands at the last
   std::optional<double> speed;        ///< with which it wanders or follows [m/s]
   /// When it is carried elsewhere, unnoticed by its odometry; rising. At most once a cycle.
   std::vector<Timestamp> kidnaps;

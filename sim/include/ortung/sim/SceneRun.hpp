@@ -19,7 +19,6 @@ namespace ortung {
 /// Not thread-safe.
 class ORTUNG_API SceneRun {
  public:
-  /// @param factory must outlive this
   /// @throws ConfigError, PluginError, std::invalid_argument for commands to what is not there
   SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory);
   ~SceneRun();

@@ -29,7 +29,7 @@ struct StraightPiece {
 struct StraightPiecesConfig {
   double tolerance = 0.08;  ///< points of one piece are within it of a straight line [m]
   double shortest = 0.5;    ///< shorter pieces are left out [m]
-  int fewestPoints = 3;     ///< likewise pieces of fewer points
+  int fewestPoints = 3;     ///< pieces of fewer points are left out
 };
 
 /// Splits an outline into straight pieces, where a point is farthest from the chord (Ramer 1972,

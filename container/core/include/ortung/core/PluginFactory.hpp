@@ -66,8 +66,8 @@ class ORTUNG_API PluginFactory {
     return plugin;
   }
 
-  /// The same, or null if the libraries loaded so far do not have it: for a half that a plugin may
-  /// have or not, once another half was made.
+  /// Makes a plugin as make() does, or gives null if the libraries loaded so far do not have it:
+  /// for a half that a plugin may have or not, once another half was made.
   template <class Interface>
   std::unique_ptr<Interface> makeIfThere(const std::string& name, const Parameters& parameters) {
     if (findEntry(Interface::kInterface, name) == nullptr) return nullptr;

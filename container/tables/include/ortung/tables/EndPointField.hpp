@@ -14,8 +14,7 @@ namespace ortung {
 
 /// Distance to the nearest learned end point, by position: the likelihood field (Thrun, Burgard,
 /// Fox, "Probabilistic Robotics", section 6.4), but learned by the same sweep as every other
-/// table: noise-free end points are marked, then distance-transformed (Felzenszwalb and
-/// Huttenlocher, "Distance transforms of sampled functions", 2012).
+/// table: noise-free end points are marked, then distance-transformed.
 /// One byte a cell: kPerCell levels a cell's edge, 255 for "far".
 /// Not thread-safe while it is filled; then any number of threads may read it.
 class ORTUNG_API EndPointField {

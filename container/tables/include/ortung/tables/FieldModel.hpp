@@ -28,8 +28,8 @@ struct FieldLine {
   double radiusX = 0.0;       ///< of the arc's middle line along the ellipse's own x axis [m]
   double radiusY = 0.0;       ///< [m]
   double angle = 0.0;         ///< of the ellipse's own x axis in the field [rad]
-  double from = 0.0;          ///< parameter t of (radiusX cos t, radiusY sin t), where it begins
-  double to = 0.0;            ///< and ends [rad]; from < to
+  double from = 0.0;          ///< t of (radiusX cos t, radiusY sin t) where an arc begins [rad]
+  double to = 0.0;            ///< t where it ends [rad]; from < to
   double width = 0.0;         ///< [m]
   std::string colour;         ///< "white", "#rrggbb" or empty
 };
@@ -43,7 +43,7 @@ struct FieldWall {
   double y1 = 0.0;
   double zLow = 0.0;    ///< [m]
   double zHigh = 0.0;   ///< [m]
-  bool ofGoal = false;  ///< or of a wall
+  bool ofGoal = false;  ///< true: of a goal; false: of a wall
 };
 
 /// A goal: a body whose mouth looks along its own x axis or against it.

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 #include "ortung/tables/TableFile.hpp"
@@ -62,7 +62,7 @@ class ORTUNG_API PositionTable {
 /// Not thread-safe while it is filled; then any number of threads may read it.
 class ORTUNG_API BearingTable {
  public:
-  static constexpr double kRadiansPerLevel = 2 * std::numbers::pi / 65535;
+  static constexpr double kRadiansPerLevel = kTurn / 65535;
   void start(const FieldGrid& grid) { cells_.start(grid); }
   void learn(double x, double y, double directionInField);
   /// Expected direction in the field frame [rad], or NaN.

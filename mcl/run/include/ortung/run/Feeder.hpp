@@ -22,10 +22,10 @@ inline constexpr const char* kGroundTruth = "groundTruth";
 class ORTUNG_API Feeder {
  public:
   /// @param name what errors call the source
-  /// @param source as @p container must outlive this
+  /// @param source borrowed, like @p container
   Feeder(std::string name, Source& source, SensorContainer& container);
 
-  /// Also writes everything that passes into @p record, which must outlive this.
+  /// Also writes everything that passes into @p record, which is borrowed.
   void recordInto(RecordWriter& record) { record_ = &record; }
 
   /// Fills in the next moment; false at the end.

@@ -31,8 +31,8 @@ struct LocalizationStart {
   };
   Kind kind = Kind::kGlobal;
   Pose2 pose = {};               ///< field frame
-  double sigmaPosition = 0.3;    ///< standard deviation of kTruth and kPose [m], at least 0
-  double sigmaHeading = 0.1745;  ///< the same [rad]
+  double sigmaPosition = 0.3;    ///< of kTruth and kPose: standard deviation [m], at least 0
+  double sigmaHeading = 0.1745;  ///< of kTruth and kPose: standard deviation [rad], at least 0
 };
 
 /// What a localization works with; only robot and tables have no default.
@@ -70,7 +70,7 @@ class ORTUNG_API Localization {
   explicit Localization(const LocalizationConfig& config);
   /// On an opened robot with tables, and an opened source or null. The paths and the
   /// source's text in @p config are no more than what errors call them.
-  /// @throws as above
+  /// @throws like the constructor that opens them itself
   Localization(std::unique_ptr<Robot> robot, std::unique_ptr<Source> source,
                const LocalizationConfig& config);
   ~Localization();

@@ -26,8 +26,8 @@ struct Robot {
 /// Makes the features of a robot file, which learn or take readings, but can't weigh.
 /// @throws ConfigError, PluginError
 ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile);
-/// The same with the tables of a file, so that the features can weigh.
-/// @throws as above, and TableError
+/// Makes the features of a robot file with the tables of another, so that they can weigh.
+/// @throws ConfigError, PluginError, TableError
 ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
                                             const std::filesystem::path& tablesFile);
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <numbers>
 #include <optional>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 #include "ortung/sim_api/World.hpp"
@@ -12,12 +12,12 @@ namespace ortung {
 
 /// Something that looks: where it is and how far it sees.
 struct Eye {
-  Pose2 pose;                                   ///< in the field frame, looking along its x axis
-  double z = 0.0;                               ///< above the floor [m]
-  double fieldOfView = 2.0 * std::numbers::pi;  ///< whole angle [rad]; 2 pi: all around
-  double minRange = 0.0;                        ///< along the floor [m]
-  double maxRange = 20.0;                       ///< [m]
-  RobotNumber robot = 0;                        ///< whose body it sees through: its own
+  Pose2 pose;                  ///< in the field frame, looking along its x axis
+  double z = 0.0;              ///< above the floor [m]
+  double fieldOfView = kTurn;  ///< whole angle [rad]; 2 pi: all around
+  double minRange = 0.0;       ///< along the floor [m]
+  double maxRange = 20.0;      ///< [m]
+  RobotNumber robot = 0;       ///< whose body it sees through: its own
 };
 
 /// Where something is in a sensor's frame.

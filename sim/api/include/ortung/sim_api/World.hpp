@@ -40,7 +40,7 @@ struct WorldObject {
   double zLow = 0.0;       ///< [m]
   double zHigh = 0.0;      ///< [m]
   bool isRound = false;    ///< an ellipse; else what fits into a rectangle of the extent
-  bool isMovable = false;  ///< or fixed
+  bool isMovable = false;  ///< false: it stands where it is
   RobotNumber robot = 0;   ///< which robot it is; 0: none
 };
 

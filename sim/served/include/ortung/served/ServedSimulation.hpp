@@ -16,7 +16,8 @@ namespace ortung {
 /// Not thread-safe.
 class ORTUNG_API ServedSimulation : public ServedWorld {
  public:
-  /// @param file of a world or a scene @throws as the other one
+  /// @param file of a world or a scene
+  /// @throws ConfigError, PluginError, std::invalid_argument for what SceneRun refuses
   ServedSimulation(const std::filesystem::path& file, const Simulation::Config& config);
   /// @throws ConfigError, PluginError, std::invalid_argument for what SceneRun refuses
   ServedSimulation(Scene scene, const Simulation::Config& config);
