@@ -189,6 +189,50 @@ TEST_F(Tables, NamesThatLookAlikeDoNotCollide) {
   }
 }
 
+FieldModel someField() {
+  FieldModel field;
+  FieldLine arc;
+  arc.shape = FieldLine::Shape::arc;
+  arc.x = 1.0;
+  arc.radiusX = arc.radiusY = 0.5;
+  arc.to = 2.0;
+  arc.width = 0.1;
+  arc.colour = "white";
+  FieldLine straight;
+  straight.x1 = 3.0;
+  straight.width = 0.12;
+  field.lines = {arc, straight};
+  field.walls = {{0.1, 0.2, 0.3, 0.4, 0.0, 1.0, false}, {1, 2, 3, 4, 0, 0.5, true}};
+  field.goals = {{"yellow goal", "yellow", {4.5, 0.0, 3.0}, 0.2, 1.0, 0.9}};
+  field.landmarks = {{7, "post", 1.0, -2.0, 0.5}};
+  return field;
+}
+
+TEST_F(Tables, KeepWhatIsKnownOfTheField) {
+  TableInfo info = infoOf(region_);
+  info.field = someField();
+  Robot robot;
+  robot.learn(region_);
+  writeTables(folder_ / "field.npz", robot.container, info);
+  const TableInfo read = readTableInfo(TableFile(folder_ / "field.npz"));
+  ASSERT_EQ(read.field.lines.size(), 2u);
+  EXPECT_EQ(read.field.lines[0].shape, FieldLine::Shape::arc);
+  EXPECT_EQ(read.field.lines[0].to, 2.0);
+  EXPECT_EQ(read.field.lines[0].colour, "white");
+  EXPECT_EQ(read.field.lines[1].x1, 3.0);
+  EXPECT_EQ(read.field.lines[1].width, 0.12);
+  ASSERT_EQ(read.field.walls.size(), 2u);
+  EXPECT_EQ(read.field.walls[0].y1, 0.4);
+  EXPECT_TRUE(read.field.walls[1].ofGoal);
+  ASSERT_EQ(read.field.goals.size(), 1u);
+  EXPECT_EQ(read.field.goals[0].name, "yellow goal");
+  EXPECT_EQ(read.field.goals[0].pose.theta, 3.0);
+  ASSERT_EQ(read.field.landmarks.size(), 1u);
+  EXPECT_EQ(read.field.landmarks[0].identity, 7u);
+  EXPECT_EQ(read.field.landmarks[0].y, -2.0);
+  EXPECT_TRUE(readTableInfo(TableFile(file_)).field.isEmpty());
+}
+
 /// The example's arrays with another meta.json (and, if given, another array in place of its own).
 std::string complaintWith(const TemporaryFolder& folder, const TableFile& from,
                           const std::string& meta, const TableArray* instead = nullptr) {
@@ -229,6 +273,26 @@ TEST_F(Tables, ForgedMetaIsRefusedWithAReason) {
   EXPECT_NE(complaintWith(folder_, *file, replaced(meta, "\"prefix\": \"", "\"prefix\": \"no"))
                 .find("has no table no"),
             std::string::npos);
+}
+
+TEST_F(Tables, AForgedFieldIsRefusedWithAReason) {
+  const auto file = open();
+  const std::string meta = file->text("meta.json");
+  const auto with = [&](const std::string& field) {
+    return complaintWith(folder_, *file,
+                         replaced(meta, "\"features\"", "\"field\": " + field + ", \"features\""));
+  };
+  const std::string rest = "\"lines\": [], \"goals\": [], \"landmarks\": []";
+  EXPECT_EQ(with("{\"walls\": [], " + rest + "}"), "(nothing was thrown)");
+  for (const std::string& field :
+       {std::string("3"), std::string("{}"), "{\"walls\": 1, " + rest + "}",
+        "{\"walls\": [[1, 2]], " + rest + "}",
+        "{\"walls\": [[1, 2, 3, 4, 5, 6, \"yes\"]], " + rest + "}",
+        "{\"walls\": [[1e300, 2, 3, 4, 5, 6, true]], " + rest + "}",
+        "{\"walls\": [[null, 2, 3, 4, 5, 6, true]], " + rest + "}"}) {
+    const std::string told = with(field);
+    EXPECT_TRUE(told.starts_with(": meta.json: field: ")) << field << ": " << told;
+  }
 }
 
 TEST_F(Tables, ForgedArraysAreRefusedWithAReason) {

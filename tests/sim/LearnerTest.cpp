@@ -17,7 +17,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 /// A robot's container and everything that learning needs.
 struct Learned {
   Learned(const FakeWorld& world, const std::string& toml, const LearnOptions& options = {})
-      : factory(PluginFactory::standardFolders()), robot(readRobot(parseToml(toml, "robot.toml"))) {
+      : factory({ORTUNG_PLUGINS_DIR, TEST_PLUGINS}),
+        robot(readRobot(parseToml(toml, "robot.toml"))) {
     region = world.region(options.cell, {robot.radius});
     devices = fillContainer(container, robot, factory);
     learn(world, region, devices, factory, options, [this](double share) {
@@ -108,6 +109,32 @@ TEST(Learner, FillsEveryDirectionFromSparseBeams) {
       EXPECT_LE(expected[0], between.second + 0.025) << beams << " at " << degrees;
     }
   }
+}
+
+/// A feature that is made of another learns what is made of that one, everywhere.
+TEST(Learner, LearnsWhatIsMadeOfOtherFeatures) {
+  const FakeWorld room = makeRoom();
+  const Learned learned(room, R"(
+    [[sensor]]
+    plugin = "twice"
+    [[sensor]]
+    plugin = "landmarks"
+    identities = [1, 2]
+    occlusion = false)");
+  const SensorData& distance = learned.find("post1Distance");
+  const SensorData& twice = learned.find("twice");
+  int learnedCells = 0;
+  for (std::size_t cell = 0; cell < learned.region.grid.size(); ++cell) {
+    const Pose2 pose{learned.region.grid.centreX(cell), learned.region.grid.centreY(cell), 0.3};
+    const double expected = 2.0 * distance.expectation(pose)[0];
+    if (std::isnan(expected)) {
+      EXPECT_TRUE(std::isnan(twice.expectation(pose)[0]));
+      continue;
+    }
+    EXPECT_NEAR(twice.expectation(pose)[0], expected, 0.003);  // millimetres, twice rounded
+    ++learnedCells;
+  }
+  EXPECT_GT(learnedCells, 2000);
 }
 
 TEST(Learner, LearnsDistancesAndBearingsOfPosts) {
