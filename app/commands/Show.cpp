@@ -163,7 +163,7 @@ HeatMap drawnProbability(const Robot& robot, std::vector<SensorData*> features,
   map.region = &robot.tables.region;
   Progress progress("weighing", arguments.progress);
   const std::vector<double> headings = headingsOf(robot, features, arguments);
-  map.values = probabilityMap(*map.region, features, headings, [&](double share) {
+  map.values = probabilityMap(*map.region, weighersOf(features), headings, [&](double share) {
     checkInterrupt();
     progress.update(share);
     return true;

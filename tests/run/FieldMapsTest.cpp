@@ -23,7 +23,7 @@ class FieldMaps : public RoomRun {
 TEST_F(FieldMaps, ProbabilityIsTheBestOfAllHeadings) {
   region.open[7] = 0;
   const std::vector<double> headings = {0.0, kPi / 2, kPi};
-  const std::vector<double> map = probabilityMap(region, features, headings);
+  const std::vector<double> map = probabilityMap(region, weighersOf(features), headings);
   ASSERT_EQ(map.size(), region.grid.size());
   for (std::size_t cell = 0; cell < map.size(); ++cell) {
     double best = std::nan("");
@@ -37,15 +37,16 @@ TEST_F(FieldMaps, ProbabilityIsTheBestOfAllHeadings) {
 }
 
 TEST_F(FieldMaps, ProbabilityIsGreatestWhereTheRobotIs) {
-  const auto map = probabilityMap(region, features, std::vector{start.theta});
+  const auto map = probabilityMap(region, weighersOf(features), std::vector{start.theta});
   const auto best =
       static_cast<std::size_t>(std::max_element(map.begin(), map.end()) - map.begin());
   EXPECT_LT(distance(centre(best, start.theta), start), 0.15);
 }
 
 TEST_F(FieldMaps, SeveralFeaturesMultiply) {
-  const auto once = probabilityMap(region, features, std::vector{0.3});
-  const auto twice = probabilityMap(region, std::vector{scanner, scanner}, std::vector{0.3});
+  const auto once = probabilityMap(region, weighersOf(features), std::vector{0.3});
+  const auto twice =
+      probabilityMap(region, weighersOf(std::vector{scanner, scanner}), std::vector{0.3});
   for (std::size_t cell = 0; cell < once.size(); ++cell)
     EXPECT_NEAR(twice[cell], once[cell] * once[cell], 1e-6);
 }
@@ -53,7 +54,7 @@ TEST_F(FieldMaps, SeveralFeaturesMultiply) {
 TEST_F(FieldMaps, StopsWhenItsCallerSaysSo) {
   const std::vector<double> headings(10, 0.0);
   std::vector<double> shares;
-  const auto map = probabilityMap(region, features, headings, [&](double share) {
+  const auto map = probabilityMap(region, weighersOf(features), headings, [&](double share) {
     shares.push_back(share);
     return shares.size() < 3;
   });

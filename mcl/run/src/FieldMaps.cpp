@@ -31,11 +31,11 @@ struct OpenCells {
     logProbability.resize(index.size());
   }
 
-  void weigh(std::span<const SensorData* const> features, double heading) {
+  void weigh(const Weighers& readings, double heading) {
     std::fill(theta.begin(), theta.end(), static_cast<float>(heading));
     std::fill(logProbability.begin(), logProbability.end(), 0.0F);
-    for (const SensorData* feature : features)
-      feature->getProbability(SampleView{x, y, theta}, logProbability);
+    for (const auto& reading : readings)
+      reading->getProbability(SampleView{x, y, theta}, logProbability);
   }
 };
 
@@ -64,8 +64,14 @@ std::vector<double> mapHeadings(double headingStep, std::span<const SensorData* 
   return headings;
 }
 
-std::vector<double> probabilityMap(const FieldRegion& region,
-                                   std::span<const SensorData* const> features,
+Weighers weighersOf(std::span<const SensorData* const> features) {
+  Weighers weighers;
+  for (const SensorData* feature : features)
+    if (auto weigher = feature->weigher()) weighers.push_back(std::move(weigher));
+  return weighers;
+}
+
+std::vector<double> probabilityMap(const FieldRegion& region, const Weighers& readings,
                                    std::span<const double> headings,
                                    const std::function<bool(double)>& goOn) {
   std::vector<double> map(region.grid.size(), kNoValue);
@@ -73,7 +79,7 @@ std::vector<double> probabilityMap(const FieldRegion& region,
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(headings.size());
     if (goOn && !goOn(share)) return {};
-    cells.weigh(features, headings[i]);
+    cells.weigh(readings, headings[i]);
     for (std::size_t k = 0; k < cells.index.size(); ++k) {
       double& best = map[cells.index[k]];
       best = std::fmax(best, std::exp(static_cast<double>(cells.logProbability[k])));

@@ -2,16 +2,19 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/core/Weigher.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 
 /// What features expect, and how probable their readings are, all over the field (paper, Fig. 7).
 /// Maps are one value a cell of the region's grid, at its centre; NaN where a cell is not open.
-/// Thread-safe as long as nobody sets readings: hold the container's read lock if others might.
+/// Thread-safe. What looks at features needs the container's read lock if others set readings;
+/// weighers need none.
 namespace ortung {
 
 /// What one feature should read over the field (Fig. 7a).
@@ -31,12 +34,16 @@ ORTUNG_API ExpectationMap expectationMap(const FieldRegion& region, const Sensor
 ORTUNG_API std::vector<double> mapHeadings(double headingStep,
                                            std::span<const SensorData* const> features);
 
-/// The product of p(s|l) of the present readings of @p features (Fig. 7b), in [0, 1]: the best of
-/// @p headings for each cell. A feature that can't weigh counts as 1.
+/// What the present readings of features say about poses; those that say nothing are left out.
+using Weighers = std::vector<std::shared_ptr<const Weigher>>;
+ORTUNG_API Weighers weighersOf(std::span<const SensorData* const> features);
+
+/// The product of p(s|l) of some readings (Fig. 7b), in [0, 1]: the best of @p headings for each
+/// cell. Without weighers all is 1.
+/// @param readings taken under the container's lock, which need not be held any more
 /// @param headings of the robot [rad]
 /// @param goOn asked before each heading with the share done; false: stops with an empty map
-ORTUNG_API std::vector<double> probabilityMap(const FieldRegion& region,
-                                              std::span<const SensorData* const> features,
+ORTUNG_API std::vector<double> probabilityMap(const FieldRegion& region, const Weighers& readings,
                                               std::span<const double> headings,
                                               const std::function<bool(double)>& goOn = {});
 
