@@ -98,7 +98,10 @@ void addLearnMotion(Builder& build, CLI::App& app) {
       .option("--out", a->out,
               "File to write, with the table [motion] for a robot file or eval --motion")
       ->required();
-  build.option("--plugin", a->plugin, "Motion model to teach; `ortung plugins` lists them")
+  build
+      .option(
+          "--plugin", a->plugin,
+          "Motion model to teach (default: that of the robot file); `ortung plugins` lists them")
       ->capture_default_str();
   build.option("--motion", a->motion,
                "File with [motion] to begin with, e.g. with a network; in place of --plugin");

@@ -65,7 +65,8 @@ RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& op
 void warnOfGaps(const RunResult& run) {
   if (run.figures.steps == 0) {
     throw std::runtime_error(run.figures.source +
-                             ": gave no reading of any feature that the tables know, so there is "
+                             ": gave no reading that says anything about a pose, of a feature that "
+                             "was learned, so there is "
                              "nothing to localize with");
   }
   if (run.figures.comparedSteps > 0) return;

@@ -17,10 +17,12 @@ namespace ortung::app {
 namespace {
 
 /// [motion] to begin with.
-Parameters baseOf(const LearnMotionArguments& arguments) {
+Parameters baseOf(const LearnMotionArguments& arguments, const Robot& robot) {
   if (!arguments.motion.empty()) return readMotionFile(arguments.motion);
   Parameters motion("learn-motion");
-  motion.set("plugin", arguments.plugin);
+  const bool isGiven = !arguments.plugin.empty();
+  motion.set("plugin",
+             isGiven ? arguments.plugin : robot.config.motion.textOr("plugin", "odometry"));
   return motion;
 }
 
@@ -37,7 +39,7 @@ int runLearnMotion(const LearnMotionArguments& arguments) {
   checkOutput(arguments.out);
   std::vector<MotionLog> logs;
   std::unique_ptr<Robot> robot = openRobot(arguments.robot);
-  const Parameters base = baseOf(arguments);
+  const Parameters base = baseOf(arguments, *robot);
   double before = 0.0;  // delay that the base itself takes care of [s]
   {
     Progress progress("reading", arguments.progress);

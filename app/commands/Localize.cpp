@@ -39,7 +39,8 @@ int runLocalize(const LocalizeArguments& arguments) {
   warnOfUnknown(run.source, localization->feeder());
   if (updates == 0) {
     throw std::runtime_error(run.source +
-                             ": gave no reading of any feature that the tables know, so there is "
+                             ": gave no reading that says anything about a pose, of a feature that "
+                             "was learned, so there is "
                              "nothing to localize with");
   }
   if (toFile) writeFile(arguments.out, text);

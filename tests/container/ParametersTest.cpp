@@ -63,7 +63,9 @@ TEST(Parameters, GivesTheFallbackForWhatIsMissing) {
 
 TEST(Parameters, SaysWhereAndWhatIsWrong) {
   const Parameters p = example();
-  EXPECT_EQ(complaint([&] { p.number("gone"); }), "x.toml: gone is missing");
+  EXPECT_EQ(
+      complaint([&] { p.number("gone"); }),
+      "x.toml: gone is missing; there are flag, huge, list, nan, real, table, tables, text, ...");
   EXPECT_EQ(complaint([&] { p.number("text"); }), "x.toml:4: text is a text, expected a number");
   EXPECT_EQ(complaint([&] { p.number("flag", {0, 1}); }),
             "x.toml:1: flag is a flag (true/false), expected a number in [0, 1]");

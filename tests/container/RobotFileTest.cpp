@@ -32,7 +32,8 @@ TEST(RobotFile, GivesSensorsAndSections) {
 TEST(RobotFile, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([] { read("[robot]\nname = 'x'\n"); }),
             "r.toml: sensor is missing: a robot file has at least one [[sensor]]");
-  EXPECT_EQ(complaint([] { read("[[sensor]]\nbeams = 1\n"); }), "r.toml: plugin is missing");
+  EXPECT_EQ(complaint([] { read("[[sensor]]\nbeams = 1\n"); }),
+            "r.toml:1: plugin is missing; there are beams");
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[robot]\nradius_m = -1\n"); }),
             "r.toml:4: radius_m is -1, must be in [0.001, 100]");
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[robot]\nradus_m = 1\n"); }),

@@ -140,7 +140,7 @@ TEST_F(Tables, OfAnotherRobotAreRefusedByName) {
   EXPECT_EQ(complaintOf(other.container),
             file_.string() +
                 ": has no tables of cam/camera/post9Distance, so it was learned for another robot "
-                "('robot'); learn again");
+                "('robot') or before this sensor was there; learn again");
 }
 
 TEST_F(Tables, OfAnotherSensorAreRefusedWithBothSettings) {

@@ -255,7 +255,7 @@ TEST(Security, ARobotFileNamesPluginsOfTheListAndNoFiles) {
       {"[drive]\ndeep = [{ path = \"x\" }]\n",
        "ERR configuration robot file:2: path names a file, which a configuration from the network "
        "must not"},
-      {"[[sensor]]\n", "ERR configuration robot file: plugin is missing"},
+      {"[[sensor]]\n", "ERR configuration robot file:1: plugin is missing"},
       {"= = =\n", ""},
       {std::string(70, '[') + "\n", ""}};
   for (const auto& [file, expected] : cases) {

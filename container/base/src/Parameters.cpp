@@ -12,6 +12,7 @@ struct Parameters::Table {
   std::map<std::string, Node> values;
   std::set<std::string> read;   ///< of the values
   std::set<std::string> asked;  ///< what somebody would have read
+  int line = 0;                 ///< where the table begins; 0: not known
 };
 
 namespace {
@@ -80,16 +81,23 @@ const Parameters::Node* Parameters::look(const std::string& key) const {
 void Parameters::fail(const std::string& key, const std::string& message) const {
   const auto it = table_->values.find(key);
   std::string place = table_->where;
-  if (it != table_->values.end() && it->second.line > 0) {
-    place += (place.empty() ? "line " : ":") + std::to_string(it->second.line);
-  }
+  const int line = it != table_->values.end() ? it->second.line : table_->line;
+  if (line > 0) place += (place.empty() ? "line " : ":") + std::to_string(line);
   throw ConfigError((place.empty() ? "" : place + ": ") + key + " " + message);
 }
 
 const Parameters::Node& Parameters::need(const std::string& key) const {
   const Node* node = look(key);
-  if (node == nullptr) fail(key, "is missing");
-  return *node;
+  if (node != nullptr) return *node;
+  constexpr std::size_t kMostNamed = 8;
+  std::string there;
+  std::size_t named = 0;
+  for (const auto& [name, value] : table_->values) {
+    if (named++ == kMostNamed) break;
+    there += (there.empty() ? "" : ", ") + name;
+  }
+  if (table_->values.size() > kMostNamed) there += ", ...";
+  fail(key, "is missing" + (there.empty() ? "" : "; there are " + there));
 }
 
 double Parameters::toNumber(const std::string& key, const Node& node, const Range& range) const {
@@ -201,6 +209,7 @@ Parameters Parameters::table(const std::string& key) const {
   const auto* table = std::get_if<Parameters>(&node->value);
   if (table == nullptr)
     fail(key, std::string("is ") + kindOf(*node) + ", expected a table [" + key + "]");
+  table->table_->line = node->line;
   return *table;
 }
 
@@ -215,6 +224,7 @@ std::vector<Parameters> Parameters::tables(const std::string& key) const {
     const auto* table = std::get_if<Parameters>(&entry.value);
     if (table == nullptr)
       fail(key, std::string("holds ") + kindOf(entry) + ", expected tables only");
+    table->table_->line = entry.line;
     tables.push_back(*table);
   }
   return tables;

@@ -40,6 +40,15 @@ void EndPointWeigher::add(double range, double bearing) {
   endLog_.push_back(tables_->logByLevel(range));
 }
 
+PoseResolution EndPointWeigher::resolution() const {
+  double squared = 0.0;
+  for (std::size_t k = 0; k < endX_.size(); ++k)
+    squared += static_cast<double>(endX_[k] * endX_[k] + endY_[k] * endY_[k]);
+  const double lever = std::sqrt(squared / static_cast<double>(endX_.size()));  // [m]
+  const double cell = tables_->field.grid().cell;
+  return {.metres = tables_->region.cell, .radians = lever > cell ? cell / lever : 1.0};
+}
+
 double EndPointWeigher::logProbabilityAt(const Pose2& pose) const {
   const Pose2 sensor = pose * mount_;
   const bool isInside = tables_->region.cellAt(sensor.x, sensor.y) >= 0;

@@ -39,6 +39,11 @@ class EndPointWeigher final : public Weigher {
   void add(double range, double bearing);
   bool isEmpty() const { return endX_.empty(); }
 
+  /// Points are rounded to cells of the field: of headings, that is a cell's width seen from as far
+  /// as they are. Positions are told no better than by other tables, since what was marked is as
+  /// coarse as they are.
+  PoseResolution resolution() const override;
+
  private:
   /// The floor for each point where the sensor is outside of the region.
   void weigh(const SampleView& poses, std::span<float> logProbability) const override;

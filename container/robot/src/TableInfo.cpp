@@ -130,7 +130,8 @@ TableInfo loadTables(const std::shared_ptr<const TableFile>& file, SensorContain
                                  [&](const TableInfo::Feature& f) { return f.id == id; });
     if (it == info.features.end()) {
       throw TableError(file->path().string() + ": has no tables of " + id +
-                       ", so it was learned for another robot ('" + info.robot + "'); learn again");
+                       ", so it was learned for another robot ('" + info.robot +
+                       "') or before this sensor was there; learn again");
     }
     if (it->key != data->learningKey()) {
       throw TableError(file->path().string() + ": the tables of " + id +

@@ -50,7 +50,7 @@ struct Device {
 ORTUNG_API std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig& robot,
                                              PluginFactory& factory);
 
-/// Common keys of a [[sensor]]: model, type (with defaults) and pose = { x_m, y_m, theta_deg }.
+/// Reads the keys model, type and feature of a [[sensor]], which all have, with defaults.
 /// Data halves call these; both halves of a plugin may.
 ORTUNG_API SensorId sensorIdOf(const Parameters& sensor, const SensorId& defaults);
 

@@ -49,9 +49,12 @@ class ORTUNG_API Drive {
   /// Moves on by @p dt [s]: the change of pose, in the robot's old frame, if nothing is in the way.
   /// @param noise of the motion itself (slipping wheels); nullptr: none
   virtual Pose2 relocate(double dt, Random* noise) = 0;
-  /// Velocity at the end of the last relocate(), or what setVelocity() said after it.
+  /// Velocity that the base has at the end of the last relocate(), without the noise of that, or
+  /// what setVelocity() said after it. What is noise here would come back by setVelocity() whenever
+  /// something touches the robot, and grow.
   virtual Twist velocity() const = 0;
-  /// Something pushed or held the robot, so that it now moves like this.
+  /// Something pushed or held the robot, so that it now moves like this; a drive keeps to its own
+  /// limits here, too.
   virtual void setVelocity(const Twist& velocity) = 0;
 
   // --- for odometry ---

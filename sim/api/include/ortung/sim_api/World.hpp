@@ -57,8 +57,8 @@ class ORTUNG_API World {
  public:
   virtual ~World();
 
-  /// Range of each ray of the fan to the first surface [m], or fan.maxRange where there is none;
-  /// ranges.size() is the number of rays.
+  /// Range of each ray of the fan to the first surface [m], or fan.maxRange (as a float) where
+  /// there is none; ranges.size() is the number of rays.
   virtual void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const = 0;
 
   /// Whether nothing stands between two points at the given heights, but for what lies within
