@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ortung/base/SampleView.hpp"
+#include "ortung/tables/RangeScale.hpp"
 
 namespace ortung::bench {
 
