@@ -63,10 +63,13 @@ class CostTables {
   static constexpr int kLevels = 256;
 
   void make(const Kind& kind) {
-    for (int d = -kLevels; d < kLevels; ++d) {
-      tables_[count_][static_cast<std::size_t>(d + kLevels)] =
-          costOf(reading_, d, kind.cap, kind.step);
+    std::array<std::uint8_t, 2 * kLevels>& table = tables_[count_];
+    for (int d = 0; d < kLevels; ++d) {
+      const std::uint8_t cost = costOf(reading_, d, kind.cap, kind.step);
+      table[static_cast<std::size_t>(kLevels + d)] = cost;
+      table[static_cast<std::size_t>(kLevels - d)] = cost;
     }
+    table[0] = costOf(reading_, kLevels, kind.cap, kind.step);
     kinds_[count_++] = kind;
   }
 
