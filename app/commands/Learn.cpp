@@ -75,6 +75,9 @@ int runLearn(const LearnArguments& arguments) {
   }
   checkInterrupt();
   writeTables(arguments.out, robot->container, describe(*world, *robot, region, step));
+  if (learnedFeatures(robot->container) == 0)
+    warn(arguments.robot.string() +
+         ": has no feature that localizes, so there was nothing to learn");
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   fmt::print(
