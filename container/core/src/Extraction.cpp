@@ -5,6 +5,14 @@
 #include "ortung/core/SensorContainer.hpp"
 
 namespace ortung {
+namespace {
+
+template <class Data>
+bool has(const std::vector<Data*>& list, const SensorData* data) {
+  return std::find(list.begin(), list.end(), data) != list.end();
+}
+
+}  // namespace
 
 void Extraction::add(std::string name, std::unique_ptr<Extractor> extractor,
                      std::vector<SensorData*> outputs) {
@@ -23,8 +31,7 @@ void Extraction::connect(std::span<const std::unique_ptr<SensorData>> features) 
     for (const std::string& text : step.extractor->inputs()) {
       const SensorQuery query = parseSensorQuery(text);
       const auto found = std::find_if(features.begin(), features.end(), [&](const auto& data) {
-        const bool isOwn =
-            std::find(step.outputs.begin(), step.outputs.end(), data.get()) != step.outputs.end();
+        const bool isOwn = has(step.outputs, data.get());
         return matches(query, data->id()) && (!isOwn || toText(data->id()) == text);
       });
       if (found == features.end())
@@ -39,10 +46,7 @@ void Extraction::connect(std::span<const std::unique_ptr<SensorData>> features) 
 
 /// What a device reads of its own features, something else fills.
 bool Extraction::Step::makes(const SensorData* data) const {
-  const auto has = [data](const auto& list) {
-    return std::find(list.begin(), list.end(), data) != list.end();
-  };
-  return has(outputs) && !has(inputs);
+  return has(outputs, data) && !has(inputs, data);
 }
 
 std::vector<const SensorData*> Extraction::inputsOf(const SensorData& made) const {
@@ -75,9 +79,8 @@ void Extraction::order() {
 }
 
 bool Extraction::reads(const SensorData& data) const {
-  return std::any_of(steps_.begin(), steps_.end(), [&](const Step& step) {
-    return std::find(step.inputs.begin(), step.inputs.end(), &data) != step.inputs.end();
-  });
+  return std::any_of(steps_.begin(), steps_.end(),
+                     [&](const Step& step) { return has(step.inputs, &data); });
 }
 
 /// Whoever comes while another one is at it leaves a number behind, by which that one sees that it

@@ -1,54 +1,9 @@
 #include "ortung/formats/BearingData.hpp"
 
-#include <limits>
-
+#include "CellWeigher.hpp"
 #include "FormatTools.hpp"
-#include "TableWeigher.hpp"
 
 namespace ortung {
-
-namespace {
-
-class BearingWeigher final : public Weigher {
- public:
-  BearingWeigher(std::shared_ptr<const BearingTable> table,
-                 std::shared_ptr<const GaussianTable> gaussian, const Pose2& mount, double reading,
-                 double sigma)
-      : table_(std::move(table)),
-        gaussian_(std::move(gaussian)),
-        mount_(mount),
-        reading_(reading),
-        sigma_(sigma) {}
-
- private:
-  double logProbabilityAt(const Pose2& pose) const override {
-    const Pose2 sensor = pose * mount_;
-    const double expected = wrapAngle(table_->at(sensor.x, sensor.y) - sensor.theta);
-    if (std::isnan(expected)) return std::numeric_limits<double>::quiet_NaN();
-    return (*gaussian_)(static_cast<float>(wrapAngle(reading_ - expected) / sigma_));
-  }
-
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override {
-    const auto reading = static_cast<float>(reading_);
-    const auto perSigma = static_cast<float>(1.0 / sigma_);
-    TableWeigher weigher(table_->cells().grid());
-    forEachPoseBlock<TableWeigher::kBlock>(
-        poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-          weigher.start(sensor, n);
-          weigher.addBearing(*table_, *gaussian_, reading, perSigma, logProbability.data() + first);
-        });
-  }
-
-  PoseResolution resolution() const override { return {.metres = table_->cells().grid().cell}; }
-
-  std::shared_ptr<const BearingTable> table_;
-  std::shared_ptr<const GaussianTable> gaussian_;
-  Pose2 mount_;
-  double reading_;  ///< [rad]
-  double sigma_;    ///< [rad]
-};
-
-}  // namespace
 
 BearingData::BearingData(SensorId id, const Pose2& mount, const Config& config)
     : SensorData(std::move(id), mount),
@@ -95,8 +50,8 @@ std::vector<double> BearingData::expectation(const Pose2& pose) const {
 
 std::shared_ptr<const Weigher> BearingData::makeWeigher() const {
   if (!reading_) return nullptr;
-  return std::make_shared<BearingWeigher>(table_, gaussian_, mount(), *reading_,
-                                          config_.model.sigma);
+  return std::make_shared<CellWeigher<BearingTable>>(table_, gaussian_, mount(), *reading_,
+                                                     config_.model.sigma);
 }
 
 std::string BearingData::learningKey() const {

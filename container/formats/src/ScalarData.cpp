@@ -1,56 +1,9 @@
 #include "ortung/formats/ScalarData.hpp"
 
-#include <limits>
-
+#include "CellWeigher.hpp"
 #include "FormatTools.hpp"
-#include "TableWeigher.hpp"
 
 namespace ortung {
-
-namespace {
-
-/// Sigma is that at the reading's range, not the expectation's: the same for all samples.
-class ScalarWeigher final : public Weigher {
- public:
-  ScalarWeigher(std::shared_ptr<const PositionTable> table,
-                std::shared_ptr<const GaussianTable> gaussian, const Pose2& mount, double reading,
-                double sigma)
-      : table_(std::move(table)),
-        gaussian_(std::move(gaussian)),
-        mount_(mount),
-        reading_(reading),
-        sigma_(sigma) {}
-
- private:
-  double logProbabilityAt(const Pose2& pose) const override {
-    const Pose2 sensor = pose * mount_;
-    const float expected = table_->at(sensor.x, sensor.y);
-    if (std::isnan(expected)) return std::numeric_limits<double>::quiet_NaN();
-    return (*gaussian_)(static_cast<float>((reading_ - expected) / sigma_));
-  }
-
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override {
-    const auto reading = static_cast<float>(reading_);
-    const auto perSigma = static_cast<float>(1.0 / sigma_);
-    TableWeigher weigher(table_->cells().grid());
-    forEachPoseBlock<TableWeigher::kBlock>(
-        poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-          weigher.start(sensor, n);
-          weigher.addDistance(*table_, *gaussian_, reading, perSigma,
-                              logProbability.data() + first);
-        });
-  }
-
-  PoseResolution resolution() const override { return {.metres = table_->cells().grid().cell}; }
-
-  std::shared_ptr<const PositionTable> table_;
-  std::shared_ptr<const GaussianTable> gaussian_;
-  Pose2 mount_;
-  double reading_;  ///< [m]
-  double sigma_;    ///< [m]
-};
-
-}  // namespace
 
 ScalarData::ScalarData(SensorId id, const Pose2& mount, const Config& config)
     : SensorData(std::move(id), mount),
@@ -95,8 +48,8 @@ std::vector<double> ScalarData::expectation(const Pose2& pose) const {
 
 std::shared_ptr<const Weigher> ScalarData::makeWeigher() const {
   if (!reading_) return nullptr;
-  return std::make_shared<ScalarWeigher>(table_, gaussian_, mount(), *reading_,
-                                         config_.model.sigmaAt(*reading_));
+  return std::make_shared<CellWeigher<PositionTable>>(table_, gaussian_, mount(), *reading_,
+                                                      config_.model.sigmaAt(*reading_));
 }
 
 std::string ScalarData::learningKey() const {

@@ -18,7 +18,6 @@ constexpr double kMostThrough = 0.1;      // of points that would be seen throug
 constexpr double kFewestSine = 0.34;      // of the angle between two pieces: 20 degrees
 
 double lengthOf(const StraightPiece& s) { return std::hypot(s.to.x - s.from.x, s.to.y - s.from.y); }
-double lengthOf(const FieldWall& w) { return std::hypot(w.x1 - w.x0, w.y1 - w.y0); }
 double directionOf(const StraightPiece& s) {
   return std::atan2(s.to.y - s.from.y, s.to.x - s.from.x);
 }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "ortung/sim_api/World.hpp"
 
@@ -17,8 +16,6 @@ void addSides(const WorldObject& o, std::vector<FieldWall>& walls) {
     walls.push_back({a.x, a.y, b.x, b.y, o.zLow, o.zHigh, o.kind == "goal"});
   }
 }
-
-double lengthOf(const FieldWall& w) { return std::hypot(w.x1 - w.x0, w.y1 - w.y0); }
 
 }  // namespace
 

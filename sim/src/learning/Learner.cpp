@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "MakeSensor.hpp"
 #include "ortung/base/Angles.hpp"
@@ -72,7 +73,12 @@ void addTo(std::vector<Sweep>& sweeps, const Learning& learning, SensorData& dat
   if (group == sweep->groups.end())
     group = sweep->groups.insert(sweep->groups.end(), {&learning, {}, robotInSensor, {}});
   group->data.push_back(&data);
-  for (const Learning* input : inputsOf(data, all))
+  const std::vector<const Learning*> inputs = inputsOf(data, all);
+  if (inputs.empty() && !learning.sensor)
+    throw std::invalid_argument(toText(data.id()) +
+                                ": nothing in the simulator gives it, nor what it is made of, "
+                                "so it can't be learned");
+  for (const Learning* input : inputs)
     if (std::find(group->inputs.begin(), group->inputs.end(), input) == group->inputs.end())
       group->inputs.push_back(input);
 }

@@ -75,6 +75,8 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
   drive_ = std::make_unique<CheckedDrive>(factory.make<Drive>(plugin, config_.drive), config_.name);
   state_.pose = start;
   const std::vector<Device> devices = fillContainer(container_, config_, factory);
+  extracts_ = std::any_of(devices.begin(), devices.end(),
+                          [](const Device& device) { return device.hasExtractor; });
   bool hasTruth = false;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const Device& device = devices[i];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "ortung/base/StraightPieces.hpp"
 
@@ -104,8 +103,6 @@ class Outlines {
   const GridMap& map_;
   std::vector<std::uint8_t> isLeft_;  ///< by corner of cells: ways of edges that begin there
 };
-
-double lengthOf(const FieldWall& w) { return std::hypot(w.x1 - w.x0, w.y1 - w.y0); }
 
 }  // namespace
 

@@ -94,8 +94,8 @@ class ORTUNG_API SimRobot : public RobotCommands {
   SensorData* truth_ = nullptr;  ///< ground truth that no sensor gives, or null
   std::unique_ptr<Drive> drive_;
   bool driveWorks_ = true;
-  bool extracts_ = true;  ///< until an extractor fails
-  Pose2 planned_;         ///< change of pose that the drive wanted last
+  bool extracts_ = false;  ///< whether it has extractors, and none has failed
+  Pose2 planned_;          ///< change of pose that the drive wanted last
   std::unique_ptr<Driver> driver_;
   RobotState state_;
   Random odometryRandom_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -45,6 +46,11 @@ struct FieldWall {
   double zHigh = 0.0;   ///< [m]
   bool ofGoal = false;  ///< true: of a goal; false: of a wall
 };
+
+/// [m]
+inline double lengthOf(const FieldWall& wall) {
+  return std::hypot(wall.x1 - wall.x0, wall.y1 - wall.y0);
+}
 
 /// A goal: a body whose mouth looks along its own x axis or against it.
 struct FieldGoal {

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "TableWeigher.hpp"
+#include "ortung/core/Weigher.hpp"
+
+namespace ortung {
+
+/// Weighs samples by one table over the position: a PositionTable or a BearingTable. Sigma is that
+/// at the reading, not at the expectation: the same for all samples.
+template <class Table>
+class CellWeigher final : public Weigher {
+ public:
+  CellWeigher(std::shared_ptr<const Table> table, std::shared_ptr<const GaussianTable> gaussian,
+              const Pose2& mount, double reading, double sigma)
+      : table_(std::move(table)),
+        gaussian_(std::move(gaussian)),
+        mount_(mount),
+        reading_(reading),
+        sigma_(sigma) {}
+
+  PoseResolution resolution() const override { return {.metres = table_->cells().grid().cell}; }
+
+ private:
+  static constexpr bool kIsBearing = std::is_same_v<Table, BearingTable>;
+
+  double logProbabilityAt(const Pose2& pose) const override {
+    const Pose2 sensor = pose * mount_;
+    double residual = table_->at(sensor.x, sensor.y);
+    if constexpr (kIsBearing)
+      residual = wrapAngle(reading_ - wrapAngle(residual - sensor.theta));
+    else
+      residual = reading_ - residual;
+    if (std::isnan(residual)) return std::numeric_limits<double>::quiet_NaN();
+    return (*gaussian_)(static_cast<float>(residual / sigma_));
+  }
+
+  void weigh(const SampleView& poses, std::span<float> logProbability) const override {
+    const auto reading = static_cast<float>(reading_);
+    const auto perSigma = static_cast<float>(1.0 / sigma_);
+    TableWeigher weigher(table_->cells().grid());
+    forEachPoseBlock<TableWeigher::kBlock>(
+        poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+          float* out = logProbability.data() + first;
+          weigher.start(sensor, n);
+          if constexpr (kIsBearing)
+            weigher.addBearing(*table_, *gaussian_, reading, perSigma, out);
+          else
+            weigher.addDistance(*table_, *gaussian_, reading, perSigma, out);
+        });
+  }
+
+  std::shared_ptr<const Table> table_;
+  std::shared_ptr<const GaussianTable> gaussian_;
+  Pose2 mount_;
+  double reading_;  ///< [m] or [rad]
+  double sigma_;    ///< [m] or [rad]
+};
+
+}  // namespace ortung
