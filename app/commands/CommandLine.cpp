@@ -278,8 +278,10 @@ void addServing(Builder& build, ServingArguments& a) {
               "given again")
       ->expected(1)
       ->take_all();
-  build.option("--token-file", a.tokens,
-               "File with a line 'NAME TOKEN' for each client that may come in, * for any name");
+  build.option(
+      "--token-file", a.tokens,
+      "File with a line 'NAME TOKEN' for each client that may come in, * for any name without "
+      "a line of its own");
   build.option("--idle", a.idle, "Clients that keep silent for so long are dropped [s]")
       ->check(within(1.0, 1e6))
       ->capture_default_str();

@@ -5,7 +5,6 @@
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
-#include "Token.hpp"
 
 namespace ortung::test {
 namespace {
@@ -209,32 +208,6 @@ TEST(Security, OnlyLoopbackIsServedWithoutTokens) {
   config.address = "localhost";
   EXPECT_EQ(messageOf<std::invalid_argument>([&] { MessageBoard(world, config); }),
             "the address to listen on is 'localhost', expected numbers, e.g. 127.0.0.1 or ::1");
-}
-
-TEST(Security, TokensLetTheirOwnersIn) {
-  CountingWorld world;
-  BoardConfig config;
-  config.tokens = {{"anna", "secret-of-anna"}, {"*", "secret-of-all"}};
-  const RunningBoard board(world, config);
-  for (const char* hello :
-       {"HELLO ortung/1 name=anna", "HELLO ortung/1 name=anna token=secret-of-ann",
-        "HELLO ortung/1 name=bert token=secret-of-anna", "HELLO ortung/1 token="}) {
-    TestClient client(board.port());
-    EXPECT_EQ(client.ask(hello), "* ERR token it is missing or wrong") << hello;
-    EXPECT_EQ(client.line(), "(closed)");
-  }
-  for (const char* hello : {"HELLO ortung/1 name=anna token=secret-of-anna",
-                            "HELLO ortung/1 name=anna token=secret-of-all",
-                            "HELLO ortung/1 name=bert token=secret-of-all"})
-    EXPECT_TRUE(TestClient(board.port()).ask(hello).starts_with("OK HELLO")) << hello;
-}
-
-TEST(Security, TokensAreComparedWhole) {
-  using server::isSameInConstantTime;
-  EXPECT_TRUE(isSameInConstantTime("abcd", "abcd"));
-  for (const char* other : {"", "abc", "abcde", "abcdabcd", "bbcd", "abce"})
-    EXPECT_FALSE(isSameInConstantTime("abcd", other)) << other;
-  EXPECT_FALSE(isSameInConstantTime("", "a"));
 }
 
 TEST(Security, ARobotFileNamesPluginsOfTheListAndNoFiles) {

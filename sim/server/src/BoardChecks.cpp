@@ -35,12 +35,24 @@ void checkCommands(const std::vector<BoardCommand>& commands) {
   }
 }
 
+void checkTokens(const BoardConfig& config) {
+  const auto& tokens = config.tokens;
+  for (const BoardToken& token : tokens)
+    if (token.token.size() < 8)
+      refuse("the token of '" + token.name + "' has less than 8 characters");
+  if (tokens.empty()) return;
+  for (const std::string& name : config.control)
+    if (std::none_of(tokens.begin(), tokens.end(),
+                     [&](const BoardToken& token) { return token.name == name; }) &&
+        name != "*")
+      refuse("'" + printable(name) +
+             "' may control, but has no token of its own, and that of '*' does not let it in");
+}
+
 }  // namespace
 
 void checkBoard(const BoardConfig& config, const ServedWorld& world) {
-  for (const BoardToken& token : config.tokens)
-    if (token.token.size() < 8)
-      refuse("the token of '" + token.name + "' has less than 8 characters");
+  checkTokens(config);
   if (!(config.speed >= 0.001 && config.speed <= 1000.0))
     refuse("the speed is " + std::to_string(config.speed) + ", must be in [0.001, 1000]");
   if (world.livePeriod() > 0 && (config.pace != Pace::kRealTime || config.speed != 1.0))

@@ -9,23 +9,7 @@ namespace {
 
 constexpr std::size_t kLongestReply = 4096;  // line of a command of the host
 
-RobotId liveRobotOf(const ServedWorld& world) {
-  if (world.livePeriod() == 0) return 0;
-  const std::vector<Resident> residents = world.residents();
-  return residents.empty() ? 0 : residents.front().robot;
-}
-
 }  // namespace
-
-Outlet::~Outlet() = default;
-
-Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worldKeeper)
-    : config(boardConfig),
-      description(world.describe()),
-      plugins(world.plugins()),
-      liveRobot(liveRobotOf(world)),
-      keeper(worldKeeper) {}
-Host::~Host() = default;
 
 Conversation::Conversation(Host& host, ClientId id, std::unique_ptr<Outlet> outlet)
     : host_(host), id_(id), outlet_(std::move(outlet)) {}

@@ -8,49 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "Host.hpp"
 #include "Request.hpp"
 #include "RobotReadings.hpp"
 #include "WorldKeeper.hpp"
-#include "ortung/server/MessageBoard.hpp"
 
 namespace ortung::server {
-
-/// Where the server's words to one client go.
-class Outlet {
- public:
-  virtual ~Outlet();
-  virtual void send(std::string_view text) = 0;
-  /// Bytes sent that the client has not read yet.
-  virtual std::size_t outstanding() const = 0;
-  /// Ends the connection once everything is sent.
-  virtual void finish() = 0;
-  /// There is room for input again.
-  virtual void resume() = 0;
-};
-
-/// What all conversations share. Lives as long as they do.
-class Host {
- public:
-  Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worldKeeper);
-  virtual ~Host();
-
-  /// Has @p task run on the thread of the conversations; thread-safe.
-  virtual void post(std::function<void()> task) = 0;
-  /// Has @p task run where nobody waits for it but who asked; thread-safe.
-  virtual void work(std::function<void()> task) = 0;
-  /// Tells all other clients.
-  virtual void broadcast(ClientId from, std::string_view text) = 0;
-  /// A client's connection is closed; its conversation is not needed any more.
-  virtual void forget(ClientId client) = 0;
-  /// Somebody has begun or ended to subscribe.
-  virtual void countSubscribers(int change) = 0;
-
-  const BoardConfig config;
-  const WorldDescription description;
-  const std::vector<std::string> plugins;
-  const RobotId liveRobot;  ///< the robot of a live world; 0: it is not live
-  WorldKeeper& keeper;
-};
 
 /// What the server and one client say to each other: the protocol of docs/protocol.md, whatever
 /// carries the bytes. All calls come from one thread.
@@ -65,6 +28,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   bool wantsInput() const { return !isOver_ && input_.size() - taken_ <= host_.config.limits.line; }
   /// A cycle has ended: sends what is subscribed.
   void onCycle();
+  /// Does what is due. @param now on the computer's clock
+  void look(Timestamp now);
   /// Something another client or the server says to all.
   void tell(std::string_view text);
   /// Ends it with a last word, "ERR code text" or "BYE".
@@ -95,6 +60,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   static const std::vector<Command>& commands();
   const BoardCommand* findAdded(const std::string& name) const;
   static const char* toText(Role role);
+  static Role parseRole(const std::string& text);
 
   /// A robot as this client sees it.
   struct View {
@@ -106,6 +72,14 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
     Choice choice;
     Timestamp period;
     Timestamp due;
+  };
+  struct Greeting {  ///< HELLO
+    std::string tag;
+    std::string name;
+    std::string token;
+    std::optional<Role> role;  ///< that it asks for
+    Timestamp due = 0;         ///< when it is looked at, or its refusal told
+    bool isRefused = false;
   };
   struct Configuration {  ///< on its way
     std::string tag;
@@ -161,6 +135,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
 
   // ConversationTalk.cpp
   void hello(Request& request);
+  void checkToken(const Greeting& greeting);
+  void join(const Greeting& greeting);
   void bye(Request& request);
   void help(Request& request);
   void time(Request& request);
@@ -190,9 +166,10 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   bool hasJoined_ = false;
   bool isOver_ = false;
   bool isReceiving_ = false;
-  std::size_t pending_ = 0;  ///< orders that the world has not executed
-  int waiting_ = 0;          ///< requests that wait for cycles
-  std::size_t errors_ = 0;   ///< in a row
+  std::size_t pending_ = 0;           ///< orders that the world has not executed
+  int waiting_ = 0;                   ///< requests that wait for cycles
+  std::size_t errors_ = 0;            ///< in a row
+  std::optional<Greeting> greeting_;  ///< that has to wait
   std::optional<Configuration> configuration_;
   std::map<RobotId, View> views_;
   std::set<RobotId> owned_;

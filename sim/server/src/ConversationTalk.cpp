@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "Conversation.hpp"
-#include "Token.hpp"
 
 namespace ortung::server {
 namespace {
@@ -11,6 +10,7 @@ using Reply = std::optional<std::string>;
 
 constexpr std::int64_t kMostGoals = 999;
 constexpr std::size_t kLongestHelp = 1000;
+constexpr const char* kWrongToken = "ERR token it is missing or wrong";
 
 /// A text as one word.
 std::string oneWord(std::string_view text) {
@@ -26,43 +26,80 @@ void addLine(std::string& lines, std::size_t& count, const std::string& line) {
 
 }  // namespace
 
+Conversation::Role Conversation::parseRole(const std::string& text) {
+  for (const Role role : {Role::kViewer, Role::kPlayer, Role::kOperator})
+    if (text == toText(role)) return role;
+  throw ServeError("syntax", "a role is viewer, player or operator");
+}
+
 void Conversation::hello(Request& request) {
   if (hasJoined_) throw ServeError("state", "HELLO was said already");
   const std::string version = request.takeWord("the version of the protocol: HELLO ortung/1");
   if (version != "ortung/1")
     throw ServeError("version", "found '" + printable(version) + "', this server speaks ortung/1");
-  const std::string name = request.takeText("name").value_or("guest");
-  const std::string token = request.takeText("token").value_or("");
-  const auto wanted = request.takeText("role");
+  Greeting greeting{.tag = request.tag(),
+                    .name = request.takeText("name").value_or("guest"),
+                    .token = request.takeText("token").value_or(""),
+                    .role = {}};
+  if (const auto role = request.takeText("role")) greeting.role = parseRole(*role);
   request.refuseRest();
-  if (!isName(name)) throw ServeError("syntax", "a client's name is 1 to 32 of [A-Za-z0-9_-]");
-  if (!isTokenRight(host_.config.tokens, name, token)) {
-    dismiss("ERR token it is missing or wrong");
+  if (!isName(greeting.name))
+    throw ServeError("syntax", "a client's name is 1 to 32 of [A-Za-z0-9_-]");
+  const Timestamp pause = host_.door.pause(outlet_->peer(), received_);
+  if (pause == 0) {
+    checkToken(greeting);
     return;
   }
-  const auto& control = host_.config.control;
-  const bool mayControl = std::any_of(control.begin(), control.end(), [&](const std::string& who) {
-    return who == "*" || who == name;
-  });
-  Role role = mayControl ? Role::kOperator : Role::kPlayer;
-  if (wanted) {
-    const Role most = role;
-    if (*wanted == "viewer")
-      role = Role::kViewer;
-    else if (*wanted == "player")
-      role = Role::kPlayer;
-    else if (*wanted == "operator")
-      role = Role::kOperator;
-    else
-      throw ServeError("syntax", "a role is viewer, player or operator");
-    if (role > most)
-      throw ServeError("role", "'" + name + "' may not control; see --allow-control");
+  greeting.due = received_ + pause;
+  greeting_ = std::move(greeting);
+  ++waiting_;
+}
+
+void Conversation::checkToken(const Greeting& greeting) {
+  if (host_.door.isRight(greeting.name, greeting.token)) {
+    join(greeting);
+    return;
   }
-  name_ = name;
+  const Timestamp now = wallTime();
+  host_.door.refuse(outlet_->peer(), greeting.name, now);
+  const bool hasWaited = greeting.due != 0;
+  if (hasWaited) {
+    dismiss(kWrongToken);
+    return;
+  }
+  greeting_ = greeting;
+  greeting_->due = now + host_.door.pause(outlet_->peer(), now);
+  greeting_->isRefused = true;
+  ++waiting_;
+}
+
+/// A greeting that had to wait.
+void Conversation::look(Timestamp now) {
+  if (!greeting_ || isOver_ || now < greeting_->due) return;
+  const Greeting greeting = *std::exchange(greeting_, std::nullopt);
+  --waiting_;
+  if (greeting.isRefused) {
+    dismiss(kWrongToken);
+    return;
+  }
+  try {
+    checkToken(greeting);
+  } catch (...) {
+    refuse(greeting.tag, currentErrorText());
+  }
+  goOn();
+}
+
+void Conversation::join(const Greeting& greeting) {
+  const Role most = host_.door.mayControl(greeting.name) ? Role::kOperator : Role::kPlayer;
+  const Role role = greeting.role.value_or(most);
+  if (role > most)
+    throw ServeError("role", "'" + greeting.name + "' may not control; see --allow-control");
+  name_ = greeting.name;
   role_ = role;
   hasJoined_ = true;
-  order(request.tag(), [id = id_, name, role, host = &host_](WorldKeeper& keeper,
-                                                             WorldKeeper::Done&) {
+  order(greeting.tag, [id = id_, name = name_, role, host = &host_](WorldKeeper& keeper,
+                                                                    WorldKeeper::Done&) {
     keeper.join(id, name, role == Role::kOperator);
     return Reply("OK HELLO ortung/1 client=" + std::to_string(id) + " role=" + toText(role) +
                  " kind=" + host->description.kind + " world=" + oneWord(host->description.name) +

@@ -134,7 +134,8 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   /// Looks after all connections now and then.
   void look() {
     const BoardLimits& limits = config.limits;
-    const double shortest = std::min({limits.handshake, limits.idle, limits.stall, 1.0});
+    const double shortest = std::max(
+        0.01, std::min({limits.handshake, limits.idle, limits.stall, limits.refusal, 1.0}));
     timer_.expires_after(std::chrono::microseconds(fromSeconds(shortest / 4.0)));
     timer_.async_wait([this](const boost::system::error_code& cancelled) {
       if (cancelled || isEnding_) return;

@@ -1,5 +1,6 @@
 #include "Session.hpp"
 
+#include <algorithm>
 #include <boost/asio/buffer.hpp>
 
 namespace ortung::server {
@@ -16,6 +17,19 @@ bool hasPassed(Timestamp since, Timestamp now, double seconds) {
 
 }  // namespace
 
+std::string addressKey(const boost::asio::ip::tcp::socket& socket) {
+  boost::system::error_code error;
+  auto address = socket.remote_endpoint(error).address();
+  if (error) return "an unknown address";
+  if (!address.is_v6()) return address.to_string();
+  const boost::asio::ip::address_v6 v6 = address.to_v6();
+  if (v6.is_v4_mapped()) return make_address_v4(boost::asio::ip::v4_mapped, v6).to_string();
+  // One computer has as many addresses of its network as it likes.
+  auto bytes = v6.to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), static_cast<unsigned char>(0));
+  return v6.is_loopback() ? v6.to_string() : boost::asio::ip::address_v6(bytes).to_string() + "/64";
+}
+
 class Session::SocketOutlet final : public Outlet {
  public:
   explicit SocketOutlet(Session& session) : session_(session) {}
@@ -26,6 +40,7 @@ class Session::SocketOutlet final : public Outlet {
   }
   void finish() override { session_.finish(); }
   void resume() override { session_.read(); }
+  const std::string& peer() const override { return session_.peer_; }
 
  private:
   Session& session_;
@@ -33,6 +48,7 @@ class Session::SocketOutlet final : public Outlet {
 
 Session::Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id, Timestamp since)
     : socket_(std::move(socket)),
+      peer_(addressKey(socket_)),
       host_(host),
       limits_(host.config.limits),
       conversation_(
@@ -148,16 +164,17 @@ void Session::look(Timestamp now) {
     if (!owes && hasPassed(finished_, now, kFarewell)) close();
     return;
   }
+  conversation_->look(now);
   if (hasEnded_) {
     if (!conversation_->hasOpenRequests()) finish();
-    if (hasPassed(heard_, now, kFarewell)) close();
+    if (hasPassed(heard_, now, kFarewell + limits_.refusal)) close();
     return;
   }
+  if (conversation_->isWaiting()) return;
   if (!conversation_->hasJoined() && hasPassed(started_, now, limits_.handshake)) {
     dismiss("ERR hello it did not come within " +
             std::to_string(static_cast<int>(limits_.handshake)) + " s");
-  } else if (hasPassed(heard_, now, limits_.idle) && !conversation_->isSubscribed() &&
-             !conversation_->isWaiting()) {
+  } else if (hasPassed(heard_, now, limits_.idle) && !conversation_->isSubscribed()) {
     dismiss("ERR idle nothing came for " + std::to_string(static_cast<int>(limits_.idle)) + " s");
   }
 }

@@ -9,6 +9,9 @@
 
 namespace ortung::server {
 
+/// By which the computers of clients are told apart: the address, of IPv6 the network.
+std::string addressKey(const boost::asio::ip::tcp::socket& socket);
+
 /// One client's TCP connection: carries the bytes of a conversation. Never waits.
 /// All calls come from the thread of the io_context.
 class Session : public std::enable_shared_from_this<Session> {
@@ -35,6 +38,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void listenToTheEnd();
 
   boost::asio::ip::tcp::socket socket_;
+  const std::string peer_;
   Host& host_;
   const BoardLimits limits_;
   std::shared_ptr<Conversation> conversation_;

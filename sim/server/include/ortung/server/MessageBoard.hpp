@@ -28,6 +28,8 @@ struct BoardLimits {
   std::size_t errors = 100;               ///< of a client in a row; more: dropped
   double handshake = 5.0;  ///< from connecting to HELLO, or to the end of HTTP's head [s]
   double idle = 30.0;      ///< without a line from a client, subscribers apart [s]
+  double refusal = 2.0;    ///< until a wrong token is answered, and until greetings from the same
+                           ///< computer are looked at in the minute after it [s]
   double stall = 10.0;     ///< with output that a client does not read [s]
 };
 
@@ -40,7 +42,7 @@ enum class Pace {
 
 /// A token that lets a client in.
 struct BoardToken {
-  std::string name;  ///< of the client that it belongs to; "*": any
+  std::string name;  ///< of the client that it belongs to; "*": any that has no token of its own
   std::string token;
 };
 
@@ -57,7 +59,9 @@ struct BoardConfig {
   std::string address = "127.0.0.1";  ///< to listen on; others than loopback need tokens
   std::uint16_t port = 0;             ///< 0: the system chooses
   std::vector<BoardToken> tokens;     ///< none: everybody may come in
-  std::vector<std::string> control;   ///< clients who may control the simulation; "*": all
+  /// Clients who may control the simulation; "*": all. Where there are tokens, each of these names
+  /// needs one of its own.
+  std::vector<std::string> control;
   Pace pace = Pace::kRealTime;
   double speed = 1.0;
   BoardLimits limits;

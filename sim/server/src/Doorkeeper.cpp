@@ -1,0 +1,76 @@
+#include "Doorkeeper.hpp"
+
+#include <algorithm>
+
+namespace ortung::server {
+namespace {
+
+constexpr Timestamp kMemory = 60'000'000;    // of a wrong token [us]
+constexpr std::size_t kMostPeers = 4096;     // remembered; if there are more, all have to wait
+constexpr Timestamp kLogPeriod = 1'000'000;  // so that a guesser does not fill the disk [us]
+
+}  // namespace
+
+bool isSameInConstantTime(std::string_view secret, std::string_view given) {
+  // volatile, so that no compiler ends the loop early.
+  volatile unsigned char difference = secret.size() == given.size() ? 0 : 1;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const char expected = secret.empty() ? '\0' : secret[i % secret.size()];
+    difference = static_cast<unsigned char>(difference | (expected ^ given[i]));
+  }
+  return difference == 0;
+}
+
+bool Doorkeeper::isReserved(std::string_view name) const {
+  const auto& tokens = config_.tokens;
+  const auto& control = config_.control;
+  return std::any_of(tokens.begin(), tokens.end(),
+                     [&](const BoardToken& token) { return token.name == name; }) ||
+         std::find(control.begin(), control.end(), name) != control.end();
+}
+
+bool Doorkeeper::isRight(std::string_view name, std::string_view token) const {
+  const bool isOpenToAll = !isReserved(name);
+  bool isRight = config_.tokens.empty();
+  for (const BoardToken& known : config_.tokens) {
+    const bool isSame = isSameInConstantTime(known.token, token);
+    const bool isMeant = known.name == name || (known.name == "*" && isOpenToAll);
+    isRight = isRight || (isSame && isMeant && !known.token.empty());
+  }
+  return isRight;
+}
+
+bool Doorkeeper::mayControl(std::string_view name) const {
+  const auto& control = config_.control;
+  return std::any_of(control.begin(), control.end(),
+                     [&](const std::string& who) { return who == "*" || who == name; });
+}
+
+bool Doorkeeper::isRemembered(Timestamp since, Timestamp now) const {
+  return now - since < kMemory;
+}
+
+Timestamp Doorkeeper::pause(const std::string& peer, Timestamp now) const {
+  if (config_.tokens.empty()) return 0;
+  const auto found = refused_.find(peer);
+  const bool isSuspect = refused_.size() >= kMostPeers ||
+                         (found != refused_.end() && isRemembered(found->second, now));
+  return isSuspect ? fromSeconds(config_.limits.refusal) : 0;
+}
+
+void Doorkeeper::refuse(const std::string& peer, const std::string& name, Timestamp now) {
+  std::erase_if(refused_, [&](const auto& entry) { return !isRemembered(entry.second, now); });
+  if (refused_.size() < kMostPeers) refused_[peer] = now;
+  if (!config_.log) return;
+  if (logged_ != 0 && now - logged_ < kLogPeriod) {
+    ++unlogged_;
+    return;
+  }
+  config_.log(
+      "a client at " + peer + " that calls itself '" + name + "' has a wrong token" +
+      (unlogged_ > 0 ? "; so had " + std::to_string(unlogged_) + " more since the last note" : ""));
+  logged_ = now;
+  unlogged_ = 0;
+}
+
+}  // namespace ortung::server

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "Doorkeeper.hpp"
+#include "WorldKeeper.hpp"
+#include "ortung/server/MessageBoard.hpp"
+
+namespace ortung::server {
+
+/// Where the server's words to one client go.
+class Outlet {
+ public:
+  virtual ~Outlet();
+  virtual void send(std::string_view text) = 0;
+  /// Bytes sent that the client has not read yet.
+  virtual std::size_t outstanding() const = 0;
+  /// Ends the connection once everything is sent.
+  virtual void finish() = 0;
+  /// There is room for input again.
+  virtual void resume() = 0;
+  /// The client's computer, see addressKey().
+  virtual const std::string& peer() const = 0;
+};
+
+/// What all conversations share. Lives as long as they do.
+class Host {
+ public:
+  Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worldKeeper);
+  virtual ~Host();
+
+  /// Has @p task run on the thread of the conversations; thread-safe.
+  virtual void post(std::function<void()> task) = 0;
+  /// Has @p task run where nobody waits for it but who asked; thread-safe.
+  virtual void work(std::function<void()> task) = 0;
+  /// Tells all other clients.
+  virtual void broadcast(ClientId from, std::string_view text) = 0;
+  /// A client's connection is closed; its conversation is not needed any more.
+  virtual void forget(ClientId client) = 0;
+  /// Somebody has begun or ended to subscribe.
+  virtual void countSubscribers(int change) = 0;
+
+  const BoardConfig config;
+  const WorldDescription description;
+  const std::vector<std::string> plugins;
+  const RobotId liveRobot;  ///< the robot of a live world; 0: it is not live
+  WorldKeeper& keeper;
+  Doorkeeper door;
+};
+
+}  // namespace ortung::server
