@@ -104,5 +104,24 @@ TEST(ClockOffset, NonsenseIsPassedOver) {
   EXPECT_FALSE(clock.isKnown());
 }
 
+TEST(ClockOffset, StampsAtTheEndsOfTimeDoNotOverflow) {
+  constexpr Timestamp kFirst = std::numeric_limits<Timestamp>::min();
+  constexpr Timestamp kLast = std::numeric_limits<Timestamp>::max();
+  ClockOffset clock;
+  clock.add({0, kFirst, kLast, 10});
+  ASSERT_TRUE(clock.isKnown());
+  clock.add({1'000, kFirst, kFirst, 1'010});
+  EXPECT_LT(clock.toLocal(kFirst), 2'000);
+  EXPECT_GT(clock.toLocal(kLast), 1'000'000'000'000'000'000);  // in 2^64 us, or as late as can be
+  clock.add({kFirst, 0, 10, kLast});
+  EXPECT_TRUE(std::isfinite(clock.bound(kFirst)) && std::isfinite(clock.bound(kLast)));
+
+  // It does not stay confused.
+  Network network;
+  for (int i = 0; i < 5; ++i) clock.add(network.exchange());
+  const double error = static_cast<double>(clock.toLocal(network.servers())) - network.truth;
+  EXPECT_LT(std::abs(error), 1000.0);
+}
+
 }  // namespace
 }  // namespace ortung

@@ -37,6 +37,7 @@ TEST(TcpSource, OptionsThatMakeNoSenseAreToldWhy) {
       {{{"start", "1,2,3,4"}}, "must be x,y,theta"},
       {{{"lockstep", "maybe"}}, "lockstep"},
       {{{"drive", "away"}}, "drive"},
+      {{{"name", "a role=viewer"}}, "expected 1 to 32 of [A-Za-z0-9_-]"},
       {{{"robot", "/nowhere.toml"}}, "can't be read"},
       {{{"robot_file", ""}}, "needs a robot file"}};
   for (const auto& [options, expected] : cases) {

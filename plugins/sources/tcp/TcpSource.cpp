@@ -35,6 +35,11 @@ SessionOptions readOptions(const Parameters& p) {
   options.patience = optionNumber(p, "timeout", options.patience, {0.1, 1e6});
   if (const char* token = std::getenv("ORTUNG_TOKEN")) options.token = token;
   options.isInterruptible = true;
+  try {
+    options.check();
+  } catch (const std::invalid_argument& refusal) {
+    throw ConfigError(p.where() + ": " + refusal.what());
+  }
   return options;
 }
 

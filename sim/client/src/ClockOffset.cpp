@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace ortung {
 namespace {
@@ -13,6 +14,13 @@ constexpr double kClockDrift = 300e-6;
 constexpr double kFastest = 1000.0;
 // What time stamps in whole microseconds lose.
 constexpr double kRounding = 1.0;  // [us]
+// Of a time stamp that is told, whatever the server's are: a double that a Timestamp can hold.
+constexpr double kFarthest = 9.2e18;  // [us]
+
+/// @pre @p from <= @p to; the difference of time stamps may be more than a time stamp can hold.
+double span(Timestamp from, Timestamp to) {
+  return static_cast<double>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from));
+}
 
 }  // namespace
 
@@ -27,9 +35,9 @@ const ClockOffset::Reading& ClockOffset::best(double server) const {
 }
 
 void ClockOffset::add(const Exchange& exchange) {
-  const auto trip = static_cast<double>(exchange.back - exchange.sent);
-  const auto hold = static_cast<double>(exchange.answered - exchange.received);
-  if (trip < 0.0 || hold < 0.0) return;
+  if (exchange.back < exchange.sent || exchange.answered < exchange.received) return;
+  const double trip = span(exchange.sent, exchange.back);
+  const double hold = span(exchange.received, exchange.answered);
   const Reading reading{
       (static_cast<double>(exchange.sent) + static_cast<double>(exchange.back)) / 2.0,
       (static_cast<double>(exchange.received) + static_cast<double>(exchange.answered)) / 2.0,
@@ -77,7 +85,8 @@ void ClockOffset::estimateRate() {
 Timestamp ClockOffset::toLocal(Timestamp server) const {
   const auto time = static_cast<double>(server);
   const Reading& reading = best(time);
-  return static_cast<Timestamp>(std::llround(reading.local + (time - reading.server) * rate_));
+  const double local = reading.local + (time - reading.server) * rate_;
+  return static_cast<Timestamp>(std::llround(std::clamp(local, -kFarthest, kFarthest)));
 }
 
 double ClockOffset::bound(Timestamp server) const {

@@ -4,9 +4,11 @@
 #include <netdb.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -18,14 +20,36 @@ namespace {
 
 constexpr std::size_t kLongestLine = 256u << 20;  // an image of 2^24 words fits
 
+/// For poll(), which waits for ever if it is told less than 0.
+int milliseconds(double seconds) {
+  return static_cast<int>(std::clamp(seconds * 1000.0, 0.0, 2e9));
+}
+
 }  // namespace
 
-LineSocket::LineSocket(const std::string& host, std::uint16_t port, double timeout,
-                       bool isInterruptible)
-    : server_(host + ":" + std::to_string(port)),
-      timeout_(timeout),
-      isInterruptible_(isInterruptible) {
-  connect(host, port, timeout);
+StopSignal::StopSignal(const std::stop_token& stop) : stop_(stop) {
+  if (!stop.stop_possible()) return;
+  descriptor_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (descriptor_ < 0) throw ConnectionLost(std::string("no eventfd: ") + std::strerror(errno));
+  callback_.emplace(stop, [this] { ::eventfd_write(descriptor_, 1); });
+}
+
+StopSignal::~StopSignal() {
+  callback_.reset();  // waits for one that is being called
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+LineSocket::LineSocket(const SessionOptions& options)
+    : server_(options.server()),
+      timeout_(options.timeout),
+      isInterruptible_(options.isInterruptible),
+      stop_(options.stop) {
+  try {
+    connect(options.host, options.port);
+  } catch (...) {
+    if (socket_ >= 0) ::close(socket_);
+    throw;
+  }
 }
 
 LineSocket::~LineSocket() {
@@ -36,7 +60,7 @@ void LineSocket::fail(const std::string& what) const {
   throw ConnectionLost(server_ + ": " + what);
 }
 
-void LineSocket::connect(const std::string& host, std::uint16_t port, double timeout) {
+void LineSocket::connect(const std::string& host, std::uint16_t port) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* list = nullptr;
@@ -50,7 +74,7 @@ void LineSocket::connect(const std::string& host, std::uint16_t port, double tim
     int result = ::connect(socket_, address->ai_addr, address->ai_addrlen);
     int code = result == 0 ? 0 : errno;
     if (code == EINPROGRESS) {
-      wait(POLLOUT, timeout);
+      wait(POLLOUT, timeout_);
       socklen_t size = sizeof code;
       ::getsockopt(socket_, SOL_SOCKET, SO_ERROR, &code, &size);
     }
@@ -67,9 +91,10 @@ void LineSocket::connect(const std::string& host, std::uint16_t port, double tim
 }
 
 void LineSocket::wait(short events, double timeout) {
-  pollfd poll{socket_, events, 0};
+  pollfd polled[] = {{socket_, events, 0}, {stop_.descriptor(), POLLIN, 0}};
   while (true) {
-    const int ready = ::poll(&poll, 1, static_cast<int>(timeout * 1000.0));
+    const int ready = ::poll(polled, 2, milliseconds(timeout));
+    if (stop_.isRequested()) fail("stopped");
     if (ready > 0) return;
     if (ready == 0) fail("keeps silent for more than " + std::to_string(timeout) + " s");
     if (errno != EINTR) fail(std::strerror(errno));
@@ -93,6 +118,7 @@ void LineSocket::send(std::string_view text) {
 void LineSocket::fill(double timeout) {
   char piece[65536];
   while (true) {
+    if (stop_.isRequested()) fail("stopped");  // who talks without end need not be waited for
     const ssize_t count = ::recv(socket_, piece, sizeof piece, 0);
     if (count > 0) {
       input_.append(piece, static_cast<std::size_t>(count));

@@ -2,17 +2,40 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
+namespace ortung {
+struct SessionOptions;
+}
+
 namespace ortung::client {
+
+/// A file descriptor that is readable from the moment on when a stop is requested.
+class StopSignal {
+ public:
+  explicit StopSignal(const std::stop_token& stop);
+  ~StopSignal();
+  StopSignal(const StopSignal&) = delete;
+  StopSignal& operator=(const StopSignal&) = delete;
+  /// -1, which poll() passes over, if nobody can request it.
+  int descriptor() const { return descriptor_; }
+  bool isRequested() const { return stop_.stop_requested(); }
+
+ private:
+  std::stop_token stop_;
+  int descriptor_ = -1;
+  std::optional<std::stop_callback<std::function<void()>>> callback_;
+};
 
 /// A TCP connection that carries lines. Not thread-safe.
 /// All members throw ConnectionLost saying what happened to which server.
 class LineSocket {
  public:
-  /// @param isInterruptible whether a signal ends what is under way
-  LineSocket(const std::string& host, std::uint16_t port, double timeout, bool isInterruptible);
+  explicit LineSocket(const SessionOptions& options);
   ~LineSocket();
   LineSocket(const LineSocket&) = delete;
   LineSocket& operator=(const LineSocket&) = delete;
@@ -25,15 +48,16 @@ class LineSocket {
   std::string_view bytes(std::size_t count, double timeout);
 
  private:
-  void connect(const std::string& host, std::uint16_t port, double timeout);
+  void connect(const std::string& host, std::uint16_t port);
   void wait(short events, double timeout);
   void fill(double timeout);
   void forgetTaken();
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string server_;  ///< "HOST:PORT"
-  double timeout_;
+  double timeout_;      ///< of connecting and sending [s]
   bool isInterruptible_;
+  StopSignal stop_;
   int socket_ = -1;
   std::string input_;
   std::size_t taken_ = 0;

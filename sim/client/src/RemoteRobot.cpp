@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
+#include <deque>
 #include <mutex>
+#include <optional>
+#include <stop_token>
 #include <thread>
 
 #include "ortung/core/PluginFactory.hpp"
@@ -20,6 +24,7 @@ constexpr int kFirstExchanges = 8;                // of time stamps, when a conn
 constexpr Timestamp kExchangePeriod = 1'000'000;  // afterwards [us]
 constexpr double kFirstPause = 0.1;               // before connecting again [s]
 constexpr double kLongestPause = 2.0;             // [s]
+constexpr std::size_t kMostUntold = 100;          // troubles; then the oldest are forgotten
 
 Timestamp steadyTime() {
   return std::chrono::duration_cast<std::chrono::microseconds>(
@@ -27,21 +32,38 @@ Timestamp steadyTime() {
       .count();
 }
 
+/// Nearest duration that can be added to any time of the clock; @p s is not NaN.
 steady_clock::duration seconds(double s) {
-  return std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(s));
+  constexpr double kLongest = 1e9;
+  return std::chrono::duration_cast<steady_clock::duration>(
+      std::chrono::duration<double>(std::clamp(s, 0.0, kLongest)));
+}
+
+RemoteOptions checked(RemoteOptions options) {
+  options.session.check();
+  if (!(options.cycle >= 0.0))
+    throw std::invalid_argument("the cycle is " + std::to_string(options.cycle) +
+                                " s, expected 0 or more");
+  if (!options.clock) options.clock = steadyTime;
+  return options;
 }
 
 }  // namespace
 
 struct RemoteRobot::Parts {
   Parts(const std::filesystem::path& robotFile, const RemoteOptions& given)
-      : options(given),
+      : options(checked(given)),
         robotToml(readTomlText(robotFile)),
         config(readRobot(parseToml(robotToml, robotFile.string()))),
         factory(PluginFactory::standardFolders()) {
-    if (!options.clock) options.clock = steadyTime;
+    stopsWithCaller.emplace(given.session.stop, [this] { ending.request_stop(); });
+    options.session.stop = ending.get_token();
     fillContainer(container, config, factory);
     connect();
+  }
+
+  /// Not by the constructor: what it tells may use the robot already.
+  void start() {
     if (options.cycle > 0.0) thread = std::thread([this] { keepFresh(); });
   }
 
@@ -50,6 +72,7 @@ struct RemoteRobot::Parts {
       const std::lock_guard lock(waiting);
       isEnding = true;
     }
+    ending.request_stop();
     news.notify_all();
     if (thread.joinable()) thread.join();
   }
@@ -97,9 +120,8 @@ struct RemoteRobot::Parts {
     news.notify_all();
   }
 
-  /// Does something with the session; whatever goes wrong becomes trouble and is thrown.
   template <class Action>
-  void perform(Action action) {
+  void talk(Action action) {
     const std::lock_guard lock(talking);
     if (!session && !(options.reconnects && tryToConnect()))
       throw ConnectionLost("not connected to " + options.session.server());
@@ -114,7 +136,24 @@ struct RemoteRobot::Parts {
     } catch (const std::exception& error) {  // refused, or words that a feature refuses
       report(error.what());
       throw;
+    } catch (...) {  // of the caller's clock, or of a plugin
+      report("something was thrown that is no std::exception");
+      throw;
     }
+  }
+
+  // --- without it ---
+
+  /// Does something with the session; whatever goes wrong becomes trouble, is told, and thrown.
+  template <class Action>
+  void perform(Action action) {
+    try {
+      talk(action);
+    } catch (...) {
+      tell();
+      throw;
+    }
+    tell();
   }
 
   /// Performs an action; false if it failed, for whoever looks at the trouble later.
@@ -123,10 +162,31 @@ struct RemoteRobot::Parts {
     try {
       perform(action);
       return true;
-    } catch (const std::exception&) {
+    } catch (...) {
       return false;
     }
   }
+
+  /// Tells the owner what was reported. No lock is held meanwhile, and who comes while another one
+  /// tells leaves it to that one, so whatever the owner does with locks of its own, nobody waits.
+  void tell() {
+    std::unique_lock lock(waiting);
+    if (teller != std::thread::id()) return;
+    teller = std::this_thread::get_id();
+    while (!untold.empty()) {
+      const std::string text = std::move(untold.front());
+      untold.pop_front();
+      lock.unlock();
+      try {
+        options.onTrouble(text);
+      } catch (...) {  // it has no caller who could be told
+      }
+      lock.lock();
+    }
+    teller = {};
+  }
+
+  // --- with `talking` held ---
 
   bool tryToConnect() {
     if (steady_clock::now() < nextAttempt) return false;
@@ -143,14 +203,15 @@ struct RemoteRobot::Parts {
     }
   }
 
+  /// Notes what went wrong, or "" for all is well, to be told later. What goes wrong in what the
+  /// owner does while it is told something is not told again, else there would be no end.
   void report(const std::string& what) {
-    {
-      const std::lock_guard lock(waiting);
-      if (what == trouble) return;
-      trouble = what;
-    }
-    if (options.onTrouble)
-      options.onTrouble(what.empty() ? "connected again to " + options.session.host : what);
+    const std::lock_guard lock(waiting);
+    if (what == trouble || isEnding) return;
+    trouble = what;
+    if (!options.onTrouble || (!what.empty() && teller == std::this_thread::get_id())) return;
+    untold.push_back(what.empty() ? "connected again to " + options.session.host : what);
+    if (untold.size() > kMostUntold) untold.pop_front();
   }
 
   // --- the thread ---
@@ -178,6 +239,8 @@ struct RemoteRobot::Parts {
   PluginFactory factory;
   SensorContainer container;
 
+  std::stop_source ending;  ///< of the session
+  std::optional<std::stop_callback<std::function<void()>>> stopsWithCaller;
   std::atomic<bool> isConnected{false};
   mutable std::mutex talking;  ///< over what follows: one conversation at a time
   std::unique_ptr<RobotSession> session;
@@ -192,13 +255,17 @@ struct RemoteRobot::Parts {
   mutable std::mutex waiting;  ///< over what follows
   std::condition_variable news;
   std::string trouble;
+  std::deque<std::string> untold;
+  std::thread::id teller;  ///< who is telling, or nobody
   std::uint64_t updates = 0;
   bool isEnding = false;
   std::thread thread;
 };
 
 RemoteRobot::RemoteRobot(const std::filesystem::path& robotFile, const RemoteOptions& options)
-    : parts_(std::make_unique<Parts>(robotFile, options)) {}
+    : parts_(std::make_unique<Parts>(robotFile, options)) {
+  parts_->start();
+}
 
 RemoteRobot::~RemoteRobot() = default;
 
@@ -239,6 +306,7 @@ bool RemoteRobot::next(std::uint64_t cycles) {
 }
 
 bool RemoteRobot::waitForUpdate(double timeout) {
+  if (std::isnan(timeout)) throw std::invalid_argument("the timeout is not a number");
   std::unique_lock lock(parts_->waiting);
   const std::uint64_t before = parts_->updates;
   return parts_->news.wait_for(lock, seconds(timeout), [&] { return parts_->updates > before; });

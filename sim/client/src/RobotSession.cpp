@@ -11,6 +11,7 @@
 namespace ortung {
 namespace {
 
+constexpr std::size_t kLongestName = 32;
 constexpr std::size_t kMostNews = 1000;
 constexpr std::size_t kMostLines = 1u << 20;
 constexpr std::size_t kMostBytes = 256u << 20;
@@ -19,6 +20,30 @@ constexpr std::size_t kMostBytes = 256u << 20;
 std::string shown(double value) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+bool isPrintableWord(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 127; });
+}
+
+/// Whether a name stays one word of a request: one with a blank would be further words and keys.
+bool isName(std::string_view text) {
+  constexpr std::string_view kPermitted =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  return !text.empty() && text.find_first_not_of(kPermitted) == text.npos;
+}
+
+/// A text of the caller's, fit for a message.
+std::string inQuotes(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text.substr(0, 80)) result += c >= ' ' && c < 127 ? c : '?';
+  return result + "'";
+}
+
+void checkTime(double seconds, const char* what) {
+  if (!(seconds > 0.0))
+    throw std::invalid_argument(std::string(what) + " is " + std::to_string(seconds) +
+                                " s, expected more than 0");
 }
 
 std::string_view valueOf(std::string_view reply, std::string_view key) {
@@ -49,10 +74,20 @@ std::string withDotsDoubled(std::string_view text) {
 ConnectionLost::~ConnectionLost() = default;
 ServerRefused::~ServerRefused() = default;
 
+void SessionOptions::check() const {
+  if (!isName(name) || name.size() > kLongestName)
+    throw std::invalid_argument("the name is " + inQuotes(name) +
+                                ", expected 1 to 32 of [A-Za-z0-9_-]");
+  if (!isPrintableWord(token))  // and not said, since it is a secret
+    throw std::invalid_argument("the token has a blank or a character that is not printable ASCII");
+  checkTime(timeout, "timeout");
+  checkTime(patience, "patience");
+}
+
 RobotSession::RobotSession(const SessionOptions& options, std::string_view robotToml)
-    : options_(options),
-      socket_(std::make_unique<client::LineSocket>(options.host, options.port, options.timeout,
-                                                   options.isInterruptible)) {
+    : options_(options) {
+  options_.check();
+  socket_ = std::make_unique<client::LineSocket>(options_);
   std::string hello = "HELLO ortung/1 name=" + options_.name;
   if (!options_.token.empty()) hello += " token=" + options_.token;
   kind_ = valueOf(ask(hello), "kind");
@@ -156,6 +191,9 @@ std::string RobotSession::withForm(std::string request) const {
 }
 
 std::vector<Message> RobotSession::update(const std::string& queries) {
+  if (queries.find_first_of("=\r\n") != queries.npos)  // would be a key, or another request
+    throw std::invalid_argument("found the queries " + inQuotes(queries) +
+                                ", expected model/type/feature, separated by blanks");
   return takeReadings(
       exchange(withForm(queries.empty() ? "UPDATE" : "UPDATE " + queries), options_.timeout));
 }
@@ -198,6 +236,10 @@ void RobotSession::setMotion(std::span<const double> command) {
 }
 
 void RobotSession::setManipulator(std::string_view manipulator, std::string_view state) {
+  if (!isName(manipulator) || !isName(state))
+    throw std::invalid_argument("found the manipulator " + inQuotes(manipulator) +
+                                " and the state " + inQuotes(state) +
+                                ", expected names of [A-Za-z0-9_-]");
   std::string request = "MANIPULATOR ";
   request.append(manipulator).append(" ").append(state);
   tell(request);

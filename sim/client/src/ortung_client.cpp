@@ -1,13 +1,29 @@
 #include "ortung/client/ortung_client.h"
 
 #include <algorithm>
+#include <mutex>
+#include <stdexcept>
 #include <string>
 
 #include "ortung/client/RemoteRobot.hpp"
 
 struct ortung_robot {
   ortung_robot(const char* file, const ortung::RemoteOptions& options) : remote(file, options) {}
+
+  void note(const std::string& what) {
+    const std::lock_guard lock(mutex);
+    failure = what;
+  }
+  std::string trouble() {
+    const std::lock_guard lock(mutex);
+    return failure.empty() ? remote.trouble() : failure;
+  }
+
   ortung::RemoteRobot remote;
+
+ private:
+  std::mutex mutex;
+  std::string failure;  ///< of the last call
 };
 
 namespace {
@@ -19,14 +35,26 @@ void copyText(const std::string& from, char* to, size_t size) {
   to[length] = '\0';
 }
 
-/// C knows no exceptions, so none leaves.
-template <class Action>
-int guarded(Action action) {
+/// @throws std::invalid_argument if @p pointer is null
+template <class T>
+T* given(T* pointer, const char* name) {
+  if (pointer == nullptr) throw std::invalid_argument(std::string(name) + " is NULL");
+  return pointer;
+}
+
+/// What an action returns; C knows no exceptions, so none leaves.
+template <class Result, class Action>
+Result guarded(ortung_robot* robot, Result failed, Action action) {
+  if (robot == nullptr) return failed;
   try {
-    return action() ? 1 : 0;
+    robot->note("");
+    return action();
+  } catch (const std::exception& error) {
+    robot->note(error.what());
   } catch (...) {
-    return 0;
+    robot->note("an unknown error");
   }
+  return failed;
 }
 
 }  // namespace
@@ -39,12 +67,12 @@ ortung_robot* ortung_connect(const char* host, uint16_t port, const char* robot_
   copyText("", error, error_size);
   try {
     ortung::RemoteOptions options;
-    options.session.host = host;
+    options.session.host = given(host, "host");
     options.session.port = port;
-    options.session.name = name;
+    options.session.name = given(name, "name");
     if (token != nullptr) options.session.token = token;
     options.cycle = cycle_s;
-    return new ortung_robot(robot_file, options);
+    return new ortung_robot(given(robot_file, "robot_file"), options);
   } catch (const std::exception& exception) {
     copyText(exception.what(), error, error_size);
   } catch (...) {
@@ -56,64 +84,66 @@ ortung_robot* ortung_connect(const char* host, uint16_t port, const char* robot_
 void ortung_disconnect(ortung_robot* robot) { delete robot; }
 
 int ortung_set_velocity(ortung_robot* robot, double translational, double rotational) {
-  return guarded([&] {
+  return guarded(robot, 0, [&] {
     robot->remote.setTranslationalVelocity(translational);
     robot->remote.setRotationalVelocity(rotational);
-    return true;
+    return 1;
   });
 }
 
 int ortung_set_motion(ortung_robot* robot, const double* command, size_t count) {
-  return guarded([&] {
+  return guarded(robot, 0, [&] {
+    if (count > 0) given(command, "command");
     robot->remote.setMotion({command, count});
-    return true;
+    return 1;
   });
 }
 
 int ortung_set_manipulator(ortung_robot* robot, const char* manipulator, const char* state) {
-  return guarded([&] {
-    robot->remote.setManipulator(manipulator, state);
-    return true;
+  return guarded(robot, 0, [&] {
+    robot->remote.setManipulator(given(manipulator, "manipulator"), given(state, "state"));
+    return 1;
   });
 }
 
 int ortung_update(ortung_robot* robot) {
-  return guarded([&] { return robot->remote.update(); });
+  return guarded(robot, 0, [&] { return robot->remote.update() ? 1 : 0; });
 }
 
 int ortung_next(ortung_robot* robot, uint64_t cycles) {
-  return guarded([&] { return robot->remote.next(cycles); });
+  return guarded(robot, 0, [&] { return robot->remote.next(cycles) ? 1 : 0; });
 }
 
 int ortung_wait_for_update(ortung_robot* robot, double timeout_s) {
-  return guarded([&] { return robot->remote.waitForUpdate(timeout_s); });
+  return guarded(robot, 0, [&] { return robot->remote.waitForUpdate(timeout_s) ? 1 : 0; });
 }
 
 long ortung_read(ortung_robot* robot, const char* feature, uint32_t* words, size_t capacity,
                  int64_t* stamp) {
-  try {
+  return guarded(robot, -1L, [&] {
+    const ortung::SensorQuery query = ortung::parseSensorQuery(given(feature, "feature"));
+    if (capacity > 0) given(words, "words");
     const ortung::SensorContainer& container = robot->remote.container();
     const auto lock = container.read();
-    const ortung::SensorData* data = container.find(ortung::parseSensorQuery(feature));
-    if (data == nullptr || data->sequence() == 0) return -1;
+    const ortung::SensorData* data = container.find(query);
+    if (data == nullptr || data->sequence() == 0) return -1L;
     const auto reading = data->getData();
     std::copy_n(reading.begin(), std::min(capacity, reading.size()), words);
     if (stamp != nullptr) *stamp = data->stamp();
     return static_cast<long>(reading.size());
-  } catch (...) {
-    return -1;
-  }
+  });
 }
 
 int ortung_is_connected(ortung_robot* robot) {
-  return guarded([&] { return robot->remote.isConnected(); });
+  return robot != nullptr && robot->remote.isConnected() ? 1 : 0;
 }
 
 void ortung_trouble(ortung_robot* robot, char* text, size_t size) {
-  guarded([&] {
-    copyText(robot->remote.trouble(), text, size);
-    return true;
-  });
+  copyText("", text, size);
+  try {
+    copyText(robot == nullptr ? "robot is NULL" : robot->trouble(), text, size);
+  } catch (...) {  // no memory
+  }
 }
 
 // NOLINTEND(readability-identifier-naming)

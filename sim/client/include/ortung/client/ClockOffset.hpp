@@ -26,7 +26,8 @@ class ORTUNG_API ClockOffset {
   void add(const Exchange& exchange);
 
   bool isKnown() const { return !readings_.empty(); }
-  /// Our time when the server's clock showed @p server. @pre isKnown()
+  /// Our time when the server's clock showed @p server, within what a Timestamp can hold.
+  /// @pre isKnown()
   Timestamp toLocal(Timestamp server) const;
   /// How far toLocal(@p server) may be off [us], while the server's clock keeps its rate.
   double bound(Timestamp server) const;

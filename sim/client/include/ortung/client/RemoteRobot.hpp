@@ -17,14 +17,17 @@ namespace ortung {
 
 struct RemoteOptions {
   SessionOptions session;
-  double cycle = 0.1;      ///< between two updates of the container [s]; 0: by update() only
+  double cycle = 0.1;      ///< between two updates of the container [s]; 0: by update() only;
+                           ///< less than 0 or NaN is refused
   bool reconnects = true;  ///< after the connection was lost
   /// Stamps are those of our own clock (`clock`), as if the sensors were here; otherwise the
   /// server's, which is what lockstep needs.
   bool hasLocalStamps = true;
-  /// Our clock [us]; empty: that of the computer, which never goes back.
+  /// Our clock [us]; empty: that of the computer, which never goes back. It must not use the robot.
   std::function<Timestamp()> clock;
-  /// Told what goes wrong, and when it is well again; from any thread. May be empty.
+  /// Told what goes wrong, and when it is well again; from any thread, but by one at a time, and
+  /// with no lock held: it may command the robot, whose errors it then gets as exceptions and is
+  /// not told. What it throws is passed over. It must not destroy the robot. May be empty.
   std::function<void(const std::string&)> onTrouble;
 };
 
@@ -33,8 +36,10 @@ struct RemoteOptions {
 class ORTUNG_API RemoteRobot : public RobotCommands {
  public:
   /// Connects, sends the robot file, and starts to update the container.
-  /// @throws ConfigError, PluginError for the robot file; ConnectionLost, ServerRefused
+  /// @throws ConfigError, PluginError for the robot file; std::invalid_argument for options that
+  ///   make no sense; ConnectionLost, ServerRefused
   RemoteRobot(const std::filesystem::path& robotFile, const RemoteOptions& options);
+  /// Does not wait for the server, whatever that does.
   ~RemoteRobot() override;
   RemoteRobot(const RemoteRobot&) = delete;
   RemoteRobot& operator=(const RemoteRobot&) = delete;
@@ -56,7 +61,9 @@ class ORTUNG_API RemoteRobot : public RobotCommands {
   /// runs that can be repeated (the server's --lockstep). The first call begins it.
   bool next(std::uint64_t cycles = 1);
 
-  /// Waits until the container was updated again. @param timeout [s]
+  /// Waits until the container was updated again. Whether it was; trouble() does not say why not.
+  /// @param timeout [s]; 0 or less: does not wait; up to infinity, of which 30 years are waited
+  /// @throws std::invalid_argument if @p timeout is NaN
   bool waitForUpdate(double timeout);
   bool isConnected() const;
   /// What went wrong last, or "".

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,26 +41,32 @@ class ORTUNG_API ServerRefused : public std::runtime_error {
   std::string code_;
 };
 
-struct SessionOptions {
+struct ORTUNG_API SessionOptions {
   std::string host = "127.0.0.1";
   std::uint16_t port = 7777;
   std::string name = "robot";    ///< of client and robot: [A-Za-z0-9_-], 1 to 32 characters
-  std::string token;             ///< "": none
+  std::string token;             ///< of printable characters without blanks; "": none
   std::optional<Pose2> start;    ///< in the field frame; nothing: anywhere
   bool wanders = false;          ///< the server drives the robot about
   bool isBinary = false;         ///< form of readings: better for large ones, such as images
-  double timeout = 5.0;          ///< for an answer [s]
-  double patience = 60.0;        ///< for the end of cycles in lockstep [s]
+  double timeout = 5.0;          ///< for an answer [s], above 0
+  double patience = 60.0;        ///< for the end of cycles in lockstep [s], above 0
   bool isInterruptible = false;  ///< whether a signal ends what is under way
+  /// A request to stop, from any thread, ends what is under way and all later calls with
+  /// ConnectionLost; only the look-up of a computer's name goes on until it is answered.
+  std::stop_token stop;
 
   /// "HOST:PORT", for messages.
   std::string server() const { return host + ":" + std::to_string(port); }
+  /// @throws std::invalid_argument for a name, a token or a time that can't be one, saying which
+  void check() const;
 };
 
 /// A connection to a message board with one robot on its field: the protocol of docs/protocol.md as
 /// function calls. Each call asks and waits for the answer. Not thread-safe.
-/// @throws ConnectionLost, ServerRefused from all members; commands throw std::invalid_argument
-///   where the server says that the robot does not take them
+/// @throws ConnectionLost, ServerRefused from all members; std::invalid_argument for options that
+///   SessionOptions::check() refuses, for what would be more than one request or other words of it,
+///   and from commands where the server says that the robot does not take them
 class ORTUNG_API RobotSession : public RobotCommands {
  public:
   /// Connects and creates the robot.
@@ -99,7 +106,8 @@ class ORTUNG_API RobotSession : public RobotCommands {
     return exchange;
   }
 
-  /// Any request; the reply without its tag. @p body gets the lines that belong to it.
+  /// Any request, a line as docs/protocol.md has it; the reply without its tag. @p body gets the
+  /// lines that belong to it.
   std::string ask(const std::string& request, std::vector<std::string>* body = nullptr);
   /// What the server said unasked since the last call: "SAY client=2 name=bert ...".
   std::vector<std::string> takeNews();

@@ -5,7 +5,7 @@
  * Readings are words: unsigned numbers whose meaning docs/protocol.md and `DESCRIBE robot` tell; a
  * range of 1234 is 1.234 m. All functions may be called from any thread, but ortung_disconnect()
  * is the last. Functions that return int return 1 for success, 0 otherwise; ortung_trouble() then
- * says why.
+ * says why. Texts end in a zero byte. NULL is an error like any other where it is not permitted.
  */
 
 #include <stddef.h>
@@ -31,6 +31,7 @@ typedef struct ortung_robot ortung_robot;
 ORTUNG_C_API ortung_robot* ortung_connect(const char* host, uint16_t port, const char* robot_file,
                                           const char* name, const char* token, double cycle_s,
                                           char* error, size_t error_size);
+/* Does not wait for the server, whatever that does. NULL: nothing happens. */
 ORTUNG_C_API void ortung_disconnect(ortung_robot* robot);
 
 /* Velocities: [m/s] and [rad/s]. */
@@ -44,11 +45,14 @@ ORTUNG_C_API int ortung_set_manipulator(ortung_robot* robot, const char* manipul
 ORTUNG_C_API int ortung_update(ortung_robot* robot);
 /* Lockstep: lets the world go on for so many cycles. */
 ORTUNG_C_API int ortung_next(ortung_robot* robot, uint64_t cycles);
+/* Waits until there are newer readings; 0 if there are none after timeout_s. 0 or less does not
+ * wait; infinity is permitted. */
 ORTUNG_C_API int ortung_wait_for_update(ortung_robot* robot, double timeout_s);
 
 /* Newest reading of the first feature that matches "model/type/feature" (* for any).
- * words: room for capacity words, as many as fit are written; stamp: [us], may be NULL
- * Returns the number of words of the reading, or -1 if there is no reading yet or no feature. */
+ * words: room for capacity words, as many as fit are written, NULL if capacity is 0; stamp: [us],
+ * may be NULL Returns the number of words of the reading, or -1 if there is no reading yet or no
+ * feature. */
 ORTUNG_C_API long ortung_read(ortung_robot* robot, const char* feature, uint32_t* words,
                               size_t capacity, int64_t* stamp);
 
