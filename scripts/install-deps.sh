@@ -8,11 +8,11 @@ packages=(
   # container and mcl: Eigen, and headers that stay hidden behind the file readers
   libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev
   # simulator: rays, rigid bodies, maps
-  libembree-dev libbox2d-dev libyaml-cpp-dev libstb-dev libboost-dev libboost-iostreams-dev
+  libembree-dev libbox2d-dev libyaml-cpp-dev libpng-dev libboost-dev libboost-iostreams-dev
   # readers of foreign logs
   libmrpt-obs-dev libmrpt-maps-dev
   # the program: command line, messages, charts of the report
-  libcli11-dev libspdlog-dev libfmt-dev libpng-dev libjs-dygraphs
+  libcli11-dev libspdlog-dev libfmt-dev libstb-dev libjs-dygraphs
   # pictures of scenes
   python3-pil
   # training of motion networks

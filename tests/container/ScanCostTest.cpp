@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include "ScanCost.hpp"
@@ -94,6 +95,79 @@ TEST(ScanCost, Avx512EqualsTheFormula) {
 }
 
 TEST(ScanCost, TheFastestKernelEqualsTheFormula) { expectEqualsReference(scanCostKernel()); }
+
+/// Buffers as long as the header allows and no longer, so that AddressSanitizer sees what is read
+/// behind them.
+struct TightProblem {
+  std::vector<std::unique_ptr<std::uint8_t[]>> buffers;
+  Problem p;
+
+  std::span<std::uint8_t> make(std::size_t n) {
+    buffers.push_back(std::make_unique<std::uint8_t[]>(n));
+    return {buffers.back().get(), n};
+  }
+};
+
+/// @param used readings that count; the rest of the last block is padding
+/// @param kinds how many different pairs of cap and step occur, if there is room for them
+TightProblem makeTightProblem(std::size_t used, std::size_t rows, std::size_t kinds,
+                              std::uint64_t seed) {
+  Random random(seed);
+  TightProblem t;
+  const std::size_t n = (used + kScanBlock - 1) / kScanBlock * kScanBlock;
+  const auto levels = t.make(n);
+  const auto caps = t.make(n);
+  const auto steps = t.make(seed % 2 == 0 ? 0 : n);
+  // Differences of -255 to 255: the first and last entry of every table of costs.
+  const auto level = [&] {
+    const auto kind = random.below(4);
+    return static_cast<std::uint8_t>(kind == 0 ? 0 : kind == 1 ? 255 : random.below(256));
+  };
+  for (std::size_t j = 0; j < used; ++j) {
+    const std::size_t kind = j % kinds;
+    levels[j] = level();
+    caps[j] = static_cast<std::uint8_t>(steps.empty() ? 255 - kind : 255 - kind / 2);
+    if (!steps.empty()) steps[j] = static_cast<std::uint8_t>(kind % 2 == 0 ? 127 : 40);
+  }
+  for (std::size_t i = 0; i < rows; ++i) {
+    const auto row = t.make(n);
+    std::generate(row.begin(), row.end(), level);
+    t.p.rows.push_back(row.data());
+  }
+  t.p.levels.assign(levels.begin(), levels.end());
+  t.p.caps.assign(caps.begin(), caps.end());
+  t.p.steps.assign(steps.begin(), steps.end());
+  t.p.reading = {levels, caps, steps, static_cast<int>(random.below(kMostShift + 1)), {}};
+  for (std::size_t i = 0; i < kLevelDifferences; ++i)
+    t.p.reading.costs[i] = static_cast<std::uint8_t>(8 * i + 3);
+  return t;
+}
+
+// The portable kernel looks costs up in tables from 16 rows on, and for up to 32 kinds of readings,
+// 512 of them at once.
+TEST(ScanCost, AllKernelsEqualTheFormulaAtEverySizeWithinTheirBuffers) {
+  std::vector<std::size_t> sizes;
+  for (std::size_t used = 1; used <= 2 * kScanBlock + 1; ++used) sizes.push_back(used);
+  sizes.insert(sizes.end(), {511, 512, 513, 1025});
+  std::uint64_t seed = 0;
+  for (const std::size_t used : sizes) {
+    for (const std::size_t rows : {1u, 15u, 16u, 17u}) {
+      for (const std::size_t kinds : {1u, 2u, 31u, 32u, 33u, 200u}) {
+        const TightProblem t = makeTightProblem(used, rows, kinds, ++seed);
+        const std::vector<std::uint32_t> expected = reference(t.p);
+        for (const InstructionSet set :
+             {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+          const ScanCostKernel kernel = scanCostKernel(set);
+          if (kernel == nullptr) continue;
+          std::vector<std::uint32_t> costs(rows);
+          kernel(t.p.reading, t.p.rows, costs.data());
+          ASSERT_EQ(costs, expected) << "set " << static_cast<int>(set) << ", " << used
+                                     << " readings, " << rows << " rows, " << kinds << " kinds";
+        }
+      }
+    }
+  }
+}
 
 // 8192 beams of the greatest cost: the largest sum that can occur.
 TEST(ScanCost, DoesNotOverflow) {

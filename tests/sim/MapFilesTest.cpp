@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <boost/crc.hpp>
 #include <boost/iostreams/device/back_inserter.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filter/lzma.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
 #include <cstdlib>
 
+#include "../damage/SmallPngs.hpp"
 #include "CarmenBytes.hpp"
 #include "WorldFiles.hpp"
 
@@ -46,6 +48,18 @@ std::string pngOf(int width, int height, int channels, const std::vector<unsigne
       },
       &png, width, height, channels, pixels.data(), width * channels);
   return png;
+}
+
+/// Makes a PNG's header say that it has @p edge x @p edge pixels, with the checksum that fits.
+void resize(std::string& png, std::uint32_t edge) {
+  const auto put = [&png](std::size_t at, std::uint32_t value) {
+    for (std::size_t i = 0; i < 4; ++i) png[at + i] = static_cast<char>(value >> (24 - 8 * i));
+  };
+  put(16, edge);
+  put(20, edge);
+  boost::crc_32_type crc;
+  crc.process_bytes(png.data() + 12, 17);
+  put(29, crc.checksum());
 }
 
 class MapFiles : public ::testing::Test {
@@ -150,7 +164,8 @@ TEST_F(MapFiles, BrokenImagesAreRefused) {
   EXPECT_HAS(refusal(mapYaml(), ""), "no image that can be read");
   EXPECT_HAS(refusal(mapYaml(), image.substr(0, image.size() - 1)),
              "ends after 11 bytes of pixels, expected 12");
-  EXPECT_HAS(refusal(mapYaml(), "P5 2 1 100\nab"), "white is 100");
+  EXPECT_HAS(refusal(mapYaml(), "P5 2 1 65536\nabcd"), "white is 65536");
+  EXPECT_HAS(refusal(mapYaml(), "P5 2 1 0\nab"), "white is 0");
   EXPECT_HAS(refusal(mapYaml(), "P2 1 1 255\n0\n"), "no image that can be read");
   const std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
   EXPECT_HAS(refusal(mapYaml(), png.substr(0, png.size() / 2)), "cannot be decoded");
@@ -165,7 +180,7 @@ TEST_F(MapFiles, ImageBombsAreRefusedBeforeDecoding) {
              "100000 x 100000 cells, expected 1 to 2^26");
   // A PNG header of 16000 x 16000 pixels and nothing else.
   std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
-  png.replace(16, 8, std::string("\0\0\x3e\x80\0\0\x3e\x80", 8));
+  resize(png, 16000);
   EXPECT_HAS(refusal(mapYaml(), png), "16000 x 16000 cells");
   // 288 MB of zeros, as nine members of one file.
   const std::string member = packed<io::gzip_compressor>(std::string(std::size_t{32} << 20, '\0'));
@@ -175,11 +190,52 @@ TEST_F(MapFiles, ImageBombsAreRefusedBeforeDecoding) {
   EXPECT_HAS(refusal(mapYaml("bomb.pgm"), image), "unpacks to more than");
 }
 
+TEST_F(MapFiles, APngThatIsTooSmallForItsPixelsIsRefusedBeforeMemoryIsTaken) {
+  // 8000 x 8000 pixels fit the limit of maps, but not 75 bytes, not even deflated.
+  std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
+  resize(png, 8000);
+  EXPECT_HAS(refusal(mapYaml(), png), "cannot hold the 8000 x 8000 pixels of its header");
+}
+
+// One flipped bit of a valid file: the length of its last chunk but one is 0x8000002a.
+TEST_F(MapFiles, APngWithAChunkOfAnImpossibleLengthIsRefused) {
+  std::string png = fromHex(kGrey);
+  const std::size_t length = png.find("IDAT") - 4;
+  png[length] = static_cast<char>(0x80);
+  EXPECT_HAS(refusal(mapYaml(), png), "the image cannot be decoded: ");
+}
+
+TEST_F(MapFiles, PngsOfAllKindsOfPixelsAreRead) {
+  const auto openOfPng = [&](std::string_view png) {
+    folder.write("kind.png", fromHex(png));
+    folder.write("kind.yaml", mapYaml("kind.png"));
+    return openOf("kind.yaml");
+  };
+  EXPECT_EQ(openOfPng(kGrey), "..#/#..");
+  EXPECT_EQ(openOfPng(kBits), "..#/#..");
+  EXPECT_EQ(openOfPng(kPalette), ".##/##.");
+  EXPECT_EQ(openOfPng(kInterlaced), ".#/.#");
+}
+
+TEST_F(MapFiles, PnmOfOtherDepthsAreRead) {
+  const auto openOfPnm = [&](const std::string& pnm) {
+    folder.write("map.pgm", pnm);
+    folder.write("map.yaml", mapYaml());
+    return openOf("map.yaml");
+  };
+  EXPECT_EQ(openOfPnm("P5 3 1 100\n" + std::string("\x64\x00\x50", 3)), ".##");
+  // 65024, 0, 255: the first byte is the greater one.
+  EXPECT_EQ(openOfPnm("P5 3 1 65535\n" + std::string("\xfe\x00\x00\x00\x00\xff", 6)), ".##");
+  EXPECT_EQ(openOfPnm("P5 2 1 1\n" + std::string("\x01\x00", 2)), ".#");
+  EXPECT_EQ(openOfPnm("P6 2 1 255\n" + std::string("\xfe\xfe\xfe\xfe\x00\x00", 6)), ".#");
+  EXPECT_EQ(openOfPnm("P5 # a comment\n2 # 2 by\n 1 255 " + std::string("\xfe\x00", 2)), ".#");
+}
+
 TEST_F(MapFiles, APngWhosePixelsUnpackToFarMoreThanItsSizeIsRefused) {
   // The compressed pixels of a large image under the header of a small one.
   const std::string large = pngOf(4000, 4000, 1, std::vector<unsigned char>(16000000, 0));
   std::string png = large;
-  png.replace(16, 8, std::string("\0\0\0\x02\0\0\0\x02", 8));
+  resize(png, 2);
   EXPECT_HAS(refusal(mapYaml(), png), "cannot be decoded");
 }
 

@@ -1,6 +1,7 @@
 // Nothing in a file may crash the reader: it loads, or it is refused with a ConfigError.
 #include <gtest/gtest.h>
 
+#include "../damage/SmallPngs.hpp"
 #include "CarmenBytes.hpp"
 #include "WorldFiles.hpp"
 #include "ortung/base/Random.hpp"
@@ -119,12 +120,7 @@ TEST(Mutations, OfAPgmNeverCrash) {
 }
 
 TEST(Mutations, OfAPngNeverCrash) {
-  // 3 x 2 grey pixels, deflated without compression.
-  const std::string png(
-      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x03\0\0\0\x02\x08\0\0\0\0\xb8\x1f\x39\xc6\0\0\0\x13IDAT"
-      "\x78\x01\x01\x08\0\xf7\xff\0\xfe\xfe\0\0\xcd\xfe\xfe\0\0\0\0\0\0\0\0\0\0\0\0IEND\xae\x42\x60"
-      "\x82",
-      76);
+  const std::string png = fromHex(kGrey);
   const TemporaryFolder folder;
   folder.write("world.toml", gridWorld());
   folder.write("map.yaml", mapYaml());

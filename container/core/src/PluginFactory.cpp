@@ -17,6 +17,31 @@ namespace {
 constexpr const char* kSymbol = "ortungPlugins";
 constexpr const char* kSourceKind = "ortung.Source";
 
+/// How long a library must be for what its header and its segments say of it. The loader believes
+/// them: what it maps beyond the end of a file kills the process (SIGBUS) when it is touched.
+std::uint64_t lengthOf(std::ifstream& in, const Elf64_Ehdr& header,
+                       const std::filesystem::path& file) {
+  const auto end = [&](std::uint64_t offset, std::uint64_t size) {
+    std::uint64_t sum = 0;
+    if (__builtin_add_overflow(offset, size, &sum))
+      throw PluginError(file.string() + ": is damaged: a part of it ends beyond 2^64 bytes");
+    return sum;
+  };
+  if (header.e_phentsize != sizeof(Elf64_Phdr))
+    throw PluginError(file.string() + ": is damaged: it has segments of an unknown kind");
+  std::uint64_t length =
+      std::max(end(header.e_shoff, std::uint64_t{header.e_shnum} * header.e_shentsize),
+               end(header.e_phoff, std::uint64_t{header.e_phnum} * sizeof(Elf64_Phdr)));
+  in.seekg(static_cast<std::streamoff>(header.e_phoff));
+  for (int i = 0; i < header.e_phnum; ++i) {
+    Elf64_Phdr segment{};
+    in.read(reinterpret_cast<char*>(&segment), sizeof segment);
+    if (!in) break;  // the file ends before its own list of segments, which is within the length
+    length = std::max(length, end(segment.p_offset, segment.p_filesz));
+  }
+  return length;
+}
+
 /// dlopen of a truncated library kills the process (SIGBUS), so look at its skeleton first.
 void checkIsWhole(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -28,10 +53,10 @@ void checkIsWhole(const std::filesystem::path& file) {
     throw PluginError(file.string() + ": is no 64-bit shared library");
   }
   const std::uint64_t size = std::filesystem::file_size(file);
-  const std::uint64_t sections = std::uint64_t{header.e_shnum} * header.e_shentsize;
-  if (header.e_shoff > size || sections > size - header.e_shoff) {
+  const std::uint64_t expected = lengthOf(in, header, file);
+  if (size < expected) {
     throw PluginError(file.string() + ": is torn: it has " + std::to_string(size) +
-                      " bytes, expected at least " + std::to_string(header.e_shoff + sections));
+                      " bytes, expected at least " + std::to_string(expected));
   }
 }
 

@@ -11,6 +11,7 @@ namespace ortung {
 namespace {
 
 constexpr int kFormat = 1;
+constexpr std::size_t kMostCells = std::size_t{1} << 26;  ///< as many as the learner makes
 constexpr const char* kMeta = "meta.json";
 using Json = nlohmann::json;
 
@@ -32,7 +33,8 @@ FieldRegion readRegion(const TableFile& file, const Json& meta) {
   grid.originY = take<double>(file, meta, "origin_y_m");
   grid.cell = take<double>(file, meta, "cell_m");
   const TableArray& open = file.array("open");
-  if (open.shape.size() != 2 || open.shape[0] > 1u << 20 || open.shape[1] > 1u << 20) {
+  if (open.shape.size() != 2 || open.bytes.size() > kMostCells || open.shape[0] > kMostCells ||
+      open.shape[1] > kMostCells) {
     throw TableError(file.path().string() + ": table open has an impossible shape");
   }
   grid.rows = static_cast<int>(open.shape[0]);

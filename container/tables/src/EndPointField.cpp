@@ -57,8 +57,7 @@ void EndPointField::load(const std::shared_ptr<const TableFile>& shared,
   const TableArray& array = file.array(prefix + "end_points");
   const auto levels = file.get<std::uint8_t>(prefix + "end_points", {0, 0});
   const bool fine = std::isfinite(place[0]) && std::isfinite(place[1]) && place[2] > 1e-4 &&
-                    place[2] < 1e3 && array.shape[0] <= kMostCells &&
-                    array.shape[1] <= kMostCells && !levels.empty();
+                    place[2] < 1e3 && levels.size() <= kMostCells && !levels.empty();
   if (!fine)
     throw TableError(file.path().string() + ": table " + prefix +
                      "end_point_grid has impossible values");

@@ -1,55 +1,32 @@
 #include "MapImage.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
-#include <cstdlib>
-#include <memory>
 #include <optional>
+#include <string_view>
 
 #include "GridMap.hpp"
+#include "PngImage.hpp"
 
 namespace ortung {
 namespace {
 
-/// The greatest single allocation that the decoder gets: a few kilobytes of PNG can demand
-/// gigabytes.
-thread_local std::size_t mostBytes = 0;
-
-void* boundedMalloc(std::size_t size) { return size <= mostBytes ? std::malloc(size) : nullptr; }
-void* boundedRealloc(void* old, std::size_t size) {
-  return size <= mostBytes ? std::realloc(old, size) : nullptr;
-}
-
-}  // namespace
-}  // namespace ortung
-
-#define STBI_MALLOC(size) ortung::boundedMalloc(size)
-#define STBI_REALLOC(old, size) ortung::boundedRealloc(old, size)
-#define STBI_FREE(old) std::free(old)
-#define STBI_ONLY_PNG
-#define STBI_ONLY_PNM
-#define STBI_NO_STDIO
-#define STBI_NO_LINEAR
-#define STBI_FAILURE_USERMSG
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
-
-namespace ortung {
-namespace {
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
+constexpr long kMostWhite = 65535;
 
 struct PnmHeader {
   std::size_t bytes = 0;  ///< length of the header
-  long most = 0;          ///< the value of white
+  long width = 0;
+  long height = 0;
+  long white = 0;  ///< greatest value
 };
 
-/// The header of a binary PGM or PPM, or nothing.
+/// The header of a binary PGM or PPM (netpbm's pgm(5), ppm(5)), or nothing.
 std::optional<PnmHeader> readPnmHeader(const std::string& bytes) {
   std::size_t at = 2;
-  long value = 0;
-  for (int field = 0; field < 3; ++field) {
+  std::array<long, 3> fields{};
+  for (long& value : fields) {
     while (at < bytes.size() &&
            (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
       if (bytes[at] == '#')
@@ -57,43 +34,51 @@ std::optional<PnmHeader> readPnmHeader(const std::string& bytes) {
       else
         ++at;
     }
-    value = 0;
     const std::size_t start = at;
     for (; at < bytes.size() && std::isdigit(static_cast<unsigned char>(bytes[at])); ++at)
       if (value < 100000000) value = value * 10 + (bytes[at] - '0');
     if (at == start) return std::nullopt;
   }
-  return PnmHeader{at + 1, value};
+  return PnmHeader{at + 1, fields[0], fields[1], fields[2]};
 }
 
-// The decoder neither scales grey values nor notices when a PNM file ends early.
-void checkPnm(const std::filesystem::path& file, const std::string& bytes, int width, int height,
-              int channels) {
+/// @param channels 1 (grey) or 3 (red, green, blue)
+MapImage decodePnm(const std::filesystem::path& file, const std::string& bytes,
+                   std::size_t channels) {
   const auto header = readPnmHeader(bytes);
   if (!header) throw MapError(file.string() + ": has no complete PNM header");
-  if (header->most != 255 && header->most != 65535)
-    throw MapError(file.string() + ": white is " + std::to_string(header->most) +
-                   ", expected 255 or 65535");
-  const std::size_t expected = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                               static_cast<std::size_t>(channels) * (header->most == 255 ? 1 : 2);
-  if (bytes.size() < header->bytes + expected)
-    throw MapError(file.string() + ": ends after " +
-                   std::to_string(bytes.size() - std::min(bytes.size(), header->bytes)) +
+  checkGrid(file, static_cast<double>(header->width), static_cast<double>(header->height), 1e-3,
+            0.0, 0.0);
+  if (header->white < 1 || header->white > kMostWhite)
+    throw MapError(file.string() + ": white is " + std::to_string(header->white) +
+                   ", expected 1 to 65535");
+  const std::size_t depth = header->white > 255 ? 2 : 1;
+  MapImage image{static_cast<int>(header->width), static_cast<int>(header->height), {}, {}};
+  const std::size_t n =
+      static_cast<std::size_t>(header->width) * static_cast<std::size_t>(header->height);
+  const std::size_t expected = n * channels * depth;
+  const std::size_t found = bytes.size() - std::min(bytes.size(), header->bytes);
+  if (found < expected)
+    throw MapError(file.string() + ": ends after " + std::to_string(found) +
                    " bytes of pixels, expected " + std::to_string(expected));
-}
 
-MapImage split(const stbi_uc* pixels, int width, int height, bool hasAlpha) {
-  MapImage image{width, height, {}, {}};
-  const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (!hasAlpha) {
-    image.grey.assign(pixels, pixels + n);
-    return image;
-  }
+  const auto* pixel = reinterpret_cast<const unsigned char*>(bytes.data()) + header->bytes;
+  const auto next = [&]() -> long {
+    long value = *pixel++;
+    if (depth == 2) value = value * 256 + *pixel++;
+    return std::min(value, header->white);
+  };
   image.grey.resize(n);
-  image.opaque.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    image.grey[i] = pixels[2 * i];
-    image.opaque[i] = pixels[2 * i + 1] >= 128 ? 1 : 0;
+  for (std::uint8_t& grey : image.grey) {
+    long value = 0;
+    if (channels == 1) {
+      value = next();
+    } else {  // ITU-R BT.601, in units that make grey of equal parts exact
+      const long red = next();
+      const long green = next();
+      value = (299 * red + 587 * green + 114 * next()) / 1000;
+    }
+    grey = static_cast<std::uint8_t>(value * 255 / header->white);
   }
   return image;
 }
@@ -101,29 +86,11 @@ MapImage split(const stbi_uc* pixels, int width, int height, bool hasAlpha) {
 }  // namespace
 
 MapImage decodeImage(const std::filesystem::path& file, const std::string& bytes) {
-  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-  const int length = static_cast<int>(std::min<std::size_t>(bytes.size(), 0x7fffffff));
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  mostBytes = std::size_t{1} << 20;
-  if (!stbi_info_from_memory(data, length, &width, &height, &channels))
-    throw MapError(file.string() +
-                   ": is no image that can be read, expected PNG, or PGM or PPM in "
-                   "binary (P5, P6): " +
-                   stbi_failure_reason());
-  checkGrid(file, width, height, 1e-3, 0.0, 0.0);
-  if (bytes.starts_with('P')) checkPnm(file, bytes, width, height, channels);
-
-  const bool hasAlpha = channels == 2 || channels == 4;
-  const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  mostBytes = n * 8 + (std::size_t{1} << 20) + bytes.size();  // 4 channels of 16 bits
-  const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(
-      stbi_load_from_memory(data, length, &width, &height, &channels, hasAlpha ? 2 : 1),
-      &std::free);
-  if (!pixels)
-    throw MapError(file.string() + ": the image cannot be decoded: " + stbi_failure_reason());
-  return split(pixels.get(), width, height, hasAlpha);
+  if (bytes.starts_with(kPngSignature)) return decodePng(file, bytes);
+  if (bytes.starts_with("P5")) return decodePnm(file, bytes, 1);
+  if (bytes.starts_with("P6")) return decodePnm(file, bytes, 3);
+  throw MapError(file.string() +
+                 ": is no image that can be read, expected PNG, or PGM or PPM in binary (P5, P6)");
 }
 
 }  // namespace ortung

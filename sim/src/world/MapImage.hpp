@@ -15,7 +15,8 @@ struct MapImage {
   std::vector<std::uint8_t> opaque;  ///< empty (all is), or width * height: 0 where transparent
 };
 
-/// Decodes a PGM, PPM (binary) or PNG image of at most 2^26 pixels; sizes are checked first.
+/// Decodes a PGM, PPM (binary) or PNG image of at most 2^26 pixels; sizes are checked against those
+/// of the file before memory is taken.
 /// @param file what errors call it @throws MapError
 MapImage decodeImage(const std::filesystem::path& file, const std::string& bytes);
 
