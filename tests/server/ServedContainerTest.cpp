@@ -49,8 +49,8 @@ class Motors : public RobotCommands {
 class ServedContainerTest : public testing::Test {
  protected:
   ServedContainerTest() {
-    for (const SensorId& id : {kNear, kFar})
-      container_.add(std::make_unique<ScalarData>(id, Pose2{}, ScalarData::Config{}));
+    container_.add(std::make_unique<ScalarData>(kNear, Pose2{}, ScalarData::Config{}));
+    container_.add(std::make_unique<ScalarData>(kFar, Pose2{0.2, 0.0, 1.0}, ScalarData::Config{}));
     config_.control = {"olga"};
   }
   std::unique_ptr<ServedContainer> served(RobotCommands* commands = nullptr) {
@@ -90,9 +90,11 @@ TEST_F(ServedContainerTest, ClientsListDescribeAndReadTheRobot) {
   EXPECT_EQ(valueOf(hello, "state"), "running");
   EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=1");
   EXPECT_EQ(client.line(), "robot=1 name=rover client=0");
-  EXPECT_EQ(client.ask("DESCRIBE robot"), "OK DESCRIBE lines=3");
+  EXPECT_EQ(client.ask("DESCRIBE robot"), "OK DESCRIBE lines=5");
   EXPECT_TRUE(client.line().starts_with("sonar/range/near "));
   EXPECT_TRUE(client.line().starts_with("sonar/range/far "));
+  EXPECT_EQ(client.line(), "mount sonar/range/near x_m=0 y_m=0 theta_rad=0");
+  EXPECT_EQ(client.line(), "mount sonar/range/far x_m=0.2 y_m=0 theta_rad=1");
   EXPECT_EQ(client.line(), "drive v of left and right wheel [m/s]");
   EXPECT_EQ(readingOf(client, "*/*/near"), "5000000 sonar/range/near 1 1200");
   EXPECT_EQ(valueOf(client.ask("READ */*/far"), "lines"), "0");

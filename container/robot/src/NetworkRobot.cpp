@@ -9,6 +9,9 @@
 namespace ortung {
 namespace {
 
+// How the client's own half tracks the robot: nobody here reads them.
+constexpr std::string_view kSectionsOfTheClient[] = {"motion", "mcl"};
+
 /// Looks at every value of a robot file for what a stranger must not say.
 class Inspection {
  public:
@@ -63,8 +66,12 @@ class Inspection {
 RobotConfig readNetworkRobot(std::string_view toml, const std::string& name,
                              std::span<const std::string> plugins) {
   const Parameters parameters = parseToml(toml, name, kMaxNetworkConfigBytes);
-  Inspection(name, plugins).inspect(toml::parse(toml, name));  // it has passed parseToml's bounds
-  return readRobot(parameters);
+  toml::table table = toml::parse(toml, name);  // it has passed parseToml's bounds
+  for (const std::string_view section : kSectionsOfTheClient) table.erase(section);
+  Inspection(name, plugins).inspect(table);
+  RobotConfig robot = readRobot(parameters);
+  robot.motion = robot.mcl = Parameters(name);
+  return robot;
 }
 
 }  // namespace ortung

@@ -1,7 +1,9 @@
 #include "ortung/served/ServedSimulation.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "ortung/motion/MotionModel.hpp"
@@ -14,6 +16,13 @@ namespace {
 constexpr std::string_view kInterfaces[] = {SensorData::kInterface, Sensor::kInterface,
                                             Drive::kInterface, MotionModel::kInterface};
 constexpr std::size_t kMostPlanners = 8;  // each keeps a plan of the floor for one size
+
+/// " key=number", the shortest that gives the same number again.
+std::string value(const char* key, double number) {
+  char digits[32];
+  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, number);
+  return std::string(" ").append(key).append("=").append(digits, end.ptr);
+}
 
 }  // namespace
 
@@ -34,6 +43,7 @@ ServedSimulation::ServedSimulation(Scene scene, const Simulation::Config& config
       plugins_(robotPlugins(factory_, kInterfaces)),
       run_(std::make_unique<SceneRun>(scene_, config_, factory_)),
       entered_(scene_.robots.size()) {
+  nameObjects();
   for (const SceneRobot& robot : scene_.robots) {
     auto guest = std::make_unique<Guest>();
     guest->wish.name = robot.name;
@@ -48,7 +58,22 @@ ServedSimulation::~ServedSimulation() = default;
 
 WorldDescription ServedSimulation::describe() const {
   const SimWorld& world = simulation().world();
-  return {world.name(), world.fingerprint(), "simulation"};
+  const Box2 bounds = world.solids().bounds;
+  return {world.name(), world.fingerprint(), "simulation",
+          FieldBounds{bounds.xLow, bounds.yLow, bounds.xHigh, bounds.yHigh}, objects_};
+}
+
+/// Things may have any name, also none or another's; clients need one word for each.
+void ServedSimulation::nameObjects() {
+  std::set<std::string> taken;
+  for (const Simulation::Thing& thing : simulation().things()) {
+    std::string word = thing.name.empty() ? thing.kind : thing.name;
+    std::replace(word.begin(), word.end(), ' ', '_');
+    std::string name = word;
+    for (int number = 2; !taken.insert(name).second; ++number)
+      name = word + "-" + std::to_string(number);
+    objects_.push_back({name, thing.kind});
+  }
 }
 
 std::vector<Resident> ServedSimulation::residents() const {
@@ -140,7 +165,14 @@ std::span<const Message> ServedSimulation::readings(RobotId robot) const {
 
 std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
   SimRobot& found = find(robot);
-  std::vector<std::string> lines = {"drive " + found.drive().commandHelp()};
+  const DriveLimits limits = found.drive().limits();
+  const RobotConfig& config = found.config();
+  std::vector<std::string> lines = {
+      "drive " + found.drive().commandHelp(),
+      "limits" + value("v_m_s", limits.speed) + value("w_rad_s", limits.turn) +
+          value("a_m_s2", limits.acceleration) + value("alpha_rad_s2", limits.turnAcceleration),
+      "body" + value("radius_m", config.radius) + value("height_m", found.shape().top()) +
+          value("mass_kg", config.mass)};
   for (const Manipulator& manipulator : found.shape().manipulators) {
     std::string line = "manipulator " + manipulator.name;
     for (const ManipulatorState& state : manipulator.states) line += " " + state.name;
@@ -174,16 +206,16 @@ void ServedSimulation::placeRobot(RobotId robot, const Pose2& pose) {
 }
 
 void ServedSimulation::placeObject(const std::string& object, const Pose2& pose) {
-  const std::span<const Simulation::Thing> things = simulation().things();
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    if (things[i].name != object) continue;
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    if (objects_[i].name != object) continue;
     try {
       return simulation().placeThing(i, pose);
     } catch (const std::invalid_argument& error) {
       throw ServeError("no-room", error.what());
     }
   }
-  throw ServeError("no-object", "this world has no movable object '" + object + "'");
+  throw ServeError("no-object",
+                   "this world has no movable object '" + object + "'; DESCRIBE world lists them");
 }
 
 }  // namespace ortung

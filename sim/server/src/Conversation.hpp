@@ -143,6 +143,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void status(Request& request);
   void list(Request& request);
   void describe(Request& request);
+  void describeWorld(const std::string& tag);
   void say(Request& request);
   void score(Request& request);
 

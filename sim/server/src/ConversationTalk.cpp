@@ -12,13 +12,6 @@ constexpr std::int64_t kMostGoals = 999;
 constexpr std::size_t kLongestHelp = 1000;
 constexpr const char* kWrongToken = "ERR token it is missing or wrong";
 
-/// A text as one word.
-std::string oneWord(std::string_view text) {
-  std::string word = printable(text);
-  std::replace(word.begin(), word.end(), ' ', '_');
-  return word;
-}
-
 void addLine(std::string& lines, std::size_t& count, const std::string& line) {
   lines += line + '\n';
   ++count;
@@ -190,12 +183,7 @@ void Conversation::describe(Request& request) {
   const std::string what = request.takeWord("world or robot");
   if (what == "world") {
     request.refuseRest();
-    const WorldDescription& world = host_.description;
-    const std::string lines = "world=" + oneWord(world.name) + " kind=" + world.kind +
-                              " fingerprint=" + oneWord(world.fingerprint) + '\n';
-    answer(request.tag(), [tag = request.tag(), lines](Conversation& self) {
-      self.reply(tag, "OK DESCRIBE lines=1", lines);
-    });
+    describeWorld(request.tag());
     return;
   }
   if (what != "robot") throw ServeError("syntax", "DESCRIBE knows world and robot");
@@ -206,9 +194,15 @@ void Conversation::describe(Request& request) {
       request.tag(),
       [robot, lines](WorldKeeper& keeper, WorldKeeper::Done&) {
         std::size_t count = 0;
-        for (const ServedFeature& feature : keeper.readings(robot)->features())
+        const std::vector<ServedFeature>& features = keeper.readings(robot)->features();
+        for (const ServedFeature& feature : features)
           addLine(*lines, count,
                   ortung::toText(feature.id) + " " + printable(feature.wordsHelp, kLongestHelp));
+        for (const ServedFeature& feature : features)
+          addLine(*lines, count,
+                  "mount " + ortung::toText(feature.id) + " x_m=" + shown(feature.mount.x) +
+                      " y_m=" + shown(feature.mount.y) +
+                      " theta_rad=" + shown(feature.mount.theta));
         for (const std::string& ability : keeper.world().abilities(robot))
           addLine(*lines, count, printable(ability, kLongestHelp));
         return Reply("OK DESCRIBE lines=" + std::to_string(count));
@@ -216,6 +210,23 @@ void Conversation::describe(Request& request) {
       [lines](Conversation& self, const std::string& tag, const std::string& text) {
         self.reply(tag, text, *lines);
       });
+}
+
+void Conversation::describeWorld(const std::string& tag) {
+  const WorldDescription& world = host_.description;
+  std::string line = "world=" + oneWord(world.name) + " kind=" + world.kind +
+                     " fingerprint=" + oneWord(world.fingerprint);
+  if (const auto& bounds = world.bounds)
+    line += " x_min_m=" + shown(bounds->xMin) + " y_min_m=" + shown(bounds->yMin) +
+            " x_max_m=" + shown(bounds->xMax) + " y_max_m=" + shown(bounds->yMax);
+  std::string lines;
+  std::size_t count = 0;
+  addLine(lines, count, line);
+  for (const ServedObject& object : world.objects)
+    addLine(lines, count, "object=" + object.name + " kind=" + oneWord(object.kind));
+  answer(tag, [tag, lines, count](Conversation& self) {
+    self.reply(tag, "OK DESCRIBE lines=" + std::to_string(count), lines);
+  });
 }
 
 void Conversation::say(Request& request) {

@@ -41,7 +41,7 @@ std::size_t keyLength(std::string_view word) {
 [[noreturn]] void refuse(const std::string& text) { throw ServeError("syntax", text); }
 
 template <class Number>
-std::string shown(Number value) {
+std::string digitsOf(Number value) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
@@ -53,7 +53,7 @@ Number parse(std::string_view text, const std::string& what, Number low, Number 
   if (error != std::errc() || end != text.data() + text.size() || !(value >= low && value <= high))
     throw ServeError("number", what + " is '" + printable(text) + "', expected a " +
                                    (std::is_integral_v<Number> ? "whole " : "") + "number from " +
-                                   shown(low) + " to " + shown(high));
+                                   digitsOf(low) + " to " + digitsOf(high));
   return value;
 }
 
@@ -71,6 +71,14 @@ std::string printable(std::string_view text, std::size_t mostCharacters) {
   std::replace_if(safe.begin(), safe.end(), [](char c) { return !isPrintable(c); }, '?');
   return text.size() > mostCharacters ? safe + "..." : safe;
 }
+
+std::string oneWord(std::string_view text) {
+  std::string word = printable(text);
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
+}
+
+std::string shown(double value) { return digitsOf(value); }
 
 double parseNumber(std::string_view text, const std::string& what, double low, double high) {
   return parse<double>(text, what, low, high);

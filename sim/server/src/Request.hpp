@@ -53,9 +53,14 @@ class Request {
 /// A finite number within bounds. @throws ServeError naming @p what, what was found and expected
 double parseNumber(std::string_view text, const std::string& what, double low, double high);
 
-/// @p text with everything that could do harm to a terminal replaced by '?', at most 200
 /// @p text with everything that could do harm to a terminal replaced by '?'.
 std::string printable(std::string_view text, std::size_t mostCharacters = 200);
+
+/// The same as one word: '_' for blanks.
+std::string oneWord(std::string_view text);
+
+/// The shortest text that gives the same number again.
+std::string shown(double value);
 
 /// Whether @p name is of [A-Za-z0-9_-], 1 to 32 characters.
 bool isName(std::string_view name);

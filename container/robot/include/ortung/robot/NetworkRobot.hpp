@@ -9,8 +9,10 @@
 namespace ortung {
 
 /// Reads a robot file that a stranger sent: at most kMaxNetworkConfigBytes, plugins of a list only,
-/// and nothing that could name a file of this computer: no text with a slash, no key `path` or
-/// `..._file`.
+/// and nothing that could name a file of this computer: no text with a slash, no key `path`,
+/// `file`,
+/// `..._path` or `..._file`. [motion] and [mcl] are for the stranger's own half, may say what they
+/// like, and come out empty.
 /// @param name what errors call it
 /// @param plugins names that are permitted
 /// @throws ConfigError

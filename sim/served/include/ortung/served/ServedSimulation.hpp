@@ -43,12 +43,14 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   SimRobot& find(RobotId robot) const;
   Simulation& simulation() const { return run_->simulation(); }
   void enter(RobotId robot, Guest& guest);
+  void nameObjects();
   void preparePlanner(const RobotSize& size);
 
   Scene scene_;
   Simulation::Config config_;
   PluginFactory factory_;
   std::vector<std::string> plugins_;
+  std::vector<ServedObject> objects_;  ///< in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
   std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
   std::uint64_t entered_;  ///< robots since the last reset: each has chances of its own

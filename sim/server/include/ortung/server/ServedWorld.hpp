@@ -44,6 +44,7 @@ struct RobotWish {
 struct ServedFeature {
   SensorId id;
   std::string wordsHelp;  ///< one line on what the words mean
+  Pose2 mount = {};       ///< of its sensor, in the robot frame
 };
 
 /// A robot that takes part.
@@ -59,10 +60,26 @@ struct Resident {
   std::vector<ServedFeature> features;
 };
 
+/// The rectangle that nothing leaves, in the field frame [m].
+struct FieldBounds {
+  double xMin = 0.0;
+  double yMin = 0.0;
+  double xMax = 0.0;
+  double yMax = 0.0;
+};
+
+/// Something movable that is no robot.
+struct ServedObject {
+  std::string name;  ///< by which placeObject() knows it: one printable word, its own
+  std::string kind;  ///< "ball", ...
+};
+
 struct WorldDescription {
   std::string name;
-  std::string fingerprint;  ///< "" if it is not known
-  std::string kind;         ///< "simulation", "record" or "robot"
+  std::string fingerprint;                 ///< "" if it is not known
+  std::string kind;                        ///< "simulation", "record" or "robot"
+  std::optional<FieldBounds> bounds = {};  ///< nothing: they are not known
+  std::vector<ServedObject> objects = {};
 };
 
 /// What the message board serves: a simulation, a record as if it were one, a running robot.
@@ -91,7 +108,8 @@ class ORTUNG_API ServedWorld {
   /// Robots of the world's own, numbered from 1.
   virtual std::vector<Resident> residents() const { return {}; }
   virtual ServedRobot addRobot(RobotId robot, RobotWish wish) = 0;
-  /// What a robot can be told, one line each: "drive COMMAND" and "manipulator NAME STATE ...".
+  /// What a robot is and can be told, one line each, its first word saying which: "drive COMMAND",
+  /// "limits v_m_s=V w_rad_s=W ...", "body radius_m=R ...", "manipulator NAME STATE ...".
   virtual std::vector<std::string> abilities(RobotId robot) const = 0;
   virtual void removeRobot(RobotId robot) = 0;
   /// What the robot's sensors gave in the last cycle; valid until the next call of anything.
@@ -103,6 +121,7 @@ class ORTUNG_API ServedWorld {
   /// Starts over: time, chance and robots as at their beginning.
   virtual void reset(std::optional<std::uint64_t> seed) = 0;
   virtual void placeRobot(RobotId robot, const Pose2& pose) = 0;
+  /// @param object a name of describe()
   virtual void placeObject(const std::string& object, const Pose2& pose) = 0;
 };
 
