@@ -33,7 +33,8 @@ TEST(NetworkRobot, TextsThatCouldBePathsAreRefused) {
     EXPECT_EQ(complaintAbout(kScanner + "feature = \"" + text + "\"\n"),
               "robot file:3: feature" + why)
         << text;
-    EXPECT_EQ(complaintAbout(kScanner + "list = [[\"" + text + "\"]]\n"), "robot file:3: list" + why)
+    EXPECT_EQ(complaintAbout(kScanner + "list = [[\"" + text + "\"]]\n"),
+              "robot file:3: list" + why)
         << text;
   }
 }
@@ -47,11 +48,12 @@ TEST(NetworkRobot, PluginsAreThoseOfTheListInEveryPartThatTheServerReads) {
 }
 
 TEST(NetworkRobot, WhatTracksTheRobotIsTheClientsOwn) {
-  const RobotConfig robot = readNetworkRobot(
-      "[robot]\nradius_m = 0.3\n" + kScanner +
-          "[motion]\nplugin = \"neural\"\nnetwork_file = \"/home/anna/net.json\"\n"
-          "[mcl]\nmap_path = \"..\\\\maps\"\nplugin = \"none\"\n[drive]\nplugin = \"differential\"\n",
-      "robot file", kPlugins);
+  const RobotConfig robot =
+      readNetworkRobot("[robot]\nradius_m = 0.3\n" + kScanner +
+                           "[motion]\nplugin = \"neural\"\nnetwork_file = \"/home/anna/net.json\"\n"
+                           "[mcl]\nmap_path = \"..\\\\maps\"\nplugin = \"none\"\n[drive]\nplugin = "
+                           "\"differential\"\n",
+                       "robot file", kPlugins);
   EXPECT_EQ(robot.radius, 0.3);
   EXPECT_EQ(robot.sensors.size(), 1u);
   EXPECT_EQ(robot.drive.text("plugin"), "differential");

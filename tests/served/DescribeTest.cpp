@@ -46,17 +46,16 @@ TEST(Describe, EveryMovableThingHasAWordByWhichItCanBePlaced) {
   client.ask("HELLO ortung/1");
   const std::vector<std::string> lines = linesOf(client, "DESCRIBE world");
   ASSERT_EQ(lines.size(), 6u);
-  EXPECT_EQ(lines[0], "world=two_rooms kind=simulation fingerprint=" +
-                          world.describe().fingerprint +
-                          " x_min_m=-3 y_min_m=-1.5 x_max_m=4.25 y_max_m=2");
+  EXPECT_EQ(lines[0],
+            "world=two_rooms kind=simulation fingerprint=" + world.describe().fingerprint +
+                " x_min_m=-3 y_min_m=-1.5 x_max_m=4.25 y_max_m=2");
   const std::vector<std::string> names = {"the_red_ball", "the_red_ball-2", "ball",
                                           "the_red_ball-3", "ball-2"};
   for (std::size_t i = 0; i < names.size(); ++i)
     EXPECT_EQ(lines[i + 1], "object=" + names[i] + " kind=ball");
   // Each one can be put where another one was, once that has left: they are five different ones.
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string place =
-        " x_m=" + std::to_string(-2.0 + static_cast<double>(i)) + " y_m=1.5";
+    const std::string place = " x_m=" + std::to_string(-2.0 + static_cast<double>(i)) + " y_m=1.5";
     EXPECT_EQ(client.ask("PLACE object=" + names[i] + place), "OK PLACE");
     EXPECT_TRUE(client.ask("PLACE object=" + names[(i + 1) % names.size()] + place)
                     .starts_with("ERR no-room"));
@@ -69,13 +68,14 @@ TEST(Describe, ARobotTellsWhereItsSensorsAreAndWhatItsDriveCanDo) {
   ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
   const RunningBoard board(world, lockstepConfig());
   TestClient client(board.port());
-  ASSERT_TRUE(client
-                  .join("[robot]\nradius_m = 0.21\nmass_kg = 12.5\n[drive]\nmax_speed_m_s = 1.25\n"
-                        "max_turn_deg_s = 90\nacceleration_m_s2 = 0.5\n"
-                        "turn_acceleration_deg_s2 = 180\nbody_height_m = 0.45\n"
-                        "[[sensor]]\nplugin = \"lrf\"\nmodel = \"A\"\ntype = \"B\"\nfeature = \"C\"\n"
-                        "pose = { x_m = 0.125, y_m = -0.25, z_m = 0.3, theta_deg = 30 }\n")
-                  .starts_with("OK CREATE"));
+  ASSERT_TRUE(
+      client
+          .join("[robot]\nradius_m = 0.21\nmass_kg = 12.5\n[drive]\nmax_speed_m_s = 1.25\n"
+                "max_turn_deg_s = 90\nacceleration_m_s2 = 0.5\n"
+                "turn_acceleration_deg_s2 = 180\nbody_height_m = 0.45\n"
+                "[[sensor]]\nplugin = \"lrf\"\nmodel = \"A\"\ntype = \"B\"\nfeature = \"C\"\n"
+                "pose = { x_m = 0.125, y_m = -0.25, z_m = 0.3, theta_deg = 30 }\n")
+          .starts_with("OK CREATE"));
   const std::vector<std::string> lines = linesOf(client, "DESCRIBE robot");
   const auto line = [&](const std::string& beginning) {
     for (const std::string& one : lines)
@@ -104,8 +104,9 @@ TEST(Describe, ARobotThatIsTrackedByANetworkCanJoin) {
   TestClient client(board.port());
   const std::string motion = "[motion]\nplugin = \"neural\"\nnetwork_file = \"/etc/passwd\"\n";
   EXPECT_TRUE(client.join(motion + "[[sensor]]\nplugin = \"odometry\"\n").starts_with("OK CREATE"));
-  client.send("CREATE other\n[drive]\nplugin = \"neural\"\nnetwork_file = \"net.json\"\n"
-              "[[sensor]]\nplugin = \"odometry\"\n");
+  client.send(
+      "CREATE other\n[drive]\nplugin = \"neural\"\nnetwork_file = \"net.json\"\n"
+      "[[sensor]]\nplugin = \"odometry\"\n");
   EXPECT_EQ(client.ask("."),
             "ERR configuration robot file:3: network_file names a file, which a configuration from "
             "the network must not");
