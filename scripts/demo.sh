@@ -6,8 +6,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install-deps.sh
-cmake --preset release -DORTUNG_TESTS=OFF -DORTUNG_BENCH=OFF >/dev/null
-cmake --build --preset release
+cmake --preset release >/dev/null
+cmake --build --preset release --target ortung ortung_plugins  # all the rest would not be used here
 
 ortung=build/release/bin/ortung
 out=out/demo

@@ -1,13 +1,15 @@
 #!/bin/sh
-# installed.sh BUILD CMAKE COMPILER  what is installed works by itself, far from the build tree: the program finds
-# its plugins, and so do robot programs of somebody else, the examples, on what that program wrote.
+# installed.sh BUILD CMAKE COMPILER C_COMPILER VERSION  what is installed works by itself, moved to where nobody planned
+# it: the program and its helper find libraries and plugins, and so do programs of somebody else, the examples.
 set -e
 build=$1
 cmake=$2
 compiler=$3
+c_compiler=$4
+version=$5
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
-unset ORTUNG_PLUGIN_PATH LD_LIBRARY_PATH
+unset ORTUNG_PLUGIN_PATH ORTUNG_LIBEXEC LD_LIBRARY_PATH
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() {
@@ -15,25 +17,61 @@ fail() {
   exit 1
 }
 
-"$here/install.sh" "$build" "$cmake" "$work/prefix" container mcl sim plugins app > "$work/install.log"
-"$cmake" -S "$here/../consumer/localize" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" \
-  -DEXAMPLES="$source/examples" -DCMAKE_CXX_COMPILER="$compiler" > "$work/configure.log"
-"$cmake" --build "$work/build" > "$work/build.log" || { cat "$work/build.log"; exit 1; }
-for file in "$work/build/localize" "$work"/prefix/bin/ortung "$work"/prefix/lib*/ortung/plugins/*.so; do
-  ! ldd "$file" | grep -e "$build" -e 'not found' || fail "$file needs the above"
-done
+"$cmake" --install "$build" --prefix "$work/first" > "$work/install.log" 2>&1 || fail "$(cat "$work/install.log")"
+prefix="$work/moved to here"
+mv "$work/first" "$prefix"
+lib=$(dirname "$(find "$prefix" -name libortung_container.so)")
 
-# Files in a folder that knows nothing of where they were made.
+# Nothing knows where it was made or meant to be.
+! grep -rlFe "$build" -e "$source" -e "$work/first" "$lib/cmake" "$lib/pkgconfig" || fail "the files above know the build"
+for file in "$prefix"/bin/* "$prefix"/libexec/ortung/* "$lib"/libortung_*.so "$lib"/ortung/plugins/*.so; do
+  [ -e "$file" ] || fail "$file is not installed"
+  ! readelf -d "$file" | grep RUNPATH | grep -v '\[\$ORIGIN[^:]*\]' || fail "$file has the RUNPATH above"
+  ! ldd "$file" | grep -Fe "$build" -e "$work/first" -e 'not found' || fail "$file needs the above"
+done
+grep -q 'BSD 3-Clause' "$prefix"/share/doc/ortung/LICENSE || fail "there is no LICENSE"
+# The name that programs note promises what the package promises: the same minor version.
+minor=${version%.*}
+readelf -d "$lib/libortung_container.so" | grep -q "SONAME.*\[libortung_container\.so\.${minor}\]" || fail "SONAME is not $minor"
+[ -e "$lib/libortung_container.so.$version" ] || fail "there is no libortung_container.so.$version"
+
+# Programs of somebody else, with the package and with pkg-config.
+cp -r "$source/examples" "$work/examples"
+"$cmake" -S "$work/examples" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+  > "$work/configure.log" 2>&1 || fail "$(cat "$work/configure.log")"
+"$cmake" --build "$work/build" -j 2 > "$work/build.log" 2>&1 || fail "$(cat "$work/build.log")"
+export PKG_CONFIG_PATH="$lib/pkgconfig"
+for pc in "$lib"/pkgconfig/*.pc; do
+  pkg-config --exists --print-errors "$(basename "$pc" .pc)" || fail "$pc is no good"
+done
+eval "'$c_compiler' '$work/examples/avoid.c' -o '$work/avoid' $(pkg-config --cflags --libs ortung-client)" \
+  "'-Wl,-rpath,$lib'" || fail "avoid.c was not built with pkg-config"
+"$work/avoid" 2> "$work/told" && fail "avoid without arguments succeeds"
+grep -q '^avoid_c HOST PORT' "$work/told" || fail "$(cat "$work/told")"
+"$cmake" -DNEWER="${minor%.*}.$((${minor#*.} + 1))" -Dortung_DIR="$lib/cmake/ortung" -P "$here/newer.cmake" ||
+  fail "the package passes for the next minor version"
+
+# Files in a folder that knows nothing of where they were made; the program by a link.
 mkdir "$work/robot"
 cd "$work/robot"
-cp "$source/maps/robots/pioneer.toml" robot.toml
-cp "$source/maps/fields/arena.toml" world.toml
-ortung=$work/prefix/bin/ortung
+cp "$prefix"/share/ortung/maps/robots/pioneer.toml robot.toml
+cp "$prefix"/share/ortung/maps/fields/arena.toml world.toml
+ln -s "$prefix/bin/ortung" ortung
+ortung=./ortung
+"$ortung" plugins > plugins.txt || fail "$(cat plugins.txt)"
+[ "$(grep -c "^$prefix.*\.so$" plugins.txt)" = "$(ls "$lib"/ortung/plugins | wc -l)" ] || fail "$(cat plugins.txt)"
 "$ortung" learn --world world.toml --robot robot.toml --out tables.ortung
 "$ortung" import sim world.toml --with-robot robot.toml --option duration=10 --option seed=3 --out run.rec
 "$ortung" localize --source record:run.rec --robot robot.toml --tables tables.ortung |
   awk '!/^#/ { printf "%.3f s: x %.3f m, y %.3f m\n", $1 / 1e6, $2, $3 }' > expected.txt
 [ "$(wc -l < expected.txt)" -gt 30 ] || fail "ortung localize gave too few poses"
+
+# The helper that reads MRPT's files says itself what is wrong with one: it was found, and found its libraries.
+if [ -e "$prefix/libexec/ortung/ortung-mrpt-reader" ]; then
+  echo 'no rawlog' > bad.rawlog
+  "$ortung" import rawlog bad.rawlog --out bad.rec 2> told && fail "a bad rawlog is imported"
+  grep -q 'ortung-mrpt-reader ended with status 1: ' told || fail "$(cat told)"
+fi
 
 "$work/build/localize" robot.toml tables.ortung record:run.rec | sed 's/, heading.*//' > poses.txt
 # The text of ortung localize is rounded already, so its last digit may be rounded once more.
