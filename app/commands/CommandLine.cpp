@@ -255,7 +255,13 @@ void addShow(Builder& build, CLI::App& app) {
   build.option("--beam", a->beam, "Which of the feature's values, from 0")
       ->check(within(0, 8191))
       ->capture_default_str();
-  build.flag("--log", a->logarithmic, "Grey even in the logarithm of the probability");
+  build
+      .option(
+          "--scale", a->scale,
+          "Colours of probabilities: linear, log, or auto: log where linear shows next to nothing")
+      ->check(CLI::IsMember({"auto", "linear", "log"}))
+      ->capture_default_str();
+  build.flag("--log", a->logarithmic, "Short for --scale log");
   build.flag("--progress", a->progress, kProgress);
 }
 

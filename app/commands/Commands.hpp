@@ -103,7 +103,8 @@ struct ShowArguments {
   double at = 0.0;                   ///< of the reading [s] after the first one
   std::optional<double> headingDeg;  ///< [degrees]
   std::size_t beam = 0;
-  bool logarithmic = false;
+  std::string scale = "auto";  ///< of probabilities: "auto", "linear" or "log"
+  bool logarithmic = false;    ///< "log", whatever `scale` says
   bool progress = false;
 };
 int runShow(const ShowArguments& arguments);

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -114,6 +115,9 @@ HeatMap drawnExpectation(const Robot& robot, const SensorData& feature,
   map.values = std::move(expected.values);
   for (double& value : map.values) value *= unit.factor;
   map.unit = unit.name;
+  map.quantity = "expected value";
+  if (*unit.name != 0) map.quantity = *unit.name == 'm' ? "expected distance" : "expected bearing";
+  map.field = &robot.tables.field;
   map.caption = fmt::format("expectation of {}", toText(feature.id()));
   if (most > 1) map.caption += fmt::format(" [{}]", arguments.beam);
   if (feature.headingSpacing() < 6.28)
@@ -149,9 +153,16 @@ std::vector<double> headingsOf(const Robot& robot, const std::vector<SensorData*
   return mapHeadings(robot.tables.headingStep, features);
 }
 
+/// A map of p(s given l) and what it was made from.
+struct ProbabilityMap {
+  HeatMap map;
+  Weighers weighers;
+  std::vector<double> headings;  ///< [rad]
+};
+
 /// p(s given l) all over the field, the best heading of each cell (Fig. 7b).
-HeatMap drawnProbability(const Robot& robot, std::vector<SensorData*> features,
-                         const ShowArguments& arguments) {
+ProbabilityMap drawnProbability(const Robot& robot, std::vector<SensorData*> features,
+                                const ShowArguments& arguments) {
   std::erase_if(features, [](const SensorData* feature) { return !feature->canWeigh(); });
   if (features.empty()) {
     throw std::runtime_error(
@@ -161,30 +172,68 @@ HeatMap drawnProbability(const Robot& robot, std::vector<SensorData*> features,
   }
   HeatMap map;
   map.region = &robot.tables.region;
+  map.field = &robot.tables.field;
   Progress progress("weighing", arguments.progress);
+  const Weighers weighers = weighersOf(features);
   const std::vector<double> headings = headingsOf(robot, features, arguments);
-  map.values = probabilityMap(*map.region, weighersOf(features), headings, [&](double share) {
+  map.values = probabilityMap(*map.region, weighers, headings, [&](double share) {
     checkInterrupt();
     progress.update(share);
     return true;
   });
   map.caption = fmt::format("p({}) at {:g} s", fmt::join(arguments.features, ", "), arguments.at);
   if (features.size() > 1) map.caption += fmt::format(", {} features", features.size());
-  map.logarithmic = arguments.logarithmic;
-  return map;
+  map.note = headings.size() == 1
+                 ? fmt::format("heading {:.4g} deg", degrees(headings[0]))
+                 : fmt::format("each cell: the best of {} headings", headings.size());
+  map.quantity = "p(s given l)";
+  map.marksBest = true;
+  map.logarithmic = arguments.logarithmic || arguments.scale == "log" ||
+                    (arguments.scale == "auto" && map.isPeaked());
+  return {std::move(map), weighers, headings};
 }
 
 void print(const HeatMap& map) {
   constexpr int kSteps = 5;
-  fmt::print("{}\n", printable(map.caption));
+  fmt::print("{}{}{}\n", printable(map.caption), map.note.empty() ? "" : "; ", map.note);
   const std::vector<double> values = map.legend(kSteps);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    fmt::print("  grey {:3} %: {:.4g} {}\n", 100 * i / (kSteps - 1), values[i], map.unit);
+    fmt::print("  colour {:3} %: {:.4g} {}\n", 100 * i / (kSteps - 1), values[i], map.unit);
   }
-  if (map.truth) {
-    fmt::print("  true pose: {:.3f} m, {:.3f} m, {:.1f} deg\n", map.truth->x, map.truth->y,
-               degrees(map.truth->theta));
+}
+
+void printPose(const char* what, const Pose2& pose, const std::optional<double>& value) {
+  fmt::print("  {}: {:.3f} m, {:.3f} m, {:.1f} deg{}\n", what, pose.x, pose.y, degrees(pose.theta),
+             value ? fmt::format(", p = {:.4g}", *value) : "");
+}
+
+/// The product of p(s given l) at one pose.
+double probabilityAt(const Weighers& weighers, const Pose2& pose) {
+  const float x = static_cast<float>(pose.x);
+  const float y = static_cast<float>(pose.y);
+  const float theta = static_cast<float>(pose.theta);
+  float logarithm = 0.0F;
+  for (const auto& weigher : weighers)
+    weigher->getProbability(SampleView{{&x, 1}, {&y, 1}, {&theta, 1}}, {&logarithm, 1});
+  return std::exp(static_cast<double>(logarithm));
+}
+
+/// Where the reading is most probable, and how probable it is where the robot was.
+void printPoses(const ProbabilityMap& drawn) {
+  const auto best = drawn.map.best();
+  if (best) {
+    const FieldGrid& grid = drawn.map.region->grid;
+    Pose2 pose{grid.centreX(*best), grid.centreY(*best), 0.0};
+    double greatest = -1.0;
+    for (const double heading : drawn.headings) {
+      const double p = probabilityAt(drawn.weighers, {pose.x, pose.y, heading});
+      if (p > greatest) pose.theta = wrapAngle(heading);
+      greatest = std::max(greatest, p);
+    }
+    printPose("most probable pose", pose, greatest);
   }
+  if (drawn.map.truth)
+    printPose("true pose", *drawn.map.truth, probabilityAt(drawn.weighers, *drawn.map.truth));
 }
 
 }  // namespace
@@ -196,7 +245,6 @@ int runShow(const ShowArguments& arguments) {
   checkOutput(arguments.out);
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
   const std::vector<SensorData*> features = featuresOf(*robot, arguments);
-  HeatMap map;
   if (sourceText(arguments).empty()) {
     if (features.size() > 1) {
       throw UsageError(
@@ -204,14 +252,17 @@ int runShow(const ShowArguments& arguments) {
                       "--record): {}",
                       features.size(), namesOf(features)));
     }
-    map = drawnExpectation(*robot, *features[0], arguments);
-  } else {
-    const std::optional<Pose2> truth = fillUntil(arguments, *robot);
-    map = drawnProbability(*robot, features, arguments);
-    map.truth = truth;
+    const HeatMap map = drawnExpectation(*robot, *features[0], arguments);
+    writeFile(arguments.out, draw(map).png());
+    print(map);
+    return 0;
   }
-  writeFile(arguments.out, draw(map).png());
-  print(map);
+  const std::optional<Pose2> truth = fillUntil(arguments, *robot);
+  ProbabilityMap drawn = drawnProbability(*robot, features, arguments);
+  drawn.map.truth = truth;
+  writeFile(arguments.out, draw(drawn.map).png());
+  print(drawn.map);
+  printPoses(drawn);
   return 0;
 }
 

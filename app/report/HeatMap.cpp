@@ -5,67 +5,69 @@
 #include <algorithm>
 #include <cmath>
 
+#include "FieldCanvas.hpp"
+#include "LandmarkLabels.hpp"
+#include "Palette.hpp"
+
 namespace ortung::app {
 namespace {
 
 constexpr int kWantedWidth = 800;  // [pixels]
-constexpr int kMostHeight = 4000;  // [pixels], for zooming only
+constexpr int kWantedHeight = 1000;
 constexpr int kMostZoom = 40;
-constexpr int kMargin = 12;
+constexpr int kMargin = 16;
+constexpr int kAxisLeft = 70;   // room for labels left of the field [pixels]
+constexpr int kAxisBelow = 54;  // and below it
 constexpr int kBarHeight = 16;
 constexpr int kTicks = 5;
 constexpr int kLetters = 2;  // size of a font pixel
 constexpr int kLineHeight = 12 * kLetters;
-constexpr double kLeastShare = 1e-6;  // of a scale's top: where logarithmic ones end
-constexpr Colour kPaper{255, 255, 255};
-constexpr Colour kBlack{0, 0, 0};
-constexpr Colour kSolid{214, 219, 226};
-constexpr Colour kNoValue{228, 238, 250};
-constexpr Colour kTruth{214, 40, 40};
+constexpr double kCutOff = 0.05;  // share of cells at the pale end of a logarithmic scale
 
 int zoomOf(const FieldGrid& grid) {
   const int byWidth = (kWantedWidth + grid.columns - 1) / grid.columns;
-  return std::clamp(std::min(byWidth, kMostHeight / grid.rows), 1, kMostZoom);
+  const int byHeight = (kWantedHeight + grid.rows - 1) / grid.rows;
+  return std::clamp(std::min(byWidth, byHeight), 1, kMostZoom);
 }
 
-/// Place of a value between white (0) and black (1).
+/// Place of a value between pale (0) and dark (1).
 double darkness(const HeatMap& map, const HeatMap::Scale& scale, double value) {
   if (!(scale.high > scale.low)) return 0.5;
   if (!map.logarithmic) return (value - scale.low) / (scale.high - scale.low);
   return std::log(std::max(value, scale.low) / scale.low) / std::log(scale.high / scale.low);
 }
 
-Colour grey(double dark) {
-  // The palest grey stays apart from the paper, the darkest from the outlines.
-  const auto level =
-      static_cast<std::uint8_t>(std::lround(250.0 - 225.0 * std::clamp(dark, 0.0, 1.0)));
-  return {level, level, level};
+/// Values of open cells that have one.
+std::vector<double> openValues(const HeatMap& map) {
+  std::vector<double> open;
+  for (std::size_t cell = 0; cell < map.values.size(); ++cell) {
+    if (map.region->open[cell] != 0 && std::isfinite(map.values[cell]))
+      open.push_back(map.values[cell]);
+  }
+  return open;
 }
 
 /// Draws cells with the grid's upper left corner at a place of the picture.
 class CellPainter {
  public:
-  CellPainter(Picture& picture, const HeatMap& map, int top)
-      : picture_(picture), map_(map), grid_(map.region->grid), zoom_(zoomOf(grid_)), top_(top) {}
+  CellPainter(Picture& picture, const HeatMap& map, int left, int top)
+      : picture_(picture),
+        map_(map),
+        grid_(map.region->grid),
+        zoom_(zoomOf(grid_)),
+        left_(left),
+        top_(top) {}
 
   void paint() {
     const HeatMap::Scale scale = map_.scale();
-    picture_.fill(kMargin - 1, top_ - 1, grid_.columns * zoom_ + 2, grid_.rows * zoom_ + 2, kBlack);
+    picture_.fill(left_ - 1, top_ - 1, grid_.columns * zoom_ + 2, grid_.rows * zoom_ + 2,
+                  palette::kInk);
     for (int row = 0; row < grid_.rows; ++row) {
       for (int column = 0; column < grid_.columns; ++column) {
         picture_.fill(left(column), above(row), zoom_, zoom_, colourOf(column, row, scale));
         if (!isOpen(column, row)) outline(column, row);
       }
     }
-  }
-
-  void mark(const Pose2& pose) {
-    const double x = kMargin + zoom_ * (pose.x - grid_.originX) / grid_.cell;
-    const double y = top_ + zoom_ * (grid_.rows - (pose.y - grid_.originY) / grid_.cell);
-    constexpr double kRadius = 9.0;
-    picture_.ring(x, y, kRadius, 3, kTruth);
-    picture_.line(x, y, x + 2.0 * kRadius * std::cos(pose.theta),
-                  y - 2.0 * kRadius * std::sin(pose.theta), 3, kTruth);
   }
 
  private:
@@ -77,67 +79,122 @@ class CellPainter {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns) +
            static_cast<std::size_t>(column);
   }
-  int left(int column) const { return kMargin + column * zoom_; }
+  int left(int column) const { return left_ + column * zoom_; }
   int above(int row) const { return top_ + (grid_.rows - 1 - row) * zoom_; }
 
   Colour colourOf(int column, int row, const HeatMap::Scale& scale) const {
-    if (!isOpen(column, row)) return kSolid;
+    if (!isOpen(column, row)) return palette::kSolid;
     const double value = map_.values[index(column, row)];
-    return std::isfinite(value) ? grey(darkness(map_, scale, value)) : kNoValue;
+    return std::isfinite(value) ? palette::sequential(darkness(map_, scale, value))
+                                : palette::kNoValue;
   }
 
-  /// Black lines within a solid cell, towards its open neighbours.
+  /// Dark lines within a solid cell, towards its open neighbours.
   void outline(int column, int row) {
     const int thick = std::max(1, zoom_ / 4);
     const int x = left(column);
     const int y = above(row);
-    if (isOpen(column - 1, row)) picture_.fill(x, y, thick, zoom_, kBlack);
-    if (isOpen(column + 1, row)) picture_.fill(x + zoom_ - thick, y, thick, zoom_, kBlack);
-    if (isOpen(column, row + 1)) picture_.fill(x, y, zoom_, thick, kBlack);
-    if (isOpen(column, row - 1)) picture_.fill(x, y + zoom_ - thick, zoom_, thick, kBlack);
+    if (isOpen(column - 1, row)) picture_.fill(x, y, thick, zoom_, palette::kInk);
+    if (isOpen(column + 1, row)) picture_.fill(x + zoom_ - thick, y, thick, zoom_, palette::kInk);
+    if (isOpen(column, row + 1)) picture_.fill(x, y, zoom_, thick, palette::kInk);
+    if (isOpen(column, row - 1)) picture_.fill(x, y + zoom_ - thick, zoom_, thick, palette::kInk);
   }
 
   Picture& picture_;
   const HeatMap& map_;
   const FieldGrid& grid_;
   int zoom_;
+  int left_;
   int top_;
 };
 
-void drawLegend(Picture& picture, const HeatMap& map, int top) {
-  const int width = picture.width() - 2 * kMargin;
+/// The bar of colours with its values.
+void drawScale(Picture& picture, const HeatMap& map, int left, int top, int width) {
   for (int x = 0; x < width; ++x) {
-    picture.fill(kMargin + x, top, 1, kBarHeight, grey(static_cast<double>(x) / width));
+    picture.fill(left + x, top, 1, kBarHeight, palette::sequential(static_cast<double>(x) / width));
   }
   const std::vector<double> values = map.legend(kTicks);
   for (int tick = 0; tick < kTicks; ++tick) {
     const std::string text =
         fmt::format("{:.3g}{}{}", values[static_cast<std::size_t>(tick)],
                     map.unit.empty() ? "" : " ", tick == kTicks - 1 ? map.unit : "");
-    const int centre = kMargin + tick * width / (kTicks - 1);
+    const int centre = left + tick * width / (kTicks - 1);
     const int room = picture.width() - kMargin - Picture::textWidth(kLetters, text);
     const int x = centre - Picture::textWidth(kLetters, text) / 2;
-    picture.fill(std::min(centre, kMargin + width - 1), top + kBarHeight, 1, 4, kBlack);
+    picture.fill(std::min(centre, left + width - 1), top + kBarHeight, 1, 4, palette::kInk);
     picture.text(std::clamp(x, kMargin, std::max(room, kMargin)), top + kBarHeight + 7, kLetters,
-                 kBlack, text);
+                 palette::kInk, text);
   }
+  const std::string name = map.quantity + (map.logarithmic ? " (logarithmic scale)" : "");
+  picture.text(left, top + kBarHeight + 7 + kLineHeight, kLetters, palette::kInk, name);
+}
+
+/// "landmark (post)" where all are of one kind.
+std::string landmarkName(const FieldModel& field) {
+  const std::string kind = commonKind(field);
+  return kind.empty() ? "landmark" : fmt::format("landmark ({})", kind);
+}
+
+/// What the marks and the colours mean that are no values: entries side by side, new lines where
+/// there is no room. Returns how many lines they take; draws nothing where @p picture is null.
+int drawKey(Picture* picture, const HeatMap& map, int left, int top, int width) {
+  int x = 0;
+  int row = 0;
+  const auto entry = [&](const std::string& text, auto&& symbol) {
+    const int taken = 52 + Picture::textWidth(kLetters, text) + 24;
+    if (x > 0 && x + taken > width) {
+      x = 0;
+      ++row;
+    }
+    if (picture != nullptr) {
+      const int middle = top + row * 2 * kLineHeight + kLineHeight;
+      symbol(left + x + 18, middle);
+      picture->text(left + x + 52, middle - 7, kLetters, palette::kInk, text);
+    }
+    x += taken;
+  };
+  const auto box = [&](Colour colour) {
+    return [picture, colour](int at, int middle) {
+      picture->fill(at - 12, middle - 8, 24, 16, palette::kInk);
+      picture->fill(at - 11, middle - 7, 22, 14, colour);
+    };
+  };
+  const FieldRegion& region = *map.region;
+  const auto cells =
+      static_cast<std::size_t>(std::count(region.open.begin(), region.open.end(), 1));
+  if (map.truth)
+    entry("true pose", [&](int at, int m) { FieldCanvas::drawTruth(*picture, at - 6, m, 0.0); });
+  if (map.marksBest)
+    entry("most probable cell",
+          [&](int at, int m) { FieldCanvas::drawBest(*picture, at, m, 8.0); });
+  if (map.field != nullptr && !map.field->landmarks.empty())
+    entry(landmarkName(*map.field),
+          [&](int at, int m) { FieldCanvas::drawLandmark(*picture, at, m, 7); });
+  if (cells < region.grid.size()) entry("solid, unknown or outside", box(palette::kSolid));
+  if (openValues(map).size() < cells) entry("nothing expected", box(palette::kNoValue));
+  return x == 0 ? 0 : row + 1;
+}
+
+/// Letters as large as fit.
+void drawCaption(Picture& picture, int y, const std::string& text) {
+  const bool fits = Picture::textWidth(kLetters, text) <= picture.width() - 2 * kMargin;
+  picture.text(kMargin, y, fits ? kLetters : 1, palette::kInk, text);
 }
 
 }  // namespace
 
 HeatMap::Scale HeatMap::scale() const {
-  Scale ends;
-  bool any = false;
-  for (std::size_t cell = 0; cell < values.size(); ++cell) {
-    const double value = values[cell];
-    if (!std::isfinite(value) || region->open[cell] == 0) continue;
-    ends.low = any ? std::min(ends.low, value) : value;
-    ends.high = any ? std::max(ends.high, value) : value;
-    any = true;
-  }
+  std::vector<double> open = openValues(*this);
+  if (logarithmic) std::erase_if(open, [](double value) { return !(value > 0.0); });
+  if (open.empty()) return {};
+  const auto [least, greatest] = std::minmax_element(open.begin(), open.end());
+  Scale ends{*least, *greatest};
   if (logarithmic) {
-    ends.low = std::max(ends.low, ends.high * kLeastShare);
-  } else if (ends.low > 0.0 && ends.low < ends.high * kLeastShare) {
+    const auto low =
+        open.begin() + static_cast<std::ptrdiff_t>(kCutOff * static_cast<double>(open.size()));
+    std::nth_element(open.begin(), low, open.end());
+    if (*low < ends.high) ends.low = *low;
+  } else if (ends.low > 0.0 && ends.low < ends.high * 1e-6) {
     ends.low = 0.0;  // a legend that begins at 1e-157 helps nobody
   }
   return ends;
@@ -155,19 +212,47 @@ std::vector<double> HeatMap::legend(int count) const {
   return at;
 }
 
+std::optional<std::size_t> HeatMap::best() const {
+  std::optional<std::size_t> found;
+  for (std::size_t cell = 0; cell < values.size(); ++cell) {
+    if (region->open[cell] == 0 || !std::isfinite(values[cell])) continue;
+    if (!found || values[cell] > values[*found]) found = cell;
+  }
+  return found;
+}
+
+bool HeatMap::isPeaked() const {
+  const std::vector<double> open = openValues(*this);
+  if (open.empty()) return false;
+  const double top = *std::max_element(open.begin(), open.end());
+  const auto seen =
+      std::count_if(open.begin(), open.end(), [&](double v) { return v > 0.1 * top; });
+  return static_cast<double>(seen) < 0.02 * static_cast<double>(open.size());
+}
+
 Picture draw(const HeatMap& map) {
   const FieldGrid& grid = map.region->grid;
   const int zoom = zoomOf(grid);
-  const int top = kMargin + kLineHeight;
-  const int legendTop = top + grid.rows * zoom + kMargin;
-  const int width = std::max(grid.columns * zoom, kWantedWidth / 2) + 2 * kMargin;
-  Picture picture(width, legendTop + kBarHeight + 2 * kLineHeight, kPaper);
-  const bool fits = Picture::textWidth(kLetters, map.caption) <= width - 2 * kMargin;
-  picture.text(kMargin, kMargin, fits ? kLetters : 1, kBlack, map.caption);
-  CellPainter painter(picture, map, top);
-  painter.paint();
-  if (map.truth && isFinite(*map.truth)) painter.mark(*map.truth);
-  drawLegend(picture, map, legendTop);
+  const int left = kMargin + kAxisLeft;
+  const int top = kMargin + (map.note.empty() ? 1 : 2) * kLineHeight + kLineHeight + 8;
+  const int scaleTop = top + grid.rows * zoom + kAxisBelow + 8;
+  const int keyTop = scaleTop + kBarHeight + 2 * kLineHeight + 12;
+  const int room = std::max(grid.columns * zoom, kWantedWidth / 2);
+  const int width = left + room + 2 * kMargin;
+  const int keyLines = drawKey(nullptr, map, left, keyTop, room);
+  Picture picture(width, keyTop + keyLines * 2 * kLineHeight + kMargin, palette::kPaper);
+  drawCaption(picture, kMargin, map.caption);
+  if (!map.note.empty()) drawCaption(picture, kMargin + kLineHeight, map.note);
+
+  CellPainter(picture, map, left, top).paint();
+  const FieldCanvas canvas(picture, grid, left, top, zoom);
+  canvas.axes();
+  if (map.field != nullptr) canvas.field(*map.field);
+  if (map.truth) canvas.truth(*map.truth);
+  if (const auto best = map.best(); best && map.marksBest)
+    canvas.best(grid.centreX(*best), grid.centreY(*best));
+  drawScale(picture, map, left, scaleTop, room);
+  drawKey(&picture, map, left, keyTop, room);
   return picture;
 }
 

@@ -47,13 +47,29 @@ void Picture::fill(int x, int y, int width, int height, Colour colour) {
 }
 
 void Picture::line(double x0, double y0, double x1, double y1, int thickness, Colour colour) {
-  const double length = std::max({std::abs(x1 - x0), std::abs(y1 - y0), 1.0});
+  // Only the part within the picture, so that ends far away cost nothing (Liang and Barsky).
+  double from = 0.0;
+  double to = 1.0;
+  const auto cut = [&](double start, double way, double low, double high) {
+    if (way == 0.0) return start >= low && start <= high;
+    const double a = (low - start) / way;
+    const double b = (high - start) / way;
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+    return from <= to;
+  };
+  if (!std::isfinite(x1 - x0) || !std::isfinite(y1 - y0)) return;
+  if (!cut(x0, x1 - x0, -thickness, width_ + thickness)) return;
+  if (!cut(y0, y1 - y0, -thickness, height_ + thickness)) return;
+  const double stepX = (to - from) * (x1 - x0);
+  const double stepY = (to - from) * (y1 - y0);
+  const double steps = std::max({std::abs(stepX), std::abs(stepY), 1.0});
   const int half = thickness / 2;
-  for (int step = 0; step <= static_cast<int>(length); ++step) {
-    const double share = step / length;
-    fill(static_cast<int>(std::lround(x0 + share * (x1 - x0))) - half,
-         static_cast<int>(std::lround(y0 + share * (y1 - y0))) - half, thickness, thickness,
-         colour);
+  for (int step = 0; step <= static_cast<int>(steps); ++step) {
+    const double share = step / steps;
+    fill(static_cast<int>(std::lround(x0 + from * (x1 - x0) + share * stepX)) - half,
+         static_cast<int>(std::lround(y0 + from * (y1 - y0) + share * stepY)) - half, thickness,
+         thickness, colour);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "Assets.hpp"
+#include "TimeGaps.hpp"
 #include "ortung/base/Angles.hpp"
 
 namespace ortung::app {
@@ -74,6 +75,11 @@ std::string chartData(const RunResult& run) {
   const auto estimates = thin(run.estimates, [](const auto& e) { return e.samples; });
   const Sigmas sigmas = sigmasAt(points, run.estimates);
   const auto time = [&](Timestamp stamp) { return toSeconds(stamp) - toSeconds(run.first); };
+  const auto longest = [](const auto& elements) {
+    std::vector<Timestamp> stamps;
+    for (const auto& element : elements) stamps.push_back(element.stamp);
+    return longestDrawnStep(std::move(stamps));
+  };
   const auto same = [](double value) { return value; };
   std::string json = "{";
   const auto member = [&](const char* name, const std::string& array) {
@@ -91,6 +97,8 @@ std::string chartData(const RunResult& run) {
   member("estimateY", jsonArray(points, [](const Point& p) { return p.estimate.y; }));
   member("samplesTime", jsonArray(estimates, [&](const auto& e) { return time(e.stamp); }));
   member("samples", jsonArray(estimates, [](const auto& e) { return double(e.samples); }));
+  json += fmt::format("\"longestStep\":{:.3f},\"longestSamplesStep\":{:.3f},", longest(points),
+                      longest(estimates));
   const auto& converged = run.figures.convergedAfter;
   return json + "\"converged\":" + (converged ? fmt::format("{:.3f}", *converged) : "null") + "}";
 }
@@ -104,29 +112,44 @@ std::string row(const std::string& name, const std::string& value) {
   return fmt::format("<tr><th>{}</th><td>{}</td></tr>", escapeHtml(name), escapeHtml(value));
 }
 
-std::string legend(bool hasTruth) {
+std::string legend(bool hasTruth, const FieldModel& field) {
   std::string html = R"(<p class="legend"><span class="key estimate"></span>estimate)";
   if (hasTruth) {
     html += R"( <span class="key truth"></span>ground truth <span class="key start"></span>start)"
             R"( <span class="key end"></span>end)";
   }
+  if (!field.landmarks.empty()) html += R"( <span class="key landmark"></span>landmark)";
+  if (!field.lines.empty()) html += R"( <span class="key line"></span>line on the floor)";
   return html + R"( <span class="key tight"></span>too tight for the robot)"
-                R"( <span class="key solid"></span>solid</p>)";
+                R"( <span class="key solid"></span>solid, unknown or outside</p>)";
 }
 
-std::string charts(bool hasTruth) {
+/// A heading and a place for one chart.
+std::string chart(const char* id, const char* name, const char* unit, const std::string& about) {
+  return fmt::format(
+      R"(<h2>{1} <small>{2}</small></h2><div id="{0}" class="chart" role="img" aria-label="{1} over time. {3}"></div>)",
+      id, name, unit, escapeHtml(about));
+}
+
+std::string charts(const RunResult& run) {
   std::string html = R"(<section class="charts">)";
-  if (hasTruth) {
-    html +=
-        R"(<h2>Position error <small>m, with the filter's own 1 sigma</small></h2><div id="position" class="chart"></div>)"
-        R"(<h2>Heading error <small>degrees, with the filter's own 1 sigma</small></h2><div id="heading" class="chart"></div>)";
+  const auto figure = [&](const char* name) {
+    for (const Figure& one : figuresOf(run))
+      if (one.name.starts_with(name)) return fmt::format("{}: {}.", one.name, one.value);
+    return std::string();
+  };
+  if (!run.figures.points.empty()) {
+    html += chart("position", "Position error", "m, with the filter's own 1 sigma",
+                  figure("Position error, RMS"));
+    html += chart("heading", "Heading error", "degrees, with the filter's own 1 sigma",
+                  figure("Heading error, RMS"));
   } else {
     html +=
         R"(<p class="note">The source gave no ground truth, so there are no errors to show.</p>)";
   }
+  html += chart("samples", "Samples", "logarithmic", figure("Samples, mean"));
   return html +
-         R"(<h2>Samples <small>logarithmic</small></h2><div id="samples" class="chart"></div>)"
-         R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";
+         R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Lines break where nothing is known. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";
 }
 
 std::string settings(const RunResult& run) {
@@ -141,6 +164,7 @@ std::string settings(const RunResult& run) {
 std::string head(const std::string& title) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"color-scheme\" content=\"light dark\">"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
       "img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">"
@@ -168,8 +192,9 @@ std::string body(const RunResult& run) {
       "<p class=\"note\">Errors are over the time after convergence.</p></div>"
       "<div><h2>Run</h2><table>{}</table><h2>Command line</h2><pre>{}</pre></div></section>\n"
       "<footer>Made by ortung. {}</footer>\n",
-      escapeHtml(run.figures.source), cards, mapSvg(run), legend(hasTruth), charts(hasTruth), rows,
-      settings(run), escapeHtml(run.commandLine), escapeHtml(assets::kDygraphsNotice));
+      escapeHtml(run.figures.source), cards, mapSvg(run), legend(hasTruth, run.tableInfo.field),
+      charts(run), rows, settings(run), escapeHtml(run.commandLine),
+      escapeHtml(assets::kDygraphsNotice));
 }
 
 }  // namespace

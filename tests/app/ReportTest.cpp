@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "Report.hpp"
@@ -99,11 +100,96 @@ TEST(Report, MapHasBothPathsBreaksThemAtJumpsAndLiesRightSideUp) {
   run.estimates[1].pose = {-3.0, 2.0, 0.0};  // 4 m in 0.1 s: not driven
   const std::string svg = mapSvg(run);
   EXPECT_NE(svg.find("M1.000 2.000h0M-3.000 2.000h0"), std::string::npos);
-  EXPECT_NE(svg.find("viewBox=\"-4.000 -3.000 8.000"), std::string::npos);
   EXPECT_NE(svg.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);  // PNG's signature
   EXPECT_EQ(countOf(svg, "class=\"truth\""), 1u);
   run.estimates[1].stamp = fromSeconds(4.0);  // 1 m/s: a log with rare scans
   EXPECT_NE(mapSvg(run).find("M1.000 2.000h0L-3.000 2.000"), std::string::npos);
+}
+
+TEST(Report, NeitherPathHidesTheOther) {
+  const std::string svg = mapSvg(syntheticRun());
+  EXPECT_LT(svg.find("class=\"truth\""), svg.find("class=\"estimate\""))
+      << "the thin estimate lies above the broad truth";
+}
+
+TEST(Report, PathsAndChartsBreakAtGaps) {
+  RunResult run = syntheticRun();
+  for (std::size_t i = 300; i < 600; ++i) {  // 20 s without any reading
+    run.estimates[i].stamp += fromSeconds(20.0);
+    run.figures.points[i].stamp += fromSeconds(20.0);
+  }
+  const std::string svg = mapSvg(run);
+  const auto pathOf = [&](const std::string& kind) {
+    const std::size_t from = svg.find("class=\"" + kind + "\" d=\"");
+    return svg.substr(from, svg.find('>', from) - from);
+  };
+  EXPECT_EQ(countOf(pathOf("truth"), "M"), 2u);
+  EXPECT_EQ(countOf(pathOf("estimate"), "M"), 2u);
+  EXPECT_EQ(dataOf(toHtml(run))["longestStep"], 1.0);
+}
+
+TEST(Report, MapHasAxesInMetres) {
+  const std::string svg = mapSvg(syntheticRun());  // x from -4 to 4 m, y from -3 to 3 m
+  for (const char* text : {"x [m]", "y [m]", ">-4<", ">0<", ">3<", ">1 m<"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  // The field's rectangle lies within what is shown, with equal scales: no other than the viewBox.
+  EXPECT_EQ(svg.find("preserveAspectRatio=\"none\" viewBox"), std::string::npos);
+  double x = 0.0;
+  double y = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+  ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox"), "viewBox=\"%lf %lf %lf %lf\"", &x, &y,
+                        &width, &height),
+            4);
+  EXPECT_LT(x, -4.0);
+  EXPECT_LT(y, -3.0);
+  EXPECT_GT(x + width, 4.0);
+  EXPECT_GT(y + height, 3.0);
+}
+
+TEST(Report, MapShowsLandmarksAndLinesOfTheField) {
+  RunResult run = syntheticRun();
+  EXPECT_EQ(countOf(mapSvg(run), "class=\"landmark\""), 0u);
+  EXPECT_EQ(countOf(toHtml(run), "key landmark"), 0u) << "the legend names what is there";
+  run.tableInfo.field.landmarks = {{7, "post", 1.5, -2.0, 0.4}, {8, "<b>", -1.0, 2.0, 0.4}};
+  FieldLine line;
+  line.x0 = -3.0;
+  line.y0 = 1.0;
+  line.x1 = 3.0;
+  line.y1 = 1.0;
+  FieldLine circle;
+  circle.shape = FieldLine::Shape::arc;
+  circle.radiusX = circle.radiusY = 1.0;
+  circle.to = 6.283185307179586;
+  run.tableInfo.field.lines = {line, circle};
+  const std::string svg = mapSvg(run);
+  EXPECT_EQ(countOf(svg, "class=\"landmark\""), 2u);
+  EXPECT_NE(svg.find("<title>post 7 at 1.500 m, -2.000 m</title>"), std::string::npos);
+  EXPECT_NE(svg.find("&lt;b&gt; 8"), std::string::npos);
+  EXPECT_EQ(svg.find("<b>"), std::string::npos);
+  EXPECT_NE(svg.find("M-3.000 1.000L3.000 1.000"), std::string::npos);
+  EXPECT_NE(svg.find("M1.000 0.000L"), std::string::npos) << "the circle begins on its right";
+  EXPECT_EQ(countOf(toHtml(run), "key landmark"), 1u);
+}
+
+TEST(Report, ReadersOfScreensHearWhatIsDrawn) {
+  const std::string html = toHtml(syntheticRun());
+  EXPECT_NE(html.find("<title id=\"map-title\">Map with paths</title>"), std::string::npos);
+  EXPECT_NE(html.find("aria-label=\"Position error over time. Position error, RMS: 0.100 m."),
+            std::string::npos);
+  EXPECT_EQ(countOf(html, "class=\"chart\" role=\"img\""), 3u);
+}
+
+TEST(Report, HasADarkSchemeForAllItsColours) {
+  const std::string html = toHtml(syntheticRun());
+  const std::size_t dark = html.find("@media (prefers-color-scheme: dark)");
+  ASSERT_NE(dark, std::string::npos);
+  const std::string light = html.substr(html.find(":root"), dark - html.find(":root"));
+  const std::string darkRoot = html.substr(dark, html.find("\n}", dark) - dark);
+  for (std::size_t at = light.find(" --"); at != light.npos; at = light.find(" --", at + 1)) {
+    const std::string name = light.substr(at + 1, light.find(':', at) - at);
+    EXPECT_NE(darkRoot.find(name), std::string::npos) << name;
+  }
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ TEST_F(Show, DrawsWhereAReadingIsProbableWithTheTruePose) {
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   EXPECT_TRUE(isPng());
   EXPECT_NE(outcome.out.find("true pose: "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("most probable pose: "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("; each cell: the best of "), std::string::npos) << outcome.out;
 }
 
 TEST_F(Show, TakesTheProductOfSeveralFeatures) {
@@ -58,6 +60,8 @@ TEST_F(Show, RefusesWhatItCannotDraw) {
   expectRefused(show({"--feature", "*/LRF/*", "--record", path("run.rec"), "--at", "100"}), 1,
                 "ortung show: record:", {"ends after"});
   EXPECT_FALSE(std::filesystem::exists(path("heat.png")));
+  expectRefused(show({"--feature", "*/LRF/*", "--scale", "cubic"}), 2, "ortung",
+                {"--scale", "log"});
 }
 
 }  // namespace

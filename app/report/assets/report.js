@@ -1,8 +1,11 @@
 (function () {
   'use strict';
   const data = JSON.parse(document.getElementById('data').textContent);
-  const style = getComputedStyle(document.documentElement);
-  const estimate = style.getPropertyValue('--estimate').trim();
+
+  // A colour of report.css, as the reader's light or dark scheme has it.
+  function colour(name) {
+    return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
+  }
 
   function place(id, x, y) {
     const mark = document.getElementById(id);
@@ -40,7 +43,7 @@
     if (data.converged === null) return;
     const right = Math.min(graph.toDomXCoord(data.converged), area.x + area.w);
     if (right <= area.x) return;
-    canvas.fillStyle = 'rgba(102, 115, 134, 0.13)';
+    canvas.fillStyle = colour('pause');
     canvas.fillRect(area.x, area.y, right - area.x, area.h);
   }
 
@@ -49,16 +52,35 @@
                  Math.max(...data.time.slice(-1), ...data.samplesTime.slice(-1), 0.001)];
   const graphs = [];
 
-  function chart(id, rows, labels, options) {
+  // Rows with empty ones where nothing is known for longer than a line is drawn over.
+  function withGaps(rows, longestStep) {
+    const out = [];
+    rows.forEach(function (row, i) {
+      if (i > 0 && row[0] - rows[i - 1][0] > longestStep) {
+        out.push([(row[0] + rows[i - 1][0]) / 2].concat(row.slice(1).map(function () { return null; })));
+      }
+      out.push(row);
+    });
+    return out;
+  }
+
+  function schemeOptions(names) {
+    return { colors: names.map(colour), axisLineColor: colour('line'), gridLineColor: colour('line') };
+  }
+
+  function chart(id, rows, labels, colourNames, options) {
     const element = document.getElementById(id);
     if (!element || all.length === 0) return;
-    graphs.push(new Dygraph(element, rows, Object.assign({
-      labels: labels, dateWindow: range, includeZero: true, strokeWidth: 1.5, axisLineColor: '#b8c1cc',
-      gridLineColor: '#e8ecf0', gridLineWidth: 1, legend: 'follow', highlightCircleSize: 3,
-      underlayCallback: shadeUntilConverged, highlightCallback: showMoment,
-      unhighlightCallback: hideMoment,
+    const graph = new Dygraph(element, rows, Object.assign(schemeOptions(colourNames), {
+      labels: labels, dateWindow: range, includeZero: true, strokeWidth: 1.5, gridLineWidth: 1,
+      legend: 'follow', highlightCircleSize: 3, xlabel: 'time [s]', underlayCallback: shadeUntilConverged,
+      highlightCallback: showMoment, unhighlightCallback: hideMoment,
       axes: { x: { valueFormatter: function (t) { return t.toFixed(2) + ' s'; } } }
-    }, options)));
+    }, options));
+    graphs.push(graph);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', function () {
+      graph.updateOptions(schemeOptions(colourNames));
+    });
   }
 
   // Top of an error's axis: errors before convergence would flatten all others.
@@ -71,18 +93,22 @@
     return top > 0 ? 1.15 * top : null;
   }
 
-  function errorChart(id, values, sigmas) {
+  function errorChart(id, unit, values, sigmas) {
     const top = topAfterConvergence(values, sigmas);
     const rows = data.time.map(function (t, i) { return [t, sigmas[i], values[i]]; });
-    chart(id, rows, ['time', '1 sigma', 'error'], {
-      colors: ['#9aa6b4', estimate], valueRange: [0, top],
+    chart(id, withGaps(rows, data.longestStep), ['time', '1 sigma', 'error'], ['sigma', 'estimate'], {
+      ylabel: 'error [' + unit + ']', valueRange: [0, top],
       series: { '1 sigma': { fillGraph: true, strokeWidth: 0.5 } }
     });
   }
 
-  errorChart('position', data.position, data.positionSigma);
-  errorChart('heading', data.heading, data.headingSigma);
-  chart('samples', data.samplesTime.map(function (t, i) { return [t, data.samples[i]]; }),
-        ['time', 'samples'], { colors: ['#3f7d58'], stepPlot: true, logscale: true, includeZero: false });
+  errorChart('position', 'm', data.position, data.positionSigma);
+  errorChart('heading', 'deg', data.heading, data.headingSigma);
+  const samples = data.samplesTime.map(function (t, i) { return [t, data.samples[i]]; });
+  const counts = data.samples.filter(function (n) { return n > 0; });
+  chart('samples', withGaps(samples, data.longestSamplesStep), ['time', 'samples'], ['samples'], {
+    ylabel: 'samples', stepPlot: true, logscale: true, includeZero: false,
+    valueRange: counts.length === 0 ? null : [Math.min(...counts) / 1.5, 1.5 * Math.max(...counts)]
+  });
   if (graphs.length > 1) Dygraph.synchronize(graphs, { range: false });
 })();
