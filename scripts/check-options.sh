@@ -3,6 +3,7 @@
 # is built so, installed, moved, and the examples are built on it and run. --configure: without building.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+export CMAKE_GENERATOR=Ninja
 work=$PWD/build/options
 mkdir -p "$work"
 for option in SIM SERVER CLIENT REALSENSORS MRPT APP TESTS INSTALL; do

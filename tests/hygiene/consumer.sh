@@ -6,6 +6,7 @@ build=$1
 cmake=$2
 compiler=$3
 work=$4
+export CMAKE_GENERATOR=Ninja
 here=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$work"
 mkdir -p "$work"

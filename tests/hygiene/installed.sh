@@ -7,6 +7,7 @@ cmake=$2
 compiler=$3
 c_compiler=$4
 version=$5
+export CMAKE_GENERATOR=Ninja
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
 unset ORTUNG_PLUGIN_PATH ORTUNG_LIBEXEC LD_LIBRARY_PATH

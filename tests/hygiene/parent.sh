@@ -5,6 +5,7 @@ set -e
 cmake=$1
 compiler=$2
 work=$3
+export CMAKE_GENERATOR=Ninja
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
 rm -rf "$work"

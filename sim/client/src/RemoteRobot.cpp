@@ -81,6 +81,7 @@ struct RemoteRobot::Parts {
 
   void connect() {
     session = std::make_unique<RobotSession>(options.session, robotToml);
+    description = session->describe();
     isConnected = true;
     offset = {};
     isLockstep = false;
@@ -244,6 +245,7 @@ struct RemoteRobot::Parts {
   std::atomic<bool> isConnected{false};
   mutable std::mutex talking;  ///< over what follows: one conversation at a time
   std::unique_ptr<RobotSession> session;
+  RobotDescription description;
   ClockOffset offset;
   Timestamp exchanged = 0;
   std::optional<Timestamp> lastServer;
@@ -270,6 +272,11 @@ RemoteRobot::RemoteRobot(const std::filesystem::path& robotFile, const RemoteOpt
 RemoteRobot::~RemoteRobot() = default;
 
 SensorContainer& RemoteRobot::container() { return parts_->container; }
+
+RobotDescription RemoteRobot::description() const {
+  const std::lock_guard lock(parts_->talking);
+  return parts_->description;
+}
 
 void RemoteRobot::setTranslationalVelocity(double metresPerSecond) {
   parts_->perform([&] { parts_->session->setTranslationalVelocity(metresPerSecond); });

@@ -5,11 +5,14 @@
 #include <utility>
 
 #include "LineSocket.hpp"
+#include "Replies.hpp"
 #include "ortung/core/BinaryReading.hpp"
 #include "ortung/core/Record.hpp"
 
 namespace ortung {
 namespace {
+
+using client::valueOf;
 
 constexpr std::size_t kLongestName = 32;
 constexpr std::size_t kMostNews = 1000;
@@ -44,17 +47,6 @@ void checkTime(double seconds, const char* what) {
   if (!(seconds > 0.0))
     throw std::invalid_argument(std::string(what) + " is " + std::to_string(seconds) +
                                 " s, expected more than 0");
-}
-
-std::string_view valueOf(std::string_view reply, std::string_view key) {
-  for (std::size_t begin = 0; begin < reply.size();) {
-    const std::size_t end = std::min(reply.find(' ', begin), reply.size());
-    const std::string_view word = reply.substr(begin, end - begin);
-    if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
-      return word.substr(key.size() + 1);
-    begin = end + 1;
-  }
-  return {};
 }
 
 /// A line with a single dot would end the robot file, so dots at the beginning are doubled.
@@ -246,6 +238,16 @@ void RobotSession::setManipulator(std::string_view manipulator, std::string_view
 }
 
 void RobotSession::say(const std::string& text) { ask("SAY " + text); }
+
+RobotDescription RobotSession::describe() {
+  std::vector<std::string> lines;
+  ask("DESCRIBE robot", &lines);
+  try {
+    return parseRobotDescription(lines);
+  } catch (const std::invalid_argument& line) {
+    failOn(line.what());
+  }
+}
 
 std::vector<std::string> RobotSession::takeNews() { return std::exchange(news_, {}); }
 

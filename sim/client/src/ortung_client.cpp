@@ -106,6 +106,30 @@ int ortung_set_manipulator(ortung_robot* robot, const char* manipulator, const c
   });
 }
 
+int ortung_max_velocity(ortung_robot* robot, double* translational, double* rotational) {
+  return guarded(robot, 0, [&] {
+    const ortung::RobotDescription description = robot->remote.description();
+    if (!description.maxTranslationalVelocity || !description.maxRotationalVelocity)
+      throw std::runtime_error("the server does not say how fast the robot can be");
+    if (translational != nullptr) *translational = *description.maxTranslationalVelocity;
+    if (rotational != nullptr) *rotational = *description.maxRotationalVelocity;
+    return 1;
+  });
+}
+
+int ortung_mount(ortung_robot* robot, const char* feature, double* x, double* y, double* theta) {
+  return guarded(robot, 0, [&] {
+    const ortung::RobotDescription description = robot->remote.description();
+    const auto* found = description.find(ortung::parseSensorQuery(given(feature, "feature")));
+    if (found == nullptr || !found->mount)
+      throw std::runtime_error(std::string("the server does not say where ") + feature + " is");
+    if (x != nullptr) *x = found->mount->x;
+    if (y != nullptr) *y = found->mount->y;
+    if (theta != nullptr) *theta = found->mount->theta;
+    return 1;
+  });
+}
+
 int ortung_update(ortung_robot* robot) {
   return guarded(robot, 0, [&] { return robot->remote.update() ? 1 : 0; });
 }

@@ -45,6 +45,8 @@ class ORTUNG_API RemoteRobot : public RobotCommands {
   RemoteRobot& operator=(const RemoteRobot&) = delete;
 
   SensorContainer& container();
+  /// What the server says of the robot, e.g. its greatest velocities; as of the last connection.
+  RobotDescription description() const;
 
   // --- commands, whose errors are those of RobotSession; trouble() tells them, too. While there is
   // no connection they throw ConnectionLost; a robot that comes back has to be commanded again

@@ -13,6 +13,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/client/ClockOffset.hpp"
+#include "ortung/client/RobotDescription.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/RobotCommands.hpp"
 
@@ -79,6 +80,9 @@ class ORTUNG_API RobotSession : public RobotCommands {
   const std::string& worldFingerprint() const { return fingerprint_; }
   /// "simulation" or "record".
   const std::string& kind() const { return kind_; }
+
+  /// What the server says of the robot.
+  RobotDescription describe();
 
   void setTranslationalVelocity(double metresPerSecond) override;
   void setRotationalVelocity(double radiansPerSecond) override;

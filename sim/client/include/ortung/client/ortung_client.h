@@ -42,6 +42,14 @@ ORTUNG_C_API int ortung_set_motion(ortung_robot* robot, const double* command, s
 ORTUNG_C_API int ortung_set_manipulator(ortung_robot* robot, const char* manipulator,
                                         const char* state);
 
+/* The robot's parameters, as the server says them; 0 where it does not. Results may be NULL.
+ * Greatest velocities: [m/s] and [rad/s]. */
+ORTUNG_C_API int ortung_max_velocity(ortung_robot* robot, double* translational,
+                                     double* rotational);
+/* Where the sensor of the first feature that matches is on the robot: [m], [m], [rad]. */
+ORTUNG_C_API int ortung_mount(ortung_robot* robot, const char* feature, double* x, double* y,
+                              double* theta);
+
 ORTUNG_C_API int ortung_update(ortung_robot* robot);
 /* Lockstep: lets the world go on for so many cycles. */
 ORTUNG_C_API int ortung_next(ortung_robot* robot, uint64_t cycles);

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/SensorContainer.hpp"
+
+namespace ortung {
+
+/// A robot's parameters as its server tells them (paper, section 3): positions of sensors, greatest
+/// velocities, what it can be told. What the server does not say is empty: of a record it knows the
+/// features alone.
+struct ORTUNG_API RobotDescription {
+  struct Feature {
+    SensorId id;
+    std::string words;           ///< what the words of its readings mean
+    std::optional<Pose2> mount;  ///< of its sensor, in the robot frame
+  };
+  struct Manipulator {
+    std::string name;
+    std::vector<std::string> states;  ///< it begins in the first
+  };
+
+  std::vector<Feature> features;
+  std::string motion;                                  ///< what the numbers of setMotion() mean
+  std::optional<double> maxTranslationalVelocity;      ///< [m/s]
+  std::optional<double> maxRotationalVelocity;         ///< [rad/s]
+  std::optional<double> maxTranslationalAcceleration;  ///< [m/s^2]
+  std::optional<double> maxRotationalAcceleration;     ///< [rad/s^2]
+  std::optional<double> radius;                        ///< of the circle around the body [m]
+  std::optional<double> height;                        ///< [m]
+  std::optional<double> mass;                          ///< [kg]
+  std::vector<Manipulator> manipulators;
+
+  /// The first feature that @p query matches, or null.
+  const Feature* find(const SensorQuery& query) const;
+};
+
+/// Reads the lines that DESCRIBE robot gives. Kinds of lines that it does not know are passed over.
+/// @throws std::invalid_argument with the line that can't be one of its kind
+ORTUNG_API RobotDescription parseRobotDescription(const std::vector<std::string>& lines);
+
+}  // namespace ortung
