@@ -5,6 +5,8 @@ Plays a scene with `ortung sim` and draws what it did: NAME.png, all ways in one
 the play itself at twice its speed. Needs python3-pil (Pillow)."""
 import argparse
 import csv
+import gzip
+import io
 import math
 import pathlib
 import subprocess
@@ -13,22 +15,35 @@ import tempfile
 import tomllib
 
 try:
-    from PIL import Image, ImageDraw
+    from PIL import Image, ImageDraw, ImageFont
 except ImportError:
     sys.exit("picture-of-scene.py: needs Pillow: apt-get install python3-pil")
 
-COLOURS = {"striker": "#d62728", "keeper": "#1f77b4", "defender": "#9467bd"}
-SPARE = ["#8c564b", "#17becf", "#bcbd22", "#e377c2", "#7f7f7f"]
+# Colours of M. Okabe and K. Ito, told apart with any colour vision.
+ROBOTS = ["#56b4e9", "#f0e442", "#cc79a7", "#d55e00", "#0072b2", "#e69f00", "#009e73", "#f5f5f5"]
+BALL = "#ff8c00"
+GRASS = "#2f6b3c"  # where lines are painted
+FLOOR = "#e4e7eb"
+PAPER, INK = "#ffffff", "#1d2733"
+LEFT, RIGHT, TOP, BELOW, LINE = 62, 16, 34, 50, 26  # room around the field, height of a line of the legend
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+
+
+def font(size):
+    try:
+        return ImageFont.truetype(FONT, size)
+    except OSError:
+        return ImageFont.load_default()
 
 
 class Canvas:
     """Draws in metres on a field, twice as fine as the picture that comes out."""
 
-    def __init__(self, bounds, width):
+    def __init__(self, bounds, width, ground):
         self.x0, self.x1, self.y0, self.y1 = bounds
         self.scale = 2 * width / (self.x1 - self.x0)
         size = (2 * width, int(round((self.y1 - self.y0) * self.scale)))
-        self.image = Image.new("RGB", size, "#2e7d32")
+        self.image = Image.new("RGB", size, ground)
         self.draw = ImageDraw.Draw(self.image)
 
     def copy(self):
@@ -47,10 +62,80 @@ class Canvas:
     def way(self, points, colour, width_m=0.05):
         if len(points) > 1:
             self.draw.line([self.at(p) for p in points], fill=colour,
-                           width=max(1, int(width_m * self.scale)))
+                           width=max(3, int(width_m * self.scale)), joint="curve")
+
+    def name(self, place, text):
+        """A name beside a place, readable on any ground."""
+        x, y = self.at(place)
+        letters = font(26)
+        left, top, right, bottom = self.draw.textbbox((0, 0), text, font=letters)
+        x = min(max(x - (right - left) / 2, 4), self.image.width - (right - left) - 4)
+        y = y - 62 if y > 80 else y + 34
+        self.draw.text((x, y), text, font=letters, fill=PAPER, stroke_width=4, stroke_fill=INK)
 
     def finished(self):
         return self.image.resize((self.image.width // 2, self.image.height // 2), Image.LANCZOS)
+
+
+def round_length(length):
+    """The largest of 1, 2 and 5 times a power of ten that is not above."""
+    ten = 10 ** math.floor(math.log10(length))
+    return max(m * ten for m in (1, 2, 5) if m * ten <= length)
+
+
+def symbol(draw, x, y, kind, colour):
+    """What a body looks like in the legend, with its middle there."""
+    if kind == "ball":
+        draw.ellipse([x - 6, y - 6, x + 6, y + 6], fill=colour, outline="black")
+    else:
+        draw.rectangle([x - 9, y - 6, x + 9, y + 6], fill=colour, outline="black")
+
+
+def legend_rows(entries, width):
+    """Where the entries of a legend go: (x, row, entry), and how many rows there are."""
+    x, row, placed_entries = 0, 0, []
+    for entry in entries:
+        taken = 34 + int(font(14).getlength(entry[0])) + 18
+        if x and x + taken > width:
+            x, row = 0, row + 1
+        placed_entries.append((x, row, entry))
+        x += taken
+    return placed_entries, row + 1
+
+
+def page(field, bounds, title, entries):
+    """The field with axes in metres, a bar of a round length, a clock and a legend."""
+    x0, x1, y0, y1 = bounds
+    width, height = field.size
+    places, rows = legend_rows(entries, width)
+    image = Image.new("RGB", (LEFT + width + RIGHT, TOP + height + BELOW + rows * LINE + 8), PAPER)
+    image.paste(field, (LEFT, TOP))
+    draw = ImageDraw.Draw(image)
+    draw.rectangle([LEFT - 1, TOP - 1, LEFT + width, TOP + height], outline=INK)
+    small = font(13)
+    draw.text((LEFT, 8), title, font=font(15), fill=INK)
+    draw.text((8, 12), "y [m]", font=small, fill=INK)
+    step = round_length((x1 - x0) / 6)
+    scale = width / (x1 - x0)
+    for i in range(math.ceil(x0 / step), math.floor(x1 / step) + 1):
+        x = LEFT + (i * step - x0) * scale
+        draw.line([x, TOP + height, x, TOP + height + 5], fill=INK)
+        draw.text((x, TOP + height + 7), f"{i * step:g}", font=small, fill=INK, anchor="ma")
+    for i in range(math.ceil(y0 / step), math.floor(y1 / step) + 1):
+        y = TOP + (y1 - i * step) * scale
+        draw.line([LEFT - 5, y, LEFT, y], fill=INK)
+        draw.text((LEFT - 8, y), f"{i * step:g}", font=small, fill=INK, anchor="rm")
+    below = TOP + height + 26
+    draw.text((LEFT + width / 2, below), "x [m]", font=small, fill=INK, anchor="ma")
+    bar = round_length((x1 - x0) / 6)
+    draw.line([LEFT, below + 4, LEFT, below + 10, LEFT + bar * scale, below + 10, LEFT + bar * scale, below + 4],
+              fill=INK, width=2)
+    draw.text((LEFT + bar * scale + 8, below), f"{bar:g} m", font=small, fill=INK)
+    for x, row, (text, kind, colour) in places:
+        middle = TOP + height + BELOW + row * LINE + LINE // 2
+        symbol(draw, LEFT + x + 12, middle, kind, colour)
+        draw.text((LEFT + x + 30, middle), text, font=font(14), fill=INK, anchor="lm")
+    return image
 
 
 def placed(points, pose):
@@ -74,18 +159,89 @@ def outline(shape, piece):
     return placed([(hx * math.cos(a), hy * math.sin(a)) for a in angles], pose)
 
 
-def draw_world(canvas, world):
-    for shape in ("rectangle", "ellipse", "triangle"):
-        for piece in world.get(shape, []):
-            kind = piece.get("kind", "obstacle")
-            if kind == "ball" or piece.get("movable"):
-                continue
-            points = outline(shape, piece)
-            if kind == "line" and piece.get("stroke_m"):
-                canvas.way(points, "white", piece["stroke_m"])
-            else:
-                colour = "white" if kind == "line" else piece.get("colour", "gray")
-                canvas.polygon(points, colour, None if kind == "line" else "black")
+def is_movable(piece):
+    return piece.get("movable", piece.get("kind") == "ball")
+
+
+def pieces_of(world):
+    """(shape, piece) of all primitives, in the order in which the simulator has them."""
+    return [(shape, piece) for shape in ("rectangle", "ellipse", "triangle") for piece in world.get(shape, [])]
+
+
+class Thing:
+    """Something movable: its outline in its own frame, as the world file says it."""
+
+    def __init__(self, shape, piece):
+        points = outline(shape, piece)
+        if shape == "triangle":
+            middle = [sum(p[i] for p in points) / 3 for i in (0, 1)]
+            back = (0, 0, 0)
+            points = [(x - middle[0], y - middle[1]) for x, y in points]
+        else:
+            back = (0, 0, -math.radians(piece.get("angle_deg", 0)))
+            points = [(x - piece["center_m"][0], y - piece["center_m"][1]) for x, y in points]
+        self.points = placed(points, back)
+        self.kind = piece.get("kind", "obstacle")
+        self.name = piece.get("name", "") or self.kind
+        self.colour = colour_of(piece, BALL if self.kind == "ball" else "#a0785a")
+
+
+def colour_of(piece, default):
+    """The colour that a file gives to something, if it is one that pictures know."""
+    try:
+        Image.new("RGB", (1, 1), piece.get("colour") or default)
+        return piece.get("colour") or default
+    except ValueError:
+        return default
+
+
+def draw_map(canvas, file):
+    """A map_server map below everything else."""
+    keys = dict(line.split(":", 1) for line in file.read_text().splitlines() if ":" in line)
+    keys = {k.strip(): v.split("#")[0].strip().strip("\"'") for k, v in keys.items()}
+    picture = file.parent / keys["image"]
+    if not picture.exists():
+        picture = picture.with_name(picture.name + ".gz")
+    data = picture.read_bytes()
+    image = Image.open(io.BytesIO(gzip.decompress(data) if picture.suffix == ".gz" else data)).convert("L")
+    x, y = (float(n) for n in keys["origin"].strip("[]").split(",")[:2])
+    cell = float(keys["resolution"]) * canvas.scale
+    size = (max(1, round(image.width * cell)), max(1, round(image.height * cell)))
+    left, bottom = canvas.at((x, y))
+    canvas.image.paste(image.convert("RGB").resize(size), (round(left), round(bottom) - size[1]))
+
+
+def draw_world(canvas, world, folder):
+    for grid in world.get("grid", []):
+        file = folder / grid["map"]
+        if file.suffix in (".yaml", ".yml"):
+            draw_map(canvas, file)
+        else:
+            print(f"picture-of-scene.py: {file} is left out: only map_server maps are drawn", file=sys.stderr)
+    for shape, piece in pieces_of(world):
+        kind = piece.get("kind", "obstacle")
+        if is_movable(piece):
+            continue
+        points = outline(shape, piece)
+        if kind == "line" and piece.get("stroke_m"):
+            canvas.way(points, colour_of(piece, "white"), piece["stroke_m"])
+        elif kind == "line":
+            canvas.polygon(points, colour_of(piece, "white"))
+        else:
+            canvas.polygon(points, colour_of(piece, "gray"), "black")
+
+
+def bounds_of(world, folder):
+    """The world's bounds, or the box around everything in it."""
+    sizes = world.get("world", {})
+    if "x_m" in sizes and "y_m" in sizes:
+        return (*sizes["x_m"], *sizes["y_m"])
+    points = [p for shape, piece in pieces_of(world) for p in outline(shape, piece)]
+    points += [mark["position_m"][:2] for mark in world.get("landmark", [])]
+    if not points or world.get("grid"):
+        sys.exit("picture-of-scene.py: the world file has no bounds, expected x_m and y_m in [world]")
+    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    return (min(xs), max(xs), min(ys), max(ys))
 
 
 def shape_of(robot, states):
@@ -104,23 +260,41 @@ def shape_of(robot, states):
 def draw_robot(canvas, pieces, pose, colour):
     for piece in pieces:
         canvas.polygon(placed(piece, pose), colour, "black")
-    canvas.way(placed([(0, 0), (0.3, 0)], pose), "white", 0.04)
-
-
-def draw_ball(canvas, pose):
-    canvas.polygon(placed(outline("ellipse", {"center_m": [0, 0], "size_m": [0.22, 0.22]}), pose),
-                   "#ff8c00", "black")
+    reach = max(math.hypot(*p) for piece in pieces for p in piece)
+    canvas.way(placed([(0, 0), (reach, 0)], pose), "black", 0.04)
 
 
 def read_trace(file):
+    """What was where: {time: [(kind, name, pose, manipulators, number within its kind)]}."""
     moments = {}
     with open(file, newline="") as text:
         for row in csv.DictReader(text):
             pose = (float(row["x_m"]), float(row["y_m"]), math.radians(float(row["theta_deg"])))
             states = dict(s.split("=") for s in row["manipulators"].split(";") if s)
-            moments.setdefault(float(row["time_s"]), []).append(
-                (row["kind"], row["name"], pose, states))
+            bodies = moments.setdefault(float(row["time_s"]), [])
+            number = sum((b[0] == "robot") == (row["kind"] == "robot") for b in bodies)
+            bodies.append((row["kind"], row["name"], pose, states, number))
     return moments
+
+
+def palette_of(frame, entries):
+    """A frame in few colours, those of the legend among them however small their bodies are."""
+    large = frame.copy()
+    draw = ImageDraw.Draw(large)
+    for i, (_, _, colour) in enumerate(entries):
+        draw.rectangle([0, 12 * i, large.width // 3, 12 * i + 11], fill=colour)
+    return frame.quantize(palette=large.quantize(128, method=Image.Quantize.MEDIANCUT), dither=Image.Dither.NONE)
+
+
+def play(ortung, scene, duration):
+    with tempfile.TemporaryDirectory() as folder:
+        trace = f"{folder}/trace.csv"
+        command = [ortung, "sim", str(scene), "--free-run", "--trace", trace]
+        if duration:
+            command += ["--duration", str(duration)]
+        if subprocess.run(command).returncode != 0:
+            sys.exit("picture-of-scene.py: %s could not play %s" % (ortung, scene))
+        return read_trace(trace)
 
 
 def main():
@@ -136,50 +310,55 @@ def main():
     world_file = args.scene.parent / scene["scene"]["world"]
     world = tomllib.loads(world_file.read_text())
     robots = {r["name"]: tomllib.loads((args.scene.parent / r["file"]).read_text())
-              for r in scene["robot"]}
-    spare = iter(SPARE * 100)
-    colours = {name: COLOURS.get(name) or next(spare) for name in robots}
+              for r in scene.get("robot", [])}
+    colours = {name: ROBOTS[i % len(ROBOTS)] for i, name in enumerate(robots)}
+    things = [Thing(shape, piece) for shape, piece in pieces_of(world) if is_movable(piece)]
+    moments = play(args.ortung, args.scene, args.duration)
 
-    with tempfile.TemporaryDirectory() as folder:
-        trace = f"{folder}/trace.csv"
-        command = [args.ortung, "sim", str(args.scene), "--free-run", "--trace", trace]
-        if args.duration:
-            command += ["--duration", str(args.duration)]
-        subprocess.run(command, check=True)
-        moments = read_trace(trace)
+    bounds = bounds_of(world, world_file.parent)
+    has_lines = any(piece.get("kind") == "line" for _, piece in pieces_of(world))
+    field = Canvas(bounds, args.width, GRASS if has_lines else FLOOR)
+    draw_world(field, world, world_file.parent)
+    entries = [(name, "robot", colour) for name, colour in colours.items()]
+    for thing in things:
+        if (thing.name, thing.kind, thing.colour) not in entries:
+            entries.append((thing.name, thing.kind, thing.colour))
 
-    bounds = (*world["world"]["x_m"], *world["world"]["y_m"])
-    field = Canvas(bounds, args.width)
-    draw_world(field, world)
+    def draw(canvas, body):
+        kind, name, pose, states, number = body
+        if kind == "robot":
+            draw_robot(canvas, shape_of(robots[name], states), pose, colours[name])
+        else:
+            canvas.polygon(placed(things[number].points, pose), things[number].colour, "black")
 
+    title = scene["scene"].get("name") or args.scene.stem
+    times = list(moments)
     picture = field.copy()
-    ways, last = {}, {}
+    ways = {}
     for bodies in moments.values():
-        for kind, name, pose, states in bodies:
-            ways.setdefault((kind, name), []).append(pose[:2])
-            last[(kind, name)] = (pose, states)
-    for (kind, name), points in ways.items():
-        picture.way(points, "#ff8c00" if kind != "robot" else colours[name])
-    for at in [t for i, t in enumerate(moments) if i % 40 == 0]:  # every 2 s, and the end
-        for kind, name, pose, states in moments[at]:
-            if kind == "robot":
-                draw_robot(picture, shape_of(robots[name], states), pose, colours[name])
-            else:
-                draw_ball(picture, pose)
-    picture.finished().save(f"{args.out}.png")
+        for kind, name, pose, _, number in bodies:
+            ways.setdefault((kind == "robot", number, name), []).append(pose[:2])
+    for (is_robot, number, name), points in ways.items():
+        picture.way(points, colours[name] if is_robot else things[number].colour)
+    for at in times[::40] + [times[-1]]:  # every 2 s, and the end
+        for body in moments[at]:
+            draw(picture, body)
+    for kind, name, pose, _, _ in moments[times[-1]]:
+        if kind == "robot":
+            picture.name(pose[:2], name)
+    page(picture.finished(), bounds, f"{title}: {times[0]:g} to {times[-1]:g} s, all bodies every 2 s, names at the end",
+         entries).save(f"{args.out}.png")
 
     frames = []
-    for i, bodies in enumerate(moments.values()):
-        if i % 4:  # five frames for a second of play, shown at twice its speed
-            continue
+    for at in times[::4]:  # five frames for a second of play, shown at twice its speed
         frame = field.copy()
-        for kind, name, pose, states in bodies:
-            if kind == "robot":
-                draw_robot(frame, shape_of(robots[name], states), pose, colours[name])
-            else:
-                draw_ball(frame, pose)
-        small = frame.finished()
-        frames.append(small.resize((small.width * 2 // 3, small.height * 2 // 3)).quantize(128, method=Image.Quantize.FASTOCTREE))
+        for body in moments[at]:
+            draw(frame, body)
+        small = page(frame.finished(), bounds, f"{title}: {at:5.1f} s", entries)
+        small = small.resize((small.width * 2 // 3, small.height * 2 // 3), Image.LANCZOS)
+        # One palette for all: then a frame holds only what has changed.
+        palette = frames[0] if frames else palette_of(small, entries)
+        frames.append(small.quantize(palette=palette, dither=Image.Dither.NONE))
     frames[0].save(f"{args.out}.gif", save_all=True, append_images=frames[1:], duration=100, loop=0)
     print(f"{args.out}.png, {args.out}.gif: {len(frames)} frames")
 
