@@ -123,6 +123,13 @@ TEST(Toml, TakesWhatPeopleWrite) {
       parseToml(repeated("[[obstacle]]\npose = { x_m = 1.5, y_m = 2.5 }\n", 8000), "x.toml"));
 }
 
+// Assertions of the parser's library ended the program here.
+TEST(Toml, KeysThatBeginWithNoKeyAreRefused) {
+  for (const char* text : {"[=]\n", "[\"a\".=]\n", "[[=]]\n", "=1\n", "a = { = 1 }\n", "a = {,}\n",
+                           "a = { b = 1, = 2 }\n", "]\n", "[]\n", "[a\n", "a.=1\n", "a = 1 b\n"})
+    EXPECT_THROW(parseToml(text, "x.toml"), ConfigError) << text;
+}
+
 TEST(Toml, SurvivesMutations) {
   const std::string seed =
       "[robot]\nname = 'a'\n[[sensor]]\nplugin = \"lrf\"\npose = { x_m = 0.1, theta_deg = -90 }\nl "

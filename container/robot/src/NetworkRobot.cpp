@@ -1,9 +1,8 @@
 #include "ortung/robot/NetworkRobot.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 
+#include "TomlLibrary.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
 namespace ortung {

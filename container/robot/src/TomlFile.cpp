@@ -1,10 +1,10 @@
 #include "ortung/robot/TomlFile.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+
+#include "TomlLibrary.hpp"
 
 namespace ortung {
 namespace {
