@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs, builds and runs the tests: test.sh [--preset dev|asan|tsan|release] [ctest arguments...]
-# Tests on real recordings use ../shared/data and are skipped where it is absent.
+# Tests on real recordings use ../shared/data and are skipped where it is absent; the last lines say how many tests
+# were skipped and why.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,4 +13,7 @@ fi
 scripts/install-deps.sh
 cmake --preset "$preset" >/dev/null
 cmake --build --preset "$preset" -- -k 0
-ctest --preset "$preset" -j "$(nproc)" "$@"
+status=0
+ctest --preset "$preset" -j "$(nproc)" --output-junit tests.xml "$@" || status=$?
+scripts/skipped.py "build/$preset/tests.xml"
+exit $status

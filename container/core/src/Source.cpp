@@ -4,6 +4,12 @@
 #include <stdexcept>
 
 namespace ortung {
+namespace {
+
+/// More than any robot has features; a hostile file may put all of its readings at one time.
+constexpr std::size_t kMostReadings = 65536;
+
+}  // namespace
 
 Source::~Source() = default;
 
@@ -57,6 +63,9 @@ bool FrameReader::next(std::vector<Message>& frame) {
   Message message;
   while (source_.next(message)) {
     if (message.stamp == now) {
+      if (frame.size() == kMostReadings)
+        throw std::runtime_error("there are more than " + std::to_string(kMostReadings) +
+                                 " readings at " + std::to_string(now) + " us");
       frame.push_back(message);
       continue;
     }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kFormat = 1;
 constexpr std::size_t kMostCells = std::size_t{1} << 26;  ///< as many as the learner makes
+constexpr std::size_t kMostMeta = std::size_t{64} << 20;  ///< bytes
+constexpr int kDeepest = 8;
 constexpr const char* kMeta = "meta.json";
 using Json = nlohmann::json;
 
@@ -24,6 +26,16 @@ T take(const TableFile& file, const Json& json, const char* key) {
     throw TableError(file.path().string() + ": " + kMeta + ": '" + key +
                      "' is missing or of the wrong kind");
   }
+}
+
+/// Brackets within each other cost a hundred times the memory that they take in the file.
+Json parseMeta(const TableFile& file, const std::string& text) {
+  const auto look = [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth <= kDeepest) return true;
+    throw TableError(file.path().string() + ": " + kMeta + " is nested deeper than " +
+                     std::to_string(kDeepest));
+  };
+  return Json::parse(text, look, false);
 }
 
 FieldRegion readRegion(const TableFile& file, const Json& meta) {
@@ -89,7 +101,12 @@ void writeTables(const std::filesystem::path& file, const SensorContainer& conta
 }
 
 TableInfo readTableInfo(const TableFile& file) {
-  const Json meta = Json::parse(file.text(kMeta), nullptr, false);
+  const std::string text = file.text(kMeta);
+  if (text.size() > kMostMeta) {
+    throw TableError(file.path().string() + ": " + kMeta + " has " + std::to_string(text.size()) +
+                     " bytes, expected at most " + std::to_string(kMostMeta));
+  }
+  const Json meta = parseMeta(file, text);
   if (meta.is_discarded() || !meta.is_object()) {
     throw TableError(file.path().string() + ": " + kMeta + " is no JSON object");
   }
