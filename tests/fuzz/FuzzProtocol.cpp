@@ -56,8 +56,10 @@ class SlowOutlet final : public Outlet {
   std::size_t outstanding() const override { return outstanding_; }
   void finish() override { isFinished = true; }
   void resume() override {}
+  const std::string& peer() const override { return peer_; }
 
  private:
+  std::string peer_ = "127.0.0.1";
   bool isFinished = false;
   std::size_t outstanding_ = 0;
 };
