@@ -50,8 +50,8 @@ std::vector<Timestamp> kidnapsOption(const Parameters& p) {
   const auto numbers = parseNumbers(text);
   if (!numbers) p.fail("kidnap", "is \"" + text + "\", must be times in seconds, t,t,...");
   for (const double seconds : *numbers) {
-    const bool isLater = moments.empty() || fromSeconds(seconds) > moments.back();
-    if (!(seconds >= 0.0 && seconds <= 1e6 && isLater))
+    const bool isTime = seconds >= 0.0 && seconds <= 1e6;  // or it is no time stamp either
+    if (!isTime || (!moments.empty() && fromSeconds(seconds) <= moments.back()))
       p.fail("kidnap", "is \"" + text + "\", must be rising times in [0, 1e6] s");
     moments.push_back(fromSeconds(seconds));
   }
