@@ -5,7 +5,7 @@ mutate.py [--mutants 300] [--seed 1] [--jobs N] [--folder build/mutants] [--repo
 
 The sources are copied, mutants are written into the copy behind a switch, it is built once, and the tests that come past
 a mutant are run with it switched on until one of them fails. Needs python3-clang-19 and a configured `dev` build.
-`--again` runs only those that survived, after tests were added: the same places, the tests and sources of today.
+A run that was cut is gone on with when started again. `--again` runs only those that survived, after tests were added: the same places, the tests and sources of today.
 """
 
 import argparse
@@ -41,9 +41,9 @@ def main():
     copy = tree.Tree(root, options.folder.resolve())
     if not (options.build / "compile_commands.json").is_file():
         sys.exit(f"mutate: {options.build} is not configured: cmake --preset dev")
-    found = tree.find(root, options.build.resolve(), say)
     results_file = copy.folder / "results.json"
     if options.again:
+        found = tree.find(root, options.build.resolve(), say)
         before = json.loads(copy.list.read_text())
         results = json.loads(results_file.read_text())
         survivors = [Site(**s) for n, s in enumerate(before) if s is not None and results.get(str(n), "") is None]
@@ -53,12 +53,14 @@ def main():
         copy = tree.Tree(root, options.folder.resolve() / "again")
         copy.folder.mkdir(exist_ok=True)
         (copy.folder / "results.json").unlink(missing_ok=True)
-    elif copy.list.is_file() and results_file.is_file():
-        sys.exit(f"mutate: {copy.folder} holds a run already: remove it, or --again")
+    elif copy.list.is_file():
+        say(f"going on with what {copy.folder} holds; remove it to begin anew")
+        chosen = [Site(**s) if s else None for s in json.loads(copy.list.read_text())]
     else:
+        found = tree.find(root, options.build.resolve(), say)
         chosen = tree.choose(found, options.mutants // len(tree.ROOMS), options.seed)
+        say(f"{len(chosen)} mutants, of {len(found)} places")
     copy.write(chosen)
-    say(f"{sum(s is not None for s in chosen)} mutants, of {len(found)} places")
     chosen = copy.compile(chosen, options.jobs, say)
     copy.write(chosen)
     trials = trial.Trials(copy, options.jobs, say, options.leave_out)
