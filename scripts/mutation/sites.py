@@ -118,8 +118,10 @@ class Finder:
         if handler is None:
             return
         for kind, change, edits in handler(cursor, "constant" if constant else ""):
-            line = self.text(name).splitlines()[cursor.location.line - 1].decode().strip()
-            found.append(Site(name[len(self.root):], cursor.location.line, function, kind, line, change, edits))
+            text = self.text(name)
+            line = text.count(b"\n", 0, edits[0][0])
+            original = text.splitlines()[line].decode().strip()
+            found.append(Site(name[len(self.root):], line + 1, function, kind, original, change, edits))
 
     def operator(self, cursor, constant):
         children = list(cursor.get_children())
