@@ -173,6 +173,14 @@ TEST(OdometryCorrection, IsAppliedAsItsKeysSay) {
   EXPECT_NEAR(std::hypot(tight.x, tight.y), 0.01 * (1.05 - 0.5), 1e-12);
 }
 
+TEST(OdometryCorrection, AScaleOfTheWayAloneIsEnough) {
+  const OdometryCorrection c{.wayScale = 1.25};
+  const Pose2 change = c.apply({2.0, 1.0, 0.5});
+  EXPECT_NEAR(change.x, 2.5, 1e-12);
+  EXPECT_NEAR(change.y, 1.25, 1e-12);
+  EXPECT_EQ(change.theta, 0.5);
+}
+
 TEST(OdometryCorrection, IsCheckedWhenRead) {
   for (const auto& [key, value] :
        {std::pair("way_scale", 3.0), {"turn_scale", 0.0}, {"delay_s", 5.0}}) {

@@ -107,6 +107,11 @@ TEST(MotionNetwork, RefusesAWrongShape) {
             "net.json: layer 1 is 2 inputs wide, expected 1");
   EXPECT_EQ(with([](MotionNetwork& n) { n.layers.clear(); }),
             "net.json: layers is 0, expected 1 to 8");
+  // Nine that fit each other but for their number.
+  EXPECT_EQ(with([](MotionNetwork& n) {
+              n.layers.insert(n.layers.begin() + 1, 7, {1, 1, {0.5}, {0.0}});
+            }),
+            "net.json: layers is 9, expected 1 to 8");
   for (const auto& change : std::vector<std::function<void(MotionNetwork&)>>{
            [](MotionNetwork& n) { n.commands = 0; }, [](MotionNetwork& n) { n.commands = 65; },
            [](MotionNetwork& n) { n.step = 0.0; },

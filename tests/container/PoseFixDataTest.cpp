@@ -84,7 +84,10 @@ TEST(PoseFixData, RefusesHostileWords) {
   EXPECT_NE(messageOf<std::invalid_argument>([&] { data.setData(2, Words(9 * 65, 1)); }), "");
   EXPECT_EQ(refusal(2, 36000), "M1/T/F: found the angle word 36000, expected below 36000");
   EXPECT_EQ(refusal(4, 0), "M1/T/F: found a sigma of 0, expected at least 1");
-  EXPECT_EQ(refusal(8, 20001), "M1/T/F: found the correlation word 20001, expected at most 20000");
+  for (const std::size_t correlation : {6u, 7u, 8u}) {
+    EXPECT_EQ(refusal(correlation, 20001),
+              "M1/T/F: found the correlation word 20001, expected at most 20000");
+  }
   EXPECT_EQ(data.sequence(), 0u);
 }
 

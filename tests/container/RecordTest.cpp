@@ -157,6 +157,30 @@ TEST(Record, ComesBackWithItsWorld) {
   EXPECT_EQ(folder.files(), 1u);
 }
 
+// Lines are read in pieces; the pieces' ends must leave no trace, wherever they fall.
+TEST(Record, LinesOfAnyLengthComeBack) {
+  const TemporaryFolder folder;
+  std::vector<Message> written;
+  Random random(3);
+  for (int i = 0; i < 60; ++i) {
+    Message message{i, {"LMS200", "LRF", "scan"}, {}};
+    for (int k = 0; k < 36 * i; ++k) {
+      message.words.push_back(static_cast<std::uint32_t>(random.uniform(0.0, 4294967295.0)));
+    }
+    written.push_back(std::move(message));
+  }
+  RecordWriter writer(folder / "long.rec");
+  for (const Message& message : written) writer.write(message);
+  writer.commit();
+  RecordSource source(folder / "long.rec");
+  Message read;
+  for (const Message& message : written) {
+    ASSERT_TRUE(source.next(read));
+    EXPECT_EQ(read.words, message.words) << message.stamp;
+  }
+  EXPECT_FALSE(source.next(read));
+}
+
 TEST(Record, WithoutCommitTheOldFileStaysAndNothingElse) {
   const TemporaryFolder folder;
   writeBytes(folder / "run.rec", "old");

@@ -73,6 +73,10 @@ TEST(SensorQuery, IsReadFromText) {
   EXPECT_EQ(query.model, "LMS200");
   EXPECT_EQ(query.type, "*");
   EXPECT_EQ(query.feature, "");
+  const SensorQuery between = parseSensorQuery("LMS200//scan");
+  EXPECT_EQ(between.model, "LMS200");
+  EXPECT_EQ(between.type, "");
+  EXPECT_EQ(between.feature, "scan");
   for (const char* text : {"", "a", "a/b", "a/b/c/d"}) {
     EXPECT_EQ(messageOf<std::invalid_argument>([&] { parseSensorQuery(text); }),
               std::string("'") + text + "' is not model/type/feature (each may be *)");

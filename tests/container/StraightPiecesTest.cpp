@@ -49,6 +49,15 @@ TEST(StraightPieces, AreTheSidesOfAPolygon) {
   }
 }
 
+TEST(StraightPieces, TwoPointsAreOneWhereTwoAreEnough) {
+  const std::vector<PlanePoint> two = {{1, 2}, {4, 6}};
+  const auto pieces = straightPiecesOf(two, {.tolerance = 0.1, .shortest = 5.0, .fewestPoints = 2});
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_NEAR(distance(pieces[0].from, pieces[0].to), 5.0, 1e-9);
+  EXPECT_TRUE(
+      straightPiecesOf(two, {.tolerance = 0.1, .shortest = 5.0, .fewestPoints = 3}).empty());
+}
+
 TEST(StraightPieces, OfNothingAreNone) {
   EXPECT_TRUE(straightPiecesOf({}, {}).empty());
   const std::vector<PlanePoint> one = {{1, 2}};

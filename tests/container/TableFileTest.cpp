@@ -54,6 +54,15 @@ TEST(TableFile, GivesBackWhatWasWritten) {
   EXPECT_TRUE(isExample(TableFile(folder / "t.npz")));
 }
 
+TEST(TableFile, NamesMayHaveAllLettersAndDigits) {
+  const TemporaryFolder folder;
+  const std::string name = "abcxyzABCXYZ0189_.-";
+  TableWriter writer(folder / "t.npz");
+  writer.add<std::uint8_t>(name, {2, 3}, kBytes);
+  writer.commit();
+  EXPECT_EQ(TableFile(folder / "t.npz").get<std::uint8_t>(name, {2, 3}).size(), 6u);
+}
+
 TEST(TableFile, LaysArraysAtMultiplesOf64Bytes) {
   const TemporaryFolder folder;
   writeExample(folder / "t.npz");
