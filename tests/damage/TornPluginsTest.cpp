@@ -68,6 +68,7 @@ TEST(TornPlugins, AreRefusedWhereverTheyAreTorn) {
       ++cuts;
     }
   }
+  std::printf("%d plugins, %d cuts\n", plugins, cuts);
   EXPECT_GE(plugins, 10);
   EXPECT_GE(cuts, 30 * plugins);
 }
