@@ -338,13 +338,14 @@ void addServe(Builder& build, CLI::App& app) {
   addServing(build, a->serving);
 }
 
-struct NoArguments {};
-
 void addPlugins(Builder& build, CLI::App& app) {
-  build.command<NoArguments>(app, "plugins",
-                             "List the plugins that were found; exit code 1 if one is broken",
-                             "ORTUNG_PLUGIN_PATH=~/my-plugins ortung plugins",
-                             [](const NoArguments&) { return runPlugins(); });
+  const auto a = build.command<PluginsArguments>(
+      app, "plugins", "List the plugins that were found; exit code 1 if one is broken",
+      "ORTUNG_PLUGIN_PATH=~/my-plugins ortung plugins", runPlugins);
+  build.option("--timeout", a->timeout, "How long a library may take to load [s]")
+      ->check(within(0.1, 3600.0))
+      ->capture_default_str();
+  build.option("--inside", a->inside, "")->group("");  // not shown: the command's own
 }
 
 /// One line instead of CLI11's two.

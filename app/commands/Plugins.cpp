@@ -1,11 +1,24 @@
+#include <dlfcn.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <thread>
 
 #include "Commands.hpp"
 #include "Console.hpp"
+#include "ortung/base/HelperProgram.hpp"
+#include "ortung/core/Plugin.hpp"
 #include "ortung/core/PluginFactory.hpp"
 
 namespace ortung::app {
 namespace {
+
+constexpr std::size_t kMostBytes = 1u << 20;  // of what a library offers
 
 /// "ortung.Source/0.1.0-3f2a" is a Source.
 std::string kindOf(const std::string& interface) {
@@ -25,17 +38,119 @@ void print(const PluginFactory::Found& found) {
   }
 }
 
+std::string toText(const PluginFactory::Found& found) {
+  auto entries = nlohmann::json::array();
+  for (const auto& entry : found.entries) entries.push_back({entry.interface, entry.name});
+  const nlohmann::json json = {{"library", found.library},
+                               {"version", found.version},
+                               {"error", found.error},
+                               {"entries", entries}};
+  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+/// @throws nlohmann::json::exception
+PluginFactory::Found fromText(const std::string& text) {
+  const auto json = nlohmann::json::parse(text);
+  PluginFactory::Found found;
+  found.library = json.at("library");
+  found.version = json.at("version");
+  found.error = json.at("error");
+  for (const auto& entry : json.at("entries")) found.entries.push_back({entry.at(0), entry.at(1)});
+  return found;
+}
+
+// --- in a process of its own
+
+/// Writes what was found and ends the process; what a library does at its end is not of interest.
+[[noreturn]] void tell(int out, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = ::write(out, text.data() + done, text.size() - done);
+    if (count < 0) ::_exit(1);
+    done += static_cast<std::size_t>(count);
+  }
+  ::_exit(0);
+}
+
+PluginFactory::Found load(const std::filesystem::path& library) {
+  PluginFactory::Found found;
+  try {
+    PluginFactory().load(library);
+  } catch (const PluginError& error) {
+    found.error = error.what();
+    return found;
+  }
+  void* handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_NOLOAD | RTLD_LOCAL);
+  const auto& info = *static_cast<const PluginInfo*>(::dlsym(handle, "ortungPlugins"));
+  found.library = info.library;
+  found.version = info.version;
+  for (std::size_t i = 0; i < info.count; ++i)
+    found.entries.push_back({info.entries[i].interface, info.entries[i].name});
+  return found;
+}
+
+/// Loads a library in this process and writes what it offers to standard output, where the
+/// library's own code writes nothing. That may hang, so somebody watches.
+[[noreturn]] void describe(const std::filesystem::path& library, double timeout) {
+  const int out = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (out < 0 || nothing < 0 || ::dup2(nothing, STDOUT_FILENO) < 0)
+    throw std::runtime_error(std::string("no output: ") + std::strerror(errno));
+  PluginFactory::Found late;
+  late.error = fmt::format("was not loaded within {:g} s", timeout);
+  std::thread([out, timeout, text = toText(late)] {
+    std::this_thread::sleep_for(std::chrono::duration<double>(timeout));
+    tell(out, text);
+  }).detach();
+  tell(out, toText(load(library)));
+}
+
+// --- in ours
+
+/// What a library offers, whatever its code does when it is loaded.
+PluginFactory::Found look(const std::filesystem::path& library, double timeout) {
+  PluginFactory::Found found;
+  try {
+    found = fromText(runHelper(
+        std::filesystem::read_symlink("/proc/self/exe"),
+        {"plugins", "--inside", library.string(), "--timeout", fmt::format("{}", timeout)},
+        library.string(), kMostBytes));
+  } catch (const nlohmann::json::exception&) {
+    found.error = "ended the process that loaded it";
+  } catch (const std::runtime_error& error) {
+    found.error = error.what();
+  }
+  found.file = library;
+  return found;
+}
+
+/// The libraries of all folders, in the order in which PluginFactory looks for them.
+std::vector<std::filesystem::path> librariesIn(const std::vector<std::filesystem::path>& folders) {
+  std::vector<std::filesystem::path> all;
+  for (const auto& folder : folders) {
+    const auto begin = static_cast<std::ptrdiff_t>(all.size());
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      const std::string name = entry.path().filename();
+      if (name.starts_with("ortung_") && name.ends_with(".so")) all.push_back(entry.path());
+    }
+    std::sort(all.begin() + begin, all.end());
+  }
+  return all;
+}
+
 }  // namespace
 
-int runPlugins() {
+int runPlugins(const PluginsArguments& arguments) {
+  if (!arguments.inside.empty()) describe(arguments.inside, arguments.timeout);
   const std::vector<std::filesystem::path> folders = PluginFactory::standardFolders();
-  const std::vector<PluginFactory::Found> found = PluginFactory(folders).list();
-  std::size_t broken = 0;
-  for (const PluginFactory::Found& library : found) {
-    print(library);
-    if (!library.error.empty()) ++broken;
+  std::size_t broken = 0, count = 0;
+  for (const auto& library : librariesIn(folders)) {
+    const PluginFactory::Found found = look(library, arguments.timeout);
+    print(found);
+    ++count;
+    if (!found.error.empty()) ++broken;
   }
-  fmt::print("{} libraries, {} broken; looked in", found.size(), broken);
+  fmt::print("{} libraries, {} broken; looked in", count, broken);
   for (const auto& folder : folders) fmt::print(" {}", printable(folder.string()));
   fmt::print("\n  Source       record (built in)\n");
   return broken == 0 ? 0 : 1;

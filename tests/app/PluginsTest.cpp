@@ -1,0 +1,46 @@
+// `ortung plugins`, and what foreign code may do when it is loaded.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "Program.hpp"
+
+namespace ortung::test {
+namespace {
+
+/// What it prints of the library whose file ends so.
+std::string linesOf(const std::string& text, const std::string& file) {
+  const std::size_t at = text.find(file + ".so\n");
+  if (at == text.npos) return "(not listed)";
+  const std::size_t begin = at + file.size() + 4;
+  std::size_t end = begin;
+  while (text.compare(end, 2, "  ") == 0) end = text.find('\n', end) + 1;
+  return text.substr(begin, end - begin);
+}
+
+TEST(Plugins, ThoseThatCrashExitOrTalkWhenLoadedAreNamedAndTheOthersListed) {
+  const Outcome outcome = ortung({"plugins"}, {"ORTUNG_PLUGIN_PATH=" TEST_ON_LOAD});
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  const std::string crashes = linesOf(outcome.out, "ortung_a_crashes");
+  EXPECT_NE(crashes.find("was ended by signal 11 (Segmentation fault)"), std::string::npos)
+      << crashes;
+  EXPECT_EQ(linesOf(outcome.out, "ortung_b_exits"), "  BROKEN: ended the process that loaded it\n");
+  const std::string aborts = linesOf(outcome.out, "ortung_c_aborts");
+  EXPECT_NE(aborts.find("was ended by signal 6 (Aborted)"), std::string::npos) << aborts;
+  const std::string talks = linesOf(outcome.out, "ortung_d_talks");
+  EXPECT_NE(talks.find("library on_load, version"), std::string::npos) << talks;
+  EXPECT_NE(talks.find("SensorData   on_load"), std::string::npos) << talks;
+  const std::string scanner = linesOf(outcome.out, "ortung_lrf_data");
+  EXPECT_NE(scanner.find("SensorData   lrf"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("hello"), std::string::npos) << outcome.out;
+}
+
+TEST(Plugins, OneThatNeverFinishesIsGivenUp) {
+  const Outcome outcome =
+      ortung({"plugins", "--timeout", "0.2"}, {"ORTUNG_PLUGIN_PATH=" TEST_ON_LOAD "/loops"});
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  EXPECT_EQ(linesOf(outcome.out, "ortung_loops"), "  BROKEN: was not loaded within 0.2 s\n");
+}
+
+}  // namespace
+}  // namespace ortung::test
