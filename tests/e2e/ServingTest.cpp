@@ -37,10 +37,11 @@ std::pair<std::string, bool> run(const std::string& command) {
 
 TEST(Serving, TheExamplesPlayOnAServer) {
   Program server({"sim", kMaps + "/fields/arena.toml", "--listen", "0"});
-  const std::string address = " 127.0.0.1 " + std::to_string(portOf(server)) + " " + kRobot + " 1";
+  const std::string address =
+      " 127.0.0.1 " + std::to_string(portOf(server)) + " '" + kRobot + "' 1";
   for (const std::string& client :
-       {std::string(ORTUNG_EXAMPLES "/avoid"), std::string(ORTUNG_EXAMPLES "/avoid_c"),
-        std::string(ORTUNG_PYTHON " " ORTUNG_SOURCE_DIR "/examples/avoid.py")}) {
+       {std::string("'" ORTUNG_EXAMPLES "/avoid'"), std::string("'" ORTUNG_EXAMPLES "/avoid_c'"),
+        std::string("'" ORTUNG_PYTHON "' '" ORTUNG_SOURCE_DIR "/examples/avoid.py'")}) {
     const auto [text, succeeded] = run(client + address);
     EXPECT_TRUE(succeeded) << client;
     EXPECT_NE(text.find("m ahead"), std::string::npos) << client << "\n" << text;
