@@ -51,6 +51,7 @@ class CountingWorld : public ServedWorld, private RobotCommands {
   void placeObject(const std::string&, const Pose2&) override {}
 
   double raysPerSecond = 0.0;  ///< of every robot
+  std::uint32_t commands() const { return commands_; }
   void endAt(std::int64_t cycle) { lastCycle_ = cycle; }
   void failAt(std::int64_t cycle) { failingCycle_ = cycle; }
 

@@ -36,6 +36,15 @@ void TestClient::send(std::string_view text) {
   }
 }
 
+bool TestClient::offer(std::string_view text) {
+  char piece[65536];
+  while (::recv(socket_, piece, sizeof piece, MSG_DONTWAIT) > 0) {
+  }
+  const timeval soon{0, 100'000};
+  ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &soon, sizeof soon);
+  return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) > 0;
+}
+
 bool TestClient::fill() {
   pollfd wait{socket_, POLLIN, 0};
   if (::poll(&wait, 1, 60'000) <= 0) throw std::runtime_error("the server keeps silent");

@@ -16,6 +16,9 @@ class TestClient {
   TestClient& operator=(const TestClient&) = delete;
 
   void send(std::string_view text);
+  /// Sends as much as the server takes within a tenth of a second, and throws away what has come.
+  /// @returns whether it took any of it
+  bool offer(std::string_view text);
   /// Sends a line and returns the next one.
   std::string ask(const std::string& line);
   /// The next line without its end; "(closed)" at the end of the connection.
@@ -25,6 +28,10 @@ class TestClient {
   std::string rest();
   /// Reads lines until one contains @p text, and returns it.
   std::string lineWith(const std::string& text);
+  std::string lineWith(const std::string& text, std::string_view sent) {
+    send(sent);
+    return lineWith(text);
+  }
   /// Sends no more, but still reads: what netcat does at the end of a script.
   void endInput();
   /// Closes at once, as a process that is killed does: the server sees a reset.

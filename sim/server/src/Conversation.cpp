@@ -8,11 +8,19 @@ namespace ortung::server {
 namespace {
 
 constexpr std::size_t kLongestReply = 4096;  // line of a command of the host
+// What a client gets done before it is another one's turn.
+constexpr int kLinesOfTurn = 32;
+constexpr Timestamp kTimeOfTurn = 100;         // [us]
+constexpr std::size_t kTalkOfTurn = 8u << 10;  // [bytes]
+constexpr double kTalkOfNewcomers = 0.2;  // share of a second's talk: so coming back gives nothing
 
 }  // namespace
 
 Conversation::Conversation(Host& host, ClientId id, std::unique_ptr<Outlet> outlet)
-    : host_(host), id_(id), outlet_(std::move(outlet)) {}
+    : host_(host),
+      id_(id),
+      outlet_(std::move(outlet)),
+      talk_(host.config.limits.talkLines, host.config.limits.talkBytes, kTalkOfNewcomers) {}
 
 Conversation::~Conversation() = default;
 
@@ -67,11 +75,12 @@ void Conversation::receive(std::string_view bytes) {
 }
 
 void Conversation::takeLines() {
-  if (isReceiving_) return;  // an order was executed at once and made room for more
+  if (isReceiving_ || isTurnOver_) return;
   isReceiving_ = true;
-  while (mayTakeLine() && takeLine()) {
-  }
+  isTurnOver_ = takeTurn();
   isReceiving_ = false;
+  outlet_->flush();
+  if (isTurnOver_) host_.queue(weak_from_this());
   if (isOver_) {
     input_.clear();
     taken_ = searched_ = 0;
@@ -80,6 +89,16 @@ void Conversation::takeLines() {
     searched_ -= taken_;
     taken_ = 0;
   }
+}
+
+/// @returns whether it ended before there was nothing more to take
+bool Conversation::takeTurn() {
+  const Timestamp begin = wallTime();
+  for (int lines = 0; mayTakeLine(); ++lines) {
+    if (lines == kLinesOfTurn || wallTime() - begin >= kTimeOfTurn) return true;
+    if (!takeLine()) return false;
+  }
+  return false;
 }
 
 bool Conversation::takeLine() {
@@ -196,8 +215,24 @@ void Conversation::reply(const std::string& tag, std::string_view text, std::str
             " bytes wait to be read");
     return;
   }
-  outlet_->send(out);
+  put(out);
   if (!text.starts_with("ERR")) errors_ = 0;
+}
+
+/// What is followed by more soon is not sent piece by piece.
+void Conversation::put(std::string_view text) {
+  if (!isReceiving_ && pending_ == 0) {
+    outlet_->send(text);
+    return;
+  }
+  outlet_->append(text);
+  if (isReceiving_ || std::exchange(isFlushPosted_, true)) return;
+  host_.post([weak = weak_from_this()] {
+    const auto self = weak.lock();
+    if (!self) return;
+    self->isFlushPosted_ = false;
+    self->outlet_->flush();
+  });
 }
 
 void Conversation::error(const std::string& tag, std::string_view text) {
@@ -210,8 +245,15 @@ void Conversation::refuse(const std::string& tag, const std::string& text) {
   answer(tag, [tag, text](Conversation& self) { self.error(tag, text); });
 }
 
-/// There is room for more lines.
+/// There is room for more lines. They are taken in a turn, however many orders were executed.
 void Conversation::goOn() {
+  const bool hasLine = input_.find('\n', searched_) != std::string::npos;
+  if (hasLine && !isReceiving_ && !std::exchange(isTurnOver_, true)) host_.queue(weak_from_this());
+  if (!hasLine && wantsInput()) outlet_->resume();
+}
+
+void Conversation::nextTurn() {
+  isTurnOver_ = false;
   takeLines();
   if (wantsInput()) outlet_->resume();
 }
@@ -239,7 +281,7 @@ void Conversation::order(const std::string& tag, WorldKeeper::Order run, Then th
       self->goOn();
     });
   };
-  host_.keeper.give(std::move(run), std::move(done));
+  host_.keeper.give(id_, std::move(run), std::move(done));
 }
 
 /// Says something that needs no order, but not before what was asked for earlier.
@@ -257,7 +299,29 @@ void Conversation::answer(const std::string& tag, std::function<void(Conversatio
 }
 
 void Conversation::tell(std::string_view text) {
-  if (hasJoined_ && !isOver_) reply("*", text);
+  if (!hasJoined_ || isOver_) return;
+  put("* " + std::string(text) + "\n");
+}
+
+void Conversation::hear(std::string_view text) {
+  if (!hasJoined_ || isOver_) return;
+  if (heard_.size() + text.size() > host_.config.limits.talk)
+    ++unheard_;
+  else
+    heard_.append("* ").append(text).append("\n");
+}
+
+bool Conversation::hearOn() {
+  if (isOver_ || (heard_.empty() && unheard_ == 0) || outlet_->outstanding() > 0) return false;
+  if (heard_.size() > kTalkOfTurn) {
+    const std::size_t end = heard_.find('\n', kTalkOfTurn) + 1;
+    outlet_->send(std::string_view(heard_).substr(0, end));
+    heard_.erase(0, end);
+    return true;
+  }
+  if (unheard_ > 0) heard_ += "* LOST says=" + std::to_string(std::exchange(unheard_, 0)) + "\n";
+  outlet_->send(std::exchange(heard_, {}));
+  return false;
 }
 
 void Conversation::dismiss(std::string_view text) {
@@ -273,12 +337,12 @@ void Conversation::hangUp() {
   if (subscription_) host_.countSubscribers(-1);
   subscription_.reset();
   if (!hasJoined_) return;
-  host_.keeper.give(
-      [id = id_](WorldKeeper& keeper, WorldKeeper::Done&) {
-        keeper.leave(id);
-        return std::optional<std::string>("");
-      },
-      {});
+  host_.keeper.give(id_,
+                    [id = id_](WorldKeeper& keeper, WorldKeeper::Done&) {
+                      keeper.leave(id);
+                      return std::optional<std::string>("");
+                    },
+                    {});
 }
 
 }  // namespace ortung::server

@@ -26,12 +26,19 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void receive(std::string_view bytes);
   /// Whether more bytes should be read. Some always are, so that the end of a client is noticed.
   bool wantsInput() const { return !isOver_ && input_.size() - taken_ <= host_.config.limits.line; }
+  /// It may take more of the lines that wait, see Host::queue().
+  void nextTurn();
   /// A cycle has ended: sends what is subscribed.
   void onCycle();
   /// Does what is due. @param now on the computer's clock
   void look(Timestamp now);
-  /// Something another client or the server says to all.
+  /// Something the server says to all.
   void tell(std::string_view text);
+  /// Something another client says: told by hearOn(), lost if too much waits already.
+  void hear(std::string_view text);
+  /// Sends a piece of what others have said, if nothing else is on its way.
+  /// @returns whether there is more that could be sent
+  bool hearOn();
   /// Ends it with a last word, "ERR code text" or "BYE".
   void dismiss(std::string_view text);
   /// The connection is gone: the client's robots leave the field.
@@ -39,6 +46,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
 
   bool isOver() const { return isOver_; }
   bool hasJoined() const { return hasJoined_; }
+  /// Whether others have said something that it was not told yet.
+  bool hasTalk() const { return !heard_.empty() || unheard_ > 0; }
   bool isSubscribed() const { return subscription_.has_value(); }
   bool isWaiting() const { return waiting_ > 0 || pending_ > 0; }
   /// Whether it asked for something that is not answered yet.
@@ -96,6 +105,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   }
   bool takeLine();
   void takeLines();
+  bool takeTurn();
+  void put(std::string_view text);
   void goOn();
   void handleLine(std::string_view line);
   void handleConfigurationLine(std::string_view line);
@@ -167,6 +178,11 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   bool hasJoined_ = false;
   bool isOver_ = false;
   bool isReceiving_ = false;
+  bool isTurnOver_ = false;     ///< others come first
+  bool isFlushPosted_ = false;  ///< of the outlet
+  TalkBudget talk_;
+  std::string heard_;                 ///< of what others say, not told yet
+  std::size_t unheard_ = 0;           ///< what others said while too much of that waited
   std::size_t pending_ = 0;           ///< orders that the world has not executed
   int waiting_ = 0;                   ///< requests that wait for cycles
   std::size_t errors_ = 0;            ///< in a row

@@ -203,7 +203,11 @@ Choice Conversation::takeChoice(Request& request, bool again) const {
   if (form != "text" && form != "binary")
     throw ServeError("syntax", "form is '" + printable(form) + "', expected text or binary");
   choice.binary = form == "binary";
-  for (const std::string& word : request.takeWords()) choice.queries.emplace_back(word);
+  const std::vector<std::string> words = request.takeWords();
+  const std::size_t most = host_.config.limits.queries;
+  if (words.size() > most)
+    throw ServeError("limit", "a request has at most " + std::to_string(most) + " queries");
+  for (const std::string& word : words) choice.queries.emplace_back(word);
   return choice;
 }
 

@@ -1,5 +1,6 @@
 // Greetings, clocks, lists, and what clients tell each other.
 #include <algorithm>
+#include <cmath>
 
 #include "Conversation.hpp"
 
@@ -231,9 +232,24 @@ void Conversation::describeWorld(const std::string& tag) {
 
 void Conversation::say(Request& request) {
   const std::string& text = request.rest();
+  if (text.size() > host_.config.limits.say)
+    throw ServeError(
+        "limit", "a text to SAY has at most " + std::to_string(host_.config.limits.say) + " bytes");
   answer(request.tag(), [tag = request.tag(), text](Conversation& self) {
-    self.host_.broadcast(
-        self.id_, "SAY client=" + std::to_string(self.id_) + " name=" + self.name_ + " " + text);
+    const Timestamp now = wallTime();
+    const double wait = std::max(self.talk_.wait(now), self.host_.talk.wait(now));
+    if (wait > 0.0) {
+      self.error(tag, "ERR limit that is too much talk for all who hear it; say it again in " +
+                          std::to_string(std::lround(std::ceil(wait * 1e3))) + " ms");
+      return;
+    }
+    const std::string line =
+        "SAY client=" + std::to_string(self.id_) + " name=" + self.name_ + " " + text;
+    const auto listeners = static_cast<double>(self.host_.listeners(self.id_));
+    const auto bytes = static_cast<double>(line.size());
+    self.talk_.spend(std::max(1.0, listeners), bytes * std::max(1.0, listeners));
+    self.host_.talk.spend(listeners, bytes * listeners);
+    self.host_.spread(self.id_, line);
     self.reply(tag, "OK SAY");
   });
 }

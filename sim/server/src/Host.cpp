@@ -3,6 +3,8 @@
 namespace ortung::server {
 namespace {
 
+constexpr double kClientsAtOnce = 20.0;  // that may talk as much as one client may
+
 RobotId liveRobotOf(const ServedWorld& world) {
   if (world.livePeriod() == 0) return 0;
   const std::vector<Resident> residents = world.residents();
@@ -19,7 +21,8 @@ Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worl
       plugins(world.plugins()),
       liveRobot(liveRobotOf(world)),
       keeper(worldKeeper),
-      door(config) {}
+      door(config),
+      talk(kClientsAtOnce * config.limits.talkLines, kClientsAtOnce * config.limits.talkBytes) {}
 Host::~Host() = default;
 
 }  // namespace ortung::server

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "Doorkeeper.hpp"
+#include "TalkBudget.hpp"
 #include "WorldKeeper.hpp"
 #include "ortung/server/MessageBoard.hpp"
 
@@ -16,6 +18,9 @@ class Outlet {
  public:
   virtual ~Outlet();
   virtual void send(std::string_view text) = 0;
+  /// The same, but more will come: waits for the next send() or flush().
+  virtual void append(std::string_view text) = 0;
+  virtual void flush() = 0;
   /// Bytes sent that the client has not read yet.
   virtual std::size_t outstanding() const = 0;
   /// Ends the connection once everything is sent.
@@ -25,6 +30,8 @@ class Outlet {
   /// The client's computer, see addressKey().
   virtual const std::string& peer() const = 0;
 };
+
+class Conversation;
 
 /// What all conversations share. Lives as long as they do.
 class Host {
@@ -36,8 +43,17 @@ class Host {
   virtual void post(std::function<void()> task) = 0;
   /// Has @p task run where nobody waits for it but who asked; thread-safe.
   virtual void work(std::function<void()> task) = 0;
-  /// Tells all other clients.
+  /// @p client has more lines than it gets done in a turn: calls its nextTurn() when those before
+  /// it have had theirs. Such turns take a part of the time only, however many there are.
+  virtual void queue(std::weak_ptr<Conversation> client) = 0;
+  /// Tells all other clients at once.
   virtual void broadcast(ClientId from, std::string_view text) = 0;
+  /// Tells all other clients what one of them says, when they have nothing better to hear.
+  virtual void spread(ClientId from, std::string_view text) = 0;
+  /// @p client has read all that was sent: it may hear what others have said.
+  virtual void listen(Conversation& client) = 0;
+  /// How many other clients would hear it.
+  virtual std::size_t listeners(ClientId from) const = 0;
   /// A client's connection is closed; its conversation is not needed any more.
   virtual void forget(ClientId client) = 0;
   /// Somebody has begun or ended to subscribe.
@@ -49,6 +65,7 @@ class Host {
   const RobotId liveRobot;  ///< the robot of a live world; 0: it is not live
   WorldKeeper& keeper;
   Doorkeeper door;
+  TalkBudget talk;  ///< of all clients together
 };
 
 }  // namespace ortung::server

@@ -1,5 +1,6 @@
 #include "ortung/server/MessageBoard.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
@@ -7,6 +8,8 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
+#include <chrono>
+#include <deque>
 #include <thread>
 
 #include "Arrival.hpp"
@@ -22,6 +25,12 @@ using server::Arrival;
 using server::Session;
 
 constexpr int kBacklog = 128;
+// What is done for many clients before those are heard that have asked for something.
+constexpr Timestamp kTimeOfTurn = 300;  // [us]
+// Between turns of clients that have sent more than they get done in one.
+constexpr Timestamp kShortestPause = 50;     // [us]
+constexpr Timestamp kLongestPause = 10'000;  // [us]
+constexpr Timestamp kPausePerTurn = 2;       // times what the turn took
 
 void checkAddress(const BoardConfig& config) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
@@ -49,9 +58,64 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
 
   void work(std::function<void()> task) override { asio::post(workers_, std::move(task)); }
 
+  void queue(std::weak_ptr<server::Conversation> client) override {
+    backlog_.push_back(std::move(client));
+    if (backlog_.size() == 1) awaitTurn();
+  }
+
+  void awaitTurn() {
+    turnTimer_.expires_at(nextTurn_);  // the past: at once, but in its turn
+    turnTimer_.async_wait([this](const boost::system::error_code& cancelled) {
+      if (!cancelled && !isEnding_) giveTurn();
+    });
+  }
+
+  void giveTurn() {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::weak_ptr<server::Conversation> first = std::move(backlog_.front());
+    backlog_.pop_front();
+    const bool hasOthers = !backlog_.empty();
+    if (const auto client = first.lock()) client->nextTurn();
+    const auto end = std::chrono::steady_clock::now();
+    nextTurn_ = end + std::clamp<std::chrono::steady_clock::duration>(
+                          kPausePerTurn * (end - begin), std::chrono::microseconds(kShortestPause),
+                          std::chrono::microseconds(kLongestPause));
+    if (hasOthers) awaitTurn();  // otherwise whoever came in meanwhile has asked for it
+  }
+
   void broadcast(server::ClientId from, std::string_view text) override {
     for (const auto& [id, session] : sessions_)
       if (id != from) session->conversation().tell(text);
+  }
+
+  void spread(server::ClientId from, std::string_view text) override {
+    for (const auto& [id, session] : sessions_)
+      if (id != from) session->conversation().hear(text);
+    if (!std::exchange(isTalkPosted_, true)) post([this] { letHear(0); });
+  }
+
+  std::size_t listeners(server::ClientId from) const override {
+    return static_cast<std::size_t>(
+        std::count_if(sessions_.begin(), sessions_.end(), [&](const auto& entry) {
+          return entry.first != from && entry.second->conversation().hasJoined();
+        }));
+  }
+
+  void listen(server::Conversation& client) override {
+    if (client.hasTalk() && !std::exchange(isTalkPosted_, true)) post([this] { letHear(0); });
+  }
+
+  /// Lets clients behind @p last hear what was said.
+  void letHear(server::ClientId last) {
+    const Timestamp begin = server::wallTime();
+    for (auto next = sessions_.upper_bound(last); next != sessions_.end(); ++next) {
+      if (next->second->conversation().hearOn()) hasMoreTalk_ = true;
+      if (server::wallTime() - begin < kTimeOfTurn) continue;
+      post([this, id = next->first] { letHear(id); });
+      return;
+    }
+    isTalkPosted_ = std::exchange(hasMoreTalk_, false);
+    if (isTalkPosted_) post([this] { letHear(0); });
   }
 
   void forget(server::ClientId client) override {
@@ -64,10 +128,19 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   /// On the world's thread.
   void onCycle() {
     if (subscribers_ == 0 || isTickPosted_.exchange(true)) return;
-    asio::post(io_, [this] {
-      isTickPosted_ = false;
-      for (const auto& [id, session] : sessions_) session->conversation().onCycle();
-    });
+    asio::post(io_, [this] { push(0); });
+  }
+
+  /// Sends what is subscribed to clients behind @p last.
+  void push(server::ClientId last) {
+    if (last == 0) isTickPosted_ = false;  // what is published from now on needs another round
+    const Timestamp begin = server::wallTime();
+    for (auto next = sessions_.upper_bound(last); next != sessions_.end(); ++next) {
+      next->second->conversation().onCycle();
+      if (server::wallTime() - begin < kTimeOfTurn) continue;
+      asio::post(io_, [this, id = next->first] { push(id); });
+      return;
+    }
   }
 
   void listen() {
@@ -156,6 +229,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
     acceptor_.close(ignored);
     timer_.cancel();
     retry_.cancel();
+    turnTimer_.cancel();
     for (const auto& [id, arrival] : arrivals_) arrival->close();
     arrivals_.clear();
     for (const auto& [id, session] : sessions_) {
@@ -177,6 +251,11 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   bool isEnding_ = false;
   std::atomic<int> subscribers_{0};
   std::atomic<bool> isTickPosted_{false};
+  std::deque<std::weak_ptr<server::Conversation>> backlog_;
+  asio::steady_timer turnTimer_{io_};
+  std::chrono::steady_clock::time_point nextTurn_;
+  bool isTalkPosted_ = false;
+  bool hasMoreTalk_ = false;
   asio::thread_pool workers_{1};  ///< last, so that its thread ends before what it works on
 };
 

@@ -27,6 +27,11 @@ bool Query::matches(const SensorId& id) const {
   return fits(model, id.model) && fits(type, id.type) && fits(feature, id.feature);
 }
 
+bool Choice::wants(const SensorId& id) const {
+  return queries.empty() || std::any_of(queries.begin(), queries.end(),
+                                        [&](const Query& query) { return query.matches(id); });
+}
+
 RobotReadings::RobotReadings(RobotId robot, std::string name, std::vector<ServedFeature> features)
     : robot_(robot),
       name_(std::move(name)),
@@ -73,17 +78,14 @@ void RobotReadings::append(Entry& entry, bool binary, std::string& out) const {
 
 std::size_t RobotReadings::write(const Choice& choice, std::vector<std::uint64_t>& sent,
                                  std::string& out) {
+  chosen_.clear();
+  for (std::size_t i = 0; i < features_.size(); ++i)  // without the lock: it may take a while
+    if (choice.wants(features_[i].id)) chosen_.push_back(i);
   const std::lock_guard lock(mutex_);
   sent.resize(entries_.size(), 0);
-  chosen_.clear();
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const Entry& entry = entries_[i];
-    if (!entry.isThere || (!choice.again && entry.count == sent[i])) continue;
-    const bool wanted = choice.queries.empty() ||
-                        std::any_of(choice.queries.begin(), choice.queries.end(),
-                                    [&](const Query& q) { return q.matches(entry.newest.id); });
-    if (wanted) chosen_.push_back(i);
-  }
+  std::erase_if(chosen_, [&](std::size_t i) {
+    return !entries_[i].isThere || (!choice.again && entries_[i].count == sent[i]);
+  });
   std::stable_sort(chosen_.begin(), chosen_.end(), [&](std::size_t a, std::size_t b) {
     return entries_[a].newest.stamp < entries_[b].newest.stamp;
   });

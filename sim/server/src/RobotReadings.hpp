@@ -27,6 +27,7 @@ struct Choice {
   std::vector<Query> queries;  ///< none: all features
   bool again = false;          ///< true: also readings that the client has got already
   bool binary = false;
+  bool wants(const SensorId& id) const;
 };
 
 /// The newest reading of each feature of one robot: written by the thread that owns the world, read
@@ -50,7 +51,7 @@ class RobotReadings {
   /// Appends the chosen readings, oldest first: lines of a record, or in binary form a line without
   /// words, then the words as 32 bits each, the least significant byte first.
   /// @param sent by feature: count of the last reading this client got; brought up to date
-  /// @returns how many readings
+  /// @returns how many readings. Called by one thread.
   std::size_t write(const Choice& choice, std::vector<std::uint64_t>& sent, std::string& out);
 
  private:
@@ -68,7 +69,7 @@ class RobotReadings {
   std::atomic<bool> isRetired_{false};
   std::mutex mutex_;
   std::vector<Entry> entries_;
-  std::vector<std::size_t> chosen_;
+  std::vector<std::size_t> chosen_;  ///< by write(), which one thread calls
 };
 
 }  // namespace ortung::server

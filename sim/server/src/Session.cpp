@@ -35,6 +35,10 @@ class Session::SocketOutlet final : public Outlet {
   explicit SocketOutlet(Session& session) : session_(session) {}
   ~SocketOutlet() override = default;
   void send(std::string_view text) override { session_.send(text); }
+  void append(std::string_view text) override {
+    if (!session_.isClosed_) session_.waiting_.append(text);
+  }
+  void flush() override { session_.flush(); }
   std::size_t outstanding() const override {
     return session_.waiting_.size() + session_.writing_.size() - session_.written_;
   }
@@ -96,16 +100,31 @@ void Session::read() {
 
 void Session::send(std::string_view text) {
   if (isClosed_) return;
-  if (!isWriting_) progressed_ = wallTime();
-  std::size_t sent = 0;
-  if (!isWriting_ && waiting_.empty()) {
-    // Most replies fit into the kernel's buffer: then they leave at once.
-    boost::system::error_code error;
-    sent = socket_.write_some(boost::asio::buffer(text.data(), text.size()), error);
-    if (error) sent = 0;  // also when there is no room; the real trouble shows in write()
+  if (isWriting_ || !waiting_.empty()) {
+    waiting_.append(text);
+    flush();
+    return;
   }
-  waiting_.append(text.substr(sent));
+  waiting_.append(text.substr(writeNow(text)));
   if (!waiting_.empty()) write();
+}
+
+void Session::flush() {
+  if (isClosed_ || isWriting_ || waiting_.empty()) return;
+  const std::size_t sent = writeNow(waiting_);
+  waiting_.erase(0, sent);
+  if (waiting_.empty())
+    host_.listen(*conversation_);
+  else
+    write();
+}
+
+/// Most replies fit into the kernel's buffer: then they leave at once. @returns how many bytes did
+std::size_t Session::writeNow(std::string_view text) {
+  progressed_ = wallTime();
+  boost::system::error_code error;
+  const std::size_t sent = socket_.write_some(boost::asio::buffer(text.data(), text.size()), error);
+  return error ? 0 : sent;  // also when there is no room; the real trouble shows in write()
 }
 
 void Session::write() {
@@ -116,7 +135,10 @@ void Session::write() {
     written_ = 0;
   }
   if (writing_.empty()) {
-    if (isFinishing_) listenToTheEnd();
+    if (isFinishing_)
+      listenToTheEnd();
+    else
+      host_.listen(*conversation_);
     return;
   }
   isWriting_ = true;

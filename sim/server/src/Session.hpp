@@ -34,6 +34,8 @@ class Session : public std::enable_shared_from_this<Session> {
   void read();
   void write();
   void send(std::string_view text);
+  void flush();
+  std::size_t writeNow(std::string_view text);
   void finish();
   void listenToTheEnd();
 

@@ -61,10 +61,12 @@ WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
 
 WorldKeeper::~WorldKeeper() = default;
 
-void WorldKeeper::give(Order order, Done done) {
+void WorldKeeper::give(ClientId client, Order order, Done done) {
   {
     const std::lock_guard lock(mutex_);
-    orders_.push_back({std::move(order), std::move(done)});
+    std::deque<Given>& its = orders_[client];
+    if (its.empty()) turns_.push_back(client);
+    its.push_back({std::move(order), std::move(done)});
   }
   news_.notify_one();
 }
@@ -150,7 +152,7 @@ void WorldKeeper::run(const std::function<bool()>& goesOn) {
       continue;
     }
     std::unique_lock lock(mutex_);
-    if (!orders_.empty() || isStopped_) continue;
+    if (!turns_.empty() || isStopped_) continue;
     news_.wait_for(lock, std::chrono::microseconds(std::min(next - now, kLongestWait)));
   }
 }
@@ -168,9 +170,15 @@ bool WorldKeeper::execute(bool isCycleDue) {
   {
     const std::lock_guard lock(mutex_);
     const bool isEnough = executed_ >= kOrdersOfLateCycle || spent_ >= kTimeOfLateCycle;
-    if (orders_.empty() || (isCycleDue && isEnough)) return false;
-    given = std::move(orders_.front());
-    orders_.pop_front();
+    if (turns_.empty() || (isCycleDue && isEnough)) return false;
+    const auto its = orders_.find(turns_.front());
+    turns_.pop_front();
+    given = std::move(its->second.front());
+    its->second.pop_front();
+    if (its->second.empty())
+      orders_.erase(its);
+    else
+      turns_.push_back(its->first);
   }
   const Timestamp begin = wallTime();
   execute(given);

@@ -34,7 +34,8 @@ class WorldKeeper {
   WorldKeeper(ServedWorld& world, const BoardConfig& config, std::function<void()> onCycle);
   ~WorldKeeper();
 
-  void give(Order order, Done done);
+  /// Clients take turns: what one gives is executed in its order, but one who gives much waits.
+  void give(ClientId client, Order order, Done done);
   void run(const std::function<bool()>& goesOn);
   /// Stops the live robots that clients have commanded; for the end of run(), on its thread.
   void haltCommanded();
@@ -116,9 +117,10 @@ class WorldKeeper {
   std::function<void()> onCycle_;
   BoardClock clock_;
 
-  mutable std::mutex mutex_;  ///< of the next two
+  mutable std::mutex mutex_;  ///< of the next three
   std::condition_variable news_;
-  std::deque<Given> orders_;
+  std::map<ClientId, std::deque<Given>> orders_;  ///< of clients that have given some
+  std::deque<ClientId> turns_;                    ///< these clients, the next one first
   std::atomic<bool> isStopped_{false};
 
   std::map<ClientId, Client> clients_;

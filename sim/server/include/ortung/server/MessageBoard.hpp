@@ -25,6 +25,11 @@ struct BoardLimits {
   std::size_t httpHead = 16u << 10;       ///< of a request of a web browser [bytes]
   std::size_t output = 1u << 20;          ///< waiting to be read by a client [bytes]; more: dropped
   std::size_t orders = 64;                ///< of a client, waiting for the world
+  double talkLines = 1000.0;              ///< that others hear of a client [1/s], each counted
+  double talkBytes = 256.0 * 1024.0;      ///< the same in bytes [1/s]
+  std::size_t say = 4096;                 ///< one text to say [bytes]
+  std::size_t talk = 64u << 10;           ///< of others, waiting for a client [bytes]; more: lost
+  std::size_t queries = 64;               ///< of a request for readings
   std::size_t errors = 100;               ///< of a client in a row; more: dropped
   double handshake = 5.0;  ///< from connecting to HELLO, or to the end of HTTP's head [s]
   double idle = 30.0;      ///< without a line from a client, subscribers apart [s]
