@@ -276,8 +276,10 @@ void addCheck(Builder& build, CLI::App& app) {
 }
 
 void addServing(Builder& build, ServingArguments& a) {
-  build.option("--listen", a.listen,
-               "[ADDRESS:]PORT for clients; 0: a free port; see docs/protocol.md");
+  build
+      .option("--listen", a.listen,
+              "[ADDRESS:]PORT for clients; 0: a free port; see docs/protocol.md")
+      ->each([&a](const std::string&) { a.isServing = true; });
   build
       .option("--allow-control", a.control,
               "Name of a client that may pause, step, reset, ... the world; 'all' for all; may be "
@@ -290,6 +292,12 @@ void addServing(Builder& build, ServingArguments& a) {
       "a line of its own");
   build.option("--idle", a.idle, "Clients that keep silent for so long are dropped [s]")
       ->check(within(1.0, 1e6))
+      ->capture_default_str();
+  build.option("--clients", a.clients, "At a time")
+      ->check(within(1, 100000))
+      ->capture_default_str();
+  build.option("--clients-per-address", a.clientsOfAddress, "Of them from one computer")
+      ->check(within(1, 100000))
       ->capture_default_str();
   build.option("--speed", a.speed, "Times real time")
       ->check(within(0.001, 1000.0))

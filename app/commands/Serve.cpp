@@ -6,7 +6,7 @@
 namespace ortung::app {
 
 int runServe(const ServeArguments& arguments) {
-  if (arguments.serving.listen.empty()) throw UsageError("--listen [ADDRESS:]PORT is missing");
+  if (!arguments.serving.isServing) throw UsageError("--listen [ADDRESS:]PORT is missing");
   ServedRecord record(arguments.record, arguments.repeats);
   serve(record, arguments.serving);
   return 0;

@@ -3,9 +3,15 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <chrono>
+#include <condition_variable>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <mutex>
 #include <sstream>
+#include <stop_token>
+#include <thread>
 
 #include "Console.hpp"
 #include "Interrupt.hpp"
@@ -54,6 +60,30 @@ std::vector<BoardToken> readTokens(const std::filesystem::path& file) {
   return tokens;
 }
 
+/// Ends the program if it goes on for too long after a signal: a cycle of the world that hangs is
+/// never asked whether to go on.
+class Deadline {
+ public:
+  Deadline()
+      : thread_([this](const std::stop_token& stop) {
+          std::unique_lock lock(mutex_);
+          const auto isTold = [] { return interruptSignal() != 0; };
+          while (!isTold() && !stop.stop_requested()) wake_.wait_for(lock, stop, kLook, isTold);
+          wake_.wait_for(lock, stop, kLongestEnd, [] { return false; });
+          if (stop.stop_requested()) return;
+          warn(fmt::format("the world has not come to an end within {} s after the signal",
+                           kLongestEnd.count()));
+          std::_Exit(128 + interruptSignal());
+        }) {}
+
+ private:
+  static constexpr std::chrono::milliseconds kLook{100};
+  static constexpr std::chrono::seconds kLongestEnd{2};
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::jthread thread_;  ///< last, so that it ends before what it uses
+};
+
 }  // namespace
 
 void serve(ServedWorld& world, const ServingArguments& arguments) {
@@ -68,11 +98,14 @@ void serve(ServedWorld& world, const ServingArguments& arguments) {
   if (arguments.freeRun) config.pace = Pace::kFree;
   if (arguments.lockstep) config.pace = Pace::kLockstep;
   config.limits.idle = arguments.idle;
+  config.limits.sessions = arguments.clients;
+  config.limits.sessionsOfAddress = arguments.clientsOfAddress;
   config.log = [](const std::string& text) { warn(printable(text)); };
   try {
     MessageBoard board(world, config);
     fmt::print("listening on {} port {}\n", config.address, board.port());
     std::fflush(stdout);
+    const Deadline deadline;
     board.run([] { return interruptSignal() == 0; });
     const BoardStatistics statistics = board.statistics();
     note(fmt::format("{} cycles, {} missed", statistics.cycles, statistics.missedCycles));

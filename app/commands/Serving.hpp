@@ -5,7 +5,8 @@
 
 namespace ortung::app {
 
-/// Serves @p world to clients until a signal comes. Says on stdout where it listens.
+/// Serves @p world to clients until a signal comes. Says on stdout where it listens. If the world
+/// has not come to an end 2 s after the signal, the program ends with 128 + the signal's number.
 /// @throws UsageError, std::runtime_error
 void serve(ServedWorld& world, const ServingArguments& arguments);
 

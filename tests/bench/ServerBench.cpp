@@ -146,6 +146,7 @@ struct Served {
     BoardConfig config;
     config.pace = pace;
     config.control = {"*"};
+    config.limits.sessionsOfAddress = config.limits.sessions;
     return config;
   }
   ServedSimulation world;

@@ -1,13 +1,17 @@
 // `ortung sim --listen` and `ortung serve` as their users meet them.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <memory>
 
+#include "CountingWorld.hpp"
 #include "Files.hpp"
+#include "Interrupt.hpp"
 #include "Program.hpp"
+#include "Serving.hpp"
 #include "TestClient.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/core/Record.hpp"
@@ -46,6 +50,48 @@ TEST(Serving, TheExamplesPlayOnAServer) {
     EXPECT_TRUE(succeeded) << client;
     EXPECT_NE(text.find("m ahead"), std::string::npos) << client << "\n" << text;
   }
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.finish().exitCode, 0);
+}
+
+/// A world whose first cycle never ends; it is told to end meanwhile.
+class StuckWorld : public CountingWorld {
+ public:
+  ~StuckWorld() override = default;
+  void step() override {
+    std::raise(SIGTERM);
+    while (true) ::pause();
+  }
+};
+
+TEST(Serving, ASignalEndsTheServerAlthoughACycleHangs) {
+  EXPECT_EXIT(
+      {
+        app::catchInterrupts();
+        StuckWorld world;
+        app::ServingArguments arguments;
+        arguments.listen = "0";
+        app::serve(world, arguments);
+      },
+      testing::ExitedWithCode(128 + SIGTERM), "has not come to an end within 2 s after the signal");
+}
+
+TEST(Serving, AnEmptyAddressIsNoAddress) {
+  const Outcome outcome = ortung({"sim", kMaps + "/fields/arena.toml", "--listen", ""});
+  EXPECT_EQ(outcome.exitCode, 2);
+  EXPECT_NE(outcome.err.find("--listen is '', expected [ADDRESS:]PORT"), std::string::npos)
+      << outcome.err;
+}
+
+TEST(Serving, HowManyClientsThereAreIsAnOption) {
+  Program server({"sim", kMaps + "/fields/arena.toml", "--listen", "0", "--clients", "3",
+                  "--clients-per-address", "2"});
+  const std::uint16_t port = portOf(server);
+  TestClient first(port);
+  TestClient second(port);
+  first.ask("HELLO ortung/1");
+  second.ask("HELLO ortung/1");
+  EXPECT_EQ(TestClient(port).line(), "* ERR limit there are 2 clients from 127.0.0.1 already");
   server.signal(SIGTERM);
   EXPECT_EQ(server.finish().exitCode, 0);
 }

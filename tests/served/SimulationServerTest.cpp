@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
 
 #include "Files.hpp"
 #include "RunningBoard.hpp"
@@ -32,6 +33,80 @@ TEST(Protocol, TheSessionOfThePageIsReplayedByteForByte) {
   }
   EXPECT_GT(replies, 20);
   EXPECT_EQ(client.line(), "(closed)");  // after BYE
+}
+
+/// The page's form of a reply: N for numbers, X for a fingerprint.
+std::string withoutNumbers(const std::string& line) {
+  static const std::regex kFingerprint("fingerprint=[0-9a-f]{16}");
+  static const std::regex kNumber("[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?");
+  return std::regex_replace(std::regex_replace(line, kFingerprint, "fingerprint=X"), kNumber, "N");
+}
+
+/// The lines of a fenced block of docs/protocol.md.
+std::vector<std::string> blockOfThePage(const std::string& name) {
+  std::ifstream page(ORTUNG_SOURCE_DIR "/docs/protocol.md");
+  std::string text;
+  while (std::getline(page, text) && text != "```" + name) {
+  }
+  std::vector<std::string> lines;
+  while (std::getline(page, text) && text != "```") lines.push_back(text);
+  return lines;
+}
+
+TEST(Protocol, RepliesHaveTheFormsOfThePage) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
+  const RunningBoard board(world, controlledConfig());
+  TestClient client(board.port());
+  ASSERT_TRUE(client
+                  .join("[robot]\nradius_m = 0.2\n[[sensor]]\nplugin = \"odometry\"\n[[sensor]]\n"
+                        "plugin = \"lrf\"\nfeature = \"FiveBeams\"\nbeams = 5\n",
+                        "anna", "x_m=0.5 y_m=-1.5", "scout")
+                  .starts_with("OK CREATE"));
+  client.ask("LOCKSTEP on");
+  std::size_t requests = 0;
+  int left = 0;  // of the lines that belong to a reply
+  const auto skip = [&] {
+    for (; left > 0; --left) client.line();
+  };
+  for (const std::string& text : blockOfThePage("replies")) {
+    ASSERT_TRUE(text.starts_with("> ") || text.starts_with("< ")) << text;
+    const std::string expected = text.substr(2);
+    if (text[0] == '>') {
+      EXPECT_EQ(left, 0) << "the page shows less than the reply to what is before " << expected;
+      skip();
+      client.send(expected + "\n");
+      ++requests;
+    } else if (expected == "...") {
+      skip();
+    } else {
+      const std::string line = client.line();
+      EXPECT_EQ(withoutNumbers(line), withoutNumbers(expected)) << line;
+      const std::string lines = left == 0 ? valueOf(line, "lines") : "";
+      left = lines.empty() ? std::max(0, left - 1) : std::stoi(lines);
+    }
+  }
+  EXPECT_GT(requests, 25u);
+  EXPECT_EQ(client.line(), "(closed)");  // after BYE
+}
+
+TEST(Protocol, SubscriptionsComeWithAHeader) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
+  const RunningBoard board(world, lockstepConfig());
+  TestClient client(board.port());
+  client.join("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0.01\n");
+  client.ask("LOCKSTEP on");
+  EXPECT_EQ(client.ask("NEXT"), "OK NEXT robot=1 now=10000 lines=2");
+  client.line();
+  client.line();
+  client.ask("SUBSCRIBE */odometry/*");
+  client.send("NEXT none/*/*\n");
+  EXPECT_EQ(client.lineWith("* UPDATE"), "* UPDATE robot=1 now=20000 lines=1");
+  client.line();
+  client.ask("SUBSCRIBE */odometry/* form=binary");
+  client.send("NEXT none/*/*\n");
+  const std::string head = client.lineWith("* UPDATE");
+  EXPECT_EQ(withoutNumbers(head), "* UPDATE robot=N now=N bytes=N readings=N");
+  EXPECT_EQ(valueOf(head, "readings"), "1");
 }
 
 TEST(Protocol, ManipulatorsAreSetByNameOrNumber) {

@@ -10,7 +10,7 @@
 namespace ortung::test {
 
 /// A world without physics: each robot has a counter of cycles and an image of many words, and
-/// remembers what it was told. Cycles take 10 ms.
+/// remembers what it was told. Cycles take 10 ms, if nothing else is said.
 class CountingWorld : public ServedWorld, private RobotCommands {
  public:
   explicit CountingWorld(std::size_t imageWords = 0) : imageWords_(imageWords) {}
@@ -21,20 +21,20 @@ class CountingWorld : public ServedWorld, private RobotCommands {
   }
   std::vector<std::string> plugins() const override { return {"odometry", "lrf"}; }
   Timestamp now() const override { return now_; }
-  bool isAtEnd() const override { return lastCycle_ >= 0 && now_ / 10'000 >= lastCycle_; }
+  bool isAtEnd() const override { return lastCycle_ >= 0 && now_ / cycle >= lastCycle_; }
   void step() override {
-    if (now_ / 10'000 == failingCycle_) throw std::runtime_error("the world broke");
+    if (now_ / cycle == failingCycle_) throw std::runtime_error("the world broke");
     for (auto& [id, frame] : frames_) {
-      frame = {{now_, counter_, {static_cast<std::uint32_t>(now_ / 10'000), commands_}}};
+      frame = {{now_, counter_, {static_cast<std::uint32_t>(now_ / cycle), commands_}}};
       if (imageWords_ > 0)
         frame.push_back({now_, image_, std::vector<std::uint32_t>(imageWords_, 4'000'000'000u)});
     }
-    now_ += 10'000;
+    now_ += cycle;
   }
   ServedRobot addRobot(RobotId robot, RobotWish wish) override {
     if (wish.name == "unwanted") throw ServeError("no-room", "there is no room");
     frames_[robot];
-    return {{{counter_, "[cycle, commands]"}, {image_, "[pixels]"}}, raysPerSecond};
+    return {{{counter_, "[cycle, commands]"}, {image_, "[pixels]"}}, raysPerSecond, raysAtOnce};
   }
   void removeRobot(RobotId robot) override { frames_.erase(robot); }
   std::span<const Message> readings(RobotId robot) const override { return frames_.at(robot); }
@@ -50,15 +50,22 @@ class CountingWorld : public ServedWorld, private RobotCommands {
   void placeRobot(RobotId, const Pose2&) override { ++commands_; }
   void placeObject(const std::string&, const Pose2&) override {}
 
+  Timestamp cycle = 10'000;    ///< [us]
   double raysPerSecond = 0.0;  ///< of every robot
+  double raysAtOnce = 0.0;     ///< of every robot
   std::uint32_t commands() const { return commands_; }
-  void endAt(std::int64_t cycle) { lastCycle_ = cycle; }
-  void failAt(std::int64_t cycle) { failingCycle_ = cycle; }
+  /// The last command vector.
+  const std::vector<double>& motion() const { return motion_; }
+  void endAt(std::int64_t last) { lastCycle_ = last; }
+  void failAt(std::int64_t failing) { failingCycle_ = failing; }
 
  private:
   void setTranslationalVelocity(double) override { ++commands_; }
   void setRotationalVelocity(double) override { ++commands_; }
-  void setMotion(std::span<const double>) override { ++commands_; }
+  void setMotion(std::span<const double> command) override {
+    motion_.assign(command.begin(), command.end());
+    ++commands_;
+  }
   void setManipulator(std::string_view name, std::string_view) override {
     if (name != "kicker") throw std::invalid_argument("there is only a kicker");
     ++commands_;
@@ -71,6 +78,7 @@ class CountingWorld : public ServedWorld, private RobotCommands {
   std::int64_t failingCycle_ = -1;
   Timestamp now_ = 0;
   std::uint32_t commands_ = 0;
+  std::vector<double> motion_;
   std::map<RobotId, std::vector<Message>> frames_;
 };
 

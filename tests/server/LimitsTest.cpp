@@ -1,6 +1,8 @@
 // What a client may take, and who may come in.
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "CountingWorld.hpp"
 #include "Files.hpp"
 #include "RunningBoard.hpp"
@@ -80,6 +82,51 @@ TEST(Limits, SensorsThatWouldHoldUpAllOthersAreRefused) {
       "ERR limit the robot's sensors need 2000 rays a second, at most 1999 are permitted: fewer "
       "beams, or longer periods");
   EXPECT_EQ(valueOf(client.ask("STATUS"), "robots"), "0");
+}
+
+TEST(Limits, TheSensorsOfAllRobotsTogetherAreLimited) {
+  CountingWorld world;
+  world.raysPerSecond = 1000.0;
+  world.raysAtOnce = 100.0;
+  for (const bool inOneReading : {false, true}) {
+    BoardConfig config;
+    (inOneReading ? config.limits.allRaysAtOnce : config.limits.allRays) =
+        inOneReading ? 250 : 2500;
+    const RunningBoard board(world, config);
+    TestClient first(board.port());
+    TestClient second(board.port());
+    EXPECT_TRUE(first.join(kAnyRobot).starts_with("OK CREATE"));
+    EXPECT_TRUE(second.join(kAnyRobot).starts_with("OK CREATE"));
+    second.send("CREATE b\n" + kAnyRobot);
+    EXPECT_TRUE(second.ask(".").starts_with(
+        "ERR limit the sensors of all robots would need 3000 rays a second and 300 at once"));
+    EXPECT_EQ(valueOf(first.ask("STATUS"), "robots"), "2");
+    EXPECT_EQ(first.ask("REMOVE"), "OK REMOVE");
+    second.send("CREATE b\n" + kAnyRobot);
+    EXPECT_TRUE(second.ask(".").starts_with("OK CREATE"));
+  }
+}
+
+TEST(Limits, OneComputerCannotTakeAllPlaces) {
+  CountingWorld world;
+  BoardConfig config;
+  config.limits.sessionsOfAddress = 2;
+  const RunningBoard board(world, config);
+  TestClient first(board.port());
+  first.ask("HELLO ortung/1");
+  {
+    TestClient second(board.port());
+    second.ask("HELLO ortung/1");
+    TestClient third(board.port());
+    EXPECT_EQ(third.line(), "* ERR limit there are 2 clients from 127.0.0.1 already");
+    EXPECT_EQ(third.line(), "(closed)");
+  }
+  while (board.statistics().clients > 1) std::this_thread::yield();
+  std::string reply;
+  do {  // the places are given back
+    reply = TestClient(board.port()).ask("HELLO ortung/1");
+  } while (reply.starts_with("* ERR limit"));
+  EXPECT_TRUE(reply.starts_with("OK HELLO")) << reply;
 }
 
 TEST(Limits, OneClientTooManyIsTold) {
@@ -194,6 +241,21 @@ TEST(Limits, FloodsOfOrdersWaitInTheNetwork) {
   for (int i = 0; i < kLines; ++i)
     ASSERT_EQ(client.line(), "#" + std::to_string(i) + " OK VELOCITY");
   sender.join();
+}
+
+TEST(Limits, SilenceEndsTheConnectionWhenItIsSaidTo) {
+  CountingWorld world;
+  BoardConfig config;
+  config.limits.idle = 0.8;
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  const auto begin = std::chrono::steady_clock::now();
+  client.ask("HELLO ortung/1");
+  EXPECT_EQ(client.line(), "* ERR idle nothing came for 0 s");
+  const double taken =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  EXPECT_GE(taken, 0.8);
+  EXPECT_LT(taken, 2.0);  // it is looked at four times within that time
 }
 
 TEST(Security, OnlyLoopbackIsServedWithoutTokens) {

@@ -43,7 +43,11 @@ TEST(Protocol, LinesThatMakeNoSenseAreToldWhy) {
       {"MANIPULATOR arm 1", "ERR no-manipulator there is only a kicker"},
       {"MANIPULATOR ../arm 1",
        "ERR syntax a manipulator and its state are 1 to 32 of [A-Za-z0-9_-]"},
-      {"UPDATE LRF", "ERR syntax found 'LRF', expected model/type/feature with * for any"},
+      {"UPDATE LRF", "ERR syntax found 'LRF', expected model/type/feature, each a whole name or *"},
+      {"UPDATE x*/y/z",
+       "ERR syntax found 'x*/y/z', expected model/type/feature, each a whole name or *"},
+      {"READ */**/*",
+       "ERR syntax found '*/**/*', expected model/type/feature, each a whole name or *"},
       {"UPDATE form=xml", "ERR syntax form is 'xml', expected text or binary"},
       {"NEXT", "ERR state NEXT is for clients in lockstep: LOCKSTEP on"},
       {"LOCKSTEP maybe", "ERR syntax LOCKSTEP is 'maybe', expected on or off"},
@@ -51,6 +55,9 @@ TEST(Protocol, LinesThatMakeNoSenseAreToldWhy) {
       {"PLACE robot=1 x_m=1 y_m=1",
        "ERR role PLACE needs the role operator, this client is a player"},
       {"SCORE left=3", "ERR role setting the SCORE needs the role operator"},
+      {"#t9 STATUS caf\xC3\xA9",
+       "#t9 ERR syntax a line has characters that are no printable ASCII"},
+      {"#t\x01 STATUS", "ERR syntax a line has characters that are no printable ASCII"},
       {"caf\xC3\xA9", "ERR syntax a line has characters that are no printable ASCII"},
       {std::string("STATUS\0", 7), "ERR syntax a line has characters that are no printable ASCII"}};
   for (const auto& [line, expected] : cases) EXPECT_EQ(client.ask(line), expected) << line;
@@ -275,6 +282,25 @@ TEST(Protocol, OperatorsControlTheSimulation) {
   EXPECT_EQ(client.ask("SPEED 20"), "OK SPEED");
   EXPECT_EQ(client.ask("RESUME"), "OK RESUME now=50000");
   EXPECT_EQ(client.ask("STEP"), "ERR state STEP is for a simulation that is paused");
+}
+
+TEST(Protocol, AResetStartsTheScoreOver) {
+  CountingWorld world;
+  const RunningBoard board(world, controlledConfig());
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  EXPECT_EQ(client.ask("SCORE left=3 right=2"), "OK SCORE left=3 right=2");
+  EXPECT_EQ(client.ask("RESET"), "OK RESET now=0");
+  EXPECT_EQ(client.ask("SCORE"), "OK SCORE left=0 right=0");
+}
+
+TEST(Protocol, ACommandVectorArrivesInItsOrder) {
+  CountingWorld world;
+  const RunningBoard board(world, lockstepConfig());
+  TestClient client(board.port());
+  client.join(kAnyRobot);
+  EXPECT_EQ(client.ask("MOTION 1 -2.5 3e-2"), "OK MOTION");
+  EXPECT_EQ(world.motion(), (std::vector<double>{1.0, -2.5, 0.03}));
 }
 
 TEST(Protocol, ClientsTouchTheirOwnRobotsOnly) {

@@ -104,10 +104,10 @@ void TestClient::shrinkBuffer() {
 }
 
 std::string TestClient::join(const std::string& robotFile, const std::string& name,
-                             const std::string& place) {
+                             const std::string& place, const std::string& robot) {
   const std::string hello = ask("HELLO ortung/1 name=" + name);
   if (!hello.starts_with("OK HELLO")) throw std::runtime_error("the server said: " + hello);
-  send("CREATE " + name + " " + place + "\n" + robotFile + ".\n");
+  send("CREATE " + (robot.empty() ? name : robot) + " " + place + "\n" + robotFile + ".\n");
   return line();
 }
 

@@ -40,8 +40,9 @@ class TestClient {
   void shrinkBuffer();
 
   /// HELLO and CREATE with @p robotFile; returns the reply of CREATE.
+  /// @param robot its name; "": that of the client
   std::string join(const std::string& robotFile, const std::string& name = "anna",
-                   const std::string& place = "");
+                   const std::string& place = "", const std::string& robot = "");
 
  private:
   bool fill();

@@ -3,6 +3,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
 
+#include "AddressKey.hpp"
 #include "Http.hpp"
 
 namespace ortung::server {
@@ -20,7 +21,12 @@ Porter::~Porter() = default;
 
 Arrival::Arrival(boost::asio::ip::tcp::socket socket, Porter& porter, const BoardConfig& config,
                  ClientId id)
-    : socket_(std::move(socket)), porter_(porter), config_(config), id_(id), started_(wallTime()) {}
+    : socket_(std::move(socket)),
+      peer_(addressKey(socket_)),
+      porter_(porter),
+      config_(config),
+      id_(id),
+      started_(wallTime()) {}
 
 void Arrival::read() {
   socket_.async_read_some(

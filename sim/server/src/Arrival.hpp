@@ -35,6 +35,7 @@ class Arrival : public std::enable_shared_from_this<Arrival> {
   /// Ends the wait if it takes too long. @param now on the computer's clock
   void look(Timestamp now);
   void close();
+  const std::string& peer() const { return peer_; }
 
  private:
   void read();
@@ -45,6 +46,7 @@ class Arrival : public std::enable_shared_from_this<Arrival> {
   void answer(std::string_view status, std::string_view text);
 
   boost::asio::ip::tcp::socket socket_;
+  const std::string peer_;
   Porter& porter_;
   const BoardConfig& config_;
   const ClientId id_;

@@ -10,8 +10,10 @@
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
 #include <deque>
+#include <system_error>
 #include <thread>
 
+#include "AddressKey.hpp"
 #include "Arrival.hpp"
 #include "BoardChecks.hpp"
 #include "Session.hpp"
@@ -178,18 +180,28 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
 
   void admit(tcp::socket socket) {
     const server::ClientId id = ++lastClient_;
-    const bool isFull = sessions_.size() + arrivals_.size() >= config.limits.sessions;
-    if (isFull) {
+    const BoardLimits& limits = config.limits;
+    const bool isFull = sessions_.size() + arrivals_.size() >= limits.sessions;
+    const std::string peer = server::addressKey(socket);
+    if (isFull || count(peer) >= limits.sessionsOfAddress) {
       const auto session =
           std::make_shared<Session>(std::move(socket), *this, id, server::wallTime());
       sessions_[id] = session;
-      session->dismiss("ERR limit there are " + std::to_string(config.limits.sessions) +
-                       " clients already");
+      session->dismiss("ERR limit there are " +
+                       std::to_string(isFull ? limits.sessions : limits.sessionsOfAddress) +
+                       " clients " + (isFull ? "" : "from " + peer + " ") + "already");
       return;
     }
     const auto arrival = std::make_shared<Arrival>(std::move(socket), *this, config, id);
     arrivals_[id] = arrival;
     arrival->start();
+  }
+
+  /// Connections from a computer.
+  std::size_t count(const std::string& peer) const {
+    const auto isThere = [&](const auto& entry) { return entry.second->peer() == peer; };
+    return static_cast<std::size_t>(std::count_if(sessions_.begin(), sessions_.end(), isThere) +
+                                    std::count_if(arrivals_.begin(), arrivals_.end(), isThere));
   }
 
   void enter(tcp::socket socket, server::ClientId id, Timestamp since,
@@ -271,7 +283,13 @@ MessageBoard::~MessageBoard() = default;
 std::uint16_t MessageBoard::port() const { return parts_->port_; }
 
 void MessageBoard::run(const std::function<bool()>& goesOn) {
-  std::thread clients([this] { parts_->io_.run(); });
+  std::thread clients;
+  try {
+    clients = std::thread([this] { parts_->io_.run(); });
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(std::string("the thread that talks to clients can't be made: ") +
+                             error.what());
+  }
   try {
     parts_->keeper_.run(goesOn);
   } catch (...) {

@@ -87,6 +87,8 @@ double parseNumber(std::string_view text, const std::string& what, double low, d
 Request::Request(std::string_view line) {
   if (!std::all_of(line.begin(), line.end(), isPrintable)) {
     fault_ = "a line has characters that are no printable ASCII";
+    const std::string_view word = cutWord(line);
+    if (isTag(word)) tag_ = word;
     return;
   }
   split(line);

@@ -14,9 +14,11 @@ Query::Query(const std::string& text) {
     model = query.model;
     type = query.type;
     feature = query.feature;
+    for (const std::string* part : {&model, &type, &feature})
+      if (*part != "*" && part->find('*') != part->npos) throw std::invalid_argument(text);
   } catch (const std::invalid_argument&) {
-    throw ServeError("syntax",
-                     "found '" + printable(text) + "', expected model/type/feature with * for any");
+    throw ServeError("syntax", "found '" + printable(text) +
+                                   "', expected model/type/feature, each a whole name or *");
   }
 }
 

@@ -9,9 +9,6 @@
 
 namespace ortung::server {
 
-/// By which the computers of clients are told apart: the address, of IPv6 the network.
-std::string addressKey(const boost::asio::ip::tcp::socket& socket);
-
 /// One client's TCP connection: carries the bytes of a conversation. Never waits.
 /// All calls come from the thread of the io_context.
 class Session : public std::enable_shared_from_this<Session> {
@@ -28,6 +25,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void close();
 
   Conversation& conversation() { return *conversation_; }
+  const std::string& peer() const { return peer_; }
 
  private:
   class SocketOutlet;

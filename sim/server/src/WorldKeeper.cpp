@@ -52,8 +52,10 @@ WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
   for (Resident& resident : world_.residents()) {
     lastRobot_ = std::max(lastRobot_, resident.robot);
     robots_[resident.robot] = {
-        kNobody, std::make_shared<RobotReadings>(resident.robot, std::move(resident.name),
-                                                 std::move(resident.features))};
+        kNobody,
+        std::make_shared<RobotReadings>(resident.robot, std::move(resident.name),
+                                        std::move(resident.features)),
+        0.0, 0.0};
   }
   robotCount_ = robots_.size();
   clock_.set(world_.now(), wallTime(), 0.0);

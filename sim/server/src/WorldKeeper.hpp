@@ -86,6 +86,8 @@ class WorldKeeper {
   struct Robot {
     ClientId owner;
     std::shared_ptr<RobotReadings> readings;
+    double raysPerSecond = 0.0;
+    double raysAtOnce = 0.0;
   };
   const std::map<RobotId, Robot>& robots() const { return robots_; }
 

@@ -46,7 +46,7 @@ std::shared_ptr<RobotReadings> WorldKeeper::createRobot(ClientId owner, RobotWis
   }
   auto readings = std::make_shared<RobotReadings>(robot, name, std::move(served.features));
   its.robots.insert(robot);
-  robots_[robot] = {owner, readings};
+  robots_[robot] = {owner, readings, served.raysPerSecond, served.raysAtOnce};
   robotCount_ = robots_.size();
   return readings;
 }
@@ -62,6 +62,19 @@ void WorldKeeper::checkLimits(const ServedRobot& robot) const {
         "limit", "the robot's sensors need " + std::to_string(std::llround(robot.raysPerSecond)) +
                      " rays a second, at most " + std::to_string(std::llround(limits.rays)) +
                      " are permitted: fewer beams, or longer periods");
+  double perSecond = robot.raysPerSecond;
+  double atOnce = robot.raysAtOnce;
+  for (const auto& [id, other] : robots_) {
+    perSecond += other.raysPerSecond;
+    atOnce += other.raysAtOnce;
+  }
+  if (perSecond > limits.allRays || atOnce > limits.allRaysAtOnce)
+    throw ServeError(
+        "limit", "the sensors of all robots would need " + std::to_string(std::llround(perSecond)) +
+                     " rays a second and " + std::to_string(std::llround(atOnce)) +
+                     " at once, at most " + std::to_string(std::llround(limits.allRays)) + " and " +
+                     std::to_string(std::llround(limits.allRaysAtOnce)) +
+                     " are permitted: fewer beams, or come back when others have left");
 }
 
 void WorldKeeper::removeRobot(ClientId owner, RobotId robot) {

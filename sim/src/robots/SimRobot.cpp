@@ -106,6 +106,13 @@ double SimRobot::raysPerSecond(double cycle) const {
   return sum;
 }
 
+double SimRobot::raysAtOnce() const {
+  double sum = 0.0;
+  for (const Mounted& mounted : sensors_)
+    if (mounted.sensor) sum += mounted.sensor->rays();
+  return sum;
+}
+
 std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
   inFrame_ = 0;
   if (now < nextDue_) return {};

@@ -52,6 +52,8 @@ class ORTUNG_API SimRobot : public RobotCommands {
 
   /// What its sensors cost [rays/s] in a world with cycles of a length [s], see Sensor::rays().
   double raysPerSecond(double cycle) const;
+  /// The same for one reading of each sensor: about what they take of memory.
+  double raysAtOnce() const;
 
   const RobotConfig& config() const { return config_; }
   const RobotShape& shape() const { return shape_; }

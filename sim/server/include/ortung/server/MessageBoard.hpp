@@ -21,7 +21,10 @@ struct BoardLimits {
   std::size_t sensors = 16;               ///< a robot
   std::size_t features = 1024;            ///< a robot
   double rays = 250'000.0;                ///< that a robot's sensors need [1/s], see Sensor::rays()
+  double allRays = 2e7;                   ///< that the sensors of all robots need [1/s]
+  double allRaysAtOnce = 2e6;             ///< in one reading of each sensor of all robots
   std::size_t sessions = 256;             ///< clients at a time
+  std::size_t sessionsOfAddress = 128;    ///< of them from one computer
   std::size_t httpHead = 16u << 10;       ///< of a request of a web browser [bytes]
   std::size_t output = 1u << 20;          ///< waiting to be read by a client [bytes]; more: dropped
   std::size_t orders = 64;                ///< of a client, waiting for the world

@@ -51,6 +51,7 @@ struct ServedFeature {
 struct ServedRobot {
   std::vector<ServedFeature> features;  ///< in the order of its readings
   double raysPerSecond = 0.0;           ///< what its sensors cost, see Sensor::rays()
+  double raysAtOnce = 0.0;              ///< of one reading of each: about what they take of memory
 };
 
 /// A robot that was there before any client: it belongs to the world.
