@@ -30,6 +30,7 @@ struct ServedSimulation::Guest {
   RobotWish wish;
   SimRobot* robot = nullptr;  ///< the simulation's
   bool isResident = false;    ///< of the scene, which has let it in
+  RobotSize size;             ///< of a robot that is no resident
 };
 
 ServedSimulation::ServedSimulation(const std::filesystem::path& file,
@@ -84,17 +85,44 @@ std::vector<Resident> ServedSimulation::residents() const {
   return residents;
 }
 
-/// A planner costs time and memory, so clients can't have as many as they like.
-void ServedSimulation::preparePlanner(const RobotSize& size) {
-  if (!run_->hasPlanner(size) && run_->planners() >= kMostPlanners)
+bool ServedSimulation::hasWanderer(const RobotSize& size) const {
+  return std::any_of(guests_.begin(), guests_.end(), [&](const auto& entry) {
+    const Guest& guest = *entry.second;
+    return guest.wish.wanders && guest.robot != nullptr && guest.size == size;
+  });
+}
+
+/// Gives plans back that nobody wanders by, the oldest first, until there are at most @p most.
+void ServedSimulation::dropPlanners(std::size_t most) {
+  for (auto plan = planned_.begin(); plan != planned_.end() && planned_.size() > most;) {
+    if (hasWanderer(*plan)) {
+      ++plan;
+      continue;
+    }
+    run_->forgetPlanner(*plan);
+    plan = planned_.erase(plan);
+  }
+}
+
+/// A plan costs memory, so those of clients' robots are few. Who wanders needs his for as long as
+/// he is there; who is only placed needs it once.
+void ServedSimulation::preparePlanner(const RobotSize& size, bool wanders) {
+  const auto known = std::find(planned_.begin(), planned_.end(), size);
+  if (known != planned_.end()) {
+    std::rotate(known, known + 1, planned_.end());
+    return;
+  }
+  if (run_->hasPlanner(size)) return;  // the scene's
+  dropPlanners(kMostPlanners - 1);
+  if (wanders && planned_.size() >= kMostPlanners)
     throw ServeError("limit", "robots of " + std::to_string(kMostPlanners) +
-                                  " different sizes are here already; give a start, and do not "
-                                  "ask for wandering");
+                                  " different sizes wander here already; do not ask for wandering");
   try {
     run_->planner(size);
   } catch (const std::invalid_argument& error) {
     throw ServeError("no-room", error.what());
   }
+  planned_.push_back(size);
 }
 
 /// Brings a robot onto the field, where it wants to be; if that place is taken at a reset,
@@ -108,7 +136,8 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
   // Clients name their robots as they like, so two of them may like the same.
   if (run_->find(config.name)) config.name += "-" + std::to_string(robot);
   const bool isRestart = guests_.contains(robot);
-  if (guest.wish.wanders || !guest.wish.start) preparePlanner(sizeOf(config));
+  guest.size = sizeOf(config);
+  if (guest.wish.wanders || !guest.wish.start) preparePlanner(guest.size, guest.wish.wanders);
   const std::uint64_t number = entered_;
   const auto add = [&](const std::optional<Pose2>& start) {
     guest.robot = &run_->addRobot(config, factory_, start, number);
@@ -117,7 +146,7 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
     add(guest.wish.start);
   } catch (const std::invalid_argument& error) {
     if (!guest.wish.start || !isRestart) throw ServeError("no-room", error.what());
-    preparePlanner(sizeOf(config));
+    preparePlanner(guest.size, guest.wish.wanders);
     add(std::nullopt);
   }
   ++entered_;
@@ -130,7 +159,9 @@ ServedRobot ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
   enter(robot, *guest);
   SimRobot& entered = *guest->robot;
   guests_[robot] = std::move(guest);
-  return {servedFeatures(entered.container()), entered.raysPerSecond(simulation().cycle())};
+  dropPlanners(kMostPlanners);
+  return {servedFeatures(entered.container()), entered.raysPerSecond(simulation().cycle()),
+          entered.raysAtOnce()};
 }
 
 ServedSimulation::Guest& ServedSimulation::guest(RobotId robot) const {
@@ -186,6 +217,7 @@ void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
   if (seed) config.seed = *seed;
   auto fresh = std::make_unique<SceneRun>(scene_, config, factory_);
   run_ = std::move(fresh);
+  planned_.clear();
   config_ = config;
   entered_ = scene_.robots.size();
   for (auto& [id, guest] : guests_) {

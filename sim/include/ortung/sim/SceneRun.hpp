@@ -47,7 +47,8 @@ class ORTUNG_API SceneRun {
   /// @throws std::invalid_argument if such a robot fits nowhere
   const RoutePlanner& planner(const RobotSize& size);
   bool hasPlanner(const RobotSize& size) const { return planners_.contains(size); }
-  std::size_t planners() const { return planners_.size(); }
+  /// Gives the memory of a plan back. @pre no robot of that size wanders, and none is kidnapped
+  void forgetPlanner(const RobotSize& size) { planners_.erase(size); }
 
  private:
   /// A robot that is carried elsewhere now and then.

@@ -44,7 +44,9 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   Simulation& simulation() const { return run_->simulation(); }
   void enter(RobotId robot, Guest& guest);
   void nameObjects();
-  void preparePlanner(const RobotSize& size);
+  void preparePlanner(const RobotSize& size, bool wanders);
+  void dropPlanners(std::size_t most);
+  bool hasWanderer(const RobotSize& size) const;
 
   Scene scene_;
   Simulation::Config config_;
@@ -52,6 +54,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   std::vector<std::string> plugins_;
   std::vector<ServedObject> objects_;  ///< in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
+  std::vector<RobotSize> planned_;  ///< for robots of clients, the plan last asked for at the end
   std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
   std::uint64_t entered_;  ///< robots since the last reset: each has chances of its own
 };
