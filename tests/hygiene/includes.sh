@@ -30,7 +30,7 @@ deny 'sim' 'ortung/(mcl|realsensors)|mrpt|opencv'
 deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nlohmann|$foreign"
 deny 'sim/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
 deny 'sim/src sim/include' 'ortung/(server|served|client)/'
-deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/server/src/(Arrival\.|Session\.|MessageBoard\.cpp)'
+deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)'
 deny 'plugins' 'ortung/(mcl|realsensors)|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
 deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
