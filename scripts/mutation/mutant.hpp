@@ -1,6 +1,7 @@
-// Included before every source of a mutated build (-include). A mutant is a number at a place of the sources; the one
-// whose number the environment variable ORTUNG_MUTANT holds is switched on, all others do what the original does.
-// ORTUNG_MUTANTS_REACHED names a file of one byte a mutant, which this process sets where it comes past.
+// Included before every source of a mutated build (-include). A mutant is a number at a place of
+// the sources; the one whose number the environment variable ORTUNG_MUTANT holds is switched on,
+// all others do what the original does. ORTUNG_MUTANTS_REACHED names a file of one byte a mutant,
+// which this process sets where it comes past.
 #pragma once
 #if __cplusplus >= 202002L  // not in CMake's own checks of the compiler
 #include <fcntl.h>
@@ -18,7 +19,8 @@ inline unsigned char* reached() {
   static unsigned char* const bytes = [] {
     const char* name = std::getenv("ORTUNG_MUTANTS_REACHED");
     const int file = name == nullptr ? -1 : ::open(name, O_RDWR);
-    void* map = file < 0 ? MAP_FAILED : ::mmap(nullptr, kMost, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    void* map =
+        file < 0 ? MAP_FAILED : ::mmap(nullptr, kMost, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (file >= 0) ::close(file);
     return map == MAP_FAILED ? nullptr : static_cast<unsigned char*>(map);
   }();
@@ -42,7 +44,8 @@ auto binary(int number, A a, B b, Original original, Mutated mutated) -> decltyp
 
 // For constexpr functions: while the compiler computes, the original is meant.
 template <class A, class B, class Original, class Mutated>
-constexpr auto constantBinary(int number, A a, B b, Original original, Mutated mutated) -> decltype(original(a, b)) {
+constexpr auto constantBinary(int number, A a, B b, Original original, Mutated mutated)
+    -> decltype(original(a, b)) {
   if (std::is_constant_evaluated()) return original(a, b);
   return binary(number, a, b, original, mutated);
 }

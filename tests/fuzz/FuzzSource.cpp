@@ -17,7 +17,8 @@ bool writeFiles() {
   fuzz::write("world.toml",
               "[world]\nx_m = [-3, 3]\ny_m = [-2, 2]\n[[ellipse]]\nkind = \"post\"\n"
               "center_m = [0, 0]\nsize_m = [0.5, 0.5]\n");
-  fuzz::write("robot.toml", "[robot]\nname = \"r\"\nradius_m = 0.2\n[[sensor]]\nplugin = \"odometry\"\n");
+  fuzz::write("robot.toml",
+              "[robot]\nname = \"r\"\nradius_m = 0.2\n[[sensor]]\nplugin = \"odometry\"\n");
   return true;
 }
 
