@@ -26,8 +26,8 @@ LASER = {  # name: folder, options of the import
                 "odom={data}/crob_lab_jarvis/complex_path_fast/odom.txt.xz"]),
 }
 HEAD = ("| start | seeds | converged | after [s] | median [m] | RMSE [m] | p95 [m] | heading RMSE [deg] | lost | "
-        "NEES | samples | ms |")
-RULE = "|" + "---|" * 13
+        "NEES | samples | ms | RMSE at updates [m] |")
+RULE = "|" + "---|" * 14
 
 
 def run(arguments):
@@ -53,10 +53,10 @@ def evaluate(ortung, source, robot, tables, start, seeds, extra=()):
             results.append(json.load(open(out.name)))
     good = [r for r in results if r["converged_after_s"] is not None]
     m = lambda key: mean([r[key] for r in good])
-    return "| %s | %d | %d | %.1f | %.3f | %.3f | %.3f | %.2f | %.3f | %.1f | %.0f | %.2f |" % (
+    return "| %s | %d | %d | %.1f | %.3f | %.3f | %.3f | %.2f | %.3f | %.1f | %.0f | %.2f | %.3f |" % (
         start, seeds, len(good), m("converged_after_s"), m("position_median_m"), m("position_rmse_m"),
         m("position_p95_m"), m("heading_rmse_deg"), m("lost_share"), m("nees_mean"), m("particles_mean"),
-        m("update_ms_p50"))
+        m("update_ms_p50"), mean([r["at_corrections"]["position_rmse_m"] for r in good]))
 
 
 def mrclam(ortung, data, out, seeds):

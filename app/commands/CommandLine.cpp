@@ -85,6 +85,11 @@ void addLearn(Builder& build, CLI::App& app) {
               "Resolution of directions [degrees]; divides a turn")
       ->check(within(0.1, 90.0))
       ->capture_default_str();
+  build
+      .option("--area", a->area,
+              "Part of the floor on which the robot is: 'auto' (the largest, but what walls leave "
+              "outside), 'x,y' (where that point is [m]) or 'all'")
+      ->capture_default_str();
   build.flag("--progress", a->progress, kProgress);
 }
 

@@ -16,6 +16,7 @@ struct LearnArguments {
   std::filesystem::path out;
   double cell = 0.1;            ///< [m]
   double headingStepDeg = 2.0;  ///< [degrees]
+  std::string area = "auto";    ///< "auto", "all" or "x,y" [m]: which part of the floor
   bool progress = false;
 };
 int runLearn(const LearnArguments& arguments);

@@ -38,7 +38,9 @@ void checkOutputs(const EvalArguments& arguments) {
   }
 }
 
-/// Runs MCL over the whole source.
+/// Runs MCL over the whole source. What is compared is what a program would have got that asks for
+/// the pose at even times. Only odometry is taken from between two readings of it, since logs have
+/// it thinned out that ran at tens of readings a second.
 RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& options,
                    Localization& localization) {
   Evaluation evaluation(options);
@@ -47,6 +49,9 @@ RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& op
   const auto onMoment = [&](const Feeder& feeder) {
     if (!any) run.first = feeder.stamp();
     any = true;
+    localization.followOdometry();
+    for (const Timestamp time : evaluation.due(feeder.stamp(), feeder.truth().has_value()))
+      if (const auto estimate = localization.estimate(time)) evaluation.addMoment(*estimate);
     evaluation.addTime(feeder.stamp());
     if (feeder.truth()) evaluation.addTruth(feeder.stamp(), *feeder.truth());
   };
@@ -69,9 +74,9 @@ void warnOfGaps(const RunResult& run) {
                              "was learned, so there is "
                              "nothing to localize with");
   }
-  if (run.figures.comparedSteps > 0) return;
+  if (run.figures.overTime.compared > 0) return;
   warn(run.figures.source +
-       " gave no ground truth for any update (a feature of type "
+       " gave no ground truth for any time with an estimate (a feature of type "
        "groundTruth), so there are no errors; `ortung localize` gives poses");
 }
 
@@ -94,6 +99,7 @@ int runEval(const EvalArguments& arguments) {
   run.tableInfo = localization->robot().tables;
   run.commandLine = arguments.commandLine;
   warnOfUnknown(arguments.localization.source, localization->feeder());
+  warnWithoutOdometry(*localization, arguments.localization);
   warnOfGaps(run);
   if (record) record->commit();
   if (!arguments.json.empty()) writeFile(arguments.json, toJson(run));

@@ -1,12 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "Numbers.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
 #include "ortung/base/Angles.hpp"
@@ -28,6 +33,26 @@ double headingStep(double stepDeg) {
                     stepDeg));
   }
   return kTurn / std::round(steps);
+}
+
+/// Where the robot can stand, of the part of the floor that is asked for.
+FieldRegion readArea(const LearnArguments& arguments, const SimWorld& world,
+                     const RobotSize& robot) {
+  if (arguments.area == "all") {
+    FieldRegion all = world.region(arguments.cell, robot);
+    all.check();
+    return all;
+  }
+  std::optional<std::array<double, 2>> inside;
+  if (arguments.area != "auto") {
+    const std::vector<double> point = parseNumbers(arguments.area, "--area", {"x", "y"});
+    inside = {point[0], point[1]};
+  }
+  LearnArea area = learnArea(world, arguments.cell, robot, inside);
+  if (area.leftOut > 0.0)
+    note(fmt::format("{}: {:.1f} m^2 that walls part from where the robot is are left out (--area)",
+                     arguments.world.string(), area.leftOut));
+  return std::move(area.region);
 }
 
 /// How the table's features are called in the file.
@@ -63,8 +88,7 @@ int runLearn(const LearnArguments& arguments) {
   checkOutput(arguments.out);
   const std::unique_ptr<SimWorld> world = readWorld(arguments.world);
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
-  const FieldRegion region = world->region(arguments.cell, sizeOf(robot->config));
-  region.check();
+  const FieldRegion region = readArea(arguments, *world, sizeOf(robot->config));
   {
     Progress progress("learning", arguments.progress);
     learn(*world, region, robot->devices, robot->factory, {arguments.cell, step},

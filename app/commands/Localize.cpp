@@ -20,11 +20,15 @@ int runLocalize(const LocalizeArguments& arguments) {
   const LocalizationArguments& run = arguments.localization;
   const std::unique_ptr<Localization> localization = openLocalization(run);
   std::string text(kEstimatesHeader);
+  constexpr double kPatience = 5.0;  // for the first odometry of a live source [s]
   std::size_t updates = 0;
+  bool warned = false;
   {
     Progress progress("localizing", run.progress);
     while (const std::optional<EvaluationStep> step = nextStep(*localization, run)) {
       ++updates;
+      if (!warned && localization->feeder().seconds() > kPatience)
+        warned = warnWithoutOdometry(*localization, run);
       appendEstimate(step->estimate, text);
       if (toFile) {
         progress.update(localization->feeder().progress());
@@ -43,6 +47,7 @@ int runLocalize(const LocalizeArguments& arguments) {
                              "was learned, so there is "
                              "nothing to localize with");
   }
+  if (!warned) warnWithoutOdometry(*localization, run);
   if (toFile) writeFile(arguments.out, text);
   return 0;
 }

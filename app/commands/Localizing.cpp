@@ -1,5 +1,7 @@
 #include "Localizing.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -98,6 +100,17 @@ std::optional<EvaluationStep> nextStep(Localization& localization,
                              "groundTruth; use --start global or --start x,y,theta_deg");
   }
   return std::nullopt;
+}
+
+bool warnWithoutOdometry(const Localization& localization, const LocalizationArguments& arguments) {
+  if (localization.mcl().hasOdometry()) return false;
+  const MclConfig& mcl = localization.mclConfig();
+  warn(fmt::format(
+      "{}: gives no odometry (a feature that the robot file has, with plugin "
+      "'odometry'); the robot is taken to drift at random, {:.3g} m and {:.3g} degrees in "
+      "a second ([mcl] drift_m, drift_deg)",
+      arguments.source, mcl.driftMetres, degrees(mcl.driftRadians)));
+  return true;
 }
 
 }  // namespace ortung::app

@@ -22,4 +22,7 @@ std::optional<EvaluationStep> nextStep(Localization& localization,
                                        const LocalizationArguments& arguments,
                                        const std::function<void(const Feeder&)>& onMoment = {});
 
+/// Says what MCL does without odometry, if none has come; returns whether it said so.
+bool warnWithoutOdometry(const Localization& localization, const LocalizationArguments& arguments);
+
 }  // namespace ortung::app

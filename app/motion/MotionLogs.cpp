@@ -64,15 +64,17 @@ MotionLog readMotionLog(const std::string& text, const std::filesystem::path& ro
     Pose2 pose;
     double v;
     double w;
+    double sideways;
   };
   std::vector<Reading> odometry;
   std::vector<std::pair<Timestamp, Pose2>> truth;
   readAll(
       text, robotFile, progress,
       [&](Timestamp stamp, const OdometryData::Reading& r) {
-        model.follow(stamp, {r.pose, r.translationalVelocity, r.rotationalVelocity, r.motionData});
+        model.follow(stamp, {r.pose, r.translationalVelocity, r.rotationalVelocity, r.motionData,
+                             r.lateralVelocity});
         odometry.push_back({stamp, model.odometryAt(stamp).value_or(r.pose),
-                            r.translationalVelocity, r.rotationalVelocity});
+                            r.translationalVelocity, r.rotationalVelocity, r.lateralVelocity});
       },
       [&](Timestamp stamp, const Pose2& pose) { truth.emplace_back(stamp, pose); });
   const Timestamp first = odometry.front().stamp;
@@ -81,7 +83,7 @@ MotionLog readMotionLog(const std::string& text, const std::filesystem::path& ro
   const Timestamp end = first + fromSeconds(to * span);
   MotionLog log;
   for (const Reading& r : odometry) {
-    if (r.stamp >= begin && r.stamp <= end) log.odometry.add(r.stamp, r.pose, r.v, r.w);
+    if (r.stamp >= begin && r.stamp <= end) log.odometry.add(r.stamp, r.pose, r.v, r.w, r.sideways);
   }
   for (const auto& point : truth) {
     if (point.first >= begin && point.first <= end) log.truth.push_back(point);

@@ -49,38 +49,16 @@ std::vector<Element> thin(const std::vector<Element>& elements, Value value) {
   return kept;
 }
 
-/// Standard deviations that the filter claims, at the time of each point.
-struct Sigmas {
-  std::vector<double> position;  ///< [m]
-  std::vector<double> heading;   ///< [rad]
-};
-
-Sigmas sigmasAt(const std::vector<EvaluationPoint>& points,
-                const std::vector<PoseEstimate>& estimates) {
-  Sigmas sigmas;
-  std::size_t at = 0;
-  for (const EvaluationPoint& point : points) {
-    while (at < estimates.size() && estimates[at].stamp < point.stamp) ++at;
-    const bool known = at < estimates.size() && estimates[at].stamp == point.stamp;
-    const auto& covariance = known ? estimates[at].covariance : std::array<double, 9>{NAN};
-    sigmas.position.push_back(std::sqrt(covariance[0] + covariance[4]));
-    sigmas.heading.push_back(known ? std::sqrt(covariance[8]) : NAN);
-  }
-  return sigmas;
-}
-
 /// What report.js draws.
 std::string chartData(const RunResult& run) {
   const auto points = thin(run.figures.points, [](const auto& p) { return p.positionError; });
   const auto estimates = thin(run.estimates, [](const auto& e) { return e.samples; });
-  const Sigmas sigmas = sigmasAt(points, run.estimates);
   const auto time = [&](Timestamp stamp) { return toSeconds(stamp) - toSeconds(run.first); };
   const auto longest = [](const auto& elements) {
     std::vector<Timestamp> stamps;
     for (const auto& element : elements) stamps.push_back(element.stamp);
     return longestDrawnStep(std::move(stamps));
   };
-  const auto same = [](double value) { return value; };
   std::string json = "{";
   const auto member = [&](const char* name, const std::string& array) {
     json += fmt::format("\"{}\":{},", name, array);
@@ -88,9 +66,12 @@ std::string chartData(const RunResult& run) {
   using Point = EvaluationPoint;
   member("time", jsonArray(points, [&](const Point& p) { return time(p.stamp); }));
   member("position", jsonArray(points, [](const Point& p) { return p.positionError; }));
-  member("positionSigma", jsonArray(sigmas.position, same));
+  member("positionSigma", jsonArray(points, [](const Point& p) {
+           return std::sqrt(p.covariance[0] + p.covariance[4]);
+         }));
   member("heading", jsonArray(points, [](const Point& p) { return degrees(p.headingError); }));
-  member("headingSigma", jsonArray(sigmas.heading, [](double s) { return degrees(s); }));
+  member("headingSigma",
+         jsonArray(points, [](const Point& p) { return degrees(std::sqrt(p.covariance[8])); }));
   member("truthX", jsonArray(points, [](const Point& p) { return p.truth.x; }));
   member("truthY", jsonArray(points, [](const Point& p) { return p.truth.y; }));
   member("estimateX", jsonArray(points, [](const Point& p) { return p.estimate.x; }));

@@ -23,7 +23,8 @@ struct RunResult {
   std::string commandLine;
 };
 
-/// The figures as a JSON object for machines; what is not a number becomes null.
+/// The figures as a JSON object for machines; what is not a number becomes null. docs/mcl.md tells
+/// its keys.
 std::string toJson(const RunResult& run);
 
 /// The figures as lines for people.

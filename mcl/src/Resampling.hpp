@@ -24,6 +24,11 @@ ORTUNG_API std::vector<std::uint32_t> lowVariance(std::span<const double> weight
 /// The samples at these indices, all of the same weight.
 SampleSet taken(const SampleSet& from, std::span<const std::uint32_t> indices);
 
+/// Puts poses in the place of others, spread over the set, since low-variance resampling keeps
+/// neighbours together: a run of them is one place of the belief. Weights stay.
+/// @pre fresh.size() <= set.size()
+ORTUNG_API void replaceSome(SampleSet& set, const SampleSet& fresh);
+
 /// Exponent b in (0, 1] for which the weights w^b are worth at least @p least samples:
 /// candidates are drawn by w^b and keep w^(1-b), so that a sharp reading does not leave only one.
 ORTUNG_API double temperFor(std::span<const float> logWeights, double least);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "EstimatesText.hpp"
 #include "Golden.hpp"
@@ -20,18 +21,25 @@ RunResult numberedRun() {
   RunResult run;
   run.figures.source = "record:a \"b\" \xC3\xA4.rec";
   run.figures.steps = 601;
-  run.figures.comparedSteps = 602;
+  run.figures.atCorrections.compared = 602;
+  run.figures.overTime.compared = 5999;
   run.figures.duration = 60.25;
   run.figures.particlesMean = 1234.5;
-  run.figures.positionRmse = 0.125;
-  run.figures.positionMedian = 0.0625;
-  run.figures.positionP95 = 0.375;
-  run.figures.headingRmse = 0.5;
-  run.figures.lostShare = 0.03125;
+  run.figures.overTime.positionRmse = 0.125;
+  run.figures.overTime.positionMedian = 0.0625;
+  run.figures.overTime.positionP95 = 0.375;
+  run.figures.overTime.headingRmse = 0.5;
+  run.figures.overTime.lostShare = 0.03125;
   run.figures.updateMsP50 = 0.25;
   run.figures.updateMsP99 = 0.75;
   run.figures.realtimeFactor = std::numeric_limits<double>::infinity();
-  run.figures.neesMean = 2.875;
+  run.figures.overTime.neesMean = 2.875;
+  run.figures.atCorrections.positionRmse = 0.1171875;
+  run.figures.atCorrections.positionMedian = 0.046875;
+  run.figures.atCorrections.positionP95 = 0.34375;
+  run.figures.atCorrections.headingRmse = 0.4375;
+  run.figures.atCorrections.lostShare = 0.015625;
+  run.figures.atCorrections.neesMean = 2.625;
   run.seed = std::numeric_limits<std::uint64_t>::max();
   run.particles = 20000;
   run.robot = "robot.toml";
@@ -40,7 +48,13 @@ RunResult numberedRun() {
   return run;
 }
 
-TEST(GoldenTexts, FiguresOfARun) { expectGolden("result.json", toJson(numberedRun())); }
+TEST(GoldenTexts, FiguresOfARun) { expectGolden("result-2.json", toJson(numberedRun())); }
+
+TEST(GoldenTexts, FiguresOfARunHaveAllKeysThatTheyEverHad) {
+  const auto old = nlohmann::json::parse(test::readBytes(goldenFile("result.json")));
+  const auto now = nlohmann::json::parse(toJson(numberedRun()));
+  for (const auto& [key, value] : old.items()) EXPECT_TRUE(now.contains(key)) << key;
+}
 
 TEST(GoldenTexts, EstimatesOfPoses) {
   PoseEstimate estimate;

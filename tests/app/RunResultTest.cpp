@@ -27,7 +27,7 @@ TEST(RunResult, JsonHasTheKeysThatMachinesReadInTheirUnits) {
 TEST(RunResult, JsonSaysNullForWhatIsNoNumber) {
   RunResult run = syntheticRun();
   run.figures.convergedAfter.reset();
-  run.figures.positionRmse = std::numeric_limits<double>::quiet_NaN();
+  run.figures.overTime.positionRmse = std::numeric_limits<double>::quiet_NaN();
   run.figures.realtimeFactor = std::numeric_limits<double>::infinity();
   const auto json = nlohmann::json::parse(toJson(run));
   EXPECT_TRUE(json["converged_after_s"].is_null());
@@ -43,9 +43,9 @@ TEST(RunResult, JsonIsValidWhateverAFileIsCalled) {
 
 TEST(RunResult, SummaryNamesTheSourceAndSaysDashForWhatIsNotKnown) {
   RunResult run = syntheticRun();
-  run.figures.comparedSteps = 0;
+  run.figures.overTime.compared = 0;
   run.figures.convergedAfter.reset();
-  run.figures.positionRmse = std::numeric_limits<double>::quiet_NaN();
+  run.figures.overTime.positionRmse = std::numeric_limits<double>::quiet_NaN();
   const std::string text = toText(run);
   EXPECT_NE(text.find("record:circle.rec"), std::string::npos);
   EXPECT_EQ(text.find("never"), std::string::npos);

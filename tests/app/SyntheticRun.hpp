@@ -14,18 +14,19 @@ inline RunResult syntheticRun() {
   RunResult run;
   run.figures.source = "record:circle.rec";
   run.figures.steps = 600;
-  run.figures.comparedSteps = 600;
+  run.figures.atCorrections.compared = 600;
+  run.figures.overTime.compared = 600;
   run.figures.duration = 60.0;
   run.figures.particlesMean = 1234.0;
-  run.figures.positionRmse = 0.1;
-  run.figures.positionMedian = 0.1;
-  run.figures.positionP95 = 0.11;
-  run.figures.headingRmse = kPi / 180.0;
+  run.figures.overTime.positionRmse = 0.1;
+  run.figures.overTime.positionMedian = 0.1;
+  run.figures.overTime.positionP95 = 0.11;
+  run.figures.overTime.headingRmse = kPi / 180.0;
   run.figures.convergedAfter = 5.0;
   run.figures.updateMsP50 = 0.25;
   run.figures.updateMsP99 = 0.5;
   run.figures.realtimeFactor = 300.0;
-  run.figures.neesMean = 2.9;
+  run.figures.overTime.neesMean = 2.9;
   for (int i = 0; i < 600; ++i) {
     const double t = 0.1 * i;
     const double angle = 0.2 * t;
@@ -38,11 +39,12 @@ inline RunResult syntheticRun() {
     point.positionError = off;
     point.headingError = kPi / 180.0;
     point.samples = t < 5.0 ? 20000 : 500;
+    point.covariance = {0.004, 0, 0, 0, 0.004, 0, 0, 0, 0.0004};
     run.figures.points.push_back(point);
     PoseEstimate estimate;
     estimate.stamp = point.stamp;
     estimate.pose = point.estimate;
-    estimate.covariance = {0.004, 0, 0, 0, 0.004, 0, 0, 0, 0.0004};
+    estimate.covariance = point.covariance;
     estimate.samples = point.samples;
     run.estimates.push_back(estimate);
   }

@@ -203,6 +203,37 @@ TEST(OdometryData, ReadsPoseVelocitiesAndMotionData) {
   EXPECT_EQ(data.reading().motionData, (Words{11, 12}));
 }
 
+TEST(OdometryData, TellsTheLateralVelocityBehindTheMotionData) {
+  OdometryData data(kId);
+  const Words words = OdometryData::encode({{1, 2, 0}, 0.25, 0.0, {11, 12, 13}, -1.5});
+  EXPECT_EQ(words, (Words{2147484648, 2147485648, 18000, 2147483898, 2147483648, 11, 12, 13,
+                          4294967295, 2147482148}));
+  data.setData(1, words);
+  EXPECT_DOUBLE_EQ(data.reading().lateralVelocity, -1.5);
+  EXPECT_EQ(data.reading().motionData, (Words{11, 12, 13}));
+  data.setData(2, OdometryData::encode({{}, 0.5, 0.0, Words(16, 7), 0.75}));
+  EXPECT_DOUBLE_EQ(data.reading().lateralVelocity, 0.75);
+  EXPECT_EQ(data.reading().motionData, Words(16, 7));
+  expectRefused(data, words, OdometryData::encode({{}, 0, 0, Words(17, 7), 0.75}),
+                "found 24 words, expected 5 to 23");
+}
+
+// Records of an omnidirectional base from before there was a lateral velocity.
+TEST(OdometryData, ReadsWordsWithoutLateralVelocityAsBefore) {
+  OdometryData data(kId);
+  const Words old = {2147484648, 2147485648, 18000, 2147483898, 2147483648, 11, 12, 13};
+  data.setData(1, OdometryData::encode({{}, 0, 0, {}, 1.0}));
+  data.setData(2, old);
+  EXPECT_EQ(data.reading().lateralVelocity, 0.0);
+  EXPECT_EQ(data.reading().motionData, (Words{11, 12, 13}));
+  EXPECT_EQ(OdometryData::encode(data.reading()), old) << "as it was: who stands adds no words";
+  for (const Words& motion : {Words{4294967295, 5}, Words{4294967295}, Words{1, 4294967295, 2}}) {
+    data.setData(3, OdometryData::encode({{}, 0, 0, motion}));
+    EXPECT_EQ(data.reading().motionData, motion) << "though it looks like a lateral velocity";
+    EXPECT_EQ(data.reading().lateralVelocity, 0.0);
+  }
+}
+
 TEST(PoseData, ReadsAPose) {
   PoseData data({"M1", "T", "F"});
   const Words words = PoseData::encode({-10.001, 0.002, kPi / 2});

@@ -26,10 +26,27 @@ TEST(OdometryTrack, IsOnTheArcBetweenAndBesideItsReadings) {
     SCOPED_TRACE(t);
     const auto pose = track.at(fromSeconds(t));
     ASSERT_TRUE(pose);
-    // Between readings exactly; beyond them the chord is taken for the arc: 2 (1 - sinc(0.15)) m.
-    expectNear(*pose, onCircle(t), t < 1.0 || t > 3.0 ? 0.003 : 1e-9);
+    expectNear(*pose, onCircle(t));
   }
   expectNear(*track.at(fromSeconds(60)), *track.at(fromSeconds(3.3)));  // no farther than 0.3 s
+}
+
+// An omnidirectional robot on the same circle that faces its middle all the time: it drives
+// sideways, to the right, and turns. Halfway to the next reading it is where the circle says.
+TEST(OdometryTrack, DrivesSidewaysAndTurns) {
+  const auto facingTheMiddle = [](double t) {
+    return Pose2{2 * std::cos(t), 2 * std::sin(t), wrapAngle(t + kPi)};
+  };
+  OdometryTrack track;
+  for (const double t : {1.0, 1.4, 2.6, 3.0})
+    track.add(fromSeconds(t), facingTheMiddle(t), 0.0, 1.0, -2.0);
+  for (const double t : {0.75, 1.0, 1.2, 2.0, 2.59, 3.0, 3.1, 3.29}) {
+    SCOPED_TRACE(t);
+    expectNear(*track.at(fromSeconds(t)), facingTheMiddle(t));
+  }
+  OdometryTrack straight;
+  straight.add(0, {1, 2, kPi / 2}, 0.5, 0.0, 1.0);
+  expectNear(*straight.at(200000), {1 - 0.2, 2 + 0.1, kPi / 2});
 }
 
 TEST(OdometryTrack, StandsAndDrivesStraight) {

@@ -6,6 +6,7 @@
 
 #include "FakeRun.hpp"
 #include "Files.hpp"
+#include "MovingRobot.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/mcl/Mcl.hpp"
@@ -188,37 +189,8 @@ TEST(Mcl, WithoutAnyReadingHasNoNews) {
   EXPECT_EQ(mcl->estimate().samples, 0u);
 }
 
-/// A device with a feature that says nothing new about the pose, to see where the samples are.
-struct Moving {
-  explicit Moving(const FieldRegion& region) : motion_region(region) {
-    container.add(std::make_unique<OdometryData>(SensorId{"base", "odometry", "pose"}));
-    for (const std::string name : {"early", "late"}) {
-      SensorData& data = container.add(std::make_unique<ScalarData>(
-          SensorId{"cam", "camera", name}, Pose2{}, ScalarData::Config{.model = {.sigma = 100}}));
-      test::learnEverywhere(data, region, 1.0,
-                            [](const Pose2&) { return ScalarData::encode(1.0); });
-    }
-  }
-  void odometry(double seconds, const OdometryData::Reading& reading) {
-    container.set(
-        {fromSeconds(seconds), {"base", "odometry", "pose"}, OdometryData::encode(reading)});
-  }
-  void feature(const std::string& name, double seconds) {
-    container.set({fromSeconds(seconds), {"cam", "camera", name}, ScalarData::encode(1.0)});
-  }
-  std::unique_ptr<Mcl> mcl() const {
-    MclConfig config;
-    config.maxSamples = config.minSamples = 600;
-    return std::make_unique<Mcl>(config, motion_region,
-                                 std::make_unique<OdometryMotion>(OdometryNoise{0, 0, 0, 0, 0, 0}));
-  }
-  const FieldRegion& motion_region;
-  SensorContainer container;
-};
-
 TEST(Mcl, MovesTheSamplesToTheTimeOfEachReading) {
-  const FieldRegion region = test::Room{20, 20}.region(0.5, 0.2);
-  Moving robot(region);
+  test::MovingRobot robot;
   const auto mcl = robot.mcl();
   mcl->startAt({1, 0, 0}, 0.0, 0.0);
   robot.odometry(0.0, {{0, 0, 0}, 1.0, 0.0, {}});
@@ -245,8 +217,7 @@ TEST(Mcl, MovesTheSamplesToTheTimeOfEachReading) {
 }
 
 TEST(Mcl, FollowsAnArcBetweenOdometryReadings) {
-  const FieldRegion region = test::Room{20, 20}.region(0.5, 0.2);
-  Moving robot(region);
+  test::MovingRobot robot;
   const auto mcl = robot.mcl();
   mcl->startAt({0, 0, 0}, 0.0, 0.0);
   robot.odometry(0.0, {{0, 0, 0}, 1.0, 2.0, {}});
@@ -414,9 +385,10 @@ TEST(MclConfig, IsReadFromAFilesSection) {
   Parameters misspelt("r.toml");
   misspelt.set("particels", 3000.0);
   EXPECT_EQ(test::messageOf<ConfigError>([&] { MclConfig::read(misspelt); }),
-            "r.toml: particels is not known here; known are bin_deg, bin_m, inject_fast, "
-            "inject_most, inject_slow, kld_error, kld_quantile, max_interval_s, min_distance_m, "
-            "min_particles, min_rotation_deg, particles, resample_below, start_candidates_per_m2");
+            "r.toml: particels is not known here; known are bin_deg, bin_m, drift_deg, drift_m, "
+            "inject_fast, inject_most, inject_slow, kld_error, kld_quantile, max_interval_s, "
+            "min_distance_m, min_particles, min_rotation_deg, particles, resample_below, "
+            "start_candidates_per_m2");
 }
 
 TEST(Mcl, RefusesARegionWithoutAPlaceToStand) {

@@ -67,6 +67,33 @@ TEST(PoseSearch, FindsANeedleAndSpreadsAsItsGaussianDoes) {
   EXPECT_NEAR(std::sqrt(turns), kSigmaRadians, 0.003);
 }
 
+// A hill so wide that the few Metropolis steps do not reach across: its width must come out of the
+// whole annealing, which holds only if each step keeps to p^b of its own b.
+TEST(PoseSearch, SpreadsAsAWideGaussianDoes) {
+  const FieldRegion region = hall();
+  const Pose2 top{6.0, 5.0, 0.5};
+  const auto wide = [&](const SampleSet& set, std::vector<float>& out) {
+    out.resize(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const double dx = (set.x[i] - top.x) / 0.25;
+      const double dy = (set.y[i] - top.y) / 0.25;
+      const double turn = wrapAngle(set.theta[i] - top.theta) / 0.1;
+      out[i] = static_cast<float>(-0.5 * (dx * dx + dy * dy + turn * turn));
+    }
+  };
+  double square = 0, turns = 0;
+  constexpr int kSeeds = 10;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const SampleSet set = PoseSearch(region).draw(2000, 3, wide, Random(seed));
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      square += std::pow(set.x[i] - top.x, 2) / (2000 * kSeeds);
+      turns += std::pow(wrapAngle(set.theta[i] - top.theta), 2) / (2000 * kSeeds);
+    }
+  }
+  EXPECT_NEAR(std::sqrt(square), 0.25, 0.01);
+  EXPECT_NEAR(std::sqrt(turns), 0.1, 0.004);
+}
+
 TEST(PoseSearch, SharesItsSamplesByTheMassOfTheHills) {
   const FieldRegion region = hall();
   const Pose2 high{3.1, 8.2, -1.0}, low{8.4, 1.7, 1.5};

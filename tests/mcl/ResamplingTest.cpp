@@ -84,6 +84,32 @@ TEST(LowVariance, KeepsTheMean) {
   EXPECT_NEAR(found, expected, 1.0) << "of 20000: neighbours stand in for each other";
 }
 
+TEST(ReplaceSome, SpreadsThemOverTheSet) {
+  // Two places side by side, as resampling leaves them; ten poses come from elsewhere.
+  SampleSet set;
+  set.resize(100);
+  for (std::size_t i = 0; i < 100; ++i) {
+    set.x[i] = i < 20 ? 1.0F : 2.0F;
+    set.logWeight[i] = -0.25F;
+  }
+  SampleSet fresh;
+  fresh.resize(10);
+  for (std::size_t k = 0; k < 10; ++k) {
+    fresh.x[k] = 10.0F + static_cast<float>(k);
+    fresh.y[k] = 20.0F;
+    fresh.theta[k] = 3.0F;
+    fresh.logWeight[k] = -7.0F;
+  }
+  replaceSome(set, fresh);
+  const auto at = [&](float x) { return std::count(set.x.begin(), set.x.end(), x); };
+  EXPECT_EQ(at(1.0F), 18) << "a tenth of each place is lost, not half of one";
+  EXPECT_EQ(at(2.0F), 72);
+  for (std::size_t k = 0; k < 10; ++k) EXPECT_EQ(at(10.0F + static_cast<float>(k)), 1);
+  EXPECT_EQ(std::count(set.y.begin(), set.y.end(), 20.0F), 10);
+  EXPECT_EQ(std::count(set.theta.begin(), set.theta.end(), 3.0F), 10);
+  EXPECT_EQ(std::count(set.logWeight.begin(), set.logWeight.end(), -0.25F), 100);
+}
+
 TEST(TemperFor, LeavesEvenWeightsAlone) {
   EXPECT_EQ(temperFor(std::vector<float>(10, -3.0F), 9.99), 1.0);
   EXPECT_EQ(temperFor(std::vector<float>{0.0F, -0.01F}, 1.5), 1.0);

@@ -16,6 +16,7 @@ TEST(OdometryPlugin, TellsWhatTheDriveMeasured) {
   state.odometry = {1.234, -0.5, 1.0};
   state.translationalVelocity = 0.75;
   state.rotationalVelocity = -0.5;
+  state.lateralVelocity = 0.25;
   rig.sensor->generateData(room, state, nullptr, 17, rig.data);
   const OdometryData::Reading& reading = rig.get<OdometryData>().reading();
   EXPECT_EQ(rig.data[0]->stamp(), 17);
@@ -24,6 +25,7 @@ TEST(OdometryPlugin, TellsWhatTheDriveMeasured) {
   EXPECT_NEAR(reading.pose.theta, 1.0, 1e-4);
   EXPECT_NEAR(reading.translationalVelocity, 0.75, 0.00051);
   EXPECT_NEAR(reading.rotationalVelocity, -0.5, 1e-4);
+  EXPECT_NEAR(reading.lateralVelocity, 0.25, 0.00051);
 }
 
 TEST(OdometryPlugin, PassesOnTheDrivesMotionData) {

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <thread>
 
 #include "RoomRun.hpp"
@@ -153,6 +154,71 @@ TEST_F(Localizing, BeginsAnewWhereItIsTold) {
   EXPECT_NEAR(localization.mcl().samples().x.front(), start.x, 0.05);  // five sigmas
   EXPECT_THROW(localization.start({LocalizationStart::Kind::kPose, start, -1.0, 0.0}),
                std::invalid_argument);
+}
+
+TEST_F(Localizing, AStartOffTheMapIsAnErrorThatNamesTheMap) {
+  using Kind = LocalizationStart::Kind;
+  LocalizationConfig config = fromRecord();
+  config.start = {Kind::kPose, {50, 3, 0}, 0.3, 0.1};
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { Localization refused(config); }),
+            "start: (50.00, 3.00) m is off the map, which reaches from (-2.00, -1.50) to "
+            "(2.00, 1.50) m");
+  // Beside the wall by less than three sigmas: the pose is not known so well.
+  config.start.pose = {2.5, 0, 0};
+  EXPECT_NO_THROW(Localization fine(config));
+  config.start.sigmaPosition = 0.1;
+  EXPECT_THROW(Localization refused(config), std::invalid_argument);
+  config.start.pose = {1.9, 0, 0};  // in the field, but 0.1 m from the wall with a radius of 0.2 m
+  EXPECT_NO_THROW(Localization fine(config));
+  config.start.sigmaPosition = 0.0;
+  EXPECT_EQ(
+      messageOf<std::invalid_argument>([&] { Localization refused(config); }),
+      "start: (1.90, 0.00) m is where the robot can't stand, nor within 0.10 m of it (3 sigma)");
+  config.start.pose = {std::nan(""), 0, 0};
+  EXPECT_THROW(Localization refused(config), std::invalid_argument);
+}
+
+TEST_F(Localizing, ATruthOffTheMapIsAnErrorThatNamesTheSource) {
+  for (auto& moment : moments) moment.back().words = PoseData::encode({7, 8, 0});
+  record("room-1");
+  LocalizationConfig config = fromRecord();
+  config.start.kind = LocalizationStart::Kind::kTruth;
+  Localization localization(config);
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { localization.next(); }),
+            "record:" + recordFile.string() +
+                ": the first ground truth (7.00, 8.00) m is off the map, which reaches from "
+                "(-2.00, -1.50) to (2.00, 1.50) m");
+}
+
+TEST_F(Localizing, WithoutOdometryItFollowsByItsScannerAlone) {
+  for (auto& moment : moments) moment.erase(moment.begin());
+  record("room-1");
+  Localization localization(fromRecord());
+  while (localization.next()) {
+  }
+  EXPECT_FALSE(localization.mcl().hasOdometry());
+  EXPECT_LT(distance(localization.mcl().estimate().pose, truth), 0.15);
+}
+
+TEST_F(Localizing, TellsThePoseAtAnyTime) {
+  LocalizationConfig config = fromRecord();
+  config.start.kind = LocalizationStart::Kind::kTruth;
+  Localization localization(config);
+  EXPECT_FALSE(localization.estimate(0)) << "it waits for the truth";
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(localization.advance());
+    localization.followOdometry();  // of this moment, before its scan is weighed
+    const Timestamp between = localization.feeder().stamp() - 50'000;
+    const auto then = localization.estimate(between);
+    if (i > 1) {
+      ASSERT_TRUE(then);
+      EXPECT_EQ(then->stamp, between);
+      const Pose2 half = start * inverse(start) * *localization.feeder().truth() *
+                         Pose2{-0.9 * 0.0175, 0, -0.0175};
+      EXPECT_LT(distance(then->pose, half), 0.15);
+    }
+    localization.update();
+  }
 }
 
 TEST_F(Localizing, TakesSettingsInPlaceOfTheRobotFiles) {

@@ -5,12 +5,15 @@
 #include <numbers>
 
 #include "FakeWorld.hpp"
+#include "WorldFiles.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Learner.hpp"
 
 namespace ortung {
 namespace {
+
+using test::worldOf;
 
 constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 
@@ -229,6 +232,97 @@ TEST(Learner, GivesTheTruePoseTheBestProbability) {
   for (const Pose2& error :
        {Pose2{0.5, 0, 0}, Pose2{0, -0.5, 0}, Pose2{0, 0, 0.4}, Pose2{-0.3, 0.3, 0.2}})
     EXPECT_GT(best, 3.0 * learned.container.getProbability(truth * error));
+}
+
+/// A hall that is an L with walls of 0.1 m, in a world of 8 x 6 m: the arms are 2 m wide, what is
+/// beside them is larger than they are. In the hall stands a closed box of 1 x 1 m.
+constexpr const char* kLShape = R"(
+[world]
+x_m = [0, 8]
+y_m = [0, 6]
+[[rectangle]]
+center_m = [4, 0.05]
+size_m = [8, 0.1]
+[[rectangle]]
+center_m = [0.05, 3]
+size_m = [0.1, 6]
+[[rectangle]]
+center_m = [1, 5.95]
+size_m = [2, 0.1]
+[[rectangle]]
+center_m = [2.05, 4]
+size_m = [0.1, 4]
+[[rectangle]]
+center_m = [5, 2.05]
+size_m = [6, 0.1]
+[[rectangle]]
+center_m = [7.95, 1]
+size_m = [0.1, 2.2]
+)";
+
+bool canStand(const FieldRegion& region, double x, double y) {
+  return region.standable[static_cast<std::size_t>(region.grid.cellAt(x, y))] != 0;
+}
+
+TEST(LearnArea, IsTheInsideOfAnL) {
+  const auto world = worldOf(kLShape);
+  const RobotSize robot{0.2, 0.4};
+  const LearnArea area = learnArea(*world, 0.1, robot);
+  EXPECT_TRUE(canStand(area.region, 1.0, 5.0));
+  EXPECT_TRUE(canStand(area.region, 7.0, 1.0));
+  EXPECT_FALSE(canStand(area.region, 5.0, 4.0)) << "outside";
+  // Outside: 5.9 x 3.9 m less the robot's radius along the walls and the world's bounds.
+  EXPECT_NEAR(area.leftOut, 5.5 * 3.5, 1.0);
+  EXPECT_EQ(area.region.open, world->region(0.1, robot).open);
+  const LearnArea outside = learnArea(*world, 0.1, robot, {{5.0, 4.0}});
+  EXPECT_TRUE(canStand(outside.region, 5.0, 4.0));
+  EXPECT_FALSE(canStand(outside.region, 1.0, 5.0));
+  EXPECT_THROW(learnArea(*world, 0.1, robot, {{2.05, 4.0}}), std::invalid_argument) << "a wall";
+  EXPECT_THROW(learnArea(*world, 0.1, robot, {{99.0, 4.0}}), std::invalid_argument);
+}
+
+TEST(LearnArea, LeavesClosedRoomsOutAndKeepsThoseWithATightDoor) {
+  const std::string walls = R"(
+[world]
+x_m = [0, 6]
+y_m = [0, 4]
+[[rectangle]]
+center_m = [3, 3]
+size_m = [0.02, 2]
+[[rectangle]]
+center_m = [5, 1.99]
+size_m = [4, 0.02]
+[[rectangle]]
+center_m = [3, 0.7]
+size_m = [0.02, 1.4]
+)";
+  const RobotSize robot{0.3, 0.4};
+  const LearnArea closed = learnArea(*worldOf(walls + R"([[rectangle]]
+center_m = [3, 1.7]
+size_m = [0.02, 0.7]
+)"),
+                                     0.1, robot);
+  EXPECT_TRUE(canStand(closed.region, 1.0, 2.0));
+  EXPECT_FALSE(canStand(closed.region, 5.0, 3.0)) << "walls of 2 cm are no leak";
+  EXPECT_FALSE(canStand(closed.region, 5.0, 1.0));
+  EXPECT_GT(closed.leftOut, 4.0);
+  // A door of 0.4 m: too narrow for the robot of 0.6 m, as far as cells of 0.1 m can tell.
+  const LearnArea tight = learnArea(*worldOf(walls), 0.1, robot);
+  EXPECT_TRUE(canStand(tight.region, 5.0, 1.0));
+  EXPECT_FALSE(canStand(tight.region, 5.0, 3.0));
+}
+
+TEST(LearnArea, IsAllOfAFieldWithoutWalls) {
+  const auto world = worldOf(R"([world]
+x_m = [-4, 4]
+y_m = [-2, 2]
+[[rectangle]]
+center_m = [0, 0]
+size_m = [1, 1]
+)");
+  const LearnArea area = learnArea(*world, 0.1, {0.2, 0.4});
+  EXPECT_EQ(area.leftOut, 0.0);
+  EXPECT_EQ(area.region.standable, world->region(0.1, {0.2, 0.4}).standable);
 }
 
 TEST(Learner, TellsHowFarItIs) {

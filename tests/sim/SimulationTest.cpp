@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
 
 #include "FakeWorld.hpp"
+#include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Simulation.hpp"
@@ -95,6 +97,38 @@ TEST(Simulation, MeasuresTheTruthWithoutNoise) {
     ASSERT_LT(std::abs(wrapAngle(believed.theta - truth.theta)), 1e-9);
   }
   EXPECT_GT(distance(start, run.robot->state().pose), 0.5);
+}
+
+// Odometry of a base that rolls in every direction says how fast it goes sideways.
+TEST(Simulation, OdometryTellsTheLateralVelocityOfAnOmnidirectionalBase) {
+  PluginFactory factory(PluginFactory::standardFolders());
+  Simulation simulation(field(), {.cycle = 0.01, .seed = 1, .noise = false});
+  SimRobot& robot = simulation.addRobot(robotConfig(R"(
+    [robot]
+    radius_m = 0.25
+    [drive]
+    plugin = "omni"
+    [[sensor]]
+    plugin = "odometry"
+    period_s = 0
+  )"),
+                                        factory, {-2, 0, 0});
+  // Wheels at 60, 180 and 300 degrees, 0.2 m out: 1 m/s to the left while it turns by 0.5 rad/s.
+  robot.drive().setCommand(std::array{0.5 + 0.1, -1.0 + 0.1, 0.5 + 0.1});
+  for (int cycle = 0; cycle < 100; ++cycle) simulation.step();
+  OdometryData odometry({"odometry", "odometry", "pose"});
+  for (const Message& message : simulation.readings(0))
+    if (message.id.type == "odometry") odometry.setData(message.stamp, message.words);
+  EXPECT_NEAR(odometry.reading().lateralVelocity, 1.0, 0.001);
+  EXPECT_NEAR(odometry.reading().translationalVelocity, 0.0, 0.001);
+  EXPECT_NEAR(odometry.reading().rotationalVelocity, 0.5, 0.001);
+  EXPECT_EQ(odometry.reading().motionData.size(), 3U);
+  robot.drive().setCommand(std::array{0.0, 0.0, 0.0});
+  for (int cycle = 0; cycle < 100; ++cycle) simulation.step();
+  for (const Message& message : simulation.readings(0))
+    if (message.id.type == "odometry") {
+      EXPECT_EQ(message.words.size(), 8U) << "who stands says no more than ever";
+    }
 }
 
 TEST(Simulation, DriftsWithNoise) {

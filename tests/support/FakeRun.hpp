@@ -57,12 +57,13 @@ class FakeRun {
 
   void readAll() {
     const Words scanned = scanNow();
-    container.set(std::vector<Message>{
-        {stamp, {"base", "odometry", "pose"}, OdometryData::encode({odometry_, 0, 0, {}})},
-        {stamp, {"LMS200", "LRF", "scan"}, scanned},
-        {stamp,
-         {"cam", "camera", "posts"},
-         landmarkWords(points, truth, 20.0, &random_, 0.05, 0.02)}});
+    if (tellsOdometry)
+      container.set(
+          {stamp, {"base", "odometry", "pose"}, OdometryData::encode({odometry_, 0, 0, {}})});
+    container.set(std::vector<Message>{{stamp, {"LMS200", "LRF", "scan"}, scanned},
+                                       {stamp,
+                                        {"cam", "camera", "posts"},
+                                        landmarkWords(points, truth, 20.0, &random_, 0.05, 0.02)}});
   }
 
   MclConfig config() const {
@@ -88,6 +89,7 @@ class FakeRun {
   SensorContainer container;
   Pose2 truth;
   Timestamp stamp = 0;
+  bool tellsOdometry = true;
 
  private:
   using Words = std::vector<std::uint32_t>;

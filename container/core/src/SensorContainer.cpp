@@ -1,6 +1,7 @@
 #include "ortung/core/SensorContainer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <stdexcept>
 
@@ -120,13 +121,21 @@ void SensorContainer::getProbability(const SampleView& poses,
 }
 
 double SensorContainer::getProbability(const Pose2& pose) const {
-  double product = kNoExpectation;
+  const auto x = static_cast<float>(pose.x);
+  const auto y = static_cast<float>(pose.y);
+  const auto theta = static_cast<float>(pose.theta);
+  const SampleView one{{&x, 1}, {&y, 1}, {&theta, 1}};
+  double sum = 0.0;  // in double: many features, each by itself in float
+  bool any = false;
   for (const auto& data : data_) {
-    const double p = data->getProbability(pose);
-    if (p == kNoExpectation) continue;
-    product = product == kNoExpectation ? p : product * p;
+    const std::shared_ptr<const Weigher> weigher = data->weigher();
+    if (!weigher) continue;
+    float logProbability = 0.0F;
+    weigher->getProbability(one, {&logProbability, 1});
+    sum += static_cast<double>(logProbability);
+    any = true;
   }
-  return product;
+  return any ? std::exp(sum) : kNoExpectation;
 }
 
 }  // namespace ortung

@@ -13,7 +13,8 @@ MotionModel::MotionModel() : track_(kKept) {}
 MotionModel::~MotionModel() = default;
 
 void MotionModel::follow(Timestamp stamp, const OdometryView& reading) {
-  track_.add(stamp, reading.pose, reading.translationalVelocity, reading.rotationalVelocity);
+  track_.add(stamp, reading.pose, reading.translationalVelocity, reading.rotationalVelocity,
+             reading.lateralVelocity);
 }
 
 std::optional<Pose2> MotionModel::odometryAt(Timestamp stamp) const {

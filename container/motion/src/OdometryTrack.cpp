@@ -19,22 +19,25 @@ Pose2 part(const Pose2& change, double share) {
   return {c * change.x - s * change.y, s * change.x + c * change.y, share * change.theta};
 }
 
-/// Where a robot is after moving with constant velocities [m/s], [rad/s], seen from where it was.
-Pose2 arc(double v, double w, double seconds) {
-  const double turn = w * seconds;
-  const double way = v * seconds;
-  return {way * std::cos(turn / 2), way * std::sin(turn / 2), turn};
+/// Where a robot is after moving with constant velocities in its own frame [m/s], [rad/s], seen
+/// from where it was: along an arc, forwards or not.
+Pose2 arc(double v, double sideways, double w, double seconds) {
+  const double half = w * seconds / 2.0;
+  const double chord = seconds * (std::abs(half) < 1e-6 ? 1.0 : std::sin(half) / half);
+  const double c = chord * std::cos(half);
+  const double s = chord * std::sin(half);
+  return {c * v - s * sideways, s * v + c * sideways, 2.0 * half};
 }
 
 }  // namespace
 
 OdometryTrack::OdometryTrack(double kept) : kept_(kept) {}
 
-void OdometryTrack::add(Timestamp stamp, const Pose2& pose, double v, double w) {
+void OdometryTrack::add(Timestamp stamp, const Pose2& pose, double v, double w, double sideways) {
   // A clock that was set back begins anew; of two readings of one moment the later stays.
   if (!readings_.empty() && stamp < readings_.back().stamp) readings_.clear();
   if (!readings_.empty() && stamp == readings_.back().stamp) readings_.pop_back();
-  readings_.push_back({stamp, pose, v, w});
+  readings_.push_back({stamp, pose, v, w, sideways});
   while (readings_.size() > 2 && toSeconds(stamp - readings_[1].stamp) > kept_)
     readings_.pop_front();
 }
@@ -51,7 +54,7 @@ std::optional<Pose2> OdometryTrack::at(Timestamp stamp) const {
     const Reading& nearest = next == readings_.begin() ? readings_.front() : readings_.back();
     const double seconds =
         std::clamp(toSeconds(stamp - nearest.stamp), -kLongestExtrapolation, kLongestExtrapolation);
-    return nearest.pose * arc(nearest.v, nearest.w, seconds);
+    return nearest.pose * arc(nearest.v, nearest.sideways, nearest.w, seconds);
   }
   const Reading& before = *std::prev(next);
   const double share = toSeconds(stamp - before.stamp) / toSeconds(next->stamp - before.stamp);

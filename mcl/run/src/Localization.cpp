@@ -1,10 +1,14 @@
 #include "ortung/run/Localization.hpp"
 
+#include <array>
 #include <chrono>
+#include <cstdio>
+#include <stdexcept>
 #include <utility>
 
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/run/OpenSource.hpp"
+#include "ortung/tables/FieldParts.hpp"
 
 namespace ortung {
 namespace {
@@ -28,6 +32,30 @@ std::unique_ptr<MotionModel> readMotion(const LocalizationConfig& config, Robot&
 double millisecondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
       .count();
+}
+
+std::string metres(double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.2f", value);
+  return text.data();
+}
+
+/// @param what the pose is, for the error
+/// @throws std::invalid_argument if the robot can't stand there nor near by
+void checkPlace(const FieldRegion& region, const Pose2& pose, double sigma,
+                const std::string& what) {
+  if (!isFinite(pose)) throw std::invalid_argument(what + " is not a number");
+  const FieldGrid& grid = region.grid;
+  const double near = 3.0 * sigma + grid.cell;
+  if (canStandNear(region, pose.x, pose.y, near)) return;
+  const std::string place = what + " (" + metres(pose.x) + ", " + metres(pose.y) + ") m";
+  if (grid.cellAt(pose.x, pose.y) < 0)
+    throw std::invalid_argument(place + " is off the map, which reaches from (" +
+                                metres(grid.originX) + ", " + metres(grid.originY) + ") to (" +
+                                metres(grid.originX + grid.columns * grid.cell) + ", " +
+                                metres(grid.originY + grid.rows * grid.cell) + ") m");
+  throw std::invalid_argument(place + " is where the robot can't stand, nor within " +
+                              metres(near) + " m of it (3 sigma)");
 }
 
 }  // namespace
@@ -79,7 +107,9 @@ void Localization::start(const LocalizationStart& start) {
   start_ = start;
   waitsForTruth_ = start.kind == LocalizationStart::Kind::kTruth;
   if (start.kind == LocalizationStart::Kind::kGlobal) mcl_->startGlobal();
-  if (start.kind == LocalizationStart::Kind::kPose) startAt(start.pose);
+  if (start.kind != LocalizationStart::Kind::kPose) return;
+  checkPlace(robot_->tables.region, start.pose, start.sigmaPosition, "start:");
+  startAt(start.pose);
 }
 
 void Localization::startAt(const Pose2& pose) {
@@ -96,6 +126,8 @@ std::optional<PoseEstimate> Localization::update() {
   if (waitsForTruth_) {
     const std::optional<Pose2> pose = truth();
     if (!pose) return std::nullopt;
+    checkPlace(robot_->tables.region, *pose, start_.sigmaPosition,
+               sourceName_ + (sourceName_.empty() ? "" : ": ") + "the first ground truth");
     startAt(*pose);
   }
   const auto begin = std::chrono::steady_clock::now();
@@ -104,6 +136,11 @@ std::optional<PoseEstimate> Localization::update() {
   if (!weighed) return std::nullopt;
   updateMilliseconds_ = std::exchange(sinceEstimate_, 0.0);
   return mcl_->estimate();
+}
+
+std::optional<PoseEstimate> Localization::estimate(Timestamp stamp) const {
+  if (waitsForTruth_) return std::nullopt;
+  return mcl_->estimate(stamp);
 }
 
 bool Localization::advance() { return feeder().next(); }

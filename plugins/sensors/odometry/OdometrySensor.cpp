@@ -15,6 +15,7 @@ class OdometrySensor : public Sensor {
     reading_.pose = robot.odometry;
     reading_.translationalVelocity = robot.translationalVelocity;
     reading_.rotationalVelocity = robot.rotationalVelocity;
+    reading_.lateralVelocity = robot.lateralVelocity;
     reading_.motionData.assign(robot.motionData.begin(), robot.motionData.end());
     OdometryData::encode(reading_, words_);
     for (SensorData* one : data) one->setData(now, words_);

@@ -6,6 +6,7 @@
 
 #include "MakeSensor.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/tables/FieldParts.hpp"
 
 namespace ortung {
 namespace {
@@ -149,6 +150,31 @@ void runSweep(const SimWorld& world, const FieldRegion& region, const Sweep& swe
 }  // namespace
 
 LearnCancelled::~LearnCancelled() = default;
+
+LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
+                    const std::optional<std::array<double, 2>>& inside) {
+  const FieldRegion whole = world.region(cell, robot);
+  whole.check();
+  // As small as does not slip through walls that are thinner than a cell.
+  const RobotSize small{std::min(robot.radius, cell / 2.0), robot.height};
+  const FieldParts parts(whole, world.region(cell, small).standable);
+  std::size_t part = 0;
+  if (inside) {
+    const auto found = parts.partAt((*inside)[0], (*inside)[1]);
+    if (!found || parts.parts()[*found].cells == 0)
+      throw std::invalid_argument("there is no room for the robot around (" +
+                                  std::to_string((*inside)[0]) + ", " +
+                                  std::to_string((*inside)[1]) + ") m");
+    part = *found;
+  } else {
+    // A map knows where it is outside: nobody stands on what is not known.
+    part = parts.main(world.solids().walls.empty());
+  }
+  LearnArea area{parts.only(part), 0.0};
+  for (std::size_t i = 0; i < whole.standable.size(); ++i)
+    area.leftOut += whole.standable[i] != area.region.standable[i] ? cell * cell : 0.0;
+  return area;
+}
 
 void learn(const SimWorld& world, const FieldRegion& region, const std::vector<Device>& devices,
            PluginFactory& factory, const LearnOptions& options,

@@ -271,6 +271,7 @@ void SimRobot::move(const Pose2& pose, const Twist& velocity, bool wasDisturbed)
   const Twist told = drive_->measuredVelocity(noise_);
   state_.translationalVelocity = told.x;
   state_.rotationalVelocity = told.theta;
+  state_.lateralVelocity = told.y;
   state_.motionData = drive_->motionData();
 }
 

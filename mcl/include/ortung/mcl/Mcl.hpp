@@ -15,9 +15,9 @@
 namespace ortung {
 
 /// Monte Carlo localization (paper, section 5.2) on the container's interface alone: it knows
-/// neither sensors nor where their readings come from. Not thread-safe. The container may be filled
-/// by other threads meanwhile: update() holds its read lock only while it takes what is new, not
-/// while it computes.
+/// neither sensors nor where their readings come from. Not thread-safe, const functions neither.
+/// The container may be filled by other threads meanwhile: update() holds its read lock only while
+/// it takes what is new, not while it computes.
 class ORTUNG_API Mcl {
  public:
   /// @param region where the robot can stand
@@ -29,7 +29,8 @@ class ORTUNG_API Mcl {
 
   /// Unknown start: candidates all over the region, weighed by the first reading.
   void startGlobal();
-  /// Known start with standard deviations [m], [rad].
+  /// Known start with standard deviations [m], [rad]. Whether the robot can stand there is not
+  /// asked.
   void startAt(const Pose2& pose, double sigmaPosition, double sigmaHeading);
 
   /// Looks at the container: moves the samples by what odometry says up to the newest reading
@@ -37,7 +38,20 @@ class ORTUNG_API Mcl {
   /// Returns whether the belief was weighed, i.e. whether there is a new estimate.
   bool update(const SensorContainer& container);
 
+  /// Takes odometry alone, so that estimate(stamp) knows of it before the next update().
+  void followOdometry(const SensorContainer& container);
+
+  /// As of the newest reading that was weighed, which `stamp` tells: it may be long ago. All zero
+  /// before the first one.
   const PoseEstimate& estimate() const;
+  /// As of @p stamp: the belief carried on by odometry, as the newest update() or followOdometry()
+  /// saw it. Later than that, the robot is taken to keep its velocities for 0.3 s and to stand
+  /// then. May be asked at any time, costs nothing to speak of while the robot stands, and does not
+  /// change the filter.
+  /// @returns nothing while a global start waits for its first reading
+  std::optional<PoseEstimate> estimate(Timestamp stamp) const;
+  /// Whether there is odometry; without, samples drift (MclConfig::driftMetres).
+  bool hasOdometry() const;
   const SampleSet& samples() const;
 
  private:

@@ -92,9 +92,12 @@ class ORTUNG_API SensorContainer {
   }
 
   /// Adds ln p(s|l_i) over all features that can weigh (paper, section 5.2: independent features).
+  /// Where one of them expects nothing it gives its outlier floor, the least that it ever gives: so
+  /// a pose that nobody expects never beats one with bad expectations.
   void getProbability(const SampleView& poses, std::span<float> logProbability) const;
-  /// The product of the probabilities of all features with an expectation at @p pose,
-  /// or kNoExpectation where none has one.
+  /// The same product for one pose, by the same rule, to the precision of float; 1 for a perfect
+  /// match. kNoExpectation only if no feature can weigh, wherever the robot is. (Features by
+  /// themselves answer kNoExpectation wherever they expect nothing: SensorData::getProbability.)
   double getProbability(const Pose2& pose) const;
 
  private:

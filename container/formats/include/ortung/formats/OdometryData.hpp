@@ -12,14 +12,20 @@ namespace ortung {
 
 /// Pose in the odometry frame and velocities (paper, section 4). Words: x, y [signed mm],
 /// [angle], translational velocity [signed mm/s], rotational velocity [signed 1/100 degree/s],
-/// then up to 16 of the motion plugin's own. Not thread-safe, see SensorData.
+/// then up to 16 of the motion plugin's own. A robot that moves sideways adds two more at the end:
+/// kLateralFollows and its lateral velocity [signed mm/s]. One that does not leaves them out, so
+/// its words are those of all earlier versions, which had no lateral velocity.
+/// Not thread-safe, see SensorData.
 class ORTUNG_API OdometryData : public SensorData {
  public:
+  /// What stands before the lateral velocity. As a velocity it would be 2147 km/s.
+  static constexpr std::uint32_t kLateralFollows = 4294967295U;
   struct Reading {
     Pose2 pose;                          ///< in the odometry frame
     double translationalVelocity = 0.0;  ///< along the robot's x axis [m/s]
     double rotationalVelocity = 0.0;     ///< [rad/s]
     std::vector<std::uint32_t> motionData;
+    double lateralVelocity = 0.0;  ///< along the robot's y axis, to the left [m/s]
   };
   explicit OdometryData(SensorId id);
   ~OdometryData() override;

@@ -26,6 +26,7 @@ struct OdometryView {
   double translationalVelocity = 0.0;         ///< [m/s]
   double rotationalVelocity = 0.0;            ///< [rad/s]
   std::span<const std::uint32_t> motionData;  ///< of the drive
+  double lateralVelocity = 0.0;               ///< to the left [m/s]
 };
 
 /// How odometry and the true motion of the robot hang together: the motion side's twin of

@@ -17,8 +17,9 @@ class ORTUNG_API OdometryTrack {
   explicit OdometryTrack(double kept = std::numeric_limits<double>::infinity());
 
   /// Takes a reading. If time runs backwards, all before it is forgotten.
-  /// @param v,w velocities in force from its stamp on [m/s], [rad/s]
-  void add(Timestamp stamp, const Pose2& pose, double v, double w);
+  /// @param v,w velocities in force from its stamp on, forwards and turning [m/s], [rad/s]
+  /// @param sideways velocity to the left, of a robot that can [m/s]
+  void add(Timestamp stamp, const Pose2& pose, double v, double w, double sideways = 0.0);
   void clear() { readings_.clear(); }
   bool empty() const { return readings_.empty(); }
   Timestamp first() const { return readings_.front().stamp; }  ///< @pre not empty()
@@ -36,6 +37,7 @@ class ORTUNG_API OdometryTrack {
     Pose2 pose;
     double v;
     double w;
+    double sideways;
   };
   std::deque<Reading>::const_iterator behind(Timestamp stamp) const;
   double kept_;

@@ -89,7 +89,16 @@ class ORTUNG_API Localization {
   /// Looks at the container's readings: the new estimate if they weighed the belief.
   std::optional<PoseEstimate> update();
 
-  /// Begins anew; the container's present readings count again. @throws std::invalid_argument
+  /// Looks at odometry alone, which estimate(stamp) then knows of.
+  void followOdometry() { mcl_->followOdometry(robot_->container); }
+  /// Where the robot is at @p stamp: the belief carried on by odometry, as Mcl::estimate(stamp).
+  /// Nothing before there is a belief. The newest weighing is that of mcl().estimate().
+  std::optional<PoseEstimate> estimate(Timestamp stamp) const;
+
+  /// Begins anew; the container's present readings count again.
+  /// @throws std::invalid_argument for negative sigmas, and for a pose at which the robot can't
+  ///   stand, nor within three sigmas of it, such as one off the map. With kTruth, update() throws
+  ///   that once the truth is known
   void start(const LocalizationStart& start);
   /// False while the start waits for ground truth.
   bool isStarted() const { return !waitsForTruth_; }

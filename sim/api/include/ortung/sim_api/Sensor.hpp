@@ -21,6 +21,7 @@ struct RobotState {
   double rotationalVelocity = 0.0;     ///< [rad/s], as odometry measures it
   std::span<const std::uint32_t> motionData;  ///< of the drive's inner state, for odometry
   RobotNumber number = 0;                     ///< rays ignore this robot's body
+  double lateralVelocity = 0.0;               ///< to the left [m/s], as odometry measures it
 };
 
 /// The simulation half of a sensor plugin: generates data from the world (paper, section 4).

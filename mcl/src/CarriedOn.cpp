@@ -1,0 +1,88 @@
+#include "CarriedOn.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace ortung {
+namespace {
+
+/// Of a pose: the mean is off by a tenth of the noise's sigma, and asking takes microseconds.
+constexpr std::size_t kCopies = 128;
+
+/// Mean and covariance of a change of pose, in the robot's old frame.
+struct Change {
+  Pose2 mean;
+  std::array<double, 9> covariance{};
+};
+
+Change changeOf(const MotionModel& motion, const Pose2& odometryChange, std::uint64_t seed,
+                std::uint64_t stream) {
+  std::array<float, kCopies> x{};
+  std::array<float, kCopies> y{};
+  std::array<float, kCopies> theta{};
+  motion.sampleMotion({x, y, theta}, odometryChange, seed, stream, 0);
+  // Turns are looked at from odometry's, so that they are not taken apart at half a turn.
+  std::array<std::array<double, kCopies>, 3> off{};
+  std::array<double, 3> mean{};
+  for (std::size_t i = 0; i < kCopies; ++i) {
+    off[0][i] = static_cast<double>(x[i]) - odometryChange.x;
+    off[1][i] = static_cast<double>(y[i]) - odometryChange.y;
+    off[2][i] = wrapAngle(static_cast<double>(theta[i]) - odometryChange.theta);
+    for (std::size_t k = 0; k < 3; ++k) mean[k] += off[k][i] / kCopies;
+  }
+  Change change;
+  change.mean = {odometryChange.x + mean[0], odometryChange.y + mean[1],
+                 wrapAngle(odometryChange.theta + mean[2])};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      for (std::size_t i = 0; i < kCopies; ++i)
+        change.covariance[3 * row + column] +=
+            (off[row][i] - mean[row]) * (off[column][i] - mean[column]) / kCopies;
+  return change;
+}
+
+/// What is known of a pose after an exact change of it in its own frame.
+PoseEstimate moved(PoseEstimate e, const Pose2& change) {
+  // With the way turned into the field, (dx, dy), a heading that is off by h shifts the new place
+  // by h (-dy, dx): the covariance is F P F^T with F = [1 0 -dy; 0 1 dx; 0 0 1].
+  const Pose2 old = e.pose;
+  e.pose = old * change;
+  const double dx = e.pose.x - old.x;
+  const double dy = e.pose.y - old.y;
+  std::array<double, 9>& p = e.covariance;
+  for (std::size_t column = 0; column < 3; ++column) {
+    p[column] -= dy * p[6 + column];
+    p[3 + column] += dx * p[6 + column];
+  }
+  for (std::size_t row = 0; row < 9; row += 3) {
+    p[row] -= dy * p[row + 2];
+    p[row + 1] += dx * p[row + 2];
+  }
+  return e;
+}
+
+/// Adds noise of the robot's frame at heading @p theta, turned into the field's.
+void add(const std::array<double, 9>& noise, double theta, std::array<double, 9>& covariance) {
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  const std::array<std::array<double, 3>, 3> turn = {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          covariance[3 * row + column] += turn[row][i] * noise[3 * i + k] * turn[column][k];
+}
+
+}  // namespace
+
+PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionModel& motion,
+                       const Pose2& odometryChange, std::uint64_t seed, std::uint64_t stream) {
+  if (odometryChange.x == 0.0 && odometryChange.y == 0.0 && odometryChange.theta == 0.0)
+    return estimate;
+  const Change change = changeOf(motion, odometryChange, seed, stream);
+  PoseEstimate then = moved(estimate, change.mean);
+  add(change.covariance, estimate.pose.theta, then.covariance);
+  return then;
+}
+
+}  // namespace ortung

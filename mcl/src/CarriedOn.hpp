@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/mcl/PoseEstimate.hpp"
+#include "ortung/motion/MotionModel.hpp"
+
+namespace ortung {
+
+/// What is known of a robot after moving on: its pose by the mean of what the motion model makes of
+/// odometry's change, its covariance by that of the heading before and the model's noise.
+/// @param odometryChange since the estimate, in the robot's old frame
+/// @param seed, stream random numbers depend on these alone
+ORTUNG_API PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionModel& motion,
+                                  const Pose2& odometryChange, std::uint64_t seed,
+                                  std::uint64_t stream);
+
+}  // namespace ortung

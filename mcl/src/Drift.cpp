@@ -1,0 +1,36 @@
+#include "Drift.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ortung/base/Random.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kBlock = 256;  ///< samples whose noise is drawn at once
+/// Where its random numbers begin: far from those that a motion model takes of the same stream.
+constexpr std::uint64_t kFirstNumber = std::uint64_t{1} << 40;
+constexpr std::size_t kNumbersASample = 4;  ///< x, y, theta, none (fillGaussian starts evenly)
+
+}  // namespace
+
+void drift(const MclConfig& config, const MovableSamples& samples, double seconds,
+           std::uint64_t stream, std::uint64_t first) {
+  const auto sigma = static_cast<float>(config.driftMetres * std::sqrt(seconds));
+  const auto sigmaTurn = static_cast<float>(config.driftRadians * std::sqrt(seconds));
+  std::array<float, kBlock * kNumbersASample> noise;
+  for (std::size_t begin = 0; begin < samples.x.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, samples.x.size() - begin);
+    fillGaussian(config.seed, stream, kFirstNumber + (first + begin) * kNumbersASample,
+                 std::span(noise).first(count * kNumbersASample));
+    for (std::size_t i = 0; i < count; ++i) {
+      samples.x[begin + i] += sigma * noise[i * kNumbersASample];
+      samples.y[begin + i] += sigma * noise[i * kNumbersASample + 1];
+      samples.theta[begin + i] += sigmaTurn * noise[i * kNumbersASample + 2];
+    }
+  }
+}
+
+}  // namespace ortung

@@ -1,0 +1,71 @@
+#include "Recovery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "Resampling.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kWitnesses = 64;  ///< samples that say how well the belief fits
+constexpr double kFallenFit = 0.6;      ///< of its long-term average: what calls for injection
+constexpr double kPoorFit = 0.25;       ///< below this the belief explains too little, always
+
+/// Some samples, by their weights; the last one is nowhere: it gets a feature's floor.
+SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights) {
+  SampleSet witnesses;
+  witnesses.resize(kWitnesses + 1);
+  const auto indices = lowVariance(weights, kWitnesses, 0.5);
+  for (std::size_t k = 0; k < kWitnesses; ++k) {
+    witnesses.x[k] = samples.x[indices[k]];
+    witnesses.y[k] = samples.y[indices[k]];
+    witnesses.theta[k] = samples.theta[indices[k]];
+  }
+  witnesses.x.back() = witnesses.y.back() = std::numeric_limits<float>::quiet_NaN();
+  witnesses.theta.back() = 0.0F;
+  return witnesses;
+}
+
+}  // namespace
+
+std::optional<double> fitOf(std::span<const Weigher* const> readings, const SampleSet& samples,
+                            std::span<const double> weights) {
+  const SampleSet witnesses = witnessesOf(samples, weights);
+  double sum = 0.0;
+  double voices = 0.0;
+  std::vector<float> logs(witnesses.size());
+  for (const Weigher* reading : readings) {
+    std::fill(logs.begin(), logs.end(), 0.0F);
+    reading->getProbability(witnesses.view(), logs);
+    const auto floor = static_cast<double>(logs.back());
+    if (!(floor < 0.0) || !std::isfinite(floor)) continue;
+    const double mean =
+        std::accumulate(logs.begin(), logs.end() - 1, 0.0) / static_cast<double>(kWitnesses);
+    sum += std::isfinite(mean) ? std::clamp(1.0 - mean / floor, 0.0, 1.0) : 0.0;
+    voices += 1.0;
+  }
+  if (voices == 0.0) return std::nullopt;
+  return sum / voices;
+}
+
+Recovery::Recovery(const MclConfig& config)
+    : rateFast_(config.injectFast), rateSlow_(config.injectSlow), most_(config.injectMost) {}
+
+void Recovery::follow(double fit) {
+  if (!known_) fast_ = slow_ = fit;
+  known_ = true;
+  fast_ += rateFast_ * (fit - fast_);
+  slow_ += rateSlow_ * (fit - slow_);
+}
+
+double Recovery::injectedShare() const {
+  if (rateSlow_ == 0.0 || !known_) return 0.0;
+  const double fallen = slow_ > 0.0 ? kFallenFit - fast_ / slow_ : 0.0;
+  const double poor = 1.0 - fast_ / kPoorFit;
+  return std::clamp(std::max(fallen, poor), 0.0, most_);
+}
+
+}  // namespace ortung

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/Weigher.hpp"
+#include "ortung/mcl/MclConfig.hpp"
+#include "ortung/mcl/SampleSet.hpp"
+
+namespace ortung {
+
+/// How well a belief explains readings: 1 perfectly, 0 no better than nowhere; nothing if none of
+/// them tells any pose from nowhere. Every reading has one voice: a scan of many beams must not
+/// drown the landmarks that contradict it.
+/// @param weights of the samples, sum 1
+ORTUNG_API std::optional<double> fitOf(std::span<const Weigher* const> readings,
+                                       const SampleSet& samples, std::span<const double> weights);
+
+/// Says how many samples are to be drawn anew, from what the readings say: as the fit falls behind
+/// its own past (Thrun, Burgard, Fox, table 8.3, with a fit in place of a likelihood, which has no
+/// scale), or is poor in itself. Not thread-safe.
+class ORTUNG_API Recovery {
+ public:
+  explicit Recovery(const MclConfig& config);
+  /// @param fit of one moment's readings, in [0, 1]
+  void follow(double fit);
+  void forget() { known_ = false; }
+  /// Share of the samples, in [0, injectMost].
+  double injectedShare() const;
+
+ private:
+  double rateFast_;
+  double rateSlow_;
+  double most_;
+  double fast_ = 0.0;
+  double slow_ = 0.0;
+  bool known_ = false;
+};
+
+}  // namespace ortung
