@@ -130,6 +130,17 @@ TEST(Toml, KeysThatBeginWithNoKeyAreRefused) {
     EXPECT_THROW(parseToml(text, "x.toml"), ConfigError) << text;
 }
 
+// The parser's library took for granted that such letters never stand where white space may.
+TEST(Toml, LettersOfOtherAlphabetsBelongIntoQuotes) {
+  for (const std::string letter : {"\u00A1", "\u01E8", "\u060F", "\u1681", "\u2010", "\uFEFE"}) {
+    EXPECT_THROW(parseToml("a" + letter + " = 1\n", "x.toml"), ConfigError) << letter;
+    EXPECT_THROW(parseToml("a = 1" + letter + "\n", "x.toml"), ConfigError) << letter;
+    EXPECT_THROW(parseToml("a = [1," + letter + "]\n", "x.toml"), ConfigError) << letter;
+    EXPECT_EQ(parseToml("# " + letter + "\na = '" + letter + "' # " + letter, "x.toml").text("a"),
+              letter);
+  }
+}
+
 TEST(Toml, SurvivesMutations) {
   const std::string seed =
       "[robot]\nname = 'a'\n[[sensor]]\nplugin = \"lrf\"\npose = { x_m = 0.1, theta_deg = -90 }\nl "
