@@ -25,6 +25,17 @@ class InlineHost final : public Host {
     for (const auto& conversation : conversations)
       if (conversation->id() != from) conversation->tell(text);
   }
+  void queue(std::weak_ptr<Conversation> client) override {
+    post([client] {
+      if (const auto conversation = client.lock()) conversation->nextTurn();
+    });
+  }
+  void spread(ClientId from, std::string_view text) override {
+    for (const auto& conversation : conversations)
+      if (conversation->id() != from) conversation->hear(text);
+  }
+  void listen(Conversation&) override {}
+  std::size_t listeners(ClientId) const override { return conversations.size() - 1; }
   void forget(ClientId) override {}
   void countSubscribers(int change) override { subscribers += change; }
   void settle() {
@@ -53,6 +64,8 @@ class SlowOutlet final : public Outlet {
     outstanding_ += text.size();
     if (text.back() != '\n' && text.find("bytes=") == text.npos) std::abort();
   }
+  void append(std::string_view text) override { send(text); }
+  void flush() override {}
   std::size_t outstanding() const override { return outstanding_; }
   void finish() override { isFinished = true; }
   void resume() override {}
