@@ -52,6 +52,9 @@ TEST(BadWorld, NumbersOutOfRange) {
   EXPECT_REFUSED("[[rectangle]]\ncenter_m = [3, 0]\nsize_m = [0, 2]\n", "size_m");
   EXPECT_REFUSED("[[ellipse]]\ncenter_m = [3, 0]\nsize_m = [1, -2]\n", "size_m");
   EXPECT_REFUSED("[[triangle]]\ncorners_m = [0, 0, 1, 1, 2, 2]\n", "on one line");
+  EXPECT_REFUSED("[[triangle]]\ncorners_m = [0, 0, 1, 0, 0.5, 0.0009]\n",
+                 "of a triangle 0.000900 m high");
+  EXPECT_EQ(refusalOf(kBox + "[[triangle]]\ncorners_m = [0, 0, 1, 0, 0.5, 0.001]\n"), "");
   EXPECT_REFUSED("[[triangle]]\ncorners_m = [0, 0, 1, 1]\n", "corners_m");
   EXPECT_REFUSED(kBox + "z_m = [1, 1]\n", "high at least");
   EXPECT_REFUSED(kBox + "z_m = [0, 1e9]\n", "z_m");

@@ -50,9 +50,8 @@ class TwoBodies {
                  {{-50.0, 50.0, -50.0, 50.0}, {}, {}}) {
     const double gap = 0.02 + setup.speed * 0.005;  // [m]
     const double distance = gap + reachOf(setup.first) + reachOf(setup.second);
-    first_ = physics_.add({&setup.first, 1}, {setup.firstMass, Physics::Floor::slides, true}, {});
-    second_ =
-        physics_.add({&setup.second, 1}, {setup.secondMass, Physics::Floor::slides, false}, {});
+    first_ = physics_.add({&setup.first, 1}, {setup.firstMass, Physics::Floor::slides}, {});
+    second_ = physics_.add({&setup.second, 1}, {setup.secondMass, Physics::Floor::slides}, {});
     physics_.place(first_, {-distance, 0.0, 0.3},
                    {setup.speed + setup.firstExtra.x, setup.firstExtra.y, setup.firstExtra.theta});
     physics_.place(second_, {0.0, setup.offset, -0.2}, {setup.firstExtra.x, setup.firstExtra.y, 0});
@@ -284,7 +283,7 @@ TEST(Impact, OfABallWithAThinWallNeverGoesThrough) {
       solids.primitives.push_back(wall);
       Physics physics({.cycle = cycle, .rollingResistance = 0.0}, solids);
       const Primitive ball = shaped(Primitive::Shape::ellipse, 0.11, 0.11);
-      const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls, true}, {});
+      const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
       physics.place(body, {0.0, -10.0 * std::sin(angle), 0.0},
                     {12.0 * std::cos(angle), 12.0 * std::sin(angle), 0.0});
       double farthest = 0.0;
@@ -304,9 +303,9 @@ TEST(Impact, NothingGoesThroughOutlinesOrFences) {
   Physics physics({.restitution = 0.9, .floorFriction = 0.0, .rollingResistance = 0.0}, solids);
   const Primitive ball = shaped(Primitive::Shape::ellipse, 0.11, 0.11);
   const Primitive crate = shaped(Primitive::Shape::rectangle, 0.2, 0.15);
-  const Physics::Body one = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls, true}, {});
+  const Physics::Body one = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
   const Physics::Body other =
-      physics.add({&crate, 1}, {5.0, Physics::Floor::slides, false}, {-2.0, 1.0, 0.0});
+      physics.add({&crate, 1}, {5.0, Physics::Floor::slides}, {-2.0, 1.0, 0.0});
   physics.place(one, {0.0, 0.0, 0.0}, {12.0, 5.0, 0.0});
   physics.place(other, {-2.0, 1.0, 0.0}, {6.0, -2.0, 3.0});
   for (int i = 0; i < 5000; ++i) {
@@ -330,7 +329,7 @@ TEST(Impact, HappensOnlyWhereHeightsOverlap) {
   Physics physics({.rollingResistance = 0.0}, solids);
   Primitive ball = shaped(Primitive::Shape::ellipse, 0.11, 0.11);
   ball.zHigh = 0.22;
-  const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls, true}, {});
+  const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
   physics.place(body, {}, {2.0, 0.0, 0.0});
   for (int i = 0; i < 100; ++i) physics.step(kCycle);
   EXPECT_NEAR(physics.pose(body).x, 2.0, 1e-3);
@@ -339,9 +338,8 @@ TEST(Impact, HappensOnlyWhereHeightsOverlap) {
 TEST(Floor, BrakesWhatRollsLittleAndWhatSlidesMuch) {
   Physics physics({.floorFriction = 0.5, .rollingResistance = 0.03}, {{-50, 50, -50, 50}, {}, {}});
   const Primitive ball = shaped(Primitive::Shape::ellipse, 0.11, 0.11);
-  const Physics::Body rolling = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls, true}, {});
-  const Physics::Body sliding =
-      physics.add({&ball, 1}, {0.43, Physics::Floor::slides, false}, {0, 5, 0});
+  const Physics::Body rolling = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
+  const Physics::Body sliding = physics.add({&ball, 1}, {0.43, Physics::Floor::slides}, {0, 5, 0});
   physics.place(rolling, {}, {3.0, 0.0, 0.0});
   physics.place(sliding, {0, 5, 0}, {3.0, 0.0, 0.0});
   for (int i = 0; i < 2000; ++i) physics.step(kCycle);

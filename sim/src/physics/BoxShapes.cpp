@@ -4,81 +4,112 @@
 #include <cmath>
 #include <numbers>
 
+#include "EngineUnits.hpp"
 #include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr double kSkin = 0.01;  ///< the engine's own for polygons [m]
+constexpr double kSkin = 0.01 / kScale;  ///< the engine's own for polygons [m]
 constexpr int kEllipseCorners = 48;
 constexpr int kWedgeCorners = 6;  ///< of the ellipse in one wedge; the engine takes 8 corners
-
-b2Vec2 vec(const Point2& p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
 Point2 add(const Point2& p, const Point2& q, double factor) {
   return {p.x + factor * q.x, p.y + factor * q.y};
 }
+Point2 away(const Point2& from, const Point2& to) { return {to.x - from.x, to.y - from.y}; }
 
-std::unique_ptr<b2Shape> polygon(const std::vector<Point2>& corners, double skin) {
-  std::vector<b2Vec2> points;
-  for (const Point2& corner : corners) points.push_back(vec(corner));
+/// A convex polygon. The engine's own way to make one welds corners, and ends the program where
+/// that leaves no area.
+std::unique_ptr<b2Shape> polygon(std::vector<Point2> corners, double skin) {
+  double twiceArea = 0.0;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Point2 a = away(corners[0], corners[i]);
+    const Point2 b = away(corners[0], corners[i + 1]);
+    twiceArea += a.x * b.y - a.y * b.x;
+  }
+  if (twiceArea < 0.0) std::reverse(corners.begin(), corners.end());
   auto shape = std::make_unique<b2PolygonShape>();
-  shape->Set(points.data(), static_cast<int32>(points.size()));
-  shape->m_radius = static_cast<float>(skin);
+  shape->m_radius = toEngine(skin);
+  shape->m_count = static_cast<int32>(corners.size());
+  Point2 middle;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point2 side = away(corners[i], corners[(i + 1) % corners.size()]);
+    const double length = std::hypot(side.x, side.y);
+    shape->m_vertices[i] = toEngine(corners[i]);
+    shape->m_normals[i] = {single(side.y / length), single(-side.x / length)};
+    middle = add(middle, corners[i], 1.0 / static_cast<double>(corners.size()));
+  }
+  shape->m_centroid = toEngine(middle);
   return shape;
 }
 
-/// Draws a triangle in towards the centre of its inscribed circle.
-std::unique_ptr<b2Shape> triangle(const std::array<Point2, 3>& corners) {
-  const auto side = [&](std::size_t i) {
-    const Point2& a = corners[(i + 1) % 3];
-    const Point2& b = corners[(i + 2) % 3];
-    return std::hypot(b.x - a.x, b.y - a.y);
-  };
-  const double whole = side(0) + side(1) + side(2);
-  Point2 middle;
-  for (std::size_t i = 0; i < 3; ++i) middle = add(middle, corners[i], side(i) / whole);
-  const double twiceArea = std::abs((corners[1].x - corners[0].x) * (corners[2].y - corners[0].y) -
-                                    (corners[2].x - corners[0].x) * (corners[1].y - corners[0].y));
-  const double inradius = twiceArea / whole;
-  const double skin = std::min(kSkin, inradius / 2.0);
-  std::vector<Point2> points;
-  for (const Point2& corner : corners)
-    points.push_back(
-        add(middle, {corner.x - middle.x, corner.y - middle.y}, 1.0 - skin / inradius));
-  return polygon(points, skin);
-}
+struct Inscribed {
+  Point2 centre;
+  double radius = 0.0;  ///< [m]
+};
 
-std::unique_ptr<b2Shape> rectangle(const Primitive& primitive) {
-  const double skin = std::min(kSkin, std::min(primitive.halfX, primitive.halfY) / 2.0);
-  Primitive drawnIn = primitive;
-  drawnIn.halfX -= skin;
-  drawnIn.halfY -= skin;
-  return polygon(cornersOf(drawnIn), skin);
+/// The circle inscribed in a triangle.
+Inscribed inscribedIn(const std::array<Point2, 3>& corners) {
+  std::array<double, 3> sides{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point2 side = away(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+    sides[i] = std::hypot(side.x, side.y);
+  }
+  const double whole = sides[0] + sides[1] + sides[2];
+  Inscribed circle;
+  for (std::size_t i = 0; i < 3; ++i)
+    circle.centre = add(circle.centre, corners[i], sides[i] / whole);
+  const Point2 a = away(corners[0], corners[1]);
+  const Point2 b = away(corners[0], corners[2]);
+  circle.radius = std::abs(a.x * b.y - a.y * b.x) / whole;
+  return circle;
 }
 
 /// Wedges around the middle of an ellipse.
-std::vector<std::unique_ptr<b2Shape>> ellipse(const Primitive& primitive) {
-  const double skin = std::min(kSkin, std::min(primitive.halfX, primitive.halfY) / 4.0);
-  const double c = std::cos(primitive.angle);
-  const double s = std::sin(primitive.angle);
+std::vector<std::unique_ptr<b2Shape>> wedgesOf(const Primitive& ellipse, double skin) {
+  const double c = std::cos(ellipse.angle);
+  const double s = std::sin(ellipse.angle);
   const auto corner = [&](int i) {
     const double t = kTurn * i / kEllipseCorners;
-    // On the curve drawn in along its normal.
-    const double nx = primitive.halfY * std::cos(t);
-    const double ny = primitive.halfX * std::sin(t);
-    const double n = std::hypot(nx, ny);
-    const double x = primitive.halfX * std::cos(t) - skin * nx / n;
-    const double y = primitive.halfY * std::sin(t) - skin * ny / n;
-    return Point2{primitive.centre.x + c * x - s * y, primitive.centre.y + s * x + c * y};
+    const double x = ellipse.halfX * std::cos(t);
+    const double y = ellipse.halfY * std::sin(t);
+    return Point2{ellipse.centre.x + c * x - s * y, ellipse.centre.y + s * x + c * y};
   };
   std::vector<std::unique_ptr<b2Shape>> wedges;
   for (int first = 0; first < kEllipseCorners; first += kWedgeCorners) {
-    std::vector<Point2> points{primitive.centre};
+    std::vector<Point2> points{ellipse.centre};
     for (int i = 0; i <= kWedgeCorners; ++i) points.push_back(corner(first + i));
-    wedges.push_back(polygon(points, skin));
+    wedges.push_back(polygon(std::move(points), skin));
   }
   return wedges;
+}
+
+/// Half of what is thinnest in a primitive [m].
+double thinnest(const Primitive& primitive) {
+  return primitive.shape == Primitive::Shape::triangle ? inscribedIn(primitive.corners).radius
+                                                       : std::min(primitive.halfX, primitive.halfY);
+}
+
+Primitive seenFrom(Primitive primitive, const Point2& origin) {
+  primitive.centre = away(origin, primitive.centre);
+  for (Point2& corner : primitive.corners) corner = away(origin, corner);
+  return primitive;
+}
+
+/// Whether a piece lies in another one for sure. All are convex.
+bool isWithin(const Primitive& inner, const Primitive& outer) {
+  if (inner.zLow < outer.zLow || inner.zHigh > outer.zHigh) return false;
+  if (inner.friction != outer.friction || inner.restitution != outer.restitution) return false;
+  if (inner.isCircle() && outer.isCircle()) {
+    const Point2 apart = away(inner.centre, outer.centre);
+    return std::hypot(apart.x, apart.y) + inner.halfX <= outer.halfX;
+  }
+  Primitive around = inner;  // of an ellipse: the rectangle around it
+  if (inner.shape == Primitive::Shape::ellipse) around.shape = Primitive::Shape::rectangle;
+  const std::vector<Point2> corners = cornersOf(around);
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](const Point2& corner) { return distanceTo(outer, corner) == 0.0; });
 }
 
 Bulk bulkOf(const Primitive& piece) {
@@ -106,28 +137,56 @@ Bulk bulkOf(const Primitive& piece) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<b2Shape>> boxShapesOf(const Primitive& primitive) {
-  std::vector<std::unique_ptr<b2Shape>> shapes;
+Primitive drawnIn(const Primitive& primitive, double depth) {
+  Primitive smaller = primitive;
+  depth = std::min(depth, thinnest(primitive) / 2.0);
   if (primitive.shape == Primitive::Shape::triangle) {
-    shapes.push_back(triangle(primitive.corners));
-  } else if (primitive.shape == Primitive::Shape::rectangle) {
-    shapes.push_back(rectangle(primitive));
-  } else if (primitive.isCircle()) {
-    auto circle = std::make_unique<b2CircleShape>();
-    circle->m_p = vec(primitive.centre);
-    circle->m_radius = static_cast<float>(primitive.halfX);
-    shapes.push_back(std::move(circle));
-  } else {
-    shapes = ellipse(primitive);
+    const Inscribed circle = inscribedIn(primitive.corners);
+    for (Point2& corner : smaller.corners)
+      corner = add(circle.centre, away(circle.centre, corner), 1.0 - depth / circle.radius);
+    return smaller;
   }
+  smaller.halfX -= depth;
+  smaller.halfY -= depth;
+  return smaller;
+}
+
+std::vector<std::unique_ptr<b2Shape>> boxShapesOf(const Primitive& primitive,
+                                                  const Point2& origin) {
+  const Primitive whole = seenFrom(primitive, origin);
+  std::vector<std::unique_ptr<b2Shape>> shapes;
+  if (whole.isCircle()) {
+    auto circle = std::make_unique<b2CircleShape>();
+    circle->m_p = toEngine(whole.centre);
+    circle->m_radius = toEngine(whole.halfX);
+    shapes.push_back(std::move(circle));
+    return shapes;
+  }
+  const double skin = std::min(kSkin, thinnest(whole) / 2.0);
+  const Primitive core = drawnIn(whole, skin);
+  if (whole.shape == Primitive::Shape::ellipse) return wedgesOf(core, skin);
+  shapes.push_back(polygon(cornersOf(core), skin));
   return shapes;
 }
 
-std::unique_ptr<b2Shape> boxShapeOf(const WallSegment& wall) {
+std::unique_ptr<b2Shape> boxShapeOf(const WallSegment& wall, const Point2& origin) {
   auto edge = std::make_unique<b2EdgeShape>();
-  edge->SetTwoSided(vec(wall.from), vec(wall.to));
+  edge->SetTwoSided(toEngine(away(origin, wall.from)), toEngine(away(origin, wall.to)));
   edge->m_radius = 0.0f;
   return edge;
+}
+
+std::vector<Primitive> withoutHidden(std::span<const Primitive> pieces) {
+  std::vector<Primitive> seen;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    bool isHidden = false;
+    for (std::size_t k = 0; k < pieces.size() && !isHidden; ++k)
+      // Of two that are the same the first stays.
+      isHidden =
+          k != i && isWithin(pieces[i], pieces[k]) && (k < i || !isWithin(pieces[k], pieces[i]));
+    if (!isHidden) seen.push_back(pieces[i]);
+  }
+  return seen;
 }
 
 Bulk bulkOf(std::span<const Primitive> pieces) {

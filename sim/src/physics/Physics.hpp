@@ -11,9 +11,9 @@
 
 namespace ortung {
 
-/// Rigid bodies in the plane (paper, section 2.1): the only part that knows the physics engine,
-/// with BoxShapes. Bodies meet where their ranges of height overlap. Impacts obey eqs. (1) to (5)
-/// at every speed; friction lies between none and sticking. Not thread-safe.
+/// Rigid bodies in the plane (paper, section 2.1). This folder alone knows the physics engine.
+/// Bodies meet where their ranges of height overlap. Impacts obey eqs. (1) to (5) at every speed;
+/// friction lies between none and sticking. Not thread-safe.
 class Physics {
  public:
   /// How a body holds on to the floor.
@@ -25,7 +25,6 @@ class Physics {
   struct Properties {
     double mass = 1.0;  ///< [kg]
     Floor floor = Floor::slides;
-    bool isFast = false;  ///< never passes through other moving bodies between two steps either
   };
   using Body = std::size_t;
 
@@ -35,8 +34,11 @@ class Physics {
   Physics& operator=(const Physics&) = delete;
 
   Body add(std::span<const Primitive> pieces, const Properties& properties, const Pose2& pose);
-  /// Another shape of the same mass.
-  void reshape(Body body, std::span<const Primitive> pieces);
+  /// Another shape of the same mass, where it has room. What rolls or slides and is in the way is
+  /// pushed aside; what drives or stands fast is not.
+  /// @param added those of the pieces that may run into something
+  /// @returns whether it has the shape now; if not, nothing was changed
+  bool reshape(Body body, std::span<const Primitive> pieces, std::span<const Primitive> added);
   /// The body's place is used for another one later on.
   void remove(Body body);
   /// Puts a body somewhere, with this velocity in the field frame.

@@ -225,23 +225,19 @@ void SimRobot::setManipulator(std::string_view manipulator, std::string_view sta
                               (known.empty() ? "none" : known));
 }
 
-bool SimRobot::updateManipulators(Timestamp now) {
-  kicks_.clear();
-  bool changed = false;
-  for (std::size_t i = 0; i < shape_.manipulators.size(); ++i) {
-    const std::vector<ManipulatorState>& states = shape_.manipulators[i].states;
-    const auto& returnsAfter = states[manipulatorStates_[i]].returnsAfter;
-    if (returnsAfter && wantedStates_[i] == manipulatorStates_[i] &&
-        now - enteredAt_[i] >= fromSeconds(*returnsAfter))
-      wantedStates_[i] = 0;
-    if (wantedStates_[i] == manipulatorStates_[i]) continue;
-    changed = true;
-    manipulatorStates_[i] = wantedStates_[i];
-    enteredAt_[i] = now;
-    const ManipulatorState& entered = states[manipulatorStates_[i]];
-    if (entered.ballSpeed > 0.0) kicks_.push_back(&entered);
-  }
-  return changed;
+std::optional<std::size_t> SimRobot::nextState(std::size_t manipulator, Timestamp now) {
+  const std::size_t is = manipulatorStates_[manipulator];
+  std::size_t& wanted = wantedStates_[manipulator];
+  const auto& returnsAfter = shape_.manipulators[manipulator].states[is].returnsAfter;
+  if (returnsAfter && wanted == is && now - enteredAt_[manipulator] >= fromSeconds(*returnsAfter))
+    wanted = 0;
+  if (wanted == is) return std::nullopt;
+  return wanted;
+}
+
+void SimRobot::enterState(std::size_t manipulator, std::size_t state, Timestamp now) {
+  manipulatorStates_[manipulator] = state;
+  enteredAt_[manipulator] = now;
 }
 
 Pose2 SimRobot::plan(Timestamp now, double dt) {

@@ -37,6 +37,12 @@ Primitive inOwnFrame(Primitive primitive) {
   return primitive;
 }
 
+/// What a robot is made of at present.
+std::vector<Primitive> piecesOf(const SimRobot& robot) {
+  return robot.shape().piecesWith(
+      {robot.manipulatorStates().begin(), robot.manipulatorStates().end()});
+}
+
 Pose2 poseOf(const Primitive& primitive) {
   const bool hasAngle = primitive.shape != Primitive::Shape::triangle;
   return {primitive.centre.x, primitive.centre.y, hasAngle ? wrapAngle(primitive.angle) : 0.0};
@@ -78,8 +84,7 @@ void Simulation::addThings() {
       throw std::invalid_argument(describe(thing) + " overlaps something or is off the field");
     const bool rolls = thing.kind == "ball";
     thingBodies_.push_back(physics_->add(
-        pieces, {thing.mass, rolls ? Physics::Floor::rolls : Physics::Floor::slides, rolls},
-        thing.pose));
+        pieces, {thing.mass, rolls ? Physics::Floor::rolls : Physics::Floor::slides}, thing.pose));
     thingNumbers_.push_back(
         world_->addBody({thing.kind, thing.name, movable.colour, pieces}, thing.pose));
     thingPieces_.push_back(pieces);
@@ -97,13 +102,12 @@ SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory
   auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
   robot->container().setField(field_);
   const RobotShape& shape = robot->shape();
-  const std::vector<Primitive> pieces =
-      shape.piecesWith({robot->manipulatorStates().begin(), robot->manipulatorStates().end()});
+  const std::vector<Primitive> pieces = piecesOf(*robot);
   if (!fits(pieces, start, Physics::kNobody))
     throw std::invalid_argument("robot " + config.name + ": start " + toText(start) +
                                 " has no room for it");
   robot->state_.number = world_->addBody({"robot", config.name, shape.colour, pieces}, start);
-  robotBodies_.push_back(physics_->add(pieces, {shape.mass, Physics::Floor::drives, false}, start));
+  robotBodies_.push_back(physics_->add(pieces, {shape.mass, Physics::Floor::drives}, start));
   robots_.push_back(std::move(robot));
   readings_.emplace_back();
   ++added_;
@@ -137,13 +141,26 @@ void Simulation::senseAll() {
 void Simulation::moveManipulators() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     SimRobot& robot = *robots_[i];
-    if (!robot.updateManipulators(now_)) continue;
-    const std::vector<Primitive> pieces = robot.shape().piecesWith(
-        {robot.manipulatorStates().begin(), robot.manipulatorStates().end()});
-    for (const ManipulatorState* state : robot.kicks()) kick(robot, robotBodies_[i], *state);
-    physics_->reshape(robotBodies_[i], pieces);
-    world_->reshapeBody(robot.state().number, pieces);
+    bool changed = false;
+    for (std::size_t m = 0; m < robot.shape().manipulators.size(); ++m)
+      if (const auto state = robot.nextState(m, now_))
+        changed = moveManipulator(i, m, *state) || changed;
+    if (changed) world_->reshapeBody(robot.state().number, piecesOf(robot));
   }
+}
+
+/// Brings a manipulator into a state, if it has room for that.
+bool Simulation::moveManipulator(std::size_t place, std::size_t manipulator, std::size_t state) {
+  SimRobot& robot = *robots_[place];
+  const std::size_t body = robotBodies_[place];
+  const ManipulatorState& entered = robot.shape().manipulators[manipulator].states[state];
+  std::vector<std::size_t> states(robot.manipulatorStates().begin(),
+                                  robot.manipulatorStates().end());
+  states[manipulator] = state;
+  if (!physics_->reshape(body, robot.shape().piecesWith(states), entered.pieces)) return false;
+  robot.enterState(manipulator, state, now_);
+  if (entered.ballSpeed > 0.0) kick(robot, body, entered);
+  return true;
 }
 
 /// Balls in reach get the speed that the state says, seen from the robot; across to its direction
@@ -191,8 +208,7 @@ void Simulation::place(SimRobot& robot, const Pose2& pose) {
   const auto found = std::find_if(robots_.begin(), robots_.end(),
                                   [&](const auto& other) { return other.get() == &robot; });
   const std::size_t body = robotBodies_[static_cast<std::size_t>(found - robots_.begin())];
-  const std::vector<Primitive> pieces = robot.shape().piecesWith(
-      {robot.manipulatorStates().begin(), robot.manipulatorStates().end()});
+  const std::vector<Primitive> pieces = piecesOf(robot);
   if (!fits(pieces, pose, body))
     throw std::invalid_argument("robot " + robot.config().name + ": there is no room at " +
                                 toText(pose));

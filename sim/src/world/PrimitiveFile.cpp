@@ -17,8 +17,17 @@ void readTriangle(const Parameters& table, Primitive& triangle) {
   triangle.corners = {Point2{c[0], c[1]}, Point2{c[2], c[3]}, Point2{c[4], c[5]}};
   triangle.centre = {(c[0] + c[2] + c[4]) / 3.0, (c[1] + c[3] + c[5]) / 3.0};
   const double twiceArea = (c[2] - c[0]) * (c[5] - c[1]) - (c[4] - c[0]) * (c[3] - c[1]);
-  if (std::abs(twiceArea) < kSize.low * kSize.low)
-    table.fail("corners_m", "are on one line, expected x1, y1, x2, y2, x3, y3 of a triangle");
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    longest = std::max(
+        longest, std::hypot(c[(2 * i + 2) % 6] - c[2 * i], c[(2 * i + 3) % 6] - c[2 * i + 1]));
+  // The least of its heights. Rounding must not refuse one of a millimetre.
+  if (!(std::abs(twiceArea) >= kSize.low * longest * (1.0 - 1e-6)) || longest == 0.0)
+    table.fail("corners_m",
+               "are on one line, or nearly: of a triangle " +
+                   std::to_string(longest > 0.0 ? std::abs(twiceArea) / longest : 0.0) +
+                   " m high, expected x1, y1, x2, y2, x3, y3 of one of at least "
+                   "0.001");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,7 +41,7 @@ class ORTUNG_API SimRobot : public RobotCommands {
   void setTranslationalVelocity(double metresPerSecond) override;
   void setRotationalVelocity(double radiansPerSecond) override;
   void setMotion(std::span<const double> command) override;
-  /// It moves in the cycle that begins.
+  /// It moves in the cycle that begins, or as soon as it has room.
   void setManipulator(std::string_view manipulator, std::string_view state) override;
 
   /// The present state of each manipulator of shape(), as its place among the states.
@@ -68,10 +69,9 @@ class ORTUNG_API SimRobot : public RobotCommands {
   /// Generates the readings that are due. If there are any, the true pose is one of them.
   /// @returns the readings of this moment, valid until the next call
   std::span<const Message> sense(const World& world, Timestamp now);
-  /// Moves the manipulators; whether any of them changed.
-  bool updateManipulators(Timestamp now);
-  /// States just entered that accelerate balls.
-  std::span<const ManipulatorState* const> kicks() const { return kicks_; }
+  /// The state that a manipulator is to enter, if that is not the one it is in.
+  std::optional<std::size_t> nextState(std::size_t manipulator, Timestamp now);
+  void enterState(std::size_t manipulator, std::size_t state, Timestamp now);
   /// Lets the driver command; the change of pose that the drive wants within @p dt [s].
   Pose2 plan(Timestamp now, double dt);
   /// Goes where the physics brought it.
@@ -110,7 +110,6 @@ class ORTUNG_API SimRobot : public RobotCommands {
   std::vector<std::size_t> manipulatorStates_;
   std::vector<std::size_t> wantedStates_;
   std::vector<Timestamp> enteredAt_;
-  std::vector<const ManipulatorState*> kicks_;
   std::vector<std::string> problems_;
 };
 

@@ -78,6 +78,7 @@ class ORTUNG_API Simulation {
   void addThings();
   void kick(const SimRobot& robot, std::size_t body, const ManipulatorState& state);
   void moveManipulators();
+  bool moveManipulator(std::size_t robot, std::size_t manipulator, std::size_t state);
   void moveBodies();
   void senseAll();
   bool fits(std::span<const Primitive> pieces, const Pose2& pose, std::size_t self) const;

@@ -1,0 +1,242 @@
+#include "Engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ortung/base/Angles.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr int32 kVelocityIterations = 8;
+constexpr int32 kPositionIterations = 3;
+constexpr double kLongestStep = 0.02;    ///< [s]; longer ones are done in parts
+constexpr double kFarthestStep = 0.125;  ///< that a body goes in a part [m]; the engine takes 0.25
+constexpr int kMostParts = 8;            ///< for the sake of speed: 100 m/s at 10 ms
+constexpr double kDrift = 2e-5;          ///< of the engine's single precision from ours [m], [rad]
+constexpr double kRoom = 0.1;            ///< that bodies need around them to move freely [m]
+constexpr int kPatience = 8;             ///< steps until it is looked for room again
+constexpr float kStill = 1e-4f;          ///< velocities that are the engine's rounding
+
+/// Brings @p value nearer to 0 by at most @p step.
+double braked(double value, double step) {
+  return value > 0.0 ? std::max(value - step, 0.0) : std::min(value + step, 0.0);
+}
+
+bool isSame(const b2Vec2& a, const b2Vec2& b, float tolerance) {
+  return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance;
+}
+
+}  // namespace
+
+/// Brings a body to what it wants, as far as its wheels have grip.
+void Physics::Engine::drive(Item& item, double dt) const {
+  const double grip = kScale * config.floorFriction * kGravity * dt;  // in units of velocity
+  const b2Vec2 is = item.body->GetLinearVelocity();
+  const b2Vec2 missing = item.wanted - is;
+  const double needed = static_cast<double>(missing.Length());
+  item.given = item.wanted;
+  if (needed > grip) {
+    item.given = is + single(grip / needed) * missing;
+    item.isDisturbed = true;
+  }
+  item.freeGrip = std::max(grip - needed, 0.0) / dt;
+  // Wheels stand at about 0.7 of the body's radius, and all of them help to turn.
+  const double turnGrip =
+      config.floorFriction * kGravity * dt * item.properties.mass * 0.7 * item.reach / item.inertia;
+  const double isTurn = static_cast<double>(item.body->GetAngularVelocity());
+  const double missingTurn = static_cast<double>(item.wantedTurn) - isTurn;
+  item.givenTurn = item.wantedTurn;
+  if (std::abs(missingTurn) > turnGrip) {
+    item.givenTurn = single(isTurn + std::copysign(turnGrip, missingTurn));
+    item.isDisturbed = true;
+  }
+  item.freeTurnGrip = std::max(turnGrip - std::abs(missingTurn), 0.0) / dt;
+}
+
+/// A ball rolls on and slows down little; what slides, much.
+void Physics::Engine::brake(Item& item, double dt) const {
+  const bool rolls = item.properties.floor == Floor::rolls;
+  const double friction = rolls ? config.rollingResistance : config.floorFriction;
+  const double step = friction * kGravity * dt;
+  const b2Vec2 is = item.body->GetLinearVelocity();
+  const double speed = static_cast<double>(is.Length());
+  item.given = speed > 0.0 ? single(braked(speed, kScale * step) / speed) * is : is;
+  // Friction evenly over a disc of radius r makes a torque of 2/3 mu m g r.
+  const double turnStep = step * item.properties.mass * 2.0 / 3.0 * item.reach / item.inertia;
+  item.givenTurn = single(braked(static_cast<double>(item.body->GetAngularVelocity()), turnStep));
+}
+
+void Physics::Engine::plan(Item& item, double dt) {
+  if (item.properties.floor == Floor::drives)
+    drive(item, dt);
+  else
+    brake(item, dt);
+}
+
+/// The engine itself brakes what slides, by the joint that holds it to the floor.
+void Physics::Engine::launch(Item& item) const {
+  if (item.properties.floor == Floor::slides) return;
+  item.body->SetLinearVelocity(item.given);
+  item.body->SetAngularVelocity(item.givenTurn);
+  if (item.properties.floor != Floor::drives) return;
+  item.floor->SetLinearVelocity(item.given);
+  item.floor->SetAngularVelocity(item.givenTurn);
+  item.grip->SetMaxForce(single(item.properties.mass * item.freeGrip));
+  item.grip->SetMaxTorque(single(kScale * kScale * item.inertia * item.freeTurnGrip));
+}
+
+void Physics::Engine::end(Item& item) const {
+  const b2Vec2 velocity = item.body->GetLinearVelocity();
+  const float turn = item.body->GetAngularVelocity();
+  if (item.properties.floor == Floor::slides) {
+    if (config.floorFriction == 0.0) return;
+    if (isSame(velocity, {0.0f, 0.0f}, kStill)) item.body->SetLinearVelocity({0.0f, 0.0f});
+    if (std::abs(turn) <= kStill) item.body->SetAngularVelocity(0.0f);
+    return;
+  }
+  if (isSame(velocity, item.given, kStill) && std::abs(turn - item.givenTurn) <= kStill) return;
+  item.isDisturbed = true;
+}
+
+/// Where the engine brought a body.
+void Physics::Engine::follow(Item& item) {
+  const b2Vec2 moved = item.body->GetPosition() - item.before;
+  item.pose.x += toMetres(moved.x);
+  item.pose.y += toMetres(moved.y);
+  item.pose.theta =
+      wrapAngle(item.pose.theta + static_cast<double>(item.body->GetAngle() - item.beforeAngle));
+}
+
+/// The engine's single precision must not drift away from our double precision.
+void Physics::Engine::synchronize(Item& item) const {
+  const b2Vec2 is = item.body->GetPosition();
+  const double away =
+      std::max({std::abs(toMetres(is.x) + middle.x - item.pose.x),
+                std::abs(toMetres(is.y) + middle.y - item.pose.y),
+                std::abs(static_cast<double>(item.body->GetAngle()) - item.pose.theta)});
+  if (away > kDrift) transform(item);
+}
+
+/// Whether nothing can touch anything in this step: all bodies had room around them, and none has
+/// used up its half of it. Then the engine has nothing to do.
+bool Physics::Engine::isFlight(double dt) {
+  if (!hasRoom) return false;
+  for (Item& item : items) {
+    if (item.body == nullptr) continue;
+    item.roamed += dt * (toMetres(item.given.Length()) +
+                         std::abs(static_cast<double>(item.givenTurn)) * item.reach);
+    if (item.roamed > kRoom / 2.0) return hasRoom = false;
+  }
+  return isFlying = true;
+}
+
+/// Moves a body with its velocity.
+void Physics::Engine::fly(Item& item, double dt) {
+  const Point2 arm = rotated(item.centre, item.pose.theta);
+  const double theta = item.pose.theta + static_cast<double>(item.givenTurn) * dt;
+  const Point2 newArm = rotated(item.centre, theta);
+  item.pose.x += toMetres(item.given.x) * dt + arm.x - newArm.x;
+  item.pose.y += toMetres(item.given.y) * dt + arm.y - newArm.y;
+  item.pose.theta = wrapAngle(theta);
+}
+
+/// Tells the engine where bodies flew to.
+void Physics::Engine::land() {
+  if (!isFlying) return;
+  isFlying = false;
+  for (Item& item : items) {
+    if (item.body == nullptr) continue;
+    transform(item);
+    item.before = item.body->GetPosition();
+    item.beforeAngle = item.body->GetAngle();
+  }
+}
+
+/// Looks whether all bodies have room around them.
+void Physics::Engine::lookForRoom() {
+  if (world.GetContactCount() > 0 || --patience > 0) return;
+  for (Item& item : items) {
+    if (item.body == nullptr) continue;
+    item.roamed = 0.0;
+    const float reach = toEngine(item.reach + kRoom);
+    b2AABB box;
+    box.lowerBound = item.body->GetPosition() - b2Vec2(reach, reach);
+    box.upperBound = item.body->GetPosition() + b2Vec2(reach, reach);
+    Neighbours neighbours(item.body);
+    world.QueryAABB(&neighbours, box);
+    if (!neighbours.isFound()) continue;
+    patience = kPatience;
+    return;
+  }
+  hasRoom = true;
+}
+
+/// In how many parts a step is done: none too long, and none in which something goes too far.
+int Physics::Engine::partsOf(double dt) const {
+  double fastest = 0.0;
+  for (const Item& item : items)
+    if (item.body != nullptr)
+      fastest = std::max(fastest, toMetres(item.body->GetLinearVelocity().Length()));
+  const double parts = std::max(1.0, std::ceil(dt / kLongestStep - 1e-9));
+  return static_cast<int>(
+      std::clamp(std::ceil(fastest * dt / kFarthestStep), parts, parts * kMostParts));
+}
+
+void Physics::Engine::step(double dt) {
+  for (Item& item : items) {
+    if (item.body == nullptr) continue;
+    item.isDisturbed = false;
+    item.before = item.body->GetPosition();
+    item.beforeAngle = item.body->GetAngle();
+    if (item.properties.floor != Floor::drives) continue;
+    const bool isCentral = item.centre.x == 0.0 && item.centre.y == 0.0;
+    const Point2 from = isCentral ? Point2{} : rotated(item.centre, item.pose.theta);
+    const Point2 to = isCentral ? Point2{} : rotated(item.centre, item.planned.theta);
+    item.wanted = toEngine({(item.planned.x + to.x - item.pose.x - from.x) / dt,
+                            (item.planned.y + to.y - item.pose.y - from.y) / dt});
+    item.wantedTurn = single(wrapAngle(item.planned.theta - item.pose.theta) / dt);
+  }
+  const int parts = partsOf(dt);
+  const double part = dt / parts;
+  for (int i = 0; i < parts; ++i) {
+    for (Item& item : items)
+      if (item.body != nullptr) plan(item, part);
+    if (parts == 1 && isFlight(part)) break;
+    land();
+    for (Item& item : items)
+      if (item.body != nullptr) launch(item);
+    filter.count(world);
+    world.Step(single(part), kVelocityIterations, kPositionIterations);
+    for (Item& item : items)
+      if (item.body != nullptr) end(item);
+  }
+  for (Item& item : items) {
+    if (item.body == nullptr) continue;
+    const bool drives = item.properties.floor == Floor::drives;
+    if (isFlying || (drives && !item.isDisturbed)) {
+      item.body->SetLinearVelocity(item.given);
+      item.body->SetAngularVelocity(item.givenTurn);
+    }
+    if (drives && !item.isDisturbed)
+      item.pose = item.planned;
+    else if (isFlying)
+      fly(item, dt);
+    else
+      follow(item);
+    item.planned = item.pose;
+    if (!isFlying) synchronize(item);
+  }
+  if (!isFlying) lookForRoom();
+}
+
+/// Velocity of the body's origin.
+Twist Physics::Engine::velocityOf(const Item& item) const {
+  const b2Vec2 v = item.body->GetLinearVelocity();
+  const double turn = static_cast<double>(item.body->GetAngularVelocity());
+  const bool isCentral = item.centre.x == 0.0 && item.centre.y == 0.0;
+  const Point2 arm = isCentral ? Point2{} : rotated(item.centre, item.pose.theta);
+  return {toMetres(v.x) + turn * arm.y, toMetres(v.y) - turn * arm.x, turn};
+}
+
+}  // namespace ortung
