@@ -26,6 +26,34 @@ TEST(NetworkRobot, KeysThatCouldNameAFileAreRefusedWhereverTheyStand) {
   }
 }
 
+TEST(NetworkRobot, HasAtMost32PiecesInAllItsStates) {
+  const std::string box = "center_m = [0, 0]\nsize_m = [0.2, 0.1]\n";
+  const auto pieces = [&](const std::string& table, const std::string& shape, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += "[[" + table + "]]\nshape = \"" + shape + "\"\n" + box;
+    return text;
+  };
+  EXPECT_EQ(complaintAbout(kScanner + pieces("body", "rectangle", 32)), "(nothing was thrown)");
+  EXPECT_EQ(complaintAbout(kScanner + pieces("body", "rectangle", 33)),
+            "robot file:131: body is one too many: a robot from the network has at most 32 pieces "
+            "in all its states (an ellipse counts 8)");
+  EXPECT_EQ(complaintAbout(kScanner + pieces("body", "ellipse", 4)), "(nothing was thrown)");
+  EXPECT_NE(complaintAbout(kScanner + pieces("body", "ellipse", 5)), "(nothing was thrown)");
+  const std::string arm = "[[manipulator]]\nname = \"arm\"\n";
+  const std::string state = "[[manipulator.state]]\nname = \"s\"\n";
+  const auto states = [&](int each) {
+    return pieces("body", "rectangle", 20) + arm + state +
+           pieces("manipulator.state.body", "rectangle", each) + state +
+           pieces("manipulator.state.body", "rectangle", each);
+  };
+  EXPECT_EQ(complaintAbout(kScanner + states(6)), "(nothing was thrown)");
+  EXPECT_NE(complaintAbout(kScanner + states(7)), "(nothing was thrown)");
+  // However it is written.
+  std::string flat = "body = [";
+  for (int i = 0; i < 33; ++i) flat += "{ center_m = [0, 0], size_m = [0.2, 0.1] },";
+  EXPECT_NE(complaintAbout(flat + "]\n" + kScanner), "(nothing was thrown)");
+}
+
 TEST(NetworkRobot, TextsThatCouldBePathsAreRefused) {
   const std::string why =
       " has a slash or a control character, which a configuration from the network must not";

@@ -3,9 +3,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <thread>
+#include <vector>
 
 #include "CountingWorld.hpp"
 #include "Files.hpp"
@@ -92,6 +95,32 @@ TEST(Serving, HowManyClientsThereAreIsAnOption) {
   first.ask("HELLO ortung/1");
   second.ask("HELLO ortung/1");
   EXPECT_EQ(TestClient(port).line(), "* ERR limit there are 2 clients from 127.0.0.1 already");
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.finish().exitCode, 0);
+}
+
+TEST(Serving, EndsOnASignalWhileRobotsOfManyPiecesPushEachOther) {
+  Program server({"sim", kMaps + "/fields/msl.toml", "--listen", "0"});
+  const std::uint16_t port = portOf(server);
+  std::string star = "[[sensor]]\nplugin = \"odometry\"\n";
+  for (int i = 0; i < 32; ++i)
+    star +=
+        "[[body]]\ncenter_m = [0, 0]\nsize_m = [0.4, 0.39]\nangle_deg = " + std::to_string(3 * i) +
+        "\n";
+  std::vector<std::unique_ptr<TestClient>> clients;
+  for (int i = 0; i < 8; ++i) {
+    TestClient& client = *clients.emplace_back(std::make_unique<TestClient>(port));
+    const double angle = 0.7854 * i;
+    const std::string place = "x_m=" + std::to_string(std::cos(angle)) +
+                              " y_m=" + std::to_string(std::sin(angle)) +
+                              " theta_deg=" + std::to_string(45 * i - 180);
+    ASSERT_TRUE(client.join(star, "star" + std::to_string(i), place).starts_with("OK CREATE"));
+    EXPECT_EQ(client.ask("VELOCITY v_m_s=0.8"), "OK VELOCITY");
+  }
+  const std::string first = clients[0]->ask("STATUS");
+  while (std::stoi(valueOf(clients[0]->ask("STATUS"), "cycles")) <
+         std::stoi(valueOf(first, "cycles")) + 150) {
+  }
   server.signal(SIGTERM);
   EXPECT_EQ(server.finish().exitCode, 0);
 }

@@ -31,6 +31,24 @@ TEST(BadWorld, UnknownKeys) {
   EXPECT_REFUSED("[[ellipse]]\ncenter_m = [3, 0]\nsize_m = [1, 2]\nstroke_m = 0.1\n", "stroke_m");
 }
 
+TEST(BadWorld, AMisspeltShapeIsNamedThoughNothingElseIsThere) {
+  const std::string refusal = refusalOf(
+      std::string("[world]\nx_m = [0, 9]\n\n[[rectangel]]\ncenter_m = [0, 0]\nsize_m = [1, 1]\n"));
+  EXPECT_NE(refusal.find("world.toml:4: rectangel is not known here"), std::string::npos)
+      << refusal;
+  EXPECT_NE(refusal.find("rectangle"), std::string::npos);
+  EXPECT_REFUSED("[world]\nx_m = [0, 9]\n", "the world is empty");
+}
+
+TEST(BadWorld, AsManyPrimitivesAsAreTakenFitIntoAFile) {
+  std::string text;
+  for (int i = 0; i < 65536; ++i)
+    text += "[[rectangle]]\nkind = \"line\"\ncenter_m = [" + std::to_string(i % 256) + ", " +
+            std::to_string(i / 256) + "]\nsize_m = [0.5, 0.25]\n";
+  EXPECT_EQ(refusalOf(text), "");
+  EXPECT_REFUSED(text + "[[rectangle]]\ncenter_m = [0, 0]\nsize_m = [1, 1]\n", "65536");
+}
+
 TEST(BadWorld, KeysWithoutOrWithWrongUnit) {
   EXPECT_REFUSED("[[rectangle]]\ncenter = [3, 0]\nsize_m = [1, 2]\n", "center_m");
   EXPECT_REFUSED(kBox + "angle_rad = 1\n", "angle_rad");

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "FakeWorld.hpp"
+#include "WorldFiles.hpp"
 #include "ortung/sim/RoutePlanner.hpp"
 
 namespace ortung {
@@ -23,6 +24,31 @@ TEST(RoutePlanner, GoesStraightWhereNothingIsInTheWay) {
   ASSERT_EQ(route.size(), 1u);
   EXPECT_NEAR(route[0].x, 3.0, 0.11);
   EXPECT_NEAR(route[0].y, 2.0, 0.11);
+}
+
+TEST(RoutePlanner, PlansInLargeWorlds) {
+  // Cells become coarser, but no way leads through a thin wall.
+  for (const double width : {900.0, 3000.0}) {
+    const std::string w = std::to_string(width / 2.0);
+    const auto world = test::worldOf("[world]\nx_m = [-" + w + ", " + w +
+                                     "]\ny_m = [-100, 100]\n[[rectangle]]\ncenter_m = "
+                                     "[0, -20]\nsize_m = [0.05, 160]\n");
+    const RoutePlanner planner(*world, {0.25});
+    const std::vector<FloorPoint> route =
+        planner.route({-width / 4.0, -50.0}, {width / 4.0, -50.0});
+    ASSERT_GE(route.size(), 2u) << width;
+    FloorPoint from{-width / 4.0, -50.0};
+    double way = 0.0;
+    for (const FloorPoint& to : route) {
+      if ((from.x < 0.0) != (to.x < 0.0)) {
+        const double y = from.y - from.x / (to.x - from.x) * (to.y - from.y);
+        EXPECT_GT(y, 60.25) << width;  // around its end
+      }
+      way += std::hypot(to.x - from.x, to.y - from.y);
+      from = to;
+    }
+    EXPECT_LT(way, 1.1 * 2.0 * std::hypot(width / 4.0, 112.0)) << width;
+  }
 }
 
 TEST(RoutePlanner, FindsTheGapAndKeepsClear) {

@@ -202,6 +202,84 @@ TEST(SceneRun, CarriesARobotElsewhereWithoutItsOdometry) {
   EXPECT_EQ(distance(lost.state().odometry, Pose2{}), 0.0);
 }
 
+/// The message with which a scene in the arena ends at its beginning, or "".
+std::string refusalOfScene(const std::string& robots) {
+  const TemporaryFolder folder;
+  const std::string head = "[scene]\nworld = \"" ORTUNG_SOURCE_DIR "/maps/fields/arena.toml\"\n";
+  folder.write("r.toml", "[robot]\nradius_m = 0.2\n[[sensor]]\nplugin = \"odometry\"\n");
+  try {
+    const Scene scene = Scene::read(folder.write("scene.toml", head + robots));
+    PluginFactory factory(PluginFactory::standardFolders());
+    SceneRun(scene, {}, factory);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string robotOfScene(const std::string& name, const std::string& more) {
+  return "[[robot]]\nfile = \"r.toml\"\nname = \"" + name + "\"\n" + more + "\n";
+}
+
+TEST(SceneRun, RefusesWaypointsThatCanNotBeReached) {
+  const std::string start = "start = { x_m = 0, y_m = 0, theta_deg = 0 }\n";
+  EXPECT_EQ(refusalOfScene(robotOfScene("a", start + "waypoints_m = [0.5, 0, 0.5, 0.5]")), "");
+  const std::string far =
+      refusalOfScene(robotOfScene("a", start + "waypoints_m = [0.5, 0, 500, 0]"));
+  EXPECT_TRUE(far.starts_with("robot a: waypoint 2 at (500.000000, 0.000000) has no room")) << far;
+}
+
+TEST(SceneRun, RefusesWaypointsBehindWalls) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& waypoints) -> std::string {
+    SceneRobot robot;
+    robot.file =
+        folder.write("r.toml", "[robot]\nradius_m = 0.2\n[[sensor]]\nplugin = \"odometry\"\n");
+    robot.name = "a";
+    robot.start = Pose2{-2.0, 0.0, 0.0};
+    Scene scene;
+    scene.world = folder.write("w.toml",
+                               "[world]\nx_m = [-5, 5]\ny_m = [-5, 5]\n[[rectangle]]\ncenter_m = "
+                               "[0, 0]\nsize_m = [0.01, 6]\n");
+    if (waypoints == "behind") robot.waypoints = {{2.0, 0.0}};
+    if (waypoints == "around") robot.waypoints = {{-2.0, 4.0}, {2.0, 4.0}, {2.0, 0.0}};
+    scene.robots.push_back(robot);
+    PluginFactory factory(PluginFactory::standardFolders());
+    try {
+      SceneRun(scene, {}, factory);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal("behind").find("waypoint 1 at (2.000000, 0.000000) can't be reached: going "
+                                   "straight there, it is stopped at (-0."),
+            std::string::npos)
+      << refusal("behind");
+  EXPECT_EQ(refusal("around"), "");
+}
+
+TEST(SceneFile, RefusesTwoRobotsOfOneName) {
+  const std::string twice = refusalOfScene(robotOfScene("a", "") + robotOfScene("a", ""));
+  EXPECT_NE(twice.find("scene.toml:9: name is there twice: a"), std::string::npos) << twice;
+}
+
+TEST(SceneRun, ANameThatIsTakenIsNoLackOfRoom) {
+  const Kicker kicker;  // its files
+  Scene scene;
+  scene.world = kicker.worldFile;
+  PluginFactory factory(PluginFactory::standardFolders());
+  SceneRun run(scene, {}, factory);
+  run.addRobot(readRobot(kicker.robotFile), factory, std::nullopt, 0);
+  try {
+    run.addRobot(readRobot(kicker.robotFile), factory, std::nullopt, 1);
+    FAIL() << "two robots have one name";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "robot kicker: another robot has this name, expected one of its own");
+  }
+}
+
 std::string complaintOf(const std::string& toml) {
   const TemporaryFolder folder;
   try {

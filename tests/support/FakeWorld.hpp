@@ -32,7 +32,17 @@ class FakeWorld : public SimWorld {
   void addLandmark(const Landmark& landmark) { landmarks_.push_back(landmark); }
   void addLine(const FieldLine& line) { lines_.push_back(line); }
   /// Something to be recognised; a body that rays hit it has only with addPost() or addRound().
-  void addObject(const WorldObject& object) { objects_.push_back(object); }
+  /// Without pieces it gets one of its extent, as what stands in a simulator's world has.
+  void addObject(const WorldObject& object) {
+    objects_.push_back(object);
+    if (!object.pieces.empty()) return;
+    WorldPiece& piece = objects_.back().pieces.emplace_back();
+    piece.shape = object.isRound ? WorldPiece::Shape::ellipse : WorldPiece::Shape::rectangle;
+    piece.halfX = object.halfX;
+    piece.halfY = object.halfY;
+    piece.zLow = object.zLow;
+    piece.zHigh = object.zHigh;
+  }
 
   /// Range along one horizontal ray [m], infinite in no direction of a room.
   double range(double x, double y, double angle) const {

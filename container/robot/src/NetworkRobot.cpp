@@ -11,24 +11,45 @@ namespace {
 // How the client's own half tracks the robot: nobody here reads them.
 constexpr std::string_view kSectionsOfTheClient[] = {"motion", "mcl"};
 
+/// Pieces of the robot's geometry, of all states together. What they may cost the physics grows
+/// with the square of their number.
+constexpr int kMostParts = 32;
+constexpr int kPartsOfAnEllipse = 8;
+
 /// Looks at every value of a robot file for what a stranger must not say.
 class Inspection {
  public:
   Inspection(const std::string& name, std::span<const std::string> plugins)
       : name_(name), plugins_(plugins) {}
 
-  void inspect(const toml::table& table) const {
+  void inspect(const toml::table& table) {
     for (const auto& [key, node] : table) inspect(key.str(), node);
   }
 
  private:
-  void inspect(std::string_view key, const toml::node& node) const {
+  void countPart(const toml::table& body) {
+    const auto* sizes = body["size_m"].as_array();
+    const bool isCircle = sizes != nullptr && sizes->size() == 2 &&
+                          (*sizes)[0].value<double>() == (*sizes)[1].value<double>();
+    const bool isEllipse = body["shape"].value<std::string_view>() == "ellipse" && !isCircle;
+    parts_ += isEllipse ? kPartsOfAnEllipse : 1;
+    if (parts_ > kMostParts)
+      refuse("body", body,
+             "is one too many: a robot from the network has at most " + std::to_string(kMostParts) +
+                 " pieces in all its states (an ellipse counts " +
+                 std::to_string(kPartsOfAnEllipse) + ")");
+  }
+
+  void inspect(std::string_view key, const toml::node& node) {
     if (key == "path" || key == "file" || key.ends_with("_file") || key.ends_with("_path"))
       refuse(key, node, "names a file, which a configuration from the network must not");
     if (const auto* text = node.as_string()) inspectText(key, *text);
     if (const auto* table = node.as_table()) inspect(*table);
     if (const auto* list = node.as_array())
       for (const toml::node& entry : *list) inspect(key, entry);
+    if (const auto* list = node.as_array(); list != nullptr && key == "body")
+      for (const toml::node& entry : *list)
+        if (const auto* body = entry.as_table()) countPart(*body);
   }
 
   void inspectText(std::string_view key, const toml::value<std::string>& value) const {
@@ -58,6 +79,7 @@ class Inspection {
 
   const std::string& name_;
   std::span<const std::string> plugins_;
+  int parts_ = 0;
 };
 
 }  // namespace

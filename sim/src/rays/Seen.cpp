@@ -64,6 +64,29 @@ std::vector<FieldLine> linesOf(const WorldModel& world) {
   return lines;
 }
 
+std::vector<WorldPiece> worldPiecesOf(std::span<const Primitive> pieces) {
+  std::vector<WorldPiece> seen;
+  for (const Primitive& primitive : pieces) {
+    WorldPiece& piece = seen.emplace_back();
+    piece.colour = primitive.colour;
+    piece.zLow = primitive.zLow;
+    piece.zHigh = primitive.zHigh;
+    piece.pose = {primitive.centre.x, primitive.centre.y, 0.0};
+    if (primitive.shape == Primitive::Shape::triangle) {
+      piece.shape = WorldPiece::Shape::triangle;
+      for (std::size_t i = 0; i < 3; ++i)
+        piece.corners[i] = {primitive.corners[i].x, primitive.corners[i].y};
+      continue;
+    }
+    const bool isRound = primitive.shape == Primitive::Shape::ellipse;
+    piece.shape = isRound ? WorldPiece::Shape::ellipse : WorldPiece::Shape::rectangle;
+    piece.pose.theta = wrapAngle(primitive.angle);
+    piece.halfX = primitive.halfX;
+    piece.halfY = primitive.halfY;
+  }
+  return seen;
+}
+
 WorldObject objectOf(const Primitive& primitive) {
   WorldObject object;
   object.kind = primitive.kind;
@@ -78,6 +101,9 @@ WorldObject objectOf(const Primitive& primitive) {
   object.halfY = primitive.halfY;
   object.radius = object.isRound ? std::max(primitive.halfX, primitive.halfY)
                                  : std::hypot(primitive.halfX, primitive.halfY);
+  const Primitive own = inOwnFrame(primitive);
+  object.pieces = worldPiecesOf({&own, 1});
+  object.pieces.front().colour.clear();
   if (primitive.shape != Primitive::Shape::triangle) return object;
   object.pose.theta = 0.0;
   for (const Point2& corner : primitive.corners) {

@@ -10,6 +10,7 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostPieces = 64;
+constexpr std::size_t kMostParts = 128;  ///< at a time
 constexpr std::size_t kMostManipulators = 16;
 constexpr std::size_t kMostStates = 16;
 constexpr Range kKickSpeed{0.0, 50.0};  ///< [m/s]
@@ -77,6 +78,13 @@ Manipulator readManipulator(const Parameters& table, double height) {
   return manipulator;
 }
 
+std::size_t partsOf(const std::vector<Primitive>& pieces) {
+  std::size_t parts = 0;
+  for (const Primitive& piece : pieces)
+    parts += piece.shape == Primitive::Shape::ellipse && !piece.isCircle() ? 8 : 1;
+  return parts;
+}
+
 }  // namespace
 
 std::optional<std::size_t> Manipulator::find(std::string_view state) const {
@@ -100,6 +108,10 @@ RobotShape RobotShape::read(const RobotConfig& config) {
     circle.zHigh = shape.height;
     shape.pieces.push_back(circle);
   }
+  if (shape.parts() > kMostParts)
+    config.body.front().fail("shape", "is one of " + std::to_string(shape.parts()) +
+                                          " pieces (an ellipse counts 8), expected at most " +
+                                          std::to_string(kMostParts));
   for (const Parameters& table : config.manipulators) {
     Manipulator manipulator = readManipulator(table, shape.height);
     const auto same = std::find_if(shape.manipulators.begin(), shape.manipulators.end(),
@@ -108,8 +120,23 @@ RobotShape RobotShape::read(const RobotConfig& config) {
     if (shape.manipulators.size() == kMostManipulators)
       table.fail("name", "is one too many, expected at most 16 manipulators");
     shape.manipulators.push_back(std::move(manipulator));
+    if (shape.parts() > kMostParts)
+      table.fail("state", "brings the robot to " + std::to_string(shape.parts()) +
+                              " pieces at a time (an ellipse counts 8), expected at most " +
+                              std::to_string(kMostParts));
   }
   return shape;
+}
+
+std::size_t RobotShape::parts() const {
+  std::size_t parts = partsOf(pieces);
+  for (const Manipulator& manipulator : manipulators) {
+    std::size_t most = 0;
+    for (const ManipulatorState& state : manipulator.states)
+      most = std::max(most, partsOf(state.pieces));
+    parts += most;
+  }
+  return parts;
 }
 
 double RobotShape::top() const {

@@ -15,13 +15,23 @@ namespace {
 constexpr double kCell = 0.1;                // [m]
 constexpr std::size_t kMaxCells = 1u << 20;  // of a plan; larger worlds get larger cells
 
-/// Cells with room for a robot, coarse enough to plan on.
-FieldRegion coarseRegion(const SimWorld& world, const RobotSize& robot) {
-  FieldRegion region = world.region(kCell, robot);
-  if (region.grid.size() <= kMaxCells) return region;
-  const double factor =
-      std::sqrt(static_cast<double>(region.grid.size()) / static_cast<double>(kMaxCells));
-  return world.region(kCell * factor, robot);
+/// Edge of the cells of a plan: coarser in larger worlds [m].
+double cellFor(const SimWorld& world) {
+  const Box2 b = world.solids().bounds;
+  return std::max(kCell, std::sqrt((b.xHigh - b.xLow + kCell) * (b.yHigh - b.yLow + kCell) /
+                                   static_cast<double>(kMaxCells)));
+}
+
+/// Cells with room for a robot, coarse enough to plan on. Between the middles of two of them there
+/// is no wall, however thin: it would be within 0.71 of a cell of one of them.
+FieldRegion coarseRegion(const SimWorld& world, RobotSize robot) {
+  double cell = cellFor(world);
+  for (;;) {
+    if (cell > kCell) robot.radius = std::max(robot.radius, 0.75 * cell);
+    FieldRegion region = world.region(cell, robot);
+    if (region.grid.size() <= 2 * kMaxCells) return region;
+    cell *= std::sqrt(static_cast<double>(region.grid.size()) / static_cast<double>(kMaxCells));
+  }
 }
 
 bool hasRoom(const FieldRegion& region) {

@@ -55,6 +55,15 @@ SceneRobot readRobotOf(const Parameters& table, const std::filesystem::path& fol
   return robot;
 }
 
+void addRobot(const Parameters& table, const std::filesystem::path& folder,
+              std::vector<SceneRobot>& robots) {
+  SceneRobot robot = readRobotOf(table, folder);
+  for (const SceneRobot& other : robots)
+    if (other.name == robot.name)
+      table.fail("name", "is there twice: " + robot.name + ", expected a name of its own");
+  robots.push_back(std::move(robot));
+}
+
 SceneCommand readCommand(const Parameters& table) {
   SceneCommand command;
   command.at = fromSeconds(table.number("at_s", kTime));
@@ -104,7 +113,7 @@ Scene Scene::read(const std::filesystem::path& file) {
   scene.world = readPath(about, "world", folder);
   if (about.has("duration_s")) scene.duration = about.number("duration_s", kTime);
   for (const Parameters& table : readTables(toml, "robot", kMostRobots))
-    scene.robots.push_back(readRobotOf(table, folder));
+    addRobot(table, folder, scene.robots);
   if (scene.robots.empty()) toml.fail("robot", "is missing: a scene has at least one [[robot]]");
   for (const Parameters& table : readTables(toml, "command", kMostCommands))
     scene.commands.push_back(readCommand(table));

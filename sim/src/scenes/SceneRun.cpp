@@ -1,12 +1,15 @@
 #include "ortung/sim/SceneRun.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace ortung {
 namespace {
 
-constexpr int kAttempts = 200;  // to find room on a crowded field
+constexpr int kAttempts = 200;       // to find room on a crowded field
+constexpr double kLook = 0.05;       // along the way to a waypoint [m]
+constexpr double kMostLooks = 4000;  // on a way
 
 DriveLimits limitsOf(SimRobot& robot, std::optional<double> speed) {
   DriveLimits limits = robot.drive().limits();
@@ -14,9 +17,36 @@ DriveLimits limitsOf(SimRobot& robot, std::optional<double> speed) {
   return limits;
 }
 
-std::invalid_argument foundNoRoom(const std::string& robot) {
-  return std::invalid_argument("found no room for robot " + robot + " at " +
-                               std::to_string(kAttempts) + " places");
+NoRoom foundNoRoom(const std::string& robot) {
+  return NoRoom("found no room for robot " + robot + " at " + std::to_string(kAttempts) +
+                " places");
+}
+
+/// Robots go straight from one waypoint to the next, so all of the way must be free of what stands
+/// fast. @throws std::invalid_argument
+void checkWaypoints(const SimWorld& world, const SimRobot& robot, const SceneRobot& wanted) {
+  const RobotSize size = sizeOf(robot.config());
+  FloorPoint from{robot.state().pose.x, robot.state().pose.y};
+  for (std::size_t i = 0; i < wanted.waypoints.size(); ++i) {
+    const FloorPoint& to = wanted.waypoints[i];
+    const std::string what = "robot " + wanted.name + ": waypoint " + std::to_string(i + 1) +
+                             " at (" + std::to_string(to.x) + ", " + std::to_string(to.y) + ") ";
+    if (!world.isFree(to.x, to.y, size))
+      throw std::invalid_argument(what + "has no room for a radius of " +
+                                  std::to_string(size.radius) + " m");
+    const double way = std::hypot(to.x - from.x, to.y - from.y);
+    const double step = std::max(kLook, way / kMostLooks);
+    // One that is carried elsewhere comes from anywhere.
+    for (double done = step; done < way && wanted.kidnaps.empty(); done += step) {
+      const double x = from.x + done / way * (to.x - from.x);
+      const double y = from.y + done / way * (to.y - from.y);
+      if (!world.isFree(x, y, size))
+        throw std::invalid_argument(what +
+                                    "can't be reached: going straight there, it is stopped at (" +
+                                    std::to_string(x) + ", " + std::to_string(y) + ")");
+    }
+    from = to;
+  }
 }
 
 }  // namespace
@@ -39,6 +69,7 @@ void SceneRun::addRobot(const SceneRobot& robot, std::size_t place, PluginFactor
   Random placing = simulation_->random(2 * place);
   SimRobot& added = enter(config, factory, robot.start, placing);
   if (robot.wanders) letWander(added, place, robot.speed);
+  checkWaypoints(simulation_->world(), added, robot);
   if (!robot.waypoints.empty())
     added.setDriver(makeFollower(robot.waypoints, limitsOf(added, robot.speed)));
   if (!robot.kidnaps.empty()) kidnapped_.push_back({added, robot.kidnaps, placing});
@@ -56,7 +87,7 @@ SimRobot& SceneRun::enter(const RobotConfig& config, PluginFactory& factory,
     const Pose2 pose = start ? *start : planner(sizeOf(config)).randomPose(placing);
     try {
       return simulation_->addRobot(config, factory, pose);
-    } catch (const std::invalid_argument&) {
+    } catch (const NoRoom&) {
       if (start) throw;
       if (attempt == kAttempts) throw foundNoRoom(config.name);
     }
@@ -72,7 +103,7 @@ void SceneRun::kidnap(Kidnapped& kidnapped) {
   for (int attempt = 1;; ++attempt) {
     try {
       return simulation_->place(kidnapped.robot, floor.randomPose(kidnapped.placing));
-    } catch (const std::invalid_argument&) {
+    } catch (const NoRoom&) {
       if (attempt == kAttempts) throw foundNoRoom(kidnapped.robot.config().name);
     }
   }

@@ -15,6 +15,9 @@ namespace {
 constexpr std::uint64_t kRobots = std::uint64_t{1} << 32;
 constexpr std::uint64_t kOthers = std::uint64_t{1} << 63;
 
+/// Of all robots together. A cycle in which all of them push each other costs by their number.
+constexpr std::size_t kMostParts = 2048;
+
 constexpr double kKickReach = 0.03;  ///< a ball this near to a kicker is kicked [m]
 
 std::string toText(const Pose2& pose) {
@@ -24,17 +27,6 @@ std::string toText(const Pose2& pose) {
 std::string describe(const Simulation::Thing& thing) {
   return thing.kind + (thing.name.empty() ? "" : " '" + thing.name + "'") + " at " +
          toText(thing.pose);
-}
-
-/// A primitive of the world in a frame of its own, whose origin is its middle.
-Primitive inOwnFrame(Primitive primitive) {
-  for (Point2& corner : primitive.corners) {
-    corner.x -= primitive.centre.x;
-    corner.y -= primitive.centre.y;
-  }
-  primitive.centre = {};
-  primitive.angle = 0.0;
-  return primitive;
 }
 
 /// What a robot is made of at present.
@@ -49,6 +41,8 @@ Pose2 poseOf(const Primitive& primitive) {
 }
 
 }  // namespace
+
+NoRoom::~NoRoom() = default;
 
 void Simulation::Config::check() const {
   if (cycle && !(*cycle >= 1e-4 && *cycle <= 1.0))
@@ -92,20 +86,31 @@ void Simulation::addThings() {
   }
 }
 
-SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory,
-                               const Pose2& start) {
-  for (const std::unique_ptr<SimRobot>& other : robots_)
+void Simulation::checkEntry(const RobotConfig& config, const RobotShape& shape) const {
+  std::size_t parts = shape.parts();
+  for (const std::unique_ptr<SimRobot>& other : robots_) {
     if (other->config().name == config.name)
       throw std::invalid_argument("robot " + config.name +
                                   ": another robot has this name, expected one of its own");
+    parts += other->shape().parts();
+  }
+  if (parts > kMostParts)
+    throw std::invalid_argument("robot " + config.name + ": with its " +
+                                std::to_string(shape.parts()) + " pieces all robots have " +
+                                std::to_string(parts) + ", expected at most " +
+                                std::to_string(kMostParts) + " (an ellipse counts 8)");
+}
+
+SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory,
+                               const Pose2& start) {
+  checkEntry(config, RobotShape::read(config));
   const Random random(config_.seed, kRobots * (added_ + 1));
   auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
   robot->container().setField(field_);
   const RobotShape& shape = robot->shape();
   const std::vector<Primitive> pieces = piecesOf(*robot);
   if (!fits(pieces, start, Physics::kNobody))
-    throw std::invalid_argument("robot " + config.name + ": start " + toText(start) +
-                                " has no room for it");
+    throw NoRoom("robot " + config.name + ": start " + toText(start) + " has no room for it");
   robot->state_.number = world_->addBody({"robot", config.name, shape.colour, pieces}, start);
   robotBodies_.push_back(physics_->add(pieces, {shape.mass, Physics::Floor::drives}, start));
   robots_.push_back(std::move(robot));
@@ -210,8 +215,7 @@ void Simulation::place(SimRobot& robot, const Pose2& pose) {
   const std::size_t body = robotBodies_[static_cast<std::size_t>(found - robots_.begin())];
   const std::vector<Primitive> pieces = piecesOf(robot);
   if (!fits(pieces, pose, body))
-    throw std::invalid_argument("robot " + robot.config().name + ": there is no room at " +
-                                toText(pose));
+    throw NoRoom("robot " + robot.config().name + ": there is no room at " + toText(pose));
   robot.place(pose);
   physics_->place(body, pose);
   world_->moveBody(robot.state().number, pose);

@@ -120,4 +120,14 @@ std::vector<Point2> cornersOf(const Primitive& primitive) {
           toField(primitive, {hx, hy}), toField(primitive, {-hx, hy})};
 }
 
+Primitive inOwnFrame(Primitive primitive) {
+  for (Point2& corner : primitive.corners) {
+    corner.x -= primitive.centre.x;
+    corner.y -= primitive.centre.y;
+  }
+  primitive.centre = {};
+  primitive.angle = 0.0;
+  return primitive;
+}
+
 }  // namespace ortung

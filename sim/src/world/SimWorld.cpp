@@ -154,6 +154,7 @@ class ModelledWorld final : public SimWorld {
 
   /// The extent of a body around its own origin.
   static void measure(std::span<const Primitive> pieces, WorldObject& object) {
+    object.pieces = worldPiecesOf(pieces);
     object.halfX = object.halfY = object.radius = 0.0;
     object.zLow = pieces.front().zLow;
     object.zHigh = pieces.front().zHigh;

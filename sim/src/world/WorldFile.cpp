@@ -147,10 +147,14 @@ Extent extentOf(const WorldModel& world) {
 
 void readBounds(const Parameters& file, const Parameters& table, WorldModel& world) {
   const Extent extent = extentOf(world);
-  if (extent.isEmpty())
+  if (extent.isEmpty()) {
+    for (const char* key : {"x_m", "y_m"})
+      if (table.has(key)) table.numbers(key, 2, kCoordinate);
+    file.refuseUnread();  // most likely a misspelt [[rectangle]]
     throw ConfigError(file.where() +
                       ": the world is empty, expected at least one [[rectangle]], "
                       "[[ellipse]], [[triangle]], [[grid]] or [[landmark]]");
+  }
   const Box2& box = extent.box();
   const auto x = table.numbersOr("x_m", {box.xLow, box.xHigh}, 2, kCoordinate);
   const auto y = table.numbersOr("y_m", {box.yLow, box.yHigh}, 2, kCoordinate);

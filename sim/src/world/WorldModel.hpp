@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ WorldModel readWorldModel(const std::filesystem::path& file);
 std::vector<FieldLine> linesOf(const WorldModel& world);
 /// What sensors may see of a body at its place in the world.
 WorldObject objectOf(const Primitive& primitive);
+/// What sensors may see of pieces in the frame of their body.
+std::vector<WorldPiece> worldPiecesOf(std::span<const Primitive> pieces);
 
 /// 16 hexadecimal digits over shapes, kinds, colours, heights, grids, landmarks and bounds,
 /// whatever their order and names; of what

@@ -65,4 +65,8 @@ ORTUNG_API double topOf(std::span<const Primitive> primitives);
 /// The corners of a rectangle or triangle, in order.
 ORTUNG_API std::vector<Point2> cornersOf(const Primitive& primitive);
 
+/// The primitive in a frame of its own, whose origin is its middle and whose x axis is along its
+/// own.
+ORTUNG_API Primitive inOwnFrame(Primitive primitive);
+
 }  // namespace ortung

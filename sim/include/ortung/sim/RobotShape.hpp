@@ -43,6 +43,9 @@ struct RobotShape {
   ORTUNG_API static RobotShape read(const RobotConfig& config);
   /// The height that the robot may reach, whatever its manipulators do [m].
   ORTUNG_API double top() const;
+  /// How many convex parts it may have at a time, whatever its manipulators do; an ellipse that is
+  /// no circle has eight.
+  ORTUNG_API std::size_t parts() const;
   /// All pieces with the manipulators in these states. @pre one state for each manipulator
   ORTUNG_API std::vector<Primitive> piecesWith(const std::vector<std::size_t>& states) const;
 };

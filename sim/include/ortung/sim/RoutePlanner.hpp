@@ -11,12 +11,6 @@
 
 namespace ortung {
 
-/// A point on the floor, in the field frame [m].
-struct FloorPoint {
-  double x = 0.0;
-  double y = 0.0;
-};
-
 /// Where a robot can be and how it gets there: the largest connected part of the floor on which
 /// its body fits, as cells. Not thread-safe.
 class ORTUNG_API RoutePlanner {

@@ -19,7 +19,8 @@ namespace ortung {
 /// Not thread-safe.
 class ORTUNG_API SceneRun {
  public:
-  /// @throws ConfigError, PluginError, std::invalid_argument for commands to what is not there
+  /// @throws ConfigError, PluginError, std::invalid_argument for commands to what is not there and
+  ///   for waypoints that can't be reached
   SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory);
   ~SceneRun();
   SceneRun(const SceneRun&) = delete;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,13 @@ namespace ortung {
 
 class Physics;
 class Workers;
+
+/// There is no room for something where it is to be put.
+class ORTUNG_API NoRoom : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+  ~NoRoom() override;
+};
 
 /// Runs robots and everything movable in a world in cycles of fixed length: rigid bodies that
 /// collide, roll and are kicked.
@@ -46,8 +54,8 @@ class ORTUNG_API Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// @throws std::invalid_argument if the robot does not fit there or another one has its name;
-  ///   ConfigError, PluginError
+  /// @throws NoRoom if the robot does not fit there; std::invalid_argument if another one has its
+  ///   name or all robots together have too many pieces; ConfigError, PluginError
   SimRobot& addRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start);
   /// Takes a robot off the field, and all that is known of it.
   void removeRobot(const SimRobot& robot);
@@ -58,7 +66,7 @@ class ORTUNG_API Simulation {
   /// What a robot's sensors gave in the last cycle; valid until the next.
   std::span<const Message> readings(std::size_t robot) const { return readings_[robot]; }
 
-  /// Carries a robot elsewhere (kidnaps it). @throws std::invalid_argument if it does not fit there
+  /// Carries a robot elsewhere (kidnaps it). @throws NoRoom if it does not fit there
   void place(SimRobot& robot, const Pose2& pose);
 
   /// Everything movable that is no robot.
@@ -81,6 +89,7 @@ class ORTUNG_API Simulation {
   bool moveManipulator(std::size_t robot, std::size_t manipulator, std::size_t state);
   void moveBodies();
   void senseAll();
+  void checkEntry(const RobotConfig& config, const RobotShape& shape) const;
   bool fits(std::span<const Primitive> pieces, const Pose2& pose, std::size_t self) const;
 
   Config config_;

@@ -9,10 +9,10 @@
 namespace ortung {
 
 /// Reads a robot file that a stranger sent: at most kMaxNetworkConfigBytes, plugins of a list only,
-/// and nothing that could name a file of this computer: no text with a slash, no key `path`,
-/// `file`,
-/// `..._path` or `..._file`. [motion] and [mcl] are for the stranger's own half, may say what they
-/// like, and come out empty.
+/// nothing that could name a file of this computer (no text with a slash, no key `path`, `file`,
+/// `..._path` or `..._file`), and at most 32 pieces of geometry in all states together, of which an
+/// ellipse that is no circle counts 8. [motion] and [mcl] are for the stranger's own half, may say
+/// what they like, and come out empty.
 /// @param name what errors call it
 /// @param plugins names that are permitted
 /// @throws ConfigError

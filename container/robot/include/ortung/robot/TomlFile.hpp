@@ -8,7 +8,7 @@
 
 namespace ortung {
 
-inline constexpr std::size_t kMaxConfigBytes = 1u << 20;          ///< a file from disk
+inline constexpr std::size_t kMaxConfigBytes = 8u << 20;  ///< a file from disk: 65,536 primitives
 inline constexpr std::size_t kMaxNetworkConfigBytes = 64u << 10;  ///< a text from the network
 
 /// Reads a TOML file into Parameters whose errors name file and line.

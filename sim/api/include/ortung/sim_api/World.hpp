@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <span>
@@ -27,6 +28,26 @@ struct RayFan {
 /// Which robot's own body rays ignore; 0: none.
 using RobotNumber = std::uint32_t;
 
+/// A point on the floor [m]; in the field frame unless somebody says otherwise.
+struct FloorPoint {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// A convex piece of a body: an upright prism or elliptic cylinder.
+struct WorldPiece {
+  enum class Shape { rectangle, ellipse, triangle };
+
+  Shape shape = Shape::rectangle;
+  Pose2 pose;          ///< of its middle, in the frame of its object; a triangle's heading is 0
+  double halfX = 0.0;  ///< half its size along its own axes [m]; 0 of a triangle
+  double halfY = 0.0;  ///< [m]
+  std::array<FloorPoint, 3> corners{};  ///< of a triangle, in the frame of its object
+  double zLow = 0.0;                    ///< [m]
+  double zHigh = 0.0;                   ///< [m]
+  std::string colour;                   ///< of its own, or empty: as the object's
+};
+
 /// A body that a sensor may recognise: a ball, a robot, a post, an obstacle, ...
 struct WorldObject {
   std::string kind;        ///< "ball", "robot", "goal", "post", "wall", "obstacle", ...
@@ -42,7 +63,14 @@ struct WorldObject {
   bool isRound = false;    ///< an ellipse; else what fits into a rectangle of the extent
   bool isMovable = false;  ///< false: it stands where it is
   RobotNumber robot = 0;   ///< which robot it is; 0: none
+  /// What it is made of; at least one piece of all that a simulator's world has.
+  std::vector<WorldPiece> pieces;
 };
+
+/// The outline of a piece where its object is now, in the field frame: corners in order against the
+/// clock, of an ellipse @p corners points on it. @param corners at least 3
+ORTUNG_API std::vector<FloorPoint> outlineOf(const WorldObject& object, const WorldPiece& piece,
+                                             int corners = 48);
 
 /// The room that a robot takes: an upright cylinder on the floor.
 struct RobotSize {
