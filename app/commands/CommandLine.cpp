@@ -44,6 +44,12 @@ class Builder {
     auto arguments = std::make_shared<Arguments>();
     current_ = app.add_subcommand(name, description);
     current_->footer(std::string("Example:\n  ") + example);
+    current_
+        ->add_option("--plugin-seconds", parsed_.pluginSeconds,
+                     "How long a plugin may take for one call before the program saves what it has "
+                     "and ends [s]; 0: for ever")
+        ->check(within(0.0, 1e6))
+        ->capture_default_str();
     current_->callback([parsed = &parsed_, arguments, name, run] {
       parsed->name = name;
       parsed->run = [arguments, run] { return run(*arguments); };

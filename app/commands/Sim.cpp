@@ -12,6 +12,7 @@
 #include "Interrupt.hpp"
 #include "OutputFile.hpp"
 #include "Progress.hpp"
+#include "Rescue.hpp"
 #include "Serving.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Record.hpp"
@@ -132,25 +133,37 @@ int play(const SimArguments& arguments) {
   }
   const std::optional<double> duration = arguments.duration ? arguments.duration : scene.duration;
   Trace trace;
+  const auto save = [&] {
+    if (record) record->commit();
+    if (!arguments.trace.empty()) writeFile(arguments.trace, trace.text());
+  };
+  Rescue rescue(save);
   const Pacing pacing(arguments.serving);
   std::size_t told = 0;
   std::size_t cycles = 0;
   {
     Progress progress("simulating", false);
     while (interruptSignal() == 0 && !(duration && simulation.now() > fromSeconds(*duration))) {
-      if (!arguments.trace.empty()) trace.add(simulation);
+      if (!arguments.trace.empty()) {
+        const auto held = rescue.hold();
+        trace.add(simulation);
+      }
       run.step();
       ++cycles;
-      if (record)
+      if (record) {
+        const auto held = rescue.hold();
         for (const Message& message : simulation.readings(*robot)) record->write(message);
+      }
       tellProblems(simulation, told);
       if (duration && cycles % 100 == 0) progress.update(toSeconds(simulation.now()) / *duration);
       pacing.waitFor(toSeconds(simulation.now()));
     }
   }
   const double elapsed = pacing.elapsed();
-  if (record) record->commit();
-  if (!arguments.trace.empty()) writeFile(arguments.trace, trace.text());
+  {
+    const auto held = rescue.hold();
+    save();
+  }
   const double seconds = toSeconds(simulation.now());
   fmt::print("{}: {:.2f} s in {} cycles, {} robots, {:.0f} times real time{}\n",
              printable(simulation.world().name()), seconds, cycles, simulation.robots().size(),
@@ -176,7 +189,9 @@ int runSim(const SimArguments& arguments) {
     throw UsageError(
         "--record, --trace and --duration do not fit --listen: clients keep their own records, and "
         "the server runs until it is stopped");
-  ServedSimulation simulation(sceneOf(arguments), configOf(arguments));
+  Simulation::Config config = configOf(arguments);
+  config.onProblem = [](const std::string& problem) { warn(printable(problem)); };
+  ServedSimulation simulation(sceneOf(arguments), config);
   serve(simulation, arguments.serving);
   return 0;
 }

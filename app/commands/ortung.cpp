@@ -4,6 +4,8 @@
 #include "CommandLine.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "Rescue.hpp"
+#include "ortung/core/PluginGuard.hpp"
 
 namespace {
 
@@ -21,6 +23,9 @@ int main(int argc, char** argv) {
     if (!command.run) return command.exitCode;
     setCommandName("ortung " + command.name);
     catchInterrupts();
+    const ortung::PluginWatch watch(command.pluginSeconds, [](const std::string& late) {
+      Rescue::saveAllAndEnd(late + "; the program ends, see --plugin-seconds");
+    });
     return command.run();
   } catch (const UsageError& error) {
     fail(error.what());
@@ -30,6 +35,8 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     // Work that was stopped by a signal may call that by many names.
     fail(interruptSignal() != 0 ? Interrupted().what() : error.what());
+  } catch (...) {
+    fail("something was thrown that is no std::exception");
   }
   return interruptSignal() != 0 ? kSignalled + interruptSignal() : kBadInput;
 }

@@ -17,7 +17,7 @@ bool isControl(std::string_view text, std::size_t i) {
 }
 
 spdlog::logger& logger() {
-  static spdlog::logger instance("ortung", std::make_shared<spdlog::sinks::stderr_sink_st>());
+  static spdlog::logger instance("ortung", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   return instance;
 }
 

@@ -20,6 +20,10 @@ void Extraction::add(std::string name, std::unique_ptr<Extractor> extractor,
   step.name = std::move(name);
   step.extractor = std::move(extractor);
   step.outputs = std::move(outputs);
+  std::string who = "the extractor of '" + step.name + "'";
+  if (!step.outputs.empty()) who += ", which makes " + toText(step.outputs.front()->id());
+  if (step.outputs.size() > 1) who += " and " + std::to_string(step.outputs.size() - 1) + " more";
+  step.guard = std::make_unique<PluginGuard>(who + ",");
   step.words.resize(step.outputs.size());
   step.made.resize(step.outputs.size());
   steps_.push_back(std::move(step));
@@ -28,7 +32,8 @@ void Extraction::add(std::string name, std::unique_ptr<Extractor> extractor,
 void Extraction::connect(std::span<const std::unique_ptr<SensorData>> features) {
   for (Step& step : steps_) {
     step.inputs.clear();
-    for (const std::string& text : step.extractor->inputs()) {
+    const auto inputs = (*step.guard)("inputs", [&] { return step.extractor->inputs(); });
+    for (const std::string& text : inputs) {
       const SensorQuery query = parseSensorQuery(text);
       const auto found = std::find_if(features.begin(), features.end(), [&](const auto& data) {
         const bool isOwn = has(step.outputs, data.get());
@@ -111,14 +116,11 @@ void Extraction::runAll(std::shared_mutex& lock) {
         field = field_;
       }
       std::fill(step.words.begin(), step.words.end(), std::nullopt);
-      step.extractor->extract(*field, step.words);
+      (*step.guard)("extract", [&] { step.extractor->extract(*field, step.words); });
       const std::unique_lock writing(lock);
       put(step, stamp);
-    } catch (const std::exception& error) {
-      throw ExtractorError("the extractor of '" + step.name + "' failed: " + error.what());
-    } catch (...) {
-      throw ExtractorError("the extractor of '" + step.name +
-                           "' failed: it threw no std::exception");
+    } catch (const PluginFailure& failure) {
+      throw ExtractorError(failure.what());
     }
   }
 }
@@ -136,7 +138,7 @@ bool Extraction::take(Step& step, Timestamp& stamp) {
       stamp = readings.size() == 1 ? input.stamp() : std::max(stamp, input.stamp());
   }
   if (!isNew || step.cameByMessage(stamp)) return false;
-  step.extractor->take(readings);
+  (*step.guard)("take", [&] { step.extractor->take(readings); });
   return true;
 }
 
@@ -156,7 +158,7 @@ bool Extraction::Step::cameByMessage(Timestamp stamp) const {
 void Extraction::put(Step& step, Timestamp stamp) {
   for (std::size_t i = 0; i < step.outputs.size(); ++i) {
     if (!step.words[i]) continue;
-    step.outputs[i]->setData(stamp, *step.words[i]);
+    (*step.guard)("extract", [&] { step.outputs[i]->setData(stamp, *step.words[i]); });
     step.made[i] = step.outputs[i]->sequence();
   }
 }

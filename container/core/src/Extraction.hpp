@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ortung/core/Extractor.hpp"
+#include "ortung/core/PluginGuard.hpp"
 
 namespace ortung {
 
@@ -39,6 +40,7 @@ class Extraction {
     bool cameByMessage(Timestamp stamp) const;
     std::string name;
     std::unique_ptr<Extractor> extractor;
+    std::unique_ptr<PluginGuard> guard;
     std::vector<SensorData*> outputs;
     std::vector<const SensorData*> inputs;
     std::vector<std::uint64_t> seen;  ///< by input: sequence number of the last reading taken

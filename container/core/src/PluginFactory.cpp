@@ -10,6 +10,7 @@
 #include <span>
 
 #include "LibraryFolder.hpp"
+#include "ortung/core/PluginGuard.hpp"
 
 namespace ortung {
 namespace {
@@ -77,7 +78,9 @@ void checkInfo(const std::filesystem::path& file, const PluginInfo& info) {
 
 /// Makes a plugin; what its constructor throws comes with the plugin's name.
 void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
-  const std::string who = std::string("plugin '") + entry.name + "': ";
+  const std::string who = std::string("plugin '") + entry.name + "'";
+  const PluginGuard guard("the " + who);
+  const PluginGuard::Inside inside(guard, "its constructor");
   try {
     return entry.create(parameters);
   } catch (const ConfigError&) {
@@ -88,9 +91,9 @@ void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
     throw;  // for the reader of the robot file, who knows its line
   } catch (const std::exception& error) {
     if (interfaceKind(entry.interface) == kSourceKind) throw;  // names the file it reads
-    throw PluginError(who + error.what());
+    throw PluginError(who + ": " + error.what());
   } catch (...) {
-    throw PluginError(who + "threw something that is no std::exception");
+    throw PluginError(who + ": threw something that is no std::exception");
   }
 }
 

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include "FormatTools.hpp"
 #include "ortung/base/Angles.hpp"
@@ -12,7 +14,15 @@ namespace {
 
 constexpr double kCentidegrees = 18000.0 / std::numbers::pi;
 
+/// A plugin that measures no number must not tell -2147 km, as which a word would come out.
+void refuseInfinite(double value) {
+  if (!std::isfinite(value))
+    throw std::invalid_argument("a measured value is " + std::to_string(value) +
+                                ", expected a finite number");
+}
+
 std::uint32_t clampToWord(double value) {
+  refuseInfinite(value);
   return static_cast<std::uint32_t>(
       std::clamp(std::nearbyint(value), 0.0, double{std::numeric_limits<std::uint32_t>::max()}));
 }
@@ -26,6 +36,7 @@ std::uint32_t fromSignedMetres(double metres) { return clampToWord(metres * 1000
 double toSignedMetres(std::uint32_t word) { return (static_cast<double>(word) - kOffset) / 1000.0; }
 
 std::uint32_t fromAngle(double radians) {
+  refuseInfinite(radians);
   const double centidegrees = std::nearbyint(std::remainder(radians, kTurn) * kCentidegrees);
   return static_cast<std::uint32_t>(centidegrees + 18000.0) % kAngles;
 }

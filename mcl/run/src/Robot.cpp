@@ -1,5 +1,6 @@
 #include "ortung/run/Robot.hpp"
 
+#include "CheckedMotion.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
 namespace ortung {
@@ -19,7 +20,8 @@ std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
 }
 
 std::unique_ptr<MotionModel> makeMotion(const Parameters& motion, PluginFactory& factory) {
-  return factory.make<MotionModel>(motion.textOr("plugin", "odometry"), motion);
+  const std::string plugin = motion.textOr("plugin", "odometry");
+  return std::make_unique<CheckedMotion>(factory.make<MotionModel>(plugin, motion), plugin);
 }
 
 Parameters readMotionFile(const std::filesystem::path& file) {

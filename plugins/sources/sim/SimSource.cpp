@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
 #include "ortung/core/Plugin.hpp"
@@ -123,6 +124,7 @@ class SimSource : public Source {
 
   bool next(Message& message) override {
     while (sent_ == frame_.size()) {
+      stopAtProblem();
       if (now() > options_.duration) return false;
       run_.step();
       frame_ = run_.simulation().readings(robot_);
@@ -141,6 +143,11 @@ class SimSource : public Source {
 
  private:
   Timestamp now() const { return run_.simulation().now(); }
+  /// Readings without what failed would look like those of another robot.
+  void stopAtProblem() const {
+    for (const auto& robot : run_.simulation().robots())
+      if (!robot->problems().empty()) throw std::runtime_error(robot->problems().front());
+  }
 
   Run options_;
   bool isScene_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "MakeSensor.hpp"
+#include "CheckedSensor.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/tables/FieldParts.hpp"
 

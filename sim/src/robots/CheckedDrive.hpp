@@ -3,39 +3,41 @@
 #include <memory>
 #include <string>
 
+#include "ortung/core/PluginGuard.hpp"
 #include "ortung/sim_api/Drive.hpp"
 
 namespace ortung {
 
-/// Hands commands on to a drive, unless they are not finite or of the wrong size: they come from
-/// clients and players.
+/// A drive as its robot calls it. Commands that are not finite or of the wrong size, which come from
+/// clients and players, are refused with std::invalid_argument; what the drive throws, and numbers
+/// of it that are none or that no base could do, are a PluginFailure that names it.
 class CheckedDrive final : public Drive {
  public:
-  /// @param robot whom errors name
-  CheckedDrive(std::unique_ptr<Drive> drive, std::string robot);
+  CheckedDrive(std::unique_ptr<Drive> drive, const std::string& plugin, std::string robot);
   ~CheckedDrive() override;
 
   void setTranslationalVelocity(double metresPerSecond) override;
   void setRotationalVelocity(double radiansPerSecond) override;
   void setCommand(std::span<const double> command) override;
-  std::size_t commandSize() const override { return drive_->commandSize(); }
-  std::string commandHelp() const override { return drive_->commandHelp(); }
-  DriveLimits limits() const override { return drive_->limits(); }
-  Pose2 relocate(double dt, Random* noise) override { return drive_->relocate(dt, noise); }
-  Twist velocity() const override { return drive_->velocity(); }
-  void setVelocity(const Twist& velocity) override { drive_->setVelocity(velocity); }
-  Pose2 measure(const Pose2& trueChange, Random* noise) override {
-    return drive_->measure(trueChange, noise);
-  }
-  Twist measuredVelocity(bool noise) const override { return drive_->measuredVelocity(noise); }
-  std::span<const std::uint32_t> motionData() const override { return drive_->motionData(); }
-  std::string motionDataHelp() const override { return drive_->motionDataHelp(); }
+  std::size_t commandSize() const override;
+  std::string commandHelp() const override;
+  DriveLimits limits() const override;
+  Pose2 relocate(double dt, Random* noise) override;
+  Twist velocity() const override;
+  void setVelocity(const Twist& velocity) override;
+  Pose2 measure(const Pose2& trueChange, Random* noise) override;
+  Twist measuredVelocity(bool noise) const override;
+  std::span<const std::uint32_t> motionData() const override;
+  std::string motionDataHelp() const override;
 
  private:
-  double checked(const char* what, double value) const;
+  void checkCommand(const char* what, double value) const;
+  void checkMotion(const char* what, double x, double y, double theta, double most) const;
 
   std::unique_ptr<Drive> drive_;
   std::string robot_;
+  PluginGuard guard_;
+  double dt_ = 0.0;  ///< of the last relocate() [s]
 };
 
 }  // namespace ortung

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "CheckedDrive.hpp"
-#include "MakeSensor.hpp"
+#include "CheckedSensor.hpp"
 #include "ortung/formats/PoseData.hpp"
 
 namespace ortung {
@@ -22,17 +22,6 @@ constexpr const char* kDefaultDrive = "differential";
 constexpr std::size_t kMostProblems = 100;
 
 bool isGroundTruth(const SensorData& data) { return data.id().type == "groundTruth"; }
-
-bool isFinite(const Twist& velocity) {
-  return std::isfinite(velocity.x) && std::isfinite(velocity.y) && std::isfinite(velocity.theta);
-}
-
-/// Whether a drive's change of pose within @p dt [s] is one that the physics can count with.
-bool isSane(const Pose2& change, double dt) {
-  constexpr double kFastest = 1000.0;  // [m/s], [rad/s]
-  return std::abs(change.x) <= kFastest * dt && std::abs(change.y) <= kFastest * dt &&
-         std::abs(change.theta) <= kFastest * dt;  // false for NaN
-}
 
 /// A velocity in the frame of a robot that faces @p heading.
 Twist toRobot(const Twist& inField, double heading) {
@@ -52,7 +41,6 @@ std::optional<std::size_t> findState(const Manipulator& manipulator, std::string
 }  // namespace
 
 struct SimRobot::Mounted {
-  std::string plugin;
   std::unique_ptr<Sensor> sensor;  ///< null once it has thrown
   std::vector<SensorData*> data;
   std::vector<std::uint64_t> seen;  ///< by data: sequence number of the last reading sent
@@ -72,7 +60,8 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
       wantedStates_(shape_.manipulators.size(), 0),
       enteredAt_(shape_.manipulators.size(), 0) {
   const std::string plugin = config_.drive.textOr("plugin", kDefaultDrive);
-  drive_ = std::make_unique<CheckedDrive>(factory.make<Drive>(plugin, config_.drive), config_.name);
+  drive_ = std::make_unique<CheckedDrive>(factory.make<Drive>(plugin, config_.drive), plugin,
+                                          config_.name);
   state_.pose = start;
   const std::vector<Device> devices = fillContainer(container_, config_, factory);
   extracts_ = std::any_of(devices.begin(), devices.end(),
@@ -82,9 +71,9 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
     const Device& device = devices[i];
     hasTruth = hasTruth || std::any_of(device.data.begin(), device.data.end(),
                                        [](SensorData* data) { return isGroundTruth(*data); });
-    auto sensor = makeSensor(device, factory);
+    auto sensor = makeSensor(device, factory, config_.name);
     const Timestamp period = sensor ? fromSeconds(sensor->period()) : 0;
-    sensors_.push_back({device.config->plugin, std::move(sensor), device.data,
+    sensors_.push_back({std::move(sensor), device.data,
                         std::vector<std::uint64_t>(device.data.size(), 0),
                         random.fork(kFirstSensor + i), period, 0});
   }
@@ -95,8 +84,7 @@ SimRobot::~SimRobot() = default;
 
 void SimRobot::report(Timestamp now, const std::string& what) {
   if (problems_.size() < kMostProblems)
-    problems_.push_back("robot " + config_.name + " at " + std::to_string(toSeconds(now)) +
-                        " s: " + what);
+    problems_.push_back("at " + std::to_string(toSeconds(now)) + " s: " + what);
 }
 
 double SimRobot::raysPerSecond(double cycle) const {
@@ -126,14 +114,9 @@ std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
     if (!isDue) continue;
     try {
       generate(mounted, world, now);
-    } catch (const std::exception& error) {
+    } catch (const PluginFailure& failure) {
       mounted.sensor.reset();
-      report(now, "the sensor plugin '" + mounted.plugin +
-                      "' failed in generateData and is switched off: " + error.what());
-    } catch (...) {
-      mounted.sensor.reset();
-      report(now, "the sensor plugin '" + mounted.plugin +
-                      "' failed in generateData and is switched off: it threw no std::exception");
+      report(now, std::string(failure.what()) + "; it is switched off");
     }
   }
   extract(now);
@@ -159,7 +142,8 @@ void SimRobot::extract(Timestamp now) {
     container_.extract();
   } catch (const ExtractorError& error) {
     extracts_ = false;
-    report(now, std::string(error.what()) + "; nothing is made of other features any more");
+    report(now, "robot " + config_.name + ": " + error.what() +
+                    "; nothing is made of other features any more");
   }
   for (Mounted& mounted : sensors_) collect(mounted, now);
 }
@@ -188,19 +172,30 @@ void SimRobot::addGroundTruth(Timestamp now) {
   message.words = truthWords_;
 }
 
-void SimRobot::setTranslationalVelocity(double metresPerSecond) {
-  drive_->setTranslationalVelocity(metresPerSecond);
+/// Whoever commands is told of a drive that fails, and so are those who look at problems().
+template <class Command>
+void SimRobot::command(const Command& command) {
+  if (!driveWorks_)
+    throw PluginFailure("robot " + config_.name + ": its drive has failed and is switched off");
+  try {
+    command();
+  } catch (const PluginFailure& failure) {
+    switchDriveOff(failure);
+    throw;
+  }
   driver_.reset();
+}
+
+void SimRobot::setTranslationalVelocity(double metresPerSecond) {
+  command([&] { drive_->setTranslationalVelocity(metresPerSecond); });
 }
 
 void SimRobot::setRotationalVelocity(double radiansPerSecond) {
-  drive_->setRotationalVelocity(radiansPerSecond);
-  driver_.reset();
+  command([&] { drive_->setRotationalVelocity(radiansPerSecond); });
 }
 
-void SimRobot::setMotion(std::span<const double> command) {
-  drive_->setCommand(command);
-  driver_.reset();
+void SimRobot::setMotion(std::span<const double> numbers) {
+  command([&] { drive_->setCommand(numbers); });
 }
 
 void SimRobot::setManipulator(std::string_view manipulator, std::string_view state) {
@@ -241,18 +236,16 @@ void SimRobot::enterState(std::size_t manipulator, std::size_t state, Timestamp 
 }
 
 Pose2 SimRobot::plan(Timestamp now, double dt) {
+  now_ = now;
   if (!driveWorks_) return {};
   try {
     if (driver_) driver_->command(state_.pose, now, *drive_);
     const Pose2 change = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
-    if (isSane(change, dt) && isFinite(drive_->velocity())) return planned_ = change;
-    report(
-        now,
-        "its drive gave a motion that is not finite, or faster than 1000 m/s, and is switched off");
+    drive_->velocity();  // of which odometry may be made
+    return planned_ = change;
   } catch (const std::exception& error) {
-    report(now, std::string("its drive failed and is switched off: ") + error.what());
+    switchDriveOff(error);
   }
-  driveWorks_ = false;
   return planned_ = {};
 }
 
@@ -261,14 +254,27 @@ void SimRobot::move(const Pose2& pose, const Twist& velocity, bool wasDisturbed)
   state_.pose = pose;
   state_.velocity = velocity;
   if (!driveWorks_) return;
-  if (wasDisturbed) drive_->setVelocity(toRobot(velocity, pose.theta));
-  const Pose2 measured = drive_->measure(change, noise_ ? &odometryRandom_ : nullptr);
-  if (ortung::isFinite(measured)) state_.odometry = state_.odometry * measured;
-  const Twist told = drive_->measuredVelocity(noise_);
-  state_.translationalVelocity = told.x;
-  state_.rotationalVelocity = told.theta;
-  state_.lateralVelocity = told.y;
-  state_.motionData = drive_->motionData();
+  try {
+    if (wasDisturbed) drive_->setVelocity(toRobot(velocity, pose.theta));
+    const Pose2 measured = drive_->measure(change, noise_ ? &odometryRandom_ : nullptr);
+    const Twist told = drive_->measuredVelocity(noise_);
+    const std::span<const std::uint32_t> motionData = drive_->motionData();
+    state_.odometry = state_.odometry * measured;
+    state_.translationalVelocity = told.x;
+    state_.rotationalVelocity = told.theta;
+    state_.lateralVelocity = told.y;
+    state_.motionData = motionData;
+  } catch (const PluginFailure& failure) {
+    switchDriveOff(failure);
+  }
+}
+
+/// From now on it stands, unless somebody pushes it, and odometry says so.
+void SimRobot::switchDriveOff(const std::exception& why) {
+  report(now_, std::string(why.what()) + "; it is switched off");
+  driveWorks_ = false;
+  state_.translationalVelocity = state_.rotationalVelocity = state_.lateralVelocity = 0.0;
+  state_.motionData = {};
 }
 
 void SimRobot::place(const Pose2& pose) {

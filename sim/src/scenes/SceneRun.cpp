@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ortung/core/PluginGuard.hpp"
+
 namespace ortung {
 namespace {
 
@@ -158,9 +160,13 @@ void SceneRun::put(const ScenePlacement& placement) {
 
 void SceneRun::obey(const SceneCommand& command) {
   SimRobot& robot = *simulation_->robots()[need(command.robot)];
-  if (command.translational) robot.setTranslationalVelocity(*command.translational);
-  if (command.rotational) robot.setRotationalVelocity(*command.rotational);
-  if (!command.vector.empty()) robot.setMotion(command.vector);
+  try {
+    if (command.translational) robot.setTranslationalVelocity(*command.translational);
+    if (command.rotational) robot.setRotationalVelocity(*command.rotational);
+    if (!command.vector.empty()) robot.setMotion(command.vector);
+  } catch (const PluginFailure&) {
+    // Its drive is switched off, which is among the robot's problems; the others go on.
+  }
   if (!command.manipulator.empty()) robot.setManipulator(command.manipulator, command.state);
 }
 

@@ -136,6 +136,13 @@ void Simulation::step() {
   moveManipulators();
   moveBodies();
   now_ += cycle_;
+  if (config_.onProblem) tellProblems();
+}
+
+void Simulation::tellProblems() {
+  for (const std::unique_ptr<SimRobot>& robot : robots_)
+    for (; robot->problemsTold_ < robot->problems_.size(); ++robot->problemsTold_)
+      config_.onProblem(robot->problems_[robot->problemsTold_]);
 }
 
 void Simulation::senseAll() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,7 +22,8 @@
 namespace ortung {
 
 /// One robot of a simulation: shape, drive, sensors, and the container that they fill.
-/// A plugin that throws is switched off, and problems() tells which one and why.
+/// A plugin that throws, or gives numbers that make no sense, is switched off, and problems() tells
+/// which one and why.
 /// Not thread-safe; readers of the container hold its lock.
 class ORTUNG_API SimRobot : public RobotCommands {
  public:
@@ -40,7 +42,7 @@ class ORTUNG_API SimRobot : public RobotCommands {
   // --- commands; whoever tells it to move replaces its driver
   void setTranslationalVelocity(double metresPerSecond) override;
   void setRotationalVelocity(double radiansPerSecond) override;
-  void setMotion(std::span<const double> command) override;
+  void setMotion(std::span<const double> numbers) override;
   /// It moves in the cycle that begins, or as soon as it has room.
   void setManipulator(std::string_view manipulator, std::string_view state) override;
 
@@ -88,6 +90,9 @@ class ORTUNG_API SimRobot : public RobotCommands {
   void addGroundTruth(Timestamp now);
   Message& nextMessage();
   void report(Timestamp now, const std::string& what);
+  template <class Command>
+  void command(const Command& command);
+  void switchDriveOff(const std::exception& why);
 
   RobotConfig config_;
   RobotShape shape_;
@@ -105,12 +110,14 @@ class ORTUNG_API SimRobot : public RobotCommands {
   bool noise_;
   std::vector<Message> frame_;  ///< messages are used again, so that none is allocated in a cycle
   std::size_t inFrame_ = 0;
+  Timestamp now_ = 0;      ///< of the cycle
   Timestamp nextDue_ = 0;  ///< no sensor is due before
   std::vector<std::uint32_t> truthWords_;
   std::vector<std::size_t> manipulatorStates_;
   std::vector<std::size_t> wantedStates_;
   std::vector<Timestamp> enteredAt_;
   std::vector<std::string> problems_;
+  std::size_t problemsTold_ = 0;
 };
 
 }  // namespace ortung

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,6 +36,8 @@ class ORTUNG_API Simulation {
     std::uint64_t seed = 1;
     bool noise = true;     ///< of sensors, odometry and slipping wheels
     unsigned threads = 1;  ///< that sense
+    /// Told at the end of a cycle what went wrong in it with a robot's plugins; may be empty.
+    std::function<void(const std::string&)> onProblem = {};
     /// @throws std::invalid_argument naming the field, its value and the range
     void check() const;
   };
@@ -90,6 +93,7 @@ class ORTUNG_API Simulation {
   void moveBodies();
   void senseAll();
   void checkEntry(const RobotConfig& config, const RobotShape& shape) const;
+  void tellProblems();
   bool fits(std::span<const Primitive> pieces, const Pose2& pose, std::size_t self) const;
 
   Config config_;

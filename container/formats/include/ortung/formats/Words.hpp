@@ -7,7 +7,7 @@
 namespace ortung {
 
 /// Words of lengths and angles. Encoding rounds to the nearest and clamps to what the word can
-/// hold; @pre finite.
+/// hold. @throws std::invalid_argument for numbers that are not finite
 namespace words {
 inline constexpr std::uint32_t kOffset = 1u << 31;   ///< zero of a signed word
 ORTUNG_API std::uint32_t fromMetres(double metres);  ///< unsigned millimetres

@@ -1,0 +1,128 @@
+#include "ortung/core/PluginGuard.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+namespace ortung {
+namespace {
+
+/// All guards of the process. It is one for all, since guards are made inside of plugins, too (the
+/// source `sim` has robots of its own), and it is a program that a watch ends, not a robot.
+struct Guards {
+  std::mutex mutex;  ///< a guard that is looked at does not end meanwhile
+  std::set<const PluginGuard*> all;
+};
+
+/// Never destroyed: plugins that outlive main() leave it, too.
+Guards& guards() {
+  static auto* const guards = new Guards;
+  return *guards;
+}
+
+constexpr double kStepsOfBudget = 10.0;
+constexpr double kLongestStep = 0.25;  ///< [s]
+
+}  // namespace
+
+PluginFailure::~PluginFailure() = default;
+
+PluginGuard::PluginGuard(std::string who) : who_(std::move(who)) {
+  const std::lock_guard lock(guards().mutex);
+  guards().all.insert(this);
+}
+
+PluginGuard::~PluginGuard() {
+  const std::lock_guard lock(guards().mutex);
+  guards().all.erase(this);
+}
+
+void PluginGuard::fail(const char* what, const std::string& why) const {
+  throw PluginFailure(who_ + " failed in " + what + ": " + why);
+}
+
+struct PluginWatch::Impl {
+  /// A call that was under way when we looked last.
+  struct Seen {
+    std::uint64_t entered = 0;
+    std::uint64_t left = 0;
+    double seconds = 0.0;
+  };
+
+  Impl(double seconds, std::function<void(const std::string&)> overdue)
+      : budget(seconds),
+        step(std::min(seconds / kStepsOfBudget, kLongestStep)),
+        tell(std::move(overdue)),
+        thread([this] { watch(); }) {}
+
+  ~Impl() {
+    {
+      const std::lock_guard lock(mutex);
+      isOver = true;
+    }
+    end.notify_all();
+    thread.join();
+  }
+
+  void watch() {
+    using Clock = std::chrono::steady_clock;
+    std::unique_lock lock(mutex);
+    Clock::time_point before = Clock::now();
+    while (!end.wait_for(lock, std::chrono::duration<double>(step), [&] { return isOver; })) {
+      const Clock::time_point now = Clock::now();
+      const double passed = std::chrono::duration<double>(now - before).count();
+      before = now;
+      // Who comes much too late was not allowed to run, and neither were the plugins.
+      const std::string late = look(std::min(passed, 2.0 * step));
+      if (late.empty()) continue;
+      lock.unlock();
+      tell(late);
+      return;
+    }
+  }
+
+  /// Which plugin is overdue, or "".
+  std::string look(double passed) {
+    const std::lock_guard lock(guards().mutex);
+    std::map<const PluginGuard*, Seen> under;
+    for (const PluginGuard* guard : guards().all) {
+      const std::uint64_t left = guard->left_.load(std::memory_order_acquire);
+      const std::uint64_t entered = guard->entered_.load(std::memory_order_relaxed);
+      if (entered == left) continue;
+      const auto was = seen.find(guard);
+      const bool isSame =
+          was != seen.end() && was->second.entered == entered && was->second.left == left;
+      const double seconds = isSame ? was->second.seconds + passed : 0.0;
+      if (seconds >= budget)
+        return guard->who_ + " has been in " + guard->what_.load(std::memory_order_relaxed) +
+               " for " + std::to_string(std::lround(seconds * 10.0) / 10.0).substr(0, 5) + " s";
+      under[guard] = {entered, left, seconds};
+    }
+    seen = std::move(under);
+    return "";
+  }
+
+  double budget;
+  double step;
+  std::function<void(const std::string&)> tell;
+  std::map<const PluginGuard*, Seen> seen;
+  std::mutex mutex;
+  std::condition_variable end;
+  bool isOver = false;
+  std::thread thread;  ///< last: it uses the others
+};
+
+PluginWatch::PluginWatch(double seconds, std::function<void(const std::string&)> overdue) {
+  if (!(seconds >= 0.0 && std::isfinite(seconds)))
+    throw std::invalid_argument("PluginWatch: the time for a call is " + std::to_string(seconds) +
+                                " s, expected a number >= 0");
+  if (seconds > 0.0) impl_ = std::make_unique<Impl>(seconds, std::move(overdue));
+}
+
+PluginWatch::~PluginWatch() = default;
+
+}  // namespace ortung

@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "Files.hpp"
+#include "Program.hpp"
+#include "ortung/core/Record.hpp"
+
+/// Plugins that do not come back from a call: the program says which one, saves what it has, and
+/// ends.
+namespace ortung::test {
+namespace {
+
+struct BadRun {
+  explicit BadRun(const std::string& robot) {
+    writeBytes(folder / "world.toml", "[world]\nx_m = [-6, 6]\ny_m = [-4, 4]\n"
+               "[[rectangle]]\ncenter_m = [5, 3]\nsize_m = [1, 1]\n");
+    writeBytes(folder / "robot.toml", "[robot]\nname = \"bob\"\n" + robot);
+  }
+  std::string at(const std::string& name) const { return (folder / name).string(); }
+
+  Outcome of(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--plugin-seconds", "0.4"});
+    return ortung(arguments, {"ORTUNG_PLUGIN_PATH=" ORTUNG_PLUGINS_DIR ":" TEST_PLUGINS});
+  }
+  Outcome simulated() const {
+    return of({"sim", at("world.toml"), "--robot", at("robot.toml"), "--free-run", "--duration",
+               "1000", "--record", at("run.rec"), "--trace", at("run.csv")});
+  }
+  TemporaryFolder folder;
+};
+
+std::string loopIn(const std::string& where, int after) {
+  return "where = \"" + where + "\"\nhow = \"loop\"\nafter = " + std::to_string(after) + "\n";
+}
+
+void expectIn(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in: " << text;
+}
+
+/// All that came before the call is in both files, to the last line.
+void expectSaved(const BadRun& run, const std::string& feature, std::size_t readings, int moments) {
+  RecordSource record(run.at("run.rec"));
+  Message message;
+  std::size_t found = 0;
+  while (record.next(message)) found += toText(message.id) == feature ? 1 : 0;
+  EXPECT_EQ(found, readings);
+  const std::string trace = readBytes(run.at("run.csv"));
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), '\n'), 1 + moments);  // every 50 ms
+  EXPECT_TRUE(trace.ends_with('\n'));
+}
+
+TEST(Hanging, ASensorEndsTheRunWithItsNameAndTheRecordIsWhole) {
+  const BadRun run("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[[sensor]]\nplugin = \"misbehaving\"\n" +
+                loopIn("generateData", 200));
+  const Outcome outcome = run.simulated();
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  expectIn(outcome.err, "the sensor plugin 'misbehaving' of robot bob (bad/misbehaving/pose)");
+  expectIn(outcome.err, "has been in generateData for 0.");
+  expectIn(outcome.err, "--plugin-seconds");
+  expectSaved(run, "bad/misbehaving/pose", 200, 41);
+}
+
+TEST(Hanging, ADriveEndsTheRunWithItsName) {
+  const BadRun run("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[drive]\nplugin = \"misbehaving\"\n" +
+                loopIn("measure", 100));
+  const Outcome outcome = run.simulated();
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  expectIn(outcome.err, "the drive plugin 'misbehaving' of robot bob has been in measure");
+  expectSaved(run, "odometry/odometry/pose", 100, 21);
+}
+
+TEST(Hanging, AnExtractorEndsTheRunWithItsName) {
+  const BadRun run("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[[sensor]]\nplugin = "
+                "\"misbehaving_extracted\"\n" +
+                loopIn("extract", 50));
+  const Outcome outcome = run.simulated();
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  expectIn(outcome.err, "the extractor of 'misbehaving_extracted'");
+  expectSaved(run, "bad/extracted/pose", 50, 11);
+}
+
+TEST(Hanging, LearningEndsAndLeavesNoTable) {
+  const BadRun run("[[sensor]]\nplugin = \"misbehaving_range\"\n" + loopIn("generateData", 100));
+  const Outcome outcome = run.of({"learn", "--world", run.at("world.toml"), "--robot",
+                                  run.at("robot.toml"), "--out", run.at("out.ortung")});
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  expectIn(outcome.err, "the sensor plugin 'misbehaving_range'");
+  EXPECT_EQ(run.folder.files(), 2u);
+}
+
+TEST(Hanging, AConstructorEndsTheProgram) {
+  const BadRun run("[[sensor]]\nplugin = \"misbehaving\"\n" + loopIn("construct", 0));
+  const Outcome outcome = run.of({"check", run.at("robot.toml")});
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  expectIn(outcome.err, "the plugin 'misbehaving' has been in its constructor");
+}
+
+TEST(Hanging, BadDrivesOfARunLeaveARecordThatIsWhole) {
+  const BadRun run("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[drive]\nplugin = \"misbehaving\"\nwhere = "
+                "\"measure\"\nhow = \"int\"\nafter = 50\n");
+  const Outcome outcome =
+      run.of({"sim", run.at("world.toml"), "--robot", run.at("robot.toml"), "--free-run",
+              "--duration", "1.999", "--record", run.at("run.rec"), "--trace", run.at("run.csv")});
+  EXPECT_EQ(outcome.exitCode, 1);
+  expectIn(outcome.err, "the drive plugin 'misbehaving' of robot bob failed in measure");
+  expectSaved(run, "odometry/odometry/pose", 200, 40);
+}
+
+}  // namespace
+}  // namespace ortung::test
