@@ -11,102 +11,56 @@
 namespace ortung {
 namespace {
 
-/// Rays within the cone at one elevation.
-struct Slice {
-  double elevation = 0.0;  ///< [rad]
-  int toEachSide = 0;      ///< rays beside the one in the middle
-};
-
-/// A cone of rays: slices at elevations within it, each as wide as a circular cone is there.
-struct Cone {
-  explicit Cone(double openingAngle) {
-    constexpr int kFewest = 5;  // rays between middle and edge
-    const double half = openingAngle / 2.0;
-    const double toEachSide = std::max(std::ceil(half / radians(2.0)), double{kFewest});
-    step = half / toEachSide;
-    slices.push_back({0.0, static_cast<int>(toEachSide)});
-    // At 0.6 of the way up, the cone is 0.8 as wide; at 0.28 it is 0.96, at 0.96 it is 0.28.
-    for (const double share : {0.28, 0.6, 0.96})
-      for (const double side : {-share, share})
-        slices.push_back({side * half, static_cast<int>(std::floor(
-                                           std::sqrt(1.0 - share * share) * toEachSide + 1e-9))});
-  }
-  double step;  ///< between rays of a slice [rad]
-  std::vector<Slice> slices;
-};
+constexpr double kWidestStep = 2.0 * kTurn / 360.0;  ///< between the axes of a panorama [rad]
 
 /// What a cone meets in all directions from one place at one moment. The learner puts all sonars of
 /// a ring there, one after the other, and turns them on the spot.
 class Panorama {
  public:
-  Panorama(const Cone& cone, double z, double maxRange) : cone_(cone), z_(z), maxRange_(maxRange) {
-    nearest_.resize(static_cast<std::size_t>(std::ceil(kTurn / cone.step - 1e-9)));
-    ranges_.resize(nearest_.size());
+  explicit Panorama(const SonarSettings& settings)
+      : cone_{.z = settings.z,
+              .halfAngle = settings.cone.openingAngle / 2.0,
+              .maxRange = settings.cone.maxRange} {
+    constexpr double kFewest = 5.0;  // axes between that of a cone and its edge
+    cone_.angleStep = cone_.halfAngle / std::max(std::ceil(cone_.halfAngle / kWidestStep), kFewest);
+    nearest_.resize(static_cast<std::size_t>(std::ceil(kTurn / cone_.angleStep - 1e-9)));
   }
 
   bool isOf(const World& world, const Pose2& sonar, Timestamp now) const {
     constexpr double kSame = 1e-9;  // [m]: what a chain of frames leaves of rounding
-    return world_ == &world && now_ == now && std::abs(place_.x - sonar.x) < kSame &&
-           std::abs(place_.y - sonar.y) < kSame;
+    return world_ == &world && now_ == now && std::abs(cone_.x - sonar.x) < kSame &&
+           std::abs(cone_.y - sonar.y) < kSame;
   }
 
   /// Looks around; the heading of @p sonar is met exactly.
   void look(const World& world, const Pose2& sonar, RobotNumber robot, Timestamp now) {
     world_ = &world;
     now_ = now;
-    place_ = sonar;
-    std::fill(nearest_.begin(), nearest_.end(), static_cast<float>(maxRange_));
-    for (const Slice& slice : cone_.slices) {
-      world.castFan({.x = sonar.x,
-                     .y = sonar.y,
-                     .z = z_,
-                     .firstAngle = sonar.theta,
-                     .angleStep = cone_.step,
-                     .elevation = slice.elevation,
-                     .maxRange = maxRange_},
-                    robot, ranges_);
-      spread(slice.toEachSide);
-    }
+    cone_.x = sonar.x;
+    cone_.y = sonar.y;
+    cone_.firstAngle = sonar.theta;
+    world.castCones(cone_, robot, nearest_);
   }
 
   double nearest(double heading) const {
-    const double turns = (heading - place_.theta) / kTurn;
+    const double turns = (heading - cone_.firstAngle) / kTurn;
     const double ahead = (turns - std::floor(turns)) * kTurn;
-    const auto index = static_cast<std::size_t>(std::lround(ahead / cone_.step));
+    const auto index = static_cast<std::size_t>(std::lround(ahead / cone_.angleStep));
     return static_cast<double>(nearest_[index % nearest_.size()]);
   }
 
  private:
-  /// Each ray counts in all directions whose cone it lies in.
-  void spread(int toEachSide) {
-    const auto n = static_cast<int>(ranges_.size());
-    for (int i = 0; i < n; ++i) {
-      const float range = ranges_[static_cast<std::size_t>(i)];
-      if (static_cast<double>(range) >= maxRange_) continue;
-      for (int k = i - toEachSide; k <= i + toEachSide; ++k) {
-        float& nearest = nearest_[static_cast<std::size_t>((k % n + n) % n)];
-        nearest = std::min(nearest, range);
-      }
-    }
-  }
-
-  const Cone& cone_;
-  double z_;         ///< [m]
-  double maxRange_;  ///< [m]
+  ConeFan cone_;
   const World* world_ = nullptr;
   Timestamp now_ = 0;
-  Pose2 place_;
   std::vector<float> nearest_;  ///< by direction [m]
-  std::vector<float> ranges_;   ///< of one slice [m]
 };
 
 class SonarSensor : public Sensor {
  public:
   explicit SonarSensor(const Parameters& p)
       : settings_(readSonarSettings(p)),
-        cone_(settings_.cone.openingAngle),
-        panorama_(cone_, settings_.z, settings_.cone.maxRange),
-        ranges_(static_cast<std::size_t>(2 * cone_.slices.front().toEachSide + 1)) {}
+        panorama_(settings_) {}
 
   void generateData(const World& world, const RobotState& robot, Random* noise, Timestamp now,
                     std::span<SensorData* const> data) override {
@@ -121,10 +75,10 @@ class SonarSensor : public Sensor {
     return settings_.period * static_cast<double>(settings_.atOnce) /
            static_cast<double>(settings_.mounts.size());
   }
+  /// Of a cone met by seven slices of rays, which is what it costs at most.
   double rays() const override {
-    double ofCone = 0.0;
-    for (const Slice& slice : cone_.slices) ofCone += 2.0 * slice.toEachSide + 1.0;
-    return ofCone * static_cast<double>(settings_.atOnce);
+    const double toEachSide = std::max(settings_.cone.openingAngle / 2.0 / kWidestStep, 5.0);
+    return 7.0 * (1.6 * toEachSide + 1.0) * static_cast<double>(settings_.atOnce);
   }
 
  private:
@@ -156,21 +110,15 @@ class SonarSensor : public Sensor {
   }
 
   /// Nearest surface within the cone, or the greatest range [m].
-  double nearest(const World& world, const Pose2& sonar, RobotNumber robot) {
-    auto range = static_cast<float>(settings_.cone.maxRange);
-    for (const Slice& slice : cone_.slices) {
-      const std::span<float> rays(ranges_.data(),
-                                  static_cast<std::size_t>(2 * slice.toEachSide + 1));
-      world.castFan({.x = sonar.x,
+  double nearest(const World& world, const Pose2& sonar, RobotNumber robot) const {
+    float range = 0.0F;
+    world.castCones({.x = sonar.x,
                      .y = sonar.y,
                      .z = settings_.z,
-                     .firstAngle = sonar.theta - slice.toEachSide * cone_.step,
-                     .angleStep = cone_.step,
-                     .elevation = slice.elevation,
+                     .firstAngle = sonar.theta,
+                     .halfAngle = settings_.cone.openingAngle / 2.0,
                      .maxRange = settings_.cone.maxRange},
-                    robot, rays);
-      range = std::min(range, *std::min_element(rays.begin(), rays.end()));
-    }
+                    robot, {&range, 1});
     return static_cast<double>(range);
   }
 
@@ -191,10 +139,8 @@ class SonarSensor : public Sensor {
   }
 
   SonarSettings settings_;
-  Cone cone_;
   Panorama panorama_;
-  std::vector<float> ranges_;  ///< of one slice [m]
-  std::size_t next_ = 0;       ///< place in the firing order
+  std::size_t next_ = 0;  ///< place in the firing order
 };
 
 }  // namespace

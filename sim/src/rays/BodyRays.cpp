@@ -51,6 +51,7 @@ BodyRays::Piece BodyRays::pieceOf(const Primitive& primitive) {
     const Point2& to = corners[(i + 1) % piece.sides];
     const double length = std::copysign(std::hypot(to.x - from.x, to.y - from.y), winding);
     piece.normals[i] = {(to.y - from.y) / length, (from.x - to.x) / length};
+    piece.corners[i] = {from.x - piece.middle.x, from.y - piece.middle.y};
     piece.offsets[i] = piece.normals[i][0] * (from.x - piece.middle.x) +
                        piece.normals[i][1] * (from.y - piece.middle.y);
     piece.reach =
@@ -74,9 +75,12 @@ void BodyRays::move(std::size_t place, const Pose2& pose) {
     Piece& to = moved.pieces[i];
     to.middle = {pose.x + c * from.middle.x - s * from.middle.y,
                  pose.y + s * from.middle.x + c * from.middle.y};
-    for (std::size_t k = 0; k < from.sides; ++k)
+    for (std::size_t k = 0; k < from.sides; ++k) {
       to.normals[k] = {c * from.normals[k][0] - s * from.normals[k][1],
                        s * from.normals[k][0] + c * from.normals[k][1]};
+      to.corners[k] = {c * from.corners[k].x - s * from.corners[k].y,
+                       s * from.corners[k].x + c * from.corners[k].y};
+    }
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "BodyRays.hpp"
+#include "Cones.hpp"
 #include "FreeSpace.hpp"
 #include "MapWalls.hpp"
 #include "RayCaster.hpp"
@@ -26,6 +28,15 @@ bool isSane(const RayFan& fan) {
   return fan.maxRange >= 0.0 && std::isfinite(fan.maxRange);
 }
 
+bool isSane(const ConeFan& fan) {
+  for (const double value : {fan.x, fan.y, fan.z, fan.firstAngle, fan.angleStep})
+    if (!std::isfinite(value)) return false;
+  return fan.maxRange >= 0.0 && std::isfinite(fan.maxRange) && fan.halfAngle > 0.0 &&
+         fan.halfAngle < 1.5;
+}
+
+constexpr RobotNumber kFixed = std::numeric_limits<RobotNumber>::max();  ///< nobody's number
+
 class ModelledWorld final : public SimWorld {
  public:
   explicit ModelledWorld(WorldModel model)
@@ -35,7 +46,10 @@ class ModelledWorld final : public SimWorld {
         rays_(makeMesh(model_)),
         lines_(linesOf(model_)) {
     for (const Primitive& primitive : model_.primitives)
-      if (primitive.isSolid()) objects_.push_back(objectOf(primitive));
+      if (primitive.isSolid()) {
+        objects_.push_back(objectOf(primitive));
+        solids_.add({&primitive, 1}, kFixed, {});
+      }
     fixedObjects_ = objects_.size();
     for (const GridBody& body : model_.grids) addMapWalls(body, mapWalls_);
   }
@@ -62,6 +76,15 @@ class ModelledWorld final : public SimWorld {
     }
     rays_.castFan(fan, ranges);
     bodies_.castFan(fan, ignore, ranges);
+  }
+
+  void castCones(const ConeFan& fan, RobotNumber ignore, std::span<float> ranges) const override {
+    std::fill(ranges.begin(), ranges.end(),
+              fan.maxRange > 0.0 ? static_cast<float>(fan.maxRange) : 0.0f);
+    if (!isSane(fan)) return;
+    if (!model_.grids.empty()) castConesAtMaps(*this, model_.grids, fan, ignore, ranges);
+    solids_.castCones(fan, 0, ranges);
+    bodies_.castCones(fan, ignore, ranges);
   }
 
   bool isVisible(double x0, double y0, double z0, double x1, double y1, double z1,
@@ -184,6 +207,7 @@ class ModelledWorld final : public SimWorld {
   std::vector<FieldWall> mapWalls_;
   std::vector<WorldObject> objects_;  ///< first what is fixed, then what moves
   std::size_t fixedObjects_ = 0;
+  BodyRays solids_;  ///< what is fixed and no map, for cones
   BodyRays bodies_;
   std::vector<RobotNumber> numbers_;  ///< of moving bodies, in the order of objects_, rising
   RobotNumber lastNumber_ = 0;

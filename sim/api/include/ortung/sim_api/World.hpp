@@ -25,6 +25,17 @@ struct RayFan {
   double maxRange = 8.0;    ///< [m]
 };
 
+/// Circular cones from one point, their axes level and at evenly spaced angles.
+struct ConeFan {
+  double x = 0.0;           ///< apex in the field frame [m]
+  double y = 0.0;           ///< [m]
+  double z = 0.0;           ///< [m]
+  double firstAngle = 0.0;  ///< of cone 0's axis in the field frame [rad]
+  double angleStep = 0.0;   ///< between axes [rad]
+  double halfAngle = 0.17;  ///< between axis and edge [rad], in (0, 1.5)
+  double maxRange = 3.0;    ///< [m]
+};
+
 /// Which robot's own body rays ignore; 0: none.
 using RobotNumber = std::uint32_t;
 
@@ -88,6 +99,11 @@ class ORTUNG_API World {
   /// Range of each ray of the fan to the first surface [m], or fan.maxRange (as a float) where
   /// there is none; ranges.size() is the number of rays.
   virtual void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const = 0;
+
+  /// Distance from the apex to the nearest surface within each cone of the fan [m], or fan.maxRange
+  /// (as a float) where there is none; ranges.size() is the number of cones. By default of rays two
+  /// degrees apart or less, in seven slices; a world that knows its bodies misses none of them.
+  virtual void castCones(const ConeFan& fan, RobotNumber ignore, std::span<float> ranges) const;
 
   /// Whether nothing stands between two points at the given heights, but for what lies within
   /// @p slack metres of the second (so that a post does not hide itself).

@@ -1,0 +1,110 @@
+#include "Cones.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "BodyRays.hpp"
+#include "ConeOverPlan.hpp"
+#include "ortung/base/Angles.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kFinestRays = 0.1 * kTurn / 360.0;
+constexpr double kWidestRays = 2.0 * kTurn / 360.0;
+constexpr double kSagitta = 0.0005;  ///< of the chords that stand for a round outline [m]
+constexpr std::size_t kFewestChords = 16;
+constexpr std::size_t kMostChords = 96;
+
+/// Cones of level rays that are at most this far apart; what they share is cast once.
+void castLevel(const World& world, double widest, const ConeFan& fan, RobotNumber ignore,
+               std::span<float> ranges) {
+  const bool shares = ranges.size() > 1 && fan.angleStep > 0.0;
+  const double span = shares ? fan.angleStep : fan.halfAngle;
+  const double pieces = std::max(1.0, std::ceil(span / widest - 1e-9));
+  const double step = span / pieces;
+  const auto between = static_cast<std::size_t>(shares ? pieces : 1.0);
+  const auto toEachSide = static_cast<std::size_t>(std::floor(fan.halfAngle / step + 1e-9));
+  thread_local std::vector<float> rays;  // a cone a cycle and robot: none of them allocates
+  rays.resize((ranges.size() - 1) * between + 2 * toEachSide + 1);
+  world.castFan({.x = fan.x,
+                 .y = fan.y,
+                 .z = fan.z,
+                 .firstAngle = fan.firstAngle - static_cast<double>(toEachSide) * step,
+                 .angleStep = step,
+                 .maxRange = fan.maxRange},
+                ignore, rays);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const auto first = rays.begin() + static_cast<std::ptrdiff_t>(i * between);
+    ranges[i] = std::min(
+        ranges[i],
+        *std::min_element(first, first + static_cast<std::ptrdiff_t>(2 * toEachSide + 1)));
+  }
+}
+
+}  // namespace
+
+void castConesAtMaps(const World& world, const std::vector<GridBody>& maps, const ConeFan& fan,
+                     RobotNumber ignore, std::span<float> ranges) {
+  double cell = fan.maxRange;
+  bool anyLevel = false;
+  bool anyElsewhere = false;
+  for (const GridBody& body : maps) {
+    const bool isLevel = body.zLow <= fan.z && fan.z <= body.zHigh;
+    if (isLevel) cell = std::min(cell, body.map.cell);
+    anyLevel = anyLevel || isLevel;
+    anyElsewhere = anyElsewhere || !isLevel;
+  }
+  if (anyElsewhere) world.World::castCones(fan, ignore, ranges);
+  if (!anyLevel || ranges.empty() || !(fan.maxRange > 0.0)) return;
+  castLevel(world, std::clamp(cell / fan.maxRange, kFinestRays, kWidestRays), fan, ignore, ranges);
+}
+
+void BodyRays::castCones(const ConeFan& fan, RobotNumber ignore, std::span<float> ranges) const {
+  for (const Body& body : bodies_) {
+    if (body.number == ignore) continue;
+    for (const Piece& piece : body.pieces) castConesAt(piece, fan, ranges);
+  }
+}
+
+void BodyRays::castConesAt(const Piece& piece, const ConeFan& fan, std::span<float> ranges) {
+  const double x = piece.middle.x - fan.x;
+  const double y = piece.middle.y - fan.y;
+  const double distance = std::hypot(x, y);
+  if (distance - piece.reach >= fan.maxRange) return;
+  const double height = std::max({0.0, piece.zLow - fan.z, fan.z - piece.zHigh});
+  const ConeOverPlan cone{std::tan(fan.halfAngle)};
+  std::array<Point2, kMostChords> field;
+  std::array<Point2, kMostChords> seen;
+  std::size_t n = piece.sides;
+  if (piece.isRound) {
+    const double chords = kTurn / 2.0 / std::sqrt(2.0 * kSagitta / std::max(piece.reach, kSagitta));
+    n = std::clamp(static_cast<std::size_t>(chords), kFewestChords, kMostChords);
+  }
+  const auto& m = piece.normals;  // of an ellipse: leads to the unit circle
+  const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  for (std::size_t i = 0; i < n; ++i) {
+    Point2 corner = piece.corners[i % 4];
+    if (piece.isRound) {
+      const double t = kTurn * static_cast<double>(i) / static_cast<double>(n);
+      corner = {(m[1][1] * std::cos(t) - m[0][1] * std::sin(t)) / determinant,
+                (m[0][0] * std::sin(t) - m[1][0] * std::cos(t)) / determinant};
+    }
+    field[i] = {corner.x + x, corner.y + y};
+  }
+  const double bearing = std::atan2(y, x);
+  const double aside = distance > piece.reach ? std::asin(piece.reach / distance) : kTurn;
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    const double axis = fan.firstAngle + static_cast<double>(k) * fan.angleStep;
+    if (std::abs(std::remainder(bearing - axis, kTurn)) > aside + fan.halfAngle + 1e-9) continue;
+    const double c = std::cos(axis);
+    const double s = std::sin(axis);
+    for (std::size_t i = 0; i < n; ++i)
+      seen[i] = {c * field[i].x + s * field[i].y, c * field[i].y - s * field[i].x};
+    const double range = cone.nearest({seen.data(), n}, height);
+    if (range < static_cast<double>(ranges[k])) ranges[k] = static_cast<float>(range);
+  }
+}
+
+}  // namespace ortung
