@@ -31,7 +31,8 @@ RobotConfig robotOf(const std::string& more) {
 
 std::string drive(const std::string& where, const std::string& how, int after) {
   return "[drive]\nplugin = \"misbehaving\"\nwhere = \"" + where + "\"\nhow = \"" + how +
-         "\"\nafter = " + std::to_string(after) + "\n[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n";
+         "\"\nafter = " + std::to_string(after) +
+         "\n[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n";
 }
 
 std::string sensor(const std::string& plugin, const std::string& where, const std::string& how,
@@ -216,8 +217,8 @@ TEST(Contained, MotionModelsThatFail) {
         fixes.beginLearning(region, 0.1);
         fixes.endLearning();
         const PoseFixData::Fix anywhere{{}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-        auto& odometry = container.add(std::make_unique<OdometryData>(
-            SensorId{"base", "odometry", "odometry"}));
+        auto& odometry =
+            container.add(std::make_unique<OdometryData>(SensorId{"base", "odometry", "odometry"}));
         const std::string said = messageOf<PluginFailure>([&] {
           for (int i = 0; i < 5; ++i) {
             OdometryData::Reading reading;
@@ -234,11 +235,11 @@ TEST(Contained, MotionModelsThatFail) {
 TEST(Contained, MotionModelsThatLearnNoNumber) {
   PluginFactory factory({ORTUNG_PLUGINS_DIR, TEST_PLUGINS});
   for (const char* how : kHow) {
-    const auto motion = makeMotion(
-        parseToml("plugin = \"misbehaving\"\nwhere = \"endLearning\"\nhow = \"" + std::string(how) +
-                      "\"",
-                  "robot.toml"),
-        factory);
+    const auto motion =
+        makeMotion(parseToml("plugin = \"misbehaving\"\nwhere = \"endLearning\"\nhow = \"" +
+                                 std::string(how) + "\"",
+                             "robot.toml"),
+                   factory);
     expectIn(messageOf<PluginFailure>([&] { motion->endLearning(); }),
              {"the motion plugin 'misbehaving' failed in endLearning"});
   }
@@ -246,7 +247,8 @@ TEST(Contained, MotionModelsThatLearnNoNumber) {
 
 TEST(Contained, WordsOfNumbersThatAreNone) {
   const double nan = std::nan("");
-  for (const double bad : {nan, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {nan, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(words::fromMetres(bad), std::invalid_argument);
     EXPECT_THROW(words::fromSignedMetres(bad), std::invalid_argument);
     EXPECT_THROW(words::fromAngle(bad), std::invalid_argument);

@@ -13,7 +13,8 @@ namespace {
 
 struct BadRun {
   explicit BadRun(const std::string& robot) {
-    writeBytes(folder / "world.toml", "[world]\nx_m = [-6, 6]\ny_m = [-4, 4]\n"
+    writeBytes(folder / "world.toml",
+               "[world]\nx_m = [-6, 6]\ny_m = [-4, 4]\n"
                "[[rectangle]]\ncenter_m = [5, 3]\nsize_m = [1, 1]\n");
     writeBytes(folder / "robot.toml", "[robot]\nname = \"bob\"\n" + robot);
   }
@@ -51,8 +52,9 @@ void expectSaved(const BadRun& run, const std::string& feature, std::size_t read
 }
 
 TEST(Hanging, ASensorEndsTheRunWithItsNameAndTheRecordIsWhole) {
-  const BadRun run("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[[sensor]]\nplugin = \"misbehaving\"\n" +
-                loopIn("generateData", 200));
+  const BadRun run(
+      "[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[[sensor]]\nplugin = \"misbehaving\"\n" +
+      loopIn("generateData", 200));
   const Outcome outcome = run.simulated();
   EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
   expectIn(outcome.err, "the sensor plugin 'misbehaving' of robot bob (bad/misbehaving/pose)");
@@ -62,8 +64,9 @@ TEST(Hanging, ASensorEndsTheRunWithItsNameAndTheRecordIsWhole) {
 }
 
 TEST(Hanging, ADriveEndsTheRunWithItsName) {
-  const BadRun run("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[drive]\nplugin = \"misbehaving\"\n" +
-                loopIn("measure", 100));
+  const BadRun run(
+      "[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[drive]\nplugin = \"misbehaving\"\n" +
+      loopIn("measure", 100));
   const Outcome outcome = run.simulated();
   EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
   expectIn(outcome.err, "the drive plugin 'misbehaving' of robot bob has been in measure");
@@ -71,9 +74,10 @@ TEST(Hanging, ADriveEndsTheRunWithItsName) {
 }
 
 TEST(Hanging, AnExtractorEndsTheRunWithItsName) {
-  const BadRun run("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[[sensor]]\nplugin = "
-                "\"misbehaving_extracted\"\n" +
-                loopIn("extract", 50));
+  const BadRun run(
+      "[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[[sensor]]\nplugin = "
+      "\"misbehaving_extracted\"\n" +
+      loopIn("extract", 50));
   const Outcome outcome = run.simulated();
   EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
   expectIn(outcome.err, "the extractor of 'misbehaving_extracted'");
@@ -97,8 +101,9 @@ TEST(Hanging, AConstructorEndsTheProgram) {
 }
 
 TEST(Hanging, BadDrivesOfARunLeaveARecordThatIsWhole) {
-  const BadRun run("[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[drive]\nplugin = \"misbehaving\"\nwhere = "
-                "\"measure\"\nhow = \"int\"\nafter = 50\n");
+  const BadRun run(
+      "[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[drive]\nplugin = \"misbehaving\"\nwhere = "
+      "\"measure\"\nhow = \"int\"\nafter = 50\n");
   const Outcome outcome =
       run.of({"sim", run.at("world.toml"), "--robot", run.at("robot.toml"), "--free-run",
               "--duration", "1.999", "--record", run.at("run.rec"), "--trace", run.at("run.csv")});

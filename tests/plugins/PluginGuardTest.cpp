@@ -1,5 +1,3 @@
-#include "ortung/core/PluginGuard.hpp"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -8,6 +6,7 @@
 #include <thread>
 
 #include "Files.hpp"
+#include "ortung/core/PluginGuard.hpp"
 
 namespace ortung {
 namespace {
@@ -37,8 +36,7 @@ TEST(PluginWatch, TellsOfACallThatDoesNotEnd) {
   std::promise<std::string> told;
   const PluginWatch watch(0.05, [&](const std::string& late) { told.set_value(late); });
   std::promise<void> goOn;
-  std::thread plugin(
-      [&] { guard("generateData", [&] { goOn.get_future().wait(); }); });
+  std::thread plugin([&] { guard("generateData", [&] { goOn.get_future().wait(); }); });
   const std::string said = wait(told.get_future());
   goOn.set_value();
   plugin.join();
@@ -70,8 +68,7 @@ TEST(PluginWatch, IsNotToldOfManyShortCalls) {
 TEST(PluginWatch, SeesThroughExceptionsThatACallIsOver) {
   const PluginGuard thrower("thrower");
   const PluginGuard slow("slow");
-  for (int i = 0; i < 3; ++i)
-    EXPECT_THROW(thrower("take", [] { throw 1; }), PluginFailure);
+  for (int i = 0; i < 3; ++i) EXPECT_THROW(thrower("take", [] { throw 1; }), PluginFailure);
   std::promise<std::string> told;
   std::promise<void> goOn;
   const PluginWatch watch(0.05, [&](const std::string& late) { told.set_value(late); });
@@ -82,8 +79,8 @@ TEST(PluginWatch, SeesThroughExceptionsThatACallIsOver) {
 }
 
 TEST(PluginWatch, RefusesTimesThatAreNone) {
-  for (const double seconds : {-1.0, std::numeric_limits<double>::quiet_NaN(),
-                               std::numeric_limits<double>::infinity()})
+  for (const double seconds :
+       {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(PluginWatch(seconds, {}), std::invalid_argument);
   const PluginWatch none(0.0, {});  // no limit
 }

@@ -25,8 +25,7 @@ constexpr const char* kSonar =
 
 std::unique_ptr<SimWorld> worldOf(const std::string& bodies) {
   const test::TemporaryFolder folder;
-  test::writeBytes(folder / "world.toml",
-                   "[world]\nx_m = [-8, 8]\ny_m = [-8, 8]\n" + bodies);
+  test::writeBytes(folder / "world.toml", "[world]\nx_m = [-8, 8]\ny_m = [-8, 8]\n" + bodies);
   return readWorld(folder / "world.toml");
 }
 
@@ -63,9 +62,9 @@ TEST(SonarCone, SeesAThinPoleInAllBearings) {
       if (beside > 0.0) {
         const double across = away * std::sin(beside);
         if (std::abs(across - kRadius) < 0.0005) continue;  // the chords' rounding decides
-        expected = across > kRadius ? std::numeric_limits<double>::infinity()
-                                    : away * std::cos(beside) -
-                                          std::sqrt(kRadius * kRadius - across * across);
+        expected = across > kRadius
+                       ? std::numeric_limits<double>::infinity()
+                       : away * std::cos(beside) - std::sqrt(kRadius * kRadius - across * across);
       }
       for (const bool hasNoise : {true, false}) {
         const double range = sonar.at(*world, heading, hasNoise);
@@ -94,8 +93,8 @@ TEST(SonarCone, SeesBoxesAsHighAsItReaches) {
       {0.5, 0.2, 0.4, 0.5, infinite},
   };
   for (const Case& one : cases) {
-    const auto world =
-        worldOf(kAside + box(one.front + one.depth / 2.0, 0.0, one.depth, 0.6, one.zLow, one.zHigh));
+    const auto world = worldOf(
+        kAside + box(one.front + one.depth / 2.0, 0.0, one.depth, 0.6, one.zLow, one.zHigh));
     for (const bool hasNoise : {true, false}) {
       const double range = sonar.at(*world, 0.0, hasNoise);
       if (std::isinf(one.expected))
@@ -207,8 +206,8 @@ TEST(SonarCone, SeesASingleCellOfAMapInAllBearings) {
 TEST(SonarCone, TellsFalseEchoesAnywhereBeforeTheTrueOne) {
   const auto world = worldOf(box(2.5, 0.0, 1.0, 4.0, 0.0, 1.0));
   for (const double share : {0.0, 0.3, 1.0}) {
-    SensorRig rig("sonar", std::string(kSonar) + "\nmin_range_m = 0.2\nfalse_share = " +
-                               std::to_string(share));
+    SensorRig rig("sonar", std::string(kSonar) +
+                               "\nmin_range_m = 0.2\nfalse_share = " + std::to_string(share));
     Random noise(6);
     constexpr int kDraws = 4000;
     Statistics early;

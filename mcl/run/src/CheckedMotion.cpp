@@ -12,8 +12,8 @@ bool areFinite(std::span<const float> values) {
   constexpr std::uint32_t kExponent = 0x7F800000u;  // all ones: infinite or no number
   std::uint32_t bad = 0;
   for (const float value : values)
-    bad |= static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(value) & kExponent) ==
-                                      kExponent);
+    bad |=
+        static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(value) & kExponent) == kExponent);
   return bad == 0;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ScanForecast.hpp"
 #include "WallMatcher.hpp"
 
 namespace ortung {
@@ -22,8 +23,6 @@ void LrfIconicExtractor::take(std::span<const SensorData* const> inputs) {
   if (scan == nullptr)
     throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
   scan_ = scan->reading();
-  for (float& range : scan_.ranges)
-    if (std::isinf(range)) range = std::numeric_limits<float>::quiet_NaN();
   mount_ = scan->mount();
   maxRange_ = scan->config().maxRange;
 }
@@ -37,12 +36,31 @@ void LrfIconicExtractor::extract(const FieldModel& field, std::span<std::optiona
   constexpr double kFinest = 0.005;  // [m]
   const double sigma = settings_.rangeSigma + settings_.rangeSigmaPerMetre * 0.5 * maxRange_;
   const WallMatcher matcher(walls, {.rangeSigma = std::max(kFinest, sigma),
+                                    .wallSigma = settings_.wallSigma,
                                     .shareMatched = settings_.shareMatched,
                                     .mostFixes = settings_.mostFixes});
-  const std::vector<PoseFixData::Fix> fixes = matcher.match(shapes.segments, mount_);
+  const std::vector<std::uint8_t> small = beamsOnCircles(shapes);
+  const std::vector<PoseFixData::Fix> fixes = matcher.match(
+      shapes.segments, {scan_.ranges, small, scan_.firstAngle, scan_.angleStep, maxRange_}, mount_);
   words[0] = ObstaclesData::encode(obstacles(shapes, matcher, fixes));
   // Who knows no walls can't say that there is no position.
   if (!walls.empty()) words[1] = PoseFixData::encode(fixes);
+}
+
+/// By beam, whether it ends at a small body.
+std::vector<std::uint8_t> LrfIconicExtractor::beamsOnCircles(const ScanShapes& shapes) const {
+  constexpr double kSlack = 0.15;  // [m]: small bodies are no exact circles
+  std::vector<std::uint8_t> beams(scan_.ranges.size(), 0);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const auto range = static_cast<double>(scan_.ranges[i]);
+    if (!std::isfinite(range)) continue;
+    const double angle = scan_.firstAngle + static_cast<double>(i) * scan_.angleStep;
+    const PlanePoint end{range * std::cos(angle), range * std::sin(angle)};
+    beams[i] = std::any_of(shapes.circles.begin(), shapes.circles.end(), [&](const ScanCircle& c) {
+      return distance(c.middle, end) <= c.radius + kSlack;
+    });
+  }
+  return beams;
 }
 
 /// What is no wall; without a position, everything.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,7 @@ class LrfIconicExtractor : public Extractor {
   void extract(const FieldModel& field, std::span<std::optional<Words>> words) override;
 
  private:
+  std::vector<std::uint8_t> beamsOnCircles(const ScanShapes& shapes) const;
   ObstaclesData::Reading obstacles(const ScanShapes& shapes, const WallMatcher& matcher,
                                    const std::vector<PoseFixData::Fix>& fixes) const;
 

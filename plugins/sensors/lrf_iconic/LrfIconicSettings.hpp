@@ -21,10 +21,11 @@ struct LrfIconicSettings {
   ScanData::Config scan;  ///< of its own
   ScanShapesConfig shapes;
   PoseFixData::Config fix;
-  double shareMatched = 0.6;  ///< of points on straight pieces that must be of walls
+  double shareMatched = 0.6;  ///< of beams that must end at walls, if five of them agree
   int mostFixes = 8;
   double rangeSigma = 0.03;  ///< of the scan, as the matcher takes it, at range 0 [m]
   double rangeSigmaPerMetre = 0.0;
+  double wallSigma = 0.005;  ///< of where a wall is, as a whole [m]
   double period = 0.1;       ///< [s]
   double noiseSigma = 0.03;  ///< of simulated ranges at range 0 [m]
   double noiseSigmaPerMetre = 0.0;
@@ -56,6 +57,8 @@ inline LrfIconicSettings readLrfIconicSettings(const Parameters& p) {
     checkQuery(p, "reads");
   s.rangeSigma = p.numberOr("range_sigma_m", s.noiseSigma, {0.0, 10.0});
   s.rangeSigmaPerMetre = p.numberOr("range_sigma_per_m", s.noiseSigmaPerMetre, {0.0, 1.0});
+  // Whoever reads a log or a real scanner has walls of a map that somebody measured.
+  s.wallSigma = p.numberOr("wall_sigma_m", s.reads.empty() ? 0.005 : 0.03, {0.0, 1.0});
   s.shapes.breakDistance = p.numberOr("break_m", s.shapes.breakDistance, {0.01, 10.0});
   s.shapes.lineTolerance = p.numberOr("line_tolerance_m", s.shapes.lineTolerance, {0.001, 1.0});
   s.shapes.shortest = p.numberOr("shortest_line_m", s.shapes.shortest, {0.05, 10.0});

@@ -4,18 +4,30 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+
+#include "ScanForecast.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr std::size_t kMostWalls = 256;   // that are matched, the longest first
-constexpr std::size_t kMostSegments = 6;  // of a scan, of which pairs are tried
-constexpr int kRefinements = 8;           // Gauss-Newton steps
-constexpr double kSamePlace = 0.3;        // poses nearer than this are one [m]
-constexpr double kSameHeading = 0.1;      // [rad]
-constexpr double kMostThrough = 0.1;      // of points that would be seen through walls
-constexpr double kFewestSine = 0.34;      // of the angle between two pieces: 20 degrees
+constexpr std::size_t kMostWalls = 256;    // that are matched, the longest first
+constexpr std::size_t kMostSegments = 6;   // of a scan, of which pairs are tried
+constexpr int kRefinements = 8;            // Gauss-Newton steps
+constexpr double kSamePlace = 0.3;         // poses nearer than this are one [m]
+constexpr double kSameHeading = 0.1;       // [rad]
+constexpr std::size_t kMostCompared = 24;  // candidates whose scan is forecast
+constexpr double kLeastExplained = 0.4;    // of a candidate's points; below, it is not compared
+constexpr double kTolerance = 0.15;        // of a beam's end across the wall that is expected [m]
+constexpr double kMostThrough = 0.05;      // of beams that meet walls: would be seen through them
+constexpr double kLeastOfWalls = 0.5;      // of beams that meet walls: must end there
+constexpr double kShareAWall = 0.115;      // less of a scan must agree for each wall more
+constexpr double kMostShare = 0.98;
+constexpr int kUsualWalls = 5;
+constexpr double kAlike = 0.75;  // of the best share of beams: as good as the best
+constexpr double kAlikeThrough = 0.1;
+constexpr double kFewestSine = 0.34;  // of the angle between two pieces: 20 degrees
 
 double lengthOf(const StraightPiece& s) { return std::hypot(s.to.x - s.from.x, s.to.y - s.from.y); }
 double directionOf(const StraightPiece& s) {
@@ -31,6 +43,10 @@ PlanePoint moved(const Pose2& frame, const PlanePoint& p) {
 /// Signed distance to a wall's line, positive on the side from which it is seen [m].
 double offsetFrom(const MeasuredWall& wall, const PlanePoint& p) {
   return wall.cosine * (p.y - wall.y0) - wall.sine * (p.x - wall.x0);
+}
+
+bool isSame(const Pose2& a, const Pose2& b) {
+  return distance(a, b) < kSamePlace && std::abs(wrapAngle(a.theta - b.theta)) < kSameHeading;
 }
 
 /// Whether the foot of @p p lies on the wall, or up to @p slack beyond its ends.
@@ -53,6 +69,15 @@ std::vector<FieldWall> wallsAt(const FieldModel& field, double z, double shortes
 struct WallMatcher::Candidate {
   Pose2 sensor;
   int explained = 0;
+};
+
+/// A candidate at its best, and how the scan agrees with it.
+struct WallMatcher::Place {
+  PoseFixData::Fix fix;
+  double share = 0.0;    ///< of beams that end at the wall that is expected there
+  double through = 0.0;  ///< of the beams that would meet walls: end behind them
+  int walls = 0;         ///< of which there are pieces
+  double ofWalls = 0.0;  ///< of the beams that would meet walls: end there
 };
 
 MeasuredWall::MeasuredWall(const FieldWall& wall)
@@ -89,38 +114,16 @@ int WallMatcher::explained(std::span<const StraightPiece> segments, const Pose2&
   return count;
 }
 
-/// Whether the way from a to b crosses a wall.
-bool crosses(const PlanePoint& a, const PlanePoint& b, const FieldWall& wall) {
-  const double wx = wall.x1 - wall.x0;
-  const double wy = wall.y1 - wall.y0;
-  const double sideA = wx * (a.y - wall.y0) - wy * (a.x - wall.x0);
-  const double sideB = wx * (b.y - wall.y0) - wy * (b.x - wall.x0);
-  if ((sideA > 0.0) == (sideB > 0.0)) return false;
-  const double bx = b.x - a.x;
-  const double by = b.y - a.y;
-  const double side0 = bx * (wall.y0 - a.y) - by * (wall.x0 - a.x);
-  const double side1 = bx * (wall.y1 - a.y) - by * (wall.x1 - a.x);
-  return (side0 > 0.0) != (side1 > 0.0);
-}
-
-/// Whether more points than a few would be seen through walls: then a place that explains them is
-/// wrong all the same.
-bool WallMatcher::isContradicted(std::span<const StraightPiece> segments,
-                                 const Pose2& sensor) const {
-  std::size_t through = 0;
-  std::size_t points = 0;
-  for (const StraightPiece& segment : segments) {
-    for (const PlanePoint& point : segment.points) {
-      ++points;
-      const double range = std::hypot(point.x, point.y);
-      const double before = range > config_.reach ? 1.0 - config_.reach / range : 0.0;
-      const PlanePoint end = moved(sensor, {before * point.x, before * point.y});
-      through += std::any_of(walls_.begin(), walls_.end(), [&](const FieldWall& wall) {
-        return crosses({sensor.x, sensor.y}, end, wall);
-      });
-    }
+/// How many walls there are pieces of.
+int WallMatcher::wallsSeen(std::span<const StraightPiece> segments, const Pose2& sensor) const {
+  std::vector<const MeasuredWall*> seen;
+  for (const StraightPiece& s : segments) {
+    const PlanePoint middle{0.5 * (s.from.x + s.to.x), 0.5 * (s.from.y + s.to.y)};
+    const MeasuredWall* wall = wallOf(moved(sensor, middle), sensor.theta + directionOf(s));
+    if (wall != nullptr && std::find(seen.begin(), seen.end(), wall) == seen.end())
+      seen.push_back(wall);
   }
-  return static_cast<double>(through) > kMostThrough * static_cast<double>(points);
+  return static_cast<int>(seen.size());
 }
 
 /// Poses at which two pieces lie on two walls.
@@ -149,10 +152,8 @@ std::vector<WallMatcher::Candidate> WallMatcher::candidates(
     sensor.x = (-offA * v.cosine + offB * u.cosine) / sine;
     sensor.y = (offB * u.sine - offA * v.sine) / sine;
     if (!lies(u, a, sensor) || !lies(v, b, sensor)) return;
-    const bool isKnown = std::any_of(found.begin(), found.end(), [&](const Candidate& c) {
-      return distance(c.sensor, sensor) < kSamePlace &&
-             std::abs(wrapAngle(c.sensor.theta - sensor.theta)) < kSameHeading;
-    });
+    const bool isKnown = std::any_of(found.begin(), found.end(),
+                                     [&](const Candidate& c) { return isSame(c.sensor, sensor); });
     if (!isKnown) found.push_back({sensor, explained(segments, sensor)});
   };
   const std::size_t tried = std::min(segments.size(), kMostSegments);
@@ -161,34 +162,73 @@ std::vector<WallMatcher::Candidate> WallMatcher::candidates(
       const double a = directionOf(segments[i]);
       const double b = directionOf(segments[j]);
       if (std::abs(std::sin(b - a)) < kFewestSine) continue;
+      const double cosine = std::cos(b - a);
+      const double sine = std::sin(b - a);
+      const double least = std::cos(config_.angle) - 1e-9;
       for (const MeasuredWall& u : walls_)
-        for (const MeasuredWall& v : walls_) tryPair(segments[i], segments[j], a, b, u, v);
+        for (const MeasuredWall& v : walls_) {
+          // Most walls are at another angle, which is seen without turning anything.
+          const double along = u.cosine * v.cosine + u.sine * v.sine;
+          const double across = u.cosine * v.sine - u.sine * v.cosine;
+          if (along * cosine + across * sine >= least)
+            tryPair(segments[i], segments[j], a, b, u, v);
+        }
     }
   }
   return found;
 }
 
-/// Least squares of the points' distances from their walls, over the robot's pose.
+/// Of what a piece says about the pose.
+struct WallMatcher::Evidence {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();  ///< of all its points
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< what a wall that is 1 m off does
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();    ///< what one turned by 1 rad does
+};
+
+WallMatcher::Evidence WallMatcher::evidenceOf(const StraightPiece& segment, const Pose2& mount,
+                                              const Pose2& robot) const {
+  Evidence evidence;
+  const Pose2 sensor = robot * mount;
+  const double direction = sensor.theta + directionOf(segment);
+  const PlanePoint middle =
+      moved(sensor, {0.5 * (segment.from.x + segment.to.x), 0.5 * (segment.from.y + segment.to.y)});
+  for (const PlanePoint& point : segment.points) {
+    const PlanePoint p = moved(sensor, point);
+    const MeasuredWall* wall = wallOf(p, direction);
+    if (wall == nullptr) continue;
+    const double nx = -wall->sine;
+    const double ny = wall->cosine;
+    // Turning the robot moves the point across its lever.
+    const Eigen::Vector3d row(nx, ny, -nx * (p.y - robot.y) + ny * (p.x - robot.x));
+    evidence.normal += row * row.transpose();
+    evidence.right -= row * offsetFrom(*wall, p);
+    evidence.offset += row;
+    evidence.turn += row * (wall->cosine * (p.x - middle.x) + wall->sine * (p.y - middle.y));
+  }
+  return evidence;
+}
+
+/// Least squares of the points' distances from their walls, over the robot's pose. Its covariance
+/// is that of points with noise of their own before walls that are themselves not quite where the
+/// field says: what is wrong of a wall is wrong for all its points.
 bool WallMatcher::refine(std::span<const StraightPiece> segments, const Pose2& mount,
                          PoseFixData::Fix& fix) const {
   Eigen::Matrix3d normal;
+  Eigen::Matrix3d spread;
+  const double noise = config_.rangeSigma * config_.rangeSigma;
+  const double walls = config_.wallSigma * config_.wallSigma;
   for (int step = 0; step < kRefinements; ++step) {
     normal.setZero();
+    spread.setZero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    const Pose2 sensor = fix.pose * mount;
     for (const StraightPiece& segment : segments) {
-      const double direction = sensor.theta + directionOf(segment);
-      for (const PlanePoint& point : segment.points) {
-        const PlanePoint p = moved(sensor, point);
-        const MeasuredWall* wall = wallOf(p, direction);
-        if (wall == nullptr) continue;
-        const double nx = -wall->sine;
-        const double ny = wall->cosine;
-        // Turning the robot moves the point across its lever.
-        const Eigen::Vector3d row(nx, ny, -nx * (p.y - fix.pose.y) + ny * (p.x - fix.pose.x));
-        normal += row * row.transpose();
-        right -= row * offsetFrom(*wall, p);
-      }
+      const Evidence e = evidenceOf(segment, mount, fix.pose);
+      normal += e.normal;
+      right += e.right;
+      const double half = 0.5 * std::max(lengthOf(segment), 1e-3);
+      spread += noise * e.normal + walls * (e.offset * e.offset.transpose() +
+                                            e.turn * e.turn.transpose() / (half * half));
     }
     const Eigen::FullPivLU<Eigen::Matrix3d> solver(normal);
     if (!solver.isInvertible() || solver.rcond() < 1e-9) return false;
@@ -196,14 +236,15 @@ bool WallMatcher::refine(std::span<const StraightPiece> segments, const Pose2& m
     fix.pose = {fix.pose.x + change[0], fix.pose.y + change[1],
                 wrapAngle(fix.pose.theta + change[2])};
   }
-  const Eigen::Matrix3d covariance =
-      config_.rangeSigma * config_.rangeSigma * Eigen::Matrix3d(normal.inverse());
+  const Eigen::Matrix3d inverse = normal.inverse();
+  const Eigen::Matrix3d covariance = inverse * spread * inverse;
   for (int i = 0; i < 9; ++i)
     fix.covariance[static_cast<std::size_t>(i)] = covariance(i / 3, i % 3);
   return isFinite(fix.pose) && covariance.diagonal().minCoeff() > 0.0;
 }
 
 std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const StraightPiece> segments,
+                                                 const MeasuredScan& scan,
                                                  const Pose2& mount) const {
   std::vector<StraightPiece> sorted(segments.begin(), segments.end());
   std::stable_sort(
@@ -215,15 +256,47 @@ std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const StraightPiece> 
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return a.explained > b.explained;
   });
-  std::vector<PoseFixData::Fix> fixes;
-  double least = config_.shareMatched * static_cast<double>(points);
+  if (found.size() > kMostCompared) found.resize(kMostCompared);
+  std::vector<Place> places;
   for (const Candidate& candidate : found) {
-    if (candidate.explained < least) break;
-    if (isContradicted(sorted, candidate.sensor)) continue;
-    // As good as the best, but for what noise at the ends of walls does.
-    least = std::max(least, 0.95 * candidate.explained);
-    PoseFixData::Fix fix{candidate.sensor * inverse(mount), {}};
-    if (refine(sorted, mount, fix)) fixes.push_back(fix);
+    if (candidate.explained < kLeastExplained * static_cast<double>(points)) break;
+    Place place;
+    place.fix.pose = candidate.sensor * inverse(mount);
+    if (!refine(sorted, mount, place.fix)) continue;
+    const Pose2 sensor = place.fix.pose * mount;
+    const Agreement agreement = agreementOf(scan, walls_, sensor, kTolerance);
+    if (agreement.seen == 0 || agreement.expected == 0) continue;
+    place.share = static_cast<double>(agreement.agreeing) / agreement.seen;
+    place.through = static_cast<double>(agreement.through) / agreement.expected;
+    place.ofWalls = static_cast<double>(agreement.agreeing) / agreement.expected;
+    place.walls = wallsSeen(sorted, sensor);
+    places.push_back(place);
+  }
+  return chosen(std::move(places));
+}
+
+/// Those that fit as well as the best, if that is sure: a few beams that end where walls are end
+/// there by chance, too, and the more so the fewer walls there are.
+std::vector<PoseFixData::Fix> WallMatcher::chosen(std::vector<Place> places) const {
+  const auto worth = [](const Place& place) {
+    return place.share * std::min(1.0, place.ofWalls / kLeastOfWalls);
+  };
+  std::stable_sort(places.begin(), places.end(),
+                   [&](const Place& a, const Place& b) { return worth(a) > worth(b); });
+  std::vector<PoseFixData::Fix> fixes;
+  if (places.empty()) return fixes;
+  const Place& best = places.front();
+  const double demanded =
+      std::min(kMostShare, config_.shareMatched + kShareAWall * (kUsualWalls - best.walls));
+  if (best.walls < 2 || best.share < demanded || best.through > kMostThrough ||
+      best.ofWalls < kLeastOfWalls)
+    return fixes;
+  for (const Place& place : places) {
+    if (place.share < kAlike * best.share || place.through > best.through + kAlikeThrough) continue;
+    const bool isKnown = std::any_of(fixes.begin(), fixes.end(), [&](const auto& fix) {
+      return isSame(fix.pose, place.fix.pose);
+    });
+    if (!isKnown) fixes.push_back(place.fix);
   }
   if (static_cast<int>(fixes.size()) > config_.mostFixes) fixes.clear();
   return fixes;

@@ -22,17 +22,22 @@ struct MeasuredWall : FieldWall {
   double sine;
 };
 
+struct MeasuredScan;
+
 struct WallMatcherConfig {
   double reach = 0.25;        ///< a point this near to a wall may be of it [m]
   double angle = 0.12;        ///< a piece turned this little against a wall may be of it [rad]
   double rangeSigma = 0.03;   ///< of the scan's points [m]
-  double shareMatched = 0.6;  ///< of the points on segments; less, and the pose is wrong
+  double wallSigma = 0.005;   ///< of where a wall is, as a whole [m]
+  double shareMatched = 0.6;  ///< of beams that must end at walls, if five of them agree
   int mostFixes = 8;          ///< more places that fit as well say too little
 };
 
 /// Finds where a scanner is from the straight pieces of its scan: two pieces that are not parallel
 /// and two walls at the same angle give a pose; the poses that explain most points are refined by
-/// Gauss-Newton on the points' distances from their walls, whose normal matrix is the information.
+/// Gauss-Newton on the points' distances from their walls. Then the whole scan is compared with
+/// what it would be there: a pose is given only where so much of it agrees, with so many walls,
+/// that it can't be chance; and with it all others that agree nearly as well.
 class WallMatcher {
  public:
   WallMatcher(std::span<const FieldWall> walls, const WallMatcherConfig& config);
@@ -40,17 +45,21 @@ class WallMatcher {
   /// Poses of the robot that fit as well as the best, none if nothing fits.
   /// @param mount pose of the scanner in the robot frame
   std::vector<PoseFixData::Fix> match(std::span<const StraightPiece> segments,
-                                      const Pose2& mount) const;
+                                      const MeasuredScan& scan, const Pose2& mount) const;
 
   /// Whether a piece lies on a wall with the robot at @p robot.
   bool isOfWall(const StraightPiece& segment, const Pose2& mount, const Pose2& robot) const;
 
  private:
   struct Candidate;
+  struct Place;
+  struct Evidence;
   std::vector<Candidate> candidates(std::span<const StraightPiece> segments) const;
-  bool isContradicted(std::span<const StraightPiece> segments, const Pose2& sensor) const;
   const MeasuredWall* wallOf(const PlanePoint& inField, double direction) const;
   int explained(std::span<const StraightPiece> segments, const Pose2& sensor) const;
+  int wallsSeen(std::span<const StraightPiece> segments, const Pose2& sensor) const;
+  std::vector<PoseFixData::Fix> chosen(std::vector<Place> places) const;
+  Evidence evidenceOf(const StraightPiece& segment, const Pose2& mount, const Pose2& robot) const;
   bool refine(std::span<const StraightPiece> segments, const Pose2& mount,
               PoseFixData::Fix& fix) const;
 

@@ -59,8 +59,7 @@ class Panorama {
 class SonarSensor : public Sensor {
  public:
   explicit SonarSensor(const Parameters& p)
-      : settings_(readSonarSettings(p)),
-        panorama_(settings_) {}
+      : settings_(readSonarSettings(p)), panorama_(settings_) {}
 
   void generateData(const World& world, const RobotState& robot, Random* noise, Timestamp now,
                     std::span<SensorData* const> data) override {

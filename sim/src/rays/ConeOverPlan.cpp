@@ -28,8 +28,7 @@ Point2 nearestOf(const Point2& a, const Point2& b) {
   const double ux = b.x - a.x;
   const double uy = b.y - a.y;
   const double square = ux * ux + uy * uy;
-  const double share =
-      square > 0.0 ? std::clamp(-(a.x * ux + a.y * uy) / square, 0.0, 1.0) : 0.0;
+  const double share = square > 0.0 ? std::clamp(-(a.x * ux + a.y * uy) / square, 0.0, 1.0) : 0.0;
   return {a.x + share * ux, a.y + share * uy};
 }
 

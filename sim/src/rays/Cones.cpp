@@ -37,9 +37,9 @@ void castLevel(const World& world, double widest, const ConeFan& fan, RobotNumbe
                 ignore, rays);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const auto first = rays.begin() + static_cast<std::ptrdiff_t>(i * between);
-    ranges[i] = std::min(
-        ranges[i],
-        *std::min_element(first, first + static_cast<std::ptrdiff_t>(2 * toEachSide + 1)));
+    ranges[i] =
+        std::min(ranges[i],
+                 *std::min_element(first, first + static_cast<std::ptrdiff_t>(2 * toEachSide + 1)));
   }
 }
 

@@ -8,9 +8,9 @@
 
 namespace ortung {
 
-/// A drive as its robot calls it. Commands that are not finite or of the wrong size, which come from
-/// clients and players, are refused with std::invalid_argument; what the drive throws, and numbers
-/// of it that are none or that no base could do, are a PluginFailure that names it.
+/// A drive as its robot calls it. Commands that are not finite or of the wrong size, which come
+/// from clients and players, are refused with std::invalid_argument; what the drive throws, and
+/// numbers of it that are none or that no base could do, are a PluginFailure that names it.
 class CheckedDrive final : public Drive {
  public:
   CheckedDrive(std::unique_ptr<Drive> drive, const std::string& plugin, std::string robot);

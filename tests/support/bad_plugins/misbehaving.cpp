@@ -99,7 +99,9 @@ class BadDrive : public Drive {
     wanted_ = mischief_.at("setTranslationalVelocity", v);
   }
   void setRotationalVelocity(double w) override { mischief_.at("setRotationalVelocity", w); }
-  void setCommand(std::span<const double> c) override { wanted_ = mischief_.at("setCommand", c[0]); }
+  void setCommand(std::span<const double> c) override {
+    wanted_ = mischief_.at("setCommand", c[0]);
+  }
   std::size_t commandSize() const override { return 1; }
   std::string commandHelp() const override { return "[speed m/s]"; }
   DriveLimits limits() const override { return {mischief_.at("limits", 1.0)}; }
