@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "FakeWorld.hpp"
+#include "SensorRig.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/ObjectsData.hpp"
+#include "ortung/formats/PointsData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+
+/// What cameras do not see: settings of the iconic camera and the laser that says what it sees.
+namespace ortung {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
+
+WorldObject round(const char* kind, double x, double y, double radius) {
+  WorldObject object;
+  object.kind = kind;
+  object.pose = {x, y, 0};
+  object.radius = object.halfX = object.halfY = radius;
+  object.zHigh = 0.3;
+  object.isRound = true;
+  return object;
+}
+
+/// A post hides the ball behind it from the left edge up to its middle.
+TEST(IconicSettings, WhatIsHiddenByMoreThanItsShareIsNotSeen) {
+  FakeWorld world(12.0, 8.0);
+  world.addObject(round("ball", 4.0, 0.0, 0.2));
+  world.addPost({2.0, 0.5, 0.5});  // its edge lies on the line to the ball's middle
+  for (const auto& [share, isSeen] :
+       {std::pair{0.1, true}, {0.4, true}, {0.6, false}, {0.9, false}}) {
+    SensorRig rig("iconic_omnivision", "see = ['ball']\nvisible_share = " + std::to_string(share));
+    rig.sense(world, {});
+    EXPECT_EQ(rig.get<ObjectsData>().reading().size(), isSeen ? 1u : 0u) << share;
+  }
+}
+
+TEST(IconicSettings, LinesNearerThanTheSmallestRangeAreNotSeen) {
+  FakeWorld world(12.0, 8.0);
+  FieldLine line;
+  line.x0 = line.x1 = 1.0;
+  line.y0 = -4.0;
+  line.y1 = 4.0;
+  line.width = 0.1;
+  world.addLine(line);
+  for (const double least : {0.0, 1.5, 2.5}) {
+    SensorRig rig("iconic_omnivision",
+                  "see = ['lines']\nlines = { rays = 360, max_range_m = 3 }\n"
+                  "min_range_m = " +
+                      std::to_string(least));
+    rig.sense(world, {});
+    const PointsData::Reading& points = rig.get<PointsData>().reading();
+    // Scan lines a degree apart meet x = 1 at 1 / cos: from the smallest to the greatest range.
+    int expected = 0;
+    for (int i = -89; i <= 89; ++i) {
+      const double range = 1.0 / std::cos(i * kDegree);
+      expected += range >= least && range <= 3.0 ? 1 : 0;
+    }
+    EXPECT_EQ(points.size(), static_cast<std::size_t>(expected)) << least;
+    for (const PointsData::Point& point : points) EXPECT_GE(point.range, least - 0.001);
+  }
+}
+
+TEST(IconicSettings, LinesAreImaginedAsOftenAsTheirShareSays) {
+  const FakeWorld world(12.0, 8.0);  // no lines
+  for (const double share : {0.0, 0.2}) {
+    SensorRig rig("iconic_omnivision",
+                  "see = ['lines']\nlines = { rays = 100, max_range_m = 3 }\nfalse_share = " +
+                      std::to_string(share));
+    Random noise(4);
+    Statistics ranges;
+    for (int i = 0; i < 100; ++i) {
+      rig.sense(world, {}, &noise);
+      for (const PointsData::Point& point : rig.get<PointsData>().reading())
+        ranges.add(point.range);
+    }
+    // One chance a scan line, of 10,000: 4 sigma are 0.016; anywhere up to 3 m.
+    EXPECT_NEAR(ranges.count() / 10000.0, share, 0.016);
+    if (share > 0.0) EXPECT_NEAR(ranges.mean(), 1.5, 0.08);
+  }
+}
+
+TEST(IconicSettings, PostsAndGoalsAreHiddenByWhatStandsBeforeThem) {
+  FakeWorld world(12.0, 8.0);
+  world.addLandmark({1, "goal", 5.0, 0.0, 0.5});
+  world.addLandmark({1, "post", 0.0, 3.0, 0.5});
+  const auto counts = [&](const std::string& more) {
+    SensorRig rig("iconic_omnivision", "see = ['goals', 'posts']\n" + more);
+    rig.sense(world, {});
+    return std::pair{rig.get<LandmarksData>(0).reading().size(),
+                     rig.get<LandmarksData>(1).reading().size()};
+  };
+  EXPECT_EQ(counts(""), std::pair(std::size_t{1}, std::size_t{1}));
+  world.addPost({2.0, 0.0, 0.2});
+  world.addPost({0.0, 2.5, 0.1});  // its far side is 0.4 m before the post
+  EXPECT_EQ(counts(""), std::pair(std::size_t{0}, std::size_t{0}));
+  EXPECT_EQ(counts("slack_m = 0.7"),
+            std::pair(std::size_t{0}, std::size_t{1}));  // as near: its own
+  EXPECT_EQ(counts("occlusion = false"), std::pair(std::size_t{1}, std::size_t{1}));
+}
+
+WorldObject wall(double x, double y, double halfX, double halfY) {
+  WorldObject object;
+  object.kind = "wall";
+  object.pose = {x, y, 0};
+  object.halfX = halfX;
+  object.halfY = halfY;
+  object.zHigh = 1.0;
+  return object;
+}
+
+/// A room of which only some walls are known: the scanner sees all.
+PoseFixData::Reading fixesIn(const FakeWorld& world, const std::string& more) {
+  SensorRig rig("lrf_iconic", "beams = 360\nfov_deg = 360\nmax_range_m = 12\n" + more);
+  rig.sense(world, {0.7, 0.4, 0.3});
+  return rig.get<PoseFixData>(1).reading();
+}
+
+/// With three of four walls known, those beams that end at the fourth count against it.
+TEST(LrfIconicSettings, HowMuchOfAScanMustAgree) {
+  FakeWorld world(8.0, 5.0);
+  world.addObject(wall(4.05, 0, 0.05, 2.6));
+  world.addObject(wall(-4.05, 0, 0.05, 2.6));
+  world.addObject(wall(0, 2.55, 4.1, 0.05));
+  // The unknown wall lies from atan2(-2.9, -4.7) to atan2(-2.9, 3.3): 107 of 360 degrees, and 70 %
+  // agree. Three walls ask for 0.115 * 2 more than the setting.
+  EXPECT_EQ(fixesIn(world, "share_matched = 0.4").size(), 1u);
+  EXPECT_EQ(fixesIn(world, "share_matched = 0.44").size(), 1u);
+  EXPECT_TRUE(fixesIn(world, "share_matched = 0.5").empty());
+  EXPECT_TRUE(fixesIn(world, "").empty());
+}
+
+/// All four walls of a square: four positions, a quarter turn apart.
+TEST(LrfIconicSettings, MorePositionsThanItMayGiveAreNone) {
+  FakeWorld world(6.0, 6.0);
+  for (const double side : {-3.05, 3.05}) {
+    world.addObject(wall(side, 0, 0.05, 3.1));
+    world.addObject(wall(0, side, 3.1, 0.05));
+  }
+  EXPECT_EQ(fixesIn(world, "").size(), 4u);
+  EXPECT_EQ(fixesIn(world, "most_positions = 4").size(), 4u);
+  EXPECT_TRUE(fixesIn(world, "most_positions = 3").empty());
+}
+
+/// Walls that are not quite where the field says make positions less sure, all of them alike.
+TEST(LrfIconicSettings, WallsThatAreNotSureMakePositionsUnsure) {
+  FakeWorld world(6.0, 6.0);
+  for (const double side : {-3.05, 3.05}) {
+    world.addObject(wall(side, 0, 0.05, 3.1));
+    world.addObject(wall(0, side, 3.1, 0.05));
+  }
+  const auto sigma = [&](const std::string& text) {
+    const auto fixes = fixesIn(world, text + "\nnoise_sigma_m = 0\nrange_sigma_m = 0.0001");
+    return fixes.empty() ? -1.0 : std::sqrt(fixes[0].covariance[0]);
+  };
+  // Both walls across x err by 0.1 m on their own; the one with more beams weighs more.
+  EXPECT_GT(sigma("wall_sigma_m = 0.1"), 0.1 / std::sqrt(2.0));
+  EXPECT_LT(sigma("wall_sigma_m = 0.1"), 0.1);
+  EXPECT_LT(sigma("wall_sigma_m = 0"), 0.001);
+  EXPECT_GT(sigma("wall_sigma_m = 0"), 0.0);
+}
+
+/// An obstacle that is no small body and hides most of a wall counts against a position only as far
+/// as it is seen; what lies behind a wall says that the place is wrong.
+TEST(LrfIconicSettings, APlaceFromWhichOneWouldSeeThroughWallsIsNone) {
+  FakeWorld world(8.0, 5.0);
+  world.addObject(wall(4.05, 0, 0.05, 2.6));
+  world.addObject(wall(-4.05, 0, 0.05, 2.6));
+  world.addObject(wall(0, 2.55, 4.1, 0.05));
+  world.addObject(wall(0, -2.55, 4.1, 0.05));
+  EXPECT_EQ(fixesIn(world, "").size(), 2u);
+  world.addObject(wall(-1.0, 0.0, 0.05, 1.0));  // known, but it is not there
+  EXPECT_TRUE(fixesIn(world, "").empty());
+}
+
+}  // namespace
+}  // namespace ortung
