@@ -125,15 +125,17 @@ class Coasting : public testing::Test {
 };
 
 TEST_F(Coasting, ANetworkHearsOfCollisions) {
-  const auto base = drive("");
-  base->setVelocity({0.8, 0.0, 0.5});  // something pushed it
-  for (int i = 0; i < 30; ++i) base->relocate(0.01, nullptr);
-  EXPECT_NEAR(base->velocity().x, 0.8, 1e-9);
-  EXPECT_NEAR(base->velocity().theta, 0.5, 1e-9);
-  base->setVelocity({9.0, 0.0, 9.0});  // more than it can
-  for (int i = 0; i < 30; ++i) base->relocate(0.01, nullptr);
-  EXPECT_NEAR(base->velocity().x, 2.0, 1e-9);
-  EXPECT_NEAR(base->velocity().theta, 3.0, 1e-9);
+  // Something pushes it: slowly, faster than it can, and around.
+  for (const auto& [pushed, kept] : {std::pair{Twist{0.8, 0.0, 0.0}, Twist{0.8, 0.0, 0.0}},
+                                     {Twist{9.0, 0.0, 0.0}, Twist{2.0, 0.0, 0.0}},
+                                     {Twist{0.0, 0.0, 0.5}, Twist{0.0, 0.0, 0.5}},
+                                     {Twist{0.0, 0.0, -9.0}, Twist{0.0, 0.0, -3.0}}}) {
+    const auto base = drive("");
+    base->setVelocity(pushed);
+    for (int i = 0; i < 30; ++i) base->relocate(0.01, nullptr);
+    EXPECT_NEAR(base->velocity().x, kept.x, 1e-9);
+    EXPECT_NEAR(base->velocity().theta, kept.theta, 1e-9);
+  }
 }
 
 TEST_F(Coasting, OdometryOfANeuralDriveHasTheSignsOfItsMotion) {

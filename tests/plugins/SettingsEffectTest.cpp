@@ -90,13 +90,13 @@ std::unique_ptr<SimWorld> field() {
     Primitive round;
     round.shape = Primitive::Shape::ellipse;
     round.halfX = round.halfY = radius;
-    round.zHigh = 0.45;
+    round.zHigh = 0.8;
     world->addBody({kind, "", "red", {round}}, {x, y, 0});
   };
   add("robot", 1.5, 0.9, 0.25);
   add("ball", 2.0, 1.15, 0.11);  // half hidden by the robot
   add("obstacle", -1.5, -0.9, 0.15);
-  add("obstacle", -2.35, 1.32, 0.1);  // near before a post
+  add("obstacle", -2.371, 1.423, 0.05);  // so near before a post that it may be its own
   return world;
 }
 
@@ -113,7 +113,7 @@ std::string fingerprint(const SimWorld& world, const std::string& plugin,
   std::string text;
   add(text, rig.sensor->period());
   add(text, rig.sensor->rays());
-  const FieldRegion region = world.region(0.5, {0.2, 0.5});
+  const FieldRegion region = world.region(1.0, {0.2, 0.5});
   for (SensorData* data : rig.data) {
     text += toText(data->id()) + " " + data->learningKey() + (data->localizes() ? " +" : " -");
     add(text, data->mount().x);
@@ -123,8 +123,8 @@ std::string fingerprint(const SimWorld& world, const std::string& plugin,
   }
   for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {
     if (region.open[cell] == 0) continue;
-    for (int h = 0; h < 32; ++h) {
-      const Pose2 pose{region.grid.centreX(cell), region.grid.centreY(cell), wrapAngle(0.2 * h)};
+    for (int h = 0; h < 8; ++h) {
+      const Pose2 pose{region.grid.centreX(cell), region.grid.centreY(cell), wrapAngle(0.8 * h)};
       rig.sense(world, pose);
       for (SensorData* data : rig.data)
         if (data->localizes()) data->learnProbability(pose * inverse(data->mount()));
@@ -133,8 +133,8 @@ std::string fingerprint(const SimWorld& world, const std::string& plugin,
   for (SensorData* data : rig.data)
     if (data->localizes()) data->endLearning();
   Random noise(7);
-  for (int i = 0; i < 30; ++i) {
-    const Pose2 pose{-0.9 + 0.06 * i, 0.3 - 0.03 * i, 0.4 * i};
+  for (int i = 0; i < 20; ++i) {
+    const Pose2 pose{-0.9 + 0.09 * i, 0.3 - 0.04 * i, 0.4 * i};
     rig.sense(world, pose, &noise);
     for (const SensorData* data : rig.data) {
       text += "\n";
@@ -159,7 +159,7 @@ void expectEffects(const std::string& plugin, const Settings& base,
     after[change.key] = change.value;
     const std::string text = toml(before);
     if (!printed.contains(text)) printed[text] = print(text);
-    EXPECT_NE(printed[text], print(toml(after)))
+    EXPECT_TRUE(printed[text] != print(toml(after)))
         << plugin << ": " << change.key << " = " << change.value << " has no effect";
     tried.insert(change.key);
   }
