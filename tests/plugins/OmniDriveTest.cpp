@@ -123,8 +123,27 @@ TEST(OmniMotion, SpreadsTheSameInEveryDirection) {
   }
 }
 
+/// Of every fourth sample the noise is four times as large: 3/4 + 16/4 of the variance.
+TEST(OmniMotion, SlipsAsOftenAsItsFileSays) {
+  const auto model = makeMotion("omni", R"(way_per_m = 0.1
+    way_per_turn = 0
+    turn_per_m = 0
+    turn_per_turn = 0
+    floor_m = 0
+    floor_deg = 0
+    slip_share = 0.25)");
+  const Moved moved(*model, {}, {1.0, 0.0, 0.0}, 20000);
+  Statistics x, y;
+  for (std::size_t i = 0; i < moved.x.size(); ++i) {
+    x.add(static_cast<double>(moved.x[i]));
+    y.add(static_cast<double>(moved.y[i]));
+  }
+  EXPECT_NEAR(x.sigma(), 0.1 * std::sqrt(4.75), 0.01);
+  EXPECT_NEAR(y.sigma(), 0.1 * std::sqrt(4.75), 0.01);
+}
+
 TEST(OmniMotion, DependsOnTheSampleAloneNotOnItsBlock) {
-  const auto model = makeMotion("omni", "");
+  const auto model = makeMotion("omni", "slip_share = 0.1");
   const Moved whole(*model, {}, {0.1, 0.2, 0.3}, 600);
   std::vector<float> x(100, 0.0f), y(100, 0.0f), theta(100, 0.0f);
   model->sampleMotion({x, y, theta}, {0.1, 0.2, 0.3}, 3, 4, 500);

@@ -121,7 +121,10 @@ std::string fingerprint(const SimWorld& world, const std::string& plugin,
     add(text, data->mount().theta);
     if (data->localizes()) data->beginLearning(region, 0.2);
   }
-  for (std::size_t cell = 0; cell < region.grid.size(); ++cell) {
+  const bool learns = std::any_of(rig.data.begin(), rig.data.end(), [](const SensorData* data) {
+    return data->localizes() && data->headingSpacing() > 0.0;
+  });
+  for (std::size_t cell = 0; learns && cell < region.grid.size(); ++cell) {
     if (region.open[cell] == 0) continue;
     for (int h = 0; h < 8; ++h) {
       const Pose2 pose{region.grid.centreX(cell), region.grid.centreY(cell), wrapAngle(0.8 * h)};
@@ -254,7 +257,7 @@ TEST(SettingsEffect, OfLandmarks) {
                                    {"kind", "'beacon'", {{"identities", "[1]"}}},
                                    {"features", "'list'"},
                                    {"identities", "[2, 1]"},
-                                   {"min_range_m", "2"},
+                                   {"min_range_m", "3"},
                                    {"max_range_m", "2"},
                                    {"fov_deg", "100"},
                                    {"range_sigma_m", "0.4"},
@@ -269,7 +272,7 @@ TEST(SettingsEffect, OfLandmarks) {
                                    {"noise_bearing_sigma_deg", "9"},
                                    {"missed_share", "0.4"},
                                    {"false_share", "0.4"},
-                                   {"pose.z_m", "0.1", {{"slack_m", "0"}}}};
+                                   {"pose.z_m", "1.6", {{"slack_m", "0"}}}};
   expectSensorEffects("landmarks", {{"identities", "[1, 2]"}},
                       together(own, {{"model", "'other'"}, {"type", "'other'"}}), {""},
                       {"pose", "feature", "max_range_mass"});
@@ -294,7 +297,7 @@ std::vector<Change> ofCameras() {
                              {"noise_bearing_sigma_deg", "9"},
                              {"missed_share", "0.4"},
                              {"false_share", "0.4"},
-                             {"pose.z_m", "0.1"},
+                             {"pose.z_m", "1.6"},
                              {"lines.rays", "11"},
                              {"lines.max_range_m", "1.5"},
                              {"lines.cell_m", "0.3"},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "ortung/base/FastMath.hpp"
 #include "ortung/base/Random.hpp"
@@ -13,7 +14,17 @@ namespace {
 constexpr std::size_t kBlock = 256;         ///< samples whose noise is drawn at once
 constexpr std::size_t kNumbersASample = 4;  ///< x, y, theta, none (fillGaussian starts evenly)
 
+constexpr float kSlip = 4.0F;  ///< OdometryNoise::slipShare: times the usual noise
+
 double square(double value) { return value * value; }
+
+/// Enlarges the noise of every so manyth sample of the set.
+void slip(double share, std::uint64_t first, std::size_t n, std::span<float> noise) {
+  if (share <= 0.0) return;
+  const auto period = static_cast<std::uint64_t>(std::lround(1.0 / share));
+  for (std::uint64_t i = (period - first % period) % period; i < n; i += period)
+    for (float& number : noise.subspan(i * kNumbersASample, kNumbersASample)) number *= kSlip;
+}
 
 /// A robot that moves in any direction: noise does not know where its front is. Variances grow with
 /// way and turn, so readings may come at any rate.
@@ -40,6 +51,7 @@ class OmniMotion : public OdometryMotion {
       const std::size_t count = std::min(kBlock, samples.x.size() - begin);
       fillGaussian(seed, stream, (first + begin) * kNumbersASample,
                    std::span(noise).first(count * kNumbersASample));
+      slip(this->noise().slipShare, first + begin, count, noise);
       for (std::size_t i = 0; i < count; ++i) {
         const float* numbers = noise.data() + i * kNumbersASample;
         const float along = x + sigmaWay * numbers[0];
