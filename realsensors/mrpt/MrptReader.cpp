@@ -66,7 +66,7 @@ void printRawlog(mrpt::serialization::CArchive& archive, std::FILE* out) {
 
 void printGrid(mrpt::serialization::CArchive& archive, std::FILE* out) {
   mrpt::maps::COccupancyGridMap2D map;
-  archive >> map;
+  archive >> map;  // refuses grids without a place or with cells of no size
   const std::size_t width = map.getSizeX();
   const std::size_t height = map.getSizeY();
   if (width == 0 || height == 0 || width > kMaxCells / height) {
@@ -75,9 +75,6 @@ void printGrid(mrpt::serialization::CArchive& archive, std::FILE* out) {
   }
   const double origin[2] = {map.getXMin(), map.getYMin()};
   const double resolution = map.getResolution();
-  if (!(resolution > 0) || !std::isfinite(origin[0]) || !std::isfinite(origin[1])) {
-    throw std::runtime_error("found a grid without a place or with cells of no size");
-  }
   std::fprintf(out, "ortung-gridmap %zu %zu %.9g %.9g %.9g\n", width, height, resolution, origin[0],
                origin[1]);
   std::string row(width, '\0');

@@ -101,7 +101,11 @@ void RawlogPrinter::print(const mrpt::obs::CObservation& observation) {
 
 void RawlogPrinter::printScan(const mrpt::obs::CObservation2DRangeScan& scan) {
   const std::size_t beams = scan.getScanSize();
-  if (beams_ == 0 && beams > 0) {
+  if (beams == 0) {
+    ++skipped_["scans without beams"];
+    return;
+  }
+  if (beams_ == 0) {
     laser_ = scan.sensorLabel;
     beams_ = beams;
     const Pose2 mount = flat(scan.sensorPose);

@@ -81,12 +81,28 @@ TEST_F(CarmenSource, ReadsTheNewerLaserMessages) {
              "1000000 laser/LRF/scan 1000 2000 3000"}));
   const auto robot = makeSource(text(
       "ROBOTLASER1 " + scanner + "2.2 0 0.5 2 0 0 0 0 1 1 1 1.0 host 1.0\n", "?laser=ROBOTLASER1"));
+  // Its odometry is the robot's pose, not that of the laser before it.
+  EXPECT_EQ(
+      asText(readAll(*robot)),
+      (Texts{"1000000 odometry/odometry/pose 2147485648 2147483648 18000 2147483648 2147483648",
+             "1000000 laser/LRF/scan 1000 2000 3000"}));
   EXPECT_NE(robot->robotToml().find("x_m = 0.2"), std::string::npos) << robot->robotToml();
   EXPECT_NE(robot->robotToml().find("max_range_m = 20.0"), std::string::npos);
   EXPECT_EQ(errorOf(text(raw)),
             path() +
                 ": found no FLASER message but RAWLASER1, expected one; the option"
                 " laser names another");
+}
+
+TEST_F(CarmenSource, PassesOverOtherMessagesWhateverTheirNames) {
+  const std::string good = scan("1 1", "0 0 0", "0 0 0", "1");
+  for (const std::string name : {"A", "Z", "AAZZ", "SCANMARK_1", "NMEA-GGA", "X0", "X9"}) {
+    EXPECT_EQ(readAll(text(name + " 1 2\n" + good)).size(), 2u) << name;
+  }
+  for (const std::string name : {"@", "[", "a", "X/", "X:", "Xa", "9X", "_X"}) {
+    EXPECT_EQ(errorOf(text(name + " 1 2\n" + good)),
+              path() + ":1: found '" + name + "', expected the name of a CARMEN message");
+  }
 }
 
 TEST_F(CarmenSource, NamesFileAndLineOfWhatIsWrong) {

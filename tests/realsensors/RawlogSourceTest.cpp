@@ -45,6 +45,16 @@ TEST_F(RawlogSource, TakesTheReadersLines) {
       << toml;
 }
 
+TEST_F(RawlogSource, AScannerMayBeShortSightedOrNotSayHowFarItSees) {
+  const auto robotWith = [&](const std::string& range) {
+    return makeSource(printing("# scanner 0 0 0 -1.5 1.5 " + range +
+                               " 3\n1 laser/LRF/scan 3 1 2 3\n# end 1\n"))
+        ->robotToml();
+  };
+  EXPECT_NE(robotWith("0.5").find("max_range_m = 0.5\n"), std::string::npos) << robotWith("0.5");
+  EXPECT_NE(robotWith("0").find("max_range_m = 30.0\n"), std::string::npos) << robotWith("0");
+}
+
 TEST_F(RawlogSource, TakesTheReaderForHostile) {
   const std::string where = " of what ortung-mrpt-reader prints, expected ";
   EXPECT_EQ(errorOf(printing("")),

@@ -44,6 +44,11 @@ TEST_F(ScanlogSource, AddsCommandsToOdometryAsMotionData) {
             "1000000 odometry/odometry/pose 2147483648 2147483648 18000 2147483648 2147483648 "
             "2147483648 2147483648");
   EXPECT_TRUE(lines[2].ends_with(" 2147483848 2147486513")) << lines[2];
+  folder_.write("at_once.txt", "1.0 0.2 0.5\n2.0 0.3 0\n");  // a command counts from its time on
+  const Texts atOnce = asText(readAll(text("?commands=at_once.txt")));
+  ASSERT_EQ(atOnce.size(), 4U);
+  EXPECT_TRUE(atOnce[0].ends_with(" 2147483848 2147486513")) << atOnce[0];
+  EXPECT_TRUE(atOnce[2].ends_with(" 2147483948 2147483648")) << atOnce[2];
   folder_.write("bad.txt", "1.5 0.2\n");
   EXPECT_THROW(readAll(text("?commands=bad.txt")), std::runtime_error);
   EXPECT_THROW(readAll(text("?commands=missing.txt")), std::runtime_error);
@@ -92,6 +97,15 @@ TEST_F(ScanlogSource, UsesAFileOfOdometryInPlaceOfTheScansOwn) {
       asText(only(readAll(text("?odom=odom.txt")), "odometry/odometry/pose")),
       (Texts{"500000 odometry/odometry/pose 2147483648 2147483648 18000 2147483648 2147483648",
              "1500000 odometry/odometry/pose 2147483898 2147483648 18000 2147483898 2147483648"}));
+}
+
+TEST_F(ScanlogSource, ALineOfOdometryHasFourNumbers) {
+  for (const auto& [line, count] : {std::pair{"0.5 0 0", "3"}, std::pair{"0.5 0 0 0 1", "5"}}) {
+    folder_.write("odom.txt", std::string("0.1 0 0 0\n") + line + "\n");
+    EXPECT_EQ(errorOf(text("?odom=odom.txt")),
+              path() + "/odom.txt:2: found " + count +
+                  " fields, expected 4: time [s], x [m], y [m], theta [rad]");
+  }
 }
 
 TEST_F(ScanlogSource, PutsUpWithAJitteringClock) {
@@ -180,6 +194,16 @@ TEST_F(ScanlogSource, WritesAWorldWithACopyOfItsMap) {
   EXPECT_EQ(readBytes(folder_.path() / "out/hall.yaml"),
             "image: hall.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n");
   EXPECT_EQ(readBytes(folder_.path() / "out/hall.pgm"), "P5\n2 1\n255\nab");
+}
+
+TEST_F(ScanlogSource, TakesTheNearestMap) {
+  folder_.write("map.yaml", "image: far.pgm\nresolution: 1\norigin: [0, 0, 0]\n");
+  folder_.write("far.pgm", "P5\n1 1\n255\nf");
+  folder_.write("hall/near.yaml", "image: near.pgm\nresolution: 1\norigin: [0, 0, 0]\n");
+  folder_.write("hall/near.pgm", "P5\n1 1\n255\nn");
+  folder_.write("hall/log/scans.txt", kScans);
+  makeSource("scanlog:" + path() + "/hall/log")->writeWorld(folder_.path() / "w.toml");
+  EXPECT_EQ(readBytes(folder_.path() / "w.pgm"), "P5\n1 1\n255\nn");
 }
 
 TEST_F(ScanlogSource, SaysWhatIsWrongWithAMap) {

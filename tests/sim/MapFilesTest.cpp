@@ -246,6 +246,19 @@ TEST_F(MapFiles, CarmenMapsRunUpwardsByColumns) {
   EXPECT_EQ(openOf("a.map.gz"), "#/.");
 }
 
+TEST_F(MapFiles, OtherChunksOfCarmenMapsMayBeEmpty) {
+  const std::string label = "CARMENMAPFILEv020";
+  const auto withChunk = [&](std::int32_t length) {
+    std::string bytes = carmenMap(1, 2, 0.5f, {0, 1});
+    bytes.insert(bytes.find(label) + label.size(), '\x10' + bytesOf(length));
+    folder.write("a.map", bytes);
+  };
+  withChunk(0);
+  EXPECT_EQ(openOf("a.map"), "#/.");
+  withChunk(-1);
+  EXPECT_HAS(refusal("a.map"), "a chunk of -1 bytes");
+}
+
 TEST_F(MapFiles, BrokenCarmenMapsAreRefusedWithTheirPlace) {
   const auto refusalOfBytes = [&](const std::string& bytes) {
     folder.write("a.map", bytes);
@@ -300,6 +313,10 @@ TEST_F(MrptMaps, AreRefusedWithTheReadersOwnWords) {
   EXPECT_HAS(refusal("map.gridmap.gz"), "expected 1 to 2^26");
   reader("printf 'ortung-gridmap 1 1 nan -1 2\\na'");
   EXPECT_HAS(refusal("map.gridmap.gz"), "ortung-gridmap");
+  for (const char* place : {"nan 2", "-1 nan", "inf 2", "-1 -inf"}) {
+    reader(std::string("printf 'ortung-gridmap 1 1 0.5 ") + place + "\\na'");
+    EXPECT_HAS(refusal("map.gridmap.gz"), "ortung-gridmap");
+  }
   reader("cat /dev/zero");
   EXPECT_HAS(refusal("map.gridmap.gz"), "ortung-mrpt-reader wrote more than 67109120 bytes");
 }
