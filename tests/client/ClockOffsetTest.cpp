@@ -97,6 +97,14 @@ TEST(ClockOffset, AClockThatWasSetIsMeasuredAnew) {
   EXPECT_LT(std::abs(error), halfTrip(exchange) + 2.0);
 }
 
+TEST(ClockOffset, ANetworkThatTakesNoTimeLeavesTheRoundingOfStamps) {
+  ClockOffset clock;
+  clock.add({1'000, 50'000, 50'010, 1'010});  // all of it passed at the server
+  EXPECT_LE(clock.bound(50'005), 1.0);        // [us], as stamps are whole ones
+  EXPECT_GT(clock.bound(50'005), 0.0);
+  EXPECT_EQ(clock.toLocal(50'005), 1'005);
+}
+
 TEST(ClockOffset, NonsenseIsPassedOver) {
   ClockOffset clock;
   clock.add({100, 50, 60, 90});   // back before sent

@@ -122,6 +122,108 @@ TEST(Turns, SubscribersThatAreBehindGetLessOftenWhatIsNewest) {
             "30000 counter/counter/cycle 2 3 0");  // what was missed is not
 }
 
+TEST(Turns, SubscribersKeepTheirRhythmThoughNoCycleEndsWithIt) {
+  CountingWorld world;
+  world.cycle = 30'000;
+  FakeHost host(world, lockstepConfig());
+  auto [client, outlet] = host.join();
+  client.receive("CREATE r\n" + kAnyRobot +
+                 ".\nSUBSCRIBE period_s=0.1 none/none/none\nLOCKSTEP on\n");
+  host.settle();
+  for (int cycle = 1; cycle <= 40; ++cycle) {
+    client.receive("NEXT none/none/none\n");
+    host.settle();
+    client.onCycle();
+  }
+  std::vector<std::string> told;
+  for (const auto& [id, line] : host.told)
+    if (line.starts_with("* UPDATE")) told.push_back(line.substr(0, line.find(" lines=")));
+  // Due at 30, 100, 200, ... ms; sent when the next cycle has ended, ten in a second.
+  std::vector<std::string> expected;
+  for (const char* now : {"30", "120", "210", "300", "420", "510", "600", "720", "810", "900",
+                          "1020", "1110", "1200"})
+    expected.push_back(std::string("* UPDATE robot=1 now=") + now + "000");
+  EXPECT_EQ(told, expected);
+}
+
+TEST(Turns, WhoIsOwedOneAnswerWaits) {
+  CountingWorld world;
+  FakeHost host(world, lockstepConfig());
+  auto [client, outlet] = host.join();
+  EXPECT_FALSE(client.isWaiting());
+  client.receive("STATUS\n");  // the world has to be asked
+  EXPECT_TRUE(client.isWaiting());
+  EXPECT_TRUE(client.hasOpenRequests());
+  host.settle();
+  EXPECT_FALSE(client.isWaiting());
+  client.receive("CREATE r\n" + kAnyRobot + ".\n");  // a file is read, no order was given yet
+  EXPECT_TRUE(client.isWaiting());
+  EXPECT_TRUE(client.hasOpenRequests());
+  host.settle();
+  EXPECT_FALSE(client.isWaiting());
+  EXPECT_EQ(host.count(1, "OK CREATE"), 1u);
+}
+
+TEST(Turns, WhoWatchesARobotAndAsksForItsReadingsGoesOnWatching) {
+  CountingWorld world;
+  FakeHost host(world, lockstepConfig());
+  auto [anna, outletOfAnna] = host.join();
+  auto [viewer, outlet] = host.join("viewer");
+  anna.receive("CREATE r\n" + kAnyRobot + ".\nLOCKSTEP on\n");
+  host.settle();
+  viewer.receive("SUBSCRIBE robot=1 none/none/none\nUPDATE robot=1\nREAD robot=1\n");
+  host.settle();
+  EXPECT_EQ(host.count(2, "OK UPDATE robot=1"), 1u);
+  for (std::size_t cycle = 1; cycle <= 2; ++cycle) {
+    anna.receive("NEXT none/none/none\n");
+    host.settle();
+    viewer.onCycle();
+    EXPECT_EQ(host.count(2, "* UPDATE robot=1"), cycle);
+  }
+  EXPECT_EQ(host.count(2, "* ERR"), 0u);
+}
+
+// --- worlds that run by themselves
+
+/// Its time is its own; it is looked at once a period.
+class LiveWorld : public CountingWorld {
+ public:
+  explicit LiveWorld(Timestamp period) : period_(period) {}
+  ~LiveWorld() override = default;
+  Timestamp livePeriod() const override { return period_; }
+  bool isReady() const override { return ready; }
+  bool ready = true;
+
+ private:
+  Timestamp period_;
+};
+
+TEST(LiveWorlds, AreLookedAtOnceAPeriod) {
+  LiveWorld world(3'600'000'000);
+  FakeHost host(world, {});
+  for (int i = 0; i < 5; ++i) host.keeper.runOnce();
+  EXPECT_EQ(host.keeper.statistics().cycles, 1u);
+}
+
+TEST(LiveWorlds, TheirClockStandsWheneverTheyAreNotReady) {
+  LiveWorld world(1);
+  FakeHost host(world, {});
+  const auto goesOn = [&] {
+    const std::uint64_t looks = host.keeper.statistics().cycles;
+    do {
+      host.keeper.runOnce();
+    } while (world.ready && host.keeper.statistics().cycles == looks);
+    const Timestamp wall = server::wallTime();
+    return host.keeper.clock().at(wall + 1'000'000) - host.keeper.clock().at(wall);
+  };
+  for (int time = 0; time < 3; ++time) {
+    world.ready = true;
+    EXPECT_EQ(goesOn(), 1'000'000) << time;
+    world.ready = false;
+    EXPECT_EQ(goesOn(), 0) << time;
+  }
+}
+
 // --- talk
 
 TEST(Talk, WhatIsSaidCostsForEachWhoHearsIt) {

@@ -58,6 +58,7 @@ TEST(Protocol, LinesThatMakeNoSenseAreToldWhy) {
       {"#t9 STATUS caf\xC3\xA9",
        "#t9 ERR syntax a line has characters that are no printable ASCII"},
       {"#t\x01 STATUS", "ERR syntax a line has characters that are no printable ASCII"},
+      {"#d STATUS\x7F", "#d ERR syntax a line has characters that are no printable ASCII"},
       {"caf\xC3\xA9", "ERR syntax a line has characters that are no printable ASCII"},
       {std::string("STATUS\0", 7), "ERR syntax a line has characters that are no printable ASCII"}};
   for (const auto& [line, expected] : cases) EXPECT_EQ(client.ask(line), expected) << line;
@@ -95,6 +96,19 @@ TEST(Protocol, AnUpdateSendsEachReadingOnceAndReadSendsItAgain) {
   EXPECT_EQ(client.ask("UPDATE"), "OK UPDATE robot=1 now=30000 lines=0");
   EXPECT_EQ(client.ask("READ"), "OK READ robot=1 now=30000 lines=1");
   EXPECT_EQ(client.line(), "20000 counter/counter/cycle 2 2 0");
+}
+
+TEST(Protocol, NextIsOneCycleUnlessItSaysHowMany) {
+  CountingWorld world;
+  const RunningBoard board(world, lockstepConfig());
+  TestClient client(board.port());
+  client.join(kAnyRobot);
+  client.ask("LOCKSTEP on");
+  EXPECT_EQ(client.ask("NEXT nothing/*/*"), "OK NEXT robot=1 now=10000 lines=0");
+  EXPECT_EQ(client.ask("NEXT cycles=1 nothing/*/*"), "OK NEXT robot=1 now=20000 lines=0");
+  EXPECT_EQ(client.ask("NEXT cycles=2 nothing/*/*"), "OK NEXT robot=1 now=40000 lines=0");
+  EXPECT_EQ(client.ask("NEXT cycles=0"),
+            "ERR number cycles is '0', expected a whole number from 1 to 1000000");
 }
 
 TEST(Protocol, TheBinaryFormHasTheSameWords) {

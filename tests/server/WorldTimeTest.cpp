@@ -38,6 +38,19 @@ TEST(WorldTime, CyclesThatBeginTooLateAreCounted) {
   EXPECT_GE(std::stoi(valueOf(status, "missed")), 18);
 }
 
+TEST(WorldTime, NothingIsMissedByAWorldThatIsInTime) {
+  CountingWorld world;
+  world.cycle = 1'000'000'000;  // so that no computer is too slow
+  const RunningBoard board(world, {});
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  std::string status;
+  do {
+    status = client.ask("STATUS");
+  } while (valueOf(status, "cycles") != "1");
+  EXPECT_EQ(valueOf(status, "missed"), "0");
+}
+
 TEST(WorldTime, NothingIsMissedByAWorldThatMayTakeItsTime) {
   SlowWorld world;
   world.cycle = 1000;

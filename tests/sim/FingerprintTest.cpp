@@ -73,6 +73,12 @@ TEST(Fingerprint, OfAGridIsThatOfItsCellsAndPlace) {
   EXPECT_NE(fingerprintOfGrid(map, mapYaml("map.pgm", "[0, 0, 0]", "0.4")), print);
   EXPECT_NE(fingerprintOfGrid(map, mapYaml(), "z_m = [0, 0.5]\n"), print);
   EXPECT_NE(fingerprintOfGrid(map, mapYaml(), "unknown_margin_m = 0\n"), print);
+  const auto atDepth = [&](const std::string& cells) {
+    return fingerprintOfGrid(map, mapYaml(), "surface_depth_cells = " + cells + "\n");
+  };
+  EXPECT_NE(atDepth("0.5"), print);
+  EXPECT_NE(atDepth("0.5"), atDepth("0.25"));
+  EXPECT_EQ(atDepth("0"), print);
 }
 
 }  // namespace

@@ -43,6 +43,23 @@ struct Lopsided {
   Physics::Body body = 0;
 };
 
+// About its centroid a right triangle has the moment m (a^2 + b^2) / 18, a and b being its legs.
+TEST(FreeMotion, ATriangleIsAsHardToTurnAsItsShapeSays) {
+  Physics physics({.cycle = kCycle}, {{-5.0, 5.0, -5.0, 5.0}, {}, {}});
+  Primitive wedge;
+  wedge.shape = Primitive::Shape::triangle;
+  wedge.corners = {{{-0.2, -0.3}, {0.4, -0.3}, {-0.2, 0.6}}};
+  const auto one = physics.add({&wedge, 1}, {10.0, Physics::Floor::slides}, {});
+  EXPECT_NEAR(physics.inertia(one), 10.0 * (0.6 * 0.6 + 0.9 * 0.9) / 18.0, 1e-9);
+  // Two of them, back to back, are a rectangle: m (a^2 + b^2) / 12.
+  Primitive other = wedge;
+  other.corners = {{{0.4, 0.6}, {-0.2, 0.6}, {0.4, -0.3}}};
+  other.centre = {0.2, 0.3};
+  const std::vector<Primitive> pieces{wedge, other};
+  const auto both = physics.add(pieces, {10.0, Physics::Floor::slides}, {2.0, 0.0, 0.0});
+  EXPECT_NEAR(physics.inertia(both), 10.0 * (0.6 * 0.6 + 0.9 * 0.9) / 12.0, 1e-9);
+}
+
 TEST(FreeMotion, TheCentreOfMassGoesStraight) {
   for (const bool neighbour : {false, true}) {
     Lopsided thing(neighbour);

@@ -2,6 +2,8 @@
 // distances.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -154,6 +156,47 @@ TEST(Rays, ThatFallMeetTheTopsOfBodies) {
                    0, {&range, 1});
     EXPECT_NEAR(static_cast<double>(range), std::sqrt(10.0), 1e-4) << angle;
   }
+}
+
+TEST(Rays, ThatRiseOrFallMeetARoundBodyWhereTheyCrossItsSurface) {
+  // A cylinder of radius 1 m around (4, 1), from 0.5 to 1 m; from above and from below, aslant.
+  const auto world = worldOf("[[ellipse]]\ncenter_m = [4, 1]\nsize_m = [2, 2]\nz_m = [0.5, 1]\n");
+  std::array<int, 3> met{};  // side, top or bottom, nothing
+  for (const double height : {0.0, 1.8})
+    for (int i = -30; i <= 30; ++i)
+      for (int k = 3; k <= 40; ++k) {
+        const double angle = std::atan2(1.0, 4.0) + 0.01 * i;
+        const double elevation = (height > 1.0 ? -0.01 : 0.01) * k;
+        const double ux = std::cos(elevation) * std::cos(angle);
+        const double uy = std::cos(elevation) * std::sin(angle);
+        const double uz = std::sin(elevation);
+        const auto inside = [&](double t) { return std::hypot(t * ux - 4, t * uy - 1) - 1; };
+        const double flat = ((height > 1.0 ? 1.0 : 0.5) - height) / uz;  // to the level it comes to
+        const double along = 4 * std::cos(angle) + std::sin(angle);
+        const double beside = std::cos(angle) - 4 * std::sin(angle);
+        const double root = 1.0 - beside * beside;
+        const double round =
+            root > 0 ? (along - std::sqrt(root)) / std::cos(elevation) : 1e9;  // to its mantle
+        const double z = height + round * uz;
+        if (std::abs(root) < 1e-3 || std::abs(inside(flat)) < 1e-3 || std::abs(z - 0.5) < 1e-3 ||
+            std::abs(z - 1.0) < 1e-3)
+          continue;  // rounding decides at the very edge
+        const bool isSide = root > 0 && z > 0.5 && z < 1.0;
+        const bool isFlat = inside(flat) < 0;
+        const double expected = std::min(isSide ? round : 50.0, isFlat ? flat : 50.0);
+        float range = 0;
+        world->castFan({.x = 0,
+                        .y = 0,
+                        .z = height,
+                        .firstAngle = angle,
+                        .angleStep = 0,
+                        .elevation = elevation,
+                        .maxRange = 50},
+                       0, {&range, 1});
+        ASSERT_NEAR(static_cast<double>(range), expected, 1e-3) << height << " " << i << " " << k;
+        ++met[isSide ? 0 : isFlat ? 1 : 2];
+      }
+  for (const int count : met) EXPECT_GT(count, 200);
 }
 
 TEST(Rays, IgnoreLines) {

@@ -81,6 +81,22 @@ TEST(RoutePlanner, KeepsToTheLargestPart) {
   for (int i = 0; i < 200; ++i) EXPECT_LT(planner.randomPose(random).x, 1.0);
 }
 
+TEST(RoutePlanner, TheEndsOfTheFieldAreNotNeighbours) {
+  // So small a robot that the outermost cells are free, too: what lies beyond one side of the field
+  // is not the other side.
+  const FakeWorld room = cutRoom(100.0);
+  const RoutePlanner planner(room, {0.01}, 0.0);
+  EXPECT_TRUE(planner.contains(-3.97, 0.0));
+  EXPECT_TRUE(planner.contains(-3.97, -2.97));
+  EXPECT_FALSE(planner.contains(3.97, 0.0));
+  EXPECT_FALSE(planner.contains(2.0, 0.0));
+  const FakeWorld open(8.0, 6.0);
+  const RoutePlanner everywhere(open, {0.01}, 0.0);
+  ASSERT_EQ(everywhere.cells().size(), 80u * 60u);
+  // From end to end there is nothing shorter than straight on.
+  EXPECT_EQ(everywhere.route({-3.95, 0.05}, {3.95, 0.05}).size(), 1u);
+}
+
 TEST(RoutePlanner, LeadsBackFromWhereItsMapEnds) {
   const RoutePlanner planner(FakeWorld(8.0, 6.0), {0.25});
   const std::vector<FloorPoint> route = planner.route({-3.74, 0.0}, {2.0, 0.0});

@@ -21,7 +21,7 @@ size_m = [0.1, 4]
 [[ellipse]]
 kind = "line"
 center_m = [0, 0]
-size_m = [4, 4]
+size_m = [4, 3]
 stroke_m = 0.2
 arc_deg = [0, 90]
 [[ellipse]]
@@ -40,10 +40,12 @@ size_m = [0.15, 0.15]
   const FieldLine& arc = world->lines()[1];
   EXPECT_EQ(arc.shape, FieldLine::Shape::arc);
   EXPECT_NEAR(arc.radiusX, 1.9, 1e-12);  // the stroke lies within the size
+  EXPECT_NEAR(arc.radiusY, 1.4, 1e-12);
   EXPECT_NEAR(arc.to - arc.from, std::numbers::pi / 2.0, 1e-12);
   const FieldLine& spot = world->lines()[2];
   EXPECT_NEAR(spot.width, 0.075, 1e-12);
   EXPECT_NEAR(spot.radiusX, 0.0375, 1e-12);
+  EXPECT_NEAR(spot.radiusY, 0.0375, 1e-12);
   EXPECT_NEAR(spot.to - spot.from, 2.0 * std::numbers::pi, 1e-12);
 }
 
@@ -87,6 +89,28 @@ TEST(Seen, WhatMovesIsNeitherInTablesNorInTheFingerprint) {
   EXPECT_NEAR(rangeAt(*world, 0.0, 1.0, 0.0, 0.1), 50.0, 1e-6);
   EXPECT_TRUE(world->isFree(1.0, 1.0, {0.1}));
   EXPECT_EQ(world->objects().size(), 1u);
+}
+
+TEST(Seen, ABodyReachesFromItsLowestPieceToItsHighest) {
+  const auto world = worldOf(kRoom);
+  Primitive tray;
+  tray.halfX = tray.halfY = 0.3;
+  tray.zLow = 0.4;
+  tray.zHigh = 0.5;
+  Primitive mast = tray;
+  mast.halfX = mast.halfY = 0.05;
+  mast.zLow = 0.5;
+  mast.zHigh = 1.2;
+  const RobotNumber drone = world->addBody(
+      {.kind = "robot", .name = {}, .colour = {}, .pieces = {mast, tray}}, {1.0, 0.0, 0.0});
+  EXPECT_EQ(world->objects().back().zLow, 0.4);
+  EXPECT_EQ(world->objects().back().zHigh, 1.2);
+  world->reshapeBody(drone, {&mast, 1});  // nothing is left of what it was
+  EXPECT_EQ(world->objects().back().zLow, 0.5);
+  EXPECT_EQ(world->objects().back().zHigh, 1.2);
+  world->reshapeBody(drone, {&tray, 1});
+  EXPECT_EQ(world->objects().back().zLow, 0.4);
+  EXPECT_EQ(world->objects().back().zHigh, 0.5);
 }
 
 TEST(Seen, MechanicsAreRefusedWhereTheyDoNotFit) {

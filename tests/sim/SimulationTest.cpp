@@ -229,7 +229,10 @@ TEST(Simulation, DrivesTheSameWayWithAndWithoutNoise) {
 
 TEST(Simulation, RefusesCyclesOutOfRangeAndStartsInWalls) {
   EXPECT_THROW(Simulation(field(), {.cycle = 0.0}), std::invalid_argument);
+  EXPECT_THROW(Simulation(field(), {.cycle = 0.9e-4}), std::invalid_argument);
   EXPECT_THROW(Simulation(field(), {.cycle = 2.0}), std::invalid_argument);
+  EXPECT_EQ(Simulation(field(), {.cycle = 1e-4}).cycle(), 1e-4);  // both ends are within
+  EXPECT_EQ(Simulation(field(), {.cycle = 1.0}).cycle(), 1.0);
   PluginFactory factory(PluginFactory::standardFolders());
   Simulation simulation(field(), {});
   EXPECT_THROW(simulation.addRobot(robotConfig(), factory, {8.9, 0.0, 0.0}), std::invalid_argument);
