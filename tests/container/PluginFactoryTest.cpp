@@ -50,7 +50,7 @@ TEST(PluginFactory, RefusesALibraryWithoutPlugins) {
 
 TEST(PluginFactory, RefusesFilesThatAreNone) {
   const TemporaryFolder folder;
-  EXPECT_EQ(complaintOf("nowhere.so"), "nowhere.so: can't be read");
+  EXPECT_EQ(complaintOf("nowhere.so"), "nowhere.so: can't be read: No such file or directory");
   const std::string text = folder / "text.so";
   test::writeBytes(text, std::string(1000, 'x'));
   EXPECT_EQ(complaintOf(text), text + ": is no 64-bit shared library");

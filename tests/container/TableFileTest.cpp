@@ -98,7 +98,8 @@ TEST(TableFile, RefusesWhatIsNone) {
   const auto told = [&](const std::string& file) {
     return messageOf<TableError>([&] { TableFile(folder / file); });
   };
-  EXPECT_EQ(told("gone"), (folder / "gone").string() + ": can't be read");
+  EXPECT_EQ(told("gone"),
+            (folder / "gone").string() + ": can't be read: No such file or directory");
   writeBytes(folder / "empty", "");
   EXPECT_EQ(told("empty"), (folder / "empty").string() + ": is empty or can't be mapped");
   writeBytes(folder / "text", "this is no table file at all, but long enough to be one");
@@ -107,7 +108,7 @@ TEST(TableFile, RefusesWhatIsNone) {
       (folder / "text").string() +
           ": is torn or no table file: it is no table file, or cut off: the end record is missing");
   std::filesystem::create_directory(folder / "folder");
-  EXPECT_EQ(told("folder"), (folder / "folder").string() + ": can't be read");
+  EXPECT_EQ(told("folder"), (folder / "folder").string() + ": can't be read: Is a directory");
 }
 
 TEST(TableFile, EveryTruncationIsRefused) {

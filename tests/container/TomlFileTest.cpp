@@ -61,9 +61,9 @@ TEST(Toml, RefusesWhatIsTooLarge) {
 TEST(Toml, RefusesMissingFilesAndFolders) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(complaint([&] { readToml(folder / "no.toml"); }),
-            (folder / "no.toml").string() + ": can't be read");
+            (folder / "no.toml").string() + ": can't be read: No such file or directory");
   EXPECT_EQ(complaint([&] { readToml(folder.path()); }),
-            folder.path().string() + ": can't be read");
+            folder.path().string() + ": can't be read: Is a directory");
 }
 
 std::string repeated(const std::string& part, int count) {
@@ -78,7 +78,7 @@ TEST(Toml, TextOfAFileIsThatOfItsBytes) {
   test::writeBytes(folder / "a.toml", text);
   EXPECT_EQ(readTomlText(folder / "a.toml"), text);
   EXPECT_EQ(complaint([&] { readTomlText(folder / "no.toml"); }),
-            (folder / "no.toml").string() + ": can't be read");
+            (folder / "no.toml").string() + ": can't be read: No such file or directory");
   test::writeBytes(folder / "big.toml", std::string(kMaxConfigBytes + 1, ' '));
   EXPECT_NE(complaint([&] { readTomlText(folder / "big.toml"); }).find("at most 8388608 are read"),
             std::string::npos);

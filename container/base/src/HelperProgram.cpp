@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "LibraryFolder.hpp"
+#include "ortung/base/InputFile.hpp"
 
 namespace ortung {
 namespace {
@@ -137,6 +138,7 @@ std::filesystem::path findHelper(const std::string& name, const std::string& abo
 std::string runHelper(const std::filesystem::path& program,
                       const std::vector<std::string>& arguments, const std::string& about,
                       std::size_t maxBytes) {
+  for (const std::string& argument : arguments) noteInput(argument);  // those that name files
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     failWith(about, "no pipe: " + std::generic_category().message(errno));

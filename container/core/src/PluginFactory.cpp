@@ -10,6 +10,7 @@
 #include <span>
 
 #include "LibraryFolder.hpp"
+#include "ortung/base/InputFile.hpp"
 #include "ortung/core/PluginGuard.hpp"
 
 namespace ortung {
@@ -45,8 +46,9 @@ std::uint64_t lengthOf(std::ifstream& in, const Elf64_Ehdr& header,
 
 /// dlopen of a truncated library kills the process (SIGBUS), so look at its skeleton first.
 void checkIsWhole(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw PluginError(file.string() + ": can't be read");
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) throw PluginError(file.string() + ": " + why);
   Elf64_Ehdr header{};
   in.read(reinterpret_cast<char*>(&header), sizeof header);
   if (in.gcount() != sizeof header || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||

@@ -1,14 +1,16 @@
 #include "ortung/core/Record.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <stdexcept>
+
+#include "ortung/base/InputFile.hpp"
 
 namespace ortung {
 namespace {
 
 constexpr std::string_view kWorldKey = "# world ";
-constexpr std::size_t kLongestLine = 64u << 20;
 
 template <class Number>
 void append(std::string& line, Number value) {
@@ -42,12 +44,12 @@ std::string quoted(std::string_view token) {
   return text + (token.size() > 40 ? "...'" : "'");
 }
 
-/// Like std::getline, but gives up on a line longer than kLongestLine, so that no file can eat the
+/// Like std::getline, but gives up on a line longer than kMaxLineBytes, so that no file can eat the
 /// memory: then the line is longer than that, and the stream stays where it is.
 bool readLine(std::istream& in, std::string& line) {
   line.clear();
   char piece[4096];
-  while (line.size() <= kLongestLine) {
+  while (line.size() <= kMaxLineBytes) {
     in.getline(piece, sizeof piece);
     const auto count = static_cast<std::size_t>(in.gcount());
     const bool filled =
@@ -111,28 +113,45 @@ std::optional<Message> parseLine(std::string_view line, std::string* why) {
   return message;
 }
 
-RecordWriter::RecordWriter(const std::filesystem::path& file, const std::string& worldFingerprint)
-    : file_(file) {
+RecordWriter::RecordWriter(const std::filesystem::path& file, const std::string& worldFingerprint,
+                           Pace pace)
+    : file_(file), pace_(pace) {
   file_.write(std::string(kRecordMagic) + "\n");
   if (!worldFingerprint.empty()) file_.write(std::string(kWorldKey) + worldFingerprint + "\n");
 }
 
+RecordWriter::~RecordWriter() = default;
+
 void RecordWriter::write(const Message& message) {
-  line_.clear();
-  writeLine(message, line_);
-  line_ += '\n';
-  file_.write(line_);
+  if (!lines_.empty() && message.stamp != moment_) endMoment();
+  moment_ = message.stamp;
+  writeLine(message, lines_);
+  lines_ += '\n';
   ++messages_;
 }
 
+void RecordWriter::endMoment() {
+  if (lines_.empty()) return;
+  file_.write(lines_);
+  lines_.clear();
+  if (pace_ == Pace::kLive) file_.publish();
+}
+
+void RecordWriter::commit() {
+  endMoment();
+  file_.commit();
+}
+
 RecordSource::RecordSource(const std::filesystem::path& file)
-    : file_(file), in_(file, std::ios::binary), last_(std::numeric_limits<Timestamp>::min()) {
-  if (!in_ || std::filesystem::is_directory(file)) {
-    throw std::runtime_error(file.string() + ": can't be read");
+    : file_(file), last_(std::numeric_limits<Timestamp>::min()) {
+  std::string why;
+  in_ = openInput(file, why);
+  if (!in_) throw std::runtime_error(file.string() + ": " + why);
+  isFile_ = std::filesystem::is_regular_file(file);
+  if (isFile_) {
+    size_ = std::filesystem::file_size(file);
+    torn_ = tornEnd(file);
   }
-  std::error_code none;
-  const auto size = std::filesystem::file_size(file, none);
-  size_ = none ? 0.0 : static_cast<double>(size);
   char magic[kRecordMagic.size() + 1];
   in_.read(magic, sizeof magic);
   const std::string_view found(magic, static_cast<std::size_t>(in_.gcount()));
@@ -142,9 +161,8 @@ RecordSource::RecordSource(const std::filesystem::path& file)
                              std::string(kRecordMagic) + "'");
   }
   lineNumber_ = 1;
-  done_ = static_cast<double>(sizeof magic);
-  while (in_.peek() == '#' && readLine(in_, line_)) {
-    countLine();
+  done_ = sizeof magic;
+  while (in_.peek() == '#' && readWholeLine()) {
     if (line_.starts_with(kWorldKey)) world_ = line_.substr(kWorldKey.size());
   }
 }
@@ -155,16 +173,25 @@ void RecordSource::fail(const std::string& what) const {
   throw std::runtime_error(file_.string() + ":" + std::to_string(lineNumber_) + ": " + what);
 }
 
-void RecordSource::countLine() {
+/// The next line; false at the end of what is whole.
+bool RecordSource::readWholeLine() {
+  if (torn_ && done_ >= torn_->begin) return false;
+  if (!readLine(in_, line_)) return false;
+  if (line_.size() > kMaxLineBytes) {
+    ++lineNumber_;
+    fail("the line is longer than 64 MiB");
+  }
+  if (in_.eof()) {
+    torn_ = {done_, line_.size()};
+    return false;
+  }
   ++lineNumber_;
-  done_ += static_cast<double>(line_.size() + 1);
-  if (line_.size() > kLongestLine) fail("the line is longer than 64 MiB");
-  if (in_.eof()) fail("the last line is torn: it has no end (was the recorder killed?)");
+  done_ += line_.size() + 1;
+  return true;
 }
 
 bool RecordSource::next(Message& message) {
-  while (readLine(in_, line_)) {
-    countLine();
+  while (readWholeLine()) {
     if (line_.starts_with('#')) continue;
     std::string why;
     auto parsed = parseLine(line_, &why);
@@ -181,6 +208,16 @@ bool RecordSource::next(Message& message) {
   return false;
 }
 
-double RecordSource::progress() const { return size_ > 0.0 ? std::min(1.0, done_ / size_) : -1.0; }
+double RecordSource::progress() const {
+  const auto whole = static_cast<double>(torn_ && isFile_ ? torn_->begin : size_);
+  return whole > 0.0 ? std::min(1.0, static_cast<double>(done_) / whole) : -1.0;
+}
+
+std::string RecordSource::remark() const {
+  if (!torn_) return "";
+  return file_.string() + " is torn: its last " + std::to_string(torn_->bytes) +
+         " bytes are no whole moment and are left out (was the recorder killed, or is it still "
+         "writing?)";
+}
 
 }  // namespace ortung

@@ -1,9 +1,11 @@
 #include "ortung/robot/MotionNetworkFile.hpp"
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "ortung/base/InputFile.hpp"
 #include "ortung/base/Parameters.hpp"
 
 namespace ortung {
@@ -104,11 +106,12 @@ MotionNetwork parseMotionNetwork(std::string_view text, const std::string& name)
 }
 
 MotionNetwork readMotionNetwork(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(file.string(), "can't be read, expected a motion network");
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) refuse(file.string(), why + "; expected a motion network");
   std::string text(kMostBytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) refuse(file.string(), "can't be read, expected a motion network");
+  if (in.bad()) refuse(file.string(), cantBeRead(errno) + "; expected a motion network");
   text.resize(static_cast<std::size_t>(in.gcount()));
   return parseMotionNetwork(text, file.string());
 }

@@ -66,8 +66,8 @@ FieldRegion readRegion(const TableFile& file, const Json& meta) {
 
 }  // namespace
 
-void writeTables(const std::filesystem::path& file, const SensorContainer& container,
-                 const TableInfo& info) {
+std::uintmax_t writeTables(const std::filesystem::path& file, const SensorContainer& container,
+                           const TableInfo& info) {
   TableWriter writer(file);
   Json meta;
   meta["format"] = "ortung tables";
@@ -81,6 +81,7 @@ void writeTables(const std::filesystem::path& file, const SensorContainer& conta
   meta["origin_y_m"] = grid.originY;
   meta["cell_m"] = grid.cell;
   if (!info.field.isEmpty()) meta["field"] = toJson(info.field);
+  if (!info.robotToml.empty()) meta["robot_file"] = info.robotToml;
   meta["features"] = Json::array();
   const std::vector<std::size_t> shape = {static_cast<std::size_t>(grid.rows),
                                           static_cast<std::size_t>(grid.columns)};
@@ -97,7 +98,7 @@ void writeTables(const std::filesystem::path& file, const SensorContainer& conta
         {{"id", toText(data->id())}, {"key", data->learningKey()}, {"prefix", prefix}});
   }
   writer.addText(kMeta, meta.dump(1) + "\n");
-  writer.commit();
+  return writer.commit();
 }
 
 TableInfo readTableInfo(const TableFile& file) {
@@ -132,6 +133,7 @@ TableInfo readTableInfo(const TableFile& file) {
       throw TableError(file.path().string() + ": " + kMeta + ": field: " + error.what());
     }
   }
+  if (meta.contains("robot_file")) info.robotToml = take<std::string>(file, meta, "robot_file");
   for (const Json& feature : take<std::vector<Json>>(file, meta, "features")) {
     info.features.push_back({take<std::string>(file, feature, "id"),
                              take<std::string>(file, feature, "key"),

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "TomlLibrary.hpp"
+#include "ortung/base/InputFile.hpp"
 
 namespace ortung {
 namespace {
@@ -130,9 +131,9 @@ Parameters convert(const toml::table& table, const std::string& name, int depth)
 }  // namespace
 
 std::string readTomlText(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file))
-    throw ConfigError(file.string() + ": can't be read");
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) throw ConfigError(file.string() + ": " + why);
   std::string text;
   std::array<char, 65536> part{};
   do {

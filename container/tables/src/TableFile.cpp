@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <optional>
 #include <string_view>
 
 #include "Zip.hpp"
+#include "ortung/base/InputFile.hpp"
 
 namespace ortung {
 namespace {
@@ -100,16 +102,21 @@ struct TableFile::Impl {
     if (!bytes.empty()) ::munmap(const_cast<std::byte*>(bytes.data()), bytes.size());
   }
   void map() {
+    noteInput(path);
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    int error = file < 0 ? errno : 0;
     struct stat status{};
-    const bool fine = file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+    if (file >= 0 && ::fstat(file, &status) != 0) error = errno;
+    if (error == 0 && S_ISDIR(status.st_mode)) error = EISDIR;
+    if (error == 0 && !S_ISREG(status.st_mode)) error = ENODEV;  // what can't be mapped
+    const bool fine = error == 0;
     void* address = MAP_FAILED;
     if (fine && status.st_size > 0) {
       address = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE,
                        file, 0);
     }
     if (file >= 0) ::close(file);
-    if (!fine) throw TableError(path.string() + ": can't be read");
+    if (!fine) throw TableError(path.string() + ": " + cantBeRead(error));
     if (address == MAP_FAILED) throw TableError(path.string() + ": is empty or can't be mapped");
     bytes = {static_cast<const std::byte*>(address), static_cast<std::size_t>(status.st_size)};
   }

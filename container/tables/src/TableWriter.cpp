@@ -92,9 +92,10 @@ void TableWriter::addText(const std::string& name, const std::string& text) {
   impl_->add(name, "", std::as_bytes(std::span(text)));
 }
 
-void TableWriter::commit() {
+std::uintmax_t TableWriter::commit() {
   impl_->put(zip::directory(impl_->members, static_cast<std::uint32_t>(impl_->offset)));
   forTables([&] { impl_->out.commit(); });
+  return impl_->out.size();
 }
 
 }  // namespace ortung

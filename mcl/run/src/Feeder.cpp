@@ -22,6 +22,7 @@ bool Feeder::next() {
   truth_.reset();
   try {
     for (const Message& message : frame_) look(message);
+    if (record_ != nullptr) record_->endMoment();
     container_.set(frame_);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name_ + ": reading at " + std::to_string(stamp_) +

@@ -1,5 +1,7 @@
 #include "ortung/run/OpenSource.hpp"
 
+#include <set>
+
 #include "ortung/core/Record.hpp"
 
 namespace ortung {
@@ -19,6 +21,26 @@ std::unique_ptr<Source> openRecord(const SourceText& text) {
                           text.options.begin()->first + "'");
   }
   return std::make_unique<RecordSource>(text.path);
+}
+
+std::set<std::string> kindsOf(PluginFactory& factory) {
+  std::set<std::string> kinds = {"record"};
+  for (const PluginFactory::Found& library : factory.list())
+    for (const auto& entry : library.entries)
+      if (entry.interface == Source::kInterface) kinds.insert(entry.name);
+  return kinds;
+}
+
+std::string joined(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Of what the factory says where it found nothing: the libraries that may have had it.
+std::string whatIsBroken(const std::string& complaint) {
+  const std::size_t begin = complaint.find("; not loaded: ");
+  return begin == complaint.npos ? "" : complaint.substr(begin);
 }
 
 }  // namespace
@@ -42,7 +64,14 @@ std::unique_ptr<Source> openSource(const SourceText& text, const std::filesystem
   }
   parameters.set("path", text.path);
   parameters.set("robot_file", robotFile.string());
-  return factory.make<Source>(text.kind, parameters);
+  try {
+    return factory.make<Source>(text.kind, parameters);
+  } catch (const PluginError& error) {
+    const std::set<std::string> kinds = kindsOf(factory);
+    if (kinds.contains(text.kind)) throw;
+    throw PluginError(parameters.where() + ": there is no kind of source '" + text.kind +
+                      "', expected one of " + joined(kinds) + whatIsBroken(error.what()));
+  }
 }
 
 }  // namespace ortung

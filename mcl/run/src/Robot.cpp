@@ -19,6 +19,17 @@ std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
   return robot;
 }
 
+std::unique_ptr<Robot> openLearnedRobot(const std::filesystem::path& tablesFile) {
+  const auto tables = std::make_shared<const TableFile>(tablesFile);
+  const TableInfo info = readTableInfo(*tables);
+  if (info.robotToml.empty()) return nullptr;
+  auto robot = std::make_unique<Robot>();
+  robot->config = readRobot(parseToml(info.robotToml, tablesFile.string() + ": robot file"));
+  robot->devices = fillContainer(robot->container, robot->config, robot->factory);
+  robot->tables = loadTables(tables, robot->container);
+  return robot;
+}
+
 std::unique_ptr<MotionModel> makeMotion(const Parameters& motion, PluginFactory& factory) {
   const std::string plugin = motion.textOr("plugin", "odometry");
   return std::make_unique<CheckedMotion>(factory.make<MotionModel>(plugin, motion), plugin);

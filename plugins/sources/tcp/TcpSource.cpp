@@ -83,6 +83,7 @@ class TcpSource : public Source {
     if (!duration_) return -1.0;
     return *duration_ > 0.0 ? std::min(elapsed_ / *duration_, 1.0) : 1.0;
   }
+  bool isLive() const override { return true; }
   std::string worldFingerprint() const override { return session_.worldFingerprint(); }
   std::string robotToml() const override { return robotToml_; }
 

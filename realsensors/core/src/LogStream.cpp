@@ -4,11 +4,15 @@
 #include <boost/iostreams/filter/lzma.hpp>
 #include <stdexcept>
 
+#include "ortung/base/InputFile.hpp"
+
 namespace ortung {
 
 LogStream::LogStream(const std::filesystem::path& path, std::uint64_t maxBytes)
-    : path_(path), left_(maxBytes), limit_(maxBytes), in_(path, std::ios::binary) {
-  if (!in_) throw std::runtime_error(path.string() + ": cannot be read");
+    : path_(path), left_(maxBytes), limit_(maxBytes) {
+  std::string why;
+  in_ = openInput(path, why);
+  if (!in_) throw std::runtime_error(path.string() + ": " + why);
   if (path.extension() == ".xz") out_.push(boost::iostreams::lzma_decompressor());
   if (path.extension() == ".gz") out_.push(boost::iostreams::gzip_decompressor());
   out_.push(in_);

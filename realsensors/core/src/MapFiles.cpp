@@ -1,11 +1,13 @@
 #include "ortung/realsensors/MapFiles.hpp"
 
+#include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "ortung/base/InputFile.hpp"
 #include "ortung/base/NewFile.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
@@ -47,10 +49,12 @@ void copyMap(const std::filesystem::path& world, const std::filesystem::path& ma
   std::string ending = map.extension().string();
   if (ending == ".gz") ending = map.stem().extension().string() + ending;
   const auto copy = beside(world, ending);
-  std::ifstream in(map, std::ios::binary);
+  std::string why;
+  std::ifstream in = openInput(map, why);
+  if (!in) throw std::runtime_error(map.string() + ": " + why);
   std::ostringstream bytes;
   bytes << in.rdbuf();
-  if (!in || !bytes) throw std::runtime_error(map.string() + ": cannot be read");
+  if (!in || !bytes) throw std::runtime_error(map.string() + ": " + cantBeRead(errno));
   writeFile(copy, bytes.str());
   writeWorldText(world, copy, more);
 }

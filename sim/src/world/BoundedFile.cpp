@@ -5,11 +5,13 @@
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filter/lzma.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
+#include <cerrno>
 #include <fstream>
 #include <system_error>
 #include <vector>
 
 #include "GridMap.hpp"
+#include "ortung/base/InputFile.hpp"
 
 namespace ortung {
 namespace {
@@ -47,9 +49,11 @@ std::string readBounded(const std::filesystem::path& file, std::size_t maxBytes)
     refuse(file,
            "has " + std::to_string(size) + " bytes, expected at most " + std::to_string(maxBytes));
   std::string bytes(static_cast<std::size_t>(size), '\0');
-  std::ifstream stream(file, std::ios::binary);
+  std::string why;
+  std::ifstream stream = openInput(file, why);
+  if (!stream) refuse(file, why);
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) refuse(file, "cannot be read");
+  if (!stream) refuse(file, cantBeRead(errno));
   return bytes;
 }
 

@@ -1,40 +1,73 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "ortung/base/Export.hpp"
 
 namespace ortung {
 
-/// A file that appears whole or not at all: it is written beside its place and put there at
-/// commit(), once it is on the disk. Until then an older file of that name stays. Not thread-safe.
+/// A file that appears whole or not at all: it is written out of sight and put in its place at
+/// commit(), once it is on the disk. Until then an older file of that name stays. A program that
+/// dies before leaves nothing behind (where the file system has no files without a name: one named
+/// ".ortung-part-...", which the next NewFile in that folder clears away).
+///
+/// Or it is put in its place by publish(), and grows there: what was written by the last flush() is
+/// there whatever happens to the program.
+///
+/// Links are followed, so a link stays and what it names is replaced. What is no regular file (a
+/// device, a FIFO, /dev/stdout) is written to as it comes. Not thread-safe.
 class ORTUNG_API NewFile {
  public:
   /// @throws std::runtime_error naming file and reason, as do the others
   explicit NewFile(std::filesystem::path file);
-  ~NewFile();  ///< without commit(): leaves nothing behind
+  ~NewFile();  ///< without commit() and publish(): leaves nothing behind
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-  void commit();
+  /// Hands what was written to the operating system, so that the death of this process can't take
+  /// it away. Where that fails, a published file is cut back to what it was at the last flush().
+  void flush();
+  void publish();  ///< flushes and puts the file in its place, to grow there
+  void commit();   ///< flushes, puts the file in its place once it is on the disk, and closes it
+
+  std::uintmax_t size() const { return size_ + buffer_.size(); }  ///< written so far [bytes]
 
  private:
-  [[noreturn]] void fail() const;
+  enum class State : std::uint8_t { kUnnamed, kNamed, kInPlace, kStream, kClosed };
+  void open();
+  void openUnnamedOrNamed();
+  void openNamed();
+  void keepOwnership();
+  void emptyBuffer();
+  void putInPlace();
+  void replace(const std::filesystem::path& named);
   void syncFolder() const;
+  [[noreturn]] void fail() const;
 
-  std::filesystem::path file_;
-  std::filesystem::path temporary_;
-  std::FILE* out_;  ///< null once it is in place
+  std::filesystem::path file_;    ///< as errors call it
+  std::filesystem::path place_;   ///< of kUnnamed and kNamed: the file itself, behind all links
+  std::filesystem::path folder_;  ///< of the place
+  std::filesystem::path named_;   ///< of kNamed: where it is until it is put in its place
+  State state_ = State::kClosed;
+  int descriptor_ = -1;
+  std::string buffer_;
+  std::uintmax_t size_ = 0;     ///< without the buffer
+  std::uintmax_t flushed_ = 0;  ///< size at the last flush
 };
 
 /// A whole file at once. @throws std::runtime_error naming file and reason
 ORTUNG_API void writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes);
 ORTUNG_API void writeFile(const std::filesystem::path& file, std::string_view text);
+
+/// Where writing to that name would lead: itself, or what a chain of links names.
+/// A name of one of this process's own descriptors (/dev/stdout, /dev/fd/3) is not followed.
+ORTUNG_API std::filesystem::path behindLinks(const std::filesystem::path& file);
 
 }  // namespace ortung

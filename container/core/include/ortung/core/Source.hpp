@@ -32,6 +32,13 @@ class ORTUNG_API Source {
   /// Share of the whole that has been read, in [0, 1], or -1 if there is no end.
   virtual double progress() const { return -1.0; }
 
+  /// Whether its readings are of now, so that they can't be had again: whoever keeps them keeps
+  /// them as they come, and a signal ends them like any end.
+  virtual bool isLive() const { return false; }
+
+  /// What whoever reads to the end should be told, in a sentence; "": nothing.
+  virtual std::string remark() const { return ""; }
+
   /// Fingerprint of the world the readings come from, or "" if it is not known.
   virtual std::string worldFingerprint() const { return ""; }
 

@@ -25,12 +25,14 @@ struct TableInfo {
     std::string prefix;  ///< of its arrays' names
   };
   std::vector<Feature> features;
-  FieldModel field = {};  ///< what does not move in the world; may be empty
+  FieldModel field = {};       ///< what does not move in the world; may be empty
+  std::string robotToml = {};  ///< text of the robot file; "" if the tables do not hold it
 };
 
-/// Writes all learned features of @p container. @throws TableError
-ORTUNG_API void writeTables(const std::filesystem::path& file, const SensorContainer& container,
-                            const TableInfo& info);
+/// Writes all learned features of @p container. Returns how many bytes the file has.
+/// @throws TableError
+ORTUNG_API std::uintmax_t writeTables(const std::filesystem::path& file,
+                                      const SensorContainer& container, const TableInfo& info);
 
 /// Reads and checks what a table file says of itself. @throws TableError
 ORTUNG_API TableInfo readTableInfo(const TableFile& file);

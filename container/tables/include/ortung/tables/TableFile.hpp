@@ -47,8 +47,9 @@ class ORTUNG_API TableWriter {
   /// Adds a text member, e.g. meta.json.
   void addText(const std::string& name, const std::string& text);
 
-  /// Writes the directory, syncs and renames. @throws TableError
-  void commit();
+  /// Writes the directory, syncs and puts the file in its place. Returns how many bytes it has.
+  /// @throws TableError
+  std::uintmax_t commit();
 
  private:
   struct Impl;

@@ -31,6 +31,10 @@ ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFi
 ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
                                             const std::filesystem::path& tablesFile);
 
+/// The robot that tables were learned for, by the text of its file that they hold; null if they
+/// hold none. @throws ConfigError, PluginError, TableError
+ORTUNG_API std::unique_ptr<Robot> openLearnedRobot(const std::filesystem::path& tablesFile);
+
 /// The motion model that [motion] of a robot file asks for; "odometry" if that names no plugin.
 /// @throws ConfigError, PluginError
 ORTUNG_API std::unique_ptr<MotionModel> makeMotion(const Parameters& motion,

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "ortung/base/Export.hpp"
+
+namespace ortung {
+
+/// Opens a file to read it, and notes that this process does: see isInput().
+/// @param why gets the reason where that is not possible; the stream has failed then
+/// Thread-safe, like all here.
+ORTUNG_API std::ifstream openInput(const std::filesystem::path& file, std::string& why);
+
+/// What @p error, a value of errno, keeps from being read: "can't be read: Permission denied".
+ORTUNG_API std::string cantBeRead(int error);
+
+/// Notes a file that is read by other means than openInput().
+ORTUNG_API void noteInput(const std::filesystem::path& file);
+
+/// Whether this process has read that very file, by whatever name or link. Devices and pipes do not
+/// count.
+ORTUNG_API bool isInput(const std::filesystem::path& file);
+
+}  // namespace ortung
