@@ -11,10 +11,12 @@
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/base/InputFile.hpp"
 #include "ortung/core/Record.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/robot/TableInfo.hpp"
 #include "ortung/robot/TomlFile.hpp"
+#include "ortung/run/Localization.hpp"
 #include "ortung/run/Robot.hpp"
 #include "ortung/sim/RobotShape.hpp"
 #include "ortung/sim/SceneRun.hpp"
@@ -29,8 +31,9 @@ enum class Kind { kWorld, kScene, kRobot, kTables, kRecord };
 
 /// What a file is, by its content.
 Kind kindOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file)) throw std::runtime_error(file.string() + ": can't be read");
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) throw std::runtime_error(file.string() + ": " + why);
   char bytes[16] = {};
   in.read(bytes, sizeof bytes);
   const std::string_view begin(bytes, static_cast<std::size_t>(in.gcount()));
@@ -108,6 +111,23 @@ void checkRobotFile(const fs::path& file) {
   }
 }
 
+/// All that a localization with these tables asks of them.
+void checkAsLoaded(const fs::path& file, const TableInfo& info, const CheckArguments& arguments) {
+  LocalizationConfig config;
+  config.tables = file;
+  if (!arguments.robot.empty()) {
+    Localization(openRobot(arguments.robot, file), nullptr, config);
+  } else if (!info.robotToml.empty()) {
+    config.motion.emplace(
+        file.string());  // may name files beside the robot file, and is not of the tables
+    Localization(openLearnedRobot(file), nullptr, config);
+  } else {
+    warn(file.string() +
+         ": was learned by a version that did not keep the robot file, so whether a robot can load "
+         "it is not looked at; --robot does");
+  }
+}
+
 void checkTables(const fs::path& file, const CheckArguments& arguments) {
   const auto tables = std::make_shared<const TableFile>(file);
   const TableInfo info = readTableInfo(*tables);
@@ -119,7 +139,7 @@ void checkTables(const fs::path& file, const CheckArguments& arguments) {
           file.string(), info.worldFingerprint, info.world, arguments.world.string(), fingerprint));
     }
   }
-  if (!arguments.robot.empty()) loadTables(tables, openRobot(arguments.robot)->container);
+  checkAsLoaded(file, info, arguments);
   const FieldGrid& grid = info.region.grid;
   fmt::print(
       "{}: tables of robot '{}' in world '{}', fingerprint {}, {:.1f} MB\n  {}\n  {} x {} cells of "
@@ -135,8 +155,17 @@ void checkTables(const fs::path& file, const CheckArguments& arguments) {
   if (!arguments.robot.empty()) fmt::print("  fits {}\n", printable(arguments.robot.string()));
 }
 
+/// Takes from a record what no longer is a whole moment.
+void mend(const fs::path& file) {
+  RecordSource source(file);  // which it must be
+  if (const auto torn = mendRecord(file))
+    note(fmt::format("{}: cut off its last {} bytes, which were no whole moment", file.string(),
+                     torn->bytes));
+}
+
 /// The readings of a record by feature, and that a robot's features take them.
 void checkRecord(const fs::path& file, const CheckArguments& arguments) {
+  if (arguments.mend) mend(file);
   RecordSource source(file);
   std::unique_ptr<Robot> robot;
   if (!arguments.robot.empty()) robot = openRobot(arguments.robot);
@@ -158,6 +187,8 @@ void checkRecord(const fs::path& file, const CheckArguments& arguments) {
           fmt::format("{}: reading at {} us: {}", file.string(), message.stamp, error.what()));
     }
   }
+  if (const std::string remark = source.remark(); !remark.empty())
+    warn(remark + "; --mend cuts them off");
   const std::string world = source.worldFingerprint();
   fmt::print("{}: record, world {}, {} readings, {} to {} us ({:.3f} s)\n",
              printable(file.string()), world.empty() ? "not known" : printable(world), all, first,
@@ -191,13 +222,13 @@ int runCheck(const CheckArguments& arguments) {
   for (const fs::path& file : arguments.files) {
     try {
       checkFile(file, arguments);
-      std::fflush(stdout);  // so that results and errors keep their order
     } catch (const Interrupted&) {
       throw;
     } catch (const std::exception& error) {
       fail(error.what());
       ++bad;
     }
+    flushOutput();  // so that results and errors keep their order
   }
   if (arguments.files.size() > 1) fmt::print("{} files, {} bad\n", arguments.files.size(), bad);
   return bad == 0 ? 0 : 1;

@@ -2,75 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <charconv>
-#include <cmath>
 #include <memory>
 
 #include "Commands.hpp"
 #include "Console.hpp"
+#include "OptionBuilder.hpp"
 
-// The only file that knows CLI11, which takes long to compile.
 namespace ortung::app {
 namespace {
 
-/// A finite number within bounds; CLI11's own Range lets NaN pass.
-CLI::Validator within(double low, double high) {
-  const std::string what = fmt::format("a number from {:g} to {:g}", low, high);
-  return CLI::Validator(
-      [low, high, what](std::string& text) -> std::string {
-        double number = 0.0;
-        const char* end = text.data() + text.size();
-        const auto [behind, error] = std::from_chars(text.data(), end, number);
-        const bool fits = error == std::errc() && behind == end && number >= low && number <= high;
-        return fits ? "" : fmt::format("is '{}', expected {}", text, what);
-      },
-      "");
-}
-
-/// One subcommand: declares its options for @p arguments and returns what runs it.
-template <class Arguments>
-using Runner = int (*)(const Arguments&);
-
-class Builder {
- public:
-  explicit Builder(ParsedCommand& parsed) : parsed_(parsed) {}
-
-  template <class Arguments>
-  std::shared_ptr<Arguments> command(CLI::App& app, const char* name, const char* description,
-                                     const char* example, Runner<Arguments> run) {
-    auto arguments = std::make_shared<Arguments>();
-    current_ = app.add_subcommand(name, description);
-    current_->footer(std::string("Example:\n  ") + example);
-    current_
-        ->add_option("--plugin-seconds", parsed_.pluginSeconds,
-                     "How long a plugin may take for one call before the program saves what it has "
-                     "and ends [s]; 0: for ever")
-        ->check(within(0.0, 1e6))
-        ->capture_default_str();
-    current_->callback([parsed = &parsed_, arguments, name, run] {
-      parsed->name = name;
-      parsed->run = [arguments, run] { return run(*arguments); };
-    });
-    return arguments;
-  }
-  template <class Value>
-  CLI::Option* option(const char* names, Value& value, const char* description) {
-    return current_->add_option(names, value, description);
-  }
-  void flag(const char* name, bool& value, const char* description) {
-    current_->add_flag(name, value, description);
-  }
-  CLI::App& app() { return *current_; }
-
- private:
-  ParsedCommand& parsed_;
-  CLI::App* current_ = nullptr;
-};
-
 constexpr const char* kProgress = "Draw a progress bar even if stderr is no terminal";
+constexpr const char* kForce =
+    "Overwrite files that hold something else than what is written (never what the run reads)";
 constexpr const char* kSource =
     "KIND:PATH?key=value, e.g. record:run.rec; `ortung plugins` lists the kinds";
 
@@ -96,6 +39,7 @@ void addLearn(Builder& build, CLI::App& app) {
               "Part of the floor on which the robot is: 'auto' (the largest, but what walls leave "
               "outside), 'x,y' (where that point is [m]) or 'all'")
       ->capture_default_str();
+  build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }
 
@@ -127,6 +71,7 @@ void addLearnMotion(Builder& build, CLI::App& app) {
       ->capture_default_str();
   build.option("--delay", a->delay, "How far odometry is ahead of the robot [s]; default: learned")
       ->check(within(-0.3, 2.0));
+  build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }
 
@@ -159,6 +104,7 @@ void addTrainMotion(Builder& build, CLI::App& app) {
       ->check(within(0.0, 0.9))
       ->capture_default_str();
   build.option("--seed", a->seed, "Seed of the first weights")->capture_default_str();
+  build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }
 
@@ -180,6 +126,7 @@ void addLocalization(Builder& build, LocalizationArguments& a) {
                "turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
   build.flag("--any-world", a.anyWorld,
              "Go on although the source comes from another world than the tables");
+  build.flag("--force", a.force, kForce);
   build.flag("--progress", a.progress, kProgress);
 }
 
@@ -215,8 +162,11 @@ void addImport(Builder& build, CLI::App& app) {
                                      "ortung import mrclam data/ds6 --out ds6-3.rec --robot 3 "
                                      "--world ds6.toml --robot-file ds6-3.toml",
                                      runImport);
-  build.option("kind", a->kind, "Kind of source; `ortung plugins` lists them")->required();
-  build.option("source", a->source, "File or folder to read")->required();
+  build
+      .option("kind", a->kind,
+              "Kind of source, or KIND:SOURCE?key=value; `ortung plugins` lists them")
+      ->required();
+  build.option("source", a->source, "File or folder to read, if KIND does not name it");
   build.option("--out", a->out, "Record file to write")->required();
   build.option("--world", a->world,
                "Also write the world file, and the maps that it names beside it");
@@ -235,7 +185,9 @@ void addImport(Builder& build, CLI::App& app) {
                 : "Place of the laser on the robot's x axis [m]; short for --option laser_x=M");
   }
   build.option("--with-robot", a->withRobot, "Robot file to read, for sources that need one (sim)");
-  build.flag("--force", a->force, "Replace world and robot files that exist");
+  build.flag("--force", a->force,
+             "Replace world and robot files that exist, and files that hold something else than "
+             "what is written (never what the run reads)");
   build.flag("--progress", a->progress, kProgress);
 }
 
@@ -273,6 +225,7 @@ void addShow(Builder& build, CLI::App& app) {
       ->check(CLI::IsMember({"auto", "linear", "log"}))
       ->capture_default_str();
   build.flag("--log", a->logarithmic, "Short for --scale log");
+  build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }
 
@@ -284,6 +237,8 @@ void addCheck(Builder& build, CLI::App& app) {
   build.option("files", a->files, "Files; their contents say what they are")->required();
   build.option("--world", a->world, "World that the tables must have been learned in");
   build.option("--robot", a->robot, "Robot that the tables must have been learned for");
+  build.flag("--mend", a->mend,
+             "Cut off what a killed recorder left of the last moment of a record");
 }
 
 void addServing(Builder& build, ServingArguments& a) {
@@ -345,6 +300,7 @@ void addSim(Builder& build, CLI::App& app) {
               "Time between two steps of the simulation [ms]; default: the world's")
       ->check(within(0.1, 1000.0));
   build.flag("--no-noise", a->noNoise, "Sensors and odometry without noise");
+  build.flag("--force", a->force, kForce);
   addServing(build, a->serving);
 }
 

@@ -17,6 +17,7 @@ struct LearnArguments {
   double cell = 0.1;            ///< [m]
   double headingStepDeg = 2.0;  ///< [degrees]
   std::string area = "auto";    ///< "auto", "all" or "x,y" [m]: which part of the floor
+  bool force = false;           ///< overwrite files of other kinds
   bool progress = false;
 };
 int runLearn(const LearnArguments& arguments);
@@ -31,6 +32,7 @@ struct LearnMotionArguments {
   double from = 0.0;             ///< part of each log to learn from, as shares of its time
   double to = 1.0;
   std::optional<double> delay;  ///< of odometry [s]; nothing: learned
+  bool force = false;           ///< overwrite files of other kinds
   bool progress = false;
 };
 int runLearnMotion(const LearnMotionArguments& arguments);
@@ -46,6 +48,7 @@ struct TrainMotionArguments {
   std::size_t iterations = 300;
   double holdOut = 0.25;  ///< share of each log at its end
   std::uint64_t seed = 1;
+  bool force = false;  ///< overwrite files of other kinds
   bool progress = false;
 };
 int runTrainMotion(const TrainMotionArguments& arguments);
@@ -62,6 +65,7 @@ struct LocalizationArguments {
   std::string startSigma = "0.3,10";
   std::string motion;  ///< file, "turn_per_turn,turn_per_m,way_per_m,way_per_turn" or ""
   bool anyWorld = false;
+  bool force = false;  ///< overwrite files of other kinds
   bool progress = false;
 };
 
@@ -106,6 +110,7 @@ struct ShowArguments {
   std::size_t beam = 0;
   std::string scale = "auto";  ///< of probabilities: "auto", "linear" or "log"
   bool logarithmic = false;    ///< "log", whatever `scale` says
+  bool force = false;          ///< overwrite files of other kinds
   bool progress = false;
 };
 int runShow(const ShowArguments& arguments);
@@ -114,6 +119,7 @@ struct CheckArguments {
   std::vector<std::filesystem::path> files;
   std::filesystem::path world;  ///< "" for none
   std::filesystem::path robot;  ///< "" for none
+  bool mend = false;            ///< cut off what a killed recorder left of its last moment
 };
 int runCheck(const CheckArguments& arguments);
 
@@ -149,6 +155,7 @@ struct SimArguments {
   std::uint64_t seed = 1;
   std::optional<double> cycleMs;  ///< default: the world's
   bool noNoise = false;
+  bool force = false;  ///< overwrite files of other kinds
   ServingArguments serving;
 };
 int runSim(const SimArguments& arguments);

@@ -8,7 +8,7 @@
 #include "Console.hpp"
 #include "Localizing.hpp"
 #include "Numbers.hpp"
-#include "OutputFile.hpp"
+#include "Outputs.hpp"
 #include "Progress.hpp"
 #include "Report.hpp"
 #include "RunResult.hpp"
@@ -31,11 +31,14 @@ Evaluation::Options readOptions(const EvalArguments& arguments) {
   return options;
 }
 
-/// Before the work, not after it.
-void checkOutputs(const EvalArguments& arguments) {
-  for (const auto* file : {&arguments.json, &arguments.report, &arguments.record}) {
-    if (!file->empty()) checkOutput(*file);
-  }
+/// Looks at them before the work, not after it.
+Outputs outputsOf(const EvalArguments& arguments) {
+  Outputs outputs(arguments.localization.force);
+  declareInputs(arguments.localization, outputs);
+  outputs.writes("--json", arguments.json, OutputKind::kFigures);
+  outputs.writes("--report", arguments.report, OutputKind::kReport);
+  outputs.writes("--record", arguments.record, OutputKind::kRecord);
+  return outputs;
 }
 
 /// Runs MCL over the whole source. What is compared is what a program would have got that asks for
@@ -84,11 +87,12 @@ void warnOfGaps(const RunResult& run) {
 
 int runEval(const EvalArguments& arguments) {
   const Evaluation::Options options = readOptions(arguments);
-  checkOutputs(arguments);
+  const Outputs outputs = outputsOf(arguments);
   const std::unique_ptr<Localization> localization = openLocalization(arguments.localization);
   std::optional<RecordWriter> record;
   if (!arguments.record.empty()) {
-    record.emplace(arguments.record, localization->source().worldFingerprint());
+    const Source& source = localization->source();
+    record.emplace(outputs.ready(arguments.record), source.worldFingerprint(), paceOf(source));
     localization->feeder().recordInto(*record);
   }
   RunResult run = evaluate(arguments, options, *localization);
@@ -98,12 +102,12 @@ int runEval(const EvalArguments& arguments) {
   run.tables = arguments.localization.tables.string();
   run.tableInfo = localization->robot().tables;
   run.commandLine = arguments.commandLine;
-  warnOfUnknown(arguments.localization.source, localization->feeder());
+  warnOf(arguments.localization.source, localization->source(), localization->feeder());
   warnWithoutOdometry(*localization, arguments.localization);
   warnOfGaps(run);
   if (record) record->commit();
-  if (!arguments.json.empty()) writeFile(arguments.json, toJson(run));
-  if (!arguments.report.empty()) writeFile(arguments.report, toHtml(run));
+  if (!arguments.json.empty()) outputs.write(arguments.json, toJson(run));
+  if (!arguments.report.empty()) outputs.write(arguments.report, toHtml(run));
   fmt::print("{}", toText(run));
   return 0;
 }

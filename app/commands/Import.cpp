@@ -1,16 +1,20 @@
 #include <fmt/format.h>
-#include <unistd.h>
+#include <stdlib.h>
 
+#include <cerrno>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
-#include "OutputFile.hpp"
+#include "Outputs.hpp"
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/base/InputFile.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
@@ -19,15 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder beside a file, in which what goes with it is made before it is moved into place.
+/// A temporary folder in which a file, and what it names beside it, is made before all of it is put
+/// in place.
 class Workshop {
  public:
-  explicit Workshop(const fs::path& target)
-      : target_(target), folder_(target.string() + ".tmp-" + std::to_string(getpid())) {
-    checkOutput(target);
-    if (!fs::create_directory(folder_)) {
-      throw std::runtime_error(folder_.string() + ": is already there; remove it");
-    }
+  Workshop(const char* option, const fs::path& target) : option_(option), target_(target) {
+    std::string name = (fs::temp_directory_path() / "ortung-import-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw std::runtime_error(name + ": " + std::generic_category().message(errno));
+    folder_ = name;
   }
   ~Workshop() {
     std::error_code ignored;
@@ -39,29 +43,36 @@ class Workshop {
   /// The target's place within the folder.
   fs::path file() const { return folder_ / target_.filename(); }
 
-  /// @throws std::runtime_error if a file made here would replace one
-  void refuseToReplace() const {
+  /// Declares what was made beside the target, which is declared already.
+  void declare(Outputs& outputs) const {
+    const fs::path target = behindLinks(target_);
+    const bool hasFolder = !fs::exists(target) || fs::is_regular_file(target);
     for (const fs::path& made : files()) {
-      const fs::path place = placeOf(made);
-      if (fs::exists(place)) {
-        throw std::runtime_error(place.string() + ": exists and would be overwritten; use --force");
-      }
+      if (made == file()) continue;
+      if (!hasFolder)
+        throw std::runtime_error(target_.string() + ": " + made.filename().string() +
+                                 " has to lie beside it, so it must be a file in a folder");
+      outputs.writes(option_, placeOf(made), OutputKind::kSettings);
     }
   }
 
-  /// Moves all files into place, the target last: it names the others.
-  void deliver() const {
+  /// Puts all files into place, the target last: it names the others.
+  void deliver(const Outputs& outputs) const {
     for (const fs::path& made : files()) {
-      if (made != file()) move(made);
+      if (made != file()) copy(made, outputs.ready(placeOf(made)));
     }
-    move(file());
+    copy(file(), outputs.ready(target_));
   }
 
  private:
-  void move(const fs::path& made) const {
-    const fs::path place = placeOf(made);
-    fs::create_directories(place.parent_path().empty() ? "." : place.parent_path());
-    fs::rename(made, place);
+  static void copy(const fs::path& made, const fs::path& place) {
+    NewFile out(place);
+    std::ifstream in(made, std::ios::binary);
+    std::vector<char> bytes(1u << 20);
+    while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || in.gcount() > 0)
+      out.write(std::string_view(bytes.data(), static_cast<std::size_t>(in.gcount())));
+    if (in.bad()) throw std::runtime_error(made.string() + ": " + cantBeRead(errno));
+    out.commit();
   }
   std::vector<fs::path> files() const {
     std::vector<fs::path> found;
@@ -74,12 +85,28 @@ class Workshop {
     return target_.parent_path() / fs::relative(made, folder_);
   }
 
+  const char* option_;
   fs::path target_;
   fs::path folder_;
 };
 
+/// "KIND SOURCE", or "KIND:SOURCE?key=value" like everywhere.
+SourceText namedSource(const ImportArguments& arguments) {
+  const bool isOne = arguments.source.empty();
+  if (!isOne && arguments.kind.find(':') != std::string::npos)
+    throw UsageError("the kind of source is '" + arguments.kind +
+                     "', expected KIND SOURCE or KIND:SOURCE?key=value");
+  std::error_code none;
+  if (!isOne && fs::exists(arguments.source, none)) return {arguments.kind, arguments.source, {}};
+  try {
+    return parseSourceText(isOne ? arguments.kind : arguments.kind + ":" + arguments.source);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
 SourceText sourceText(const ImportArguments& arguments) {
-  SourceText text{arguments.kind, arguments.source, {}};
+  SourceText text = namedSource(arguments);
   for (const std::string& option : arguments.options) {
     const std::size_t equals = option.find('=');
     if (equals == 0 || equals == std::string::npos) {
@@ -98,12 +125,12 @@ std::string makeWorld(const Source& source, const Workshop& workshop) {
   return readWorld(workshop.file())->fingerprint();
 }
 
-void makeRobot(const Source& source, const Workshop& workshop, const ImportArguments& arguments) {
+void makeRobot(const Source& source, const Workshop& workshop, const std::string& name,
+               const ImportArguments& arguments) {
   const std::string toml = source.robotToml();
   if (toml.empty()) {
-    throw std::runtime_error(
-        fmt::format("{}:{}: does not say what robot it is from; write {} by hand", arguments.kind,
-                    arguments.source, arguments.robotFile.string()));
+    throw std::runtime_error(fmt::format("{}: does not say what robot it is from; write {} by hand",
+                                         name, arguments.robotFile.string()));
   }
   writeFile(workshop.file(), toml);
   readRobot(workshop.file());
@@ -116,12 +143,11 @@ struct Written {
   Timestamp last = 0;
 };
 
-Written copyMessages(Source& source, RecordWriter& record, bool bar) {
+Written copyMessages(Source& source, RecordWriter& record, const ImportArguments& arguments) try {
   Written written;
-  Progress progress("importing", bar);
+  Progress progress("importing", arguments.progress);
   Message message;
-  while (source.next(message)) {
-    checkInterrupt();
+  while (unlessInterrupted(source, [&] { return source.next(message); })) {
     if (record.messages() == 0) written.first = message.stamp;
     written.last = message.stamp;
     ++written.readings[toText(message.id)];
@@ -129,6 +155,10 @@ Written copyMessages(Source& source, RecordWriter& record, bool bar) {
     progress.update(source.progress());
   }
   return written;
+} catch (const std::exception&) {
+  if (source.isLive() && record.messages() > 0)
+    note(fmt::format("what came before is in {}", arguments.out.string()));
+  throw;
 }
 
 void print(const Written& written, const ImportArguments& arguments, std::size_t messages) {
@@ -144,7 +174,12 @@ void print(const Written& written, const ImportArguments& arguments, std::size_t
 
 int runImport(const ImportArguments& arguments) {
   const SourceText text = sourceText(arguments);
-  checkOutput(arguments.out);
+  Outputs outputs(arguments.force);
+  outputs.reads(text.path);
+  outputs.reads(arguments.withRobot);
+  outputs.writes("--out", arguments.out, OutputKind::kRecord);
+  outputs.writes("--world", arguments.world, OutputKind::kSettings);
+  outputs.writes("--robot-file", arguments.robotFile, OutputKind::kSettings);
   PluginFactory factory(PluginFactory::standardFolders());
   const std::unique_ptr<Source> source = openSourceArgument(text, arguments.withRobot, factory);
 
@@ -152,24 +187,23 @@ int runImport(const ImportArguments& arguments) {
   std::optional<Workshop> robot;
   std::string fingerprint = source->worldFingerprint();
   if (!arguments.world.empty()) {
-    world.emplace(arguments.world);
+    world.emplace("--world", arguments.world);
     fingerprint = makeWorld(*source, *world);
-    if (!arguments.force) world->refuseToReplace();
+    world->declare(outputs);
   }
   if (!arguments.robotFile.empty()) {
-    robot.emplace(arguments.robotFile);
-    makeRobot(*source, *robot, arguments);
-    if (!arguments.force) robot->refuseToReplace();
+    robot.emplace("--robot-file", arguments.robotFile);
+    makeRobot(*source, *robot, text.kind + ":" + text.path, arguments);
   }
-  RecordWriter record(arguments.out, fingerprint);
-  const Written written = copyMessages(*source, record, arguments.progress);
+  RecordWriter record(outputs.ready(arguments.out), fingerprint, paceOf(*source));
+  const Written written = copyMessages(*source, record, arguments);
+  warnOf(*source);
   if (record.messages() == 0) {
-    throw std::runtime_error(
-        fmt::format("{}:{}: holds no reading", arguments.kind, arguments.source));
+    throw std::runtime_error(fmt::format("{}:{}: holds no reading", text.kind, text.path));
   }
   record.commit();
-  if (world) world->deliver();
-  if (robot) robot->deliver();
+  if (world) world->deliver(outputs);
+  if (robot) robot->deliver(outputs);
   print(written, arguments, record.messages());
   return 0;
 }

@@ -12,10 +12,11 @@
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Numbers.hpp"
-#include "OutputFile.hpp"
+#include "Outputs.hpp"
 #include "Progress.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/robot/TableInfo.hpp"
+#include "ortung/robot/TomlFile.hpp"
 #include "ortung/run/Robot.hpp"
 #include "ortung/sim/Learner.hpp"
 #include "ortung/sim/RobotShape.hpp"
@@ -57,7 +58,7 @@ FieldRegion readArea(const LearnArguments& arguments, const SimWorld& world,
 
 /// How the table's features are called in the file.
 TableInfo describe(const SimWorld& world, const Robot& robot, const FieldRegion& region,
-                   double step) {
+                   double step, const std::string& robotToml) {
   TableInfo info;
   info.world = world.name();
   info.worldFingerprint = world.fingerprint();
@@ -65,6 +66,7 @@ TableInfo describe(const SimWorld& world, const Robot& robot, const FieldRegion&
   info.headingStep = step;
   info.region = region;
   info.field = fieldModelOf(world);
+  info.robotToml = robotToml;
   return info;
 }
 
@@ -85,7 +87,10 @@ std::size_t learnedFeatures(const SensorContainer& container) {
 int runLearn(const LearnArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
   const double step = headingStep(arguments.headingStepDeg);
-  checkOutput(arguments.out);
+  Outputs outputs(arguments.force);
+  outputs.reads(arguments.world);
+  outputs.reads(arguments.robot);
+  outputs.writes("--out", arguments.out, OutputKind::kTables);
   const std::unique_ptr<SimWorld> world = readWorld(arguments.world);
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
   const FieldRegion region = readArea(arguments, *world, sizeOf(robot->config));
@@ -98,7 +103,9 @@ int runLearn(const LearnArguments& arguments) {
           });
   }
   checkInterrupt();
-  writeTables(arguments.out, robot->container, describe(*world, *robot, region, step));
+  const std::uintmax_t bytes =
+      writeTables(outputs.ready(arguments.out), robot->container,
+                  describe(*world, *robot, region, step, readTomlText(arguments.robot)));
   if (learnedFeatures(robot->container) == 0)
     warn(arguments.robot.string() +
          ": has no feature that localizes, so there was nothing to learn");
@@ -109,8 +116,7 @@ int runLearn(const LearnArguments& arguments) {
       "{:.1f} MB, {:.2f} s\n",
       arguments.out.string(), learnedFeatures(robot->container), robot->config.name, world->name(),
       world->fingerprint(), region.grid.columns, region.grid.rows, region.grid.cell,
-      countOf(region.open), countOf(region.standable),
-      static_cast<double>(std::filesystem::file_size(arguments.out)) / 1e6, seconds);
+      countOf(region.open), countOf(region.standable), static_cast<double>(bytes) / 1e6, seconds);
   return 0;
 }
 

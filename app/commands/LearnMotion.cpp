@@ -8,7 +8,7 @@
 #include "MotionLogs.hpp"
 #include "MotionToml.hpp"
 #include "Numbers.hpp"
-#include "OutputFile.hpp"
+#include "Outputs.hpp"
 #include "Progress.hpp"
 #include "ortung/mcl/MotionLearner.hpp"
 #include "ortung/run/Robot.hpp"
@@ -36,7 +36,11 @@ MotionLearning optionsOf(const LearnMotionArguments& arguments) {
 }  // namespace
 
 int runLearnMotion(const LearnMotionArguments& arguments) {
-  checkOutput(arguments.out);
+  Outputs outputs(arguments.force);
+  for (const std::string& source : arguments.sources) outputs.readsSource(source);
+  outputs.reads(arguments.robot);
+  outputs.reads(arguments.motion);
+  outputs.writes("--out", arguments.out, OutputKind::kMotion);
   std::vector<MotionLog> logs;
   std::unique_ptr<Robot> robot = openRobot(arguments.robot);
   const Parameters base = baseOf(arguments, *robot);
@@ -64,7 +68,7 @@ int runLearnMotion(const LearnMotionArguments& arguments) {
   Parameters settings = model->settings();
   settings.set("delay_s", before + learned.delay);
   const std::string text = motionToml(arguments.sources, learned, base, settings);
-  writeFile(arguments.out, text);
+  outputs.write(arguments.out, text);
   fmt::print("{}", text);
   if (!arguments.delay) {
     fmt::print("# mean ln p of a piece: {:.3f}; without the delay {:.3f}\n", learned.logLikelihood,

@@ -6,20 +6,56 @@
 #include <string>
 
 #include "Commands.hpp"
+#include "Console.hpp"
 #include "EstimatesText.hpp"
 #include "Localizing.hpp"
-#include "OutputFile.hpp"
+#include "Outputs.hpp"
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
 
 namespace ortung::app {
+namespace {
+
+/// Where the poses go: to a file, which appears whole or, of a live source, grows with each pose;
+/// or to stdout, where whoever reads it gets each pose as soon as it is known.
+class PoseOutput {
+ public:
+  PoseOutput(const Outputs& outputs, const std::filesystem::path& file, bool isLive)
+      : isLive_(isLive) {
+    if (!file.empty()) file_.emplace(outputs.ready(file));
+    text_ = kEstimatesHeader;
+  }
+  void add(const PoseEstimate& estimate) {
+    appendEstimate(estimate, text_);
+    if (file_) {
+      file_->write(text_);
+      if (isLive_) file_->publish();
+    } else {
+      fmt::print("{}", text_);
+      flushOutput();
+    }
+    text_.clear();
+  }
+  void commit() {
+    if (file_) file_->commit();
+  }
+
+ private:
+  bool isLive_;
+  std::optional<NewFile> file_;
+  std::string text_;
+};
+
+}  // namespace
 
 int runLocalize(const LocalizeArguments& arguments) {
-  const bool toFile = !arguments.out.empty();
-  if (toFile) checkOutput(arguments.out);
   const LocalizationArguments& run = arguments.localization;
+  Outputs outputs(run.force);
+  declareInputs(run, outputs);
+  outputs.writes("--out", arguments.out, OutputKind::kPoses);
   const std::unique_ptr<Localization> localization = openLocalization(run);
-  std::string text(kEstimatesHeader);
+  const Source& source = localization->source();
+  PoseOutput output(outputs, arguments.out, source.isLive());
   constexpr double kPatience = 5.0;  // for the first odometry of a live source [s]
   std::size_t updates = 0;
   bool warned = false;
@@ -29,18 +65,11 @@ int runLocalize(const LocalizeArguments& arguments) {
       ++updates;
       if (!warned && localization->feeder().seconds() > kPatience)
         warned = warnWithoutOdometry(*localization, run);
-      appendEstimate(step->estimate, text);
-      if (toFile) {
-        progress.update(localization->feeder().progress());
-        continue;
-      }
-      // Whoever reads our output gets each pose as soon as it is known.
-      fmt::print("{}", text);
-      std::fflush(stdout);
-      text.clear();
+      output.add(step->estimate);
+      if (!arguments.out.empty()) progress.update(localization->feeder().progress());
     }
   }
-  warnOfUnknown(run.source, localization->feeder());
+  warnOf(run.source, source, localization->feeder());
   if (updates == 0) {
     throw std::runtime_error(run.source +
                              ": gave no reading that says anything about a pose, of a feature that "
@@ -48,7 +77,7 @@ int runLocalize(const LocalizeArguments& arguments) {
                              "nothing to localize with");
   }
   if (!warned) warnWithoutOdometry(*localization, run);
-  if (toFile) writeFile(arguments.out, text);
+  output.commit();
   return 0;
 }
 

@@ -85,11 +85,17 @@ std::unique_ptr<Localization> openLocalization(const LocalizationArguments& argu
   return localization;
 }
 
+void declareInputs(const LocalizationArguments& arguments, Outputs& outputs) {
+  outputs.reads(arguments.robot);
+  outputs.reads(arguments.tables);
+  outputs.readsSource(arguments.source);
+  outputs.reads(arguments.motion);
+}
+
 std::optional<EvaluationStep> nextStep(Localization& localization,
                                        const LocalizationArguments& arguments,
                                        const std::function<void(const Feeder&)>& onMoment) {
-  while (localization.advance()) {
-    checkInterrupt();
+  while (unlessInterrupted(localization.source(), [&] { return localization.advance(); })) {
     if (onMoment) onMoment(localization.feeder());
     if (const std::optional<PoseEstimate> estimate = localization.update())
       return EvaluationStep{*estimate, localization.updateMilliseconds()};

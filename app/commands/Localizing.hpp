@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "Commands.hpp"
+#include "Outputs.hpp"
 #include "ortung/mcl/Evaluation.hpp"
 #include "ortung/run/Localization.hpp"
 
@@ -15,7 +16,11 @@ namespace ortung::app {
 /// @throws UsageError; else as ortung::Localization
 std::unique_ptr<Localization> openLocalization(const LocalizationArguments& arguments);
 
-/// The next update of the belief, or nothing at the end of the source.
+/// What every run of MCL reads.
+void declareInputs(const LocalizationArguments& arguments, Outputs& outputs);
+
+/// The next update of the belief, or nothing at the end of the source: a live one ends with a
+/// signal, too.
 /// @param onMoment called for every moment of the source, before it is looked at by MCL
 /// @throws Interrupted, std::runtime_error
 std::optional<EvaluationStep> nextStep(Localization& localization,

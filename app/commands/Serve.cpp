@@ -1,12 +1,15 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Serving.hpp"
+#include "SourceArguments.hpp"
+#include "ortung/core/Record.hpp"
 #include "ortung/server/ServedRecord.hpp"
 
 namespace ortung::app {
 
 int runServe(const ServeArguments& arguments) {
   if (!arguments.serving.isServing) throw UsageError("--listen [ADDRESS:]PORT is missing");
+  warnOf(RecordSource(arguments.record));
   ServedRecord record(arguments.record, arguments.repeats);
   serve(record, arguments.serving);
   return 0;

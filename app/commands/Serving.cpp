@@ -15,6 +15,7 @@
 
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "ortung/base/InputFile.hpp"
 #include "ortung/server/MessageBoard.hpp"
 
 namespace ortung::app {
@@ -42,8 +43,9 @@ void readListen(const std::string& text, BoardConfig& config) {
 std::vector<BoardToken> readTokens(const std::filesystem::path& file) {
   std::vector<BoardToken> tokens;
   if (file.empty()) return tokens;
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": can't be read");
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) throw std::runtime_error(file.string() + ": " + why);
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     std::istringstream words(line);
@@ -104,7 +106,7 @@ void serve(ServedWorld& world, const ServingArguments& arguments) {
   try {
     MessageBoard board(world, config);
     fmt::print("listening on {} port {}\n", config.address, board.port());
-    std::fflush(stdout);
+    flushOutput();
     const Deadline deadline;
     board.run([] { return interruptSignal() == 0; });
     const BoardStatistics statistics = board.statistics();

@@ -12,7 +12,7 @@
 #include "Console.hpp"
 #include "HeatMap.hpp"
 #include "Interrupt.hpp"
-#include "OutputFile.hpp"
+#include "Outputs.hpp"
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/Angles.hpp"
@@ -242,7 +242,11 @@ int runShow(const ShowArguments& arguments) {
   if (!arguments.record.empty() && !arguments.source.empty()) {
     throw UsageError("--record and --source exclude each other");
   }
-  checkOutput(arguments.out);
+  Outputs outputs(arguments.force);
+  outputs.reads(arguments.tables);
+  outputs.reads(arguments.robot);
+  outputs.readsSource(sourceText(arguments));
+  outputs.writes("--out", arguments.out, OutputKind::kPicture);
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
   const std::vector<SensorData*> features = featuresOf(*robot, arguments);
   if (sourceText(arguments).empty()) {
@@ -253,14 +257,14 @@ int runShow(const ShowArguments& arguments) {
                       features.size(), namesOf(features)));
     }
     const HeatMap map = drawnExpectation(*robot, *features[0], arguments);
-    writeFile(arguments.out, draw(map).png());
+    outputs.write(arguments.out, draw(map).png());
     print(map);
     return 0;
   }
   const std::optional<Pose2> truth = fillUntil(arguments, *robot);
   ProbabilityMap drawn = drawnProbability(*robot, features, arguments);
   drawn.map.truth = truth;
-  writeFile(arguments.out, draw(drawn.map).png());
+  outputs.write(arguments.out, draw(drawn.map).png());
   print(drawn.map);
   printPoses(drawn);
   return 0;

@@ -10,7 +10,7 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
-#include "OutputFile.hpp"
+#include "Outputs.hpp"
 #include "Progress.hpp"
 #include "Rescue.hpp"
 #include "Serving.hpp"
@@ -52,9 +52,10 @@ Scene sceneOf(const SimArguments& arguments) {
   return scene;
 }
 
-/// Where everything was, as lines of a table.
+/// Where everything was, as lines of a table, which grows as the simulation goes on.
 class Trace {
  public:
+  explicit Trace(const std::filesystem::path& file) : file_(file) {}
   void add(const Simulation& simulation) {
     constexpr Timestamp kPeriod = 50'000;  // [us]
     if (simulation.now() < next_) return;
@@ -70,8 +71,14 @@ class Trace {
     }
     for (const Simulation::Thing& thing : simulation.things())
       line(simulation.now(), thing.kind, thing.name, thing.pose, thing.velocity, "");
+    file_.write(text_);
+    file_.publish();
+    text_.clear();
   }
-  const std::string& text() const { return text_; }
+  void commit() {
+    file_.write(text_);
+    file_.commit();
+  }
 
  private:
   void line(Timestamp now, const std::string& kind, std::string name, const Pose2& pose,
@@ -82,6 +89,7 @@ class Trace {
                          toSeconds(now), kind, name, pose.x, pose.y, degrees(pose.theta),
                          velocity.x, velocity.y, degrees(velocity.theta), states);
   }
+  NewFile file_;
   Timestamp next_ = 0;
   std::string text_ = "time_s,kind,name,x_m,y_m,theta_deg,vx_m_s,vy_m_s,w_deg_s,manipulators\n";
 };
@@ -91,9 +99,15 @@ class Pacing {
  public:
   explicit Pacing(const ServingArguments& arguments)
       : speed_(arguments.speed), isFree_(arguments.freeRun), start_(Clock::now()) {}
+  /// A signal ends it.
   void waitFor(double seconds) const {
-    if (!isFree_)
-      std::this_thread::sleep_until(start_ + std::chrono::duration<double>(seconds / speed_));
+    using Seconds = std::chrono::duration<double>;
+    constexpr Seconds kLongest(0.05);
+    while (!isFree_ && interruptSignal() == 0) {
+      const Seconds left = Seconds(seconds / speed_) - (Clock::now() - start_);
+      if (left <= Seconds::zero()) return;
+      std::this_thread::sleep_for(std::min(kLongest, left));
+    }
   }
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -114,45 +128,70 @@ void tellProblems(const Simulation& simulation, std::size_t& told) {
       }
 }
 
+Outputs outputsOf(const SimArguments& arguments) {
+  Outputs outputs(arguments.force);
+  outputs.reads(arguments.world);
+  for (const auto& robot : arguments.robots) outputs.reads(robot);
+  outputs.writes("--record", arguments.record, OutputKind::kRecord);
+  outputs.writes("--trace", arguments.trace, OutputKind::kTrace);
+  return outputs;
+}
+
+/// What a run leaves behind. It can't be had again where a robot's plugin has a will of its own,
+/// and a signal is how most runs end, so all of it is written as it comes.
+struct Recording {
+  std::string name;  ///< of the robot; "": none is recorded
+  std::size_t robot = 0;
+  std::optional<RecordWriter> record;
+  std::optional<Trace> trace;
+
+  Recording(const SimArguments& arguments, const Outputs& outputs, const Scene& scene,
+            const SceneRun& run) {
+    if (!arguments.trace.empty()) trace.emplace(outputs.ready(arguments.trace));
+    if (arguments.record.empty()) return;
+    if (scene.robots.empty()) throw UsageError("--record: there is no robot; see --robot");
+    name = arguments.recorded.empty() ? scene.robots.front().name : arguments.recorded;
+    const auto found = run.find(name);
+    if (!found) throw UsageError("--record: there is no robot '" + name + "' to record");
+    robot = *found;
+    record.emplace(outputs.ready(arguments.record), run.simulation().world().fingerprint(),
+                   RecordWriter::Pace::kLive);
+  }
+  void add(const Simulation& simulation) {
+    if (!record) return;
+    for (const Message& message : simulation.readings(robot)) record->write(message);
+    record->endMoment();
+  }
+  void commit() {
+    if (record) record->commit();
+    if (trace) trace->commit();
+  }
+};
+
 int play(const SimArguments& arguments) {
-  for (const auto* file : {&arguments.record, &arguments.trace})
-    if (!file->empty()) checkOutput(*file);
+  const Outputs outputs = outputsOf(arguments);
   const Scene scene = sceneOf(arguments);
   PluginFactory factory(PluginFactory::standardFolders());
   SceneRun run(scene, configOf(arguments), factory);
   Simulation& simulation = run.simulation();
-  const std::string recorded = arguments.recorded.empty() && !scene.robots.empty()
-                                   ? scene.robots.front().name
-                                   : arguments.recorded;
-  const auto robot = run.find(recorded);
-  std::unique_ptr<RecordWriter> record;
-  if (!arguments.record.empty()) {
-    if (scene.robots.empty()) throw UsageError("--record: there is no robot; see --robot");
-    if (!robot) throw UsageError("--record: there is no robot '" + recorded + "' to record");
-    record = std::make_unique<RecordWriter>(arguments.record, simulation.world().fingerprint());
-  }
+  Recording recording(arguments, outputs, scene, run);
   const std::optional<double> duration = arguments.duration ? arguments.duration : scene.duration;
-  Trace trace;
-  const auto save = [&] {
-    if (record) record->commit();
-    if (!arguments.trace.empty()) writeFile(arguments.trace, trace.text());
-  };
-  Rescue rescue(save);
+  Rescue rescue([&] { recording.commit(); });
   const Pacing pacing(arguments.serving);
   std::size_t told = 0;
   std::size_t cycles = 0;
   {
     Progress progress("simulating", false);
     while (interruptSignal() == 0 && !(duration && simulation.now() > fromSeconds(*duration))) {
-      if (!arguments.trace.empty()) {
+      if (recording.trace) {
         const auto held = rescue.hold();
-        trace.add(simulation);
+        recording.trace->add(simulation);
       }
       run.step();
       ++cycles;
-      if (record) {
+      {
         const auto held = rescue.hold();
-        for (const Message& message : simulation.readings(*robot)) record->write(message);
+        recording.add(simulation);
       }
       tellProblems(simulation, told);
       if (duration && cycles % 100 == 0) progress.update(toSeconds(simulation.now()) / *duration);
@@ -162,15 +201,16 @@ int play(const SimArguments& arguments) {
   const double elapsed = pacing.elapsed();
   {
     const auto held = rescue.hold();
-    save();
+    recording.commit();
   }
   const double seconds = toSeconds(simulation.now());
   fmt::print("{}: {:.2f} s in {} cycles, {} robots, {:.0f} times real time{}\n",
              printable(simulation.world().name()), seconds, cycles, simulation.robots().size(),
              seconds / std::max(elapsed, 1e-9),
-             record ? fmt::format("; {} readings of {} in {}", record->messages(), recorded,
-                                  printable(arguments.record.string()))
-                    : "");
+             recording.record
+                 ? fmt::format("; {} readings of {} in {}", recording.record->messages(),
+                               recording.name, printable(arguments.record.string()))
+                 : "");
   return told == 0 ? 0 : 1;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "Console.hpp"
+#include "Interrupt.hpp"
 #include "ortung/run/OpenSource.hpp"
 
 namespace ortung::app {
@@ -32,7 +33,24 @@ std::unique_ptr<Source> openSourceArgument(const SourceText& text,
   return open(text, robotFile, factory);
 }
 
-void warnOfUnknown(const std::string& name, const Feeder& feeder) {
+bool unlessInterrupted(const Source& source, const std::function<bool()>& next) {
+  const auto isEnd = [&] { return interruptSignal() != 0 && source.isLive(); };
+  if (isEnd()) return false;
+  checkInterrupt();
+  try {
+    return next();
+  } catch (const std::exception&) {  // waiting was interrupted, which sources call by many names
+    if (isEnd()) return false;
+    throw;
+  }
+}
+
+void warnOf(const Source& source) {
+  if (const std::string remark = source.remark(); !remark.empty()) warn(remark);
+}
+
+void warnOf(const std::string& name, const Source& source, const Feeder& feeder) {
+  warnOf(source);
   constexpr std::size_t kNamed = 5;
   const auto& unknown = feeder.unknown();
   if (unknown.empty()) return;

@@ -11,7 +11,7 @@
 #include "MotionLogs.hpp"
 #include "NetworkTrainer.hpp"
 #include "Numbers.hpp"
-#include "OutputFile.hpp"
+#include "Outputs.hpp"
 #include "Progress.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
@@ -155,7 +155,10 @@ void compare(const MotionNetwork& network, const std::vector<MotionGrid>& grids,
 }  // namespace
 
 int runTrainMotion(const TrainMotionArguments& arguments) {
-  checkOutput(arguments.out);
+  Outputs outputs(arguments.force);
+  for (const std::string& source : arguments.sources) outputs.readsSource(source);
+  outputs.reads(arguments.robot);
+  outputs.writes("--out", arguments.out, OutputKind::kNetwork);
   hiddenOf(arguments.hidden);
   MotionNetwork network;
   network.step = arguments.step;
@@ -170,7 +173,7 @@ int runTrainMotion(const TrainMotionArguments& arguments) {
                     examples.size(), kFewestExamples));
   }
   train(network, examples, examplesOf(network, grids.heldOut), arguments);
-  writeFile(arguments.out, toJson(network));
+  outputs.write(arguments.out, toJson(network));
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
   if (!grids.heldOut.empty()) compare(network, grids.heldOut, *robot);
   return 0;

@@ -1,9 +1,14 @@
 #include "Console.hpp"
 
+#include <fcntl.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <memory>
+#include <system_error>
 
 namespace ortung::app {
 namespace {
@@ -28,6 +33,27 @@ void setCommandName(const std::string& name) { logger().set_pattern(name + ": %v
 void note(const std::string& text) { logger().info("{}", printable(text)); }
 void warn(const std::string& text) { logger().warn("warning: {}", printable(text)); }
 void fail(const std::string& text) { logger().error("{}", printable(text)); }
+
+void reserveStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    // Opened for the other direction; gets the lowest number that is free, which is this one.
+    if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+  }
+}
+
+void flushOutput() {
+  static int error = 0;  // the first one tells more than what follows from it
+  const bool hasFailed = std::ferror(stdout) != 0;
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  if (flushed && !hasFailed) return;
+  // Where a print failed before, its reason is gone; what takes nothing at all says it again.
+  if (errno == 0 && ::write(STDOUT_FILENO, "", 0) == 0) errno = EIO;
+  if (error == 0) error = errno;
+  throw std::runtime_error("standard output: can't be written: " +
+                           std::generic_category().message(error));
+}
 
 std::string printable(std::string_view text) {
   std::string out;

@@ -4,13 +4,14 @@
 
 namespace ortung::app {
 
-/// Ctrl-C or a request to end; results are left as they were.
+/// Ctrl-C, a request to end or a terminal that is gone; files are left as they were.
 class Interrupted : public std::exception {
  public:
-  const char* what() const noexcept override { return "interrupted; nothing was written"; }
+  const char* what() const noexcept override { return "interrupted; no file was written"; }
 };
 
-/// From now on SIGINT and SIGTERM are noted; a second one ends the program at once.
+/// From now on SIGINT, SIGTERM and SIGHUP are noted; a second one ends the program at once. Pipes
+/// without a reader and files that may not grow are errors of who writes.
 void catchInterrupts();
 
 /// The signal that came, or 0.

@@ -22,6 +22,12 @@ std::string timeLeft(double share, double seconds) {
   return fmt::format(", {:.0f} s left", std::ceil(seconds * (1.0 - share) / share));
 }
 
+/// A terminal that is gone, or a full disk, is no reason to end the work.
+void show(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
 
 Progress::Progress(std::string work, bool bar)
@@ -50,13 +56,12 @@ void Progress::update(double share) {
 void Progress::drawBar(double share, double seconds) {
   drawn_ = true;
   if (!(share >= 0.0)) {
-    fmt::print(stderr, "\r{} {:.0f} s\033[K", work_, seconds);
+    show(fmt::format("\r{} {:.0f} s\033[K", work_, seconds));
   } else {
     const int full = static_cast<int>(share * kBarWidth);
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %{}\033[K", work_, "", full, "",
-               kBarWidth - full, 100.0 * share, timeLeft(share, seconds));
+    show(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} %{}\033[K", work_, "", full, "",
+                     kBarWidth - full, 100.0 * share, timeLeft(share, seconds)));
   }
-  std::fflush(stderr);
 }
 
 void Progress::writeLine(double share, double seconds) const {

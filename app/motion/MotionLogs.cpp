@@ -45,6 +45,7 @@ void readAll(const std::string& text, const std::filesystem::path& robotFile, Pr
     if (odometry.sequence() != sequence) onOdometry(odometry.stamp(), odometry.reading());
     sequence = odometry.sequence();
   }
+  warnOf(*source);
   if (sequence == 0) {
     throw std::runtime_error(fmt::format(
         "{}: has no reading of {}, expected odometry to learn from", name, toText(odometry.id())));

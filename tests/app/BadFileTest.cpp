@@ -8,13 +8,13 @@ namespace {
 /// What learn says of bad files; the tables of an earlier run must survive each of them.
 class BadFile : public Workspace {
  protected:
-  BadFile() { write("hall.ortung", "the old file"); }
+  BadFile() { write("hall.ortung", "PK\x03\x04 open.npy: the old file"); }
 
   void expectLearnRefuses(const std::string& begin, const std::vector<std::string>& parts) {
     const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot",
                                     path("robot.toml"), "--out", path("hall.ortung")});
     expectRefused(outcome, 1, "ortung learn: " + begin, parts);
-    EXPECT_EQ(read("hall.ortung"), "the old file");
+    EXPECT_EQ(read("hall.ortung"), "PK\x03\x04 open.npy: the old file");
     EXPECT_EQ(files(), (std::vector<std::string>{"hall.ortung", "hall.toml", "robot.toml"}));
   }
 };

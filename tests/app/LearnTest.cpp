@@ -22,7 +22,7 @@ TEST_F(Learn, SaysHowMuchItLearnedAndRepeatsItBitForBit) {
 }
 
 TEST_F(Learn, LeavesTheOldFileWholeWhenInterrupted) {
-  write("hall.ortung", "the old file");
+  write("hall.ortung", "PK\x03\x04 open.npy: the old file");
   Program program({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"), "--out",
                    path("hall.ortung"), "--cell", "0.01", "--heading-step", "0.5", "--progress"});
   ASSERT_TRUE(program.waitForError("learning ["));
@@ -31,7 +31,7 @@ TEST_F(Learn, LeavesTheOldFileWholeWhenInterrupted) {
   EXPECT_EQ(outcome.exitCode, 130) << outcome.err;
   EXPECT_NE(outcome.err.find("ortung learn: interrupted"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(read("hall.ortung"), "the old file");
+  EXPECT_EQ(read("hall.ortung"), "PK\x03\x04 open.npy: the old file");
   EXPECT_EQ(files(), (std::vector<std::string>{"hall.ortung", "hall.toml", "robot.toml"}));
 }
 

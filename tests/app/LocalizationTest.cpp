@@ -108,20 +108,47 @@ TEST_F(Localization, FeaturesTheRobotLacksAreNamedOnce) {
   EXPECT_NE(outcome.err.find("gps/GNSS/fix (3 readings)"), std::string::npos) << outcome.err;
 }
 
-TEST_F(Localization, TornRecordIsRefusedAndOldResultsStay) {
-  write("o.json", "old");
-  std::string text = read("run.rec");
+TEST_F(Localization, TornRecordIsReadUpToItsLastWholeMomentAndSaidToBeTorn) {
+  const std::string text = read("run.rec");
+  const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+  const std::string moment = "\n" + last.substr(0, last.find(' ') + 1);
+  write("run.rec", text.substr(0, text.find(moment) + 1));
+  const Outcome whole = run("localize");
   write("run.rec", text.substr(0, text.size() - 5));
+  const Outcome outcome = run("localize");
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.out, whole.out);
+  EXPECT_NE(outcome.err.find("warning: " + path("run.rec") + " is torn: its last "),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(run("eval", {"--record", path("o.rec")}).exitCode, 0);
+  EXPECT_EQ(read("o.rec"), text.substr(0, text.find(moment) + 1));
+}
+
+TEST_F(Localization, ForeignLineIsRefusedWithItsNumberAndOldResultsStay) {
+  const std::string old = R"({"compared_steps": 0})";
+  write("o.json", old);
+  std::string text = read("run.rec");
+  write("run.rec", text.insert(text.rfind('\n', text.size() / 2) + 1, "FLASER 180 1.0 2.0\n"));
   expectRefused(run("eval", {"--json", path("o.json"), "--record", path("o.rec")}), 1,
-                "ortung eval: " + path("run.rec") + ":", {"torn"});
-  EXPECT_EQ(read("o.json"), "old");
+                "ortung eval: " + path("run.rec") + ":", {"FLASER"});
+  EXPECT_EQ(read("o.json"), old);
   EXPECT_FALSE(std::filesystem::exists(path("o.rec")));
 }
 
-TEST_F(Localization, ForeignLineIsRefusedWithItsNumber) {
-  std::string text = read("run.rec");
-  write("run.rec", text.insert(text.find('\n', 40) + 1, "FLASER 180 1.0 2.0\n"));
-  expectRefused(run("eval"), 1, "ortung eval: " + path("run.rec") + ":", {"FLASER"});
+// The run begins at 0, 0 and 30 degrees, and so narrow a start can't be anywhere else at once.
+TEST_F(Localization, StartTakesItsHeadingInDegrees) {
+  const Outcome outcome = run("localize", {"--start", "0,0,30", "--start-sigma", "0.05,1"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  std::istringstream line(outcome.out.substr(outcome.out.find('\n') + 1));
+  double stamp = 0;
+  double x = 0;
+  double y = 0;
+  double theta = 0;
+  line >> stamp >> x >> y >> theta;
+  EXPECT_NEAR(x, 0.0, 0.3);
+  EXPECT_NEAR(y, 0.0, 0.3);
+  EXPECT_NEAR(theta, 0.5236, 0.09);
 }
 
 TEST_F(Localization, ReadingThatIsNoNumberIsRefused) {
@@ -172,7 +199,10 @@ TEST_F(Localization, SourcesWithUnknownKindOrOptionAreRefused) {
                    path("hall.ortung")});
   };
   expectRefused(with(path("run.rec")), 2, "ortung eval: source", {"KIND:PATH"});
-  expectRefused(with("telepathy:x"), 1, "ortung eval: ", {"telepathy"});
+  expectRefused(
+      with("telepathy:x"), 1,
+      "ortung eval: telepathy:x: there is no kind of source 'telepathy', expected one of ",
+      {"carmen", "record", "sim", "tcp"});
   expectRefused(with("record:" + path("run.rec") + "?speed=2"), 2,
                 "ortung eval: record:", {"speed"});
   expectRefused(with("sim:" + path("hall.toml") + "?sped=2"), 1, "ortung eval: sim:", {"sped"});

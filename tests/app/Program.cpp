@@ -57,7 +57,7 @@ bool drain(int& file, std::string& text) {
 }  // namespace
 
 Program::Program(const std::vector<std::string>& arguments,
-                 const std::vector<std::string>& environment) {
+                 const std::vector<std::string>& environment, const std::string& output) {
   std::vector<std::string> words = {ORTUNG_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = environmentWith(environment);
@@ -67,7 +67,14 @@ Program::Program(const std::vector<std::string>& arguments,
   openPipe(err);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+  if (output.empty()) {
+    posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+  } else if (output == "closed") {
+    posix_spawn_file_actions_addclose(&actions, STDOUT_FILENO);
+  } else {
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT,
+                                     0600);
+  }
   posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
   const int failed = posix_spawn(&process_, ORTUNG_PROGRAM, &actions, nullptr,
                                  pointers(words).data(), pointers(variables).data());
@@ -125,8 +132,8 @@ Outcome Program::finish() {
 }
 
 Outcome ortung(const std::vector<std::string>& arguments,
-               const std::vector<std::string>& environment) {
-  return Program(arguments, environment).finish();
+               const std::vector<std::string>& environment, const std::string& output) {
+  return Program(arguments, environment, output).finish();
 }
 
 }  // namespace ortung::test

@@ -18,8 +18,10 @@ struct Outcome {
 class Program {
  public:
   /// @param environment "KEY=value" additions
+  /// @param output where stdout goes: a file, or "closed"; "": it is read
   explicit Program(const std::vector<std::string>& arguments,
-                   const std::vector<std::string>& environment = {});
+                   const std::vector<std::string>& environment = {},
+                   const std::string& output = "");
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -41,6 +43,6 @@ class Program {
 
 /// Runs `ortung` to its end.
 Outcome ortung(const std::vector<std::string>& arguments,
-               const std::vector<std::string>& environment = {});
+               const std::vector<std::string>& environment = {}, const std::string& output = "");
 
 }  // namespace ortung::test
