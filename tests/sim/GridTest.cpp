@@ -106,6 +106,23 @@ TEST(Grid, RaysThatFallMeetTheTopsOfOccupiedCells) {
   }
 }
 
+TEST(Grid, TopsReachToTheEdgesOfTheMap) {
+  const auto world = gridOf({"##.#", ".###", "####", "####"}, "z_m = [0, 0.5]\n");
+  for (const auto& [column, row] :
+       {std::pair{0, 0}, {3, 0}, {0, 1}, {3, 1}, {2, 2}, {0, 3}, {3, 3}}) {
+    float range = 0;  // from 2 m above the top, nearly straight down
+    world->castFan({.x = (column + 0.5) * kCell,
+                    .y = (row + 0.5) * kCell,
+                    .z = 2.5,
+                    .firstAngle = 0,
+                    .angleStep = 0,
+                    .elevation = 0.01 - std::numbers::pi / 2,
+                    .maxRange = 20},
+                   0, {&range, 1});
+    EXPECT_NEAR(static_cast<double>(range), 2.0 / std::cos(0.01), 1e-4) << column << " " << row;
+  }
+}
+
 TEST(Grid, LiesWhereItsOriginSays) {
   const auto world = gridOf({"#...", "...."}, "", "[-3, 5, 0]");
   EXPECT_FALSE(world->isFree(-2.9, 5.4, {0}));  // the image's top row is the grid's last
