@@ -1,6 +1,7 @@
 """Places where a source can be changed so that it does something else: found with libclang, written behind a switch."""
 
 import json
+import os
 import re
 import shlex
 from dataclasses import asdict, dataclass, field
@@ -64,6 +65,10 @@ class Finder:
         self.done = set()
         self.texts = {}
 
+    def name(self, path):
+        """As git has it: an include of "../common/a.hpp" is found as lrf/../common/a.hpp."""
+        return os.path.normpath(path)[len(self.root):]
+
     def text(self, path):
         if path not in self.texts:
             self.texts[path] = Path(path).read_bytes()
@@ -78,7 +83,7 @@ class Finder:
             file = cursor.location.file
             if file is None or not file.name.startswith(self.root):
                 continue
-            name = file.name[len(self.root):]
+            name = self.name(file.name)
             if name in self.done or not wanted(name):
                 continue
             files.add(name)
@@ -121,7 +126,7 @@ class Finder:
             text = self.text(name)
             line = text.count(b"\n", 0, edits[0][0])
             original = text.splitlines()[line].decode().strip()
-            found.append(Site(name[len(self.root):], line + 1, function, kind, original, change, edits))
+            found.append(Site(self.name(name), line + 1, function, kind, original, change, edits))
 
     def operator(self, cursor, constant):
         children = list(cursor.get_children())

@@ -1,6 +1,7 @@
 """A copy of the sources with mutants behind switches, built once."""
 
 import json
+import os
 import random
 import re
 import shutil
@@ -118,7 +119,7 @@ class Tree:
         prefix = str(self.source) + "/"
         places = re.findall(re.escape(prefix) + r"([^\s:]+):(\d+)", output)
         places += re.findall(r"(?:^|\s)(?:\.\./source/)([^\s:]+):(\d+)", output)
-        errors = {(file, int(line)) for file, line in places}
+        errors = {(os.path.normpath(file), int(line)) for file, line in places}
         dropped = 0
         for number, site in enumerate(chosen):
             if site is not None and any((site.file, site.line + d) in errors for d in (-2, -1, 0, 1, 2)):
