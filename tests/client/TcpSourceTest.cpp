@@ -4,6 +4,7 @@
 #include "../server/RunningBoard.hpp"
 #include "../server/TestClient.hpp"
 #include "Files.hpp"
+#include "ScriptedServer.hpp"
 #include "ortung/client/RobotSession.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
@@ -31,6 +32,8 @@ TEST(TcpSource, OptionsThatMakeNoSenseAreToldWhy) {
       {{{"path", ":7777"}}, "must be HOST:PORT"},
       {{{"path", "localhost:0"}}, "must be HOST:PORT"},
       {{{"path", "localhost:99999"}}, "must be HOST:PORT"},
+      {{{"path", "localhost:7777x"}}, "must be HOST:PORT"},
+      {{{"path", "localhost:"}}, "must be HOST:PORT"},
       {{{"duration", "-1"}}, "must be a number in"},
       {{{"duration", "nan"}}, "must be a number in"},
       {{{"start", "1,2"}}, "must be x,y,theta"},
@@ -86,6 +89,16 @@ TEST(TcpSource, WhereLockstepIsNotPermittedItFollowsUnlessItIsAskedFor) {
   std::size_t readings = 0;
   while (source->next(message)) ++readings;
   EXPECT_GT(readings, 5u);
+}
+
+/// "auto" gives way to a server that does not permit it, and to nothing else.
+TEST(TcpSource, OtherRefusalsOfLockstepAreErrors) {
+  ScriptedServer server([](const std::string& request) -> std::optional<std::string> {
+    if (request.starts_with("LOCKSTEP")) return "ERR limit only two may do that";
+    return "";
+  });
+  const std::string why = messageOf<ServerRefused>([&] { open(server.port(), {}); });
+  EXPECT_NE(why.find("only two may do that"), std::string::npos) << why;
 }
 
 TEST(TcpSource, AWorldThatStandsStillIsToldAfterTheTimeout) {

@@ -82,6 +82,16 @@ TEST(PoseBins, DoNotCareForWholeTurns) {
   EXPECT_EQ(PoseBins(MclConfig(), poses.view()).count(), 1u);
 }
 
+TEST(PoseBins, OfAWholeTurnDoNotCareForHeadings) {
+  MclConfig config;
+  config.binRadians = 2 * kPi;
+  Poses poses;
+  for (int i = 0; i < 100; ++i) poses.add(0.1, 0.1, -kPi + 0.0628 * i);
+  EXPECT_EQ(PoseBins(config, poses.view()).count(), 1u);
+  config.binRadians = kPi;
+  EXPECT_EQ(PoseBins(config, poses.view()).count(), 2u);
+}
+
 TEST(PoseBins, SurvivesAnyNumber) {
   Poses poses;
   for (const double v :

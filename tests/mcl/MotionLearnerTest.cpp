@@ -44,6 +44,20 @@ TEST(MotionLearner, FindsTheDelayOfOdometry) {
   }
 }
 
+TEST(MotionLearner, TriesEveryDelayFromTheEarliestToTheLatest) {
+  std::vector<MotionLog> logs;
+  logs.push_back(drive(0.2, 200.0, 6));
+  MotionLearning options;
+  // Steps of 0.02 s; the right one is the only one, the first or the last.
+  for (const auto& [earliest, latest] : {std::pair{0.2, 0.2}, {0.2, 0.3}, {0.1, 0.2}}) {
+    options.earliestDelay = earliest;
+    options.latestDelay = latest;
+    std::unique_ptr<MotionModel> model;
+    EXPECT_NEAR(learnMotion(logs, options, odometryMotion, model).delay, 0.2, 1e-9);
+    EXPECT_TRUE(model);
+  }
+}
+
 TEST(MotionLearner, PairsAreChangesOfPoseOverTheSameTime) {
   const MotionLog log = drive(0.2, 20.0, 2);
   const auto drives = motionPairs(log, {}, 0.2);

@@ -152,8 +152,12 @@ TEST_F(Localizing, BeginsAnewWhereItIsTold) {
   localization.start({LocalizationStart::Kind::kPose, start, 0.01, 0.01});
   EXPECT_TRUE(localization.isStarted());
   EXPECT_NEAR(localization.mcl().samples().x.front(), start.x, 0.05);  // five sigmas
-  EXPECT_THROW(localization.start({LocalizationStart::Kind::kPose, start, -1.0, 0.0}),
-               std::invalid_argument);
+  for (const double wrong : {-1.0, std::nan("")}) {
+    EXPECT_THROW(localization.start({LocalizationStart::Kind::kPose, start, wrong, 0.0}),
+                 std::invalid_argument);
+    EXPECT_THROW(localization.start({LocalizationStart::Kind::kPose, start, 0.0, wrong}),
+                 std::invalid_argument);
+  }
 }
 
 TEST_F(Localizing, AStartOffTheMapIsAnErrorThatNamesTheMap) {

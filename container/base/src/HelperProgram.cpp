@@ -116,7 +116,7 @@ void check(int status, const std::string& program, const std::string& output,
     failWith(about, name + " was ended by signal " + std::to_string(number) + " (" +
                         ::strsignal(number) + "); the file is damaged or too large");
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) != 0) {
+  if (WEXITSTATUS(status) != 0) {  // waitpid() tells of no other end
     failWith(about, name + " ended with status " + std::to_string(WEXITSTATUS(status)) +
                         lastWords(output));
   }

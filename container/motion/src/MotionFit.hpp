@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "ortung/base/Export.hpp"
+
 namespace ortung {
 
 /// One scalar error of odometry (of a turn, or of a way) over a piece of a drive. Sums of
@@ -29,6 +31,6 @@ struct MotionFit {
 /// what is farther off (truth that jumped) hardly counts.
 /// @param drives pieces of each drive, in their order
 /// @throws std::runtime_error if there are fewer than 30 pieces
-MotionFit fitMotion(const std::vector<std::vector<MotionError>>& drives);
+ORTUNG_API MotionFit fitMotion(const std::vector<std::vector<MotionError>>& drives);
 
 }  // namespace ortung

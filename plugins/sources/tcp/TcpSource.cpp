@@ -8,7 +8,6 @@
 #include "ortung/client/RobotSession.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/Source.hpp"
-#include "ortung/core/SourceHelp.hpp"
 #include "ortung/core/SourceOptions.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
@@ -23,8 +22,7 @@ SessionOptions readOptions(const Parameters& p) {
   const std::size_t colon = path.rfind(':');  // [::1]:7777 is an address, too
   const std::string port = colon == path.npos ? "" : path.substr(colon + 1);
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), options.port);
-  if (colon == path.npos || colon == 0 || error != std::errc() ||
-      end != port.data() + port.size() || options.port == 0)
+  if (colon == 0 || error != std::errc() || end != port.data() + port.size() || options.port == 0)
     p.fail("path", "is \"" + path + "\", must be HOST:PORT, e.g. 127.0.0.1:7777");
   options.host = path.substr(0, colon);
   if (options.host.starts_with('[') && options.host.ends_with(']'))
@@ -135,27 +133,7 @@ class TcpSource : public Source {
   double silence_ = 0.0;  ///< without a reading [s]
 };
 
-/// What `ortung import tcp --help` tells.
-class TcpHelp : public SourceHelp {
- public:
-  explicit TcpHelp(const Parameters&)
-      : SourceHelp(
-            "HOST:PORT of a message board",
-            {{"robot", "", "--with-robot", "robot file"},
-             {"duration", "s", "60 for a simulation, all of a record",
-              "time from the first to the last readings"},
-             {"drive", "", "none", "wander: the server drives the robot about"},
-             {"start", "m, m, deg", "anywhere", "x,y,theta"},
-             {"lockstep", "", "auto",
-              "on: an error where it is not permitted; off: asks every cycle_ms what is new"},
-             {"cycle_ms", "ms", "100", "without lockstep: time between two updates"},
-             {"form", "", "text", "of readings on the wire; binary is better for large ones"},
-             {"name", "", "robot", "of client and robot"},
-             {"timeout", "s", "60", "how long the server may keep silent"}}) {}
-};
-
 }  // namespace
 }  // namespace ortung
 
-ORTUNG_PLUGINS("tcp_source", ortung::provide<ortung::Source, ortung::TcpSource>("tcp"),
-               ortung::provide<ortung::SourceHelp, ortung::TcpHelp>("tcp"));
+ORTUNG_PLUGINS("tcp_source", ortung::provide<ortung::Source, ortung::TcpSource>("tcp"));
