@@ -56,7 +56,7 @@ TEST(PluginFactory, RefusesFilesThatAreNone) {
   EXPECT_EQ(complaintOf(text), text + ": is no 64-bit shared library");
   test::writeBytes(text, "");
   EXPECT_EQ(complaintOf(text), text + ": is no 64-bit shared library");
-  EXPECT_EQ(complaintOf(folder.path()), folder.path().string() + ": is no 64-bit shared library");
+  EXPECT_EQ(complaintOf(folder.path()), folder.path().string() + ": can't be read: Is a directory");
 }
 
 TEST(PluginFactory, RefusesATornLibraryWhereverItIsTorn) {
