@@ -162,10 +162,9 @@ void addImport(Builder& build, CLI::App& app) {
                                      "ortung import mrclam data/ds6 --out ds6-3.rec --robot 3 "
                                      "--world ds6.toml --robot-file ds6-3.toml",
                                      runImport);
-  build
-      .option("kind", a->kind,
-              "Kind of source, or KIND:SOURCE?key=value; `ortung plugins` lists them")
-      ->required();
+  // Made when the help is asked for, and then knows the kind that stands before --help.
+  build.app().footer([a] { return importHelp(a->kind.substr(0, a->kind.find(':'))); });
+  build.option("kind", a->kind, "Kind of source, or KIND:SOURCE?key=value; see below")->required();
   build.option("source", a->source, "File or folder to read, if KIND does not name it");
   build.option("--out", a->out, "Record file to write")->required();
   build.option("--world", a->world,

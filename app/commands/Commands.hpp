@@ -97,6 +97,8 @@ struct ImportArguments {
   bool progress = false;
 };
 int runImport(const ImportArguments& arguments);
+/// What the help of import says of a kind of source, or which kinds there are if it is "".
+std::string importHelp(const std::string& kind);
 
 struct ShowArguments {
   std::filesystem::path tables;

@@ -15,6 +15,7 @@
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/InputFile.hpp"
+#include "ortung/core/SourceHelp.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
@@ -171,6 +172,36 @@ void print(const Written& written, const ImportArguments& arguments, std::size_t
 }
 
 }  // namespace
+
+std::string importHelp(const std::string& kind) {
+  PluginFactory factory(PluginFactory::standardFolders());
+  if (kind.empty()) {
+    std::string text = "Kinds; `ortung import KIND --help` lists the options of one:\n";
+    for (const PluginFactory::Found& library : factory.list()) {
+      for (const auto& entry : library.entries) {
+        if (entry.interface != SourceHelp::kInterface) continue;
+        const auto help = factory.make<SourceHelp>(entry.name, Parameters());
+        text += fmt::format("  {:<10} {}\n", printable(entry.name), help->path());
+      }
+    }
+    return text;
+  }
+  std::unique_ptr<SourceHelp> help;
+  try {
+    help = factory.make<SourceHelp>(kind, Parameters());
+  } catch (const PluginError&) {
+    return fmt::format("{}: says nothing of its options; `ortung import --help` lists kinds\n",
+                       printable(kind));
+  }
+  std::string text =
+      fmt::format("{}: {}. Its options (--option KEY=VALUE):\n", printable(kind), help->path());
+  for (const SourceOption& option : help->options()) {
+    const std::string unit = option.unit.empty() ? "" : " [" + option.unit + "]";
+    text += fmt::format("  {:<26}{}; default: {}\n", option.key + unit, option.meaning,
+                        option.fallback);
+  }
+  return text;
+}
 
 int runImport(const ImportArguments& arguments) {
   const SourceText text = sourceText(arguments);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "ortung/core/Plugin.hpp"
+#include "ortung/core/SourceHelp.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/MapFiles.hpp"
 #include "ortung/realsensors/ScanLog.hpp"
@@ -188,7 +189,20 @@ void CarmenSource::readNewer(const LogFile& file) {
   addScan(file, file.stamp(file.size() - 3), kRanges, odometry_);
 }
 
+/// What `ortung import carmen --help` tells.
+class CarmenHelp : public SourceHelp {
+ public:
+  explicit CarmenHelp(const Parameters&)
+      : SourceHelp("log file of CARMEN",
+                   withScanLogOptions(
+                       {{"laser", "", "FLASER",
+                         "which messages are the scans: FLASER, RAWLASER1 or ROBOTLASER1"},
+                        {"map", "", "none",
+                         "map_server YAML, CARMEN map or grid map of MRPT, for --world"}})) {}
+};
+
 }  // namespace
 }  // namespace ortung
 
-ORTUNG_PLUGINS("carmen_source", ortung::provide<ortung::Source, ortung::CarmenSource>("carmen"));
+ORTUNG_PLUGINS("carmen_source", ortung::provide<ortung::Source, ortung::CarmenSource>("carmen"),
+               ortung::provide<ortung::SourceHelp, ortung::CarmenHelp>("carmen"));

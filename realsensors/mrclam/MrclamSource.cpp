@@ -5,6 +5,7 @@
 
 #include "ortung/base/NewFile.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/core/SourceHelp.hpp"
 #include "ortung/core/SourceOptions.hpp"
 #include "ortung/formats/BearingData.hpp"
 #include "ortung/formats/LandmarksData.hpp"
@@ -298,7 +299,22 @@ void MrclamSource::writeWorld(const std::filesystem::path& file) const {
   writeFile(file, text);
 }
 
+/// What `ortung import mrclam --help` tells.
+class MrclamHelp : public SourceHelp {
+ public:
+  explicit MrclamHelp(const Parameters&)
+      : SourceHelp("folder of a run of UTIAS MRCLAM",
+                   {{"robot", "", "1", "number of the robot, 1 to 5"},
+                    {"features", "", "list",
+                     "list: all landmarks of an image in one feature; each: distance and bearing "
+                     "of each are features"},
+                    {"latency_s", "s", "0", "taken off the stamps of images"},
+                    {"jitter_s", "s", "0", "how far stamps may fall back before it is an error"}}) {
+  }
+};
+
 }  // namespace
 }  // namespace ortung
 
-ORTUNG_PLUGINS("mrclam_source", ortung::provide<ortung::Source, ortung::MrclamSource>("mrclam"));
+ORTUNG_PLUGINS("mrclam_source", ortung::provide<ortung::Source, ortung::MrclamSource>("mrclam"),
+               ortung::provide<ortung::SourceHelp, ortung::MrclamHelp>("mrclam"));

@@ -8,6 +8,7 @@
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/Record.hpp"
+#include "ortung/core/SourceHelp.hpp"
 #include "ortung/core/SourceOptions.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
@@ -243,7 +244,22 @@ void RawlogSource::writeWorld(const std::filesystem::path& file) const {
   writeGridWorld(file, map_, beaconFile_.empty() ? "" : landmarksToml(beaconFile_, "beacon"));
 }
 
+/// What `ortung import rawlog --help` tells.
+class RawlogHelp : public SourceHelp {
+ public:
+  explicit RawlogHelp(const Parameters&)
+      : SourceHelp(
+            "rawlog of MRPT",
+            withScannerOptions(
+                {{"gt", "", "none", "file with the reference: t x y theta"},
+                 {"map", "", "none", "map_server YAML or grid map of MRPT, for --world"},
+                 {"beacons", "", "none",
+                  "file with places of beacons: identity x y [z], for --world"},
+                 {"jitter_s", "s", "1", "how far stamps may fall back before it is an error"}})) {}
+};
+
 }  // namespace
 }  // namespace ortung
 
-ORTUNG_PLUGINS("rawlog_source", ortung::provide<ortung::Source, ortung::RawlogSource>("rawlog"));
+ORTUNG_PLUGINS("rawlog_source", ortung::provide<ortung::Source, ortung::RawlogSource>("rawlog"),
+               ortung::provide<ortung::SourceHelp, ortung::RawlogHelp>("rawlog"));

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "ortung/core/Plugin.hpp"
+#include "ortung/core/SourceHelp.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/MapFiles.hpp"
 #include "ortung/realsensors/ScanLog.hpp"
@@ -162,7 +163,22 @@ void ScanlogSource::findMap() {
   }
 }
 
+/// What `ortung import scanlog --help` tells.
+class ScanlogHelp : public SourceHelp {
+ public:
+  explicit ScanlogHelp(const Parameters&)
+      : SourceHelp("folder with scans.txt",
+                   withScanLogOptions(
+                       {{"gt", "", "ref.txt, else gt.txt",
+                         "file with the reference: t x y theta; none: without one"},
+                        {"odom", "", "that beside the scans", "file with odometry: t x y theta"},
+                        {"commands", "", "none", "file with commanded velocities: t v w"},
+                        {"map", "", "map.yaml, or the only *.yaml",
+                         "map_server YAML, CARMEN map or grid map of MRPT, for --world"}})) {}
+};
+
 }  // namespace
 }  // namespace ortung
 
-ORTUNG_PLUGINS("scanlog_source", ortung::provide<ortung::Source, ortung::ScanlogSource>("scanlog"));
+ORTUNG_PLUGINS("scanlog_source", ortung::provide<ortung::Source, ortung::ScanlogSource>("scanlog"),
+               ortung::provide<ortung::SourceHelp, ortung::ScanlogHelp>("scanlog"));

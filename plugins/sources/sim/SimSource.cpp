@@ -7,6 +7,7 @@
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
+#include "ortung/core/SourceHelp.hpp"
 #include "ortung/core/SourceOptions.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TomlFile.hpp"
@@ -161,7 +162,26 @@ class SimSource : public Source {
   std::size_t sent_ = 0;
 };
 
+/// What `ortung import sim --help` tells.
+class SimHelp : public SourceHelp {
+ public:
+  explicit SimHelp(const Parameters&)
+      : SourceHelp("world or scene (needs --with-robot for a world)",
+                   {{"duration", "s", "60, or the scene's", "time of the last readings"},
+                    {"seed", "", "1", "of noise, start and way"},
+                    {"cycle_ms", "ms", "the world's", "time between two steps of the simulation"},
+                    {"noise", "", "on", "off: sensors and odometry are exact"},
+                    {"start", "m, m, deg", "at random", "x,y,theta; not with a scene"},
+                    {"waypoints", "m", "wanders about",
+                     "x,y;x,y;...: goes straight from one to the next; not with a scene"},
+                    {"speed", "m/s", "the drive's", "at most; 0: stands still; not with a scene"},
+                    {"kidnap", "s", "never",
+                     "t,t,...: when the robot is carried elsewhere; not with a scene"},
+                    {"robot", "", "the first", "name of the robot, of a scene"}}) {}
+};
+
 }  // namespace
 }  // namespace ortung
 
-ORTUNG_PLUGINS("sim_source", ortung::provide<ortung::Source, ortung::SimSource>("sim"));
+ORTUNG_PLUGINS("sim_source", ortung::provide<ortung::Source, ortung::SimSource>("sim"),
+               ortung::provide<ortung::SourceHelp, ortung::SimHelp>("sim"));

@@ -8,6 +8,7 @@
 #include "ortung/client/RobotSession.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/Source.hpp"
+#include "ortung/core/SourceHelp.hpp"
 #include "ortung/core/SourceOptions.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
@@ -133,7 +134,27 @@ class TcpSource : public Source {
   double silence_ = 0.0;  ///< without a reading [s]
 };
 
+/// What `ortung import tcp --help` tells.
+class TcpHelp : public SourceHelp {
+ public:
+  explicit TcpHelp(const Parameters&)
+      : SourceHelp(
+            "HOST:PORT of a message board",
+            {{"robot", "", "--with-robot", "robot file"},
+             {"duration", "s", "60 for a simulation, all of a record",
+              "time from the first to the last readings"},
+             {"drive", "", "none", "wander: the server drives the robot about"},
+             {"start", "m, m, deg", "anywhere", "x,y,theta"},
+             {"lockstep", "", "auto",
+              "on: an error where it is not permitted; off: asks every cycle_ms what is new"},
+             {"cycle_ms", "ms", "100", "without lockstep: time between two updates"},
+             {"form", "", "text", "of readings on the wire; binary is better for large ones"},
+             {"name", "", "robot", "of client and robot"},
+             {"timeout", "s", "60", "how long the server may keep silent"}}) {}
+};
+
 }  // namespace
 }  // namespace ortung
 
-ORTUNG_PLUGINS("tcp_source", ortung::provide<ortung::Source, ortung::TcpSource>("tcp"));
+ORTUNG_PLUGINS("tcp_source", ortung::provide<ortung::Source, ortung::TcpSource>("tcp"),
+               ortung::provide<ortung::SourceHelp, ortung::TcpHelp>("tcp"));

@@ -120,4 +120,12 @@ void ScanLogSource::writeWorld(const std::filesystem::path& file) const {
   writeGridWorld(file, map_);
 }
 
+std::vector<SourceOption> withScanLogOptions(std::vector<SourceOption> options) {
+  options = withScannerOptions(std::move(options));
+  options.push_back({"jitter_s", "s", "1", "how far stamps may fall back before it is an error"});
+  options.push_back({"period_s", "s", "the log's stamps",
+                     "ignore the stamps of scans: they are this far apart, in the order of lines"});
+  return options;
+}
+
 }  // namespace ortung

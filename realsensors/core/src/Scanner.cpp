@@ -48,6 +48,15 @@ Scanner ScannerOptions::apply(Scanner scanner, const std::string& where) const {
   return scanner;
 }
 
+std::vector<SourceOption> withScannerOptions(std::vector<SourceOption> options) {
+  options.push_back({"laser_x", "m", "the log's", "place of the laser on the robot's x axis"});
+  options.push_back({"laser_y", "m", "the log's", "and on its y axis"});
+  options.push_back({"laser_yaw_deg", "deg", "the log's", "where the laser looks"});
+  options.push_back({"max_range_m", "m", "the log's, at most 30",
+                     "ranges from here on mean that nothing was seen"});
+  return options;
+}
+
 double medianPeriod(const std::vector<Timestamp>& stamps) {
   std::vector<Timestamp> steps;
   for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);

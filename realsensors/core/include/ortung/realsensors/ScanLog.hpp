@@ -75,4 +75,7 @@ class ORTUNG_API ScanLogSource : public LogSource {
   std::filesystem::path map_;
 };
 
+/// @p options and those that all logs of lasers have, for the help of a source.
+ORTUNG_API std::vector<SourceOption> withScanLogOptions(std::vector<SourceOption> options);
+
 }  // namespace ortung

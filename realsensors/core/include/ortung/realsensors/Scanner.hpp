@@ -8,6 +8,7 @@
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/core/SourceHelp.hpp"
 
 namespace ortung {
 
@@ -34,6 +35,9 @@ class ORTUNG_API ScannerOptions {
  private:
   std::optional<double> x_, y_, yaw_, maxRange_;
 };
+
+/// @p options and those of ScannerOptions, for the help of a source.
+ORTUNG_API std::vector<SourceOption> withScannerOptions(std::vector<SourceOption> options);
 
 /// Time between two scans, in the middle of all [s]; 1 if there are less than two.
 ORTUNG_API double medianPeriod(const std::vector<Timestamp>& stamps);
