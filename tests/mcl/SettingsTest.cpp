@@ -55,8 +55,10 @@ struct ToldRobot {
     container.add(std::make_unique<Told>(name, std::move(answer), resolution));
   }
   void odometry(double seconds, const Pose2& pose) {
+    OdometryData::Reading reading;
+    reading.pose = pose;
     container.set(
-        {fromSeconds(seconds), {"base", "odometry", "pose"}, OdometryData::encode({.pose = pose})});
+        {fromSeconds(seconds), {"base", "odometry", "pose"}, OdometryData::encode(reading)});
   }
   void reading(double seconds, const char* name = "x") {
     container.set({fromSeconds(seconds), {"told", "test", name}, {1}});

@@ -79,7 +79,9 @@ TEST(IconicSettings, LinesAreImaginedAsOftenAsTheirShareSays) {
     }
     // One chance a scan line, of 10,000: 4 sigma are 0.016; anywhere up to 3 m.
     EXPECT_NEAR(ranges.count() / 10000.0, share, 0.016);
-    if (share > 0.0) EXPECT_NEAR(ranges.mean(), 1.5, 0.08);
+    if (share > 0.0) {
+      EXPECT_NEAR(ranges.mean(), 1.5, 0.08);
+    }
   }
 }
 
