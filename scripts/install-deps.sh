@@ -13,7 +13,7 @@ packages=(
   libmrpt-obs-dev libmrpt-maps-dev
   # the program: command line, messages, charts of the report
   libcli11-dev libspdlog-dev libfmt-dev libstb-dev libjs-dygraphs
-  # pictures of scenes
+  # pictures of scenes, and the test that looks at them
   python3-pil
   # training of motion networks
   libdlib-dev libblas-dev
