@@ -53,8 +53,12 @@ RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& op
     if (!any) run.first = feeder.stamp();
     any = true;
     localization.followOdometry();
-    for (const Timestamp time : evaluation.due(feeder.stamp(), feeder.truth().has_value()))
-      if (const auto estimate = localization.estimate(time)) evaluation.addMoment(*estimate);
+    for (const Timestamp time : evaluation.due(feeder.stamp(), feeder.truth().has_value())) {
+      const auto estimate = localization.estimate(time);
+      if (!estimate) continue;
+      evaluation.addMoment(*estimate);
+      run.path.push_back(*estimate);
+    }
     evaluation.addTime(feeder.stamp());
     if (feeder.truth()) evaluation.addTruth(feeder.stamp(), *feeder.truth());
   };
@@ -63,6 +67,7 @@ RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& op
              nextStep(localization, arguments.localization, onMoment)) {
     evaluation.addStep(*step);
     run.estimates.push_back(step->estimate);
+    run.path.push_back(step->estimate);
     progress.update(localization.feeder().progress());
   }
   run.figures = evaluation.result(arguments.localization.source);

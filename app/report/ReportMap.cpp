@@ -70,7 +70,7 @@ std::string mapSvg(const RunResult& run) {
       R"(<svg id="map" viewBox="{}" role="img" aria-labelledby="map-title map-about">)"
       R"(<title id="map-title">Map with paths</title><desc id="map-about">{:.4g} m by {:.4g} m, )"
       R"({} landmarks, {} estimates{}.</desc>)",
-      viewBox(frame), frame.width, frame.height, field.landmarks.size(), run.estimates.size(),
+      viewBox(frame), frame.width, frame.height, field.landmarks.size(), run.path.size(),
       points.empty() ? "" : " beside the ground truth");
   svg += regionSvg(run.tableInfo.region, frame) + axesSvg(frame);
   svg += R"x(<g transform="scale(1,-1)">)x" + linesSvg(field);
@@ -80,7 +80,7 @@ std::string mapSvg(const RunResult& run) {
                        pathOf(points, [](const auto& point) { return point.truth; }));
   }
   svg += fmt::format(R"(<path class="estimate" d="{}"/>)",
-                     pathOf(run.estimates, [](const auto& estimate) { return estimate.pose; }));
+                     pathOf(run.path, [](const auto& estimate) { return estimate.pose; }));
   svg += landmarksSvg(field, frame);
   if (!points.empty()) {
     svg += mark(points.front().truth, 0.5 * frame.letter, "start", "start");

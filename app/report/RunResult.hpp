@@ -15,6 +15,9 @@ struct RunResult {
   EvaluationResult figures;
   Timestamp first = 0;                  ///< of the first reading
   std::vector<PoseEstimate> estimates;  ///< of all updates, also where the truth is not known
+  /// What was estimated, in the order of time: at all updates and at the even times at which
+  /// figures.points are taken, also where the truth is not known.
+  std::vector<PoseEstimate> path;
   std::uint64_t seed = 0;
   std::size_t particles = 0;  ///< most samples
   std::string robot;          ///< file

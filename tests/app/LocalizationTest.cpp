@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -36,6 +37,52 @@ TEST_F(Localization, EvalTracksFromAKnownStartAndWritesAllItsFiles) {
   EXPECT_NE(outcome.out.find("Position error, RMS"), std::string::npos);
   EXPECT_TRUE(read("o.html").starts_with("<!DOCTYPE html>"));
   EXPECT_EQ(read("o.rec"), read("run.rec"));
+}
+
+// Scans every 3 s, and 5 s without any reading: between scans odometry alone says where the robot
+// is.
+TEST_F(Localization, ReportDrawsTheEstimateWhereItIsComparedAndBreaksItAtGaps) {
+  std::istringstream lines(read("run.rec"));
+  std::string rare;
+  double nextScan = 0.0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool isReading = !line.starts_with('#');
+    const double seconds = isReading ? std::stod(line) / 1e6 : 0.0;
+    if (seconds > 8.0 && seconds < 13.0) continue;
+    if (isReading && line.find("/LRF/") != line.npos) {
+      if (seconds < nextScan) continue;
+      nextScan = seconds + 3.0;
+    }
+    rare += line + "\n";
+  }
+  write("run.rec", rare);
+  const Outcome outcome = run("eval", {"--start", "truth", "--report", path("o.html")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const std::string html = read("o.html");
+  const auto between = [&](const std::string& begin, const std::string& end) {
+    const std::size_t from = html.find(begin) + begin.size();
+    return html.substr(from, html.find(end, from) - from);
+  };
+  const auto data = nlohmann::json::parse(between("id=\"data\">", "</script>"));
+  std::string estimate = between("class=\"estimate\" d=\"", "\"");
+  const std::string truth = between("class=\"truth\" d=\"", "\"");
+  EXPECT_EQ(std::count(truth.begin(), truth.end(), 'M'), 2);
+  EXPECT_EQ(std::count(estimate.begin(), estimate.end(), 'M'), 2)
+      << "it breaks where the truth does";
+  for (std::size_t at; (at = estimate.find_first_of("MLh")) != estimate.npos;)
+    estimate.replace(at, estimate[at] == 'h' ? 2 : 1, " ");
+  std::istringstream words(estimate);
+  std::vector<std::pair<double, double>> drawn;
+  for (double x, y; words >> x >> y;) drawn.emplace_back(x, y);
+  const std::size_t compared = data["estimateX"].size();
+  EXPECT_GT(compared, 130u);
+  for (std::size_t i = 0; i < compared; ++i) {
+    double nearest = 1.0;
+    for (const auto& [x, y] : drawn)
+      nearest = std::min(nearest, std::hypot(x - data["estimateX"][i].get<double>(),
+                                             y - data["estimateY"][i].get<double>()));
+    EXPECT_LT(nearest, 0.002) << "at " << data["time"][i] << " s";
+  }
 }
 
 TEST_F(Localization, SameSeedGivesTheSamePosesWhateverTheThreads) {

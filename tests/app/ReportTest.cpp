@@ -84,6 +84,7 @@ TEST(Report, SurvivesARunWithoutAnyUpdate) {
   RunResult run = syntheticRun();
   run.figures = {};
   run.estimates.clear();
+  run.path.clear();
   EXPECT_EQ(dataOf(toHtml(run))["samples"].size(), 0u);
 }
 
@@ -95,14 +96,14 @@ TEST(Report, CarriesTheLicenceOfItsCharts) {
 
 TEST(Report, MapHasBothPathsBreaksThemAtJumpsAndLiesRightSideUp) {
   RunResult run = syntheticRun();
-  run.estimates.resize(2);
-  run.estimates[0].pose = {1.0, 2.0, 0.0};
-  run.estimates[1].pose = {-3.0, 2.0, 0.0};  // 4 m in 0.1 s: not driven
+  run.path.resize(2);
+  run.path[0].pose = {1.0, 2.0, 0.0};
+  run.path[1].pose = {-3.0, 2.0, 0.0};  // 4 m in 0.1 s: not driven
   const std::string svg = mapSvg(run);
   EXPECT_NE(svg.find("M1.000 2.000h0M-3.000 2.000h0"), std::string::npos);
   EXPECT_NE(svg.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);  // PNG's signature
   EXPECT_EQ(countOf(svg, "class=\"truth\""), 1u);
-  run.estimates[1].stamp = fromSeconds(4.0);  // 1 m/s: a log with rare scans
+  run.path[1].stamp = fromSeconds(4.0);  // 1 m/s: a log with rare scans
   EXPECT_NE(mapSvg(run).find("M1.000 2.000h0L-3.000 2.000"), std::string::npos);
 }
 
@@ -115,7 +116,7 @@ TEST(Report, NeitherPathHidesTheOther) {
 TEST(Report, PathsAndChartsBreakAtGaps) {
   RunResult run = syntheticRun();
   for (std::size_t i = 300; i < 600; ++i) {  // 20 s without any reading
-    run.estimates[i].stamp += fromSeconds(20.0);
+    run.path[i].stamp += fromSeconds(20.0);
     run.figures.points[i].stamp += fromSeconds(20.0);
   }
   const std::string svg = mapSvg(run);

@@ -48,6 +48,7 @@ inline RunResult syntheticRun() {
     estimate.samples = point.samples;
     run.estimates.push_back(estimate);
   }
+  run.path = run.estimates;
   run.seed = 7;
   run.particles = 20000;
   run.robot = "robot.toml";
