@@ -102,7 +102,7 @@ void serve(ServedWorld& world, const ServingArguments& arguments) {
   config.limits.idle = arguments.idle;
   config.limits.sessions = arguments.clients;
   config.limits.sessionsOfAddress = arguments.clientsOfAddress;
-  config.log = [](const std::string& text) { warn(printable(text)); };
+  config.log = warn;
   try {
     MessageBoard board(world, config);
     fmt::print("listening on {} port {}\n", config.address, board.port());

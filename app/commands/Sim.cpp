@@ -118,16 +118,6 @@ class Pacing {
   Clock::time_point start_;
 };
 
-void tellProblems(const Simulation& simulation, std::size_t& told) {
-  std::size_t seen = 0;
-  for (const auto& robot : simulation.robots())
-    for (const std::string& problem : robot->problems())
-      if (seen++ >= told) {
-        warn(printable(problem));
-        ++told;
-      }
-}
-
 Outputs outputsOf(const SimArguments& arguments) {
   Outputs outputs(arguments.force);
   outputs.reads(arguments.world);
@@ -172,13 +162,18 @@ int play(const SimArguments& arguments) {
   const Outputs outputs = outputsOf(arguments);
   const Scene scene = sceneOf(arguments);
   PluginFactory factory(PluginFactory::standardFolders());
-  SceneRun run(scene, configOf(arguments), factory);
+  Simulation::Config config = configOf(arguments);
+  std::size_t problems = 0;
+  config.onProblem = [&problems](const std::string& problem) {
+    warn(problem);
+    ++problems;
+  };
+  SceneRun run(scene, config, factory);
   Simulation& simulation = run.simulation();
   Recording recording(arguments, outputs, scene, run);
   const std::optional<double> duration = arguments.duration ? arguments.duration : scene.duration;
   Rescue rescue([&] { recording.commit(); });
   const Pacing pacing(arguments.serving);
-  std::size_t told = 0;
   std::size_t cycles = 0;
   {
     Progress progress("simulating", false);
@@ -193,7 +188,6 @@ int play(const SimArguments& arguments) {
         const auto held = rescue.hold();
         recording.add(simulation);
       }
-      tellProblems(simulation, told);
       if (duration && cycles % 100 == 0) progress.update(toSeconds(simulation.now()) / *duration);
       pacing.waitFor(toSeconds(simulation.now()));
     }
@@ -211,7 +205,7 @@ int play(const SimArguments& arguments) {
                  ? fmt::format("; {} readings of {} in {}", recording.record->messages(),
                                recording.name, printable(arguments.record.string()))
                  : "");
-  return told == 0 ? 0 : 1;
+  return problems == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -230,7 +224,7 @@ int runSim(const SimArguments& arguments) {
         "--record, --trace and --duration do not fit --listen: clients keep their own records, and "
         "the server runs until it is stopped");
   Simulation::Config config = configOf(arguments);
-  config.onProblem = [](const std::string& problem) { warn(printable(problem)); };
+  config.onProblem = warn;
   ServedSimulation simulation(sceneOf(arguments), config);
   serve(simulation, arguments.serving);
   return 0;

@@ -100,6 +100,24 @@ TEST(Hanging, AConstructorEndsTheProgram) {
   expectIn(outcome.err, "the plugin 'misbehaving' has been in its constructor");
 }
 
+// The second robot's sensor fails first.
+TEST(Hanging, ProblemsOfSeveralRobotsAreToldOnceEach) {
+  const BadRun run("");
+  const auto robot = [&](const std::string& name, int after) {
+    writeBytes(run.folder / (name + ".toml"),
+               "[robot]\nname = \"" + name +
+                   "\"\n[[sensor]]\nplugin = \"misbehaving\"\nwhere = \"generateData\"\nafter = " +
+                   std::to_string(after) + "\n");
+    return run.at(name + ".toml");
+  };
+  const Outcome outcome = run.of({"sim", run.at("world.toml"), "--robot", robot("ann", 60),
+                                  "--robot", robot("bob", 20), "--free-run", "--duration", "1"});
+  EXPECT_EQ(outcome.exitCode, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
+  expectIn(outcome.err, "robot ann (bad/misbehaving/pose)");
+  expectIn(outcome.err, "robot bob (bad/misbehaving/pose)");
+}
+
 TEST(Hanging, BadDrivesOfARunLeaveARecordThatIsWhole) {
   const BadRun run(
       "[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n[drive]\nplugin = \"misbehaving\"\nwhere = "
