@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "Axis.hpp"
+#include "FieldMarks.hpp"
 #include "LandmarkLabels.hpp"
 #include "Palette.hpp"
 
@@ -18,7 +19,6 @@ constexpr int kLetterHeight = 8 * kLetters;
 constexpr int kTick = 5;        // [pixels]
 constexpr int kTickRoom = 80;   // for one label [pixels]
 constexpr double kRadius = 15;  // of the mark of the truth [pixels]
-constexpr std::size_t kMostMarks = 5000;
 
 int nearest(double pixel) { return static_cast<int>(std::lround(pixel)); }
 
@@ -52,25 +52,11 @@ void FieldCanvas::axes() const {
 }
 
 void FieldCanvas::line(const FieldLine& line) const {
-  const auto draw = [&](double x0, double y0, double x1, double y1) {
-    picture_.line(pixelX(x0), pixelY(y0), pixelX(x1), pixelY(y1), 1, palette::kLine);
-  };
-  if (line.shape == FieldLine::Shape::straight) {
-    draw(line.x0, line.y0, line.x1, line.y1);
-    return;
-  }
-  constexpr int kPieces = 48;
-  double lastX = 0.0;
-  double lastY = 0.0;
-  for (int i = 0; i <= kPieces; ++i) {
-    const double t = line.from + (line.to - line.from) * i / kPieces;
-    const double along = line.radiusX * std::cos(t);
-    const double across = line.radiusY * std::sin(t);
-    const double x = line.x + along * std::cos(line.angle) - across * std::sin(line.angle);
-    const double y = line.y + along * std::sin(line.angle) + across * std::cos(line.angle);
-    if (i > 0) draw(lastX, lastY, x, y);
-    lastX = x;
-    lastY = y;
+  const auto points = pointsOf(line);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto& [fromX, fromY] = points[i - 1];
+    const auto& [toX, toY] = points[i];
+    picture_.line(pixelX(fromX), pixelY(fromY), pixelX(toX), pixelY(toY), 1, palette::kLine);
   }
 }
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
-#include <cmath>
 #include <span>
 
 #include "Axis.hpp"
+#include "FieldMarks.hpp"
 #include "LandmarkLabels.hpp"
 #include "Picture.hpp"
 #include "Report.hpp"
@@ -21,7 +21,6 @@ constexpr Colour kSolid{255, 255, 255};
 constexpr Colour kNotStandable{40, 40, 40};
 constexpr Colour kStandable{0, 0, 0};
 constexpr int kMaxPixels = 4096;  ///< of the map's longer side
-constexpr std::size_t kMostMarks = 5000;
 
 std::string base64(std::span<const std::byte> bytes) {
   using namespace boost::archive::iterators;
@@ -53,14 +52,6 @@ std::string maskPng(const FieldRegion& region) {
     }
   }
   return base64(picture.png());
-}
-
-std::string place(const FieldLine& line, double t) {
-  const double along = line.radiusX * std::cos(t);
-  const double across = line.radiusY * std::sin(t);
-  return fmt::format("{:.3f} {:.3f}",
-                     line.x + along * std::cos(line.angle) - across * std::sin(line.angle),
-                     line.y + along * std::sin(line.angle) + across * std::cos(line.angle));
 }
 
 }  // namespace
@@ -119,17 +110,12 @@ std::string axesSvg(const MapFrame& f) {
 }
 
 std::string linesSvg(const FieldModel& field) {
-  constexpr int kPieces = 48;
   std::string path;
   for (std::size_t i = 0; i < std::min(field.lines.size(), kMostMarks); ++i) {
-    const FieldLine& line = field.lines[i];
-    if (line.shape == FieldLine::Shape::straight) {
-      path += fmt::format("M{:.3f} {:.3f}L{:.3f} {:.3f}", line.x0, line.y0, line.x1, line.y1);
-      continue;
-    }
-    for (int k = 0; k <= kPieces; ++k) {
-      path += k == 0 ? "M" : "L";
-      path += place(line, line.from + (line.to - line.from) * k / kPieces);
+    const char* command = "M";
+    for (const auto& [x, y] : pointsOf(field.lines[i])) {
+      path += fmt::format("{}{:.3f} {:.3f}", command, x, y);
+      command = "L";
     }
   }
   return path.empty() ? "" : fmt::format(R"(<path class="line" d="{}"/>)", path);
