@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
 #include "Commands.hpp"
 #include "Console.hpp"
@@ -75,13 +74,7 @@ RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& op
 }
 
 /// Says what keeps the figures from meaning anything.
-void warnOfGaps(const RunResult& run) {
-  if (run.figures.steps == 0) {
-    throw std::runtime_error(run.figures.source +
-                             ": gave no reading that says anything about a pose, of a feature that "
-                             "was learned, so there is "
-                             "nothing to localize with");
-  }
+void warnWithoutErrors(const RunResult& run) {
   if (run.figures.overTime.compared > 0) return;
   warn(run.figures.source +
        " gave no ground truth for any time with an estimate (a feature of type "
@@ -109,7 +102,8 @@ int runEval(const EvalArguments& arguments) {
   run.commandLine = arguments.commandLine;
   warnOf(arguments.localization.source, localization->source(), localization->feeder());
   warnWithoutOdometry(*localization, arguments.localization);
-  warnOfGaps(run);
+  requireUpdates(run.figures.steps, arguments.localization);
+  warnWithoutErrors(run);
   if (record) record->commit();
   if (!arguments.json.empty()) outputs.write(arguments.json, toJson(run));
   if (!arguments.report.empty()) outputs.write(arguments.report, toHtml(run));

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "Commands.hpp"
@@ -70,12 +69,7 @@ int runLocalize(const LocalizeArguments& arguments) {
     }
   }
   warnOf(run.source, source, localization->feeder());
-  if (updates == 0) {
-    throw std::runtime_error(run.source +
-                             ": gave no reading that says anything about a pose, of a feature that "
-                             "was learned, so there is "
-                             "nothing to localize with");
-  }
+  requireUpdates(updates, run);
   if (!warned) warnWithoutOdometry(*localization, run);
   output.commit();
   return 0;

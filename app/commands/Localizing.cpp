@@ -108,6 +108,13 @@ std::optional<EvaluationStep> nextStep(Localization& localization,
   return std::nullopt;
 }
 
+void requireUpdates(std::size_t updates, const LocalizationArguments& arguments) {
+  if (updates > 0) return;
+  throw std::runtime_error(arguments.source +
+                           ": gave no reading that says anything about a pose, of a feature that "
+                           "was learned, so there is nothing to localize with");
+}
+
 bool warnWithoutOdometry(const Localization& localization, const LocalizationArguments& arguments) {
   if (localization.mcl().hasOdometry()) return false;
   const MclConfig& mcl = localization.mclConfig();

@@ -27,6 +27,9 @@ std::optional<EvaluationStep> nextStep(Localization& localization,
                                        const LocalizationArguments& arguments,
                                        const std::function<void(const Feeder&)>& onMoment = {});
 
+/// @throws std::runtime_error saying what was missing, if a run had no update
+void requireUpdates(std::size_t updates, const LocalizationArguments& arguments);
+
 /// Says what MCL does without odometry, if none has come; returns whether it said so.
 bool warnWithoutOdometry(const Localization& localization, const LocalizationArguments& arguments);
 
