@@ -9,6 +9,7 @@ namespace ortung::app {
 
 int runServe(const ServeArguments& arguments) {
   if (!arguments.serving.isServing) throw UsageError("--listen [ADDRESS:]PORT is missing");
+  checkPace(arguments.serving);
   warnOf(RecordSource(arguments.record));
   ServedRecord record(arguments.record, arguments.repeats);
   serve(record, arguments.serving);

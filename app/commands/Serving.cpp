@@ -88,6 +88,13 @@ class Deadline {
 
 }  // namespace
 
+void checkPace(const ServingArguments& arguments) {
+  if (arguments.freeRun && arguments.speed != 1.0)
+    throw UsageError("--free-run and --speed exclude each other");
+  if (arguments.freeRun && arguments.lockstep)
+    throw UsageError("--free-run and --lockstep exclude each other: in lockstep, clients decide");
+}
+
 void serve(ServedWorld& world, const ServingArguments& arguments) {
   BoardConfig config;
   readListen(arguments.listen, config);
@@ -95,8 +102,6 @@ void serve(ServedWorld& world, const ServingArguments& arguments) {
   for (const std::string& name : arguments.control)
     config.control.push_back(name == "all" ? "*" : name);
   config.speed = arguments.speed;
-  if (arguments.freeRun && arguments.lockstep)
-    throw UsageError("--free-run and --lockstep exclude each other: in lockstep, clients decide");
   if (arguments.freeRun) config.pace = Pace::kFree;
   if (arguments.lockstep) config.pace = Pace::kLockstep;
   config.limits.idle = arguments.idle;

@@ -5,6 +5,9 @@
 
 namespace ortung::app {
 
+/// @throws UsageError for paces that exclude each other
+void checkPace(const ServingArguments& arguments);
+
 /// Serves @p world to clients until a signal comes. Says on stdout where it listens. If the world
 /// has not come to an end 2 s after the signal, the program ends with 128 + the signal's number.
 /// @throws UsageError, std::runtime_error

@@ -212,8 +212,7 @@ int play(const SimArguments& arguments) {
 
 int runSim(const SimArguments& arguments) {
   const ServingArguments& serving = arguments.serving;
-  if (serving.freeRun && serving.speed != 1.0)
-    throw UsageError("--free-run and --speed exclude each other");
+  checkPace(serving);
   if (!serving.isServing) {
     if (serving.lockstep || !serving.control.empty() || !serving.tokens.empty())
       throw UsageError("--lockstep, --allow-control and --token-file are for --listen");

@@ -174,6 +174,8 @@ TEST(Serving, WhatCanNotBeServedIsToldInOneLine) {
       {{"sim", kMaps + "/fields/arena.toml", "--listen", "0.0.0.0:0"}, "that needs a token"},
       {{"sim", kMaps + "/fields/arena.toml", "--listen", "0", "--lockstep", "--free-run"},
        "exclude each other"},
+      {{"serve", kRobot, "--listen", "0", "--free-run", "--speed", "2"},
+       "--free-run and --speed exclude each other"},
       {{"sim", kMaps + "/nowhere.toml", "--listen", "0"}, "can't be read"},
       {{"serve", kRobot, "--listen", "0"}, "expected '# ortung record 1'"}};
   for (const auto& [arguments, expected] : cases) {
