@@ -1,22 +1,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
+#include <span>
+#include <string>
 
 #include "Commands.hpp"
 #include "DecodedPng.hpp"
+#include "Files.hpp"
 #include "Palette.hpp"
 #include "ortung/core/Record.hpp"
 #include "ortung/formats/PoseData.hpp"
 
 namespace ortung::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kPostX = 1.5;
 constexpr double kPostY = 0.8;
@@ -55,10 +52,8 @@ plugin = "ground_truth"
 class ShownPictures : public testing::Test {
  protected:
   ShownPictures() {
-    std::string name = (fs::temp_directory_path() / "ortung-show-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    std::ofstream(folder_ / "plain.toml") << kWorld;
-    std::ofstream(folder_ / "robot.toml") << kRobot;
+    test::writeBytes(folder_ / "plain.toml", kWorld);
+    test::writeBytes(folder_ / "robot.toml", kRobot);
     quietly([&] {
       return runLearn({.world = folder_ / "plain.toml",
                        .robot = folder_ / "robot.toml",
@@ -69,7 +64,6 @@ class ShownPictures : public testing::Test {
     record.write({0, {"eye", "camera", "posts"}, {3, 1200, 18000 + 4000}});
     record.commit();
   }
-  ~ShownPictures() override { fs::remove_all(folder_); }
 
   static std::string quietly(const std::function<int()>& run) {
     testing::internal::CaptureStdout();
@@ -89,9 +83,8 @@ class ShownPictures : public testing::Test {
 
   DecodedPng shown(const ShowArguments& arguments) {
     printed_ = quietly([&] { return runShow(arguments); });
-    std::ifstream in(arguments.out, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    return DecodedPng(std::as_bytes(std::span(text)));
+    const std::string png = test::readBytes(arguments.out);
+    return DecodedPng(std::as_bytes(std::span(png)));
   }
 
   /// Compares every cell's colour with what it should be; marks may hide a few.
@@ -120,7 +113,7 @@ class ShownPictures : public testing::Test {
     EXPECT_LT(hidden, 60);
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
   std::string printed_;
 };
 
