@@ -8,7 +8,7 @@ import tempfile
 try:
     from PIL import Image
 except ImportError:
-    print("skipped: needs python3-pil")
+    print("picture_of_scene_test.py: Skipped\nPillow (python3-pil) is not here")  # as scripts/skipped.py reads it
     sys.exit(77)
 
 WORLD = """
