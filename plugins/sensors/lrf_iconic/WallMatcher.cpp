@@ -4,8 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numbers>
 
 #include "ScanForecast.hpp"
 
@@ -29,9 +27,12 @@ constexpr double kAlike = 0.75;  // of the best share of beams: as good as the b
 constexpr double kAlikeThrough = 0.1;
 constexpr double kFewestSine = 0.34;  // of the angle between two pieces: 20 degrees
 
-double lengthOf(const StraightPiece& s) { return std::hypot(s.to.x - s.from.x, s.to.y - s.from.y); }
+double lengthOf(const StraightPiece& s) { return distance(s.from, s.to); }
 double directionOf(const StraightPiece& s) {
   return std::atan2(s.to.y - s.from.y, s.to.x - s.from.x);
+}
+PlanePoint middleOf(const StraightPiece& s) {
+  return {0.5 * (s.from.x + s.to.x), 0.5 * (s.from.y + s.to.y)};
 }
 
 PlanePoint moved(const Pose2& frame, const PlanePoint& p) {
@@ -118,8 +119,7 @@ int WallMatcher::explained(std::span<const StraightPiece> segments, const Pose2&
 int WallMatcher::wallsSeen(std::span<const StraightPiece> segments, const Pose2& sensor) const {
   std::vector<const MeasuredWall*> seen;
   for (const StraightPiece& s : segments) {
-    const PlanePoint middle{0.5 * (s.from.x + s.to.x), 0.5 * (s.from.y + s.to.y)};
-    const MeasuredWall* wall = wallOf(moved(sensor, middle), sensor.theta + directionOf(s));
+    const MeasuredWall* wall = wallOf(moved(sensor, middleOf(s)), sensor.theta + directionOf(s));
     if (wall != nullptr && std::find(seen.begin(), seen.end(), wall) == seen.end())
       seen.push_back(wall);
   }
@@ -142,11 +142,8 @@ std::vector<WallMatcher::Candidate> WallMatcher::candidates(
     const double shareB = lengthOf(b) / (lengthOf(a) + lengthOf(b));
     Pose2 sensor{0.0, 0.0, wrapAngle(turnA + shareB * wrapAngle(turnB - turnA))};
     // Both pieces' middles must come to lie on the walls' lines.
-    const auto middle = [](const StraightPiece& s) {
-      return PlanePoint{0.5 * (s.from.x + s.to.x), 0.5 * (s.from.y + s.to.y)};
-    };
-    const double offA = offsetFrom(u, moved(sensor, middle(a)));
-    const double offB = offsetFrom(v, moved(sensor, middle(b)));
+    const double offA = offsetFrom(u, moved(sensor, middleOf(a)));
+    const double offB = offsetFrom(v, moved(sensor, middleOf(b)));
     const double sine = u.cosine * v.sine - u.sine * v.cosine;
     if (std::abs(sine) < kFewestSine) return;
     sensor.x = (-offA * v.cosine + offB * u.cosine) / sine;
@@ -191,8 +188,7 @@ WallMatcher::Evidence WallMatcher::evidenceOf(const StraightPiece& segment, cons
   Evidence evidence;
   const Pose2 sensor = robot * mount;
   const double direction = sensor.theta + directionOf(segment);
-  const PlanePoint middle =
-      moved(sensor, {0.5 * (segment.from.x + segment.to.x), 0.5 * (segment.from.y + segment.to.y)});
+  const PlanePoint middle = moved(sensor, middleOf(segment));
   for (const PlanePoint& point : segment.points) {
     const PlanePoint p = moved(sensor, point);
     const MeasuredWall* wall = wallOf(p, direction);
