@@ -18,6 +18,19 @@ TEST_F(Opening, TheTextsOwnMistakesAreATypeOfTheirOwn) {
   EXPECT_THROW(openSource("telepathy:x", "", factory), PluginError);
 }
 
+TEST_F(Opening, AnUnknownKindIsToldWithThoseThatThereAreAndWithWhatIsBroken) {
+  const TemporaryFolder plugins;
+  writeBytes(plugins / "ortung_a.so", "text");
+  writeBytes(plugins / "ortung_telepathy_source.so", "more text");
+  PluginFactory factory({plugins.path()});
+  const std::string why = ": is no 64-bit shared library";
+  EXPECT_EQ(messageOf<PluginError>([&] { openSource("telepathy:x", "", factory); }),
+            "telepathy:x: there is no kind of source 'telepathy', expected one of record"
+            "; not loaded: " +
+                (plugins / "ortung_a.so").string() + why +
+                "; not loaded: " + (plugins / "ortung_telepathy_source.so").string() + why);
+}
+
 TEST_F(Opening, OpensARecord) {
   PluginFactory factory;
   const auto source = openSource("record:" + recordFile.string(), "", factory);

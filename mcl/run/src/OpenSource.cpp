@@ -23,11 +23,19 @@ std::unique_ptr<Source> openRecord(const SourceText& text) {
   return std::make_unique<RecordSource>(text.path);
 }
 
-std::set<std::string> kindsOf(PluginFactory& factory) {
-  std::set<std::string> kinds = {"record"};
-  for (const PluginFactory::Found& library : factory.list())
+/// What sources there are, and why some libraries, which may have more, could not be loaded.
+struct Kinds {
+  std::set<std::string> names = {"record"};
+  std::string complaints;
+};
+
+Kinds kindsOf(PluginFactory& factory) {
+  Kinds kinds;
+  for (const PluginFactory::Found& library : factory.list()) {
+    if (!library.error.empty()) kinds.complaints += "; not loaded: " + library.error;
     for (const auto& entry : library.entries)
-      if (entry.interface == Source::kInterface) kinds.insert(entry.name);
+      if (entry.interface == Source::kInterface) kinds.names.insert(entry.name);
+  }
   return kinds;
 }
 
@@ -35,12 +43,6 @@ std::string joined(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
-}
-
-/// Of what the factory says where it found nothing: the libraries that may have had it.
-std::string whatIsBroken(const std::string& complaint) {
-  const std::size_t begin = complaint.find("; not loaded: ");
-  return begin == complaint.npos ? "" : complaint.substr(begin);
 }
 
 }  // namespace
@@ -66,11 +68,11 @@ std::unique_ptr<Source> openSource(const SourceText& text, const std::filesystem
   parameters.set("robot_file", robotFile.string());
   try {
     return factory.make<Source>(text.kind, parameters);
-  } catch (const PluginError& error) {
-    const std::set<std::string> kinds = kindsOf(factory);
-    if (kinds.contains(text.kind)) throw;
+  } catch (const PluginError&) {
+    const Kinds kinds = kindsOf(factory);
+    if (kinds.names.contains(text.kind)) throw;
     throw PluginError(parameters.where() + ": there is no kind of source '" + text.kind +
-                      "', expected one of " + joined(kinds) + whatIsBroken(error.what()));
+                      "', expected one of " + joined(kinds.names) + kinds.complaints);
   }
 }
 
