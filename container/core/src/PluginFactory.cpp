@@ -99,6 +99,20 @@ void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
   }
 }
 
+/// The libraries PREFIX*.so of a folder, in the order of the alphabet; none if it can't be read.
+std::vector<std::filesystem::path> librariesIn(const std::filesystem::path& folder,
+                                               const std::string& prefix) {
+  std::vector<std::filesystem::path> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(prefix) && entry.path().extension() == ".so")
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 }  // namespace
 
 PluginError::~PluginError() = default;
@@ -139,18 +153,9 @@ void PluginFactory::load(const std::filesystem::path& file) {
 /// Loads the libraries ortung_PART*.so of all folders, in the order of the alphabet. Returns why
 /// some could not be loaded: a broken library must not hide the plugins of its neighbours.
 std::vector<PluginFactory::Complaint> PluginFactory::loadWhere(const std::string& part) {
-  const std::string prefix = "ortung_" + part;
   std::vector<Complaint> complaints;
   for (const auto& folder : folders_) {
-    std::vector<std::filesystem::path> files;
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-      const std::string name = entry.path().filename();
-      if (name.starts_with(prefix) && entry.path().extension() == ".so")
-        files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    for (const auto& file : files) {
+    for (const auto& file : librariesIn(folder, "ortung_" + part)) {
       try {
         load(file);
       } catch (const PluginError& error) {
@@ -164,15 +169,7 @@ std::vector<PluginFactory::Complaint> PluginFactory::loadWhere(const std::string
 std::vector<PluginFactory::Found> PluginFactory::list() {
   std::vector<Found> all;
   for (const auto& folder : folders_) {
-    std::vector<std::filesystem::path> files;
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-      const std::string name = entry.path().filename();
-      if (name.starts_with("ortung_") && entry.path().extension() == ".so")
-        files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    for (const auto& file : files) {
+    for (const auto& file : librariesIn(folder, "ortung_")) {
       Found found;
       found.file = file;
       try {
