@@ -133,5 +133,27 @@ TEST_F(Fault, OfALiveRecordLeavesTheOldOneOrWholeMoments) {
   EXPECT_GT(most, 6u);
 }
 
+// What can't be read is not taken for the end.
+TEST_F(Fault, OfReadingARecordIsTold) {
+  recordRun();
+  fs::copy(path("run.rec"), path("out/r"));
+  const std::vector<std::string> command = {"import", "record", path("out/r"), "--out",
+                                            path("again.rec")};
+  const std::size_t pieces = read("out/r").size() / 8192;
+  ASSERT_GT(pieces, 4u);
+  std::size_t failed = 0;
+  while (fails({"read", EIO}, static_cast<int>(failed) + 1, command)) {
+    ++failed;
+    EXPECT_EQ(outcome_.exitCode, 1);
+    EXPECT_TRUE(outcome_.err.find("can't be read: Input/output error") != std::string::npos ||
+                outcome_.err.find("reading failed") != std::string::npos)
+        << outcome_.err;
+    EXPECT_NE(outcome_.err.find("out/r:"), std::string::npos) << outcome_.err;
+    EXPECT_FALSE(fs::exists(path("again.rec")));
+  }
+  EXPECT_EQ(outcome_.exitCode, 0) << outcome_.err;
+  EXPECT_GT(failed, pieces);
+}
+
 }  // namespace
 }  // namespace ortung::test

@@ -90,6 +90,11 @@ int open64(const char* file, int flags, ...) {
   return openWith("open64", file, flags, mode);
 }
 
+ssize_t read(int descriptor, void* bytes, size_t size) {
+  if (isWithin(fileOf(descriptor)) && fails("read")) return -1;
+  return next<ssize_t(int, void*, size_t)>("read")(descriptor, bytes, size);
+}
+
 ssize_t write(int descriptor, const void* bytes, size_t size) {
   if (isWithin(fileOf(descriptor)) && fails("write")) return -1;
   return next<ssize_t(int, const void*, size_t)>("write")(descriptor, bytes, size);

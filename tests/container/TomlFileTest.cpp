@@ -84,6 +84,12 @@ TEST(Toml, TextOfAFileIsThatOfItsBytes) {
             std::string::npos);
 }
 
+// What can't be read is not taken for the end. (Of this file nothing is at its beginning.)
+TEST(Toml, TellsThatReadingFailed) {
+  EXPECT_EQ(complaint([&] { readTomlText("/proc/self/mem"); }),
+            "/proc/self/mem: can't be read: Input/output error");
+}
+
 TEST(Toml, RefusesDeepNestingInAnyForm) {
   const std::vector<std::string> bombs = {
       "a = " + std::string(100000, '['),

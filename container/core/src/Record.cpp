@@ -1,6 +1,7 @@
 #include "ortung/core/Record.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <limits>
 #include <stdexcept>
@@ -154,6 +155,7 @@ RecordSource::RecordSource(const std::filesystem::path& file)
   }
   char magic[kRecordMagic.size() + 1];
   in_.read(magic, sizeof magic);
+  if (in_.bad()) throw std::runtime_error(file.string() + ": " + cantBeRead(errno));
   const std::string_view found(magic, static_cast<std::size_t>(in_.gcount()));
   if (found != std::string(kRecordMagic) + "\n") {
     throw std::runtime_error(file.string() + ":1: found " +
@@ -176,11 +178,12 @@ void RecordSource::fail(const std::string& what) const {
 /// The next line; false at the end of what is whole.
 bool RecordSource::readWholeLine() {
   if (torn_ && done_ >= torn_->begin) return false;
-  if (!readLine(in_, line_)) return false;
-  if (line_.size() > kMaxLineBytes) {
+  const bool isLine = readLine(in_, line_);
+  if (in_.bad() || line_.size() > kMaxLineBytes) {
     ++lineNumber_;
-    fail("the line is longer than 64 MiB");
+    fail(in_.bad() ? cantBeRead(errno) : "the line is longer than 64 MiB");
   }
+  if (!isLine) return false;
   if (in_.eof()) {
     torn_ = {done_, line_.size()};
     return false;

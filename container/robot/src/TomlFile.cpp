@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
 
@@ -140,6 +141,7 @@ std::string readTomlText(const std::filesystem::path& file) {
     in.read(part.data(), part.size());
     text.append(part.data(), static_cast<std::size_t>(in.gcount()));
   } while (in && text.size() <= kMaxConfigBytes);
+  if (in.bad()) throw ConfigError(file.string() + ": " + cantBeRead(errno));
   checkSize(text, file.string(), kMaxConfigBytes);
   return text;
 }
