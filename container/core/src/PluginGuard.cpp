@@ -99,7 +99,7 @@ struct PluginWatch::Impl {
       const double seconds = isSame ? was->second.seconds + passed : 0.0;
       if (seconds >= budget)
         return guard->who_ + " has been in " + guard->what_.load(std::memory_order_relaxed) +
-               " for " + std::to_string(std::lround(seconds * 10.0) / 10.0).substr(0, 5) + " s";
+               " for " + std::to_string(std::round(seconds * 10.0) / 10.0).substr(0, 5) + " s";
       under[guard] = {entered, left, seconds};
     }
     seen = std::move(under);
