@@ -45,11 +45,12 @@ class Inspection {
       refuse(key, node, "names a file, which a configuration from the network must not");
     if (const auto* text = node.as_string()) inspectText(key, *text);
     if (const auto* table = node.as_table()) inspect(*table);
-    if (const auto* list = node.as_array())
-      for (const toml::node& entry : *list) inspect(key, entry);
-    if (const auto* list = node.as_array(); list != nullptr && key == "body")
-      for (const toml::node& entry : *list)
-        if (const auto* body = entry.as_table()) countPart(*body);
+    if (const auto* list = node.as_array()) {
+      for (const toml::node& entry : *list) {
+        inspect(key, entry);
+        if (const auto* body = entry.as_table(); body != nullptr && key == "body") countPart(*body);
+      }
+    }
   }
 
   void inspectText(std::string_view key, const toml::value<std::string>& value) const {
