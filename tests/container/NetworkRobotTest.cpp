@@ -93,7 +93,8 @@ TEST(NetworkRobot, OtherSectionsOfTheseNamesAreNotTheClients) {
   EXPECT_EQ(complaintAbout(kScanner + "[drive.motion]\nnetwork_file = \"x\"\n"),
             "robot file:4: network_file names a file, which a configuration from the network must "
             "not");
-  EXPECT_NE(complaintAbout("motion = 5\n" + kScanner), "");
+  EXPECT_EQ(complaintAbout("motion = 5\n" + kScanner),
+            "robot file:1: motion is a whole number, expected a table [motion]");
 }
 
 }  // namespace
