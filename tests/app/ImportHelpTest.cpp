@@ -2,9 +2,10 @@
 
 #include <cstdlib>
 #include <set>
-#include <sstream>
 #include <string>
 
+#include "Files.hpp"
+#include "KnownKeys.hpp"
 #include "Workspace.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
@@ -28,24 +29,11 @@ class ImportHelp : public Workspace {
     options.set("path", path);
     options.set("robot_file", robot);
     options.set("nobody_knows_this", "1");
-    try {
-      factory.make<Source>(kind, options);
-    } catch (const ConfigError& error) {
-      const std::string text = error.what();
-      const std::size_t at = text.find("known are ");
-      if (text.find("nobody_knows_this is not known") != text.npos && at != text.npos) {
-        Keys keys;
-        std::istringstream rest(text.substr(at + 10));
-        for (std::string key; rest >> key;) keys.insert(key.substr(0, key.find(',')));
-        keys.erase("path");
-        keys.erase("robot_file");
-        return keys;
-      }
-    } catch (const std::exception& error) {
-      ADD_FAILURE() << error.what();
-    }
-    ADD_FAILURE() << kind << " does not refuse what it does not know";
-    return {};
+    const auto error = messageOf<ConfigError>([&] { factory.make<Source>(kind, options); });
+    Keys keys = keysKnownIn(error, "nobody_knows_this");
+    keys.erase("path");
+    keys.erase("robot_file");
+    return keys;
   }
   static Keys told(const std::string& kind) {
     PluginFactory factory(PluginFactory::standardFolders());

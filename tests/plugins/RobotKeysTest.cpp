@@ -6,10 +6,11 @@
 #include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "Files.hpp"
+#include "KnownKeys.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/motion/MotionModel.hpp"
@@ -49,23 +50,8 @@ Keys keysOfPage(const fs::path& page, const std::string& head) {
 /// The keys that the error names which `nobody_knows_this = 1` in @p toml brings about.
 template <class Make>
 Keys knownKeys(const Make& make, const std::string& toml) {
-  try {
-    make(parseToml(toml, "test.toml"));
-  } catch (const ConfigError& error) {
-    const std::string text = error.what();
-    const std::string begin = "known are ";
-    const std::size_t at = text.find(begin);
-    if (text.find("nobody_knows_this is not known here") == text.npos || at == text.npos) {
-      ADD_FAILURE() << text;
-      return {};
-    }
-    Keys keys;
-    std::istringstream rest(text.substr(at + begin.size()));
-    for (std::string key; rest >> key;) keys.insert(key.substr(0, key.find(',')));
-    return keys;
-  }
-  ADD_FAILURE() << "a key that nobody knows was taken";
-  return {};
+  const auto error = test::messageOf<ConfigError>([&] { make(parseToml(toml, "test.toml")); });
+  return test::keysKnownIn(error, "nobody_knows_this");
 }
 
 const std::string kUnknown = "\nnobody_knows_this = 1\n";

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "Files.hpp"
+#include "KnownKeys.hpp"
 #include "MotionRig.hpp"
 #include "SensorRig.hpp"
 #include "ortung/formats/OdometryData.hpp"
@@ -47,22 +47,9 @@ std::set<std::string> knownTo(const std::function<void(const std::string&)>& mak
                               const Settings& settings, const std::string& table) {
   Settings wrong = settings;
   wrong[table + "no_such_key"] = "1";
-  std::string said;
-  try {
-    make(toml(wrong));
-  } catch (const ConfigError& error) {
-    said = error.what();
-  }
-  const std::string mark = "known are ";
-  const std::size_t at = said.find(mark);
-  EXPECT_NE(at, said.npos) << said;
-  if (at == said.npos) return {};
-  std::istringstream list(said.substr(at + mark.size()));
+  const auto said = test::messageOf<ConfigError>([&] { make(toml(wrong)); });
   std::set<std::string> keys;
-  for (std::string word; list >> word;) {
-    word.erase(std::remove(word.begin(), word.end(), ','), word.end());
-    if (word != "and" && word != "no_such_key") keys.insert(table + word);
-  }
+  for (const std::string& key : test::keysKnownIn(said, "no_such_key")) keys.insert(table + key);
   return keys;
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace ortung::test {
+
+/// The keys that @p error names as known, which must be that about @p unknown.
+inline std::set<std::string> keysKnownIn(const std::string& error, const std::string& unknown) {
+  const std::string begin = unknown + " is not known here; known are ";
+  const std::size_t at = error.find(begin);
+  EXPECT_NE(at, error.npos) << error;
+  std::set<std::string> keys;
+  std::istringstream rest(at == error.npos ? "" : error.substr(at + begin.size()));
+  for (std::string key; rest >> key;) keys.insert(key.substr(0, key.find(',')));
+  return keys;
+}
+
+}  // namespace ortung::test
