@@ -5,15 +5,10 @@
 #include <numbers>
 
 #include "Golden.hpp"
+#include "TableUser.hpp"
 #include "ortung/core/Record.hpp"
-#include "ortung/formats/BearingData.hpp"
-#include "ortung/formats/ConeData.hpp"
-#include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/OdometryData.hpp"
-#include "ortung/formats/PointsData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
-#include "ortung/formats/ScalarData.hpp"
-#include "ortung/formats/ScanData.hpp"
 #include "ortung/motion/MotionNetwork.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
 #include "ortung/robot/RobotFile.hpp"
@@ -101,22 +96,7 @@ FieldRegion smallRegion() {
 /// A feature of each format. What they learn is made of the number of the cell and nothing else.
 struct SmallRobot {
   SmallRobot() {
-    container.add(std::make_unique<ScalarData>(SensorId{"cam", "camera", "post1Distance"}, Pose2{},
-                                               ScalarData::Config{}));
-    container.add(std::make_unique<BearingData>(SensorId{"cam", "camera", "post1Bearing"}, Pose2{},
-                                                BearingData::Config{}));
-    container.add(std::make_unique<LandmarksData>(
-        SensorId{"cam", "camera", "posts"}, Pose2{},
-        LandmarksData::Config{.identities = {7, 4000000000}, .range = {}}));
-    container.add(std::make_unique<PointsData>(SensorId{"cam", "camera", "lines"}, Pose2{},
-                                               PointsData::Config{.cell = 0.5}));
-    container.add(std::make_unique<ConeData>(SensorId{"Polaroid", "sonar", "front"}, Pose2{},
-                                             ConeData::Config{}));
-    ScanData::Config scan{.beams = 4, .firstAngle = -kPi / 2, .angleStep = kPi / 2};
-    container.add(std::make_unique<ScanData>(SensorId{"LMS200", "LRF", "rays"}, Pose2{}, scan));
-    scan.perception = ScanData::Perception::kEndPoints;
-    scan.endPointCell = 0.5;
-    container.add(std::make_unique<ScanData>(SensorId{"LMS200", "LRF", "points"}, Pose2{}, scan));
+    test::fillForTables(container);
     container.add(std::make_unique<PoseFixData>(SensorId{"LMS200", "LRF", "position"},
                                                 PoseFixData::Config{}));
     container.add(std::make_unique<OdometryData>(SensorId{"base", "odometry", "pose"}));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "Files.hpp"
+#include "MendedFiles.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/tables/TableFile.hpp"
 
@@ -178,23 +179,7 @@ void forge(const std::filesystem::path& file, const std::string& from, const std
   const std::size_t at = bytes.find(from);
   ASSERT_NE(at, std::string::npos);
   bytes.replace(at, from.size(), to);
-  // The first member: its size at 22 of the local header, names at 26 and 28, its checksum at 14;
-  // the same checksum stands at 16 of the first entry of the directory.
-  const auto number = [&bytes](std::size_t place, std::size_t size) {
-    std::uint32_t value = 0;
-    std::memcpy(&value, bytes.data() + place, size);
-    return value;
-  };
-  const std::size_t data = 30 + number(26, 2) + number(28, 2);
-  std::uint32_t crc = ~0u;
-  for (std::size_t i = data; i < data + number(22, 4); ++i) {
-    crc ^= static_cast<unsigned char>(bytes[i]);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) ? 0xEDB88320u : 0u);
-  }
-  crc = ~crc;
-  const std::size_t directory = number(bytes.size() - 6, 4);
-  std::memcpy(bytes.data() + 14, &crc, 4);
-  std::memcpy(bytes.data() + directory + 16, &crc, 4);
+  test::mendZip(bytes);
   writeBytes(file, bytes);
 }
 
