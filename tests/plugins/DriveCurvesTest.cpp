@@ -4,9 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "Files.hpp"
-#include "MotionRig.hpp"
-#include "ortung/robot/MotionNetworkFile.hpp"
+#include "NeuralRig.hpp"
 
 /// Ways of drives and motion models on curves, in closed form.
 namespace ortung {
@@ -45,31 +43,14 @@ TEST(DriveCurves, MeasuredVelocitiesHaveTheScalesOfOdometryUnlessNoNoiseIsWanted
   }
 }
 
-class NeuralCurves : public testing::Test {
- protected:
-  /// Steps of 0.1 s. @param weights of (v, w, commanded v and w) for what differs from keeping them
-  std::string network(std::vector<double> weights, std::vector<double> bias, bool fromVelocities) {
-    MotionNetwork n;
-    n.step = 0.1;
-    n.commands = 1;
-    n.fromVelocities = fromVelocities;
-    n.limit = {2.0, 3.0};
-    n.inputMean.assign(4, 0.0);
-    n.inputScale.assign(4, 1.0);
-    n.outputScale.assign(5, 1.0);
-    n.layers = {{4, 5, std::move(weights), std::move(bias)}};
-    test::writeBytes(folder_ / "net.json", toJson(n));
-    return "network_file = \"" + (folder_ / "net.json").string() + "\"";
-  }
-  test::TemporaryFolder folder_;
-};
+using NeuralCurves = NeuralRig;
 
 // A base that keeps its velocity and slides 0.03 m to the left in each step: wherever a step is
 // cut, at its end the robot is where the network said.
 TEST_F(NeuralCurves, AStepLeadsToWhereTheNetworkSaysOnAnArc) {
   for (const double turn : {0.0, 2.0, -2.5}) {
-    const auto drive =
-        makeDrive("neural", network(std::vector<double>(20, 0.0), {0, 0.03, 0, 0, 0}, false));
+    const auto drive = makeDrive(
+        "neural", settings(linearNetwork(std::vector<double>(20, 0.0), {0, 0.03, 0, 0, 0}, false)));
     drive->setVelocity({0.8, 0.0, turn});
     Pose2 pose;
     for (const double dt : {0.03, 0.05, 0.02}) pose = pose * drive->relocate(dt, nullptr);
@@ -88,9 +69,7 @@ TEST_F(NeuralCurves, AStepLeadsToWhereTheNetworkSaysOnAnArc) {
 // A base that drives at what it is told when a step begins: 0, 1, 1, 0 and 0.5 m/s. Each reading
 // comes at the end of a step, which is known then, and begins the next one.
 TEST_F(NeuralCurves, AReadingAtTheEndOfAStepCommandsTheNextOne) {
-  const auto motion = makeMotion(
-      "neural", network({-0.1, 0, 0.1, 0, 0, 0, 0, 0, 0, -0.1, 0, 0.1, -1, 0, 1, 0, 0, -1, 0, 1},
-                        {0, 0, 0, 0, 0}, true));
+  const auto motion = makeMotion("neural", settings(obedientNetwork(true)));
   double expected = 0.0;
   double last = 0.0;
   Timestamp stamp = 0;

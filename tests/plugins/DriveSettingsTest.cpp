@@ -3,9 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Files.hpp"
-#include "MotionRig.hpp"
-#include "ortung/robot/MotionNetworkFile.hpp"
+#include "NeuralRig.hpp"
 
 /// Limits and noise of the drives, by hand.
 namespace ortung {
@@ -106,22 +104,13 @@ TEST(DriveSettings, AnOmniDriveIsNoFasterThanItsFileSays) {
 }
 
 /// Its network keeps whatever velocity the robot has.
-class Coasting : public testing::Test {
+class Coasting : public NeuralRig {
  protected:
   std::unique_ptr<Drive> drive(const std::string& more) {
-    MotionNetwork n;
-    n.step = 0.1;
-    n.commands = 1;
-    n.limit = {2.0, 3.0};
-    n.inputMean.assign(4, 0.0);
-    n.inputScale.assign(4, 1.0);
-    n.outputScale.assign(5, 1.0);
-    n.layers = {{4, 5, std::vector<double>(20, 0.0), std::vector<double>(5, 0.0)}};
-    test::writeBytes(folder_ / "net.json", toJson(n));
-    return makeDrive("neural",
-                     "network_file = \"" + (folder_ / "net.json").string() + "\"\n" + more);
+    return makeDrive("neural", settings(linearNetwork(std::vector<double>(20, 0.0),
+                                                      std::vector<double>(5, 0.0), false)) +
+                                   more);
   }
-  test::TemporaryFolder folder_;
 };
 
 TEST_F(Coasting, ANetworkHearsOfCollisions) {

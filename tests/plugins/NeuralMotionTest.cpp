@@ -2,44 +2,17 @@
 
 #include <cmath>
 
-#include "Files.hpp"
-#include "MotionRig.hpp"
+#include "NeuralRig.hpp"
 #include "ortung/formats/Words.hpp"
-#include "ortung/robot/MotionNetworkFile.hpp"
 
 namespace ortung {
 namespace {
 
-/// A base that has the commanded velocity at the end of each step, and drives at it in the step.
-MotionNetwork obedient(bool fromVelocities) {
-  MotionNetwork n;
-  n.step = 0.1;
-  n.commands = 1;
-  n.fromVelocities = fromVelocities;
-  n.limit = {2.0, 3.0};
-  n.inputMean.assign(4, 0.0);
-  n.inputScale.assign(4, 1.0);
-  n.outputScale.assign(5, 1.0);
-  // What differs from keeping (v, w): step * (c - v), nothing, step * (c_w - w), c - v, c_w - w.
-  n.layers = {{4,
-               5,
-               {-0.1, 0, 0.1, 0, 0, 0, 0, 0, 0, -0.1, 0, 0.1, -1, 0, 1, 0, 0, -1, 0, 1},
-               {0, 0, 0, 0, 0}}};
-  return n;
-}
-
-class NeuralPlugin : public testing::Test {
- protected:
-  std::string settings(const MotionNetwork& network) {
-    test::writeBytes(folder_ / "net.json", toJson(network));
-    return "network_file = \"" + (folder_ / "net.json").string() + "\"";
-  }
-  test::TemporaryFolder folder_;
-};
+using NeuralPlugin = NeuralRig;
 
 TEST_F(NeuralPlugin, DrivesAsItsNetworkSaysInAnyCycle) {
   for (const double dt : {0.01, 0.1, 0.033}) {
-    const auto drive = makeDrive("neural", settings(obedient(false)));
+    const auto drive = makeDrive("neural", settings(obedientNetwork(false)));
     drive->setTranslationalVelocity(0.5);
     drive->setRotationalVelocity(0.0);
     Pose2 pose;
@@ -51,7 +24,7 @@ TEST_F(NeuralPlugin, DrivesAsItsNetworkSaysInAnyCycle) {
 }
 
 TEST_F(NeuralPlugin, TellsItsCommandsAndKeepsToItsLimits) {
-  const auto drive = makeDrive("neural", settings(obedient(false)));
+  const auto drive = makeDrive("neural", settings(obedientNetwork(false)));
   drive->setTranslationalVelocity(9.0);
   drive->setRotationalVelocity(-9.0);
   drive->measure({}, nullptr);
@@ -62,7 +35,7 @@ TEST_F(NeuralPlugin, TellsItsCommandsAndKeepsToItsLimits) {
 
 // Commands of 1 m/s from 0.1 s on: the network sees each at the beginning of its step.
 TEST_F(NeuralPlugin, FollowsCommandsInsteadOfOdometry) {
-  const auto motion = makeMotion("neural", settings(obedient(true)));
+  const auto motion = makeMotion("neural", settings(obedientNetwork(true)));
   EXPECT_FALSE(motion->odometryAt(0));
   for (int i = 0; i <= 100; ++i) {
     const double v = i >= 10 ? 1.0 : 0.0;
@@ -81,7 +54,8 @@ TEST_F(NeuralPlugin, RefusesBadFilesAndMisspeltKeys) {
   test::writeBytes(folder_ / "bad.json", "{}");
   EXPECT_THROW(makeDrive("neural", "network_file = \"" + (folder_ / "bad.json").string() + "\""),
                ConfigError);
-  EXPECT_THROW(makeMotion("neural", settings(obedient(true)) + "\nturn_per_trun = 1"), ConfigError);
+  EXPECT_THROW(makeMotion("neural", settings(obedientNetwork(true)) + "\nturn_per_trun = 1"),
+               ConfigError);
 }
 
 }  // namespace
