@@ -104,16 +104,6 @@ TEST(IconicSettings, PostsAndGoalsAreHiddenByWhatStandsBeforeThem) {
   EXPECT_EQ(counts("occlusion = false"), std::pair(std::size_t{1}, std::size_t{1}));
 }
 
-WorldObject wall(double x, double y, double halfX, double halfY) {
-  WorldObject object;
-  object.kind = "wall";
-  object.pose = {x, y, 0};
-  object.halfX = halfX;
-  object.halfY = halfY;
-  object.zHigh = 1.0;
-  return object;
-}
-
 /// A room of which only some walls are known: the scanner sees all.
 PoseFixData::Reading fixesIn(const FakeWorld& world, const std::string& more) {
   SensorRig rig("lrf_iconic", "beams = 360\nfov_deg = 360\nmax_range_m = 12\n" + more);
@@ -124,9 +114,9 @@ PoseFixData::Reading fixesIn(const FakeWorld& world, const std::string& more) {
 /// With three of four walls known, those beams that end at the fourth count against it.
 TEST(LrfIconicSettings, HowMuchOfAScanMustAgree) {
   FakeWorld world(8.0, 5.0);
-  world.addObject(wall(4.05, 0, 0.05, 2.6));
-  world.addObject(wall(-4.05, 0, 0.05, 2.6));
-  world.addObject(wall(0, 2.55, 4.1, 0.05));
+  world.addWall(4.05, 0, 0.05, 2.6);
+  world.addWall(-4.05, 0, 0.05, 2.6);
+  world.addWall(0, 2.55, 4.1, 0.05);
   // The unknown wall lies from atan2(-2.9, -4.7) to atan2(-2.9, 3.3): 107 of 360 degrees, and 70 %
   // agree. Three walls ask for 0.115 * 2 more than the setting.
   // Half a turn off, the wall across takes the place of the unknown one.
@@ -139,10 +129,7 @@ TEST(LrfIconicSettings, HowMuchOfAScanMustAgree) {
 /// All four walls of a square: four positions, a quarter turn apart.
 TEST(LrfIconicSettings, MorePositionsThanItMayGiveAreNone) {
   FakeWorld world(6.0, 6.0);
-  for (const double side : {-3.05, 3.05}) {
-    world.addObject(wall(side, 0, 0.05, 3.1));
-    world.addObject(wall(0, side, 3.1, 0.05));
-  }
+  world.addWallsOfRoom();
   EXPECT_EQ(fixesIn(world, "").size(), 4u);
   EXPECT_EQ(fixesIn(world, "most_positions = 4").size(), 4u);
   EXPECT_TRUE(fixesIn(world, "most_positions = 3").empty());
@@ -151,10 +138,7 @@ TEST(LrfIconicSettings, MorePositionsThanItMayGiveAreNone) {
 /// Walls that are not quite where the field says make positions less sure, all of them alike.
 TEST(LrfIconicSettings, WallsThatAreNotSureMakePositionsUnsure) {
   FakeWorld world(6.0, 6.0);
-  for (const double side : {-3.05, 3.05}) {
-    world.addObject(wall(side, 0, 0.05, 3.1));
-    world.addObject(wall(0, side, 3.1, 0.05));
-  }
+  world.addWallsOfRoom();
   const auto sigma = [&](const std::string& text) {
     const auto fixes = fixesIn(world, text + "\nnoise_sigma_m = 0\nrange_sigma_m = 0.0001");
     return fixes.empty() ? -1.0 : std::sqrt(fixes[0].covariance[0]);
@@ -170,12 +154,9 @@ TEST(LrfIconicSettings, WallsThatAreNotSureMakePositionsUnsure) {
 /// as it is seen; what lies behind a wall says that the place is wrong.
 TEST(LrfIconicSettings, APlaceFromWhichOneWouldSeeThroughWallsIsNone) {
   FakeWorld world(8.0, 5.0);
-  world.addObject(wall(4.05, 0, 0.05, 2.6));
-  world.addObject(wall(-4.05, 0, 0.05, 2.6));
-  world.addObject(wall(0, 2.55, 4.1, 0.05));
-  world.addObject(wall(0, -2.55, 4.1, 0.05));
+  world.addWallsOfRoom();
   EXPECT_EQ(fixesIn(world, "").size(), 2u);
-  world.addObject(wall(-1.0, 0.0, 0.05, 1.0));  // known, but it is not there
+  world.addWall(-1.0, 0.0, 0.05, 1.0);  // known, but it is not there
   EXPECT_TRUE(fixesIn(world, "").empty());
 }
 

@@ -13,23 +13,10 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;  // [rad]
 
-WorldObject wall(double x, double y, double halfX, double halfY) {
-  WorldObject object;
-  object.kind = "wall";
-  object.pose = {x, y, 0};
-  object.halfX = halfX;
-  object.halfY = halfY;
-  object.zHigh = 1.0;
-  return object;
-}
-
 /// A room of 8 x 5 m whose walls are known.
 FakeWorld room() {
   FakeWorld world(8.0, 5.0);
-  world.addObject(wall(4.05, 0, 0.05, 2.6));
-  world.addObject(wall(-4.05, 0, 0.05, 2.6));
-  world.addObject(wall(0, 2.55, 4.1, 0.05));
-  world.addObject(wall(0, -2.55, 4.1, 0.05));
+  world.addWallsOfRoom();
   return world;
 }
 

@@ -44,6 +44,24 @@ class FakeWorld : public SimWorld {
     piece.zHigh = object.zHigh;
   }
 
+  /// A wall that is known; rays meet those of the room alone.
+  void addWall(double x, double y, double halfX, double halfY) {
+    WorldObject wall;
+    wall.kind = "wall";
+    wall.pose = {x, y, 0};
+    wall.halfX = halfX;
+    wall.halfY = halfY;
+    wall.zHigh = 1.0;
+    addObject(wall);
+  }
+  /// Makes all four walls of the room known, 0.1 m thick.
+  void addWallsOfRoom() {
+    for (const double side : {1.0, -1.0}) {
+      addWall(side * (halfWidth_ + 0.05), 0.0, 0.05, halfHeight_ + 0.1);
+      addWall(0.0, side * (halfHeight_ + 0.05), halfWidth_ + 0.1, 0.05);
+    }
+  }
+
   /// Range along one horizontal ray [m], infinite in no direction of a room.
   double range(double x, double y, double angle) const {
     const double c = std::cos(angle);
