@@ -63,15 +63,6 @@ const Container& learned() {
   return container;
 }
 
-float setOfOne(const SensorContainer& container, const Pose2& pose) {
-  const auto x = static_cast<float>(pose.x);
-  const auto y = static_cast<float>(pose.y);
-  const auto theta = static_cast<float>(pose.theta);
-  float sum = 0.0F;
-  container.getProbability(SampleView{{&x, 1}, {&y, 1}, {&theta, 1}}, {&sum, 1});
-  return sum;
-}
-
 Pose2 anyPose() {
   // On the field, beside it, far away.
   const int reach = *rc::gen::element(4, 8, 1000);
@@ -82,7 +73,7 @@ Pose2 anyPose() {
 
 RC_GTEST_PROP(ContainerProduct, IsTheSameForAPoseAndForASetOfIt, ()) {
   const Pose2 pose = anyPose();
-  const double sum = static_cast<double>(setOfOne(*learned(), pose));
+  const double sum = static_cast<double>(batchOfOne(*learned(), pose));
   const double product = learned()->getProbability(pose);
   RC_ASSERT(product >= 0.0);
   RC_ASSERT(product <= 1.0);

@@ -3,32 +3,25 @@
 #include <array>
 #include <cmath>
 
-#include "FakeRoom.hpp"
-#include "ortung/formats/ConeData.hpp"
-#include "ortung/formats/LandmarksData.hpp"
-#include "ortung/formats/ScalarData.hpp"
-#include "ortung/formats/ScanData.hpp"
+#include "AllFormats.hpp"
 
 /// Settings of formats: what each of them does to tables and weights, by the formula.
 namespace ortung {
 namespace {
 
 using test::batchOfOne;
+using test::distanceToPost;
 using test::kPi;
+using test::kPostX;
+using test::kPostY;
 using test::learnEverywhere;
 using test::modelled;
 using Words = std::vector<std::uint32_t>;
 
 const SensorId kId{"M", "T", "F"};
-constexpr double kPostX = 1.1;
-constexpr double kPostY = -0.7;
 // The model's table has 128 entries a sigma, so its slope is at most 0.61 / sigma; half a level of
 // a table of 16 bits is less than that.
 constexpr double kTableStep = 0.61 / 128;
-
-double distanceToPost(const Pose2& sensor) {
-  return std::hypot(kPostX - sensor.x, kPostY - sensor.y);
-}
 
 class FormatSettings : public ::testing::Test {
  protected:

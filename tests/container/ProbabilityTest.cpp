@@ -19,7 +19,10 @@ namespace {
 
 using test::allFormats;
 using test::batchOfOne;
+using test::distanceToPost;
 using test::kPi;
+using test::kPostX;
+using test::kPostY;
 using test::learnEverywhere;
 using test::modelled;
 using test::Room;
@@ -27,14 +30,8 @@ using test::somePoses;
 using Words = std::vector<std::uint32_t>;
 
 const SensorId kId{"M", "T", "F"};
-constexpr double kPostX = 1.1;
-constexpr double kPostY = -0.7;
 // The model's table has 128 entries a sigma: its slope is at most 0.61 / sigma.
 constexpr double kTableStep = 0.61 / 256;
-
-double distanceToPost(const Pose2& sensor) {
-  return std::hypot(kPostX - sensor.x, kPostY - sensor.y);
-}
 
 class Learned : public ::testing::Test {
  protected:
@@ -86,7 +83,7 @@ TEST_F(Learned, BearingFollowsTheSensorModelAcrossTheSeam) {
 }
 
 TEST_F(Learned, LandmarksMultiplyRangeAndBearingOfAllInSight) {
-  const std::vector<test::Point> posts = {{7, 1.1, -0.7}, {3, -2.0, 1.5}};
+  const std::vector<test::Point> posts = {{7, kPostX, kPostY}, {3, -2.0, 1.5}};
   const LandmarksData::Config config{.identities = {3, 7},
                                      .range = {.sigma = 0.2, .outliers = 0.05},
                                      .bearing = {.sigma = 0.1, .outliers = 0.06, .exponent = 0.5}};
@@ -108,7 +105,7 @@ TEST_F(Learned, LandmarksMultiplyRangeAndBearingOfAllInSight) {
   ASSERT_EQ(expected.size(), 4u);
   EXPECT_NEAR(expected[0], std::hypot(-2.0 - sensor_.x, 1.5 - sensor_.y), 0.0011)
       << "in the list's order: 3 first";
-  EXPECT_NEAR(expected[3], test::bearingTo(sensor_, 1.1, -0.7), 2e-4);
+  EXPECT_NEAR(expected[3], test::bearingTo(sensor_, kPostX, kPostY), 2e-4);
 }
 
 TEST_F(Learned, ConeKnowsAllFourCases) {

@@ -16,6 +16,14 @@
 /// Features of all formats in the room of FakeRoom.hpp, ready to weigh.
 namespace ortung::test {
 
+/// Where the first post stands [m].
+inline constexpr double kPostX = 1.1;
+inline constexpr double kPostY = -0.7;
+
+inline double distanceToPost(const Pose2& sensor) {
+  return std::hypot(kPostX - sensor.x, kPostY - sensor.y);
+}
+
 /// One of each format that is a table, learned with a mount, and a reading taken at @p sensor.
 inline std::vector<std::unique_ptr<SensorData>> allFormats(const Room& room,
                                                            const FieldRegion& region,
@@ -29,11 +37,11 @@ inline std::vector<std::unique_ptr<SensorData>> allFormats(const Room& room,
     data->setData(1, words(sensor));
     all.push_back(std::move(data));
   };
-  const std::vector<Point> posts = {{1, 1.1, -0.7}, {2, -2.0, 1.5}};
+  const std::vector<Point> posts = {{1, kPostX, kPostY}, {2, -2.0, 1.5}};
   add(std::make_unique<ScalarData>(nextId(), mount, ScalarData::Config{}),
-      [](const Pose2& s) { return ScalarData::encode(std::hypot(1.1 - s.x, -0.7 - s.y)); });
+      [](const Pose2& s) { return ScalarData::encode(distanceToPost(s)); });
   add(std::make_unique<BearingData>(nextId(), mount, BearingData::Config{}),
-      [](const Pose2& s) { return BearingData::encode(bearingTo(s, 1.1, -0.7)); });
+      [](const Pose2& s) { return BearingData::encode(bearingTo(s, kPostX, kPostY)); });
   add(std::make_unique<LandmarksData>(
           nextId(), mount,
           LandmarksData::Config{.identities = {1, 2}, .maxRange = 3.0, .range = {}}),

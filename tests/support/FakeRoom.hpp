@@ -104,13 +104,14 @@ inline void learnEverywhere(SensorData& data, const FieldRegion& region, double 
   data.endLearning();
 }
 
-/// ln p of one pose by the batch call.
-inline float batchOfOne(const SensorData& data, const Pose2& pose) {
+/// ln p of one pose by the batch call of a feature or of a container.
+template <class Weighing>
+float batchOfOne(const Weighing& weighing, const Pose2& pose) {
   const auto x = static_cast<float>(pose.x);
   const auto y = static_cast<float>(pose.y);
   const auto theta = static_cast<float>(pose.theta);
   float logProbability = 0.0F;
-  data.getProbability(SampleView{{&x, 1}, {&y, 1}, {&theta, 1}}, {&logProbability, 1});
+  weighing.getProbability(SampleView{{&x, 1}, {&y, 1}, {&theta, 1}}, {&logProbability, 1});
   return logProbability;
 }
 
