@@ -240,6 +240,15 @@ TEST(Simulation, RefusesCyclesOutOfRangeAndStartsInWalls) {
                std::invalid_argument);
 }
 
+// So trying many places on a crowded field makes plugins but once.
+TEST(Simulation, LooksForRoomBeforeItMakesPlugins) {
+  PluginFactory factory(PluginFactory::standardFolders());
+  Simulation simulation(field(), {});
+  const RobotConfig config = robotConfig("[[sensor]]\nplugin = 'there is none'\n");
+  EXPECT_THROW(simulation.addRobot(config, factory, {4.0, 3.0, 0.0}), NoRoom);  // in a post
+  EXPECT_THROW(simulation.addRobot(config, factory, {2.0, 0.0, 0.0}), PluginError);
+}
+
 TEST(Simulation, CarriesARobotAwayUnnoticed) {
   Wandering run({.cycle = 0.01, .seed = 2, .noise = false});
   const Pose2 before = run.robot->state().odometry;

@@ -151,7 +151,7 @@ RobotSize sizeOf(const RobotConfig& config) {
   return {config.radius, RobotShape::read(config).top()};
 }
 
-std::vector<Primitive> RobotShape::piecesWith(const std::vector<std::size_t>& states) const {
+std::vector<Primitive> RobotShape::piecesWith(std::span<const std::size_t> states) const {
   std::vector<Primitive> all = pieces;
   for (std::size_t i = 0; i < manipulators.size(); ++i) {
     const std::vector<Primitive>& more = manipulators[i].states[states[i]].pieces;

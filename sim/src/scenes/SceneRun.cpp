@@ -19,9 +19,17 @@ DriveLimits limitsOf(SimRobot& robot, std::optional<double> speed) {
   return limits;
 }
 
-NoRoom foundNoRoom(const std::string& robot) {
-  return NoRoom("found no room for robot " + robot + " at " + std::to_string(kAttempts) +
-                " places");
+/// Does something with a robot somewhere on its floor. @throws NoRoom if none is found for it
+template <class Action>
+decltype(auto) anywhere(const RoutePlanner& floor, Random& placing, const std::string& robot,
+                        const Action& action) {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    try {
+      return action(floor.randomPose(placing));
+    } catch (const NoRoom&) {  // there
+    }
+  }
+  throw NoRoom("found no room for robot " + robot + " at " + std::to_string(kAttempts) + " places");
 }
 
 /// Robots go straight from one waypoint to the next, so all of the way must be free of what stands
@@ -85,15 +93,10 @@ SimRobot& SceneRun::addRobot(const RobotConfig& config, PluginFactory& factory,
 
 SimRobot& SceneRun::enter(const RobotConfig& config, PluginFactory& factory,
                           const std::optional<Pose2>& start, Random& placing) {
-  for (int attempt = 1;; ++attempt) {
-    const Pose2 pose = start ? *start : planner(sizeOf(config)).randomPose(placing);
-    try {
-      return simulation_->addRobot(config, factory, pose);
-    } catch (const NoRoom&) {
-      if (start) throw;
-      if (attempt == kAttempts) throw foundNoRoom(config.name);
-    }
-  }
+  const auto add = [&](const Pose2& pose) -> SimRobot& {
+    return simulation_->addRobot(config, factory, pose);
+  };
+  return start ? add(*start) : anywhere(planner(sizeOf(config)), placing, config.name, add);
 }
 
 void SceneRun::kidnap(Kidnapped& kidnapped) {
@@ -101,14 +104,9 @@ void SceneRun::kidnap(Kidnapped& kidnapped) {
       simulation_->now() < kidnapped.moments[kidnapped.next])
     return;
   ++kidnapped.next;
-  const RoutePlanner& floor = planner(sizeOf(kidnapped.robot.config()));
-  for (int attempt = 1;; ++attempt) {
-    try {
-      return simulation_->place(kidnapped.robot, floor.randomPose(kidnapped.placing));
-    } catch (const NoRoom&) {
-      if (attempt == kAttempts) throw foundNoRoom(kidnapped.robot.config().name);
-    }
-  }
+  const RobotConfig& config = kidnapped.robot.config();
+  anywhere(planner(sizeOf(config)), kidnapped.placing, config.name,
+           [&](const Pose2& pose) { simulation_->place(kidnapped.robot, pose); });
 }
 
 void SceneRun::letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed) {

@@ -31,8 +31,7 @@ std::string describe(const Simulation::Thing& thing) {
 
 /// What a robot is made of at present.
 std::vector<Primitive> piecesOf(const SimRobot& robot) {
-  return robot.shape().piecesWith(
-      {robot.manipulatorStates().begin(), robot.manipulatorStates().end()});
+  return robot.shape().piecesWith(robot.manipulatorStates());
 }
 
 Pose2 poseOf(const Primitive& primitive) {
@@ -103,14 +102,16 @@ void Simulation::checkEntry(const RobotConfig& config, const RobotShape& shape) 
 
 SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory,
                                const Pose2& start) {
-  checkEntry(config, RobotShape::read(config));
+  const RobotShape shape = RobotShape::read(config);
+  checkEntry(config, shape);
+  const std::vector<Primitive> pieces =
+      shape.piecesWith(std::vector<std::size_t>(shape.manipulators.size(), 0));
+  // Before its plugins are made, which takes long: many places may be tried.
+  if (!fits(pieces, start, Physics::kNobody))
+    throw NoRoom("robot " + config.name + ": start " + toText(start) + " has no room for it");
   const Random random(config_.seed, kRobots * (added_ + 1));
   auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
   robot->container().setField(field_);
-  const RobotShape& shape = robot->shape();
-  const std::vector<Primitive> pieces = piecesOf(*robot);
-  if (!fits(pieces, start, Physics::kNobody))
-    throw NoRoom("robot " + config.name + ": start " + toText(start) + " has no room for it");
   robot->state_.number = world_->addBody({"robot", config.name, shape.colour, pieces}, start);
   robotBodies_.push_back(physics_->add(pieces, {shape.mass, Physics::Floor::drives}, start));
   robots_.push_back(std::move(robot));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +48,7 @@ struct RobotShape {
   /// no circle has eight.
   ORTUNG_API std::size_t parts() const;
   /// All pieces with the manipulators in these states. @pre one state for each manipulator
-  ORTUNG_API std::vector<Primitive> piecesWith(const std::vector<std::size_t>& states) const;
+  ORTUNG_API std::vector<Primitive> piecesWith(std::span<const std::size_t> states) const;
 };
 
 /// The room that a robot takes. @throws ConfigError
