@@ -81,6 +81,44 @@ TEST(HostileRobot, TooThinOrTooManyIsRefusedByName) {
   EXPECT_TRUE(status.ask("STATUS").starts_with("OK STATUS"));
 }
 
+TEST(HostileRobot, ManyPiecesOfAllRobotsAreALimit) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/msl.toml", {.noise = false});
+  std::string star;
+  for (int i = 0; i < 32; ++i) star += body("body", "rectangle", 0.0, 0.0, 0.4, 0.39, 3 * i);
+  const RobotConfig config = readNetworkRobot(kSensor + star, "the client's", world.plugins());
+  const auto codeOf = [&](RobotId robot, const std::string& name, const Pose2& start) {
+    RobotWish wish;
+    wish.config = config;
+    wish.config.name = name;
+    wish.start = start;
+    try {
+      world.addRobot(robot, std::move(wish));
+    } catch (const ServeError& error) {
+      return error.code();
+    }
+    return std::string();
+  };
+  const auto place = [](RobotId robot) {
+    return Pose2{1.0 + 0.7 * (robot % 8), 0.7 * (robot / 8) - 3.0, 0.0};
+  };
+  for (RobotId robot = 1; robot <= 63; ++robot)
+    ASSERT_EQ(codeOf(robot, "r" + std::to_string(robot), place(robot)), "") << robot;
+  EXPECT_EQ(codeOf(64, "r64", place(1)), "no-room");
+  EXPECT_EQ(codeOf(64, "r64", place(64)), "");
+  EXPECT_EQ(codeOf(65, "r65", place(65)), "limit");
+}
+
+TEST(HostileRobot, MayHaveTheNameThatAnotherOneWouldGet) {
+  ServedSimulation world(kArena, {.noise = false});
+  RobotWish wish;
+  wish.config = readNetworkRobot(kSensor, "the client's", world.plugins());
+  RobotId robot = 0;
+  for (const char* name : {"a", "a-3", "a"}) {  // the third is called a-3 by the simulation
+    wish.config.name = name;
+    EXPECT_NO_THROW(world.addRobot(++robot, wish)) << robot;
+  }
+}
+
 TEST(HostileRobot, ManyPiecesThatPushEachOtherDoNotStopTheWorld) {
   // Ten robots of as many pieces as a client's may have, all on top of each other, meet.
   ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/msl.toml", {.noise = false});

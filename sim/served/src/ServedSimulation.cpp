@@ -134,7 +134,7 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
   }
   RobotConfig config = guest.wish.config;
   // Clients name their robots as they like, so two of them may like the same.
-  if (run_->find(config.name)) config.name += "-" + std::to_string(robot);
+  while (run_->find(config.name)) config.name += "-" + std::to_string(robot);
   const bool isRestart = guests_.contains(robot);
   guest.size = sizeOf(config);
   if (guest.wish.wanders || !guest.wish.start) preparePlanner(guest.size, guest.wish.wanders);
@@ -144,10 +144,12 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
   };
   try {
     add(guest.wish.start);
-  } catch (const std::invalid_argument& error) {
+  } catch (const NoRoom& error) {
     if (!guest.wish.start || !isRestart) throw ServeError("no-room", error.what());
     preparePlanner(guest.size, guest.wish.wanders);
     add(std::nullopt);
+  } catch (const std::invalid_argument& error) {  // all robots have too many pieces
+    throw ServeError("limit", error.what());
   }
   ++entered_;
   if (guest.wish.wanders) run_->letWander(*guest.robot, number);
