@@ -183,6 +183,28 @@ TEST(Turns, WhoWatchesARobotAndAsksForItsReadingsGoesOnWatching) {
   EXPECT_EQ(host.count(2, "* ERR"), 0u);
 }
 
+TEST(Turns, NobodyKeepsTheReadingsOfRobotsThatHaveLeft) {
+  CountingWorld world;
+  FakeHost host(world, lockstepConfig());
+  auto [anna, outletOfAnna] = host.join();
+  auto [viewer, outlet] = host.join("viewer");
+  for (const char* robot : {"one", "two"}) {
+    anna.receive(std::string("CREATE ") + robot + "\n" + kAnyRobot + ".\n");
+    host.settle();
+  }
+  const std::weak_ptr<server::RobotReadings> one = host.keeper.readings(1);
+  const std::weak_ptr<server::RobotReadings> two = host.keeper.readings(2);
+  viewer.receive("SUBSCRIBE robot=1\nSUBSCRIBE robot=2\n");
+  host.settle();
+  anna.receive("REMOVE robot=1\n");
+  host.settle();
+  EXPECT_TRUE(one.expired()) << "watched before the other one";
+  viewer.receive("UNSUBSCRIBE\n");
+  anna.receive("REMOVE robot=2\n");
+  host.settle();
+  EXPECT_TRUE(two.expired()) << "watched once";
+}
+
 // --- worlds that run by themselves
 
 /// Its time is its own; it is looked at once a period.

@@ -334,8 +334,7 @@ void Conversation::dismiss(std::string_view text) {
 void Conversation::hangUp() {
   if (isOver_) return;
   isOver_ = true;
-  if (subscription_) host_.countSubscribers(-1);
-  subscription_.reset();
+  endSubscription();
   if (!hasJoined_) return;
   host_.keeper.give(id_,
                     [id = id_](WorldKeeper& keeper, WorldKeeper::Done&) {

@@ -133,6 +133,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void read(Request& request);
   void subscribe(Request& request);
   void unsubscribe(Request& request);
+  void endSubscription();
   void lockstep(Request& request);
   void next(Request& request);
   RobotId takeRobot(Request& request) const;

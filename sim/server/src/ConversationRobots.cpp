@@ -141,10 +141,7 @@ void Conversation::remove(Request& request) {
       [robot](Conversation& self, const std::string& tag, const std::string&) {
         self.owned_.erase(robot);
         self.views_.erase(robot);
-        if (self.subscription_ && self.subscription_->robot == robot) {
-          self.subscription_.reset();
-          self.host_.countSubscribers(-1);
-        }
+        if (self.subscription_ && self.subscription_->robot == robot) self.endSubscription();
         self.reply(tag, "OK REMOVE");
       },
       true);
@@ -287,6 +284,7 @@ void Conversation::subscribe(Request& request) {
       },
       [robot, found, choice, period](Conversation& self, const std::string& tag,
                                      const std::string&) {
+        if (self.subscription_ && self.subscription_->robot != robot) self.endSubscription();
         self.views_[robot].readings = *found;
         if (!self.subscription_) self.host_.countSubscribers(1);
         self.subscription_ = Subscription{robot, choice, fromSeconds(period), 0};
@@ -297,10 +295,17 @@ void Conversation::subscribe(Request& request) {
 void Conversation::unsubscribe(Request& request) {
   request.refuseRest();
   answer(request.tag(), [tag = request.tag()](Conversation& self) {
-    if (self.subscription_) self.host_.countSubscribers(-1);
-    self.subscription_.reset();
+    self.endSubscription();
     self.reply(tag, "OK UNSUBSCRIBE");
   });
+}
+
+/// The readings of another client's robot are not kept: that may leave the field at any time.
+void Conversation::endSubscription() {
+  if (!subscription_) return;
+  if (!owned_.contains(subscription_->robot)) views_.erase(subscription_->robot);
+  subscription_.reset();
+  host_.countSubscribers(-1);
 }
 
 void Conversation::onCycle() {
@@ -312,8 +317,7 @@ void Conversation::onCycle() {
   if (view != views_.end() && view->second.readings->isRetired()) {
     tell("REMOVE robot=" + std::to_string(subscription.robot));
     views_.erase(view);
-    subscription_.reset();
-    host_.countSubscribers(-1);
+    endSubscription();
     return;
   }
   const Timestamp now = host_.keeper.clock().at(wallTime());
