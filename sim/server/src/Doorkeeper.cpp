@@ -9,6 +9,8 @@ constexpr Timestamp kMemory = 60'000'000;    // of a wrong token [us]
 constexpr std::size_t kMostPeers = 4096;     // remembered; if there are more, all have to wait
 constexpr Timestamp kLogPeriod = 1'000'000;  // so that a guesser does not fill the disk [us]
 
+bool isRemembered(Timestamp since, Timestamp now) { return now - since < kMemory; }
+
 }  // namespace
 
 bool isSameInConstantTime(std::string_view secret, std::string_view given) {
@@ -44,10 +46,6 @@ bool Doorkeeper::mayControl(std::string_view name) const {
   const auto& control = config_.control;
   return std::any_of(control.begin(), control.end(),
                      [&](const std::string& who) { return who == "*" || who == name; });
-}
-
-bool Doorkeeper::isRemembered(Timestamp since, Timestamp now) const {
-  return now - since < kMemory;
 }
 
 Timestamp Doorkeeper::pause(const std::string& peer, Timestamp now) const {

@@ -34,7 +34,6 @@ class Doorkeeper {
 
  private:
   bool isReserved(std::string_view name) const;
-  bool isRemembered(Timestamp since, Timestamp now) const;
 
   const BoardConfig& config_;
   std::map<std::string, Timestamp> refused_;  ///< by computer: when last

@@ -93,7 +93,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   void spread(server::ClientId from, std::string_view text) override {
     for (const auto& [id, session] : sessions_)
       if (id != from) session->conversation().hear(text);
-    if (!std::exchange(isTalkPosted_, true)) post([this] { letHear(0); });
+    haveTalkHeard();
   }
 
   std::size_t listeners(server::ClientId from) const override {
@@ -104,7 +104,11 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   }
 
   void listen(server::Conversation& client) override {
-    if (client.hasTalk() && !std::exchange(isTalkPosted_, true)) post([this] { letHear(0); });
+    if (client.hasTalk()) haveTalkHeard();
+  }
+
+  void haveTalkHeard() {
+    if (!std::exchange(isTalkPosted_, true)) post([this] { letHear(0); });
   }
 
   /// Lets clients behind @p last hear what was said.
@@ -116,8 +120,8 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
       post([this, id = next->first] { letHear(id); });
       return;
     }
-    isTalkPosted_ = std::exchange(hasMoreTalk_, false);
-    if (isTalkPosted_) post([this] { letHear(0); });
+    isTalkPosted_ = false;
+    if (std::exchange(hasMoreTalk_, false)) haveTalkHeard();
   }
 
   void forget(server::ClientId client) override {

@@ -23,10 +23,7 @@ Query::Query(const std::string& text) {
 }
 
 bool Query::matches(const SensorId& id) const {
-  const auto fits = [](const std::string& wanted, const std::string& name) {
-    return wanted.empty() || wanted == "*" || wanted == name;
-  };
-  return fits(model, id.model) && fits(type, id.type) && fits(feature, id.feature);
+  return ortung::matches({model, type, feature}, id);
 }
 
 bool Choice::wants(const SensorId& id) const {

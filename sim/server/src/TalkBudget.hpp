@@ -11,9 +11,8 @@ namespace ortung::server {
 class TalkBudget {
  public:
   /// @param lines, bytes a second
-  TalkBudget(double lines, double bytes) : TalkBudget(lines, bytes, 1.0) {}
   /// @param share of a second that is there at the beginning
-  TalkBudget(double lines, double bytes, double share)
+  TalkBudget(double lines, double bytes, double share = 1.0)
       : mostLines_(lines), mostBytes_(bytes), lines_(lines * share), bytes_(bytes * share) {}
 
   /// How long it takes until something may be said [s]; 0: now.
