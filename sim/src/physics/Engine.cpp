@@ -29,6 +29,13 @@ bool isSame(const b2Vec2& a, const b2Vec2& b, float tolerance) {
 
 }  // namespace
 
+Point2 Physics::Engine::Item::arm(double heading) const {
+  if (centre.x == 0.0 && centre.y == 0.0) return {};
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  return {c * centre.x - s * centre.y, s * centre.x + c * centre.y};
+}
+
 /// Brings a body to what it wants, as far as its wheels have grip.
 void Physics::Engine::drive(Item& item, double dt) const {
   const double grip = kScale * config.floorFriction * kGravity * dt;  // in units of velocity
@@ -133,9 +140,9 @@ bool Physics::Engine::isFlight(double dt) {
 
 /// Moves a body with its velocity.
 void Physics::Engine::fly(Item& item, double dt) {
-  const Point2 arm = rotated(item.centre, item.pose.theta);
+  const Point2 arm = item.arm(item.pose.theta);
   const double theta = item.pose.theta + static_cast<double>(item.givenTurn) * dt;
-  const Point2 newArm = rotated(item.centre, theta);
+  const Point2 newArm = item.arm(theta);
   item.pose.x += toMetres(item.given.x) * dt + arm.x - newArm.x;
   item.pose.y += toMetres(item.given.y) * dt + arm.y - newArm.y;
   item.pose.theta = wrapAngle(theta);
@@ -190,9 +197,8 @@ void Physics::Engine::step(double dt) {
     item.before = item.body->GetPosition();
     item.beforeAngle = item.body->GetAngle();
     if (item.properties.floor != Floor::drives) continue;
-    const bool isCentral = item.centre.x == 0.0 && item.centre.y == 0.0;
-    const Point2 from = isCentral ? Point2{} : rotated(item.centre, item.pose.theta);
-    const Point2 to = isCentral ? Point2{} : rotated(item.centre, item.planned.theta);
+    const Point2 from = item.arm(item.pose.theta);
+    const Point2 to = item.arm(item.planned.theta);
     item.wanted = toEngine({(item.planned.x + to.x - item.pose.x - from.x) / dt,
                             (item.planned.y + to.y - item.pose.y - from.y) / dt});
     item.wantedTurn = single(wrapAngle(item.planned.theta - item.pose.theta) / dt);
@@ -234,8 +240,7 @@ void Physics::Engine::step(double dt) {
 Twist Physics::Engine::velocityOf(const Item& item) const {
   const b2Vec2 v = item.body->GetLinearVelocity();
   const double turn = static_cast<double>(item.body->GetAngularVelocity());
-  const bool isCentral = item.centre.x == 0.0 && item.centre.y == 0.0;
-  const Point2 arm = isCentral ? Point2{} : rotated(item.centre, item.pose.theta);
+  const Point2 arm = item.arm(item.pose.theta);
   return {toMetres(v.x) + turn * arm.y, toMetres(v.y) - turn * arm.x, turn};
 }
 

@@ -40,6 +40,9 @@ struct Physics::Engine {
     double freeTurnGrip = 0.0;                      ///< [rad/s^2]
     std::unique_ptr<Crowd> crowd;                   ///< stays where it is, for the engine
     std::vector<std::unique_ptr<Heights>> heights;  ///< of its shapes
+
+    /// From its origin to its centre of mass if it has this heading, in the field [m].
+    Point2 arm(double heading) const;
   };
 
   explicit Engine(const PhysicsConfig& config, const Solids& solids);
@@ -108,11 +111,5 @@ struct Physics::Engine {
   bool isFlying = false;  ///< the engine does not know yet where bodies are
   int patience = 0;       ///< steps until it is worth looking for room
 };
-
-inline Point2 rotated(const Point2& p, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * p.x - s * p.y, s * p.x + c * p.y};
-}
 
 }  // namespace ortung

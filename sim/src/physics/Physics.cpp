@@ -40,7 +40,7 @@ void Physics::place(Body body, const Pose2& pose, const Twist& velocity) {
   item.pose = item.planned = pose;
   engine_->transform(item);
   item.body->SetAngularVelocity(single(velocity.theta));
-  const Point2 arm = rotated(item.centre, pose.theta);
+  const Point2 arm = item.arm(pose.theta);
   item.body->SetLinearVelocity(
       toEngine({velocity.x - velocity.theta * arm.y, velocity.y + velocity.theta * arm.x}));
 }
@@ -102,7 +102,7 @@ double Physics::mass(Body body) const { return engine_->items[body].properties.m
 double Physics::inertia(Body body) const { return engine_->items[body].inertia; }
 Point2 Physics::centreOfMass(Body body) const {
   const Engine::Item& item = engine_->items[body];
-  const Point2 arm = rotated(item.centre, item.pose.theta);
+  const Point2 arm = item.arm(item.pose.theta);
   return {item.pose.x + arm.x, item.pose.y + arm.y};
 }
 bool Physics::wasDisturbed(Body body) const { return engine_->items[body].isDisturbed; }
