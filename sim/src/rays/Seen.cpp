@@ -106,12 +106,10 @@ WorldObject objectOf(const Primitive& primitive) {
   object.pieces.front().colour.clear();
   if (primitive.shape != Primitive::Shape::triangle) return object;
   object.pose.theta = 0.0;
-  for (const Point2& corner : primitive.corners) {
-    const double dx = corner.x - primitive.centre.x;
-    const double dy = corner.y - primitive.centre.y;
-    object.radius = std::max(object.radius, std::hypot(dx, dy));
-    object.halfX = std::max(object.halfX, std::abs(dx));
-    object.halfY = std::max(object.halfY, std::abs(dy));
+  for (const Point2& corner : own.corners) {
+    object.radius = std::max(object.radius, std::hypot(corner.x, corner.y));
+    object.halfX = std::max(object.halfX, std::abs(corner.x));
+    object.halfY = std::max(object.halfY, std::abs(corner.y));
   }
   return object;
 }
