@@ -1,7 +1,6 @@
 #include "ortung/client/RobotDescription.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -18,10 +17,8 @@ using client::valueOf;
 std::optional<double> numberOf(std::string_view line, std::string_view key) {
   const std::string_view text = valueOf(line, key);
   if (text.empty()) return std::nullopt;
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
-    throw std::invalid_argument("no number");
+  const auto number = client::numberFrom<double>(text);
+  if (!number || !std::isfinite(*number)) throw std::invalid_argument("no number");
   return number;
 }
 

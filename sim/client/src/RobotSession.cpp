@@ -134,19 +134,16 @@ std::string RobotSession::exchange(const std::string& request, double timeout) {
 std::size_t RobotSession::countOf(const std::string& reply, std::string_view key,
                                   std::size_t most) const {
   const std::string_view text = valueOf(reply, key);
-  std::size_t count = 0;
   if (text.empty()) return 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count > most) failOn(reply);
-  return count;
+  const auto count = client::numberFrom<std::size_t>(text);
+  if (!count || *count > most) failOn(reply);
+  return *count;
 }
 
 Timestamp RobotSession::stampOf(const std::string& reply, std::string_view key) const {
-  const std::string_view text = valueOf(reply, key);
-  Timestamp stamp = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stamp);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) failOn(reply);
-  return stamp;
+  const auto stamp = client::numberFrom<Timestamp>(valueOf(reply, key));
+  if (!stamp) failOn(reply);
+  return *stamp;
 }
 
 std::string RobotSession::ask(const std::string& request, std::vector<std::string>* body) {
