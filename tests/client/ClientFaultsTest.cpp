@@ -127,6 +127,11 @@ struct Hang {
   std::string request;
   std::optional<std::string> reply;  ///< nothing: silence
 };
+
+void PrintTo(const Hang& hang, std::ostream* out) {  // NOLINT: GoogleTest looks for this name
+  *out << hang.name;
+}
+
 class HungServer : public testing::TestWithParam<Hang> {};
 
 TEST_P(HungServer, EndsNobodysDestructor) {

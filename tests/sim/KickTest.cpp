@@ -108,10 +108,8 @@ TEST(Manipulator, ReturnsInItsTime) {
 
 TEST(Manipulator, WaitsForRoom) {
   Pitch pitch("cycle_ms = 10", {5.0, 5.0, 0.0});
-  pitch.simulation.placeThing(0, {0.37, 0.0, 0.0});
   // A second robot stands where the kicker would be.
   const Pose2 other{0.42, 0.0, 0.0};
-  pitch.simulation.placeThing(0, {5.0, 5.0, 0.0});
   RobotConfig config = readRobot(pitch.folder.path() / "robot.toml");
   config.name = "other";
   SimRobot& inTheWay = pitch.simulation.addRobot(config, pitch.factory, other);
