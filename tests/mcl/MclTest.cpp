@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "FakeRun.hpp"
 #include "Files.hpp"
 #include "MovingRobot.hpp"
+#include "Told.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/mcl/Mcl.hpp"
@@ -16,6 +16,7 @@ namespace {
 
 using test::FakeRun;
 using test::kPi;
+using test::Told;
 
 /// Learned once; every test begins its own run.
 FakeRun& run() {
@@ -231,27 +232,6 @@ TEST(Mcl, FollowsAnArcBetweenOdometryReadings) {
   EXPECT_NEAR(mcl->estimate().pose.theta, 0.4, 2e-4);
 }
 
-/// A plugin's own format that answers with whatever it is told to.
-struct Hostile : SensorData {
-  explicit Hostile(std::function<float(std::size_t)> a)
-      : SensorData({"evil", "test", "x"}), answer(std::move(a)) {}
-  std::string wordsHelp() const override { return ""; }
-  bool localizes() const override { return true; }
-  void check(std::span<const std::uint32_t>) const override {}
-  void decode(std::span<const std::uint32_t>) override {}
-  std::shared_ptr<const Weigher> makeWeigher() const override {
-    struct Answers : Weigher {
-      explicit Answers(std::function<float(std::size_t)> a) : answer(std::move(a)) {}
-      void weigh(const SampleView&, std::span<float> logProbability) const override {
-        for (std::size_t i = 0; i < logProbability.size(); ++i) logProbability[i] += answer(i);
-      }
-      std::function<float(std::size_t)> answer;
-    };
-    return std::make_shared<Answers>(answer);
-  }
-  std::function<float(std::size_t)> answer;
-};
-
 void expectSane(const Mcl& mcl) {
   const PoseEstimate& e = mcl.estimate();
   EXPECT_TRUE(isFinite(e.pose));
@@ -276,9 +256,8 @@ TEST(Mcl, SurvivesFeaturesThatAnswerNonsense) {
   };
   for (std::size_t k = 0; k < answers.size(); ++k) {
     SensorContainer container;
-    SensorData& data = container.add(std::make_unique<Hostile>(answers[k]));
-    data.beginLearning(run().region, 0.1);
-    data.endLearning();
+    const auto answer = [&](const SampleView&, std::size_t i) { return answers[k](i); };
+    container.add(std::make_unique<Told>("x", answer));
     for (const bool global : {true, false}) {
       const auto mcl = run().mcl(run().config());
       if (global)
@@ -286,7 +265,7 @@ TEST(Mcl, SurvivesFeaturesThatAnswerNonsense) {
       else
         mcl->startAt({1, 1, 1}, 0.1, 0.1);
       for (int i = 1; i < 20; ++i) {
-        container.set({i * 1000000, {"evil", "test", "x"}, {}});
+        container.set({i * 1000000, {"told", "test", "x"}, {}});
         ASSERT_TRUE(mcl->update(container)) << k;
         expectSane(*mcl);
       }
@@ -294,13 +273,16 @@ TEST(Mcl, SurvivesFeaturesThatAnswerNonsense) {
   }
 }
 
+/// For now it tells no pose from another.
+Told& addIndifferent(SensorContainer& container) {
+  const auto answer = [](const SampleView&, std::size_t) { return -1.0F; };
+  return static_cast<Told&>(container.add(std::make_unique<Told>("evil", answer)));
+}
+
 // A moment in which nothing fits must not leave the filter blind for what comes after it.
 TEST(Mcl, SeesAgainAfterAllWeightsWereZero) {
   FakeRun own;
-  auto& evil = static_cast<Hostile&>(
-      own.container.add(std::make_unique<Hostile>([](std::size_t) { return -1.0F; })));
-  evil.beginLearning(own.region, 0.1);
-  evil.endLearning();
+  Told& evil = addIndifferent(own.container);
   MclConfig config = own.config();
   config.injectSlow = 0.0;
   const auto mcl = own.mcl(config);
@@ -309,8 +291,8 @@ TEST(Mcl, SeesAgainAfterAllWeightsWereZero) {
   for (int i = 0; i < 60; ++i) {
     own.drive();
     const float value = i < 5 ? -std::numeric_limits<float>::infinity() : -1.0F;
-    evil.answer = [value](std::size_t) { return value; };
-    own.container.set({own.stamp, {"evil", "test", "x"}, {}});
+    evil.answer = [value](const SampleView&, std::size_t) { return value; };
+    own.container.set({own.stamp, {"told", "test", "evil"}, {}});
     mcl->update(own.container);
     expectSane(*mcl);
   }
@@ -322,20 +304,17 @@ TEST(Mcl, SeesAgainAfterAllWeightsWereZero) {
 // Nor may one answer that is no number stop the filter from noticing that it is lost.
 TEST(Mcl, RecoversFromAKidnapAfterNonsense) {
   FakeRun own;
-  auto& evil = static_cast<Hostile&>(
-      own.container.add(std::make_unique<Hostile>([](std::size_t) { return -1.0F; })));
-  evil.beginLearning(own.region, 0.1);
-  evil.endLearning();
+  Told& evil = addIndifferent(own.container);
   const auto mcl = own.mcl(own.config());
   own.begin(FakeRun::onCircle(1, 0.5, 0.2), 1);
   mcl->startAt(own.truth, 0.1, 0.1);
   for (int i = 0; i < 150; ++i) {
     own.drive();
     if (i == 20) {
-      evil.answer = [](std::size_t k) {
+      evil.answer = [](const SampleView&, std::size_t k) {
         return k % 5 ? std::numeric_limits<float>::quiet_NaN() : -1.0F;
       };
-      own.container.set({own.stamp, {"evil", "test", "x"}, {}});
+      own.container.set({own.stamp, {"told", "test", "evil"}, {}});
     }
     if (i == 40) own.truth = FakeRun::onCircle(-2, -0.5, 2.5);
     mcl->update(own.container);

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 #include "FakeRun.hpp"
 #include "MovingRobot.hpp"
+#include "Told.hpp"
 #include "ortung/mcl/Mcl.hpp"
 
 namespace ortung {
@@ -16,34 +16,7 @@ namespace {
 using test::FakeRun;
 using test::kPi;
 using test::MovingRobot;
-
-/// A feature whose answer, and how finely its tables know poses, the test gives.
-struct Told : SensorData {
-  using Answer = std::function<float(const SampleView&, std::size_t)>;
-  Told(const char* name, Answer a, PoseResolution r = {})
-      : SensorData({"told", "test", name}), answer(std::move(a)), resolution(r) {
-    beginLearning(test::Room{}.region(0.5, 0.2), 0.1);
-    endLearning();
-  }
-  std::string wordsHelp() const override { return ""; }
-  bool localizes() const override { return true; }
-  void check(std::span<const std::uint32_t>) const override {}
-  void decode(std::span<const std::uint32_t>) override {}
-  std::shared_ptr<const Weigher> makeWeigher() const override {
-    struct Telling : Weigher {
-      Telling(Answer a, PoseResolution r) : answer(std::move(a)), its(r) {}
-      void weigh(const SampleView& poses, std::span<float> logProbability) const override {
-        for (std::size_t i = 0; i < poses.size(); ++i) logProbability[i] += answer(poses, i);
-      }
-      PoseResolution resolution() const override { return its; }
-      Answer answer;
-      PoseResolution its;
-    };
-    return std::make_shared<Telling>(answer, resolution);
-  }
-  Answer answer;
-  PoseResolution resolution;
-};
+using test::Told;
 
 /// A robot of which the readings say what the test wants.
 struct ToldRobot {
