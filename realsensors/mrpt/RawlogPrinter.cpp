@@ -5,7 +5,6 @@
 #include <mrpt/obs/CObservationOdometry.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 

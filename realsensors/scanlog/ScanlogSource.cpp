@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/SourceHelp.hpp"

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "MotionFit.hpp"
 #include "ortung/base/Random.hpp"
 

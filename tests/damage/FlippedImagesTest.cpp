@@ -1,5 +1,4 @@
 // Every bit of maps of all formats, flipped.
-#include <cstring>
 
 #include "../sim/CarmenBytes.hpp"
 #include "FlippedBits.hpp"

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "NeuralRig.hpp"
 #include "ortung/formats/Words.hpp"
 

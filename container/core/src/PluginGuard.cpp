@@ -1,5 +1,6 @@
 #include "ortung/core/PluginGuard.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>

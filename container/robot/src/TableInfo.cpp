@@ -1,6 +1,5 @@
 #include "ortung/robot/TableInfo.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
-#include <sstream>
 
 #include "TomlLibrary.hpp"
 #include "ortung/base/InputFile.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "../common/SensorSettings.hpp"
 #include "../lrf/LrfSettings.hpp"
 #include "ScanShapes.hpp"

@@ -1,7 +1,5 @@
 #include "ortung/realsensors/ScanLog.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "ortung/core/SourceOptions.hpp"
