@@ -64,6 +64,7 @@ class BodyRays {
   static Piece pieceOf(const Primitive& primitive);
   static std::optional<double> hit(const Piece& piece, const Ray& ray);
   void castAt(const Piece& piece, const RayFan& fan, std::span<float> ranges) const;
+  static std::size_t outlineOf(const Piece& piece, const Point2& middle, std::span<Point2> outline);
   static void castConesAt(const Piece& piece, const ConeFan& fan, std::span<float> ranges);
 
   std::vector<Body> bodies_;

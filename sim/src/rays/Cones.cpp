@@ -68,40 +68,50 @@ void BodyRays::castCones(const ConeFan& fan, RobotNumber ignore, std::span<float
   }
 }
 
-void BodyRays::castConesAt(const Piece& piece, const ConeFan& fan, std::span<float> ranges) {
-  const double x = piece.middle.x - fan.x;
-  const double y = piece.middle.y - fan.y;
-  const double distance = std::hypot(x, y);
-  if (distance - piece.reach >= fan.maxRange) return;
-  const double height = std::max({0.0, piece.zLow - fan.z, fan.z - piece.zHigh});
-  const ConeOverPlan cone{std::tan(fan.halfAngle)};
-  std::array<Point2, kMostChords> field;
-  std::array<Point2, kMostChords> seen;
-  std::size_t n = piece.sides;
-  if (piece.isRound) {
-    const double chords = kTurn / 2.0 / std::sqrt(2.0 * kSagitta / std::max(piece.reach, kSagitta));
-    n = std::clamp(static_cast<std::size_t>(chords), kFewestChords, kMostChords);
+/// The corners of a piece's outline around @p middle; of a round piece, ends of chords.
+/// @returns how many
+std::size_t BodyRays::outlineOf(const Piece& piece, const Point2& middle,
+                                std::span<Point2> outline) {
+  if (!piece.isRound) {
+    for (std::size_t i = 0; i < piece.sides; ++i)
+      outline[i] = {piece.corners[i].x + middle.x, piece.corners[i].y + middle.y};
+    return piece.sides;
   }
-  const auto& m = piece.normals;  // of an ellipse: leads to the unit circle
+  const double chords = kTurn / 2.0 / std::sqrt(2.0 * kSagitta / std::max(piece.reach, kSagitta));
+  const std::size_t n = std::clamp(static_cast<std::size_t>(chords), kFewestChords, kMostChords);
+  const auto& m = piece.normals;  // leads to the unit circle
   const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   for (std::size_t i = 0; i < n; ++i) {
-    Point2 corner = piece.corners[i % 4];
-    if (piece.isRound) {
-      const double t = kTurn * static_cast<double>(i) / static_cast<double>(n);
-      corner = {(m[1][1] * std::cos(t) - m[0][1] * std::sin(t)) / determinant,
-                (m[0][0] * std::sin(t) - m[1][0] * std::cos(t)) / determinant};
-    }
-    field[i] = {corner.x + x, corner.y + y};
+    const double t = kTurn * static_cast<double>(i) / static_cast<double>(n);
+    const double c = std::cos(t);
+    const double s = std::sin(t);
+    outline[i] = {(m[1][1] * c - m[0][1] * s) / determinant + middle.x,
+                  (m[0][0] * s - m[1][0] * c) / determinant + middle.y};
   }
-  const double bearing = std::atan2(y, x);
+  return n;
+}
+
+void BodyRays::castConesAt(const Piece& piece, const ConeFan& fan, std::span<float> ranges) {
+  const Point2 middle{piece.middle.x - fan.x, piece.middle.y - fan.y};
+  const double distance = std::hypot(middle.x, middle.y);
+  const double height = std::max({0.0, piece.zLow - fan.z, fan.z - piece.zHigh});
+  const double least = std::hypot(std::max(0.0, distance - piece.reach), height);
+  if (least >= fan.maxRange) return;
+  const ConeOverPlan cone{std::tan(fan.halfAngle)};
+  const double bearing = std::atan2(middle.y, middle.x);
   const double aside = distance > piece.reach ? std::asin(piece.reach / distance) : kTurn;
+  std::array<Point2, kMostChords> outline;
+  std::array<Point2, kMostChords> seen;
+  std::size_t n = 0;  // most pieces are in no cone, or behind others: nobody asks for their outline
   for (std::size_t k = 0; k < ranges.size(); ++k) {
+    if (least >= static_cast<double>(ranges[k])) continue;
     const double axis = fan.firstAngle + static_cast<double>(k) * fan.angleStep;
     if (std::abs(std::remainder(bearing - axis, kTurn)) > aside + fan.halfAngle + 1e-9) continue;
+    if (n == 0) n = outlineOf(piece, middle, outline);
     const double c = std::cos(axis);
     const double s = std::sin(axis);
     for (std::size_t i = 0; i < n; ++i)
-      seen[i] = {c * field[i].x + s * field[i].y, c * field[i].y - s * field[i].x};
+      seen[i] = {c * outline[i].x + s * outline[i].y, c * outline[i].y - s * outline[i].x};
     const double range = cone.nearest({seen.data(), n}, height);
     if (range < static_cast<double>(ranges[k])) ranges[k] = static_cast<float>(range);
   }
