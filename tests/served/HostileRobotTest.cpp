@@ -1,5 +1,6 @@
 // Robots that clients make up: shapes and numbers of pieces.
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <cmath>
 #include <ctime>
@@ -8,7 +9,9 @@
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/core/PluginGuard.hpp"
 #include "ortung/robot/NetworkRobot.hpp"
+#include "ortung/robot/TomlFile.hpp"
 #include "ortung/served/ServedSimulation.hpp"
 
 namespace ortung::test {
@@ -117,6 +120,23 @@ TEST(HostileRobot, MayHaveTheNameThatAnotherOneWouldGet) {
     wish.config.name = name;
     EXPECT_NO_THROW(world.addRobot(++robot, wish)) << robot;
   }
+}
+
+TEST(HostileRobot, WhosePluginsFailWhenTheyAreAskedIsNotLeftOnTheField) {
+  ::setenv("ORTUNG_PLUGIN_PATH", TEST_PLUGINS, 1);
+  ServedSimulation world(kArena, {.noise = false});
+  ::unsetenv("ORTUNG_PLUGIN_PATH");
+  const auto add = [&](RobotId robot, const std::string& text, bool wanders) {
+    RobotWish wish;
+    wish.config = readRobot(parseToml(text, "robot.toml"));
+    wish.start = Pose2{1.0, 0.5, 0.0};
+    wish.wanders = wanders;
+    world.addRobot(robot, std::move(wish));
+  };
+  const std::string bad = "plugin = \"misbehaving\"\nwhere = ";
+  EXPECT_THROW(add(1, "[[sensor]]\n" + bad + "\"rays\"\n", false), PluginFailure);
+  EXPECT_THROW(add(2, "[drive]\n" + bad + "\"limits\"\n" + kSensor, true), PluginFailure);
+  EXPECT_NO_THROW(add(3, kSensor, false)) << "somebody stands there";
 }
 
 TEST(HostileRobot, ManyPiecesThatPushEachOtherDoNotStopTheWorld) {

@@ -136,6 +136,7 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
   // Clients name their robots as they like, so two of them may like the same.
   while (run_->find(config.name)) config.name += "-" + std::to_string(robot);
   const bool isRestart = guests_.contains(robot);
+  guest.robot = nullptr;
   guest.size = sizeOf(config);
   if (guest.wish.wanders || !guest.wish.start) preparePlanner(guest.size, guest.wish.wanders);
   const std::uint64_t number = entered_;
@@ -158,12 +159,25 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
 ServedRobot ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
   auto guest = std::make_unique<Guest>();
   guest->wish = std::move(wish);
-  enter(robot, *guest);
-  SimRobot& entered = *guest->robot;
+  ServedRobot served;
+  try {
+    enter(robot, *guest);
+    SimRobot& entered = *guest->robot;
+    served = {servedFeatures(entered.container()), entered.raysPerSecond(simulation().cycle()),
+              entered.raysAtOnce()};
+  } catch (...) {  // its plugins may fail when they are asked, too
+    takeOff(*guest);
+    throw;
+  }
   guests_[robot] = std::move(guest);
   dropPlanners(kMostPlanners);
-  return {servedFeatures(entered.container()), entered.raysPerSecond(simulation().cycle()),
-          entered.raysAtOnce()};
+  return served;
+}
+
+/// Nothing of a robot stays on the field, if it is there.
+void ServedSimulation::takeOff(Guest& guest) {
+  if (guest.robot != nullptr) simulation().removeRobot(*guest.robot);
+  guest.robot = nullptr;
 }
 
 ServedSimulation::Guest& ServedSimulation::guest(RobotId robot) const {
@@ -183,8 +197,7 @@ SimRobot& ServedSimulation::find(RobotId robot) const {
 RobotCommands& ServedSimulation::commands(RobotId robot) { return find(robot); }
 
 void ServedSimulation::removeRobot(RobotId robot) {
-  const Guest& leaving = guest(robot);
-  if (leaving.robot != nullptr) simulation().removeRobot(*leaving.robot);
+  takeOff(guest(robot));
   guests_.erase(robot);
 }
 
@@ -226,7 +239,7 @@ void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
     try {
       enter(id, *guest);
     } catch (const std::exception&) {
-      guest->robot = nullptr;  // no room for it this time: whoever commands it is told so
+      takeOff(*guest);  // no room for it this time: whoever commands it is told so
     }
   }
 }

@@ -43,6 +43,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   SimRobot& find(RobotId robot) const;
   Simulation& simulation() const { return run_->simulation(); }
   void enter(RobotId robot, Guest& guest);
+  void takeOff(Guest& guest);
   void nameObjects();
   void preparePlanner(const RobotSize& size, bool wanders);
   void dropPlanners(std::size_t most);
