@@ -14,6 +14,10 @@ struct Expected {
   double rmse;    ///< [m]
 };
 
+void PrintTo(const Expected& one, std::ostream* out) {  // NOLINT: GoogleTest looks for this name
+  *out << "robot " << one.robot;
+}
+
 /// Five robots among landmarks, truth by motion capture. Ranges to landmarks are good to 0.06 to
 /// 0.24 m, dead reckoning drifts 0.24 to 0.53 m a minute, and for up to 78 s nothing is seen.
 class MrclamLog : public testing::TestWithParam<Expected> {};

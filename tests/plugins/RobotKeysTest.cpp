@@ -90,6 +90,10 @@ struct SensorPage {
   Keys unsaid = {};                   ///< asked for, too, but without effect on this plugin
 };
 
+void PrintTo(const SensorPage& page, std::ostream* out) {  // NOLINT: GoogleTest looks for this name
+  *out << page.plugin;
+}
+
 class EachSensor : public testing::TestWithParam<SensorPage> {};
 
 TEST_P(EachSensor, HasTheKeysOfItsReadme) {
