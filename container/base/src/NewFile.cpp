@@ -137,15 +137,16 @@ void NewFile::open() {
 }
 
 void NewFile::openUnnamedOrNamed() {
-  const bool canBeNamed = ::access("/proc/self/fd", X_OK) == 0;  // see putInPlace()
-  if (canBeNamed) {
+  if (::access("/proc/self/fd", X_OK) == 0) {  // by which it can be named, see putInPlace()
     descriptor_ = ::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-    const bool isKnown = descriptor_ >= 0 || (errno != EISDIR && !isUnsupported(errno));
-    if (descriptor_ < 0 && isKnown) fail();
+    if (descriptor_ >= 0) {
+      ::flock(descriptor_, LOCK_EX | LOCK_NB);
+      state_ = State::kUnnamed;
+      return;
+    }
+    if (errno != EISDIR && !isUnsupported(errno)) fail();
   }
-  if (descriptor_ < 0) openNamed();
-  if (state_ != State::kNamed) state_ = State::kUnnamed;
-  ::flock(descriptor_, LOCK_EX | LOCK_NB);
+  openNamed();
 }
 
 void NewFile::openNamed() {
