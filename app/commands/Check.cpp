@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "Commands.hpp"
 #include "Console.hpp"
@@ -112,15 +113,15 @@ void checkRobotFile(const fs::path& file) {
 }
 
 /// All that a localization with these tables asks of them.
-void checkAsLoaded(const fs::path& file, const TableInfo& info, const CheckArguments& arguments) {
+void checkAsLoaded(const fs::path& file, const CheckArguments& arguments) {
   LocalizationConfig config;
   config.tables = file;
   if (!arguments.robot.empty()) {
     Localization(openRobot(arguments.robot, file), nullptr, config);
-  } else if (!info.robotToml.empty()) {
-    config.motion.emplace(
-        file.string());  // may name files beside the robot file, and is not of the tables
-    Localization(openLearnedRobot(file), nullptr, config);
+  } else if (auto robot = openLearnedRobot(file)) {
+    // [motion] may name files beside the robot file, and is not of the tables.
+    config.motion.emplace(file.string());
+    Localization(std::move(robot), nullptr, config);
   } else {
     warn(file.string() +
          ": was learned by a version that did not keep the robot file, so whether a robot can load "
@@ -139,7 +140,7 @@ void checkTables(const fs::path& file, const CheckArguments& arguments) {
           file.string(), info.worldFingerprint, info.world, arguments.world.string(), fingerprint));
     }
   }
-  checkAsLoaded(file, info, arguments);
+  checkAsLoaded(file, arguments);
   const FieldGrid& grid = info.region.grid;
   fmt::print(
       "{}: tables of robot '{}' in world '{}', fingerprint {}, {:.1f} MB\n  {}\n  {} x {} cells of "
