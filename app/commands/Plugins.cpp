@@ -1,9 +1,7 @@
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -12,7 +10,6 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "ortung/base/HelperProgram.hpp"
-#include "ortung/core/Plugin.hpp"
 #include "ortung/core/PluginFactory.hpp"
 
 namespace ortung::app {
@@ -71,23 +68,6 @@ PluginFactory::Found fromText(const std::string& text) {
   ::_exit(0);
 }
 
-PluginFactory::Found load(const std::filesystem::path& library) {
-  PluginFactory::Found found;
-  try {
-    PluginFactory().load(library);
-  } catch (const PluginError& error) {
-    found.error = error.what();
-    return found;
-  }
-  void* handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_NOLOAD | RTLD_LOCAL);
-  const auto& info = *static_cast<const PluginInfo*>(::dlsym(handle, "ortungPlugins"));
-  found.library = info.library;
-  found.version = info.version;
-  for (std::size_t i = 0; i < info.count; ++i)
-    found.entries.push_back({info.entries[i].interface, info.entries[i].name});
-  return found;
-}
-
 /// Loads a library in this process and writes what it offers to standard output, where the
 /// library's own code writes nothing. That may hang, so somebody watches.
 [[noreturn]] void describe(const std::filesystem::path& library, double timeout) {
@@ -101,7 +81,7 @@ PluginFactory::Found load(const std::filesystem::path& library) {
     std::this_thread::sleep_for(std::chrono::duration<double>(timeout));
     tell(out, text);
   }).detach();
-  tell(out, toText(load(library)));
+  tell(out, toText(PluginFactory().look(library)));
 }
 
 // --- in ours
@@ -123,28 +103,13 @@ PluginFactory::Found look(const std::filesystem::path& library, double timeout) 
   return found;
 }
 
-/// The libraries of all folders, in the order in which PluginFactory looks for them.
-std::vector<std::filesystem::path> librariesIn(const std::vector<std::filesystem::path>& folders) {
-  std::vector<std::filesystem::path> all;
-  for (const auto& folder : folders) {
-    const auto begin = static_cast<std::ptrdiff_t>(all.size());
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-      const std::string name = entry.path().filename();
-      if (name.starts_with("ortung_") && name.ends_with(".so")) all.push_back(entry.path());
-    }
-    std::sort(all.begin() + begin, all.end());
-  }
-  return all;
-}
-
 }  // namespace
 
 int runPlugins(const PluginsArguments& arguments) {
   if (!arguments.inside.empty()) describe(arguments.inside, arguments.timeout);
   const std::vector<std::filesystem::path> folders = PluginFactory::standardFolders();
   std::size_t broken = 0, count = 0;
-  for (const auto& library : librariesIn(folders)) {
+  for (const auto& library : PluginFactory(folders).libraries()) {
     const PluginFactory::Found found = look(library, arguments.timeout);
     print(found);
     ++count;

@@ -99,20 +99,6 @@ void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
   }
 }
 
-/// The libraries PREFIX*.so of a folder, in the order of the alphabet; none if it can't be read.
-std::vector<std::filesystem::path> librariesIn(const std::filesystem::path& folder,
-                                               const std::string& prefix) {
-  std::vector<std::filesystem::path> files;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-    const std::string name = entry.path().filename();
-    if (name.starts_with(prefix) && entry.path().extension() == ".so")
-      files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 }  // namespace
 
 PluginError::~PluginError() = default;
@@ -150,44 +136,57 @@ void PluginFactory::load(const std::filesystem::path& file) {
   libraries_.push_back({file, info});
 }
 
-/// Loads the libraries ortung_PART*.so of all folders, in the order of the alphabet. Returns why
-/// some could not be loaded: a broken library must not hide the plugins of its neighbours.
+std::vector<std::filesystem::path> PluginFactory::libraries(const std::string& part) const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& folder : folders_) {
+    const auto begin = static_cast<std::ptrdiff_t>(files.size());
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      const std::string name = entry.path().filename();
+      if (name.starts_with("ortung_" + part) && entry.path().extension() == ".so")
+        files.push_back(entry.path());
+    }
+    std::sort(files.begin() + begin, files.end());
+  }
+  return files;
+}
+
+/// Loads libraries(part). Returns why some could not be loaded: a broken library must not hide the
+/// plugins of its neighbours.
 std::vector<PluginFactory::Complaint> PluginFactory::loadWhere(const std::string& part) {
   std::vector<Complaint> complaints;
-  for (const auto& folder : folders_) {
-    for (const auto& file : librariesIn(folder, "ortung_" + part)) {
-      try {
-        load(file);
-      } catch (const PluginError& error) {
-        complaints.push_back({file, error.what()});
-      }
+  for (const auto& file : libraries(part)) {
+    try {
+      load(file);
+    } catch (const PluginError& error) {
+      complaints.push_back({file, error.what()});
     }
   }
   return complaints;
 }
 
+PluginFactory::Found PluginFactory::look(const std::filesystem::path& file) {
+  Found found;
+  found.file = file;
+  try {
+    load(file);
+  } catch (const PluginError& error) {
+    found.error = error.what();
+    return found;
+  }
+  const auto it = std::find_if(libraries_.begin(), libraries_.end(),
+                               [&](const Library& l) { return l.file == file; });
+  found.library = it->info->library;
+  found.buildTag = it->info->buildTag;
+  found.version = it->info->version;
+  for (const PluginEntry& entry : std::span(it->info->entries, it->info->count))
+    found.entries.push_back({entry.interface, entry.name});
+  return found;
+}
+
 std::vector<PluginFactory::Found> PluginFactory::list() {
   std::vector<Found> all;
-  for (const auto& folder : folders_) {
-    for (const auto& file : librariesIn(folder, "ortung_")) {
-      Found found;
-      found.file = file;
-      try {
-        load(file);
-        const auto it = std::find_if(libraries_.begin(), libraries_.end(),
-                                     [&](const Library& l) { return l.file == file; });
-        found.library = it->info->library;
-        found.buildTag = it->info->buildTag;
-        found.version = it->info->version;
-        for (std::size_t i = 0; i < it->info->count; ++i) {
-          found.entries.push_back({it->info->entries[i].interface, it->info->entries[i].name});
-        }
-      } catch (const PluginError& error) {
-        found.error = error.what();
-      }
-      all.push_back(std::move(found));
-    }
-  }
+  for (const auto& file : libraries()) all.push_back(look(file));
   return all;
 }
 

@@ -52,7 +52,12 @@ class ORTUNG_API PluginFactory {
   ///   another ABI; the message says which and what to do
   void load(const std::filesystem::path& library);
 
-  /// Loads all libraries of the search path; broken ones come with their error.
+  /// The libraries ortung_PART*.so of the search path, folder by folder, in the order of the
+  /// alphabet; nothing is loaded.
+  std::vector<std::filesystem::path> libraries(const std::string& part = "") const;
+  /// Loads a library and tells what it offers; a broken one comes with its error.
+  Found look(const std::filesystem::path& library);
+  /// The same of all libraries of the search path.
   std::vector<Found> list();
 
   /// Makes the plugin @p name of kind Interface; reads plugins' own errors, too.
