@@ -83,5 +83,27 @@ TEST(Crowd, HiddenPiecesWeighNothing) {
   EXPECT_EQ(physics.centreOfMass(other).x, 2.0);
 }
 
+TEST(Crowd, ContactsThatAreOverCountForNothing) {
+  // More often than a body may have contacts at a time, a crate comes to another one and to a wall,
+  // and leaves.
+  Physics physics({.cycle = kCycle}, {{-5.0, 5.0, -5.0, 5.0}, {box(3.0, 0.0, 0.0, 1.0)}, {}});
+  const Primitive crate = box(0.0, 0.0, 0.0, 0.4);
+  const auto body = physics.add({&crate, 1}, {1.0, Physics::Floor::slides}, {});
+  const auto other = physics.add({&crate, 1}, {1.0, Physics::Floor::slides}, {-3.0, 0.0, 0.0});
+  for (int i = 0; i < 300; ++i)
+    for (const double x : {0.0, 2.295, 0.0, -2.595}) {
+      physics.place(body, {x, 0.0, 0.0});
+      physics.step(kCycle);
+    }
+  const auto drive = [&](double speed) {
+    physics.place(body, {0.0, 0.0, 0.0}, {speed, 0.0, 0.0});
+    for (int i = 0; i < 100; ++i) physics.step(kCycle);
+    return physics.pose(body).x;
+  };
+  EXPECT_LT(drive(10.0), 2.31);
+  const double end = drive(-10.0);
+  EXPECT_GT(end, physics.pose(other).x + 0.39);
+}
+
 }  // namespace
 }  // namespace ortung

@@ -59,10 +59,11 @@ bool isSane(const Physics& physics, Physics::Body body) {
 }
 
 /// Something flies at something, both of any shape, and the first then changes its own.
-void meet(std::uint64_t seed, const Point2& place) {
+/// @param far how far the world goes on to the left and above [m]
+void meet(std::uint64_t seed, const Point2& place, double far = 50.0) {
   Random random(seed, 3);
   Solids solids;
-  solids.bounds = {place.x - 50.0, place.x + 50.0, place.y - 50.0, place.y + 50.0};
+  solids.bounds = {place.x - far, place.x + 50.0, place.y - 50.0, place.y + far};
   solids.primitives.push_back(anyShape(random, place));
   Physics physics({.cycle = kCycle}, solids);
   const Primitive moved = anyShape(random, {});
@@ -92,6 +93,11 @@ TEST(ThinShapes, OfAMillimetreAndMoreEndNothing) {
 TEST(ThinShapes, EndNothingFarFromTheOrigin) {
   for (std::uint64_t seed = 0; seed < 300; ++seed)
     ASSERT_NO_FATAL_FAILURE(meet(seed, {9900.0, -9900.0}));
+}
+
+TEST(ThinShapes, EndNothingAtTheEdgeOfALargeWorld) {
+  for (std::uint64_t seed = 0; seed < 150; ++seed)
+    ASSERT_NO_FATAL_FAILURE(meet(seed, {9900.0, -9900.0}, 19'000.0));
 }
 
 TEST(ThinShapes, AreWhereTheFileSays) {
