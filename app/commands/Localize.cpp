@@ -10,6 +10,7 @@
 #include "Localizing.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
+#include "Rescue.hpp"
 #include "SourceArguments.hpp"
 
 namespace ortung::app {
@@ -55,6 +56,7 @@ int runLocalize(const LocalizeArguments& arguments) {
   const std::unique_ptr<Localization> localization = openLocalization(run);
   const Source& source = localization->source();
   PoseOutput output(outputs, arguments.out, source.isLive());
+  Rescue rescue([&] { output.commit(); });
   constexpr double kPatience = 5.0;  // for the first odometry of a live source [s]
   std::size_t updates = 0;
   bool warned = false;
@@ -64,13 +66,17 @@ int runLocalize(const LocalizeArguments& arguments) {
       ++updates;
       if (!warned && localization->feeder().seconds() > kPatience)
         warned = warnWithoutOdometry(*localization, run);
-      output.add(step->estimate);
+      {
+        const auto held = rescue.hold();
+        output.add(step->estimate);
+      }
       if (!arguments.out.empty()) progress.update(localization->feeder().progress());
     }
   }
   warnOf(run.source, source, localization->feeder());
   requireUpdates(updates, run);
   if (!warned) warnWithoutOdometry(*localization, run);
+  const auto held = rescue.hold();
   output.commit();
   return 0;
 }

@@ -15,6 +15,7 @@
 
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "Rescue.hpp"
 #include "ortung/base/InputFile.hpp"
 #include "ortung/server/MessageBoard.hpp"
 
@@ -66,8 +67,8 @@ std::vector<BoardToken> readTokens(const std::filesystem::path& file) {
 /// never asked whether to go on.
 class Deadline {
  public:
-  Deadline()
-      : thread_([this](const std::stop_token& stop) {
+  explicit Deadline(MessageBoard& board)
+      : thread_([this, &board](const std::stop_token& stop) {
           std::unique_lock lock(mutex_);
           const auto isTold = [] { return interruptSignal() != 0; };
           while (!isTold() && !stop.stop_requested()) wake_.wait_for(lock, stop, kLook, isTold);
@@ -75,6 +76,7 @@ class Deadline {
           if (stop.stop_requested()) return;
           warn(fmt::format("the world has not come to an end within {} s after the signal",
                            kLongestEnd.count()));
+          board.abandon("the server ends, its world does not come to an end");
           std::_Exit(128 + interruptSignal());
         }) {}
 
@@ -112,7 +114,8 @@ void serve(ServedWorld& world, const ServingArguments& arguments) {
     MessageBoard board(world, config);
     fmt::print("listening on {} port {}\n", config.address, board.port());
     flushOutput();
-    const Deadline deadline;
+    const Deadline deadline(board);
+    const Rescue rescue([&] { board.abandon("the server ends, a plugin of its world hangs"); });
     board.run([] { return interruptSignal() == 0; });
     const BoardStatistics statistics = board.statistics();
     note(fmt::format("{} cycles, {} missed", statistics.cycles, statistics.missedCycles));

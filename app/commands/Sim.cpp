@@ -34,6 +34,10 @@ Simulation::Config configOf(const SimArguments& arguments) {
 /// The scene of the file, or the world of the file, with further robots that wander about.
 Scene sceneOf(const SimArguments& arguments) {
   Scene scene = Scene::open(arguments.world);
+  if (scene.robots.size() + arguments.robots.size() > Scene::kMostRobots)
+    throw UsageError(fmt::format("there are {} robots, {} of them by --robot; expected at most {}",
+                                 scene.robots.size() + arguments.robots.size(),
+                                 arguments.robots.size(), Scene::kMostRobots));
   for (const std::filesystem::path& file : arguments.robots) {
     const std::string name = readRobot(file).name;
     std::string unused = name;

@@ -7,6 +7,7 @@
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Rescue.hpp"
+#include "ortung/base/InstructionSet.hpp"
 #include "ortung/core/PluginGuard.hpp"
 
 namespace {
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   reserveStandardStreams();
   setCommandName("ortung");
   try {
+    ortung::checkInstructionSet();
     const ParsedCommand command = parseCommandLine(argc, argv);
     if (!command.run) {
       flushOutput();

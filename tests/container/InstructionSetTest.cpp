@@ -139,5 +139,25 @@ TEST(InstructionSet, ScansWeighTheSameBits) {
   }
 }
 
+TEST(InstructionSet, AMisspeltChoiceIsRefusedByName) {
+  for (const char* fine : {"portable", "avx2", "avx512"}) {
+    ::setenv("ORTUNG_SIMD", fine, 1);
+    EXPECT_NO_THROW(checkInstructionSet()) << fine;
+  }
+  ::unsetenv("ORTUNG_SIMD");
+  EXPECT_NO_THROW(checkInstructionSet());
+  for (const std::string misspelt : {"AVX2", "sse", ""}) {
+    ::setenv("ORTUNG_SIMD", misspelt.c_str(), 1);
+    try {
+      checkInstructionSet();
+      ADD_FAILURE() << misspelt;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(error.what(),
+                "$ORTUNG_SIMD is '" + misspelt + "', expected portable, avx2 or avx512");
+    }
+  }
+  ::unsetenv("ORTUNG_SIMD");
+}
+
 }  // namespace
 }  // namespace ortung

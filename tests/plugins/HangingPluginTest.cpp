@@ -24,9 +24,9 @@ struct BadRun {
     arguments.insert(arguments.end(), {"--plugin-seconds", "0.4"});
     return ortung(arguments, {"ORTUNG_PLUGIN_PATH=" ORTUNG_PLUGINS_DIR ":" TEST_PLUGINS});
   }
-  Outcome simulated() const {
+  Outcome simulated(const std::string& duration = "1000") const {
     return of({"sim", at("world.toml"), "--robot", at("robot.toml"), "--free-run", "--duration",
-               "1000", "--record", at("run.rec"), "--trace", at("run.csv")});
+               duration, "--record", at("run.rec"), "--trace", at("run.csv")});
   }
   TemporaryFolder folder;
 };
@@ -82,6 +82,28 @@ TEST(Hanging, AnExtractorEndsTheRunWithItsName) {
   EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
   expectIn(outcome.err, "the extractor of 'misbehaving_extracted'");
   expectSaved(run, "bad/extracted/pose", 50, 11);
+}
+
+TEST(Hanging, AMotionModelEndsLocalizationAndThePosesUntilThenAreThere) {
+  const BadRun run(
+      "[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0.05\n[[sensor]]\nplugin = \"lrf\"\nbeams = "
+      "30\n"
+      "period_s = 0.1\n[motion]\nplugin = \"misbehaving\"\n" +
+      loopIn("sampleMotion", 20));
+  ASSERT_EQ(run.simulated("5").exitCode, 0);
+  ASSERT_EQ(run.of({"learn", "--world", run.at("world.toml"), "--robot", run.at("robot.toml"),
+                    "--out", run.at("out.ortung"), "--cell", "0.5"})
+                .exitCode,
+            0);
+  const Outcome outcome =
+      run.of({"localize", "--source", "record:" + run.at("run.rec"), "--robot",
+              run.at("robot.toml"), "--tables", run.at("out.ortung"), "--start", "truth",
+              "--particles", "50", "--threads", "1", "--out", run.at("poses.csv")});
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  expectIn(outcome.err, "has been in sampleMotion");
+  const std::string poses = readBytes(run.at("poses.csv"));
+  EXPECT_GE(std::count(poses.begin(), poses.end(), '\n'), 1 + 5) << poses;
+  EXPECT_TRUE(poses.ends_with('\n'));
 }
 
 TEST(Hanging, LearningEndsAndLeavesNoTable) {

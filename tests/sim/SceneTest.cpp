@@ -268,6 +268,41 @@ TEST(SceneFile, RefusesTwoRobotsOfOneName) {
   EXPECT_NE(twice.find("scene.toml:9: name is there twice: a"), std::string::npos) << twice;
 }
 
+TEST(SceneRun, CommandsThatNobodyCanFollowAreRefusedBeforeTimeBegins) {
+  const Kicker kicker;  // its files
+  const auto refusal = [&](const SceneCommand& command) -> std::string {
+    Scene scene;
+    scene.world = kicker.worldFile;
+    scene.robots.push_back({.file = kicker.robotFile, .name = "one"});
+    scene.commands.push_back(command);
+    PluginFactory factory(PluginFactory::standardFolders());
+    try {
+      const SceneRun run(scene, {}, factory);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  SceneCommand command{.at = 3'000'000, .robot = "one"};
+  command.manipulator = "kicker";
+  command.state = "kick";
+  EXPECT_EQ(refusal(command), "");
+  command.state = "up";
+  EXPECT_EQ(refusal(command),
+            "robot one: its manipulator kicker has no state 'up', but rest, kick");
+  command.manipulator = "arm";
+  EXPECT_EQ(refusal(command), "robot one has no manipulator 'arm', but kicker");
+  command.manipulator = "";
+  command.vector = {1.0, 2.0, 3.0};
+  const std::string vector = refusal(command);
+  EXPECT_TRUE(
+      vector.starts_with("robot one: the command at 3.000000 s has 3 numbers, expected 2: "))
+      << vector;
+  command.vector = {};
+  command.robot = "two";
+  EXPECT_EQ(refusal(command), "a command is for robot 'two', which is not there");
+}
+
 TEST(SceneRun, ANameThatIsTakenIsNoLackOfRoom) {
   const Kicker kicker;  // its files
   Scene scene;

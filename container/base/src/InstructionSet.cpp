@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace ortung {
@@ -10,9 +12,14 @@ namespace {
 constexpr int kNotForced = -1;
 std::atomic<int> forced = kNotForced;
 
-InstructionSet choose() {
+/// What the user has chosen.
+std::string_view widest() {
   const char* variable = std::getenv("ORTUNG_SIMD");
-  const std::string_view most = variable == nullptr ? "avx512" : variable;
+  return variable == nullptr ? "avx512" : variable;
+}
+
+InstructionSet choose() {
+  const std::string_view most = widest();
   if (most == "avx512" && hasInstructionSet(InstructionSet::kAvx512))
     return InstructionSet::kAvx512;
   if (most != "portable" && hasInstructionSet(InstructionSet::kAvx2)) return InstructionSet::kAvx2;
@@ -37,6 +44,13 @@ InstructionSet instructionSet() {
   if (set != kNotForced) return static_cast<InstructionSet>(set);
   static const InstructionSet kChosen = choose();
   return kChosen;
+}
+
+void checkInstructionSet() {
+  const std::string_view most = widest();
+  if (most != "portable" && most != "avx2" && most != "avx512")
+    throw std::invalid_argument("$ORTUNG_SIMD is '" + std::string(most) +
+                                "', expected portable, avx2 or avx512");
 }
 
 void useInstructionSet(std::optional<InstructionSet> set) {

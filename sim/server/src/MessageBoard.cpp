@@ -10,6 +10,7 @@
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
 #include <deque>
+#include <future>
 #include <system_error>
 #include <thread>
 
@@ -27,6 +28,8 @@ using server::Arrival;
 using server::Session;
 
 constexpr int kBacklog = 128;
+constexpr const char* kFarewell = "the server ends";
+constexpr std::chrono::seconds kLongestFarewell{1};
 // What is done for many clients before those are heard that have asked for something.
 constexpr Timestamp kTimeOfTurn = 300;  // [us]
 // Between turns of clients that have sent more than they get done in one.
@@ -239,7 +242,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
     if (config.log) config.log(text);
   }
 
-  void shutDown() {
+  void shutDown(const std::string& why) {
     isEnding_ = true;  // a timer may have gone off already: then it can't be cancelled any more
     boost::system::error_code ignored;
     acceptor_.close(ignored);
@@ -249,7 +252,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
     for (const auto& [id, arrival] : arrivals_) arrival->close();
     arrivals_.clear();
     for (const auto& [id, session] : sessions_) {
-      session->dismiss("BYE the server ends");
+      session->dismiss("BYE " + why);
       session->close();
     }
     sessions_.clear();
@@ -298,16 +301,26 @@ void MessageBoard::run(const std::function<bool()>& goesOn) {
     parts_->keeper_.run(goesOn);
   } catch (...) {
     parts_->keeper_.haltCommanded();
-    asio::post(parts_->io_, [this] { parts_->shutDown(); });
+    asio::post(parts_->io_, [this] { parts_->shutDown(kFarewell); });
     clients.join();
     throw;
   }
   parts_->keeper_.haltCommanded();
-  asio::post(parts_->io_, [this] { parts_->shutDown(); });
+  asio::post(parts_->io_, [this] { parts_->shutDown(kFarewell); });
   clients.join();
 }
 
 void MessageBoard::stop() { parts_->keeper_.stop(); }
+
+bool MessageBoard::abandon(const std::string& why) {
+  const auto done = std::make_shared<std::promise<void>>();
+  std::future<void> told = done->get_future();
+  asio::post(parts_->io_, [this, why, done] {
+    parts_->shutDown(why);
+    done->set_value();
+  });
+  return told.wait_for(kLongestFarewell) == std::future_status::ready;
+}
 
 BoardStatistics MessageBoard::statistics() const { return parts_->keeper_.statistics(); }
 

@@ -198,17 +198,14 @@ void SimRobot::setMotion(std::span<const double> numbers) {
   command([&] { drive_->setCommand(numbers); });
 }
 
-void SimRobot::setManipulator(std::string_view manipulator, std::string_view state) {
+SimRobot::WantedState SimRobot::findManipulator(std::string_view manipulator,
+                                                std::string_view state) const {
   std::string known;
   for (std::size_t i = 0; i < shape_.manipulators.size(); ++i) {
     const Manipulator& one = shape_.manipulators[i];
     known += (known.empty() ? "" : ", ") + one.name;
     if (one.name != manipulator) continue;
-    const auto found = findState(one, state);
-    if (found) {
-      wantedStates_[i] = *found;
-      return;
-    }
+    if (const auto found = findState(one, state)) return {i, *found};
     std::string states;
     for (const ManipulatorState& each : one.states)
       states += (states.empty() ? "" : ", ") + each.name;
@@ -218,6 +215,11 @@ void SimRobot::setManipulator(std::string_view manipulator, std::string_view sta
   throw std::invalid_argument("robot " + config_.name + " has no manipulator '" +
                               std::string(manipulator) + "', but " +
                               (known.empty() ? "none" : known));
+}
+
+void SimRobot::setManipulator(std::string_view manipulator, std::string_view state) {
+  const WantedState wanted = findManipulator(manipulator, state);
+  wantedStates_[wanted.manipulator] = wanted.state;
 }
 
 std::optional<std::size_t> SimRobot::nextState(std::size_t manipulator, Timestamp now) {

@@ -9,7 +9,6 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kMostRobots = 256;
 constexpr std::size_t kMostCommands = 65536;
 constexpr Range kTime{0.0, 1e6};               ///< [s]
 constexpr Range kVelocity{-100.0, 100.0};      ///< [m/s]
@@ -112,7 +111,7 @@ Scene Scene::read(const std::filesystem::path& file) {
   const Parameters about = toml.table("scene");
   scene.world = readPath(about, "world", folder);
   if (about.has("duration_s")) scene.duration = about.number("duration_s", kTime);
-  for (const Parameters& table : readTables(toml, "robot", kMostRobots))
+  for (const Parameters& table : readTables(toml, "robot", Scene::kMostRobots))
     addRobot(table, folder, scene.robots);
   if (scene.robots.empty()) toml.fail("robot", "is missing: a scene has at least one [[robot]]");
   for (const Parameters& table : readTables(toml, "command", kMostCommands))

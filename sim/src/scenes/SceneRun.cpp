@@ -67,7 +67,7 @@ SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginF
   for (const bool hasStart : {true, false})
     for (std::size_t i = 0; i < scene_.robots.size(); ++i)
       if (scene_.robots[i].start.has_value() == hasStart) addRobot(scene_.robots[i], i, factory);
-  for (const SceneCommand& command : scene_.commands) need(command.robot);
+  for (const SceneCommand& command : scene_.commands) check(command);
   for (const ScenePlacement& placement : scene_.placements) needThing(placement.thing);
 }
 
@@ -133,6 +133,18 @@ std::size_t SceneRun::need(const std::string& robot) const {
   if (!found)
     throw std::invalid_argument("a command is for robot '" + robot + "', which is not there");
   return *found;
+}
+
+/// Before time begins: a run that ends in the middle of the scene has lost that time.
+void SceneRun::check(const SceneCommand& command) const {
+  const SimRobot& robot = *simulation_->robots()[need(command.robot)];
+  if (!command.manipulator.empty()) robot.findManipulator(command.manipulator, command.state);
+  const std::size_t expected = robot.drive().commandSize();
+  if (!command.vector.empty() && command.vector.size() != expected)
+    throw std::invalid_argument("robot " + command.robot + ": the command at " +
+                                std::to_string(toSeconds(command.at)) + " s has " +
+                                std::to_string(command.vector.size()) + " numbers, expected " +
+                                std::to_string(expected) + ": " + robot.drive().commandHelp());
 }
 
 std::size_t SceneRun::needThing(const std::string& thing) const {

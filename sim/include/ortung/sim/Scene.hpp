@@ -46,6 +46,8 @@ struct ScenePlacement {
 
 /// A scripted play: a world, robots in it, and what they are told when.
 struct Scene {
+  static constexpr std::size_t kMostRobots = 256;
+
   std::filesystem::path world;
   std::optional<double> duration;  ///< [s]
   std::vector<SceneRobot> robots;

@@ -66,6 +66,7 @@ class ORTUNG_API SceneRun {
   void obey(const SceneCommand& command);
   void put(const ScenePlacement& placement);
   std::size_t need(const std::string& robot) const;
+  void check(const SceneCommand& command) const;
   std::size_t needThing(const std::string& thing) const;
 
   Scene scene_;

@@ -46,12 +46,21 @@ class ORTUNG_API SimRobot : public RobotCommands {
   /// It moves in the cycle that begins, or as soon as it has room.
   void setManipulator(std::string_view manipulator, std::string_view state) override;
 
+  /// Places of a manipulator and of one of its states, in shape().
+  struct WantedState {
+    std::size_t manipulator = 0;
+    std::size_t state = 0;
+  };
+  /// @throws std::invalid_argument that names the robot and what it has
+  WantedState findManipulator(std::string_view manipulator, std::string_view state) const;
+
   /// The present state of each manipulator of shape(), as its place among the states.
   std::span<const std::size_t> manipulatorStates() const { return manipulatorStates_; }
 
   /// What drivers command and tell limits by. Numbers that are not finite, and command vectors of
   /// another size, are refused with std::invalid_argument that names the robot.
   Drive& drive() { return *drive_; }
+  const Drive& drive() const { return *drive_; }
 
   /// What its sensors cost [rays/s] in a world with cycles of a length [s], see Sensor::rays().
   double raysPerSecond(double cycle) const;

@@ -14,8 +14,13 @@ enum class InstructionSet { kPortable, kAvx2, kAvx512 };
 /// Whether this machine (and build) has it.
 ORTUNG_API bool hasInstructionSet(InstructionSet set);
 
-/// The widest of this machine; $ORTUNG_SIMD (portable, avx2, avx512) lowers the choice.
+/// The widest of this machine; $ORTUNG_SIMD (portable, avx2, avx512) lowers the choice, any other
+/// word does nothing: see checkInstructionSet().
 ORTUNG_API InstructionSet instructionSet();
+
+/// For programs, at their beginning.
+/// @throws std::invalid_argument if $ORTUNG_SIMD is none of these words
+ORTUNG_API void checkInstructionSet();
 
 /// Makes instructionSet() give @p set, or again the widest: for tests and benchmarks, which compare
 /// sets in one process. @pre hasInstructionSet(*set)

@@ -109,6 +109,11 @@ class ORTUNG_API MessageBoard {
   void run(const std::function<bool()>& goesOn = {});
   void stop();  ///< thread-safe
 
+  /// For a world whose cycle does not come back, so that run() never will: lets nobody in any more
+  /// and tells all clients why. What remains is to end the program. Thread-safe.
+  /// @returns whether that was done within a second
+  bool abandon(const std::string& why);
+
   BoardStatistics statistics() const;  ///< thread-safe
 
  private:
