@@ -14,6 +14,13 @@ extern char** environ;
 namespace ortung::test {
 namespace {
 
+/// Programs inherit which signals are ignored, and those of a test that was started by nohup or in
+/// the background would wait for ever for one that ends them.
+[[maybe_unused]] const bool kSignalsEndPrograms = [] {
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) std::signal(signal, SIG_DFL);
+  return true;
+}();
+
 /// How UndefinedBehaviorSanitizer ends a program (CMakePresets.json); it writes no report.
 constexpr int kUndefinedBehaviour = 77;
 
