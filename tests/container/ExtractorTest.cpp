@@ -169,6 +169,24 @@ TEST(Extractor, ItsTroubleIsToldByNameAndReadingsStay) {
   }
 }
 
+TEST(Extractor, IsNamedByWhatItMakes) {
+  const auto said = [](int outputs) {
+    SensorContainer container;
+    const SensorData& a = addScalar(container, "a");
+    std::vector<SensorData*> made;
+    for (int i = 0; i < outputs; ++i)
+      made.push_back(&addScalar(container, "b" + std::to_string(i)));
+    container.add("broken", std::make_unique<Told>([](auto) { throw std::runtime_error("oh"); }),
+                  made);
+    container.connect();
+    return messageOf<ExtractorError>(
+        [&] { container.set({.stamp = 1, .id = a.id(), .words = {5}}); });
+  };
+  EXPECT_TRUE(said(1).starts_with("the extractor of 'broken', which makes m/t/b0,")) << said(1);
+  EXPECT_TRUE(said(3).starts_with("the extractor of 'broken', which makes m/t/b0 and 2 more,"))
+      << said(3);
+}
+
 /// While an extractor computes, others read and write; what came meanwhile is made afterwards.
 TEST(ExtractorThreads, NobodyWaitsForIt) {
   constexpr auto kForever = std::chrono::seconds(60);

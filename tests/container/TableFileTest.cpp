@@ -73,6 +73,28 @@ TEST(TableFile, LaysArraysAtMultiplesOf64Bytes) {
   }
 }
 
+// NumPy's format description, version 1.0: a length of two bytes follows the version, the text ends
+// with a line feed, and all of it is a multiple of 64 bytes long.
+TEST(TableFile, HeadersOfArraysAreAsNumPyWantsThem) {
+  for (const std::string& name : {std::string("t"), std::string(60, 'n')}) {
+    for (const std::size_t extent : {1u, 1000u, 1000000u}) {
+      const TemporaryFolder folder;
+      TableWriter writer(folder / "t.npz");
+      const std::vector<std::uint8_t> values(extent, 7);
+      writer.add<std::uint8_t>(name, {extent}, values);
+      writer.commit();
+      const std::string bytes = test::readBytes(folder / "t.npz");
+      const std::size_t at = bytes.find("\x93NUMPY\x01");
+      ASSERT_NE(at, bytes.npos);
+      const std::size_t length = 10 + static_cast<unsigned char>(bytes[at + 8]) +
+                                 256u * static_cast<unsigned char>(bytes[at + 9]);
+      EXPECT_EQ(length % 64, 0u);
+      EXPECT_EQ(bytes.at(at + length - 1), '\n');
+      EXPECT_EQ(bytes.at(at + length), '\7');
+    }
+  }
+}
+
 TEST(TableFile, IsTheSameForTheSameContent) {
   const TemporaryFolder folder;
   writeExample(folder / "a.npz");

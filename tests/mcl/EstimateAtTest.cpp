@@ -95,6 +95,25 @@ TEST(EstimateAt, BeginsAtAKnownStartAndWaitsForTheFirstReadingOfAGlobalOne) {
   EXPECT_NEAR(start->covariance[0], 0.01, 0.002);
   EXPECT_NEAR(start->covariance[4], 0.01, 0.002);
   EXPECT_NEAR(start->covariance[8], 0.0025, 0.0005);
+  mcl->startAt({-4, 1, -2}, 0.1, 0.05);
+  expectPose(mcl->estimate(fromSeconds(1.5)), {-4, 1, -2}, 0.02);
+}
+
+// Also where it moves along or about one of its axes exactly.
+TEST(EstimateAt, FollowsEachAxisByItself) {
+  for (const Pose2& change : {Pose2{0.04, 0, 0}, Pose2{0, 0.04, 0}, Pose2{0, 0, 0.02}}) {
+    MovingRobot robot;
+    const auto mcl = robot.mcl();
+    mcl->startAt({0, 0, 0}, 0.0, 0.0);
+    robot.odometry(0.0, {});
+    robot.feature("early", 0.0);
+    ASSERT_TRUE(mcl->update(robot.container));
+    const std::array<double, 9> before = mcl->estimate().covariance;
+    robot.odometry(0.1, {change, 0.0, 0.0, {}});
+    mcl->update(robot.container);
+    expectPose(mcl->estimate(fromSeconds(0.1)), change, 1e-4);
+    EXPECT_EQ(mcl->estimate(0)->covariance, before) << "nothing has moved then";
+  }
 }
 
 // Noise of the motion model widens what is claimed of later times, by its own rule: variances grow

@@ -42,7 +42,7 @@ std::ifstream openInput(const std::filesystem::path& file, std::string& why) {
   int error = in ? 0 : errno;
   struct stat status{};
   const bool isThere = ::stat(file.c_str(), &status) == 0;
-  if (isThere && S_ISDIR(status.st_mode)) {  // the stream would open, and then give nothing
+  if (S_ISDIR(status.st_mode)) {  // the stream would open, and then give nothing
     error = EISDIR;
     in.setstate(std::ios::failbit);
   }
