@@ -1,13 +1,12 @@
 /// ortung-mrpt-reader: prints MRPT's binary files as text, for those who do not want to link MRPT
 /// nor to trust its readers, which believe every length that a file states.
-///   ortung-mrpt-reader rawlog FILE    readings as lines of a record (see RawlogPrinter.hpp)
+///   ortung-mrpt-reader rawlog FILE    "# ortung-mrpt-reader 1", the number of the format, then
+///                                     readings as lines of a record (see RawlogPrinter.hpp)
 ///   ortung-mrpt-reader gridmap FILE   "ortung-gridmap WIDTH HEIGHT RESOLUTION ORIGIN_X ORIGIN_Y",
 ///                                     then a byte a cell, 255 free, 0 occupied, bottom row first
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
-#include <mrpt/maps/registerAllClasses.h>
-#include <mrpt/obs/registerAllClasses.h>
 #include <mrpt/serialization/CArchive.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -101,8 +100,6 @@ std::string oneLine(const std::string& text) {
 
 int run(const std::string& what, const std::string& file, std::FILE* out) {
   try {
-    mrpt::obs::registerAllClasses_mrpt_obs();
-    mrpt::maps::registerAllClasses_mrpt_maps();
     mrpt::io::CFileGZInputStream stream;
     if (!stream.open(file)) throw std::runtime_error("cannot be opened");
     auto archive = mrpt::serialization::archiveFrom(stream);

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -109,7 +110,8 @@ void RawlogPrinter::printScan(const mrpt::obs::CObservation2DRangeScan& scan) {
     beams_ = beams;
     const Pose2 mount = flat(scan.sensorPose);
     const double first = -0.5 * static_cast<double>(scan.aperture);  // as MRPT places its beams
-    const double step = beams > 1 ? scan.aperture / static_cast<double>(beams - 1) : scan.aperture;
+    const auto steps = static_cast<double>(std::max<std::size_t>(beams, 2) - 1);
+    const double step = scan.aperture / steps;
     comment("scanner" + numbers({mount.x, mount.y, mount.theta, first, step, scan.maxRange}) + " " +
             std::to_string(beams));
   }

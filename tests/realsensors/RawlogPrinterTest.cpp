@@ -3,11 +3,15 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <sstream>
 
 #include "LogTesting.hpp"
 #include "RawlogPrinter.hpp"
@@ -18,13 +22,17 @@ namespace {
 
 using namespace ortung::testing;
 
-/// What is printed of @p scans.
-std::string printed(const std::vector<mrpt::obs::CObservation2DRangeScan>& scans) {
+using Objects = std::vector<std::shared_ptr<mrpt::serialization::CSerializable>>;
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kEndless = std::numeric_limits<float>::infinity();
+
+/// What is printed of @p objects.
+std::string printed(const Objects& objects) {
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* out = ::open_memstream(&text, &size);
   RawlogPrinter printer(out);
-  for (const mrpt::serialization::CSerializable& scan : scans) printer.print(scan);
+  for (const auto& object : objects) printer.print(*object);
   printer.finish();
   std::fclose(out);
   std::string all(text, size);
@@ -32,15 +40,16 @@ std::string printed(const std::vector<mrpt::obs::CObservation2DRangeScan>& scans
   return all;
 }
 
-mrpt::obs::CObservation2DRangeScan scanOf(const std::vector<float>& ranges, double seconds) {
-  mrpt::obs::CObservation2DRangeScan scan;
-  scan.timestamp = mrpt::Clock::fromDouble(seconds);
-  scan.aperture = 2.0F;
-  scan.maxRange = 8.0F;
-  scan.resizeScan(ranges.size());
+std::shared_ptr<mrpt::obs::CObservation2DRangeScan> scanOf(const std::vector<float>& ranges,
+                                                           double seconds) {
+  auto scan = std::make_shared<mrpt::obs::CObservation2DRangeScan>();
+  scan->timestamp = mrpt::Clock::fromDouble(seconds);
+  scan->aperture = 2.0F;
+  scan->maxRange = 8.0F;
+  scan->resizeScan(ranges.size());
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    scan.setScanRange(i, ranges[i]);
-    scan.setScanRangeValidity(i, true);
+    scan->setScanRange(i, ranges[i]);
+    scan->setScanRangeValidity(i, true);
   }
   return scan;
 }
@@ -52,6 +61,117 @@ TEST(RawlogPrinter, PassesOverScansWithoutBeams) {
       "# scanner 0 0 0 -1 1 8 3\n2000000 laser/LRF/scan 3 1000 2000 3000\n";
   EXPECT_EQ(printed({empty, scan}), expected + "# skipped 1 scans without beams\n# end 1\n");
   EXPECT_EQ(printed({scan, empty, empty}), expected + "# skipped 2 scans without beams\n# end 1\n");
+}
+
+// MRPT says of a scan in which direction it goes; those of a record go counter-clockwise.
+TEST(RawlogPrinter, TurnsScansRoundThatGoFromLeftToRight) {
+  const auto scan = scanOf({1.0F, 2.0F, 3.0F}, 1.0);
+  scan->setScanRangeValidity(2, false);
+  scan->rightToLeft = false;
+  EXPECT_EQ(printed({scan}),
+            "# scanner 0 0 0 -1 1 8 3\n1000000 laser/LRF/scan 3 0 2000 1000\n# end 1\n");
+}
+
+TEST(RawlogPrinter, BeamsAreSpreadOverTheApertureHoweverFewThereAre) {
+  EXPECT_TRUE(printed({scanOf({1.0F}, 1.0)}).starts_with("# scanner 0 0 0 -1 2 8 1\n"));
+  EXPECT_TRUE(printed({scanOf({1.0F, 2.0F}, 1.0)}).starts_with("# scanner 0 0 0 -1 2 8 2\n"));
+  EXPECT_TRUE(printed({scanOf(std::vector<float>(5, 1.0F), 1.0)})
+                  .starts_with("# scanner 0 0 0 -1 0.5 8 5\n"));
+}
+
+// The scanner is the one that comes first; it is known by its label and its number of beams.
+TEST(RawlogPrinter, PassesOverScansOfOtherScanners) {
+  const auto first = scanOf({1.0F, 2.0F}, 1.0);
+  const auto label = scanOf({3.0F, 4.0F}, 2.0);
+  const auto beams = scanOf({5.0F, 6.0F, 7.0F}, 3.0);
+  const auto again = scanOf({8.0F, 9.0F}, 4.0);
+  for (const auto& scan : {first, beams, again}) scan->sensorLabel = "FRONT";
+  label->sensorLabel = "REAR";
+  EXPECT_EQ(printed({first, label, beams, again}),
+            "# scanner 0 0 0 -1 2 8 2\n1000000 laser/LRF/scan 2 1000 2000\n"
+            "4000000 laser/LRF/scan 2 8000 9000\n# skipped 2 scans of another scanner\n# end 2\n");
+}
+
+TEST(RawlogPrinter, RangesThatAreNoLengthsAreNotValid) {
+  EXPECT_EQ(printed({scanOf({1.0F, kEndless, kNan, 0.0F, -1.0F, 2.0F}, 1.0)}),
+            "# scanner 0 0 0 -1 0.4 8 6\n1000000 laser/LRF/scan 6 1000 0 0 0 0 2000\n# end 1\n");
+  const auto beacons = std::make_shared<mrpt::obs::CObservationBeaconRanges>();
+  const auto marks = std::make_shared<mrpt::obs::CObservationBearingRange>();
+  beacons->timestamp = marks->timestamp = mrpt::Clock::fromDouble(1.0);
+  beacons->maxSensorDistance = marks->maxSensorDistance = 30.0F;
+  marks->fieldOfView_yaw = 2.0F;
+  for (const float range : {kEndless, kNan, 0.0F, -1.0F, 4.0F}) {
+    beacons->sensedData.emplace_back();
+    beacons->sensedData.back().beaconID = 7;
+    beacons->sensedData.back().sensedDistance = range;
+    marks->sensedData.emplace_back();
+    marks->sensedData.back().landmarkID = 3;
+    marks->sensedData.back().range = range;
+  }
+  EXPECT_EQ(printed({beacons, marks}),
+            "# beacons 0 0 0 30\n1000000 uwb/landmarks/beacon7Distance 1 4000\n"
+            "# landmarks 0 0 0 30 2\n1000000 camera/landmarks/posts 3 3 4000 18000\n"
+            "# skipped 4 ranges of no known beacon or of 0\n"
+            "# skipped 4 sightings of no known landmark\n# end 2\n");
+}
+
+// A receiver of ranges has a place, and looks nowhere; it is told once.
+TEST(RawlogPrinter, TellsWhereRangesOfBeaconsAreTaken) {
+  const auto beacons = std::make_shared<mrpt::obs::CObservationBeaconRanges>();
+  beacons->timestamp = mrpt::Clock::fromDouble(1.0);
+  beacons->maxSensorDistance = 30.0F;
+  beacons->sensedData.resize(2);
+  for (auto& sensed : beacons->sensedData) {
+    sensed.sensorLocationOnRobot = {0.25, -0.5, 1.5};
+    sensed.beaconID = 1;
+    sensed.sensedDistance = 2.0F;
+  }
+  const std::string range = "1000000 uwb/landmarks/beacon1Distance 1 2000\n";
+  EXPECT_EQ(printed({beacons}), "# beacons 0.25 -0.5 0 30\n" + range + range + "# end 2\n");
+}
+
+/// Stamps of scans in frames that a log's clock puts at @p seconds [us].
+std::vector<std::string> stampsOfFrames(const std::vector<double>& seconds) {
+  Objects frames;
+  for (const double at : seconds) {
+    auto frame = std::make_shared<mrpt::obs::CSensoryFrame>();
+    frame->insert(scanOf({1.0F}, at));
+    frames.push_back(frame);
+  }
+  std::vector<std::string> stamps;
+  std::istringstream text(printed(frames));
+  for (std::string line; std::getline(text, line);)
+    if (const auto end = line.find(" laser/"); end != line.npos)
+      stamps.push_back(line.substr(0, end));
+  return stamps;
+}
+
+// Less than a second back, the clock is taken to be coarse, and the frame comes 1 us after the last
+// one. Farther back, it has been set: who reads the lines decides what that means.
+TEST(RawlogPrinter, FramesOfACoarseClockAreToldApartAndAClockThatWasSetIsNotHidden) {
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(stampsOfFrames({10, 10, 10, 11}),
+            (Texts{"10000000", "10000001", "10000002", "11000000"}));
+  EXPECT_EQ(stampsOfFrames({10, 9.25, 12}), (Texts{"10000000", "10000001", "12000000"}));
+  EXPECT_EQ(stampsOfFrames({10, 9}), (Texts{"10000000", "9000000"}));
+  EXPECT_EQ(stampsOfFrames({10, 3, 4}), (Texts{"10000000", "3000000", "4000000"}));
+}
+
+// The whole output, of classes of all libraries of MRPT that the program knows.
+TEST(MrptReader, PrintsItsFormatTheReadingsWhatItPassedOverAndHowManyThereWere) {
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << *scanOf({1.0F, 2.0F}, 1.0) << mrpt::obs::CObservationComment()
+          << mrpt::obs::CObservationPointCloud() << *scanOf({3.0F, 4.0F}, 2.0);
+  const std::string bytes(static_cast<const char*>(stream.getRawBufferData()),
+                          stream.getTotalBytesCount());
+  const TemporaryFolder folder;
+  EXPECT_EQ(runHelper(findHelper("ortung-mrpt-reader", ""),
+                      {"rawlog", folder.write("a.rawlog", bytes).string()}, "rawlog", 1 << 16),
+            "# ortung-mrpt-reader 1\n# scanner 0 0 0 -1 2 8 2\n"
+            "1000000 laser/LRF/scan 2 1000 2000\n2000000 laser/LRF/scan 2 3000 4000\n"
+            "# skipped 1 mrpt::obs::CObservationComment\n"
+            "# skipped 1 mrpt::obs::CObservationPointCloud\n# end 2\n");
 }
 
 /// A grid's bytes as MRPT writes them, with @p value in place of @p old.
@@ -76,8 +196,6 @@ TEST(MrptReader, RefusesGridsWithoutAPlaceOrSize) {
     return runHelper(findHelper("ortung-mrpt-reader", ""), {"gridmap", file}, "grid", 1 << 22);
   };
   EXPECT_TRUE(print(-3.0F, -3.0F).starts_with("ortung-gridmap 24 24 0.25 -3 -2\n"));
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  constexpr float kEndless = std::numeric_limits<float>::infinity();
   for (const auto& [old, value] :
        {std::pair{-3.0F, kNan}, std::pair{-3.0F, kEndless}, std::pair{-2.0F, kNan},
         std::pair{-2.0F, -kEndless}, std::pair{0.25F, kNan}, std::pair{0.25F, 0.0F},
