@@ -147,6 +147,15 @@ void runSweep(const SimWorld& world, const FieldRegion& region, const Sweep& swe
   }
 }
 
+/// The part of the field that a point lies in. @throws std::invalid_argument
+std::size_t partAround(const std::array<double, 2>& point, const FieldParts& parts) {
+  const auto found = parts.partAt(point[0], point[1]);
+  if (!found || parts.parts()[*found].cells == 0)
+    throw std::invalid_argument("there is no room for the robot around (" +
+                                std::to_string(point[0]) + ", " + std::to_string(point[1]) + ") m");
+  return *found;
+}
+
 }  // namespace
 
 LearnCancelled::~LearnCancelled() = default;
@@ -158,18 +167,9 @@ LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
   // As small as does not slip through walls that are thinner than a cell.
   const RobotSize small{std::min(robot.radius, cell / 2.0), robot.height};
   const FieldParts parts(whole, world.region(cell, small).standable);
-  std::size_t part = 0;
-  if (inside) {
-    const auto found = parts.partAt((*inside)[0], (*inside)[1]);
-    if (!found || parts.parts()[*found].cells == 0)
-      throw std::invalid_argument("there is no room for the robot around (" +
-                                  std::to_string((*inside)[0]) + ", " +
-                                  std::to_string((*inside)[1]) + ") m");
-    part = *found;
-  } else {
-    // A map knows where it is outside: nobody stands on what is not known.
-    part = parts.main(world.solids().walls.empty());
-  }
+  // A map knows where it is outside: nobody stands on what is not known.
+  const std::size_t part =
+      inside ? partAround(*inside, parts) : parts.main(world.solids().walls.empty());
   LearnArea area{parts.only(part), 0.0};
   for (std::size_t i = 0; i < whole.standable.size(); ++i)
     area.leftOut += whole.standable[i] != area.region.standable[i] ? cell * cell : 0.0;

@@ -128,8 +128,7 @@ void FreeSpace::block(const FieldGrid& grid, const RobotSize& size,
         const std::size_t i =
             static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
             static_cast<std::size_t>(column);
-        if (mask[i] != 0 && distanceTo(*body, {grid.centreX(i), grid.centreY(i)}) <= radius)
-          mask[i] = 0;
+        if (distanceTo(*body, {grid.centreX(i), grid.centreY(i)}) <= radius) mask[i] = 0;
       }
     }
   }
