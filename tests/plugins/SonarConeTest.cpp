@@ -202,6 +202,37 @@ TEST(SonarCone, SeesASingleCellOfAMapInAllBearings) {
   }
 }
 
+/// A map of this name in which one thing stands, 5 cm thick; gives its table of a world file.
+std::string mapOf(const test::TemporaryFolder& folder, const std::string& name, double away,
+                  double width, const std::string& heights) {
+  std::string image = "P5\n120 100\n255\n" + std::string(120 * 100, '\xFE');
+  const auto cells = static_cast<int>(std::lround(width / 0.05));
+  for (int row = 50 - (cells + 1) / 2; row < 50 + cells / 2; ++row)
+    image[image.size() - 120 * 100 + static_cast<std::size_t>(120 * row) + 20 +
+          static_cast<std::size_t>(std::lround(away / 0.05))] = 0;
+  test::writeBytes(folder / (name + ".pgm"), image);
+  test::writeBytes(folder / (name + ".yaml"),
+                   "image: " + name + ".pgm\nresolution: 0.05\norigin: [-1, -2.5, 0]\n");
+  return "[[grid]]\nmap = \"" + name + ".yaml\"\nz_m = " + heights + "\n";
+}
+
+TEST(SonarCone, SeesWhatHangsAboveItAndThinPostsInWhateverOrderMapsAre) {
+  const test::TemporaryFolder folder;
+  Sonar sonar;
+  const auto range = [&](const std::string& maps, double heading) {
+    test::writeBytes(folder / "world.toml", maps);
+    return sonar.at(*readWorld(folder / "world.toml"), heading, false);
+  };
+  const std::string post = mapOf(folder, "post", 3.0, 0.05, "[0, 0.35]");
+  const std::string near = mapOf(folder, "near", 1.5, 0.4, "[0.38, 1]");
+  const std::string far = mapOf(folder, "far", 4.0, 0.4, "[0.38, 1]");
+  for (const std::string& maps : {post + near, near + post, near})
+    EXPECT_NEAR(range(maps, 0.0), std::hypot(1.5, 0.38 - kZ), 0.02);
+  for (const std::string& maps : {post + far, far + post, post})
+    for (double heading = -9.0 * kDegree; heading < 9.0 * kDegree; heading += 0.7 * kDegree)
+      EXPECT_NEAR(range(maps, heading), 3.0, 0.05) << heading / kDegree << "\n" << maps;
+}
+
 TEST(SonarCone, TellsFalseEchoesAnywhereBeforeTheTrueOne) {
   const auto world = worldOf(box(2.5, 0.0, 1.0, 4.0, 0.0, 1.0));
   for (const double share : {0.0, 0.3, 1.0}) {

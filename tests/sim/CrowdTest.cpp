@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "BoxShapes.hpp"
+#include "Contacts.hpp"
 #include "Physics.hpp"
 #include "ortung/base/Random.hpp"
 
@@ -72,6 +73,25 @@ TEST(Crowd, PiecesWithinOthersCountOnce) {
   EXPECT_EQ(withoutHidden(pieces).size(), 3u);  // the higher one hides all like the first
 }
 
+TEST(Crowd, OfTwoDiscsTheOneWithinTheOtherIsHidden) {
+  const auto disc = [](double x, double radius) {
+    Primitive shape = box(x, 0.0, 0.0, 2.0 * radius);
+    shape.shape = Primitive::Shape::ellipse;
+    return shape;
+  };
+  const auto left = [&](double x, double radius) {  // beside a disc of 0.5 m in the middle
+    const std::vector<Primitive> pieces{disc(x, radius), disc(0.0, 0.5)};
+    return withoutHidden(pieces);
+  };
+  for (const auto& [x, radius] :
+       {std::pair{0.0, 0.25}, {0.25, 0.125}, {0.25, 0.25}, {-0.25, 0.25}, {0.0, 0.5}}) {
+    ASSERT_EQ(left(x, radius).size(), 1u) << x << " " << radius;
+    EXPECT_EQ(left(x, radius).front().halfX, 0.5) << x << " " << radius;
+  }
+  for (const auto& [x, radius] : {std::pair{0.3, 0.25}, {-0.3, 0.25}, {2.0, 0.1}})
+    EXPECT_EQ(left(x, radius).size(), 2u) << x << " " << radius;
+}
+
 TEST(Crowd, HiddenPiecesWeighNothing) {
   Physics physics({}, {{-5.0, 5.0, -5.0, 5.0}, {}, {}});
   const Primitive whole = box(0.0, 0.0, 0.0, 0.6);
@@ -81,6 +101,49 @@ TEST(Crowd, HiddenPiecesWeighNothing) {
   EXPECT_NEAR(physics.inertia(one), 10.0 * 0.6 * 0.6 / 6.0, 1e-9);
   EXPECT_EQ(physics.inertia(other), physics.inertia(one));
   EXPECT_EQ(physics.centreOfMass(other).x, 2.0);
+}
+
+/// How many contacts a plate has that 100 discs touch at once.
+int contactsOfPlate(bool isPlateFirst) {
+  constexpr int kDiscs = 100;
+  HeightFilter filter;
+  b2World world({0.0f, 0.0f});
+  world.SetContactFilter(&filter);
+  const Heights heights{0.0, 1.0, {}};
+  std::vector<Crowd> crowds(kDiscs + 1);
+  const auto add = [&](Crowd& crowd, const b2Shape& shape) {
+    b2BodyDef definition;
+    definition.type = b2_dynamicBody;
+    definition.userData.pointer = reinterpret_cast<uintptr_t>(&crowd);
+    b2Body* body = world.CreateBody(&definition);
+    b2FixtureDef fixture;
+    fixture.shape = &shape;
+    fixture.userData.pointer = reinterpret_cast<uintptr_t>(&heights);
+    body->CreateFixture(&fixture);
+    return body;
+  };
+  b2PolygonShape plate;
+  plate.SetAsBox(20.0f, 20.0f);
+  b2Body* body = isPlateFirst ? add(crowds[0], plate) : nullptr;
+  for (std::size_t i = 1; i <= kDiscs; ++i) {
+    b2CircleShape disc;
+    disc.m_radius = 0.5f;
+    disc.m_p = {3.0f * static_cast<float>(i % 10) - 15.0f,
+                3.0f * static_cast<float>(i / 10) - 15.0f};  // apart from each other
+    add(crowds[i], disc);
+  }
+  if (!isPlateFirst) body = add(crowds[0], plate);
+  filter.count(world);
+  world.Step(0.01f, 1, 1);
+  int contacts = 0;
+  for (const b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next)
+    ++contacts;
+  return contacts;
+}
+
+TEST(Crowd, OneBodyHas64ContactsAtMostWhicheverWasThereFirst) {
+  EXPECT_EQ(contactsOfPlate(true), 64);
+  EXPECT_EQ(contactsOfPlate(false), 64);
 }
 
 TEST(Crowd, ContactsThatAreOverCountForNothing) {

@@ -150,6 +150,29 @@ TEST_F(MapFiles, BrokenYamlIsRefusedWithItsPlace) {
   EXPECT_HAS(refusal(std::string(60000, '['), image), "is no YAML");
 }
 
+TEST_F(MapFiles, NumbersOfAYamlHaveLimits) {
+  const auto yaml = [](const std::string& occupied, const std::string& free,
+                       const std::string& resolution, const std::string& origin) {
+    return "image: map.pgm\nresolution: " + resolution + "\norigin: " + origin +
+           "\noccupied_thresh: " + occupied + "\nfree_thresh: " + free + "\n";
+  };
+  const std::string home = "[0, 0, 0]";
+  for (const auto& fine :
+       {yaml("0", "0", "0.5", home), yaml("1", "1", "0.5", home), yaml("0.6", "0.2", "0.001", home),
+        yaml("0.6", "0.2", "100", home), yaml("0.6", "0.2", "0.5", "[-1e4, -1e4, 1e-9]")})
+    EXPECT_EQ(refusal(fine, image), "") << fine;
+  EXPECT_HAS(refusal(yaml("1.001", "0", "0.5", home), image), "occupied_thresh is 1.001, expected");
+  EXPECT_HAS(refusal(yaml("-0.001", "0", "0.5", home), image), "occupied_thresh is -0.001, ");
+  EXPECT_HAS(refusal(yaml("1", "1.001", "0.5", home), image), "free_thresh is 1.001, expected a ");
+  EXPECT_HAS(refusal(yaml("1", "-0.001", "0.5", home), image), "free_thresh is -0.001, expected");
+  EXPECT_HAS(refusal(yaml("1", "0", "0.0009", home), image), "resolution is 0.0009, expected a ");
+  EXPECT_HAS(refusal(yaml("1", "0", "100.1", home), image), "resolution is 100.1, expected a ");
+  EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[-10001, 0, 0]"), image), "x of origin is -10001, ");
+  EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[10001, 0, 0]"), image), "x of origin is 10001, ");
+  EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[0, 10001, 0]"), image), "y of origin is 10001, ");
+  EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[0, 0, 2e-9]"), image), "yaw of origin is 0.0000");
+}
+
 TEST_F(MapFiles, MissingAndOddFilesAreRefused) {
   EXPECT_HAS(refusal(mapYaml("gone.pgm"), image), "gone.pgm does not exist, nor with .gz or .xz");
   EXPECT_HAS(refusal("gone.yaml"), "no such file");

@@ -89,6 +89,23 @@ z_m = [0, 0.22]
         simulation(readWorld(worldFile), {}),
         robot(simulation.addRobot(readRobot(robotFile), factory, {0, 0, 0})) {}
 
+  /// The same robot in a scene, named "one", and what that is told.
+  SceneRobot inScene(const std::optional<Pose2>& start) const {
+    SceneRobot its;
+    its.file = robotFile;
+    its.name = "one";
+    its.start = start;
+    return its;
+  }
+  static SceneCommand kickAt(Timestamp at) {
+    SceneCommand command;
+    command.at = at;
+    command.robot = "one";
+    command.manipulator = "kicker";
+    command.state = "kick";
+    return command;
+  }
+
   TemporaryFolder folder;
   std::filesystem::path robotFile, worldFile;
   PluginFactory factory{PluginFactory::standardFolders()};
@@ -206,6 +223,26 @@ TEST(SceneRun, CarriesARobotElsewhereWithoutItsOdometry) {
   EXPECT_EQ(distance(lost.state().odometry, Pose2{}), 0.0);
 }
 
+TEST(SceneRun, WhatTheScriptSaysIsDoneInTheCycleThatBeginsThen) {
+  const Kicker kicker;  // its files
+  Scene scene;
+  scene.world = kicker.worldFile;
+  scene.robots.push_back(kicker.inScene(Pose2{}));
+  scene.commands.push_back(Kicker::kickAt(20'000));
+  scene.placements.push_back({30'000, "ball", {3.0, 3.0, 0.0}, {}});
+  PluginFactory factory(PluginFactory::standardFolders());
+  SceneRun run(scene, {.cycle = 0.01}, factory);
+  std::vector<std::size_t> states;
+  std::vector<bool> isPlaced;
+  for (int cycle = 0; cycle < 5; ++cycle) {
+    run.step();
+    states.push_back(run.simulation().robots().front()->manipulatorStates()[0]);
+    isPlaced.push_back(run.simulation().things()[0].pose.y > 2.0);
+  }
+  EXPECT_EQ(states, (std::vector<std::size_t>{0, 0, 1, 1, 1}));
+  EXPECT_EQ(isPlaced, (std::vector<bool>{false, false, false, true, true}));
+}
+
 /// The message with which a scene in the arena ends at its beginning, or "".
 std::string refusalOfScene(const std::string& robots) {
   const TemporaryFolder folder;
@@ -273,7 +310,7 @@ TEST(SceneRun, CommandsThatNobodyCanFollowAreRefusedBeforeTimeBegins) {
   const auto refusal = [&](const SceneCommand& command) -> std::string {
     Scene scene;
     scene.world = kicker.worldFile;
-    scene.robots.push_back({.file = kicker.robotFile, .name = "one"});
+    scene.robots.push_back(kicker.inScene(std::nullopt));
     scene.commands.push_back(command);
     PluginFactory factory(PluginFactory::standardFolders());
     try {
@@ -283,9 +320,7 @@ TEST(SceneRun, CommandsThatNobodyCanFollowAreRefusedBeforeTimeBegins) {
     }
     return "";
   };
-  SceneCommand command{.at = 3'000'000, .robot = "one"};
-  command.manipulator = "kicker";
-  command.state = "kick";
+  SceneCommand command = Kicker::kickAt(3'000'000);
   EXPECT_EQ(refusal(command), "");
   command.state = "up";
   EXPECT_EQ(refusal(command),

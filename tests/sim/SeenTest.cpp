@@ -101,10 +101,13 @@ TEST(Seen, ABodyReachesFromItsLowestPieceToItsHighest) {
   mast.halfX = mast.halfY = 0.05;
   mast.zLow = 0.5;
   mast.zHigh = 1.2;
-  const RobotNumber drone = world->addBody(
-      {.kind = "robot", .name = {}, .colour = {}, .pieces = {mast, tray}}, {1.0, 0.0, 0.0});
-  EXPECT_EQ(world->objects().back().zLow, 0.4);
-  EXPECT_EQ(world->objects().back().zHigh, 1.2);
+  RobotNumber drone = 0;
+  for (const auto& pieces : {std::vector{tray, mast}, {mast, tray}}) {  // in whatever order
+    drone = world->addBody({.kind = "robot", .name = {}, .colour = {}, .pieces = pieces},
+                           {1.0, 0.0, 0.0});
+    EXPECT_EQ(world->objects().back().zLow, 0.4);
+    EXPECT_EQ(world->objects().back().zHigh, 1.2);
+  }
   world->reshapeBody(drone, {&mast, 1});  // nothing is left of what it was
   EXPECT_EQ(world->objects().back().zLow, 0.5);
   EXPECT_EQ(world->objects().back().zHigh, 1.2);

@@ -124,6 +124,42 @@ TEST(ThinShapes, AreWhereTheFileSays) {
     }
 }
 
+/// A triangle of a size, its corners against the clock.
+Primitive wedge(double base, double height) {
+  Primitive triangle;
+  triangle.shape = Primitive::Shape::triangle;
+  triangle.corners = {Point2{0.0, 0.0}, Point2{base, 0.0}, Point2{0.4 * base, height}};
+  triangle.centre = {1.4 * base / 3.0, height / 3.0};
+  return triangle;
+}
+
+TEST(ThinShapes, OfTrianglesAllThreeSidesAreWhereTheFileSays) {
+  // As above, in the middle of each side.
+  for (const auto& [base, height] :
+       {std::pair{0.01, 0.001}, {0.05, 0.05}, {0.5, 0.002}, {1.0, 0.5}, {4.0, 0.02}, {4.0, 3.0}}) {
+    Solids solids;
+    solids.bounds = {-10.0, 10.0, -10.0, 10.0};
+    solids.primitives.push_back(wedge(base, height));
+    const Physics physics({}, solids);
+    const auto& corners = solids.primitives.front().corners;
+    Primitive ball;
+    ball.shape = Primitive::Shape::ellipse;
+    ball.halfX = ball.halfY = 0.1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point2& a = corners[i];
+      const Point2& b = corners[(i + 1) % 3];
+      const double length = std::hypot(b.x - a.x, b.y - a.y);
+      const auto isFree = [&](double away) {
+        const Pose2 place{(a.x + b.x) / 2.0 + away * (b.y - a.y) / length,
+                          (a.y + b.y) / 2.0 - away * (b.x - a.x) / length, 0.0};
+        return physics.isFree({&ball, 1}, place, Physics::kNobody);
+      };
+      EXPECT_TRUE(isFree(0.1 + 2e-4)) << base << " x " << height << ", side " << i;
+      EXPECT_FALSE(isFree(0.1 - 2e-4)) << base << " x " << height << ", side " << i;
+    }
+  }
+}
+
 TEST(ThinShapes, StopABall) {
   for (const double size : {0.001, 0.003, 0.01}) {
     Solids solids;
