@@ -72,6 +72,22 @@ TEST(FrameReader, RefusesTimeThatRunsBackwards) {
             "time runs backwards: M/T/b at 4 us after 5 us");
 }
 
+// Records may hold any stamp; players calculate with differences of them.
+TEST(FrameReader, RefusesTimesWhoseDifferencesOverflow) {
+  constexpr Timestamp kFarthest = Timestamp{1} << 60;
+  Listed fine({at(-kFarthest, "a"), at(kFarthest, "a")});
+  FrameReader reader(fine);
+  std::vector<Message> frame;
+  EXPECT_TRUE(reader.next(frame));
+  EXPECT_TRUE(reader.next(frame));
+  for (const Timestamp far : {-kFarthest - 1, kFarthest + 1}) {
+    Listed source({at(far, "a")});
+    FrameReader other(source);
+    EXPECT_EQ(messageOf<std::runtime_error>([&] { other.next(frame); }),
+              "M/T/a is of " + std::to_string(far) + " us, expected a time within 2^60 us of 0");
+  }
+}
+
 TEST(Source, WithoutAMapSaysSo) {
   Listed source({});
   EXPECT_EQ(source.progress(), -1.0);

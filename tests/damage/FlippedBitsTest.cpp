@@ -177,8 +177,7 @@ TEST(FlippedBits, OfARecord) {
   expectBoth(flipBits<std::runtime_error>(record, [&](const std::string& bytes) {
     writeBytes(folder / "a.rec", bytes);
     RecordSource source(folder / "a.rec");
-    FrameReader reader(source);
-    for (std::vector<Message> frame; reader.next(frame);) EXPECT_FALSE(frame.empty());
+    for (Message message; source.next(message);) EXPECT_FALSE(message.id.model.empty());
   }));
 }
 

@@ -9,6 +9,9 @@ namespace {
 /// More than any robot has features; a hostile file may put all of its readings at one time.
 constexpr std::size_t kMostReadings = 65536;
 
+/// 36,000 years: whoever plays readings adds and subtracts their times, which must not overflow.
+constexpr Timestamp kFarthest = Timestamp{1} << 60;
+
 }  // namespace
 
 Source::~Source() = default;
@@ -58,6 +61,9 @@ bool FrameReader::next(std::vector<Message>& frame) {
     ahead_ = std::move(first);
   }
   const Timestamp now = ahead_->stamp;
+  if (now < -kFarthest || now > kFarthest)
+    throw std::runtime_error(toText(ahead_->id) + " is of " + std::to_string(now) +
+                             " us, expected a time within 2^60 us of 0");
   frame.push_back(std::move(*ahead_));
   ahead_.reset();
   Message message;

@@ -66,7 +66,8 @@ class ORTUNG_API FrameReader {
   explicit FrameReader(Source& source) : source_(source) {}
 
   /// All messages of the next moment, in the source's order; false at the end.
-  /// @throws std::runtime_error if time runs backwards
+  /// @throws std::runtime_error if time runs backwards, or is farther than 2^60 us from 0: whoever
+  ///   plays readings may add and subtract times
   bool next(std::vector<Message>& frame);
 
  private:
