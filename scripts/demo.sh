@@ -7,7 +7,13 @@ cd "$(dirname "$0")/.."
 
 scripts/install-deps.sh
 cmake --preset release >/dev/null
-cmake --build --preset release --target ortung ortung_plugins  # all the rest would not be used here
+# The program and those plugins that are used here; `cmake --build --preset release` builds all the rest.
+parts=(ortung)
+for plugin in ground_truth_{data,sensor} odometry_{data,sensor} lrf_{data,sensor} landmarks_{data,sensor} \
+              differential_{motion,drive} sim_source mrclam_source; do
+  parts+=("ortung_$plugin")
+done
+cmake --build --preset release --target "${parts[@]}"
 
 ortung=build/release/bin/ortung
 out=out/demo
@@ -41,3 +47,5 @@ fi
 
 step "Done. Reports and pictures:"
 ls -1 "$out"/*.html "$out"/*.png
+echo
+echo "All plugins, libraries and examples: cmake --build --preset release"
