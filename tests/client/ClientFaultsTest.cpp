@@ -238,6 +238,48 @@ TEST(RobotSession, WhatIsNoNameOrQueryIsNotSent) {
   EXPECT_EQ(commands, 2);
 }
 
+TEST(RobotSession, CountsThatAreNoneEndTheConnection) {
+  for (const std::string count :
+       {"lines=x", "lines=-1", "lines=+1", "lines=1e3", "lines=0x1", "lines=1.0", "lines=1,",
+        "lines=1048577", "lines=18446744073709551616", "lines=99999999999999999999999", "bytes=x",
+        "bytes=-1", "bytes=268435457", "bytes=99999999999999999999999"}) {
+    ScriptedServer server([&](const std::string& request) -> std::optional<std::string> {
+      return request == "UPDATE" ? "OK UPDATE robot=1 now=0 " + count : "";
+    });
+    SessionOptions options;
+    options.port = server.port();
+    RobotSession session(options, "[robot]\n");
+    EXPECT_EQ(messageOf<ConnectionLost>([&] { session.update(); }),
+              options.server() + ": found 'OK UPDATE robot=1 now=0 " + count +
+                  "', which is not ortung/1");
+  }
+}
+
+TEST(RobotSession, KeepsTheFirst1000OfWhatIsSaidUnasked) {
+  ScriptedServer server([&](const std::string& request) -> std::optional<std::string> {
+    if (!request.starts_with("SAY ")) return "";
+    std::string reply = "OK SAY";
+    for (int i = 0; i < std::stoi(request.substr(4)); ++i)
+      reply += "\n* SAY client=2 name=bert " + std::to_string(i);
+    return reply;
+  });
+  SessionOptions options;
+  options.port = server.port();
+  RobotSession session(options, "[robot]\n");
+  EXPECT_TRUE(session.takeNews().empty());
+  session.say("3");
+  session.say("0");  // what was said comes before the reply to this
+  EXPECT_EQ(session.takeNews(),
+            (std::vector<std::string>{"SAY client=2 name=bert 0", "SAY client=2 name=bert 1",
+                                      "SAY client=2 name=bert 2"}));
+  EXPECT_TRUE(session.takeNews().empty());
+  session.say("1003");
+  session.say("0");
+  const std::vector<std::string> news = session.takeNews();
+  ASSERT_EQ(news.size(), 1000u);
+  EXPECT_EQ(news.back(), "SAY client=2 name=bert 999");
+}
+
 TEST(WaitForUpdate, LimitsAreWhatTheyAreSaidToBe) {
   const Served served;
   RemoteRobot still(kRobot, to(served.board.port(), 0.0));

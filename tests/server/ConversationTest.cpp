@@ -1,5 +1,5 @@
-// Who gets a turn when, and who hears what: conversations without sockets, so that nothing depends
-// on how fast anybody is.
+// Who gets a turn when: conversations without sockets, so that nothing depends on how fast anybody
+// is.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,6 +52,49 @@ TEST(Turns, AReplyComesBeforeTheBacklogOfAnotherIsWorkedOff) {
                                   [](const auto& line) { return line.first == 2; });
   ASSERT_NE(place, host.told.end());
   EXPECT_LE(place - host.told.begin(), 2);
+}
+
+TEST(Turns, RepliesToWhatCameTogetherLeaveTogether) {
+  CountingWorld world;
+  FakeHost host(world, lockstepConfig());
+  auto [client, outlet] = host.join();
+  const int before = outlet.pieces;
+  client.receive(repeated("TIME", 5));
+  EXPECT_GE(host.count(1, "OK TIME"), 1u);
+  EXPECT_EQ(outlet.pieces - before, 1);
+}
+
+TEST(Turns, NoReplyWaitsForThoseBehindIt) {
+  CountingWorld world;
+  FakeHost host(world, lockstepConfig());
+  auto [client, outlet] = host.join();
+  auto [other, outletOfOther] = host.join();
+  other.receive("LOCKSTEP on\n");  // and it never says NEXT
+  client.receive("LOCKSTEP on\n");
+  host.settle();
+  client.receive("STATUS\nNEXT\n");
+  host.settle();
+  EXPECT_TRUE(client.isWaiting());
+  EXPECT_EQ(host.count(1, "OK STATUS"), 1u);
+  EXPECT_FALSE(outlet.hasMore) << "it was not sent";
+}
+
+TEST(Turns, NothingIsDoneForWhoHasSaidByeOrWasDismissed) {
+  for (const std::string end : {"BYE\n", "\x01\n\x01\n"}) {
+    CountingWorld world;
+    BoardConfig config = lockstepConfig();
+    config.limits.errors = 2;
+    FakeHost host(world, config);
+    auto [anna, outlet] = host.join();
+    auto [bert, outletOfBert] = host.join();
+    anna.receive("SAY one\n" + end + "SAY two\n");
+    host.settle();
+    EXPECT_TRUE(anna.isOver());
+    while (bert.hearOn()) {
+    }
+    EXPECT_EQ(host.count(2, "* SAY client=1 name=guest one"), 1u);
+    EXPECT_EQ(host.count(2, "* SAY"), 1u);
+  }
 }
 
 TEST(Turns, OrdersOfOneClientStayInTheirOrder) {
@@ -214,7 +257,9 @@ class LiveWorld : public CountingWorld {
   ~LiveWorld() override = default;
   Timestamp livePeriod() const override { return period_; }
   bool isReady() const override { return ready; }
+  void reset(std::optional<std::uint64_t>) override { ++resets; }
   bool ready = true;
+  int resets = 0;
 
  private:
   Timestamp period_;
@@ -225,6 +270,22 @@ TEST(LiveWorlds, AreLookedAtOnceAPeriod) {
   FakeHost host(world, {});
   for (int i = 0; i < 5; ++i) host.keeper.runOnce();
   EXPECT_EQ(host.keeper.statistics().cycles, 1u);
+}
+
+TEST(LiveWorlds, TheirTimeIsNobodysToChange) {
+  LiveWorld world(3'600'000'000);
+  BoardConfig config;
+  config.control = {"*"};
+  FakeHost host(world, config);
+  auto [olga, outlet] = host.join("operator");
+  for (const char* line : {"PAUSE", "RESUME", "STEP", "SPEED 2", "RESET", "LOCKSTEP on"}) {
+    host.told.clear();
+    olga.receive(std::string(line) + "\n");
+    host.settle();
+    EXPECT_EQ(host.count(1, "ERR live this is a running robot: its time can't be "), 1u) << line;
+  }
+  EXPECT_EQ(world.resets, 0);
+  EXPECT_TRUE(host.keeper.stateText() == "running") << host.keeper.stateText();
 }
 
 TEST(LiveWorlds, TheirClockStandsWheneverTheyAreNotReady) {
@@ -246,90 +307,45 @@ TEST(LiveWorlds, TheirClockStandsWheneverTheyAreNotReady) {
   }
 }
 
-// --- talk
+// --- worlds in real time
 
-TEST(Talk, WhatIsSaidCostsForEachWhoHearsIt) {
+TEST(RealTime, AChangeOfSpeedCountsFromThenOn) {
   CountingWorld world;
-  BoardConfig config = lockstepConfig();
-  config.limits.talkLines = 0.001;  // a second: so nothing grows back while the test runs
-  config.limits.talkBytes = 1e9;
-  FakeHost host(world, config);
-  auto [anna, outlet] = host.join();
-  for (int i = 0; i < 5; ++i) host.join("viewer");
-  anna.receive("SAY one\nSAY two\nTIME\n");
-  host.settle();
-  EXPECT_EQ(host.count(1, "OK SAY"), 1u);  // the first one is always permitted: the rest is debt
-  EXPECT_EQ(host.count(1, "ERR limit that is too much talk for all who hear it; say it again in "),
-            1u);
-  EXPECT_EQ(host.count(1, "OK TIME"), 1u);
-  for (server::ClientId other = 2; other <= 6; ++other) {
-    EXPECT_FALSE(host.clients[other - 1]->hearOn());
-    EXPECT_EQ(host.count(other, "* SAY client=1 name=guest one"), 1u);
-    EXPECT_EQ(host.count(other, "* SAY"), 1u);
-  }
+  FakeHost host(world, {});
+  host.keeper.setSpeed(0.0);  // as fast as possible
+  for (int i = 0; i < 1000; ++i) host.keeper.runOnce();
+  ASSERT_EQ(world.now(), 10'000'000);
+  host.keeper.setSpeed(0.001);
+  host.keeper.runOnce();  // a cycle begins where the clock stands
+  EXPECT_EQ(world.now(), 10'010'000);
+  for (int i = 0; i < 10; ++i) host.keeper.runOnce();  // the next one is due in 10 s
+  EXPECT_EQ(world.now(), 10'010'000);
 }
 
-TEST(Talk, LongTextsAreRefused) {
-  CountingWorld world;
-  FakeHost host(world, lockstepConfig());
-  auto [anna, outlet] = host.join();
-  host.join();
-  anna.receive("SAY " + std::string(4096, 'x') + "\nSAY " + std::string(4097, 'x') + "\n");
-  host.settle();
-  EXPECT_EQ(host.count(1, "OK SAY"), 1u);
-  EXPECT_EQ(host.count(1, "ERR limit a text to SAY has at most 4096 bytes"), 1u);
-}
+// --- readings
 
-TEST(Talk, TheBudgetGrowsBackWithTimeAndDebtsArePaidFirst) {
-  server::TalkBudget budget(100.0, 1000.0);  // a second
-  constexpr Timestamp kSecond = 1'000'000;
-  EXPECT_EQ(budget.wait(kSecond), 0.0);
-  budget.spend(50.0, 3000.0);  // two seconds' bytes too many
-  EXPECT_DOUBLE_EQ(budget.wait(kSecond), 2.0);
-  EXPECT_DOUBLE_EQ(budget.wait(2 * kSecond), 1.0);
-  EXPECT_DOUBLE_EQ(budget.wait(3 * kSecond), 0.0);
-  budget.spend(300.0, 0.0);
-  EXPECT_DOUBLE_EQ(budget.wait(3 * kSecond), 2.0);
-  EXPECT_DOUBLE_EQ(budget.wait(100 * kSecond), 0.0);
-  budget.spend(150.0, 0.0);  // nobody saves for more than a second
-  EXPECT_DOUBLE_EQ(budget.wait(100 * kSecond), 0.5);
-}
-
-TEST(Talk, WaitsBehindReadingsAndIsLostBeforeAnybodyIsDropped) {
-  CountingWorld world;
-  BoardConfig config = lockstepConfig();
-  config.limits.talk = 1000;
-  FakeHost host(world, config);
-  auto [anna, outlet] = host.join();
-  outlet.unread = 1;  // something is on its way to her
-  for (int i = 0; i < 100; ++i) anna.hear("SAY client=2 name=b " + std::to_string(i));
-  EXPECT_FALSE(anna.hearOn());
-  EXPECT_EQ(host.count(1, "* SAY"), 0u);
-  anna.receive("STATUS\n");
-  host.settle();
-  EXPECT_EQ(host.count(1, "OK STATUS"), 1u);  // replies do not wait
-  outlet.unread = 0;
-  while (anna.hearOn()) {
-  }
-  const std::size_t heard = host.count(1, "* SAY");
-  EXPECT_GT(heard, 30u);
-  EXPECT_LT(heard, 60u);
-  EXPECT_EQ(host.told.back().second, "* LOST says=" + std::to_string(100 - heard));
-  EXPECT_FALSE(anna.isOver());
-}
-
-TEST(Talk, ComesInPiecesSoThatReadingsComeBetween) {
-  CountingWorld world;
-  FakeHost host(world, lockstepConfig());
-  auto [anna, outlet] = host.join();
-  const std::string text = "SAY client=2 name=b " + std::string(980, 'x');
-  for (int i = 0; i < 50; ++i) anna.hear(text);
-  EXPECT_TRUE(anna.hearOn());
-  EXPECT_LT(host.count(1, "* SAY"), 12u);
-  while (anna.hearOn()) {
-  }
-  EXPECT_EQ(host.count(1, "* SAY"), 50u);
-  EXPECT_EQ(host.count(1, "* LOST"), 0u);
+TEST(Readings, OfARobotWithOneFeatureOrInAnotherOrderAreThereToo) {
+  const SensorId first{"a", "b", "c"};
+  const SensorId second{"d", "e", "f"};
+  const SensorId unknown{"x", "y", "z"};
+  const auto written = [](const std::vector<SensorId>& features,
+                          const std::vector<SensorId>& frame) {
+    std::vector<ServedFeature> served;
+    for (const SensorId& id : features) served.push_back({id, "", {}});
+    server::RobotReadings readings(1, "robot", served);
+    std::vector<Message> messages;
+    for (const SensorId& id : frame) messages.push_back({7, id, {9}});
+    readings.publish(messages);
+    std::vector<std::uint64_t> sent;
+    std::string text;
+    readings.write({}, sent, text);
+    return text;
+  };
+  EXPECT_EQ(written({first}, {first}), "7 a/b/c 1 9\n");
+  EXPECT_EQ(written({first}, {unknown, first, unknown}), "7 a/b/c 1 9\n");
+  EXPECT_EQ(written({first, second}, {second, unknown, first}), "7 a/b/c 1 9\n7 d/e/f 1 9\n");
+  EXPECT_EQ(written({first, second}, {second}), "7 d/e/f 1 9\n");
+  EXPECT_EQ(written({}, {first}), "");
 }
 
 }  // namespace

@@ -19,20 +19,26 @@ class FakeOutlet : public server::Outlet {
   FakeOutlet(Told& told, server::ClientId client) : told_(told), client_(client) {}
   ~FakeOutlet() override = default;
   void send(std::string_view text) override {
+    append(text);
+    flush();
+  }
+  void append(std::string_view text) override {
+    hasMore = true;
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size() - 1);
       told_.emplace_back(client_, text.substr(0, end));
       text.remove_prefix(end + 1);
     }
   }
-  void append(std::string_view text) override { send(text); }
-  void flush() override {}
+  void flush() override { pieces += std::exchange(hasMore, false) ? 1 : 0; }
   std::size_t outstanding() const override { return unread; }
   void finish() override { hasFinished = true; }
   void resume() override { ++resumed; }
   const std::string& peer() const override { return peer_; }
 
   std::size_t unread = 0;
+  int pieces = 0;        ///< in which it was sent
+  bool hasMore = false;  ///< that waits to be sent
   int resumed = 0;
   bool hasFinished = false;
 

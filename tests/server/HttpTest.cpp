@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <stdexcept>
 
 #include "CountingWorld.hpp"
@@ -74,12 +75,14 @@ TEST(Http, HeadsThatAreTooLongOrTooLateAreRefused) {
   config.limits.handshake = 0.2;
   config.limits.httpHead = 1000;
   const RunningBoard board(world, config);
+  const auto begin = std::chrono::steady_clock::now();
   TestClient slow(board.port());
   slow.send("GET / HTTP/1.1\r\n");
   TestClient large(board.port());
   large.send("GET /" + std::string(2000, 'x'));
   EXPECT_TRUE(large.rest().starts_with("HTTP/1.1 431 "));
   EXPECT_TRUE(slow.rest().starts_with("HTTP/1.1 408 "));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(200));
   TestClient half(board.port());  // neither this nor that
   half.send("HE");
   EXPECT_EQ(half.line(), "* ERR hello it did not come within 0 s");

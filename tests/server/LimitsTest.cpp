@@ -39,6 +39,23 @@ TEST(Limits, ARobotFileThatIsTooLongIsRefusedWhole) {
   EXPECT_EQ(client.ask("."), "OK CREATE robot=1 features=2");
 }
 
+TEST(Limits, ARobotFileMayHaveAsManyBytesAsAreSaid) {
+  CountingWorld world;
+  for (const bool isTooLong : {false, true}) {
+    const std::string comment = "# a comment\n";
+    BoardConfig config;
+    config.limits.configuration = kAnyRobot.size() + comment.size() - (isTooLong ? 1 : 0);
+    const RunningBoard board(world, config);
+    TestClient client(board.port());
+    const std::string reply = client.join(kAnyRobot + comment);
+    if (isTooLong)
+      EXPECT_EQ(reply, "ERR limit a robot file has at most " +
+                           std::to_string(config.limits.configuration) + " bytes");
+    else
+      EXPECT_EQ(reply, "OK CREATE robot=1 features=2");
+  }
+}
+
 TEST(Limits, RobotsAndSensorsAreCounted) {
   CountingWorld world;
   BoardConfig config;

@@ -34,6 +34,12 @@ TEST(Protocol, LinesThatMakeNoSenseAreToldWhy) {
       {"VELOCITY v_m_s=1e400", "ERR number v_m_s is '1e400', expected a number from -1000 to 1000"},
       {"VELOCITY v_m_s=", "ERR number v_m_s is '', expected a number from -1000 to 1000"},
       {"VELOCITY v=1", "ERR syntax VELOCITY does not know 'v='"},
+      {"VELOCITY V_M_S=1", "ERR syntax VELOCITY does not know 'V_M_S=1'"},  // no key: a word
+      {"VELOCITY v:m=1", "ERR syntax VELOCITY does not know 'v:m=1'"},
+      {"VELOCITY v/m=1", "ERR syntax VELOCITY does not know 'v/m=1'"},
+      {"VELOCITY v{=1", "ERR syntax VELOCITY does not know 'v{=1'"},
+      {"VELOCITY `=1", "ERR syntax VELOCITY does not know '`=1'"},
+      {"VELOCITY a0z_9=1", "ERR syntax VELOCITY does not know 'a0z_9='"},
       {"VELOCITY v_m_s=1 fast", "ERR syntax VELOCITY does not know 'fast'"},
       {"VELOCITY v_m_s=1 robot=7", "ERR no-robot there is no robot 7"},
       {"VELOCITY v_m_s=1 robot=-1",

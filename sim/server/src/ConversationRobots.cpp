@@ -246,8 +246,7 @@ void Conversation::foreignReadings(const std::string& tag, const char* command, 
                                       const std::string&) {
         self.views_[robot].readings = *found;
         self.sendReadings(itsTag, command, robot, choice);
-        if (!self.owned_.contains(robot) &&
-            !(self.subscription_ && self.subscription_->robot == robot))
+        if (!self.subscription_ || self.subscription_->robot != robot)
           self.views_.erase(robot);  // it may leave the field at any time
       });
 }
