@@ -19,6 +19,7 @@
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/run/Localization.hpp"
 #include "ortung/run/Robot.hpp"
+#include "ortung/sim/Learner.hpp"
 #include "ortung/sim/RobotShape.hpp"
 #include "ortung/sim/SceneRun.hpp"
 #include "ortung/sim_api/Drive.hpp"
@@ -78,6 +79,10 @@ void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
       printable(file.string()), printable(world->name()), world->fingerprint(), bounds(region.grid),
       region.grid.columns, region.grid.rows, kCell, countOf(region.open), countOf(region.standable),
       size.radius, size.height, printable(landmarksOf(*world)));
+  if (countOf(region.standable) == 0) return;
+  const double leftOut = learnArea(*world, kCell, size).leftOut;
+  if (leftOut > 0.0)
+    fmt::print("  {:.1f} m^2 of that are parted by walls from where the robot is\n", leftOut);
 }
 
 void checkSceneFile(const fs::path& file) {

@@ -81,6 +81,23 @@ TEST(RoutePlanner, KeepsToTheLargestPart) {
   for (int i = 0; i < 200; ++i) EXPECT_LT(planner.randomPose(random).x, 1.0);
 }
 
+// As the learner does: walls around 36 m^2 in a world of 100 m^2 make a hall, not a hut.
+TEST(RoutePlanner, KeepsToTheHallThoughThereIsMoreOutside) {
+  std::string toml = "[world]\nx_m = [-5, 5]\ny_m = [-5, 5]\n";
+  for (const char* wall : {"[0, 3]\nsize_m = [6.1, 0.1]", "[0, -3]\nsize_m = [6.1, 0.1]",
+                           "[3, 0]\nsize_m = [0.1, 6.1]", "[-3, 0]\nsize_m = [0.1, 6.1]"})
+    toml += std::string("[[rectangle]]\ncenter_m = ") + wall + "\n";
+  const RoutePlanner planner(*test::worldOf(toml), {0.25});
+  EXPECT_TRUE(planner.contains(0.0, 0.0));
+  EXPECT_TRUE(planner.contains(2.5, -2.5));
+  EXPECT_FALSE(planner.contains(4.0, 4.0));
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    const Pose2 pose = planner.randomPose(random);
+    EXPECT_LT(std::max(std::abs(pose.x), std::abs(pose.y)), 3.0);
+  }
+}
+
 TEST(RoutePlanner, TheEndsOfTheFieldAreNotNeighbours) {
   // So small a robot that the outermost cells are free, too: what lies beyond one side of the field
   // is not the other side.

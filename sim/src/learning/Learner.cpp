@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "CheckedSensor.hpp"
+#include "FloorParts.hpp"
 #include "ortung/base/Angles.hpp"
-#include "ortung/tables/FieldParts.hpp"
 
 namespace ortung {
 namespace {
@@ -164,12 +164,8 @@ LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
                     const std::optional<std::array<double, 2>>& inside) {
   const FieldRegion whole = world.region(cell, robot);
   whole.check();
-  // As small as does not slip through walls that are thinner than a cell.
-  const RobotSize small{std::min(robot.radius, cell / 2.0), robot.height};
-  const FieldParts parts(whole, world.region(cell, small).standable);
-  // A map knows where it is outside: nobody stands on what is not known.
-  const std::size_t part =
-      inside ? partAround(*inside, parts) : parts.main(world.solids().walls.empty());
+  const FieldParts parts = floorParts(world, whole, robot);
+  const std::size_t part = inside ? partAround(*inside, parts) : mainPart(world, parts);
   LearnArea area{parts.only(part), 0.0};
   for (std::size_t i = 0; i < whole.standable.size(); ++i)
     area.leftOut += whole.standable[i] != area.region.standable[i] ? cell * cell : 0.0;

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "FloorParts.hpp"
+
 namespace ortung {
 namespace {
 
@@ -94,8 +96,9 @@ RoutePlanner::RoutePlanner(const SimWorld& world, const RobotSize& robot, double
   if (!hasRoom(region))
     throw std::invalid_argument("world " + world.name() + ": a robot of radius " +
                                 std::to_string(robot.radius) + " m fits nowhere");
+  const FieldParts parts = floorParts(world, region, robot);  // as the learner's
   grid_ = region.grid;
-  free_ = std::move(region.standable);
+  free_ = parts.only(mainPart(world, parts)).standable;
   keepLargestPart();
 }
 
