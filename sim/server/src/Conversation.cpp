@@ -95,7 +95,8 @@ void Conversation::takeLines() {
 bool Conversation::takeTurn() {
   const Timestamp begin = wallTime();
   for (int lines = 0; mayTakeLine(); ++lines) {
-    if (lines == kLinesOfTurn || wallTime() - begin >= kTimeOfTurn) return true;
+    const bool isLate = lines > 0 && wallTime() - begin >= kTimeOfTurn;  // one is always taken
+    if (lines == kLinesOfTurn || isLate) return true;
     if (!takeLine()) return false;
   }
   return false;
