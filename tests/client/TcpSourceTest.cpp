@@ -1,6 +1,8 @@
 // The source "tcp", as `ortung eval` and `ortung localize` open it.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "../server/RunningBoard.hpp"
 #include "../server/TestClient.hpp"
 #include "Files.hpp"
@@ -46,6 +48,23 @@ TEST(TcpSource, OptionsThatMakeNoSenseAreToldWhy) {
   for (const auto& [options, expected] : cases) {
     const std::string message = messageOf<ConfigError>([&] { open(1, options); });
     EXPECT_NE(message.find(expected), std::string::npos) << message;
+  }
+}
+
+TEST(TcpSource, NumbersHaveLimits) {
+  const auto said = [](const std::string& key, const std::string& value) {
+    return messageOf<std::runtime_error>([&] { open(1, {{key, value}}); });
+  };
+  for (const auto& [key, low, high, below, above] :
+       {std::array{"duration", "0", "1e9", "-0.001", "1000000001"},
+        std::array{"cycle_ms", "1", "100000", "0.999", "100000.1"},
+        std::array{"timeout", "0.1", "1000000", "0.099", "1000001"}}) {
+    for (const char* fine : {low, high})  // it gets as far as the server, which is not there
+      EXPECT_NE(said(key, fine).find("can't connect"), std::string::npos) << said(key, fine);
+    for (const char* wrong : {below, above}) {
+      EXPECT_NE(said(key, wrong).find(key), std::string::npos) << said(key, wrong);
+      EXPECT_NE(said(key, wrong).find("must be a number in"), std::string::npos);
+    }
   }
 }
 

@@ -58,6 +58,24 @@ TEST(DriveSettings, SlipMakesATurnSmaller) {
   EXPECT_NEAR(std::hypot(change.x, change.y), 0.75 * 0.04, 1e-4);
 }
 
+TEST(DriveSettings, WheelsSlipAtRandomOnlyWhereNoiseIsWanted) {
+  const auto drive = makeDrive("differential", std::string(kAgile) + "slip_sigma_m = 0.05");
+  drive->setTranslationalVelocity(0.5);
+  drive->relocate(0.1, nullptr);
+  for (int i = 0; i < 10; ++i) {
+    const Pose2 change = drive->relocate(0.1, nullptr);
+    EXPECT_NEAR(change.x, 0.05, 1e-12);
+    EXPECT_EQ(change.y, 0.0);
+    EXPECT_EQ(change.theta, 0.0);
+  }
+  Random noise(1);
+  Statistics turns;
+  for (int i = 0; i < 4000; ++i) turns.add(drive->relocate(0.1, &noise).theta);
+  // Each wheel's way errs by 0.05 sqrt(0.05) m; 4 sigma of 4000 draws: 4.5 %.
+  const double sigma = 0.05 * std::sqrt(0.05) * std::sqrt(2.0) / 0.4;
+  EXPECT_NEAR(turns.sigma(), sigma, 0.045 * sigma);
+}
+
 TEST(DriveSettings, OdometryOfAnOmniDriveHasTheSignsOfItsMotion) {
   const auto drive = makeDrive("omni", std::string("odometry_distance_scale = 1.1\n"
                                                    "odometry_turn_scale = 0.9") +
@@ -124,6 +142,27 @@ TEST_F(Coasting, ANetworkHearsOfCollisions) {
     for (int i = 0; i < 30; ++i) base->relocate(0.01, nullptr);
     EXPECT_NEAR(base->velocity().x, kept.x, 1e-9);
     EXPECT_NEAR(base->velocity().theta, kept.theta, 1e-9);
+  }
+}
+
+// What it is pushed to counts at once, not from the network's next step on; no faster than it can.
+TEST_F(Coasting, ACollisionWithinAStepChangesTheRestOfIt) {
+  const auto base = drive("");
+  base->setVelocity({1.0, 0.0, 0.0});
+  base->relocate(0.02, nullptr);
+  for (const auto& [pushed, kept] : {std::pair{Twist{0.4, -0.3, 0.0}, Twist{0.4, -0.3, 0.0}},
+                                     {Twist{9.0, -9.0, 0.0}, Twist{2.0, -2.0, 0.0}},
+                                     {Twist{-9.0, 9.0, 9.0}, Twist{-2.0, 2.0, 3.0}}}) {
+    base->setVelocity(pushed);
+    const Twist velocity = base->velocity();
+    EXPECT_EQ(velocity.x, kept.x);
+    EXPECT_EQ(velocity.y, kept.y);
+    EXPECT_EQ(velocity.theta, kept.theta);
+    const Pose2 change = base->relocate(0.02, nullptr);
+    EXPECT_NEAR(change.theta, 0.02 * kept.theta, 1e-12);
+    if (kept.theta != 0.0) continue;
+    EXPECT_NEAR(change.x, 0.02 * kept.x, 1e-12);
+    EXPECT_NEAR(change.y, 0.02 * kept.y, 1e-12);
   }
 }
 

@@ -149,6 +149,58 @@ TEST(LrfIconicSettings, WallsThatAreNotSureMakePositionsUnsure) {
   EXPECT_GT(sigma("wall_sigma_m = 0"), 0.0);
 }
 
+/// In the middle of a square with walls that err on their own, what errs for all points of a wall
+/// alike does so in closed form; and the field does not turn with the robot that looks at it.
+TEST(LrfIconicSettings, HowSureAPositionIsDoesNotDependOnWhereTheScannerLooks) {
+  constexpr double kHalf = 3.0;   // of a side [m]
+  constexpr double kSigma = 0.1;  // of a wall across itself; of its ends, when it turns [m]
+  FakeWorld world(2.0 * kHalf, 2.0 * kHalf);
+  world.addWallsOfRoom();
+  for (const int turn : {0, 20, 45, 70, 135, -110}) {  // by whole beams, so to the same points
+    SensorRig rig("lrf_iconic",
+                  "beams = 360\nfov_deg = 360\nmax_range_m = 12\nnoise_sigma_m = 0\n"
+                  "range_sigma_m = 0\nwall_sigma_m = 0.1");
+    rig.sense(world, {0.0, 0.0, turn * kDegree});
+    const PoseFixData::Reading& fixes = rig.get<PoseFixData>(1).reading();
+    ASSERT_EQ(fixes.size(), 4u) << turn;
+    for (const PoseFixData::Fix& fix : fixes) {
+      // Two walls across each axis; the mean of the angles of four. Pieces end a beam before the
+      // corners.
+      const double ofHeading = kSigma / kHalf / 2.0;
+      EXPECT_NEAR(fix.covariance[0], kSigma * kSigma / 2.0, 0.02 * kSigma * kSigma) << turn;
+      EXPECT_NEAR(fix.covariance[4], kSigma * kSigma / 2.0, 0.02 * kSigma * kSigma) << turn;
+      EXPECT_NEAR(fix.covariance[8], ofHeading * ofHeading, 0.1 * ofHeading * ofHeading) << turn;
+      EXPECT_NEAR(fix.covariance[1], 0.0, 0.02 * kSigma * kSigma) << turn;
+    }
+  }
+}
+
+/// A dark wall may give no echo from the last tenth of the scanner's reach; nearer, it has to be
+/// seen. Here one stands askew in a corridor, known, and nothing comes back from it.
+TEST(LrfIconicSettings, WallsAtTheEndOfItsReachNeedNotBeSeen) {
+  for (const auto& [away, isFine] : {std::pair{11.4, true}, {9.6, false}}) {  // of 12 m
+    FakeWorld world(40.0, 5.0);
+    world.addWall(-20.05, 0.0, 0.05, 2.6);
+    world.addWall(0.0, 2.55, 20.1, 0.05);
+    world.addWall(0.0, -2.55, 20.1, 0.05);
+    WorldObject dark;
+    dark.kind = "wall";
+    dark.pose = {-17.0 + away, 0.0, 10 * kDegree};
+    dark.halfX = 0.01;
+    dark.halfY = 2.5;
+    dark.zHigh = 1.0;
+    world.addObject(dark);
+    SensorRig rig("lrf_iconic", "beams = 360\nfov_deg = 360\nmax_range_m = 12");
+    rig.sense(world, {-17.0, 0.3, 0.2});
+    const PoseFixData::Reading& fixes = rig.get<PoseFixData>(1).reading();
+    ASSERT_EQ(fixes.size(), isFine ? 1u : 0u) << away;
+    if (!isFine) continue;
+    EXPECT_NEAR(fixes[0].pose.x, -17.0, 0.01);
+    EXPECT_NEAR(fixes[0].pose.y, 0.3, 0.01);
+    EXPECT_NEAR(fixes[0].pose.theta, 0.2, 0.01);
+  }
+}
+
 /// An obstacle that is no small body and hides most of a wall counts against a position only as far
 /// as it is seen; what lies behind a wall says that the place is wrong.
 TEST(LrfIconicSettings, APlaceFromWhichOneWouldSeeThroughWallsIsNone) {

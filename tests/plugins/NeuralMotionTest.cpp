@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "NeuralRig.hpp"
 #include "ortung/formats/Words.hpp"
 
@@ -18,6 +20,20 @@ TEST_F(NeuralPlugin, DrivesAsItsNetworkSaysInAnyCycle) {
     for (; t + dt <= 1.0 + 1e-9; t += dt) pose = pose * drive->relocate(dt, nullptr);
     EXPECT_NEAR(pose.x, 0.5 * t, 1e-9) << dt;
     EXPECT_NEAR(drive->velocity().x, 0.5, 1e-12);
+  }
+}
+
+// The network looks at the command once a step, of 0.1 s: one at 0.33 s counts from 0.4 s on.
+TEST_F(NeuralPlugin, ACommandWithinAStepCountsFromTheNextOneOn) {
+  const auto drive = makeDrive("neural", settings(obedientNetwork(false)));
+  drive->setTranslationalVelocity(0.5);
+  Pose2 pose;
+  for (int i = 1; i <= 100; ++i) {
+    if (i == 34) drive->setTranslationalVelocity(-0.2);
+    pose = pose * drive->relocate(0.01, nullptr);
+    const double t = 0.01 * i;
+    EXPECT_NEAR(pose.x, 0.5 * std::min(t, 0.4) - 0.2 * std::max(t - 0.4, 0.0), 1e-9) << t;
+    EXPECT_NEAR(drive->velocity().x, i <= 40 ? 0.5 : -0.2, 1e-9) << t;
   }
 }
 

@@ -65,9 +65,10 @@ class NeuralDrive : public Drive {
   }
   Twist velocity() const override { return twist_; }
   void setVelocity(const Twist& velocity) override {
-    twist_ = velocity;
-    robot_.setVelocity({std::clamp(velocity.x, -limits_.speed, limits_.speed),
-                        std::clamp(velocity.theta, -limits_.turn, limits_.turn)});
+    twist_ = {std::clamp(velocity.x, -limits_.speed, limits_.speed),
+              std::clamp(velocity.y, -limits_.speed, limits_.speed),
+              std::clamp(velocity.theta, -limits_.turn, limits_.turn)};
+    robot_.setVelocity({twist_.x, twist_.theta});
   }
 
   Pose2 measure(const Pose2& trueChange, Random* noise) override {
