@@ -178,5 +178,75 @@ TEST(FileLimits, OfRobotsInTheSimulator) {
       });
 }
 
+/// @param most tables of a kind are taken, one more is refused
+template <class Table, class Refusal>
+void expectMost(std::size_t most, const std::string& part, const Table& table,
+                const Refusal& refusal) {
+  std::string text;
+  for (std::size_t i = 0; i < most; ++i) text += table(std::to_string(i));
+  EXPECT_EQ(refusal(text), "") << most;
+  const std::string said = refusal(text + table(std::to_string(most)));
+  EXPECT_NE(said.find(part), said.npos) << most << ": " << said;
+}
+
+TEST(FileLimits, OfHowManyTablesThereAre) {
+  const TemporaryFolder folder;
+  folder.write("map.pgm", pgmOf({"..#", "..."}));
+  folder.write("map.yaml", mapYaml());
+  const auto world = [&](const std::string& text) {
+    return refusalOf(folder.write("world.toml", gridWorld("map.yaml", "") + text));
+  };
+  expectMost(
+      15, "there are 17, expected at most 16",  // beside the first
+      [](const std::string&) { return gridWorld("map.yaml", ""); }, world);
+  expectMost(
+      256, "257 primitives are movable, expected at most 256",
+      [](const std::string& i) {
+        return "[[ellipse]]\nkind = \"ball\"\ncenter_m = [" + i + ", 0]\nsize_m = [0.2, 0.2]\n";
+      },
+      world);
+  expectMost(
+      256, "there are 257, expected at most 256",
+      [](const std::string& i) { return "[[robot]]\nfile = \"r.toml\"\nname = \"r" + i + "\"\n"; },
+      [&](const std::string& text) {
+        return complaintOf([&] {
+          Scene::read(folder.write("scene.toml", "[scene]\nworld = \"w.toml\"\n" + text));
+        });
+      });
+}
+
+TEST(FileLimits, OfHowManyPartsARobotHas) {
+  const auto robot = [](const std::string& text) {
+    return complaintOf([&] {
+      RobotShape::read(
+          readRobot(parseToml("[[sensor]]\nplugin = \"odometry\"\n" + text, "robot.toml")));
+    });
+  };
+  const auto piece = [](const std::string& list, const std::string& shape) {
+    return "[[" + list + "]]\nshape = \"" + shape + "\"\ncenter_m = [0, 0]\nsize_m = [0.4, 0.3]\n";
+  };
+  const auto arm = [](const std::string& i) {
+    return "[[manipulator]]\nname = \"arm" + i + "\"\n[[manipulator.state]]\nname = \"in\"\n";
+  };
+  expectMost(
+      64, "is one too many, expected at most 64",
+      [&](const std::string&) { return piece("body", "rectangle"); }, robot);
+  expectMost(
+      16, "of 136 pieces (an ellipse counts 8), expected at most 128",
+      [&](const std::string&) { return piece("body", "ellipse"); }, robot);
+  expectMost(16, "expected at most 16 manipulators", arm, robot);
+  expectMost(
+      15, "is there 17 times, expected 1 to 16",
+      [](const std::string& i) { return "[[manipulator.state]]\nname = \"s" + i + "\"\n"; },
+      [&](const std::string& text) { return robot(arm("") + text); });
+  // Of a manipulator's states, that with the most pieces counts; one more is the robot itself.
+  expectMost(
+      15, "brings the robot to 129 pieces at a time (an ellipse counts 8), expected at most 128",
+      [&](const std::string&) { return piece("manipulator.state.body", "ellipse"); },
+      [&](const std::string& text) {
+        return robot(arm("") + "[[manipulator.state]]\nname = \"out\"\n" + text);
+      });
+}
+
 }  // namespace
 }  // namespace ortung::test
