@@ -5,7 +5,8 @@ mutate.py [--mutants 300] [--seed 1] [--jobs N] [--folder build/mutants] [--repo
 
 The sources are copied, mutants are written into the copy behind a switch, it is built once, and the tests that come past
 a mutant are run with it switched on until one of them fails. Needs python3-clang-19 and a configured `dev` build.
-A run that was cut is gone on with when started again. `--again` runs only those that survived, after tests were added: the same places, the tests and sources of today.
+A run that was cut is gone on with when started again. `--again` runs only those that survived, after tests were added:
+the same places, the tests and sources of today; what was noticed before counts as noticed still.
 """
 
 import argparse
@@ -42,11 +43,13 @@ def main():
     if not (options.build / "compile_commands.json").is_file():
         sys.exit(f"mutate: {options.build} is not configured: cmake --preset dev")
     results_file = copy.folder / "results.json"
+    noticed = []
     if options.again:
         found = tree.find(root, options.build.resolve(), say)
         before = json.loads(copy.list.read_text())
         results = json.loads(results_file.read_text())
         survivors = [Site(**s) for n, s in enumerate(before) if s is not None and results.get(str(n), "") is None]
+        noticed = [Site(**s) for n, s in enumerate(before) if s is not None and results.get(str(n)) is not None]
         chosen, gone = report.found_again(survivors, found)
         for site in gone:
             say(f"no longer there: {site.key()}")
@@ -65,8 +68,8 @@ def main():
     copy.write(chosen)
     trials = trial.Trials(copy, options.jobs, say, options.leave_out)
     trials.baseline()
-    results = trials.run(chosen)
-    text = report.text(chosen, results, root / "tests/mutants.txt", options)
+    results = dict.fromkeys(range(len(noticed)), "before") | {n + len(noticed): r for n, r in trials.run(chosen).items()}
+    text = report.text(noticed + chosen, results, root / "tests/mutants.txt", options)
     print(text)
     if options.report:
         report.put(options.report, text)

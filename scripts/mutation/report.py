@@ -44,7 +44,8 @@ def text(chosen, results, reasons_file, options):
         others = count - alike
         share = f"{100 * noticed / others:.0f} %" if others else "-"
         lines.append(f"| {room} | {count} | {noticed} | {alike} | {share} |")
-    lines += ["", f"Seed {options.seed}. Not noticed:", ""]
+    again = ", those that no test had noticed tried again after tests were added" if options.again else ""
+    lines += ["", f"Seed {options.seed}{again}. Not noticed:", ""]
     for site in survivors:
         why = known.get(site.key())
         lines.append(f"- `{site.file}:{site.line}` {site.function}: {site.change} in `{site.original[:90]}`" +
