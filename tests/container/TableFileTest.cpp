@@ -76,12 +76,14 @@ TEST(TableFile, LaysArraysAtMultiplesOf64Bytes) {
 // NumPy's format description, version 1.0: a length of two bytes follows the version, the text ends
 // with a line feed, and all of it is a multiple of 64 bytes long.
 TEST(TableFile, HeadersOfArraysAreAsNumPyWantsThem) {
-  for (const std::string& name : {std::string("t"), std::string(60, 'n')}) {
-    for (const std::size_t extent : {1u, 1000u, 1000000u}) {
+  for (const std::size_t extent : {1u, 10u, 100u}) {
+    for (std::size_t more = 0; more < 40; ++more) {  // texts of all lengths
       const TemporaryFolder folder;
       TableWriter writer(folder / "t.npz");
       const std::vector<std::uint8_t> values(extent, 7);
-      writer.add<std::uint8_t>(name, {extent}, values);
+      std::vector<std::size_t> shape(1 + more, 1);
+      shape[0] = extent;
+      writer.add<std::uint8_t>("t", shape, values);
       writer.commit();
       const std::string bytes = test::readBytes(folder / "t.npz");
       const std::size_t at = bytes.find("\x93NUMPY\x01");
