@@ -18,6 +18,8 @@ LASER = {  # name: folder, options of the import
     "aces": ("carmen/aces", []),
     "belgioioso": ("carmen/belgioioso", []),
     "freiburg-101": ("carmen/freiburg-101", []),
+    "freiburg-079": ("carmen/freiburg-079", []),
+    "fhw": ("carmen/fhw", []),
     "localization_demo": ("mrpt_localization_demo", []),
     "sena_telecom": ("mrpt_sena_telecom", []),
     "uwb_ro": ("mrpt_uwb_ro", []),

@@ -50,10 +50,33 @@ SampleSet PoseSearch::anywhere(std::size_t n, Random random) const {
   return set;
 }
 
-SampleSet PoseSearch::draw(std::size_t n, double candidates, const Weigh& weigh,
-                           const Random& random) const {
-  SampleSet set =
-      anywhere(static_cast<std::size_t>(candidates * static_cast<double>(n)), random.fork(0));
+SampleSet PoseSearch::around(const Ring& ring, std::size_t n, Random random) {
+  SampleSet set;
+  set.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double distance = ring.radius * std::sqrt(random.uniform());
+    const double direction = random.uniform(-std::numbers::pi, std::numbers::pi);
+    set.x[i] = static_cast<float>(ring.pose.x + distance * std::cos(direction));
+    set.y[i] = static_cast<float>(ring.pose.y + distance * std::sin(direction));
+    set.theta[i] = static_cast<float>(ring.pose.theta + random.uniform(-ring.turn, ring.turn));
+    set.logWeight[i] = 0.0F;
+  }
+  return set;
+}
+
+bool PoseSearch::contains(const std::optional<Ring>& ring, float x, float y, float theta) const {
+  if (ring)
+    return std::hypot(x - ring->pose.x, y - ring->pose.y) <= ring->radius &&
+           std::abs(wrapAngle(theta - ring->pose.theta)) <= ring->turn;
+  const std::ptrdiff_t cell = region_.grid.cellAt(x, y);
+  return cell >= 0 && region_.standable[static_cast<std::size_t>(cell)] != 0;
+}
+
+PoseSearch::Drawn PoseSearch::draw(std::size_t n, double candidates, const Weigh& weigh,
+                                   const Random& random, const std::optional<Ring>& ring) const {
+  const auto tried = static_cast<std::size_t>(candidates * static_cast<double>(n));
+  SampleSet set = ring ? around(*ring, tried, random.fork(0)) : anywhere(tried, random.fork(0));
+  double logEvidence = 0.0;
   std::vector<float> fit;
   weigh(set, fit);
   Random offsets = random.fork(1);
@@ -61,19 +84,22 @@ SampleSet PoseSearch::draw(std::size_t n, double candidates, const Weigh& weigh,
   for (int rise = 0; exponent < 1.0 && rise < kMostRises; ++rise) {
     const std::vector<float> rest = scaled(fit, 1.0 - exponent);
     const double share = temperFor(rest, kWorth * static_cast<double>(n));
-    const auto indices = lowVariance(normalized(scaled(rest, share)), n, offsets.uniform());
+    const std::vector<float> risen = scaled(rest, share);
+    logEvidence += logMean(risen);
+    const auto indices = lowVariance(normalized(risen), n, offsets.uniform());
     exponent = share >= 1.0 ? 1.0 : exponent + share * (1.0 - exponent);
     set = taken(set, indices);
     fit = taken(fit, indices);
-    climb(set, fit, exponent, weigh, random.fork(2 + static_cast<std::uint64_t>(rise)));
+    climb(set, fit, exponent, weigh, random.fork(2 + static_cast<std::uint64_t>(rise)), ring);
   }
   set.logWeight = scaled(fit, 1.0 - exponent);
-  return set;
+  logEvidence += logMean(set.logWeight);
+  return {std::move(set), logEvidence};
 }
 
-/// Metropolis steps whose invariant distribution is p^exponent over the standable poses.
+/// Metropolis steps whose invariant distribution is p^exponent over the poses to draw from.
 void PoseSearch::climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
-                       Random random) const {
+                       Random random, const std::optional<Ring>& ring) const {
   SampleSet proposed;
   proposed.resize(set.size());
   std::vector<float> proposedFit;
@@ -87,8 +113,7 @@ void PoseSearch::climb(SampleSet& set, std::vector<float>& fit, double exponent,
     for (std::size_t i = 0; i < set.size(); ++i) {
       const double chance = std::exp(std::min(0.0, exponent * (proposedFit[i] - fit[i])));
       const bool accepted = random.uniform() < chance;
-      const std::ptrdiff_t cell = region_.grid.cellAt(proposed.x[i], proposed.y[i]);
-      if (!accepted || cell < 0 || region_.standable[static_cast<std::size_t>(cell)] == 0) continue;
+      if (!accepted || !contains(ring, proposed.x[i], proposed.y[i], proposed.theta[i])) continue;
       set.x[i] = proposed.x[i];
       set.y[i] = proposed.y[i];
       set.theta[i] = proposed.theta[i];

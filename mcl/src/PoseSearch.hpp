@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 #include "ortung/tables/FieldRegion.hpp"
@@ -15,7 +17,7 @@ namespace ortung {
 /// where the robot can stand. Annealed importance sampling (Neal 2001; Del Moral, Doucet, Jasra
 /// 2006): poses drawn evenly are weighed by p^b with a small b, then b rises to 1 while Metropolis
 /// steps let every pose climb to the top of its hill. So a sharp reading is found with few
-/// candidates. Not thread-safe.
+/// candidates, and the mean of p over all poses is estimated on the way. Not thread-safe.
 class ORTUNG_API PoseSearch {
  public:
   /// ln p(s|l) of all samples of a set.
@@ -30,14 +32,30 @@ class ORTUNG_API PoseSearch {
   /// @p n poses spread evenly over all poses where the robot can stand; their weights are 0.
   SampleSet anywhere(std::size_t n, Random random) const;
 
+  /// Poses around one.
+  struct Ring {
+    Pose2 pose;
+    double radius;  ///< [m]
+    double turn;    ///< to either side [rad]
+  };
+  /// @p n poses spread evenly over a ring, whether or not the map says that a robot can stand
+  /// there.
+  static SampleSet around(const Ring& ring, std::size_t n, Random random);
+
+  struct Drawn {
+    SampleSet samples;   ///< with what is left of ln p beyond the last b as `logWeight`
+    double logEvidence;  ///< ln of the mean of p over all poses that were drawn from
+  };
   /// @p n poses by p(s|l).
   /// @param candidates how many are tried for each of them at the beginning, at least 1
-  /// @returns what is left of ln p beyond the last b as `logWeight`
-  SampleSet draw(std::size_t n, double candidates, const Weigh& weigh, const Random& random) const;
+  /// @param ring to draw from; none: all poses where the robot can stand
+  Drawn draw(std::size_t n, double candidates, const Weigh& weigh, const Random& random,
+             const std::optional<Ring>& ring = std::nullopt) const;
 
  private:
+  bool contains(const std::optional<Ring>& ring, float x, float y, float theta) const;
   void climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
-             Random random) const;
+             Random random, const std::optional<Ring>& ring) const;
 
   const FieldRegion& region_;
   std::vector<std::uint32_t> standable_;  ///< cells

@@ -11,8 +11,11 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kWitnesses = 64;  ///< samples that say how well the belief fits
-constexpr double kFallenFit = 0.6;      ///< of its long-term average: what calls for injection
-constexpr double kPoorFit = 0.25;       ///< below this the belief explains too little, always
+constexpr double kDoubtfulFit = 0.75;   ///< of its long-term average: of one moment
+constexpr double kFallenFit = 0.6;      ///< the same of its short-term average
+constexpr double kRecoveredFit = 0.8;   ///< the same: all is well again
+constexpr double kRateWhileFallen = 0.1;
+constexpr double kPoorFit = 0.25;  ///< below this the belief explains too little, always
 
 /// Some samples, by their weights; the last one is nowhere: it gets a feature's floor.
 SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights) {
@@ -52,20 +55,28 @@ std::optional<double> fitOf(std::span<const Weigher* const> readings, const Samp
 }
 
 Recovery::Recovery(const MclConfig& config)
-    : rateFast_(config.injectFast), rateSlow_(config.injectSlow), most_(config.injectMost) {}
+    : rateFast_(config.recoverFast), rateSlow_(config.recoverSlow) {}
 
 void Recovery::follow(double fit) {
   if (!known_) fast_ = slow_ = fit;
   known_ = true;
+  now_ = fit;
   fast_ += rateFast_ * (fit - fast_);
-  slow_ += rateSlow_ * (fit - slow_);
+  // What is usual changes slowly, and a bad time is not soon taken for it.
+  const double rate = fit < kFallenFit * slow_ ? kRateWhileFallen * rateSlow_ : rateSlow_;
+  slow_ += rate * (fit - slow_);
 }
 
-double Recovery::injectedShare() const {
-  if (rateSlow_ == 0.0 || !known_) return 0.0;
-  const double fallen = slow_ > 0.0 ? kFallenFit - fast_ / slow_ : 0.0;
-  const double poor = 1.0 - fast_ / kPoorFit;
-  return std::clamp(std::max(fallen, poor), 0.0, most_);
+bool Recovery::isDoubtful() const {
+  return rateSlow_ > 0.0 && known_ && (now_ < kDoubtfulFit * slow_ || now_ < kPoorFit);
+}
+
+bool Recovery::callsForSearch() const {
+  return rateSlow_ > 0.0 && known_ && (fast_ < kFallenFit * slow_ || fast_ < kPoorFit);
+}
+
+bool Recovery::hasRecovered() const {
+  return known_ && fast_ > kRecoveredFit * slow_ && fast_ > kPoorFit;
 }
 
 }  // namespace ortung

@@ -17,8 +17,8 @@ namespace ortung {
 ORTUNG_API std::optional<double> fitOf(std::span<const Weigher* const> readings,
                                        const SampleSet& samples, std::span<const double> weights);
 
-/// Says how many samples are to be drawn anew, from what the readings say: as the fit falls behind
-/// its own past (Thrun, Burgard, Fox, table 8.3, with a fit in place of a likelihood, which has no
+/// Says how well the belief fares, from how well it explains readings: as the fit falls behind its
+/// own past (as Thrun, Burgard, Fox, table 8.3, with a fit in place of a likelihood, which has no
 /// scale), or is poor in itself. Not thread-safe.
 class ORTUNG_API Recovery {
  public:
@@ -26,13 +26,16 @@ class ORTUNG_API Recovery {
   /// @param fit of one moment's readings, in [0, 1]
   void follow(double fit);
   void forget() { known_ = false; }
-  /// Share of the samples, in [0, injectMost].
-  double injectedShare() const;
+  /// Whether the newest readings fit worse than they use to: the robot may have left the track.
+  bool isDoubtful() const;
+  /// Whether the fit has fallen for some time: it may be anywhere.
+  bool callsForSearch() const;
+  bool hasRecovered() const;
 
  private:
   double rateFast_;
   double rateSlow_;
-  double most_;
+  double now_ = 0.0;
   double fast_ = 0.0;
   double slow_ = 0.0;
   bool known_ = false;

@@ -13,6 +13,10 @@ namespace ortung {
 /// Weights of @p logWeights, scaled to sum 1. All-equal weights where none is finite (all lost).
 ORTUNG_API std::vector<double> normalized(std::span<const float> logWeights);
 
+/// ln of the mean of e^v: of all alike, or by weights that sum to 1.
+ORTUNG_API double logMean(std::span<const float> values);
+ORTUNG_API double logMean(std::span<const double> weights, std::span<const float> values);
+
 /// 1 / sum w^2 of normalized weights: how many equal samples they are worth.
 ORTUNG_API double effectiveSamples(std::span<const double> weights);
 
@@ -24,10 +28,8 @@ ORTUNG_API std::vector<std::uint32_t> lowVariance(std::span<const double> weight
 /// The samples at these indices, all of the same weight.
 SampleSet taken(const SampleSet& from, std::span<const std::uint32_t> indices);
 
-/// Puts poses in the place of others, spread over the set, since low-variance resampling keeps
-/// neighbours together: a run of them is one place of the belief. Weights stay.
-/// @pre fresh.size() <= set.size()
-ORTUNG_API void replaceSome(SampleSet& set, const SampleSet& fresh);
+/// Adds samples that have @p share of all weight from then on. @pre 0 < share < 1
+ORTUNG_API void add(SampleSet& set, const SampleSet& fresh, double share);
 
 /// Exponent b in (0, 1] for which the weights w^b are worth at least @p least samples:
 /// candidates are drawn by w^b and keep w^(1-b), so that a sharp reading does not leave only one.

@@ -53,6 +53,34 @@ INSTANTIATE_TEST_SUITE_P(RealLog, MrclamLog,
                                          Expected{5, 0.08, 0.18}),
                          [](const auto& one) { return "Robot" + std::to_string(one.param.robot); });
 
+/// Logs that carried the filter away: visitors before the scanner, odometry with the wrong sign.
+class HardLog : public testing::TestWithParam<const char*> {};
+
+TEST_P(HardLog, IsNeverLeft) {
+  const std::string log = kData + "/carmen/" + GetParam();
+  if (!isHere(log)) GTEST_SKIP() << log << " is not here; it belongs to no repository";
+  const Folder folder;
+  folder.run({"import", "scanlog", log, "--out", folder.path("run.rec"), "--world",
+              folder.path("world.toml"), "--robot-file", folder.path("robot.toml")});
+  folder.run({"learn", "--world", folder.path("world.toml"), "--robot", folder.path("robot.toml"),
+              "--out", folder.path("world.ortung")});
+  for (const char* start : {"truth", "global"}) {
+    const auto figures = folder.eval({"--source", "record:" + folder.path("run.rec"), "--robot",
+                                      folder.path("robot.toml"), "--tables",
+                                      folder.path("world.ortung"), "--start", start});
+    ASSERT_FALSE(figures["converged_after_s"].is_null());
+    EXPECT_LT(figures["lost_share"].get<double>(), 0.005) << start;
+    EXPECT_LT(figures["position_median_m"].get<double>(), 0.06) << start;
+    EXPECT_LT(figures["position_rmse_m"].get<double>(), 0.15) << start;
+    EXPECT_LT(figures["nees_mean"].get<double>(), 12.0) << start;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RealLog, HardLog, testing::Values("fhw", "freiburg-079"),
+                         [](const auto& one) {
+                           return std::string(one.param) == "fhw" ? "Visitors" : "LyingOdometry";
+                         });
+
 /// A laser in a building: 9 s, scans four times a second, truth by matching scans to the map.
 TEST(RealLog, LaserInABuildingIsTrackedFromAnUnknownStart) {
   const std::string log = kData + "/mrpt_localization_demo";

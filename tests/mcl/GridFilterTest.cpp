@@ -179,7 +179,7 @@ struct McLocalizer {
     MclConfig config;
     config.maxSamples = config.minSamples = 60000;
     config.minDistance = config.minRotation = 0.0;
-    config.injectSlow = 0.0;
+    config.recoverSlow = 0.0;
     mcl = std::make_unique<Mcl>(config, region, std::make_unique<OdometryMotion>(kNoise));
     mcl->startGlobal();
   }

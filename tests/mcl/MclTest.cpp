@@ -284,7 +284,7 @@ TEST(Mcl, SeesAgainAfterAllWeightsWereZero) {
   FakeRun own;
   Told& evil = addIndifferent(own.container);
   MclConfig config = own.config();
-  config.injectSlow = 0.0;
+  config.recoverSlow = 0.0;
   const auto mcl = own.mcl(config);
   own.begin(FakeRun::onCircle(1, 0.5, 0.2), 1);
   mcl->startAt(own.truth, 0.5, 0.3);
@@ -343,8 +343,6 @@ TEST(MclConfig, IsCheckedFieldByField) {
               std::string::npos);
     EXPECT_NE(complaint([&](MclConfig& c) { c.binRadians = bad; }).find("binRadians"),
               std::string::npos);
-    EXPECT_NE(complaint([&](MclConfig& c) { c.injectMost = bad; }).find("injectMost"),
-              std::string::npos);
     EXPECT_NE(complaint([&](MclConfig& c) { c.maxInterval = bad; }).find("maxInterval"),
               std::string::npos);
   }
@@ -365,8 +363,8 @@ TEST(MclConfig, IsReadFromAFilesSection) {
   misspelt.set("particels", 3000.0);
   EXPECT_EQ(test::messageOf<ConfigError>([&] { MclConfig::read(misspelt); }),
             "r.toml: particels is not known here; known are bin_deg, bin_m, drift_deg, drift_m, "
-            "inject_fast, inject_most, inject_slow, kld_error, kld_quantile, max_interval_s, "
-            "min_distance_m, min_particles, min_rotation_deg, particles, resample_below, "
+            "kld_error, kld_quantile, max_interval_s, min_distance_m, min_particles, "
+            "min_rotation_deg, particles, recover_fast, recover_slow, resample_below, "
             "start_candidates_per_m2");
 }
 

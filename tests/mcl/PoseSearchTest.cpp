@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "PoseSearch.hpp"
 #include "ortung/base/Pose2.hpp"
@@ -54,7 +55,7 @@ double shareNear(const SampleSet& set, const Pose2& top) {
 TEST(PoseSearch, FindsANeedleAndSpreadsAsItsGaussianDoes) {
   const FieldRegion region = hall();
   const Pose2 top{7.3, 4.1, 2.9};
-  const SampleSet set = PoseSearch(region).draw(4000, 2, hills({{top, 1.0}}), Random(1));
+  const SampleSet set = PoseSearch(region).draw(4000, 2, hills({{top, 1.0}}), Random(1)).samples;
   double mean = 0, square = 0, turns = 0;
   for (std::size_t i = 0; i < set.size(); ++i) {
     mean += (set.x[i] - top.x) / 4000;
@@ -84,7 +85,7 @@ TEST(PoseSearch, SpreadsAsAWideGaussianDoes) {
   double square = 0, turns = 0;
   constexpr int kSeeds = 10;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const SampleSet set = PoseSearch(region).draw(2000, 3, wide, Random(seed));
+    const SampleSet set = PoseSearch(region).draw(2000, 3, wide, Random(seed)).samples;
     for (std::size_t i = 0; i < set.size(); ++i) {
       square += std::pow(set.x[i] - top.x, 2) / (2000 * kSeeds);
       turns += std::pow(wrapAngle(set.theta[i] - top.theta), 2) / (2000 * kSeeds);
@@ -100,7 +101,7 @@ TEST(PoseSearch, SharesItsSamplesByTheMassOfTheHills) {
   double share = 0.0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const SampleSet set =
-        PoseSearch(region).draw(2000, 5, hills({{high, 0.75}, {low, 0.25}}), Random(seed));
+        PoseSearch(region).draw(2000, 5, hills({{high, 0.75}, {low, 0.25}}), Random(seed)).samples;
     share += shareNear(set, high) / 10;
     EXPECT_NEAR(shareNear(set, high) + shareNear(set, low), 1.0, 0.02);
   }
@@ -110,7 +111,7 @@ TEST(PoseSearch, SharesItsSamplesByTheMassOfTheHills) {
 TEST(PoseSearch, StaysWhereTheRobotCanStand) {
   const FieldRegion region = hall();
   const SampleSet set =
-      PoseSearch(region).draw(1000, 2, hills({{{2.0, 5.0, 0.0}, 1.0}}), Random(1));
+      PoseSearch(region).draw(1000, 2, hills({{{2.0, 5.0, 0.0}, 1.0}}), Random(1)).samples;
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::ptrdiff_t cell = region.grid.cellAt(set.x[i], set.y[i]);
     ASSERT_TRUE(cell >= 0 && region.standable[static_cast<std::size_t>(cell)] != 0)
@@ -123,18 +124,70 @@ TEST(PoseSearch, WithoutAnythingToGoByKeepsTheEvenSpread) {
   const auto indifferent = [](const SampleSet& set, std::vector<float>& out) {
     out.assign(set.size(), -3.0F);
   };
-  const SampleSet set = PoseSearch(region).draw(4000, 1, indifferent, Random(1));
+  const SampleSet set = PoseSearch(region).draw(4000, 1, indifferent, Random(1)).samples;
   double right = 0;
   for (const float x : set.x) right += x > 6.0F ? 1.0 / 4000 : 0.0;
   EXPECT_NEAR(right, 0.5, 0.03);
 }
 
+// The mean of p over all poses, in closed form: the hill's volume over that of what is searched.
+TEST(PoseSearch, EstimatesHowWellAllPosesFit) {
+  const FieldRegion region = hall();
+  const Pose2 top{6.0, 5.0, 0.5};
+  constexpr double kMetres = 0.1;
+  constexpr double kRadians = 0.08;
+  const auto hill = [&](const SampleSet& set, std::vector<float>& out) {
+    out.resize(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const double dx = (set.x[i] - top.x) / kMetres;
+      const double dy = (set.y[i] - top.y) / kMetres;
+      const double turn = wrapAngle(set.theta[i] - top.theta) / kRadians;
+      out[i] = static_cast<float>(std::max(-0.5 * (dx * dx + dy * dy + turn * turn), -60.0) - 3.0);
+    }
+  };
+  const double volume = std::pow(2.0 * std::numbers::pi, 1.5) * kMetres * kMetres * kRadians;
+  const PoseSearch search(region);
+  const double floor = static_cast<double>(search.cells()) * region.grid.cell * region.grid.cell;
+  const PoseSearch::Ring ring{{6.2, 4.9, 0.4}, 1.0, 0.6};
+  double everywhere = 0.0;
+  double nearby = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    everywhere += search.draw(1000, 50, hill, Random(seed)).logEvidence / 10.0;
+    nearby += search.draw(400, 10, hill, Random(seed), ring).logEvidence / 10.0;
+  }
+  EXPECT_NEAR(everywhere, std::log(volume / (floor * 2.0 * std::numbers::pi)) - 3.0, 0.3);
+  EXPECT_NEAR(nearby, std::log(volume / (std::numbers::pi * 2.0 * ring.turn)) - 3.0, 0.2);
+}
+
+TEST(PoseSearch, StaysWithinItsRingWhereverThatIs) {
+  const FieldRegion region = hall();
+  const PoseSearch::Ring ring{{2.0, 5.0, 3.0}, 0.7, 0.4};  // where no robot can stand, by the map
+  const auto outwards = [](const SampleSet& set, std::vector<float>& out) {
+    out.resize(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) out[i] = 20.0F * set.x[i];
+  };
+  const SampleSet set = PoseSearch(region).draw(1000, 4, outwards, Random(1), ring).samples;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    EXPECT_LE(std::hypot(set.x[i] - 2.0, set.y[i] - 5.0), 0.7 + 1e-5);
+    EXPECT_LE(std::abs(wrapAngle(set.theta[i] - 3.0)), 0.4 + 1e-5);
+  }
+  const SampleSet even = PoseSearch::around(ring, 20000, Random(2));
+  double inner = 0.0;
+  double left = 0.0;
+  for (std::size_t i = 0; i < even.size(); ++i) {
+    inner += std::hypot(even.x[i] - 2.0, even.y[i] - 5.0) < 0.35 ? 1.0 / 20000 : 0.0;
+    left += wrapAngle(even.theta[i] - 3.0) > 0.2 ? 1.0 / 20000 : 0.0;
+  }
+  EXPECT_NEAR(inner, 0.25, 0.01);
+  EXPECT_NEAR(left, 0.25, 0.01);
+}
+
 TEST(PoseSearch, GivesTheSameForTheSameSeed) {
   const FieldRegion region = hall();
   const auto weigh = hills({{{5, 5, 0}, 1.0}});
-  const SampleSet a = PoseSearch(region).draw(100, 3, weigh, Random(7));
-  const SampleSet b = PoseSearch(region).draw(100, 3, weigh, Random(7));
-  const SampleSet c = PoseSearch(region).draw(100, 3, weigh, Random(8));
+  const SampleSet a = PoseSearch(region).draw(100, 3, weigh, Random(7)).samples;
+  const SampleSet b = PoseSearch(region).draw(100, 3, weigh, Random(7)).samples;
+  const SampleSet c = PoseSearch(region).draw(100, 3, weigh, Random(8)).samples;
   EXPECT_EQ(a.x, b.x);
   EXPECT_EQ(a.theta, b.theta);
   EXPECT_NE(a.x, c.x);

@@ -2,81 +2,78 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "Recovery.hpp"
 
 namespace ortung {
 namespace {
 
-double shareAfter(Recovery& recovery, double fit, int times) {
-  for (int i = 0; i < times; ++i) recovery.follow(fit);
-  return recovery.injectedShare();
+Recovery after(const MclConfig& config, const std::vector<std::pair<double, int>>& fits) {
+  Recovery recovery(config);
+  for (const auto& [fit, times] : fits)
+    for (int i = 0; i < times; ++i) recovery.follow(fit);
+  return recovery;
 }
 
-TEST(Recovery, DrawsNothingWhileReadingsFitAsEver) {
-  Recovery recovery{MclConfig{}};
-  EXPECT_EQ(recovery.injectedShare(), 0.0) << "nothing is known yet";
-  EXPECT_EQ(shareAfter(recovery, 0.9, 1), 0.0);
-  EXPECT_EQ(shareAfter(recovery, 0.9, 500), 0.0);
-  EXPECT_EQ(shareAfter(recovery, 0.6, 1), 0.0);
-  EXPECT_EQ(shareAfter(recovery, 1.0, 100), 0.0);
-}
-
-// From 0.9 to 0.3 at once: averages are 0.3 + 0.6 (1 - rate)^n, and what is missing to 0.6 of the
-// long one is drawn. The fit is not poor in itself: 0.3 is above 0.25.
-TEST(Recovery, DrawsAsTheFitFallsBehindItsOwnPast) {
-  MclConfig config;
-  config.injectMost = 0.9;
-  for (const double fast : {0.2, 0.5}) {
-    config.injectFast = fast;
-    Recovery recovery(config);
-    shareAfter(recovery, 0.9, 50);
-    double greatest = 0.0;
-    for (int n = 1; n <= 60; ++n) {
-      const double shortTerm = 0.3 + 0.6 * std::pow(1 - fast, n);
-      const double longTerm = 0.3 + 0.6 * std::pow(1 - 0.01, n);
-      const double expected = std::max(0.0, 0.6 - shortTerm / longTerm);
-      EXPECT_NEAR(shareAfter(recovery, 0.3, 1), expected, 1e-9) << n;
-      greatest = std::max(greatest, expected);
-    }
-    EXPECT_GT(greatest, 0.15);
+TEST(Recovery, IsContentWhileReadingsFitAsEver) {
+  for (const auto& fits : std::vector<std::vector<std::pair<double, int>>>{
+           {}, {{0.9, 1}}, {{0.9, 500}}, {{0.6, 1}}, {{0.3, 500}}, {{0.6, 500}, {1.0, 100}}}) {
+    const Recovery recovery = after({}, fits);
+    EXPECT_FALSE(recovery.isDoubtful());
+    EXPECT_FALSE(recovery.callsForSearch());
+    EXPECT_EQ(recovery.hasRecovered(), !fits.empty());
   }
 }
 
-TEST(Recovery, DrawsWhereTheFitWasAlwaysPoor) {
-  MclConfig config;
-  config.injectMost = 0.9;
-  Recovery poor(config);
-  EXPECT_NEAR(shareAfter(poor, 0.1, 30), 1.0 - 0.1 / 0.25, 1e-9);
-  Recovery nearly(config);
-  EXPECT_NEAR(shareAfter(nearly, 0.24, 30), 0.04, 1e-9);
-  Recovery fine(config);
-  EXPECT_EQ(shareAfter(fine, 0.26, 30), 0.0);
+// Below 0.75 of what is usual the moment is doubtful; the short average, 0.3 + 0.6 (1 - rate)^n,
+// has to fall below 0.6 of it (0.54) for a search: rate 0.2 after five readings, 0.5 after two.
+TEST(Recovery, DoubtsAtOnceAndSearchesLater) {
+  EXPECT_FALSE(after({}, {{0.9, 50}, {0.7, 1}}).isDoubtful());
+  EXPECT_TRUE(after({}, {{0.9, 50}, {0.65, 1}}).isDoubtful());
+  EXPECT_FALSE(after({}, {{0.9, 50}, {0.65, 1}, {0.9, 1}}).isDoubtful());
+  for (const auto& [rate, readings] : {std::pair{0.2, 5}, {0.5, 2}}) {
+    MclConfig config;
+    config.recoverFast = rate;
+    EXPECT_FALSE(after(config, {{0.9, 50}, {0.3, readings - 1}}).callsForSearch()) << rate;
+    EXPECT_TRUE(after(config, {{0.9, 50}, {0.3, readings}}).callsForSearch()) << rate;
+  }
+}
+
+TEST(Recovery, SearchesWhereTheFitWasAlwaysPoor) {
+  EXPECT_TRUE(after({}, {{0.24, 30}}).callsForSearch());
+  EXPECT_TRUE(after({}, {{0.24, 30}}).isDoubtful());
+  EXPECT_FALSE(after({}, {{0.26, 30}}).callsForSearch());
+}
+
+TEST(Recovery, IsOverWhenTheFitIsWhatItWas) {
+  EXPECT_FALSE(after({}, {{0.9, 50}, {0.3, 10}}).hasRecovered());
+  EXPECT_FALSE(after({}, {{0.9, 50}, {0.3, 10}, {0.9, 2}}).hasRecovered());
+  EXPECT_TRUE(after({}, {{0.9, 50}, {0.3, 10}, {0.9, 20}}).hasRecovered());
 }
 
 TEST(Recovery, KeepsToItsSettings) {
   MclConfig config;
-  config.injectMost = 0.07;
-  Recovery bounded(config);
-  EXPECT_EQ(shareAfter(bounded, 0.0, 30), 0.07);
-  config.injectSlow = 0.0;
-  Recovery never(config);
-  EXPECT_EQ(shareAfter(never, 0.0, 30), 0.0);
-  // The faster the long average, the sooner a worse world is taken for the usual one.
-  MclConfig forgetful;
-  forgetful.injectSlow = 0.2;
-  Recovery used(forgetful);
-  shareAfter(used, 0.9, 50);
-  EXPECT_EQ(shareAfter(used, 0.3, 10), 0.0);
+  config.recoverSlow = 0.0;
+  EXPECT_FALSE(after(config, {{0.9, 50}, {0.0, 30}}).callsForSearch());
+  EXPECT_FALSE(after(config, {{0.9, 50}, {0.0, 30}}).isDoubtful());
+  // The faster the long average, the sooner a worse world is taken for the usual one; in bad times
+  // it follows at a tenth of that.
+  EXPECT_TRUE(after({}, {{0.9, 50}, {0.3, 100}}).callsForSearch());
+  config.recoverSlow = 0.5;
+  EXPECT_FALSE(after(config, {{0.9, 50}, {0.3, 100}}).callsForSearch());
+  config.recoverSlow = 0.1;
+  EXPECT_TRUE(after(config, {{0.9, 50}, {0.3, 30}}).callsForSearch()) << "0.9 * 0.99^30 is 0.67";
 }
 
 TEST(Recovery, ForgetsThePastWhenItBeginsAnew) {
-  Recovery recovery{MclConfig{}};
-  shareAfter(recovery, 0.9, 50);
-  ASSERT_GT(shareAfter(recovery, 0.3, 10), 0.0);
+  Recovery recovery = after({}, {{0.9, 50}, {0.3, 10}});
+  ASSERT_TRUE(recovery.callsForSearch());
   recovery.forget();
-  EXPECT_EQ(recovery.injectedShare(), 0.0);
-  EXPECT_EQ(shareAfter(recovery, 0.3, 10), 0.0) << "as good as it ever was";
+  EXPECT_FALSE(recovery.callsForSearch());
+  for (int i = 0; i < 10; ++i) recovery.follow(0.3);
+  EXPECT_FALSE(recovery.callsForSearch()) << "as good as it ever was";
 }
 
 /// Answers by x; nowhere is -8.

@@ -84,30 +84,30 @@ TEST(LowVariance, KeepsTheMean) {
   EXPECT_NEAR(found, expected, 1.0) << "of 20000: neighbours stand in for each other";
 }
 
-TEST(ReplaceSome, SpreadsThemOverTheSet) {
-  // Two places side by side, as resampling leaves them; ten poses come from elsewhere.
+TEST(Add, GivesFreshSamplesTheirShareAndKeepsWeightsAmongBoth) {
   SampleSet set;
-  set.resize(100);
-  for (std::size_t i = 0; i < 100; ++i) {
-    set.x[i] = i < 20 ? 1.0F : 2.0F;
-    set.logWeight[i] = -0.25F;
-  }
+  set.resize(3);
+  set.x = {1.0F, 2.0F, 3.0F};
+  set.logWeight = {0.0F, std::log(3.0F), -std::numeric_limits<float>::infinity()};
   SampleSet fresh;
-  fresh.resize(10);
-  for (std::size_t k = 0; k < 10; ++k) {
-    fresh.x[k] = 10.0F + static_cast<float>(k);
-    fresh.y[k] = 20.0F;
-    fresh.theta[k] = 3.0F;
-    fresh.logWeight[k] = -7.0F;
-  }
-  replaceSome(set, fresh);
-  const auto at = [&](float x) { return std::count(set.x.begin(), set.x.end(), x); };
-  EXPECT_EQ(at(1.0F), 18) << "a tenth of each place is lost, not half of one";
-  EXPECT_EQ(at(2.0F), 72);
-  for (std::size_t k = 0; k < 10; ++k) EXPECT_EQ(at(10.0F + static_cast<float>(k)), 1);
-  EXPECT_EQ(std::count(set.y.begin(), set.y.end(), 20.0F), 10);
-  EXPECT_EQ(std::count(set.theta.begin(), set.theta.end(), 3.0F), 10);
-  EXPECT_EQ(std::count(set.logWeight.begin(), set.logWeight.end(), -0.25F), 100);
+  fresh.resize(2);
+  fresh.x = {10.0F, 11.0F};
+  fresh.y = {20.0F, 21.0F};
+  fresh.theta = {0.1F, 0.2F};
+  fresh.logWeight = {-50.0F, -50.0F + std::log(4.0F)};
+  add(set, fresh, 0.8);
+  EXPECT_EQ(set.x, (std::vector<float>{1.0F, 2.0F, 3.0F, 10.0F, 11.0F}));
+  EXPECT_EQ(set.y[4], 21.0F);
+  EXPECT_EQ(set.theta[3], 0.1F);
+  const std::vector<double> weights = normalized(set.logWeight);
+  const std::vector<double> expected = {0.05, 0.15, 0.0, 0.16, 0.64};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(weights[i], expected[i], 1e-6) << i;
+}
+
+TEST(LogMean, IsThatOfExponentials) {
+  const std::vector<float> values = {-1000.0F, -1000.0F + std::log(3.0F)};
+  EXPECT_NEAR(logMean(values), -1000.0 + std::log(2.0), 1e-4);
+  EXPECT_NEAR(logMean(std::vector<double>{0.75, 0.25}, values), -1000.0 + std::log(1.5), 1e-4);
 }
 
 TEST(TemperFor, LeavesEvenWeightsAlone) {

@@ -58,7 +58,7 @@ TEST(MclSettings, ResampleBelowSaysAtWhichEffectiveShare) {
     ToldRobot robot(leftHalf);
     MclConfig config = ofSize(2000);
     config.resampleBelow = resampleBelow;
-    config.injectSlow = 0.0;
+    config.recoverSlow = 0.0;
     const auto mcl = robot.mcl(config);
     mcl->startAt({0, 0, 0}, 0.5, 0.1);
     robot.reading(1.0);
@@ -103,7 +103,7 @@ TEST(MclSettings, SizeOfTheSetFollowsItsSpreadAndTheSettings) {
     MclConfig config;
     config.maxSamples = 20000;
     config.minSamples = 200;
-    config.injectSlow = 0.0;
+    config.recoverSlow = 0.0;
     config.resampleBelow = 1.0;
     change(config);
     const auto mcl = robot.mcl(config);
@@ -139,7 +139,7 @@ TEST(MclSettings, BinsSayWhatHangsTogether) {
     MclConfig config = ofSize(60000);
     config.binMetres = binMetres;
     config.binRadians = binDegrees * kPi / 180;
-    config.injectSlow = 0.0;
+    config.recoverSlow = 0.0;
     const auto mcl = robot.mcl(config);
     mcl->startAt({apart.x / 2, 0, apart.theta / 2}, std::max(0.02, apart.x / 2),
                  std::max(0.02, apart.theta / 2));
@@ -286,7 +286,7 @@ TEST(MclSettings, DriftFollowsARobotThatTellsNoOdometry) {
     MclConfig config = run.config();
     config.driftMetres = metres;
     config.driftRadians = radians;
-    config.injectSlow = 0.0;  // by following, not by searching anew
+    config.recoverSlow = 0.0;  // by following, not by searching anew
     const auto mcl = run.mcl(config);
     run.begin(FakeRun::onCircle(1, 0.5, 0.3), 3);
     mcl->startAt(run.truth, 0.1, 0.1);
@@ -307,14 +307,11 @@ TEST(MclSettings, DriftFollowsARobotThatTellsNoOdometry) {
 TEST(MclSettings, MclUsesWhatItsTableSays) {
   Parameters p("r.toml");
   const std::vector<std::pair<const char*, double>> values = {
-      {"particles", 3000},      {"min_particles", 300},
-      {"resample_below", 0.25}, {"kld_error", 0.03},
-      {"kld_quantile", 1.5},    {"bin_m", 0.3},
-      {"bin_deg", 20},          {"inject_fast", 0.3},
-      {"inject_slow", 0.02},    {"inject_most", 0.4},
-      {"min_distance_m", 0.06}, {"min_rotation_deg", 3},
-      {"max_interval_s", 0.7},  {"drift_m", 0.8},
-      {"drift_deg", 45},        {"start_candidates_per_m2", 120}};
+      {"particles", 3000},      {"min_particles", 300},  {"resample_below", 0.25},
+      {"kld_error", 0.03},      {"kld_quantile", 1.5},   {"bin_m", 0.3},
+      {"bin_deg", 20},          {"recover_fast", 0.3},   {"recover_slow", 0.02},
+      {"min_distance_m", 0.06}, {"min_rotation_deg", 3}, {"max_interval_s", 0.7},
+      {"drift_m", 0.8},         {"drift_deg", 45},       {"start_candidates_per_m2", 120}};
   for (const auto& [key, value] : values) p.set(key, value);
   const MclConfig c = MclConfig::read(p);
   EXPECT_EQ(c.maxSamples, 3000u);
@@ -324,9 +321,8 @@ TEST(MclSettings, MclUsesWhatItsTableSays) {
   EXPECT_EQ(c.kldQuantile, 1.5);
   EXPECT_EQ(c.binMetres, 0.3);
   EXPECT_NEAR(c.binRadians, kPi / 9, 1e-12);
-  EXPECT_EQ(c.injectFast, 0.3);
-  EXPECT_EQ(c.injectSlow, 0.02);
-  EXPECT_EQ(c.injectMost, 0.4);
+  EXPECT_EQ(c.recoverFast, 0.3);
+  EXPECT_EQ(c.recoverSlow, 0.02);
   EXPECT_EQ(c.minDistance, 0.06);
   EXPECT_NEAR(c.minRotation, kPi / 60, 1e-12);
   EXPECT_EQ(c.maxInterval, 0.7);

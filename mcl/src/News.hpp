@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "ortung/base/Time.hpp"
+#include "ortung/core/Weigher.hpp"
+#include "ortung/mcl/SampleSet.hpp"
+
+namespace ortung {
+
+class SensorData;
+
+/// A reading that is to be weighed: all that is needed of it once the container's lock is given
+/// back.
+struct News {
+  const SensorData* feature;  ///< which one; not looked at any more
+  std::uint64_t sequence;
+  std::shared_ptr<const Weigher> weigher;
+};
+
+using NewsByTime = std::map<Timestamp, std::vector<News>>;
+
+/// What the readings of one moment round poses to, at most.
+PoseResolution coarsestOf(const std::vector<News>& news);
+
+/// ln p of the readings of one moment at each sample, finite whatever plugins answer.
+/// @param out as many as samples
+void weigh(const std::vector<News>& news, const SampleSet& set, unsigned threads,
+           std::vector<float>& out);
+
+}  // namespace ortung

@@ -1,0 +1,175 @@
+// Places that compete with the belief: what it takes until they win.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "FakeRoom.hpp"
+#include "Rivals.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kFloor = -30.0;  ///< ln p of readings that fit nowhere
+
+TEST(Lead, NoReadingCountsMoreThanFourNatsAndNoneFromTheSamePlace) {
+  Lead lead;
+  lead.count(1000.0, 1.0);
+  EXPECT_EQ(lead.nats(), 4.0);
+  lead.count(1000.0, 0.25);
+  EXPECT_EQ(lead.nats(), 5.0);
+  lead.count(1000.0, 0.0);
+  EXPECT_EQ(lead.nats(), 5.0);
+  lead.count(-1.5, 7.0);
+  EXPECT_EQ(lead.nats(), 3.5);
+  lead.count(-1000.0, 1.0);
+  EXPECT_EQ(lead.nats(), -0.5);
+  lead.atLeast(0.0);
+  EXPECT_EQ(lead.nats(), 0.0);
+}
+
+TEST(Lead, SixReadingsAreEnoughAndThreeHopeless) {
+  Lead lead;
+  for (int i = 0; i < 5; ++i) lead.count(1000.0, 1.0);
+  EXPECT_FALSE(lead.isEnough());
+  lead.count(1000.0, 1.0);
+  EXPECT_TRUE(lead.isEnough());
+  Lead behind;
+  for (int i = 0; i < 2; ++i) behind.count(-1000.0, 1.0);
+  EXPECT_FALSE(behind.isHopeless());
+  behind.count(-1000.0, 1.0);
+  EXPECT_TRUE(behind.isHopeless());
+}
+
+/// A robot drives through a hall; readings tell where it is, the belief is elsewhere.
+struct Drive {
+  Drive() {
+    for (int i = 0; i < 50; ++i) recovery.follow(0.9);
+  }
+  /// The robot comes @p metres on, and readings fit where it is, or @p seen if that is given.
+  std::optional<Rivals::Takeover> reading(double metres, const Pose2& believed,
+                                          const std::optional<Pose2>& seen = {}) {
+    truth.x += metres;
+    stamp += 100'000;
+    if (SampleSet* others = rivals.samples())
+      for (float& x : others->x) x += static_cast<float>(metres);
+    const Pose2 there = seen.value_or(truth);
+    const PoseSearch::Weigh weigh = [&](const SampleSet& set, std::vector<float>& out) {
+      out.resize(set.size());
+      for (std::size_t i = 0; i < set.size(); ++i) out[i] = logProbability(set, i, there);
+    };
+    SampleSet belief;
+    belief.resize(1);
+    belief.x[0] = static_cast<float>(believed.x);
+    belief.y[0] = static_cast<float>(believed.y);
+    belief.theta[0] = static_cast<float>(believed.theta);
+    const double evidence = logProbability(belief, 0, there);
+    recovery.follow(1.0 - evidence / kFloor);
+    ++readings;
+    return rivals.follow({stamp, believed, evidence, metres}, recovery, weigh,
+                         Random(static_cast<std::uint64_t>(readings)));
+  }
+  static float logProbability(const SampleSet& set, std::size_t i, const Pose2& there) {
+    const double way = std::hypot(set.x[i] - there.x, set.y[i] - there.y) / 0.1;
+    const double turn = wrapAngle(set.theta[i] - there.theta) / 0.1;
+    return static_cast<float>(std::max(-0.5 * (way * way + turn * turn), kFloor));
+  }
+
+  FieldRegion region = test::Room{20, 12}.region(0.25, 0.2);
+  PoseSearch search{region};
+  Rivals rivals{search};
+  Recovery recovery{MclConfig{}};
+  Pose2 truth{-8, 2, 0.3};
+  Timestamp stamp = 0;
+  int readings = 0;
+};
+
+double distanceOf(const SampleSet& set, const Pose2& pose) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < set.size(); ++i)
+    sum += std::hypot(set.x[i] - pose.x, set.y[i] - pose.y) / static_cast<double>(set.size());
+  return sum;
+}
+
+TEST(Rivals, APlaceElsewhereTakesOverAfterSeveralReadingsOnSomeWay) {
+  Drive drive;
+  int sinceSearch = 0;
+  for (int i = 0; i < 40; ++i) {
+    const bool hadRivals = drive.rivals.samples() != nullptr;
+    const auto takeover = drive.reading(0.3, {8, -5, 2});
+    sinceSearch += hadRivals ? 1 : 0;
+    if (!takeover) continue;
+    EXPECT_EQ(sinceSearch, 8);
+    EXPECT_EQ(takeover->share, 1.0);
+    EXPECT_LT(distanceOf(takeover->samples, drive.truth), 0.3);
+    EXPECT_EQ(drive.rivals.samples(), nullptr) << "all is told";
+    return;
+  }
+  FAIL() << "it never came back";
+}
+
+TEST(Rivals, ReadingsFromOnePlaceCarryNobodyAway) {
+  Drive drive;
+  for (int i = 0; i < 200; ++i) ASSERT_FALSE(drive.reading(0.0, {8, -5, 2})) << i;
+  ASSERT_NE(drive.rivals.samples(), nullptr) << "but there is somebody to compare with";
+  // Slow motion counts by its way: at least 2 m.
+  for (int i = 1; i < 40; ++i) {
+    const auto takeover = drive.reading(0.1, {8, -5, 2});
+    if (!takeover) continue;
+    EXPECT_GE(i, 20);
+    return;
+  }
+  FAIL() << "it never came back";
+}
+
+TEST(Rivals, ReadingsThatLieForAWhileCarryNobodyAway) {
+  for (const int lies : {1, 3, 5}) {
+    Drive drive;
+    for (int i = 0; i < 60; ++i) {
+      // Good readings, and from time to time some that fit elsewhere, each at another place.
+      const bool lie = i % 20 < lies;
+      const Pose2 elsewhere{8.0 - 3.0 * (i % 5), -5.0 + 2.0 * (i % 3), 2.0 + i};
+      const Pose2 next{drive.truth.x + 0.2, drive.truth.y, drive.truth.theta};
+      ASSERT_FALSE(drive.reading(0.2, next, lie ? std::optional(elsewhere) : std::nullopt))
+          << lies << " lies, reading " << i;
+    }
+    EXPECT_EQ(drive.rivals.samples(), nullptr) << "the belief was right";
+  }
+}
+
+TEST(Rivals, WhereOdometryLiedTheSurroundingsTakeOverASharedBelief) {
+  for (const double off : {0.6, 1.0}) {
+    Drive drive;
+    int taken = 0;
+    for (int i = 1; i <= 60 && taken == 0; ++i) {
+      const Pose2 believed{drive.truth.x + 0.15, drive.truth.y + off, drive.truth.theta + 0.2};
+      const auto takeover = drive.reading(0.15, believed);
+      if (!takeover) continue;
+      taken = i;
+      EXPECT_EQ(takeover->share, 0.9) << "what was believed stays possible";
+      EXPECT_LT(distanceOf(takeover->samples, drive.truth), 0.3);
+    }
+    EXPECT_GE(taken, 6) << off;
+    // Its ring begins with 0.5 m and grows by 0.5 m/s; readings come ten times a second.
+    EXPECT_LE(taken, 6 + static_cast<int>(std::max(0.0, off - 0.5) / 0.5 * 10.0) + 3) << off;
+  }
+}
+
+TEST(Rivals, NobodyCompetesWhileReadingsFit) {
+  Drive drive;
+  for (int i = 0; i < 30; ++i) {
+    const Pose2 next{drive.truth.x + 0.2, drive.truth.y, drive.truth.theta};
+    EXPECT_FALSE(drive.reading(0.2, next));
+    EXPECT_EQ(drive.rivals.samples(), nullptr);
+  }
+}
+
+TEST(Rivals, AreForgottenWhenItBeginsAnew) {
+  Drive drive;
+  for (int i = 0; i < 12; ++i) drive.reading(0.1, {8, -5, 2});
+  ASSERT_NE(drive.rivals.samples(), nullptr);
+  drive.rivals.forget();
+  EXPECT_EQ(drive.rivals.samples(), nullptr);
+}
+
+}  // namespace
+}  // namespace ortung
