@@ -279,6 +279,32 @@ TEST(MclSettings, WithoutOdometrySamplesDrift) {
   EXPECT_NEAR(sigmasAfter(1.0, 10, 0.5, 0.05).second, 0.05, 0.004);
 }
 
+// Nobody tells how far it has come then: what it may have come counts as way between readings.
+TEST(MclSettings, WithoutOdometryAKidnapIsNoticedTooUnlessNobodyIsToLook) {
+  const auto errorWith = [](double recoverSlow) {
+    FakeRun run;
+    MclConfig config = run.config();
+    config.recoverSlow = recoverSlow;
+    const auto mcl = run.mcl(config);
+    run.begin(FakeRun::onCircle(1.5, 0.5, 0.3), 3);
+    mcl->startAt(run.truth, 0.1, 0.1);
+    run.tellsOdometry = false;
+    for (int i = 0; i < 30; ++i) {
+      run.drive();
+      mcl->update(run.container);
+    }
+    EXPECT_LT(distance(mcl->estimate().pose, run.truth), 0.3);
+    run.truth = FakeRun::onCircle(-2, -0.5, 4.5);
+    for (int i = 0; i < 100; ++i) {
+      run.drive();
+      mcl->update(run.container);
+    }
+    return distance(mcl->estimate().pose, run.truth);
+  };
+  EXPECT_LT(errorWith(MclConfig().recoverSlow), 0.3);
+  EXPECT_GT(errorWith(0.0), 0.5);
+}
+
 // A laser all around follows a robot without odometry; with the samples standing it does not.
 TEST(MclSettings, DriftFollowsARobotThatTellsNoOdometry) {
   const auto errorWith = [](double metres, double radians) {
