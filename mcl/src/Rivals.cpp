@@ -85,8 +85,8 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   if (!elsewhere_) {
     // The reading that they are drawn from has chosen them, so it does not count for them.
     if (recovery.callsForSearch())
-      elsewhere_.emplace().samples =
-          search_.draw(kSamplesElsewhere, kCandidatesElsewhere, weigh, random).samples;
+      elsewhere_.emplace(
+          search_.draw(kSamplesElsewhere, kCandidatesElsewhere, weigh, random).samples);
     return std::nullopt;
   }
   Elsewhere& rival = *elsewhere_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
@@ -66,6 +67,7 @@ class ORTUNG_API Rivals {
 
  private:
   struct Elsewhere {
+    explicit Elsewhere(SampleSet drawn) : samples(std::move(drawn)) {}
     SampleSet samples;
     Lead lead;
     double way = 0.0;
