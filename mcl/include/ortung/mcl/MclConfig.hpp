@@ -19,13 +19,12 @@ struct MclConfig {
   double binRadians = 0.1745;      ///< `bin_deg` (10 degrees)
   double startCandidates = 500.0;  ///< `start_candidates_per_m2`: poses tried at a global start
   double recoverFast = 0.2;        ///< `recover_fast`: rate of the short-term fit average
-  double recoverSlow =
-      0.01;  ///< `recover_slow`: of the long-term one; 0: never looks for other places
-  double minDistance = 0.05;     ///< `min_distance_m`: weigh only after this much motion,
-  double minRotation = 0.03;     ///< `min_rotation_deg`: or this much turning (1.7 degrees),
-  double maxInterval = 0.5;      ///< `max_interval_s`: or this much time
-  double driftMetres = 0.5;      ///< `drift_m`: without odometry, sigma of the way after 1 s [m],
-  double driftRadians = 0.5236;  ///< `drift_deg`: and of the turn (30 degrees) [rad]
+  double recoverSlow = 0.01;       ///< `recover_slow`: of the long-term one; 0: no recovery
+  double minDistance = 0.05;       ///< `min_distance_m`: weigh only after this much motion,
+  double minRotation = 0.03;       ///< `min_rotation_deg`: or this much turning (1.7 degrees),
+  double maxInterval = 0.5;        ///< `max_interval_s`: or this much time
+  double driftMetres = 0.5;        ///< `drift_m`: without odometry, sigma of the way after 1 s [m],
+  double driftRadians = 0.5236;    ///< `drift_deg`: and of the turn (30 degrees) [rad]
   std::uint64_t seed = 1;
   unsigned threads = 1;  ///< the result does not depend on it
 
