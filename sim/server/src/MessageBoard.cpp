@@ -28,7 +28,6 @@ using server::Arrival;
 using server::Session;
 
 constexpr int kBacklog = 128;
-constexpr const char* kFarewell = "the server ends";
 constexpr std::chrono::seconds kLongestFarewell{1};
 // What is done for many clients before those are heard that have asked for something.
 constexpr Timestamp kTimeOfTurn = 300;  // [us]
@@ -297,17 +296,18 @@ void MessageBoard::run(const std::function<bool()>& goesOn) {
     throw std::runtime_error(std::string("the thread that talks to clients can't be made: ") +
                              error.what());
   }
+  const auto end = [&] {
+    parts_->keeper_.haltCommanded();
+    asio::post(parts_->io_, [this] { parts_->shutDown("the server ends"); });
+    clients.join();
+  };
   try {
     parts_->keeper_.run(goesOn);
   } catch (...) {
-    parts_->keeper_.haltCommanded();
-    asio::post(parts_->io_, [this] { parts_->shutDown(kFarewell); });
-    clients.join();
+    end();
     throw;
   }
-  parts_->keeper_.haltCommanded();
-  asio::post(parts_->io_, [this] { parts_->shutDown(kFarewell); });
-  clients.join();
+  end();
 }
 
 void MessageBoard::stop() { parts_->keeper_.stop(); }
