@@ -53,6 +53,14 @@ INSTANTIATE_TEST_SUITE_P(RealLog, MrclamLog,
                                          Expected{5, 0.08, 0.18}),
                          [](const auto& one) { return "Robot" + std::to_string(one.param.robot); });
 
+/// A log of scans, and the tables of its map: run.rec, robot.toml and world.ortung.
+void importAndLearn(const std::string& log, const Folder& folder) {
+  folder.run({"import", "scanlog", log, "--out", folder.path("run.rec"), "--world",
+              folder.path("world.toml"), "--robot-file", folder.path("robot.toml")});
+  folder.run({"learn", "--world", folder.path("world.toml"), "--robot", folder.path("robot.toml"),
+              "--out", folder.path("world.ortung")});
+}
+
 /// Logs that carried the filter away: visitors before the scanner, odometry with the wrong sign.
 class HardLog : public testing::TestWithParam<const char*> {};
 
@@ -60,10 +68,7 @@ TEST_P(HardLog, IsNeverLeft) {
   const std::string log = kData + "/carmen/" + GetParam();
   if (!isHere(log)) GTEST_SKIP() << log << " is not here; it belongs to no repository";
   const Folder folder;
-  folder.run({"import", "scanlog", log, "--out", folder.path("run.rec"), "--world",
-              folder.path("world.toml"), "--robot-file", folder.path("robot.toml")});
-  folder.run({"learn", "--world", folder.path("world.toml"), "--robot", folder.path("robot.toml"),
-              "--out", folder.path("world.ortung")});
+  importAndLearn(log, folder);
   for (const char* start : {"truth", "global"}) {
     const auto figures = folder.eval({"--source", "record:" + folder.path("run.rec"), "--robot",
                                       folder.path("robot.toml"), "--tables",
@@ -86,10 +91,7 @@ TEST(RealLog, LaserInABuildingIsTrackedFromAnUnknownStart) {
   const std::string log = kData + "/mrpt_localization_demo";
   if (!isHere(log)) GTEST_SKIP() << log << " is not here; it belongs to no repository";
   const Folder folder;
-  folder.run({"import", "scanlog", log, "--out", folder.path("run.rec"), "--world",
-              folder.path("world.toml"), "--robot-file", folder.path("robot.toml")});
-  folder.run({"learn", "--world", folder.path("world.toml"), "--robot", folder.path("robot.toml"),
-              "--out", folder.path("world.ortung")});
+  importAndLearn(log, folder);
   const auto figures =
       folder.eval({"--source", "record:" + folder.path("run.rec"), "--robot",
                    folder.path("robot.toml"), "--tables", folder.path("world.ortung")});
