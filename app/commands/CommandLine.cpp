@@ -7,6 +7,7 @@
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "OptionBuilder.hpp"
+#include "ortung/run/Fault.hpp"
 
 namespace ortung::app {
 namespace {
@@ -131,10 +132,11 @@ void addLocalization(Builder& build, LocalizationArguments& a) {
 }
 
 void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
+  const std::string example =
+      "ortung eval --source record:run.rec --robot robot.toml --tables hall.ortung --report "
+      "run.html";
   const auto a = build.command<EvalArguments>(app, "eval", "Localize and compare with ground truth",
-                                              "ortung eval --source record:run.rec --robot "
-                                              "robot.toml --tables hall.ortung --report run.html",
-                                              runEval);
+                                              example.c_str(), runEval);
   a->commandLine = commandLine;
   addLocalization(build, a->localization);
   build.option("--json", a->json, "Write the figures as JSON");
@@ -144,6 +146,16 @@ void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
       .option("--converged-within", a->convergedWithin,
               "Error m,deg below which the filter has converged")
       ->capture_default_str();
+  build
+      .option("--fault", a->faults,
+              "WHAT=FAULT[:VALUE][@FROM-TO], readings that go wrong; see below; may be given again")
+      ->expected(1)
+      ->take_all();
+  build.app().footer(
+      "Faults: WHAT is odometry, readings (all others) or a feature's name; times "
+      "in seconds since the first reading:\n" +
+      faultHelp() + "Example:\n  " + example +
+      " --fault odometry=scale:1.2 --fault readings=crowd@20-50");
 }
 
 void addLocalize(Builder& build, CLI::App& app) {

@@ -75,7 +75,8 @@ struct EvalArguments {
   std::filesystem::path report;  ///< "" for none
   std::filesystem::path record;  ///< "" for none
   std::string convergedWithin = "0.5,15";
-  std::string commandLine;  ///< for the report
+  std::vector<std::string> faults;  ///< "WHAT=FAULT[:VALUE][@FROM-TO]"
+  std::string commandLine;          ///< for the report
 };
 int runEval(const EvalArguments& arguments);
 

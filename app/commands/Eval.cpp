@@ -30,6 +30,16 @@ Evaluation::Options readOptions(const EvalArguments& arguments) {
   return options;
 }
 
+std::vector<Fault> readFaults(const EvalArguments& arguments) {
+  std::vector<Fault> faults;
+  try {
+    for (const std::string& text : arguments.faults) faults.push_back(parseFault(text));
+  } catch (const FaultError& error) {
+    throw UsageError(std::string("--fault: ") + error.what());
+  }
+  return faults;
+}
+
 /// Looks at them before the work, not after it.
 Outputs outputsOf(const EvalArguments& arguments) {
   Outputs outputs(arguments.localization.force);
@@ -85,8 +95,10 @@ void warnWithoutErrors(const RunResult& run) {
 
 int runEval(const EvalArguments& arguments) {
   const Evaluation::Options options = readOptions(arguments);
+  const std::vector<Fault> faults = readFaults(arguments);
   const Outputs outputs = outputsOf(arguments);
-  const std::unique_ptr<Localization> localization = openLocalization(arguments.localization);
+  const std::unique_ptr<Localization> localization =
+      openLocalization(arguments.localization, faults);
   std::optional<RecordWriter> record;
   if (!arguments.record.empty()) {
     const Source& source = localization->source();
@@ -99,6 +111,7 @@ int runEval(const EvalArguments& arguments) {
   run.robot = arguments.localization.robot.string();
   run.tables = arguments.localization.tables.string();
   run.tableInfo = localization->robot().tables;
+  run.faults = arguments.faults;
   run.commandLine = arguments.commandLine;
   warnOf(arguments.localization.source, localization->source(), localization->feeder());
   warnWithoutOdometry(*localization, arguments.localization);

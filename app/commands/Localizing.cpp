@@ -11,6 +11,7 @@
 #include "Numbers.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/run/Disturbed.hpp"
 
 namespace ortung::app {
 namespace {
@@ -59,9 +60,19 @@ std::optional<Parameters> readMotion(const LocalizationArguments& arguments, Rob
   return motion;
 }
 
+std::unique_ptr<Source> withFaults(std::unique_ptr<Source> source, const std::vector<Fault>& faults,
+                                   const Robot& robot, std::uint64_t seed) {
+  try {
+    return disturbed(std::move(source), faults, robot.container, seed);
+  } catch (const FaultError& error) {
+    throw UsageError(std::string("--fault: ") + error.what());
+  }
+}
+
 }  // namespace
 
-std::unique_ptr<Localization> openLocalization(const LocalizationArguments& arguments) {
+std::unique_ptr<Localization> openLocalization(const LocalizationArguments& arguments,
+                                               const std::vector<Fault>& faults) {
   LocalizationConfig config;
   config.start = readStart(arguments);
   config.robot = arguments.robot;
@@ -74,6 +85,7 @@ std::unique_ptr<Localization> openLocalization(const LocalizationArguments& argu
   std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
   std::unique_ptr<Source> source =
       openSourceArgument(arguments.source, arguments.robot, robot->factory);
+  if (!faults.empty()) source = withFaults(std::move(source), faults, *robot, arguments.seed);
   config.motion = readMotion(arguments, *robot);
   auto localization = std::make_unique<Localization>(std::move(robot), std::move(source), config);
   const std::string& mismatch = localization->worldMismatch();

@@ -48,6 +48,7 @@ std::string toJson(const RunResult& run) {
       {"world", run.tableInfo.world},
       {"seed", run.seed},
       {"particles", run.particles},
+      {"faults", run.faults},
       {"steps", figures.steps},
       {"compared_steps", atCorrections.compared},
       {"duration_s", number(figures.duration)},
@@ -106,6 +107,7 @@ std::vector<Figure> figuresOf(const RunResult& run) {
 
 std::string toText(const RunResult& run) {
   std::string text = fmt::format("{}\n", printable(run.figures.source));
+  for (const std::string& fault : run.faults) text += fmt::format("  with {}\n", printable(fault));
   for (const Figure& figure : figuresOf(run)) {
     text += fmt::format("  {:<32}{:>12}\n", figure.name, figure.value);
   }

@@ -23,6 +23,7 @@ struct RunResult {
   std::string robot;          ///< file
   std::string tables;         ///< file
   TableInfo tableInfo;
+  std::vector<std::string> faults;  ///< that the readings had
   std::string commandLine;
 };
 
