@@ -6,17 +6,11 @@
 
 #include "Commands.hpp"
 #include "Console.hpp"
+#include "LocalizationCommands.hpp"
 #include "OptionBuilder.hpp"
-#include "ortung/run/Fault.hpp"
 
 namespace ortung::app {
 namespace {
-
-constexpr const char* kProgress = "Draw a progress bar even if stderr is no terminal";
-constexpr const char* kForce =
-    "Overwrite files that hold something else than what is written (never what the run reads)";
-constexpr const char* kSource =
-    "KIND:PATH?key=value, e.g. record:run.rec; `ortung plugins` lists the kinds";
 
 void addLearn(Builder& build, CLI::App& app) {
   const auto a = build.command<LearnArguments>(
@@ -107,65 +101,6 @@ void addTrainMotion(Builder& build, CLI::App& app) {
   build.option("--seed", a->seed, "Seed of the first weights")->capture_default_str();
   build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
-}
-
-void addLocalization(Builder& build, LocalizationArguments& a) {
-  build.option("--source", a.source, kSource)->required();
-  build.option("--robot", a.robot, "Robot file (TOML)")->required();
-  build.option("--tables", a.tables, "Table file of `ortung learn`")->required();
-  build.option("--seed", a.seed, "Seed of all random numbers")->capture_default_str();
-  build.option("--particles", a.particles, "Most samples; default: the robot file's")
-      ->check(within(1, 1e7));
-  build.option("--threads", a.threads, "Threads; the result does not depend on it")
-      ->check(within(1, 256));
-  build.option("--start", a.start, "global, truth (the first ground truth) or x,y,theta_deg")
-      ->capture_default_str();
-  build.option("--start-sigma", a.startSigma, "Standard deviations m,deg of a known start")
-      ->capture_default_str();
-  build.option("--motion", a.motion,
-               "File with [motion], e.g. of `ortung learn-motion`, or odometry noise "
-               "turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
-  build.flag("--any-world", a.anyWorld,
-             "Go on although the source comes from another world than the tables");
-  build.flag("--force", a.force, kForce);
-  build.flag("--progress", a.progress, kProgress);
-}
-
-void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
-  const std::string example =
-      "ortung eval --source record:run.rec --robot robot.toml --tables hall.ortung --report "
-      "run.html";
-  const auto a = build.command<EvalArguments>(app, "eval", "Localize and compare with ground truth",
-                                              example.c_str(), runEval);
-  a->commandLine = commandLine;
-  addLocalization(build, a->localization);
-  build.option("--json", a->json, "Write the figures as JSON");
-  build.option("--report", a->report, "Write a page with map, charts and figures");
-  build.option("--record", a->record, "Write all readings as a record");
-  build
-      .option("--converged-within", a->convergedWithin,
-              "Error m,deg below which the filter has converged")
-      ->capture_default_str();
-  build
-      .option("--fault", a->faults,
-              "WHAT=FAULT[:VALUE][@FROM-TO], readings that go wrong; see below; may be given again")
-      ->expected(1)
-      ->take_all();
-  build.app().footer(
-      "Faults: WHAT is odometry, readings (all others) or a feature's name; times "
-      "in seconds since the first reading:\n" +
-      faultHelp() + "Example:\n  " + example +
-      " --fault odometry=scale:1.2 --fault readings=crowd@20-50");
-}
-
-void addLocalize(Builder& build, CLI::App& app) {
-  const auto a =
-      build.command<LocalizeArguments>(app, "localize", "Localize and write poses with covariance",
-                                       "ortung localize --source record:run.rec --robot robot.toml "
-                                       "--tables hall.ortung --out poses.txt",
-                                       runLocalize);
-  addLocalization(build, a->localization);
-  build.option("--out", a->out, "File to write; default: stdout");
 }
 
 void addImport(Builder& build, CLI::App& app) {

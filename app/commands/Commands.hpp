@@ -70,10 +70,15 @@ struct LocalizationArguments {
 };
 
 struct EvalArguments {
-  LocalizationArguments localization;
-  std::filesystem::path json;    ///< "" for none
-  std::filesystem::path report;  ///< "" for none
-  std::filesystem::path record;  ///< "" for none
+  LocalizationArguments localization;  ///< its source is not used
+  std::vector<std::string> sources;    ///< that share robot and tables
+  std::size_t runs = 1;                ///< of each source
+  std::size_t kidnaps = 0;             ///< cases that are made of each source
+  std::size_t wakeUps = 0;
+  std::optional<double> teleport;  ///< rate of kidnaps within a run [1/m]
+  std::filesystem::path json;      ///< "" for none
+  std::filesystem::path report;    ///< "" for none
+  std::filesystem::path record;    ///< "" for none
   std::string convergedWithin = "0.5,15";
   std::vector<std::string> faults;  ///< "WHAT=FAULT[:VALUE][@FROM-TO]"
   std::string commandLine;          ///< for the report

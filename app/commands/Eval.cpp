@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "Commands.hpp"
 #include "Console.hpp"
+#include "EvalRun.hpp"
 #include "Localizing.hpp"
+#include "ManyRuns.hpp"
 #include "Numbers.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
@@ -40,87 +44,109 @@ std::vector<Fault> readFaults(const EvalArguments& arguments) {
   return faults;
 }
 
+/// All runs that the command line asks for, source by source.
+std::vector<EvalJob> jobsOf(const EvalArguments& arguments) {
+  std::vector<EvalJob> jobs;
+  const bool isCases = arguments.kidnaps > 0 || arguments.wakeUps > 0;
+  if (isCases && (arguments.runs > 1 || arguments.teleport))
+    throw UsageError(
+        "--kidnap and --wake-ups make runs of their own, with the seeds from --seed "
+        "on; leave out --runs and --teleport");
+  if ((isCases || arguments.teleport) && arguments.localization.start != "global" &&
+      arguments.localization.start != "truth")
+    throw UsageError("--start is '" + arguments.localization.start +
+                     "', but kidnaps and teleports begin at the truth, wake-ups anywhere");
+  for (const std::string& source : arguments.sources) {
+    const std::size_t first = jobs.size();
+    const bool isMade = isCases || arguments.teleport;
+    const auto recording =
+        isMade ? std::make_shared<SharedRecording>(source, arguments.localization.robot) : nullptr;
+    const auto add = [&](RunKind kind, std::size_t count) {
+      for (std::size_t i = 0; i < count; ++i)
+        jobs.push_back({source, arguments.localization.seed + i, kind, i + 1, recording,
+                        jobs.size() == first});
+    };
+    add(RunKind::kKidnap, arguments.kidnaps);
+    add(RunKind::kWakeUp, arguments.wakeUps);
+    if (arguments.teleport) add(RunKind::kTeleports, arguments.runs);
+    if (!isMade) add(RunKind::kWhole, arguments.runs);
+  }
+  return jobs;
+}
+
 /// Looks at them before the work, not after it.
-Outputs outputsOf(const EvalArguments& arguments) {
+Outputs outputsOf(const EvalArguments& arguments, std::size_t runs) {
+  for (const auto& [option, file] :
+       {std::pair("--report", arguments.report), std::pair("--record", arguments.record)}) {
+    if (!file.empty() && runs > 1)
+      throw UsageError(fmt::format("{} is of one run, and there are {}", option, runs));
+  }
   Outputs outputs(arguments.localization.force);
   declareInputs(arguments.localization, outputs);
+  for (const std::string& source : arguments.sources) outputs.readsSource(source);
   outputs.writes("--json", arguments.json, OutputKind::kFigures);
   outputs.writes("--report", arguments.report, OutputKind::kReport);
   outputs.writes("--record", arguments.record, OutputKind::kRecord);
   return outputs;
 }
 
-/// Runs MCL over the whole source. What is compared is what a program would have got that asks for
-/// the pose at even times. Only odometry is taken from between two readings of it, since logs have
-/// it thinned out that ran at tens of readings a second.
-RunResult evaluate(const EvalArguments& arguments, const Evaluation::Options& options,
-                   Localization& localization) {
-  Evaluation evaluation(options);
-  RunResult run;
-  bool any = false;
-  const auto onMoment = [&](const Feeder& feeder) {
-    if (!any) run.first = feeder.stamp();
-    any = true;
-    localization.followOdometry();
-    for (const Timestamp time : evaluation.due(feeder.stamp(), feeder.truth().has_value())) {
-      const auto estimate = localization.estimate(time);
-      if (!estimate) continue;
-      evaluation.addMoment(*estimate);
-      run.path.push_back(*estimate);
-    }
-    evaluation.addTime(feeder.stamp());
-    if (feeder.truth()) evaluation.addTruth(feeder.stamp(), *feeder.truth());
-  };
-  Progress progress("localizing", arguments.localization.progress);
-  while (const std::optional<EvaluationStep> step =
-             nextStep(localization, arguments.localization, onMoment)) {
-    evaluation.addStep(*step);
-    run.estimates.push_back(step->estimate);
-    run.path.push_back(step->estimate);
-    progress.update(localization.feeder().progress());
+RunResult runOne(const EvalSettings& settings, const EvalJob& job, const Outputs& outputs) {
+  Progress progress("localizing", settings.arguments.localization.progress);
+  EvalExtras extras;
+  extras.progress = [&](double share) { progress.update(share); };
+  if (!settings.arguments.record.empty()) {
+    extras.record = [&](const Source& source) {
+      return std::make_unique<RecordWriter>(outputs.ready(settings.arguments.record),
+                                            source.worldFingerprint(), paceOf(source));
+    };
   }
-  run.figures = evaluation.result(arguments.localization.source);
-  return run;
+  return runJob(settings, job, extras);
 }
 
-/// Says what keeps the figures from meaning anything.
-void warnWithoutErrors(const RunResult& run) {
-  if (run.figures.overTime.compared > 0) return;
-  warn(run.figures.source +
-       " gave no ground truth for any time with an estimate (a feature of type "
-       "groundTruth), so there are no errors; `ortung localize` gives poses");
+std::vector<RunResult> runAll(const EvalSettings& settings, const std::vector<EvalJob>& jobs) {
+  Progress progress("localizing", settings.arguments.localization.progress);
+  const unsigned threads = settings.arguments.localization.threads.value_or(
+      std::max(1U, std::thread::hardware_concurrency()));
+  return runJobs(settings, jobs, threads, [&](std::size_t done) {
+    progress.update(static_cast<double>(done) / static_cast<double>(jobs.size()));
+  });
+}
+
+/// What is live can be had only once, as long as it lasts.
+void refuseLive(const EvalArguments& arguments, const std::vector<EvalJob>& jobs) {
+  if (jobs.size() < 2) return;
+  const std::unique_ptr<Robot> robot = openRobot(arguments.localization.robot);
+  for (const std::string& source : arguments.sources) {
+    if (openSourceArgument(source, arguments.localization.robot, robot->factory)->isLive())
+      throw std::runtime_error(source +
+                               ": is live, so its readings come once; expected a source that can "
+                               "be played again for each of many runs, such as a record");
+  }
 }
 
 }  // namespace
 
 int runEval(const EvalArguments& arguments) {
-  const Evaluation::Options options = readOptions(arguments);
-  const std::vector<Fault> faults = readFaults(arguments);
-  const Outputs outputs = outputsOf(arguments);
-  const std::unique_ptr<Localization> localization =
-      openLocalization(arguments.localization, faults);
-  std::optional<RecordWriter> record;
-  if (!arguments.record.empty()) {
-    const Source& source = localization->source();
-    record.emplace(outputs.ready(arguments.record), source.worldFingerprint(), paceOf(source));
-    localization->feeder().recordInto(*record);
+  const EvalSettings settings{arguments, readOptions(arguments), readFaults(arguments)};
+  const std::vector<EvalJob> jobs = jobsOf(arguments);
+  const Outputs outputs = outputsOf(arguments, jobs.size());
+  if (jobs.size() == 1 && jobs.front().kind == RunKind::kWhole) {
+    const RunResult run = runOne(settings, jobs.front(), outputs);
+    if (!arguments.json.empty()) outputs.write(arguments.json, toJson(run));
+    if (!arguments.report.empty()) outputs.write(arguments.report, toHtml(run));
+    fmt::print("{}", toText(run));
+    return 0;
   }
-  RunResult run = evaluate(arguments, options, *localization);
-  run.seed = localization->mclConfig().seed;
-  run.particles = localization->mclConfig().maxSamples;
-  run.robot = arguments.localization.robot.string();
-  run.tables = arguments.localization.tables.string();
-  run.tableInfo = localization->robot().tables;
-  run.faults = arguments.faults;
-  run.commandLine = arguments.commandLine;
-  warnOf(arguments.localization.source, localization->source(), localization->feeder());
-  warnWithoutOdometry(*localization, arguments.localization);
-  requireUpdates(run.figures.steps, arguments.localization);
-  warnWithoutErrors(run);
-  if (record) record->commit();
-  if (!arguments.json.empty()) outputs.write(arguments.json, toJson(run));
-  if (!arguments.report.empty()) outputs.write(arguments.report, toHtml(run));
-  fmt::print("{}", toText(run));
+  refuseLive(arguments, jobs);
+  std::vector<RunResult> runs;
+  if (jobs.size() == 1) {
+    runs.push_back(runOne(settings, jobs.front(), outputs));
+    if (!arguments.report.empty()) outputs.write(arguments.report, toHtml(runs.front()));
+  } else {
+    runs = runAll(settings, jobs);
+  }
+  if (!arguments.json.empty()) outputs.write(arguments.json, toJson(runs));
+  fmt::print("{}", toText(runs));
   return 0;
 }
 

@@ -11,7 +11,6 @@
 #include "Numbers.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/Angles.hpp"
-#include "ortung/run/Disturbed.hpp"
 
 namespace ortung::app {
 namespace {
@@ -60,19 +59,11 @@ std::optional<Parameters> readMotion(const LocalizationArguments& arguments, Rob
   return motion;
 }
 
-std::unique_ptr<Source> withFaults(std::unique_ptr<Source> source, const std::vector<Fault>& faults,
-                                   const Robot& robot, std::uint64_t seed) {
-  try {
-    return disturbed(std::move(source), faults, robot.container, seed);
-  } catch (const FaultError& error) {
-    throw UsageError(std::string("--fault: ") + error.what());
-  }
-}
-
 }  // namespace
 
-std::unique_ptr<Localization> openLocalization(const LocalizationArguments& arguments,
-                                               const std::vector<Fault>& faults) {
+std::unique_ptr<Localization> openLocalization(
+    const LocalizationArguments& arguments, bool warns,
+    const std::function<std::unique_ptr<Source>(Robot&)>& makeSource) {
   LocalizationConfig config;
   config.start = readStart(arguments);
   config.robot = arguments.robot;
@@ -84,8 +75,8 @@ std::unique_ptr<Localization> openLocalization(const LocalizationArguments& argu
   config.anyWorld = true;  // the message below names the option
   std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
   std::unique_ptr<Source> source =
-      openSourceArgument(arguments.source, arguments.robot, robot->factory);
-  if (!faults.empty()) source = withFaults(std::move(source), faults, *robot, arguments.seed);
+      makeSource ? makeSource(*robot)
+                 : openSourceArgument(arguments.source, arguments.robot, robot->factory);
   config.motion = readMotion(arguments, *robot);
   auto localization = std::make_unique<Localization>(std::move(robot), std::move(source), config);
   const std::string& mismatch = localization->worldMismatch();
@@ -93,7 +84,7 @@ std::unique_ptr<Localization> openLocalization(const LocalizationArguments& argu
   if (!arguments.anyWorld) {
     throw std::runtime_error(mismatch + "; learn the tables in the same world, or use --any-world");
   }
-  warn(mismatch);
+  if (warns) warn(mismatch);
   return localization;
 }
 

@@ -3,22 +3,22 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "Commands.hpp"
 #include "Outputs.hpp"
 #include "ortung/mcl/Evaluation.hpp"
-#include "ortung/run/Fault.hpp"
 #include "ortung/run/Localization.hpp"
 
 namespace ortung::app {
 
 /// What eval and localize do alike: MCL on a source as the command line says. Warns where the
 /// source comes from another world than the tables and --any-world lets it pass.
-/// @param faults of the readings
+/// @param warns says what is odd about source and tables, on stderr
+/// @param makeSource opens the source; without, it is what the command line names
 /// @throws UsageError; else as ortung::Localization
-std::unique_ptr<Localization> openLocalization(const LocalizationArguments& arguments,
-                                               const std::vector<Fault>& faults = {});
+std::unique_ptr<Localization> openLocalization(
+    const LocalizationArguments& arguments, bool warns = true,
+    const std::function<std::unique_ptr<Source>(Robot&)>& makeSource = {});
 
 /// What every run of MCL reads.
 void declareInputs(const LocalizationArguments& arguments, Outputs& outputs);

@@ -11,8 +11,14 @@
 
 #include "CommandLine.hpp"
 
-// CLI11 takes long to compile: for CommandLine.cpp alone.
+// CLI11 takes long to compile: for sources that declare options alone.
 namespace ortung::app {
+
+inline constexpr const char* kProgress = "Draw a progress bar even if stderr is no terminal";
+inline constexpr const char* kForce =
+    "Overwrite files that hold something else than what is written (never what the run reads)";
+inline constexpr const char* kSource =
+    "KIND:PATH?key=value, e.g. record:run.rec; `ortung plugins` lists the kinds";
 
 /// A finite number within bounds; CLI11's own Range lets NaN pass.
 inline CLI::Validator within(double low, double high) {

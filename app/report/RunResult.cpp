@@ -4,18 +4,13 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "Console.hpp"
+#include "RunJson.hpp"
 #include "ortung/base/Angles.hpp"
 
 namespace ortung::app {
 namespace {
-
-/// JSON has no NaN and no infinity.
-nlohmann::ordered_json number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
 
 std::string show(const char* format, double value, const char* unit) {
   if (!std::isfinite(value)) return "-";
@@ -34,14 +29,53 @@ nlohmann::ordered_json gapsOf(const RunResult& run) {
   return gaps;
 }
 
+nlohmann::ordered_json caseOf(const RunResult& run) {
+  auto events = nlohmann::ordered_json::array();
+  for (const CaseEvent& event : run.events) {
+    const auto ifRight = [&](auto value) {
+      return event.isRight ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+    };
+    events.push_back({{"at_s", event.at},
+                      {"x_m", event.place.x},
+                      {"y_m", event.place.y},
+                      {"heading_deg", degrees(event.place.theta)},
+                      {"right", event.isRight},
+                      {"after_s", ifRight(event.after)},
+                      {"after_m", ifRight(event.way)},
+                      {"after_readings", ifRight(event.readings)}});
+  }
+  return {{"kind", nameOf(run.kind)}, {"number", run.number}, {"events", std::move(events)}};
+}
+
 }  // namespace
 
-std::string toJson(const RunResult& run) {
+const char* nameOf(RunKind kind) {
+  switch (kind) {
+    case RunKind::kKidnap:
+      return "kidnap";
+    case RunKind::kWakeUp:
+      return "wake-up";
+    case RunKind::kTeleports:
+      return "teleports";
+    default:
+      return "whole";
+  }
+}
+
+nlohmann::ordered_json jsonNumber(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string jsonText(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+nlohmann::ordered_json jsonOf(const RunResult& run) {
   const EvaluationResult& figures = run.figures;
   const EvaluationErrors& overTime = figures.overTime;
   const EvaluationErrors& atCorrections = figures.atCorrections;
   constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"source", figures.source},
       {"robot", run.robot},
       {"tables", run.tables},
@@ -51,32 +85,39 @@ std::string toJson(const RunResult& run) {
       {"faults", run.faults},
       {"steps", figures.steps},
       {"compared_steps", atCorrections.compared},
-      {"duration_s", number(figures.duration)},
-      {"particles_mean", number(figures.particlesMean)},
+      {"duration_s", jsonNumber(figures.duration)},
+      {"particles_mean", jsonNumber(figures.particlesMean)},
       {"compared_moments", overTime.compared},
-      {"moment_period_s", number(figures.period)},
-      {"position_rmse_m", number(overTime.positionRmse)},
-      {"position_median_m", number(overTime.positionMedian)},
-      {"position_p95_m", number(overTime.positionP95)},
-      {"heading_rmse_deg", number(degrees(overTime.headingRmse))},
-      {"converged_after_s", number(figures.convergedAfter.value_or(kNever))},
-      {"lost_share", number(overTime.lostShare)},
-      {"update_ms_p50", number(figures.updateMsP50)},
-      {"update_ms_p99", number(figures.updateMsP99)},
-      {"realtime_factor", number(figures.realtimeFactor)},
-      {"nees_mean", number(overTime.neesMean)},
+      {"moment_period_s", jsonNumber(figures.period)},
+      {"position_rmse_m", jsonNumber(overTime.positionRmse)},
+      {"position_median_m", jsonNumber(overTime.positionMedian)},
+      {"position_p95_m", jsonNumber(overTime.positionP95)},
+      {"position_p99_m", jsonNumber(overTime.positionP99)},
+      {"position_max_m", jsonNumber(overTime.positionMax)},
+      {"heading_rmse_deg", jsonNumber(degrees(overTime.headingRmse))},
+      {"converged_after_s", jsonNumber(figures.convergedAfter.value_or(kNever))},
+      {"converged_after_m", jsonNumber(figures.convergedWay)},
+      {"lost_share", jsonNumber(overTime.lostShare)},
+      {"update_ms_p50", jsonNumber(figures.updateMsP50)},
+      {"update_ms_p99", jsonNumber(figures.updateMsP99)},
+      {"update_ms_max", jsonNumber(figures.updateMsMax)},
+      {"realtime_factor", jsonNumber(figures.realtimeFactor)},
+      {"nees_mean", jsonNumber(overTime.neesMean)},
+      {"nees_above_share", jsonNumber(overTime.neesAboveShare)},
       {"at_corrections",
-       {{"position_rmse_m", number(atCorrections.positionRmse)},
-        {"position_median_m", number(atCorrections.positionMedian)},
-        {"position_p95_m", number(atCorrections.positionP95)},
-        {"heading_rmse_deg", number(degrees(atCorrections.headingRmse))},
-        {"lost_share", number(atCorrections.lostShare)},
-        {"nees_mean", number(atCorrections.neesMean)}}},
+       {{"position_rmse_m", jsonNumber(atCorrections.positionRmse)},
+        {"position_median_m", jsonNumber(atCorrections.positionMedian)},
+        {"position_p95_m", jsonNumber(atCorrections.positionP95)},
+        {"heading_rmse_deg", jsonNumber(degrees(atCorrections.headingRmse))},
+        {"lost_share", jsonNumber(atCorrections.lostShare)},
+        {"nees_mean", jsonNumber(atCorrections.neesMean)}}},
       {"gaps", gapsOf(run)},
   };
-  // File names need not be UTF-8; whoever reads the JSON may rely on it.
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  if (run.kind != RunKind::kWhole) json["case"] = caseOf(run);
+  return json;
 }
+
+std::string toJson(const RunResult& run) { return jsonText(jsonOf(run)); }
 
 std::vector<Figure> figuresOf(const RunResult& run) {
   const EvaluationResult& figures = run.figures;
@@ -94,6 +135,8 @@ std::vector<Figure> figuresOf(const RunResult& run) {
       {"Position error, RMS", show("{:.3f}", errors.positionRmse, " m")},
       {"Position error, median", show("{:.3f}", errors.positionMedian, " m")},
       {"Position error, 95 %", show("{:.3f}", errors.positionP95, " m")},
+      {"Position error, 99 %", show("{:.3f}", errors.positionP99, " m")},
+      {"Position error, most", show("{:.3f}", errors.positionMax, " m")},
       {"Heading error, RMS", show("{:.2f}", degrees(errors.headingRmse), " deg")},
       {"Share of time lost", show("{:.1f}", 100.0 * errors.lostShare, " %")},
       {"Consistency (NEES, 3 is right)", show("{:.2f}", errors.neesMean, "")},
@@ -101,6 +144,7 @@ std::vector<Figure> figuresOf(const RunResult& run) {
       {"Samples, mean", show("{:.0f}", figures.particlesMean, "")},
       {"Time an update, median", show("{:.3f}", figures.updateMsP50, " ms")},
       {"Time an update, 99 %", show("{:.3f}", figures.updateMsP99, " ms")},
+      {"Time an update, most", show("{:.3f}", figures.updateMsMax, " ms")},
       {"Faster than real time", show("{:.0f}", figures.realtimeFactor, " x")},
   };
 }

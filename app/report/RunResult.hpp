@@ -10,6 +10,27 @@
 
 namespace ortung::app {
 
+/// What a run is made of.
+enum class RunKind : std::uint8_t {
+  kWhole,     ///< the source as it is
+  kKidnap,    ///< the robot is carried elsewhere once
+  kWakeUp,    ///< an unknown start at a random moment
+  kTeleports  ///< the robot is carried elsewhere again and again
+};
+
+/// "whole", "kidnap", "wake-up" or "teleports".
+const char* nameOf(RunKind kind);
+
+/// Where a robot has to find its place, and whether it did.
+struct CaseEvent {
+  double at = 0.0;  ///< since the run's first reading; of a wake-up: since the source's [s]
+  Pose2 place;      ///< where it is then
+  bool isRight = false;
+  double after = 0.0;        ///< if it is: when it became so [s] ...
+  double way = 0.0;          ///< ... after how much way [m] ...
+  std::size_t readings = 0;  ///< ... and how many moments with readings
+};
+
 /// One evaluated run with all that it depends on.
 struct RunResult {
   EvaluationResult figures;
@@ -25,6 +46,11 @@ struct RunResult {
   TableInfo tableInfo;
   std::vector<std::string> faults;  ///< that the readings had
   std::string commandLine;
+  RunKind kind = RunKind::kWhole;
+  std::size_t number = 1;         ///< of its kind, from 1
+  std::vector<CaseEvent> events;  ///< of a case
+  std::vector<float> updateMs;    ///< of all updates
+  std::vector<float> errors;      ///< of the positions of all moments after convergence [m]
 };
 
 /// The figures as a JSON object for machines; what is not a number becomes null. docs/mcl.md tells

@@ -40,10 +40,14 @@ struct EvaluationErrors {
   double positionRmse = std::numeric_limits<double>::quiet_NaN();    ///< [m]
   double positionMedian = std::numeric_limits<double>::quiet_NaN();  ///< [m]
   double positionP95 = std::numeric_limits<double>::quiet_NaN();     ///< [m]
+  double positionP99 = std::numeric_limits<double>::quiet_NaN();     ///< [m]
+  double positionMax = std::numeric_limits<double>::quiet_NaN();     ///< [m]
   double headingRmse = std::numeric_limits<double>::quiet_NaN();     ///< [rad]
   double lostShare = std::numeric_limits<double>::quiet_NaN();       ///< with error above 1 m
   /// Normalized estimation error squared; 3 if consistent.
   double neesMean = std::numeric_limits<double>::quiet_NaN();
+  /// Share with that above 16.27, which 0.1 % are if it is consistent (chi-square, 3 degrees).
+  double neesAboveShare = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The figures of one run. Errors are those after convergence.
@@ -53,6 +57,8 @@ struct EvaluationResult {
   double duration = 0.0;  ///< of the run [s]
   double particlesMean = 0.0;
   std::optional<double> convergedAfter;  ///< [s] from the first reading
+  double convergedWay =
+      std::numeric_limits<double>::quiet_NaN();  ///< that the robot went until then [m]
   /// Over the time: at even moments, whether the filter had weighed a reading then or not. This is
   /// what a program gets that wants to know where the robot is.
   EvaluationErrors overTime;
@@ -62,6 +68,7 @@ struct EvaluationResult {
   double period = 0.1;  ///< between the moments of overTime [s]
   double updateMsP50 = 0.0;
   double updateMsP99 = 0.0;
+  double updateMsMax = 0.0;
   double realtimeFactor = 0.0;          ///< duration / time spent in updates
   std::vector<EvaluationPoint> points;  ///< over the time, all that were compared
 };
@@ -99,6 +106,8 @@ class ORTUNG_API Evaluation {
   void addMoment(const PoseEstimate& estimate);       ///< at a time that was due; must not fall
   void addTime(Timestamp stamp);                      ///< any reading: the run's duration
 
+  /// The moments so far, beside the truth as far as it is known so far.
+  std::vector<EvaluationPoint> points() const { return compare(moments_); }
   EvaluationResult result(const std::string& source) const;
 
  private:

@@ -1,0 +1,261 @@
+#include "EvalRun.hpp"
+
+#include <atomic>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "Console.hpp"
+#include "Localizing.hpp"
+#include "SourceArguments.hpp"
+#include "ortung/mcl/Verdict.hpp"
+#include "ortung/run/Cases.hpp"
+#include "ortung/run/Disturbed.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr Timestamp kEnd = std::numeric_limits<Timestamp>::max();
+constexpr double kWakeUpWay = 5.0;                 ///< within which the place is to be found [m]
+constexpr Timestamp kBetweenVerdicts = 2'000'000;  ///< [us]
+constexpr RightRule kTeleportRule{.metres = 0.45, .radians = 4.0, .seconds = 10.0};
+
+std::shared_ptr<const Splice> spliceOf(const EvalSettings& settings, const EvalJob& job) {
+  try {
+    switch (job.kind) {
+      case RunKind::kKidnap:
+        return kidnapped(job.recording->get(), job.seed);
+      case RunKind::kWakeUp:
+        return wokenUp(job.recording->get(), job.seed, kWakeUpWay);
+      case RunKind::kTeleports:
+        return teleported(job.recording->get(), job.seed, *settings.arguments.teleport);
+      case RunKind::kWhole:
+        break;
+    }
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(error.what());
+  }
+  return nullptr;
+}
+
+RightRule ruleOf(const EvalSettings& settings, RunKind kind) {
+  if (kind == RunKind::kTeleports) return kTeleportRule;
+  RightRule rule{settings.options.convergedMetres, settings.options.convergedRadians,
+                 settings.options.convergedSeconds};
+  if (kind == RunKind::kWakeUp) rule.mostWay = kWakeUpWay;
+  return rule;
+}
+
+/// From where on the estimate is to become right.
+std::vector<Timestamp> beginningsOf(const Splice& splice, RunKind kind) {
+  return kind == RunKind::kWakeUp ? std::vector<Timestamp>{splice.first()} : splice.joins();
+}
+
+/// What became of a case.
+std::vector<CaseEvent> eventsOf(const EvalSettings& settings, const EvalJob& job,
+                                const Splice& splice, const SensorContainer& robot,
+                                const std::vector<EvaluationPoint>& points) {
+  std::vector<CaseEvent> events;
+  const std::vector<Timestamp> beginnings = beginningsOf(splice, job.kind);
+  for (std::size_t i = 0; i < beginnings.size(); ++i) {
+    const Timestamp until = i + 1 < beginnings.size() ? beginnings[i + 1] : kEnd;
+    const Verdict verdict = judge(points, beginnings[i], until, ruleOf(settings, job.kind));
+    CaseEvent event;
+    event.at = toSeconds(beginnings[i] - splice.first());
+    if (job.kind == RunKind::kWakeUp)
+      event.at = toSeconds(splice.first() - splice.recording().messages().front().stamp);
+    for (const EvaluationPoint& p : points) {
+      if (p.stamp < beginnings[i]) continue;
+      event.place = p.truth;
+      break;
+    }
+    event.isRight = verdict.state == Verdict::State::kRight;
+    event.after = verdict.seconds;
+    event.way = verdict.way;
+    if (event.isRight) event.readings = splice.readings(robot, beginnings[i], verdict.stamp + 1);
+    events.push_back(event);
+  }
+  return events;
+}
+
+/// Runs MCL over a source. What is compared is what a program would have got that asks for the pose
+/// at even times. Only odometry is taken from between two readings of it, since logs have it
+/// thinned out that ran at tens of readings a second.
+class Run {
+ public:
+  Run(const EvalSettings& settings, const LocalizationArguments& arguments,
+      Localization& localization)
+      : arguments_(arguments), localization_(localization), evaluation_(settings.options) {}
+
+  /// @param isDone asked every few seconds of the log
+  void toTheEnd(const std::function<bool(const Evaluation&)>& isDone,
+                const std::function<void(double)>& progress) {
+    const auto look = [this](const Feeder& feeder) { onMoment(feeder); };
+    while (const std::optional<EvaluationStep> step = nextStep(localization_, arguments_, look)) {
+      evaluation_.addStep(*step);
+      result_.estimates.push_back(step->estimate);
+      result_.path.push_back(step->estimate);
+      result_.updateMs.push_back(static_cast<float>(step->updateMilliseconds));
+      if (progress) progress(localization_.feeder().progress());
+      if (!isDone || step->estimate.stamp < nextVerdict_) continue;
+      nextVerdict_ = step->estimate.stamp + kBetweenVerdicts;
+      if (isDone(evaluation_)) break;
+    }
+    result_.figures = evaluation_.result(arguments_.source);
+  }
+  RunResult& result() { return result_; }
+
+ private:
+  void onMoment(const Feeder& feeder) {
+    if (!any_) result_.first = feeder.stamp();
+    any_ = true;
+    localization_.followOdometry();
+    for (const Timestamp time : evaluation_.due(feeder.stamp(), feeder.truth().has_value())) {
+      const auto estimate = localization_.estimate(time);
+      if (!estimate) continue;
+      evaluation_.addMoment(*estimate);
+      result_.path.push_back(*estimate);
+    }
+    evaluation_.addTime(feeder.stamp());
+    if (feeder.truth()) evaluation_.addTruth(feeder.stamp(), *feeder.truth());
+  }
+
+  const LocalizationArguments& arguments_;
+  Localization& localization_;
+  Evaluation evaluation_;
+  RunResult result_;
+  bool any_ = false;
+  Timestamp nextVerdict_ = std::numeric_limits<Timestamp>::min();
+};
+
+/// Says what keeps the figures from meaning anything.
+void warnWithoutErrors(const RunResult& run) {
+  if (run.figures.overTime.compared > 0) return;
+  warn(run.figures.source +
+       " gave no ground truth for any time with an estimate (a feature of type "
+       "groundTruth), so there are no errors; `ortung localize` gives poses");
+}
+
+std::unique_ptr<Source> withFaults(std::unique_ptr<Source> source, const std::vector<Fault>& faults,
+                                   const Robot& robot, std::uint64_t seed) {
+  if (faults.empty()) return source;
+  try {
+    return disturbed(std::move(source), faults, robot.container, seed);
+  } catch (const FaultError& error) {
+    throw UsageError(std::string("--fault: ") + error.what());
+  }
+}
+
+/// Of many runs only what is counted is kept.
+RunResult lightened(RunResult run) {
+  if (run.figures.convergedAfter) {
+    const Timestamp since = run.first + fromSeconds(*run.figures.convergedAfter);
+    for (const EvaluationPoint& p : run.figures.points)
+      if (p.stamp >= since) run.errors.push_back(static_cast<float>(p.positionError));
+  }
+  run.figures.points = {};
+  run.estimates = {};
+  run.path = {};
+  run.tableInfo.region = {};
+  run.tableInfo.robotToml = {};
+  return run;
+}
+
+}  // namespace
+
+std::shared_ptr<const Recording> SharedRecording::get() {
+  const std::lock_guard lock(mutex_);
+  if (recording_) return recording_;
+  const std::unique_ptr<Robot> robot = openRobot(robot_);
+  const std::unique_ptr<Source> source = openSourceArgument(source_, robot_, robot->factory);
+  return recording_ = std::make_shared<Recording>(source_, *source);
+}
+
+RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExtras& extras) {
+  LocalizationArguments arguments = settings.arguments.localization;
+  arguments.source = job.source;
+  arguments.seed = job.seed;
+  if (job.kind == RunKind::kKidnap || job.kind == RunKind::kTeleports) arguments.start = "truth";
+  const std::shared_ptr<const Splice> splice = spliceOf(settings, job);
+  const std::unique_ptr<Localization> localization =
+      openLocalization(arguments, job.warns, [&](Robot& robot) {
+        std::unique_ptr<Source> source =
+            splice ? play(splice, robot.container)
+                   : openSourceArgument(job.source, arguments.robot, robot.factory);
+        return withFaults(std::move(source), settings.faults, robot, job.seed);
+      });
+  std::unique_ptr<RecordWriter> record;
+  if (extras.record) record = extras.record(localization->source());
+  if (record) localization->feeder().recordInto(*record);
+
+  Run run(settings, arguments, *localization);
+  std::function<bool(const Evaluation&)> isDone;
+  if (job.kind == RunKind::kKidnap || job.kind == RunKind::kWakeUp) {
+    const Timestamp since = beginningsOf(*splice, job.kind).front();
+    isDone = [&settings, &job, since](const Evaluation& evaluation) {
+      const auto points = evaluation.points();
+      return judge(points, since, kEnd, ruleOf(settings, job.kind)).state != Verdict::State::kOpen;
+    };
+  }
+  run.toTheEnd(isDone, extras.progress);
+  RunResult& result = run.result();
+  if (splice)
+    result.events =
+        eventsOf(settings, job, *splice, localization->container(), result.figures.points);
+  result.kind = job.kind;
+  result.number = job.number;
+  result.seed = job.seed;
+  result.particles = localization->mclConfig().maxSamples;
+  result.robot = arguments.robot.string();
+  result.tables = arguments.tables.string();
+  result.tableInfo = localization->robot().tables;
+  result.faults = settings.arguments.faults;
+  result.commandLine = settings.arguments.commandLine;
+  if (job.warns) {
+    warnOf(job.source, localization->source(), localization->feeder());
+    warnWithoutOdometry(*localization, arguments);
+  }
+  requireUpdates(result.figures.steps, arguments);
+  if (job.warns) warnWithoutErrors(result);
+  if (record) record->commit();
+  return std::move(result);
+}
+
+std::vector<RunResult> runJobs(const EvalSettings& settings, std::vector<EvalJob> jobs,
+                               unsigned threads, const std::function<void(std::size_t)>& done) {
+  EvalArguments alone = settings.arguments;
+  alone.localization.threads = 1;
+  const EvalSettings single{alone, settings.options, settings.faults};
+  std::vector<RunResult> results(jobs.size());
+  std::vector<std::exception_ptr> failures(jobs.size());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> isOver = false;
+  std::mutex mutex;
+  std::size_t finished = 0;
+  const auto work = [&]() noexcept {
+    for (std::size_t i = next++; i < jobs.size() && !isOver; i = next++) {
+      try {
+        results[i] = lightened(runJob(single, jobs[i]));
+        jobs[i].recording.reset();  // whose last job is done is forgotten
+        const std::lock_guard lock(mutex);
+        done(++finished);
+      } catch (...) {
+        failures[i] = std::current_exception();
+        isOver = true;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (unsigned t = 1; t < threads; ++t) others.emplace_back(work);
+    work();
+  }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,97 @@
+#include "LocalizationCommands.hpp"
+
+#include <memory>
+#include <string>
+
+#include "Commands.hpp"
+#include "OptionBuilder.hpp"
+#include "ortung/run/Fault.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr const char* kSources =
+    "KIND:PATH?key=value, e.g. record:run.rec; `ortung plugins` lists the kinds; may be given "
+    "again";
+
+void addLocalization(Builder& build, LocalizationArguments& a) {
+  build.option("--robot", a.robot, "Robot file (TOML)")->required();
+  build.option("--tables", a.tables, "Table file of `ortung learn`")->required();
+  build.option("--seed", a.seed, "Seed of all random numbers")->capture_default_str();
+  build.option("--particles", a.particles, "Most samples; default: the robot file's")
+      ->check(within(1, 1e7));
+  build.option("--threads", a.threads, "Threads; the result does not depend on it")
+      ->check(within(1, 256));
+  build.option("--start", a.start, "global, truth (the first ground truth) or x,y,theta_deg")
+      ->capture_default_str();
+  build.option("--start-sigma", a.startSigma, "Standard deviations m,deg of a known start")
+      ->capture_default_str();
+  build.option("--motion", a.motion,
+               "File with [motion], e.g. of `ortung learn-motion`, or odometry noise "
+               "turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
+  build.flag("--any-world", a.anyWorld,
+             "Go on although the source comes from another world than the tables");
+  build.flag("--force", a.force, kForce);
+  build.flag("--progress", a.progress, kProgress);
+}
+
+}  // namespace
+
+void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
+  const std::string example =
+      "ortung eval --source record:run.rec --robot robot.toml --tables hall.ortung --report "
+      "run.html";
+  const auto a = build.command<EvalArguments>(app, "eval", "Localize and compare with ground truth",
+                                              example.c_str(), runEval);
+  a->commandLine = commandLine;
+  build.option("--source", a->sources, kSources)->required()->expected(1)->take_all();
+  addLocalization(build, a->localization);
+  build.option("--json", a->json, "Write the figures as JSON");
+  build.option("--report", a->report, "Write a page with map, charts and figures");
+  build.option("--record", a->record, "Write all readings as a record");
+  build
+      .option("--converged-within", a->convergedWithin,
+              "Error m,deg below which the filter has converged")
+      ->capture_default_str();
+  build
+      .option("--fault", a->faults,
+              "WHAT=FAULT[:VALUE][@FROM-TO], readings that go wrong; see below; may be given again")
+      ->expected(1)
+      ->take_all();
+  build
+      .option("--runs", a->runs,
+              "Runs of each source, with the seeds from --seed on, on as many threads as --threads "
+              "says or the machine has")
+      ->check(within(1, 1e6))
+      ->capture_default_str();
+  build
+      .option("--kidnap", a->kidnaps,
+              "Cases made of each source: the robot tracks and is carried 8 m or more away")
+      ->check(within(1, 1e6));
+  build
+      .option("--wake-ups", a->wakeUps,
+              "Cases made of each source: an unknown start at a random moment, right within 5 m")
+      ->check(within(1, 1e6));
+  build
+      .option("--teleport", a->teleport,
+              "Kidnaps for each metre of way, e.g. 0.005, in each of --runs runs")
+      ->check(within(1e-6, 1e3));
+  build.app().footer(
+      "Faults: WHAT is odometry, readings (all others) or a feature's name; times "
+      "in seconds since the first reading:\n" +
+      faultHelp() + "Example:\n  " + example +
+      " --fault odometry=scale:1.2 --fault readings=crowd@20-50");
+}
+
+void addLocalize(Builder& build, CLI::App& app) {
+  const auto a =
+      build.command<LocalizeArguments>(app, "localize", "Localize and write poses with covariance",
+                                       "ortung localize --source record:run.rec --robot robot.toml "
+                                       "--tables hall.ortung --out poses.txt",
+                                       runLocalize);
+  build.option("--source", a->localization.source, kSource)->required();
+  addLocalization(build, a->localization);
+  build.option("--out", a->out, "File to write; default: stdout");
+}
+
+}  // namespace ortung::app

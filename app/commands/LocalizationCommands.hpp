@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace ortung::app {
+
+class Builder;
+
+// Subcommands that localize.
+
+/// @param commandLine as it was given, for the report
+void addEval(Builder& build, CLI::App& app, const std::string& commandLine);
+void addLocalize(Builder& build, CLI::App& app);
+
+}  // namespace ortung::app

@@ -1,0 +1,246 @@
+#include "ManyRuns.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "Console.hpp"
+#include "RunJson.hpp"
+#include "Statistics.hpp"
+
+namespace ortung::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Share {
+  std::size_t count = 0;
+  std::size_t of = 0;
+};
+
+/// Quantiles of some values; NaN where there are none.
+struct Spread {
+  double p50 = kNan, p95 = kNan, p99 = kNan, most = kNan;
+};
+
+Spread spreadOf(const std::vector<double>& values) {
+  return {quantileOf(values, 0.5), quantileOf(values, 0.95), quantileOf(values, 0.99),
+          quantileOf(values, 1.0)};
+}
+
+/// What all runs of one source and kind say together.
+struct Summary {
+  std::string source;
+  RunKind kind = RunKind::kWhole;
+  std::size_t runs = 0;
+  Share converged;  ///< runs
+  Share kept;       ///< of all runs, those that converged and were never lost after that
+  Share right;      ///< events
+  Spread position;  ///< of all moments of all runs after convergence [m]
+  double lostShare = kNan;
+  double neesMean = kNan;
+  Spread after;     ///< converged, or right again [s]
+  Spread way;       ///< [m]
+  Spread readings;  ///< of events
+  Spread updateMs;
+};
+
+/// Adds up what many runs say over time.
+class TimeMean {
+ public:
+  void add(double value, std::size_t weight) {
+    if (!std::isfinite(value)) return;
+    sum_ += value * static_cast<double>(weight);
+    weight_ += static_cast<double>(weight);
+  }
+  double mean() const { return weight_ > 0.0 ? sum_ / weight_ : kNan; }
+
+ private:
+  double sum_ = 0.0;
+  double weight_ = 0.0;
+};
+
+class Adding {
+ public:
+  explicit Adding(const RunResult& first) {
+    summary_.source = first.figures.source;
+    summary_.kind = first.kind;
+  }
+  bool isOf(const RunResult& run) const {
+    return run.figures.source == summary_.source && run.kind == summary_.kind;
+  }
+  void add(const RunResult& run) {
+    const EvaluationResult& figures = run.figures;
+    ++summary_.runs;
+    const bool hasConverged = figures.convergedAfter.has_value();
+    summary_.converged.count += hasConverged ? 1 : 0;
+    summary_.kept.count += hasConverged && figures.overTime.lostShare == 0.0 ? 1 : 0;
+    errors_.insert(errors_.end(), run.errors.begin(), run.errors.end());
+    updateMs_.insert(updateMs_.end(), run.updateMs.begin(), run.updateMs.end());
+    lost_.add(figures.overTime.lostShare, run.errors.size());
+    nees_.add(figures.overTime.neesMean, run.errors.size());
+    if (run.kind == RunKind::kWhole && hasConverged) {
+      after_.push_back(*figures.convergedAfter);
+      way_.push_back(figures.convergedWay);
+    }
+    for (const CaseEvent& event : run.events) {
+      ++summary_.right.of;
+      if (!event.isRight) continue;
+      ++summary_.right.count;
+      after_.push_back(event.after);
+      way_.push_back(event.way);
+      readings_.push_back(static_cast<double>(event.readings));
+    }
+  }
+  Summary summary() const {
+    Summary s = summary_;
+    s.converged.of = s.kept.of = s.runs;
+    s.position = spreadOf(errors_);
+    s.lostShare = lost_.mean();
+    s.neesMean = nees_.mean();
+    s.after = spreadOf(after_);
+    s.way = spreadOf(way_);
+    s.readings = spreadOf(readings_);
+    s.updateMs = spreadOf(updateMs_);
+    return s;
+  }
+
+ private:
+  Summary summary_;
+  std::vector<double> errors_;
+  std::vector<double> updateMs_;
+  std::vector<double> after_;
+  std::vector<double> way_;
+  std::vector<double> readings_;
+  TimeMean lost_;
+  TimeMean nees_;
+};
+
+/// In the order in which their first runs come.
+std::vector<Summary> summariesOf(const std::vector<RunResult>& runs) {
+  std::vector<Adding> groups;
+  for (const RunResult& run : runs) {
+    auto group = groups.begin();
+    while (group != groups.end() && !group->isOf(run)) ++group;
+    if (group == groups.end()) group = groups.insert(groups.end(), Adding(run));
+    group->add(run);
+  }
+  std::vector<Summary> summaries;
+  summaries.reserve(groups.size());
+  for (const Adding& group : groups) summaries.push_back(group.summary());
+  return summaries;
+}
+
+Json jsonOf(const Share& share) {
+  const Interval interval = wilson95(share.count, share.of);
+  const double rate =
+      share.of > 0 ? static_cast<double>(share.count) / static_cast<double>(share.of) : kNan;
+  return {{"count", share.count},
+          {"of", share.of},
+          {"share", jsonNumber(rate)},
+          {"wilson95", {interval.low, interval.high}}};
+}
+
+Json jsonOf(const Spread& spread) {
+  return {{"p50", jsonNumber(spread.p50)},
+          {"p95", jsonNumber(spread.p95)},
+          {"p99", jsonNumber(spread.p99)},
+          {"max", jsonNumber(spread.most)}};
+}
+
+Json jsonOf(const Summary& s) {
+  Json json = {{"source", s.source}, {"kind", nameOf(s.kind)}, {"runs", s.runs}};
+  if (s.kind == RunKind::kWhole) {
+    json["converged"] = jsonOf(s.converged);
+    json["never_lost"] = jsonOf(s.kept);
+  } else {
+    json["right"] = jsonOf(s.right);
+  }
+  json["after_s"] = jsonOf(s.after);
+  json["after_m"] = jsonOf(s.way);
+  if (s.kind != RunKind::kWhole) json["after_readings"] = jsonOf(s.readings);
+  json["position_m"] = jsonOf(s.position);
+  json["lost_share"] = jsonNumber(s.lostShare);
+  json["nees_mean"] = jsonNumber(s.neesMean);
+  json["update_ms"] = jsonOf(s.updateMs);
+  return json;
+}
+
+std::string line(const std::string& name, const std::string& value) {
+  return fmt::format("  {:<34}{}\n", name, value);
+}
+
+std::string show(const Share& share) {
+  const Interval interval = wilson95(share.count, share.of);
+  if (share.of == 0) return "- (none)";
+  return fmt::format("{} of {}, {:.1f} % (95 %: {:.1f} to {:.1f})", share.count, share.of,
+                     100.0 * static_cast<double>(share.count) / static_cast<double>(share.of),
+                     100.0 * interval.low, 100.0 * interval.high);
+}
+
+std::string show(const Spread& spread, int digits, const char* unit) {
+  if (!std::isfinite(spread.p50)) return "-";
+  return fmt::format("{:.{}f}, {:.{}f}, {:.{}f}, {:.{}f}{}", spread.p50, digits, spread.p95, digits,
+                     spread.p99, digits, spread.most, digits, unit);
+}
+
+std::string show(double value, int digits, const char* unit) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "-";
+}
+
+std::string listOfCases(const std::vector<RunResult>& runs, const Summary& s) {
+  std::string text;
+  for (const RunResult& run : runs) {
+    if (run.figures.source != s.source || run.kind != s.kind) continue;
+    for (const CaseEvent& event : run.events) {
+      const std::string result = event.isRight
+                                     ? fmt::format("right after {:.1f} s, {:.1f} m, {} readings",
+                                                   event.after, event.way, event.readings)
+                                     : "never right";
+      text += fmt::format("    {} {} (seed {}), at {:.1f} s in ({:.2f}, {:.2f}) m: {}\n",
+                          nameOf(run.kind), run.number, run.seed, event.at, event.place.x,
+                          event.place.y, result);
+    }
+  }
+  return text;
+}
+
+std::string show(const std::vector<RunResult>& runs, const Summary& s) {
+  const bool isWhole = s.kind == RunKind::kWhole;
+  std::string text = fmt::format("{}: {} {}\n", printable(s.source), s.runs,
+                                 isWhole ? "runs" : std::string(nameOf(s.kind)) + " runs");
+  for (const std::string& fault : runs.front().faults)
+    text += fmt::format("  with {}\n", printable(fault));
+  text += isWhole ? line("Converged", show(s.converged)) +
+                        line("Converged and never lost", show(s.kept))
+                  : line("Right", show(s.right));
+  text += line("After (p50, p95, p99, most)", show(s.after, 1, " s"));
+  text += line("", show(s.way, 2, " m"));
+  if (!isWhole) text += line("", show(s.readings, 0, " readings"));
+  text += line("Position error", show(s.position, 3, " m"));
+  text += line("Share of time lost", show(100.0 * s.lostShare, 2, " %"));
+  text += line("Consistency (NEES, 3 is right)", show(s.neesMean, 2, ""));
+  text += line("Time an update", show(s.updateMs, 3, " ms"));
+  return text + listOfCases(runs, s);
+}
+
+}  // namespace
+
+std::string toJson(const std::vector<RunResult>& runs) {
+  Json json = {{"summary", Json::array()}, {"runs", Json::array()}};
+  for (const Summary& summary : summariesOf(runs)) json["summary"].push_back(jsonOf(summary));
+  for (const RunResult& run : runs) json["runs"].push_back(jsonOf(run));
+  return jsonText(json);
+}
+
+std::string toText(const std::vector<RunResult>& runs) {
+  std::string text;
+  for (const Summary& summary : summariesOf(runs)) text += show(runs, summary);
+  return text;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Time.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/core/Source.hpp"
+
+namespace ortung {
+
+/// All readings of a source in memory, from which runs are made. It does not change once it is
+/// made: for any number of threads.
+class ORTUNG_API Recording {
+ public:
+  struct Truth {
+    Timestamp stamp = 0;
+    Pose2 pose;
+    double way = 0.0;         ///< of the robot since the first one [m]
+    std::size_t message = 0;  ///< index of the first message of its moment
+  };
+  static constexpr std::size_t kMostBytes = std::size_t{4} << 30;  ///< of readings
+
+  /// Reads @p source to its end. @param name what errors call it
+  /// @throws std::invalid_argument for a live source, and for one without an end
+  /// @throws std::runtime_error if it is larger than kMostBytes, and of the source
+  Recording(std::string name, Source& source);
+  ~Recording();
+
+  const std::string& name() const { return name_; }
+  const std::string& worldFingerprint() const { return worldFingerprint_; }
+  const std::vector<Message>& messages() const { return messages_; }
+  /// Of the first feature that gives it, one a moment.
+  const std::vector<Truth>& truth() const { return truth_; }
+
+ private:
+  std::string name_;
+  std::string worldFingerprint_;
+  std::vector<Message> messages_;
+  std::vector<Truth> truth_;
+};
+
+}  // namespace ortung
