@@ -313,6 +313,7 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   addLearnMotion(build, app);
   addTrainMotion(build, app);
   addEval(build, app, commandLine);
+  addCompare(build, app);
   addLocalize(build, app);
   addImport(build, app);
   addShow(build, app);

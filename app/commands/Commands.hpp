@@ -85,6 +85,14 @@ struct EvalArguments {
 };
 int runEval(const EvalArguments& arguments);
 
+struct CompareArguments {
+  std::filesystem::path before;  ///< JSON of eval
+  std::filesystem::path after;
+  std::filesystem::path json;  ///< "" for none
+  bool force = false;          ///< overwrite files of other kinds
+};
+int runCompare(const CompareArguments& arguments);
+
 struct LocalizeArguments {
   LocalizationArguments localization;
   std::filesystem::path out;  ///< "": stdout

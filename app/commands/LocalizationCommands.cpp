@@ -83,6 +83,17 @@ void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
       " --fault odometry=scale:1.2 --fault readings=crowd@20-50");
 }
 
+void addCompare(Builder& build, CLI::App& app) {
+  const auto a = build.command<CompareArguments>(
+      app, "compare", "Tell what got better or worse between two evaluations",
+      "ortung compare before.json after.json", runCompare);
+  build.option("before", a->before, "JSON of `ortung eval --json`, of one run or of many: A")
+      ->required();
+  build.option("after", a->after, "The same of the same runs, done otherwise: B")->required();
+  build.option("--json", a->json, "Write the comparison as JSON");
+  build.flag("--force", a->force, kForce);
+}
+
 void addLocalize(Builder& build, CLI::App& app) {
   const auto a =
       build.command<LocalizeArguments>(app, "localize", "Localize and write poses with covariance",

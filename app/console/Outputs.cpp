@@ -41,6 +41,8 @@ Signature signatureOf(OutputKind kind) {
       return {"tables", "PK\x03\x04", "open.npy"};
     case OutputKind::kFigures:
       return {"figures of `ortung eval`", "{", "\"compared_steps\""};
+    case OutputKind::kComparison:
+      return {"a comparison of `ortung compare`", "{\n  \"pairs\": ", ""};
     case OutputKind::kReport:
       return {"a report of `ortung eval`", "<!DOCTYPE html>", ""};
     case OutputKind::kPicture:

@@ -13,13 +13,14 @@ namespace ortung::app {
 enum class OutputKind : std::uint8_t {
   kRecord,
   kTables,
-  kFigures,   ///< JSON of eval
-  kReport,    ///< HTML of eval
-  kPicture,   ///< PNG
-  kPoses,     ///< of localize
-  kTrace,     ///< CSV of sim
-  kMotion,    ///< TOML of learn-motion
-  kNetwork,   ///< JSON of train-motion
+  kFigures,     ///< JSON of eval
+  kComparison,  ///< JSON of compare
+  kReport,      ///< HTML of eval
+  kPicture,     ///< PNG
+  kPoses,       ///< of localize
+  kTrace,       ///< CSV of sim
+  kMotion,      ///< TOML of learn-motion
+  kNetwork,     ///< JSON of train-motion
   kSettings,  ///< worlds, their maps, and robots: people work on them, so none is replaced unasked
 };
 

@@ -231,7 +231,10 @@ std::string show(const std::vector<RunResult>& runs, const Summary& s) {
 }  // namespace
 
 std::string toJson(const std::vector<RunResult>& runs) {
-  Json json = {{"summary", Json::array()}, {"runs", Json::array()}};
+  std::size_t compared = 0;
+  for (const RunResult& run : runs) compared += run.figures.atCorrections.compared;
+  // First of all, so that the file can be told from others by its beginning.
+  Json json = {{"compared_steps", compared}, {"summary", Json::array()}, {"runs", Json::array()}};
   for (const Summary& summary : summariesOf(runs)) json["summary"].push_back(jsonOf(summary));
   for (const RunResult& run : runs) json["runs"].push_back(jsonOf(run));
   return jsonText(json);

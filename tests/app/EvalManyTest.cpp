@@ -134,6 +134,34 @@ TEST_F(EvalMany, TeleportsAreRunsWithEvents) {
   EXPECT_GE(events, 2u);
 }
 
+TEST_F(EvalMany, ComparisonTellsWhatAFaultDoes) {
+  const std::vector<std::string> runs = {"--source", source(), "--runs", "6", "--start", "truth"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = runs;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ASSERT_EQ(eval(arguments).exitCode, 0);
+  };
+  with({"--json", path("a.json")});
+  with({"--json", path("b.json"), "--motion", "2,2,2,2"});  // samples all over the place
+  const Outcome outcome =
+      ortung({"compare", path("a.json"), path("b.json"), "--json", path("c.json")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("6 pairs of runs\n")) << outcome.out;
+  for (const Json& figure : json("c.json")["figures"]) {
+    if (figure["name"] != "position_median_m") continue;
+    EXPECT_EQ(figure["worse"], 6);
+    EXPECT_DOUBLE_EQ(figure["p"].get<double>(), 2.0 / 64);
+  }
+  EXPECT_EQ(ortung({"compare", path("b.json"), path("a.json"), "--json", path("c.json")}).exitCode,
+            0)
+      << "a comparison may be replaced";
+  expectRefused(ortung({"compare", path("a.json"), path("b.json"), "--json", path("b.json")}), 2,
+                "ortung compare: ", {"b.json"});
+  with({"--json", path("d.json"), "--fault", "odometry=none"});
+  expectRefused(ortung({"compare", path("a.json"), path("d.json")}), 1,
+                "ortung compare: ", {"have no run in common"});
+}
+
 TEST_F(EvalMany, WhatMakesNoSenseIsWrongUsage) {
   const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
     std::vector<std::string> arguments = {"--source", source()};

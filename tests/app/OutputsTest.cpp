@@ -50,6 +50,7 @@ TEST(Outputs, OfAnotherKindAreReplacedByForceOnly) {
       "# ortung record 1\n",
       "PK\x03\x04 ... open.npy",
       "{\n  \"source\": \"x\", \"compared_steps\": 3",
+      "{\n  \"pairs\": 10,",
       "<!DOCTYPE html>",
       "\x89PNG\r\n\x1a\n",
       "# stamp_us x_m y_m",
@@ -57,7 +58,7 @@ TEST(Outputs, OfAnotherKindAreReplacedByForceOnly) {
       "# Learned by `ortung learn-motion` from",
       "{\n \"commands\": 5, \"format\": \"ortung motion network 1\"",
   };
-  constexpr int kKinds = 9;
+  constexpr int kKinds = 10;
   for (int content = 0; content < kKinds; ++content) {
     for (int kind = 0; kind <= kKinds; ++kind) {  // the last one is never replaced unasked
       writeBytes(folder / "a", samples[content]);

@@ -4,7 +4,8 @@ namespace ortung::test {
 namespace {
 
 TEST(Usage, HelpOfEverySubcommandEndsWithAnExample) {
-  for (const char* command : {"learn", "eval", "localize", "import", "show", "check", "plugins"}) {
+  for (const char* command :
+       {"learn", "eval", "compare", "localize", "import", "show", "check", "plugins"}) {
     const Outcome outcome = ortung({command, "--help"});
     EXPECT_EQ(outcome.exitCode, 0) << command;
     const std::size_t example = outcome.out.find("Example:\n  ");
@@ -17,7 +18,8 @@ TEST(Usage, HelpOfEverySubcommandEndsWithAnExample) {
 TEST(Usage, HelpNamesAllSubcommands) {
   const Outcome outcome = ortung({"--help"});
   EXPECT_EQ(outcome.exitCode, 0);
-  for (const char* command : {"learn", "eval", "localize", "import", "show", "check", "plugins"}) {
+  for (const char* command :
+       {"learn", "eval", "compare", "localize", "import", "show", "check", "plugins"}) {
     EXPECT_NE(outcome.out.find(std::string("  ") + command), std::string::npos) << command;
   }
 }
