@@ -80,15 +80,22 @@ def mrclam(ortung, data, out, seeds):
                                                          tables, "global", seeds)), flush=True)
 
 
+def import_laser(ortung, data, out, name):
+    """Record, world, robot file and tables of a log in `out`; returns what their names begin with."""
+    folder, options = LASER[name]
+    base = os.path.join(out, name)
+    run([ortung, "import", "scanlog", os.path.join(data, folder), "--out", base + ".rec", "--world", base + ".toml",
+         "--robot-file", base + "-robot.toml", "--force",
+         *[word for o in options for word in ("--option", o.format(data=data))]])
+    if not os.path.exists(base + ".ortung"):
+        run([ortung, "learn", "--world", base + ".toml", "--robot", base + "-robot.toml", "--out", base + ".ortung"])
+    return base
+
+
 def laser(ortung, data, out, seeds):
     print("\n## Laser\n\n| log " + HEAD + "\n" + RULE, flush=True)
-    for name, (folder, options) in LASER.items():
-        base = os.path.join(out, name)
-        run([ortung, "import", "scanlog", os.path.join(data, folder), "--out", base + ".rec", "--world", base + ".toml",
-             "--robot-file", base + "-robot.toml", "--force",
-             *[word for o in options for word in ("--option", o.format(data=data))]])
-        if not os.path.exists(base + ".ortung"):
-            run([ortung, "learn", "--world", base + ".toml", "--robot", base + "-robot.toml", "--out", base + ".ortung"])
+    for name in LASER:
+        base = import_laser(ortung, data, out, name)
         # MRPT's set has a fixed size, so ours is measured with that, too.
         fixed = base + "-fixed.toml"
         with open(base + "-robot.toml") as robot, open(fixed, "w") as out_file:

@@ -19,11 +19,11 @@ int runCompare(const CompareArguments& arguments) {
     const auto first = [](const std::vector<std::string>& names) {
       return names.empty() ? std::string("none") : "'" + names.front() + "'";
     };
-    throw std::runtime_error(
-        fmt::format("{} and {} have no run in common: pairs are of the same source, robot, seed, "
-                    "faults and case; the first ones are {} and {}",
-                    arguments.before.string(), arguments.after.string(),
-                    first(comparison.onlyBefore), first(comparison.onlyAfter)));
+    throw std::runtime_error(fmt::format(
+        "{} and {} have no run in common: pairs are of the same source, robot, start, seed, "
+        "faults and case; the first ones are {} and {}",
+        arguments.before.string(), arguments.after.string(), first(comparison.onlyBefore),
+        first(comparison.onlyAfter)));
   }
   if (!arguments.json.empty()) outputs.write(arguments.json, toJson(comparison));
   fmt::print("{}", toText(comparison));

@@ -179,6 +179,7 @@ RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExt
   arguments.source = job.source;
   arguments.seed = job.seed;
   if (job.kind == RunKind::kKidnap || job.kind == RunKind::kTeleports) arguments.start = "truth";
+  if (job.kind == RunKind::kWakeUp) arguments.start = "global";
   const std::shared_ptr<const Splice> splice = spliceOf(settings, job);
   const std::unique_ptr<Localization> localization =
       openLocalization(arguments, job.warns, [&](Robot& robot) {
@@ -212,6 +213,7 @@ RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExt
   result.robot = arguments.robot.string();
   result.tables = arguments.tables.string();
   result.tableInfo = localization->robot().tables;
+  result.start = arguments.start;
   result.faults = settings.arguments.faults;
   result.commandLine = settings.arguments.commandLine;
   if (job.warns) {

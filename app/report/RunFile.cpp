@@ -79,6 +79,7 @@ FiledRun readRun(const Json& json, const std::string& where) {
   run.source = reader.text("source");
   run.robot = reader.text("robot");
   run.seed = reader.count("seed");
+  if (reader.has("start")) run.start = reader.text("start");
   if (reader.has("faults")) {
     for (const Json& fault : reader.list("faults")) {
       if (!fault.is_string()) reader.fail("a fault is no text");
@@ -98,6 +99,7 @@ FiledRun readRun(const Json& json, const std::string& where) {
 std::string FiledRun::name() const {
   std::string text = source;
   if (kind != "whole") text += fmt::format(", {} {}", kind, number);
+  if (kind == "whole" && !start.empty()) text += ", start " + start;
   for (const std::string& fault : faults) text += ", " + fault;
   return text + fmt::format(", seed {}, {}", seed, robot);
 }

@@ -18,6 +18,7 @@ struct FiledRun {
   std::string source;
   std::string robot;
   std::uint64_t seed = 0;
+  std::string start;  ///< "": of an earlier version
   std::vector<std::string> faults;
   std::string kind = "whole";             ///< of RunKind
   std::uint64_t number = 1;               ///< of its kind

@@ -82,6 +82,7 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
       {"world", run.tableInfo.world},
       {"seed", run.seed},
       {"particles", run.particles},
+      {"start", run.start},
       {"faults", run.faults},
       {"steps", figures.steps},
       {"compared_steps", atCorrections.compared},

@@ -44,6 +44,7 @@ struct RunResult {
   std::string robot;          ///< file
   std::string tables;         ///< file
   TableInfo tableInfo;
+  std::string start;                ///< "global", "truth" or a pose
   std::vector<std::string> faults;  ///< that the readings had
   std::string commandLine;
   RunKind kind = RunKind::kWhole;

@@ -74,7 +74,7 @@ TEST(Comparison, OfTheSameRunsFindsNothing) {
 
 TEST(Comparison, PairsAreOfTheSameSourceRobotSeedFaultsAndCase) {
   const FiledRun run = tenRuns(false).front();
-  std::vector<FiledRun> others(6, run);
+  std::vector<FiledRun> others(7, run);
   others[0].source = "record:other.rec";
   others[1].robot = "other.toml";
   others[2].seed = 99;
@@ -82,6 +82,7 @@ TEST(Comparison, PairsAreOfTheSameSourceRobotSeedFaultsAndCase) {
   others[4].kind = "kidnap";
   others[5].kind = "kidnap";
   others[5].number = 2;
+  others[6].start = "truth";
   for (const FiledRun& other : others) EXPECT_EQ(compare({run}, {other}).pairs, 0u) << other.name();
   const Comparison c = compare({run, others[4]}, {others[4], others[5], run, others[2]});
   EXPECT_EQ(c.pairs, 2u);

@@ -48,6 +48,7 @@ RunResult numberedRun() {
   run.seed = std::numeric_limits<std::uint64_t>::max();
   run.particles = 20000;
   run.robot = "robot.toml";
+  run.start = "truth";
   run.tables = "hall.ortung";
   run.tableInfo.world = "hall";
   return run;
