@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "Commands.hpp"
 #include "Console.hpp"
@@ -103,12 +104,13 @@ RunResult runOne(const EvalSettings& settings, const EvalJob& job, const Outputs
   return runJob(settings, job, extras);
 }
 
-std::vector<RunResult> runAll(const EvalSettings& settings, const std::vector<EvalJob>& jobs) {
+std::vector<RunResult> runAll(const EvalSettings& settings, std::vector<EvalJob> jobs) {
+  const auto count = static_cast<double>(jobs.size());
   Progress progress("localizing", settings.arguments.localization.progress);
   const unsigned threads = settings.arguments.localization.threads.value_or(
       std::max(1U, std::thread::hardware_concurrency()));
-  return runJobs(settings, jobs, threads, [&](std::size_t done) {
-    progress.update(static_cast<double>(done) / static_cast<double>(jobs.size()));
+  return runJobs(settings, std::move(jobs), threads, [&](std::size_t done) {
+    progress.update(static_cast<double>(done) / count);
   });
 }
 
@@ -128,7 +130,7 @@ void refuseLive(const EvalArguments& arguments, const std::vector<EvalJob>& jobs
 
 int runEval(const EvalArguments& arguments) {
   const EvalSettings settings{arguments, readOptions(arguments), readFaults(arguments)};
-  const std::vector<EvalJob> jobs = jobsOf(arguments);
+  std::vector<EvalJob> jobs = jobsOf(arguments);
   const Outputs outputs = outputsOf(arguments, jobs.size());
   if (jobs.size() == 1 && jobs.front().kind == RunKind::kWhole) {
     const RunResult run = runOne(settings, jobs.front(), outputs);
@@ -143,7 +145,7 @@ int runEval(const EvalArguments& arguments) {
     runs.push_back(runOne(settings, jobs.front(), outputs));
     if (!arguments.report.empty()) outputs.write(arguments.report, toHtml(runs.front()));
   } else {
-    runs = runAll(settings, jobs);
+    runs = runAll(settings, std::move(jobs));
   }
   if (!arguments.json.empty()) outputs.write(arguments.json, toJson(runs));
   fmt::print("{}", toText(runs));

@@ -101,10 +101,36 @@ TEST(Evaluation, GivesMedianP95RmseAndLostShare) {
   // 127 sorted values: seven times 0 (six and the list's own), 0.01 ... 1.00, twenty times 3.
   EXPECT_NEAR(result.overTime.positionMedian, 0.57, 1e-12);  // number 63: 63 - 6 = 57
   EXPECT_NEAR(result.overTime.positionP95, 3.0, 1e-12);      // number 119.7
+  EXPECT_NEAR(result.overTime.positionP99, 3.0, 1e-12);
+  EXPECT_EQ(result.overTime.positionMax, 3.0);
   double squares = 20 * 9.0;
   for (int i = 0; i <= 100; ++i) squares += 1e-4 * i * i;
   EXPECT_NEAR(result.overTime.positionRmse, std::sqrt(squares / 127), 1e-12);
   EXPECT_NEAR(result.overTime.lostShare, 20.0 / 127, 1e-12);
+}
+
+// The covariance is that of one metre, so NEES is the square of the error: above 16.266 from 4.0332
+// m on.
+TEST(Evaluation, CountsWhatTheFilterHoldsToBeAllButImpossible) {
+  const auto result = resultOf([](int t) {
+    return Pose2{t < 91 ? 0.1 : t < 96 ? 4.03 : 4.04, 0, 0};
+  });
+  EXPECT_NEAR(result.overTime.neesAboveShare, 5.0 / 101, 1e-12);
+}
+
+TEST(Evaluation, TellsTheWayUntilItConvergedAndTheLongestUpdate) {
+  Evaluation evaluation;
+  for (int t = 0; t <= 40; ++t) {
+    const Pose2 truth{0.5 * t, 0, 0};
+    evaluation.addTime(fromSeconds(t));
+    evaluation.addTruth(fromSeconds(t), truth);
+    addBoth(evaluation, step(t, {truth.x + (t < 12 ? 2.0 : 0.1), 0, 0}, t == 7 ? 30.0 : 1.0));
+  }
+  const auto result = evaluation.result("x");
+  EXPECT_EQ(result.convergedAfter, 12.0);
+  EXPECT_NEAR(result.convergedWay, 6.0, 1e-9);
+  EXPECT_EQ(result.updateMsMax, 30.0);
+  EXPECT_TRUE(std::isnan(resultOf([](int) { return Pose2{3, 0, 0}; }).convergedWay));
 }
 
 TEST(Evaluation, QuantilesLieBetweenOrderStatistics) {
