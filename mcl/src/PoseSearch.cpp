@@ -64,10 +64,12 @@ SampleSet PoseSearch::around(const Ring& ring, std::size_t n, Random random) {
   return set;
 }
 
-bool PoseSearch::contains(const std::optional<Ring>& ring, float x, float y, float theta) const {
-  if (ring)
-    return std::hypot(x - ring->pose.x, y - ring->pose.y) <= ring->radius &&
-           std::abs(wrapAngle(theta - ring->pose.theta)) <= ring->turn;
+bool PoseSearch::contains(std::span<const Ring> rings, float x, float y, float theta) const {
+  if (!rings.empty())
+    return std::any_of(rings.begin(), rings.end(), [&](const Ring& ring) {
+      return std::hypot(x - ring.pose.x, y - ring.pose.y) <= ring.radius &&
+             std::abs(wrapAngle(theta - ring.pose.theta)) <= ring.turn;
+    });
   const std::ptrdiff_t cell = region_.grid.cellAt(x, y);
   return cell >= 0 && region_.standable[static_cast<std::size_t>(cell)] != 0;
 }
@@ -75,7 +77,35 @@ bool PoseSearch::contains(const std::optional<Ring>& ring, float x, float y, flo
 PoseSearch::Drawn PoseSearch::draw(std::size_t n, double candidates, const Weigh& weigh,
                                    const Random& random, const std::optional<Ring>& ring) const {
   const auto tried = static_cast<std::size_t>(candidates * static_cast<double>(n));
-  SampleSet set = ring ? around(*ring, tried, random.fork(0)) : anywhere(tried, random.fork(0));
+  if (!ring) return anneal(anywhere(tried, random.fork(0)), n, weigh, random, {});
+  return anneal(around(*ring, tried, random.fork(0)), n, weigh, random, {&*ring, 1});
+}
+
+PoseSearch::Drawn PoseSearch::drawFrom(std::span<const Ring> rings, std::size_t n,
+                                       double candidates, const Weigh& weigh,
+                                       const Random& random) const {
+  const auto tried = static_cast<std::size_t>(candidates * static_cast<double>(n));
+  const std::size_t each = (tried + rings.size() - 1) / rings.size();
+  SampleSet set;
+  double volume = 0.0;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    // Streams beyond those of the annealing.
+    const SampleSet some = around(rings[i], each, random.fork(1000 + i));
+    set.x.insert(set.x.end(), some.x.begin(), some.x.end());
+    set.y.insert(set.y.end(), some.y.begin(), some.y.end());
+    set.theta.insert(set.theta.end(), some.theta.begin(), some.theta.end());
+    volume += std::numbers::pi * rings[i].radius * rings[i].radius * 2.0 * rings[i].turn;
+  }
+  set.logWeight.assign(set.x.size(), 0.0F);
+  Drawn drawn = anneal(std::move(set), n, weigh, random, rings);
+  const double floor = static_cast<double>(cells()) * region_.grid.cell * region_.grid.cell;
+  drawn.logEvidence += std::log(volume / (floor * 2.0 * std::numbers::pi));
+  return drawn;
+}
+
+/// @param set of equal weights, from which the annealing begins
+PoseSearch::Drawn PoseSearch::anneal(SampleSet set, std::size_t n, const Weigh& weigh,
+                                     const Random& random, std::span<const Ring> rings) const {
   double logEvidence = 0.0;
   std::vector<float> fit;
   weigh(set, fit);
@@ -90,7 +120,7 @@ PoseSearch::Drawn PoseSearch::draw(std::size_t n, double candidates, const Weigh
     exponent = share >= 1.0 ? 1.0 : exponent + share * (1.0 - exponent);
     set = taken(set, indices);
     fit = taken(fit, indices);
-    climb(set, fit, exponent, weigh, random.fork(2 + static_cast<std::uint64_t>(rise)), ring);
+    climb(set, fit, exponent, weigh, random.fork(2 + static_cast<std::uint64_t>(rise)), rings);
   }
   set.logWeight = scaled(fit, 1.0 - exponent);
   logEvidence += logMean(set.logWeight);
@@ -99,7 +129,7 @@ PoseSearch::Drawn PoseSearch::draw(std::size_t n, double candidates, const Weigh
 
 /// Metropolis steps whose invariant distribution is p^exponent over the poses to draw from.
 void PoseSearch::climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
-                       Random random, const std::optional<Ring>& ring) const {
+                       Random random, std::span<const Ring> rings) const {
   SampleSet proposed;
   proposed.resize(set.size());
   std::vector<float> proposedFit;
@@ -113,7 +143,7 @@ void PoseSearch::climb(SampleSet& set, std::vector<float>& fit, double exponent,
     for (std::size_t i = 0; i < set.size(); ++i) {
       const double chance = std::exp(std::min(0.0, exponent * (proposedFit[i] - fit[i])));
       const bool accepted = random.uniform() < chance;
-      if (!accepted || !contains(ring, proposed.x[i], proposed.y[i], proposed.theta[i])) continue;
+      if (!accepted || !contains(rings, proposed.x[i], proposed.y[i], proposed.theta[i])) continue;
       set.x[i] = proposed.x[i];
       set.y[i] = proposed.y[i];
       set.theta[i] = proposed.theta[i];

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
@@ -51,11 +52,19 @@ class ORTUNG_API PoseSearch {
   /// @param ring to draw from; none: all poses where the robot can stand
   Drawn draw(std::size_t n, double candidates, const Weigh& weigh, const Random& random,
              const std::optional<Ring>& ring = std::nullopt) const;
+  /// The same, of the places that a search of the field has found (FieldSearch), and evenly from
+  /// rings of one size around each: all that p(s|l) has if elsewhere it is nothing. So few poses do
+  /// where an even spread needs many. `logEvidence` is that of the whole floor.
+  /// @param rings one at least, none of which meet
+  Drawn drawFrom(std::span<const Ring> rings, std::size_t n, double candidates, const Weigh& weigh,
+                 const Random& random) const;
 
  private:
-  bool contains(const std::optional<Ring>& ring, float x, float y, float theta) const;
+  Drawn anneal(SampleSet set, std::size_t n, const Weigh& weigh, const Random& random,
+               std::span<const Ring> rings) const;
+  bool contains(std::span<const Ring> rings, float x, float y, float theta) const;
   void climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
-             Random random, const std::optional<Ring>& ring) const;
+             Random random, std::span<const Ring> rings) const;
 
   const FieldRegion& region_;
   std::vector<std::uint32_t> standable_;  ///< cells

@@ -182,6 +182,32 @@ TEST(PoseSearch, StaysWithinItsRingWhereverThatIs) {
   EXPECT_NEAR(left, 0.25, 0.01);
 }
 
+// Hills of 3 to 1 by their masses, of which a search has named the tops; and a third place that has
+// nothing.
+TEST(PoseSearch, SharesItsSamplesBetweenThePlacesThatWereFound) {
+  const FieldRegion region = hall();
+  const Pose2 high{3.1, 8.2, -1.0}, low{8.4, 1.7, 1.5};
+  const std::vector<PoseSearch::Ring> rings = {
+      {{3.13, 8.19, -1.02}, 0.3, 0.2}, {{8.4, 1.72, 1.51}, 0.3, 0.2}, {{5, 5, 0}, 0.3, 0.2}};
+  const double volume = std::pow(2.0 * std::numbers::pi, 1.5) * kSigmaMetres * kSigmaMetres *
+                        kSigmaRadians;  // of a hill of height 1
+  const PoseSearch search(region);
+  const double floor = static_cast<double>(search.cells()) * region.grid.cell * region.grid.cell;
+  double share = 0.0;
+  double evidence = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto drawn =
+        search.drawFrom(rings, 2000, 2, hills({{high, 0.75}, {low, 0.25}}), Random(seed));
+    ASSERT_EQ(drawn.samples.size(), 2000U);
+    share += shareNear(drawn.samples, high) / 10;
+    evidence += drawn.logEvidence / 10;
+    EXPECT_NEAR(shareNear(drawn.samples, high) + shareNear(drawn.samples, low), 1.0, 0.01);
+  }
+  EXPECT_NEAR(share, 0.75, 0.03);
+  EXPECT_NEAR(evidence, std::log(volume / (floor * 2.0 * std::numbers::pi)), 0.1)
+      << "of the whole floor";
+}
+
 TEST(PoseSearch, GivesTheSameForTheSameSeed) {
   const FieldRegion region = hall();
   const auto weigh = hills({{{5, 5, 0}, 1.0}});

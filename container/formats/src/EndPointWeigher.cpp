@@ -8,21 +8,38 @@
 #include "CellLookup.hpp"
 
 namespace ortung {
+namespace {
+
+constexpr std::size_t kBlurredPoints = 64;  ///< at most
+
+constexpr double kStepsAnOctave = 4.0;  ///< of noise, when it grows
+
+}  // namespace
 
 void EndPointTables::complete(const SensorModel& model, double greatestRange) {
   maxRange = greatestRange;
+  model_ = model;
   floor = static_cast<float>(model.logFloor());
   for (std::size_t c = 0; c < kRangeClasses; ++c) {
     const double range = (static_cast<double>(c) + 0.5) / kRangeClasses * maxRange;
-    // Half a cell's width is not the sensor's fault.
-    const double sigma = std::hypot(model.sigmaAt(range), 0.29 * field.grid().cell);
-    for (std::size_t level = 0; level < 255; ++level) {
-      const double distance = static_cast<double>(level) * field.metresPerLevel();
-      logByLevel_[c][level] =
-          static_cast<float>(model.exponent * model.logProbability(distance / sigma));
-    }
-    logByLevel_[c][255] = floor;
+    logByLevel_[c] = logByLevelOf(sigmaAt(range), 1.0);
   }
+}
+
+double EndPointTables::sigmaAt(double range) const {
+  // Half a cell's width is not the sensor's fault.
+  return std::hypot(model_.sigmaAt(range), 0.29 * field.grid().cell);
+}
+
+EndPointTables::LogByLevel EndPointTables::logByLevelOf(double sigma, double times) const {
+  LogByLevel logs{};
+  for (std::size_t level = 0; level < 255; ++level) {
+    const double distance = static_cast<double>(level) * field.metresPerLevel();
+    logs[level] =
+        static_cast<float>(times * model_.exponent * model_.logProbability(distance / sigma));
+  }
+  logs[255] = static_cast<float>(times * model_.logFloor());
+  return logs;
 }
 
 const float* EndPointTables::logByLevel(double range) const {
@@ -31,13 +48,41 @@ const float* EndPointTables::logByLevel(double range) const {
 }
 
 EndPointWeigher::EndPointWeigher(std::shared_ptr<const EndPointTables> tables, const Pose2& mount)
-    : tables_(std::move(tables)), mount_(mount) {}
+    : tables_(std::move(tables)), mount_(mount), floor_(tables_->floor) {}
 
 void EndPointWeigher::add(double range, double bearing) {
   const Pose2 end = mount_ * Pose2{range * std::cos(bearing), range * std::sin(bearing), 0};
   endX_.push_back(static_cast<float>(end.x));
   endY_.push_back(static_cast<float>(end.y));
   endLog_.push_back(tables_->logByLevel(range));
+  ranges_.push_back(static_cast<float>(range));
+}
+
+std::shared_ptr<const BlurrableWeigher> EndPointWeigher::blurred(
+    const PoseResolution& spread) const {
+  const std::size_t count = endX_.size();
+  const std::size_t thin = (count + kBlurredPoints - 1) / kBlurredPoints;
+  const std::size_t kept = (count + thin - 1) / thin;
+  const double times = static_cast<double>(count) / static_cast<double>(kept);
+  auto other = std::make_shared<EndPointWeigher>(tables_, mount_);
+  other->floor_ = tables_->floor * static_cast<float>(times);
+  for (std::size_t k = 0; k < count; k += thin) {
+    const auto range = static_cast<double>(ranges_[k]);
+    const auto lever = static_cast<double>(std::hypot(endX_[k], endY_[k]));
+    const double sigma = std::hypot(tables_->sigmaAt(range), spread.metres, spread.radians * lever);
+    const auto step = static_cast<int>(std::lround(kStepsAnOctave * std::log2(sigma)));
+    const auto [logs, isNew] = other->ownLogs_.try_emplace(step);
+    if (isNew) logs->second = tables_->logByLevelOf(std::exp2(step / kStepsAnOctave), times);
+    other->endX_.push_back(endX_[k]);
+    other->endY_.push_back(endY_[k]);
+    other->endLog_.push_back(logs->second.data());
+    other->ranges_.push_back(ranges_[k]);
+  }
+  return other;
+}
+
+double EndPointWeigher::nominalNanoseconds() const {
+  return 20.0 + 1.6 * static_cast<double>(endX_.size());
 }
 
 PoseResolution EndPointWeigher::resolution() const {
@@ -61,7 +106,7 @@ void EndPointWeigher::weigh(const SampleView& poses, std::span<float> logProbabi
   const CellLookup lookup(field.grid());
   const std::uint8_t* levels = field.levels().data();
   const std::size_t count = endX_.size();
-  const float floor = tables_->floor;
+  const float floor = floor_;
   const auto mountX = static_cast<float>(mount_.x);
   const auto mountY = static_cast<float>(mount_.y);
   constexpr std::size_t kPointsABlock = 64;

@@ -2,12 +2,13 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "ortung/base/Pose2.hpp"
-#include "ortung/core/Weigher.hpp"
+#include "ortung/core/BlurrableWeigher.hpp"
 #include "ortung/tables/EndPointField.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
@@ -15,6 +16,7 @@ namespace ortung {
 
 /// An end-point field with all that weighing points against it needs, whatever the reading.
 struct EndPointTables {
+  using LogByLevel = std::array<float, 256>;
   FieldGrid region;       ///< where the sensor may be
   EndPointField field;    ///< where points should lie
   double maxRange = 1.0;  ///< of points; their sigma grows with range [m]
@@ -24,15 +26,20 @@ struct EndPointTables {
   void complete(const SensorModel& model, double greatestRange);
   /// ln p by level of the field, of points at a range [m].
   const float* logByLevel(double range) const;
+  /// Standard deviation of where points at a range [m] are [m].
+  double sigmaAt(double range) const;
+  /// The same of points with noise of @p sigma [m], so many times as much.
+  LogByLevel logByLevelOf(double sigma, double times) const;
 
  private:
   static constexpr std::size_t kRangeClasses = 8;
-  std::array<std::array<float, 256>, kRangeClasses> logByLevel_{};
+  SensorModel model_;
+  std::array<LogByLevel, kRangeClasses> logByLevel_{};
 };
 
 /// Weighs samples by points that should lie where an end-point field was marked: ends of a scan's
 /// beams, points on lines.
-class EndPointWeigher final : public Weigher {
+class EndPointWeigher final : public BlurrableWeigher {
  public:
   /// @param mount of the sensor that sees the points
   EndPointWeigher(std::shared_ptr<const EndPointTables> tables, const Pose2& mount);
@@ -43,6 +50,9 @@ class EndPointWeigher final : public Weigher {
   /// as they are. Positions are told no better than by other tables, since what was marked is as
   /// coarse as they are.
   PoseResolution resolution() const override;
+  /// Points far from the robot, which a turn moves far, say little; of many, every n-th one stays.
+  std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override;
+  double nominalNanoseconds() const override;
 
  private:
   /// The floor for each point where the sensor is outside of the region.
@@ -55,6 +65,10 @@ class EndPointWeigher final : public Weigher {
   std::vector<float> endX_;           ///< [m]
   std::vector<float> endY_;           ///< [m]
   std::vector<const float*> endLog_;  ///< ln p by level, for its range
+  std::vector<float> ranges_;         ///< from the sensor [m]
+  float floor_;                       ///< ln p of a point that fits nowhere
+  /// Of a blurred one, by noise in steps: endLog_ points here.
+  std::map<int, EndPointTables::LogByLevel> ownLogs_;
 };
 
 }  // namespace ortung

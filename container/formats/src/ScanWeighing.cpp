@@ -53,14 +53,15 @@ struct RayPlaces {
 };
 
 /// A scan in the terms of a ray table: for each direction of the run the nearest beam.
-class RayWeigher final : public Weigher {
+class RayWeigher final : public BlurrableWeigher {
  public:
   RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& mount, double firstAngle,
-             const SensorModel& model, std::size_t run)
+             const SensorModel& model, std::size_t run, const PoseResolution& spread = {})
       : rays_(std::move(rays)),
         mount_(mount),
         firstAngle_(static_cast<float>(firstAngle)),
         model_(model),
+        spread_(spread),
         run_(run),
         unit_(-std::log(model.outliers) / kLargestCost),
         nats_(static_cast<float>(-unit_ * model.exponent)) {
@@ -76,13 +77,29 @@ class RayWeigher final : public Weigher {
     caps_[at] = std::isinf(range) ? quantize(std::log(model_.maxRangeMass)) : kLargestCost;
     floorCost_ += caps_[at];
     const double known = std::min(range, scale.maxRange());
-    levelsPerSigma_[at] = scale.levelsPerSigma(known, model_.sigmaAt(known));
+    const double sigma = std::hypot(model_.sigmaAt(known), spread_.metres, spread_.radians * known);
+    levelsPerSigma_[at] = scale.levelsPerSigma(known, sigma);
+    scale_ = scale;
+    beams_.push_back({at, range});
   }
 
   /// Once all beams are there. @returns whether any of them says something
   bool complete();
 
+  std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override {
+    auto other = std::make_shared<RayWeigher>(rays_, mount_, static_cast<double>(firstAngle_),
+                                              model_, run_, spread);
+    for (const Beam& beam : beams_) other->add(beam.at, beam.range, scale_);
+    other->complete();
+    return other;
+  }
+  double nominalNanoseconds() const override { return 10.0 + 0.12 * static_cast<double>(run_); }
+
  private:
+  struct Beam {
+    std::size_t at;  ///< place in the run
+    double range;    ///< [m]
+  };
   void setSteps(double entries, double least);
   std::uint8_t quantize(double logProbability) const {
     return static_cast<std::uint8_t>(
@@ -103,6 +120,9 @@ class RayWeigher final : public Weigher {
   Pose2 mount_;
   float firstAngle_;
   SensorModel model_;
+  PoseResolution spread_;  ///< of the poses, standard deviations
+  RangeScale scale_;
+  std::vector<Beam> beams_;
   std::size_t run_;                   ///< directions that the scan spans
   double unit_;                       ///< nats of a cost of 1
   float nats_;                        ///< ln p of a cost of 1, exponent included (negative)

@@ -1,0 +1,7 @@
+#include "ortung/core/BlurrableWeigher.hpp"
+
+namespace ortung {
+
+BlurrableWeigher::~BlurrableWeigher() = default;
+
+}  // namespace ortung
