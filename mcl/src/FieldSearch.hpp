@@ -51,7 +51,8 @@ class ORTUNG_API FieldSearch {
   bool isDone() const { return stage_ == Stage::kDone; }
   /// What whole searches take by these readings, at most [ms]; 0 before the first begin().
   double nominalMilliseconds() const;
-  /// Once it is done: best first. No two are of the same place.
+  /// Once it is done: best first, no two nearer than the settings say. A hill that is wider than
+  /// that is several places, so with a vague reading they may all be of one.
   std::span<const Place> places() const { return places_; }
 
  private:

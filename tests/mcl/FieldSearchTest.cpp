@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -31,12 +32,13 @@ struct Hill {
 /// The highest of Gaussian hills of which hardly any pose of a cover meets one, unless blurred.
 class Hills final : public BlurrableWeigher {
  public:
-  explicit Hills(std::vector<Hill> hills, const PoseResolution& sigma = {0.03, 0.02})
-      : hills_(std::move(hills)), sigma_(sigma) {}
+  explicit Hills(std::vector<Hill> hills, const PoseResolution& sigma = {0.03, 0.02},
+                 double floor = -1000.0)
+      : hills_(std::move(hills)), sigma_(sigma), floor_(floor) {}
   std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override {
-    auto wider =
-        std::make_shared<Hills>(hills_, PoseResolution{std::hypot(sigma_.metres, spread.metres),
-                                                       std::hypot(sigma_.radians, spread.radians)});
+    const PoseResolution sigma{std::hypot(sigma_.metres, spread.metres),
+                               std::hypot(sigma_.radians, spread.radians)};
+    auto wider = std::make_shared<Hills>(hills_, sigma, floor_);
     wider->weighed_ = weighed_;
     return wider;
   }
@@ -47,7 +49,7 @@ class Hills final : public BlurrableWeigher {
   void weigh(const SampleView& poses, std::span<float> out) const override {
     *weighed_ += poses.size();
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      double best = -1000.0;
+      double best = floor_;
       for (const Hill& hill : hills_) {
         const double way = std::hypot(poses.x[i] - hill.top.x, poses.y[i] - hill.top.y);
         const double turn = wrapAngle(poses.theta[i] - hill.top.theta);
@@ -59,6 +61,7 @@ class Hills final : public BlurrableWeigher {
   }
   std::vector<Hill> hills_;
   PoseResolution sigma_;
+  double floor_;
   std::shared_ptr<std::atomic<std::size_t>> weighed_ =
       std::make_shared<std::atomic<std::size_t>>(0);
 };
@@ -113,6 +116,15 @@ TEST(FieldSearch, FindsTheTopsOfAllHillsBestFirst) {
     expectNear(places[k].pose, hill.top, 0.006, 0.004);
     EXPECT_NEAR(places[k].logProbability, hill.logHeight, 0.05) << "of the reading, unblurred";
   }
+}
+
+// As far from all poses of the cover as can be: there the reading knows nothing but its floor.
+TEST(FieldSearch, FindsAHillThatNoPoseOfTheCoverMeets) {
+  const Pose2 top{6.6, 5.1, (5.5 / 16.0) * kPi};
+  const auto places = found(hall(), {std::make_shared<Hills>(std::vector<Hill>{{top, 0.0}},
+                                                             PoseResolution{0.03, 0.02}, -12.0)});
+  ASSERT_FALSE(places.empty());
+  expectNear(places[0].pose, top, 0.006, 0.004);
 }
 
 TEST(FieldSearch, NamesEveryPlaceOnceAndOnlyWhereTheRobotCanStand) {
