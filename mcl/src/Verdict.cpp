@@ -31,11 +31,8 @@ Verdict judge(std::span<const EvaluationPoint> points, Timestamp since, Timestam
     } else if (!candidate) {
       candidate = {Verdict::State::kRight, p.stamp, toSeconds(p.stamp - since), way};
     }
-    if (candidate && candidate->way <= rule.mostWay &&
-        toSeconds(p.stamp - candidate->stamp) >= rule.seconds)
-      return *candidate;
-    if (way > rule.mostWay && !(candidate && candidate->way <= rule.mostWay))
-      return {.state = Verdict::State::kWrong};
+    if ((candidate ? candidate->way : way) > rule.mostWay) return {.state = Verdict::State::kWrong};
+    if (candidate && toSeconds(p.stamp - candidate->stamp) >= rule.seconds) return *candidate;
   }
   return {};
 }

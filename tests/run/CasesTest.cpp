@@ -88,6 +88,29 @@ TEST_F(Log, PieceByItselfIsPlayedAsItWas) {
   EXPECT_TRUE(splice->joins().empty());
 }
 
+// Moments of 0, 0.3, 5.3 and 5.6 s; two of them have two readings, and two truths.
+TEST_F(Log, PiecesFollowEachOtherAsTheLogWentOn) {
+  std::vector<Message> messages;
+  for (const Timestamp stamp : {0, 300'000, 5'300'000, 5'600'000}) {
+    messages.push_back({stamp, kSonarId, {1}});
+    messages.push_back({stamp, kScanId, {1}});
+    messages.push_back({stamp, kTruthId, PoseData::encode({})});
+    messages.push_back({stamp, kTruthId, PoseData::encode({1, 0, 0})});
+  }
+  const auto made = recordingOf(messages);
+  EXPECT_EQ(made->truth().size(), 4u) << "one a moment";
+  EXPECT_EQ(made->truth().back().way, 0.0) << "the first one";
+  const auto joins = [&](const std::vector<Piece>& pieces) { return Splice(made, pieces).joins(); };
+  EXPECT_EQ(joins({{0, 4}, {12, 16}}), std::vector<Timestamp>{300'000}) << "as long as it took";
+  EXPECT_EQ(joins({{0, 8}, {0, 4}}), std::vector<Timestamp>{1'300'000}) << "1 s at most";
+  EXPECT_EQ(joins({{12, 16}, {0, 4}}), std::vector<Timestamp>{5'700'000}) << "the log ends there";
+  EXPECT_EQ(Splice(made, {{0, 16}}).readings(robot.container, 300'000, 5'600'000), 2u)
+      << "moments, not readings";
+  for (const Piece& wrong : {Piece{3, 3}, Piece{4, 3}, Piece{0, 17}})
+    EXPECT_THROW(Splice(made, {wrong}), std::invalid_argument);
+  EXPECT_THROW(Splice(made, {}), std::invalid_argument);
+}
+
 TEST_F(Log, KidnapIsFarAndUnseenByOdometry) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
     const auto splice = kidnapped(recording, seed);

@@ -218,6 +218,25 @@ TEST_F(DisturbedRun, HandsOnWhatTheSourceSaysAndNamesFaultsThatMetNothing) {
   EXPECT_EQ(source->remark(), "made up; the fault 'LMS200/LRF/scan=missing' met no reading");
 }
 
+// A live source would make whoever localizes wait for the next reading.
+TEST_F(DisturbedRun, ReadingsAreGivenAsSoonAsTheyCome) {
+  struct Counting : MadeSource {
+    Counting(std::vector<Message> messages, std::size_t& taken)
+        : MadeSource(std::move(messages)), count(taken) {}
+    bool next(Message& message) override {
+      ++count;
+      return MadeSource::next(message);
+    }
+    std::size_t& count;
+  };
+  std::size_t taken = 0;
+  const auto source = disturbed(std::make_unique<Counting>(messages, taken),
+                                {parseFault("readings=late:2")}, robot.container, 1);
+  Message message;
+  ASSERT_TRUE(source->next(message));
+  EXPECT_EQ(taken, 1u);
+}
+
 // Whoever takes the readings says what is wrong with them.
 TEST_F(DisturbedRun, WordsThatAreNoneAndTimesThatAreNonePass) {
   const std::vector<Message> hostile = {{std::numeric_limits<Timestamp>::min(), kSonarId, {1}},
