@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "Resampling.hpp"
 #include "ortung/base/Random.hpp"
 
 namespace ortung {
@@ -31,6 +32,21 @@ void drift(const MclConfig& config, const MovableSamples& samples, double second
       samples.theta[begin + i] += sigmaTurn * noise[i * kNumbersASample + 2];
     }
   }
+}
+
+Spread spread(const MclConfig& config, const SampleSet& moved, const SampleSet& anchor,
+              double seconds, std::size_t n, std::uint64_t stream) {
+  const std::size_t half = std::min(config.maxSamples, std::max(n, moved.size()));
+  Random random(config.seed, stream);
+  const double offset = random.uniform();
+  const auto drawn = [&](const SampleSet& from) {
+    return taken(from, lowVariance(normalized(from.logWeight), half, offset));
+  };
+  Spread both{drawn(moved), half};
+  SampleSet near = drawn(anchor);
+  drift(config, {near.x, near.y, near.theta}, seconds, stream, 0);
+  add(both.samples, near, 0.5);
+  return both;
 }
 
 }  // namespace ortung

@@ -4,6 +4,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/mcl/MclConfig.hpp"
+#include "ortung/mcl/SampleSet.hpp"
 #include "ortung/motion/MotionModel.hpp"
 
 namespace ortung {
@@ -14,5 +15,17 @@ namespace ortung {
 /// @param stream, first as of MotionModel::sampleMotion
 ORTUNG_API void drift(const MclConfig& config, const MovableSamples& samples, double seconds,
                       std::uint64_t stream, std::uint64_t first);
+
+/// Where a robot may be whose odometry is not trusted: one half of the samples as odometry moved
+/// them, the other half drifted.
+struct Spread {
+  SampleSet samples;
+  std::size_t drifted = 0;  ///< samples from this one on have drifted
+};
+/// @param moved by odometry since the belief was weighed
+/// @param anchor the belief as it was then
+/// @param n samples of each half, at least
+ORTUNG_API Spread spread(const MclConfig& config, const SampleSet& moved, const SampleSet& anchor,
+                         double seconds, std::size_t n, std::uint64_t stream);
 
 }  // namespace ortung

@@ -64,21 +64,24 @@ SampleSet PoseSearch::around(const Ring& ring, std::size_t n, Random random) {
   return set;
 }
 
-bool PoseSearch::contains(std::span<const Ring> rings, float x, float y, float theta) const {
-  if (!rings.empty())
+PoseSearch::Within PoseSearch::within(std::span<const Ring> rings) {
+  return [rings](float x, float y, float theta) {
     return std::any_of(rings.begin(), rings.end(), [&](const Ring& ring) {
       return std::hypot(x - ring.pose.x, y - ring.pose.y) <= ring.radius &&
              std::abs(wrapAngle(theta - ring.pose.theta)) <= ring.turn;
     });
-  const std::ptrdiff_t cell = region_.grid.cellAt(x, y);
-  return cell >= 0 && region_.standable[static_cast<std::size_t>(cell)] != 0;
+  };
 }
 
 PoseSearch::Drawn PoseSearch::draw(std::size_t n, double candidates, const Weigh& weigh,
                                    const Random& random, const std::optional<Ring>& ring) const {
   const auto tried = static_cast<std::size_t>(candidates * static_cast<double>(n));
-  if (!ring) return anneal(anywhere(tried, random.fork(0)), n, weigh, random, {});
-  return anneal(around(*ring, tried, random.fork(0)), n, weigh, random, {&*ring, 1});
+  if (ring)
+    return anneal(around(*ring, tried, random.fork(0)), n, weigh, random, within({&*ring, 1}));
+  return anneal(anywhere(tried, random.fork(0)), n, weigh, random, [&](float x, float y, float) {
+    const std::ptrdiff_t cell = region_.grid.cellAt(x, y);
+    return cell >= 0 && region_.standable[static_cast<std::size_t>(cell)] != 0;
+  });
 }
 
 PoseSearch::Drawn PoseSearch::drawFrom(std::span<const Ring> rings, std::size_t n,
@@ -97,15 +100,20 @@ PoseSearch::Drawn PoseSearch::drawFrom(std::span<const Ring> rings, std::size_t 
     volume += std::numbers::pi * rings[i].radius * rings[i].radius * 2.0 * rings[i].turn;
   }
   set.logWeight.assign(set.x.size(), 0.0F);
-  Drawn drawn = anneal(std::move(set), n, weigh, random, rings);
+  Drawn drawn = anneal(std::move(set), n, weigh, random, within(rings));
   const double floor = static_cast<double>(cells()) * region_.grid.cell * region_.grid.cell;
   drawn.logEvidence += std::log(volume / (floor * 2.0 * std::numbers::pi));
   return drawn;
 }
 
+PoseSearch::Drawn PoseSearch::drawNear(SampleSet from, std::size_t n, const Weigh& weigh,
+                                       const Random& random) {
+  return anneal(std::move(from), n, weigh, random, [](float, float, float) { return true; });
+}
+
 /// @param set of equal weights, from which the annealing begins
 PoseSearch::Drawn PoseSearch::anneal(SampleSet set, std::size_t n, const Weigh& weigh,
-                                     const Random& random, std::span<const Ring> rings) const {
+                                     const Random& random, const Within& within) {
   double logEvidence = 0.0;
   std::vector<float> fit;
   weigh(set, fit);
@@ -120,7 +128,7 @@ PoseSearch::Drawn PoseSearch::anneal(SampleSet set, std::size_t n, const Weigh& 
     exponent = share >= 1.0 ? 1.0 : exponent + share * (1.0 - exponent);
     set = taken(set, indices);
     fit = taken(fit, indices);
-    climb(set, fit, exponent, weigh, random.fork(2 + static_cast<std::uint64_t>(rise)), rings);
+    climb(set, fit, exponent, weigh, random.fork(2 + static_cast<std::uint64_t>(rise)), within);
   }
   set.logWeight = scaled(fit, 1.0 - exponent);
   logEvidence += logMean(set.logWeight);
@@ -129,7 +137,7 @@ PoseSearch::Drawn PoseSearch::anneal(SampleSet set, std::size_t n, const Weigh& 
 
 /// Metropolis steps whose invariant distribution is p^exponent over the poses to draw from.
 void PoseSearch::climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
-                       Random random, std::span<const Ring> rings) const {
+                       Random random, const Within& within) {
   SampleSet proposed;
   proposed.resize(set.size());
   std::vector<float> proposedFit;
@@ -143,7 +151,7 @@ void PoseSearch::climb(SampleSet& set, std::vector<float>& fit, double exponent,
     for (std::size_t i = 0; i < set.size(); ++i) {
       const double chance = std::exp(std::min(0.0, exponent * (proposedFit[i] - fit[i])));
       const bool accepted = random.uniform() < chance;
-      if (!accepted || !contains(rings, proposed.x[i], proposed.y[i], proposed.theta[i])) continue;
+      if (!accepted || !within(proposed.x[i], proposed.y[i], proposed.theta[i])) continue;
       set.x[i] = proposed.x[i];
       set.y[i] = proposed.y[i];
       set.theta[i] = proposed.theta[i];

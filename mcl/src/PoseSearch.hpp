@@ -58,13 +58,19 @@ class ORTUNG_API PoseSearch {
   /// @param rings one at least, none of which meet
   Drawn drawFrom(std::span<const Ring> rings, std::size_t n, double candidates, const Weigh& weigh,
                  const Random& random) const;
+  /// @p n poses by p(s|l), out of @p from and what is close by: a belief that is weighed where the
+  /// readings are far sharper than the belief, so that few of its samples would be left.
+  /// @param from weights are not looked at
+  static Drawn drawNear(SampleSet from, std::size_t n, const Weigh& weigh, const Random& random);
 
  private:
-  Drawn anneal(SampleSet set, std::size_t n, const Weigh& weigh, const Random& random,
-               std::span<const Ring> rings) const;
-  bool contains(std::span<const Ring> rings, float x, float y, float theta) const;
-  void climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
-             Random random, std::span<const Ring> rings) const;
+  /// Whether a climbing pose may go there.
+  using Within = std::function<bool(float x, float y, float theta)>;
+  static Within within(std::span<const Ring> rings);
+  static Drawn anneal(SampleSet set, std::size_t n, const Weigh& weigh, const Random& random,
+                      const Within& within);
+  static void climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
+                    Random random, const Within& within);
 
   const FieldRegion& region_;
   std::vector<std::uint32_t> standable_;  ///< cells

@@ -14,6 +14,7 @@ constexpr std::size_t kWitnesses = 64;  ///< samples that say how well the belie
 constexpr double kDoubtfulFit = 0.75;   ///< of its long-term average: of one moment
 constexpr double kFallenFit = 0.6;      ///< the same of its short-term average
 constexpr double kRecoveredFit = 0.8;   ///< the same: all is well again
+constexpr double kUsualFit = 0.85;      ///< of the long-term average of best fits
 constexpr double kRateWhileFallen = 0.1;
 constexpr double kPoorFit = 0.25;  ///< below this the belief explains too little, always
 
@@ -69,6 +70,15 @@ void Recovery::follow(double fit) {
 
 bool Recovery::isDoubtful() const {
   return rateSlow_ > 0.0 && known_ && (now_ < kDoubtfulFit * slow_ || now_ < kPoorFit);
+}
+
+void Recovery::followBest(double fit) {
+  if (!best_) best_ = fit;
+  *best_ += (isDoubtful() ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
+}
+
+bool Recovery::isUsual(double best) const {
+  return best >= kUsualFit * best_.value_or(1.0) && best >= kPoorFit;
 }
 
 bool Recovery::callsForSearch() const {

@@ -25,12 +25,20 @@ class ORTUNG_API Recovery {
   explicit Recovery(const MclConfig& config);
   /// @param fit of one moment's readings, in [0, 1]
   void follow(double fit);
-  void forget() { known_ = false; }
+  void forget() {
+    known_ = false;
+    best_.reset();
+  }
   /// Whether the newest readings fit worse than they use to: the robot may have left the track.
   bool isDoubtful() const;
   /// Whether the fit has fallen for some time: it may be anywhere.
   bool callsForSearch() const;
   bool hasRecovered() const;
+  /// @param fit of the same moment's readings where they fit the belief best: with the weights that
+  ///   they have given it. How wide a belief has become on a long way does not matter then.
+  void followBest(double fit);
+  /// Whether readings that fit so well where they fit best fit as they use to.
+  bool isUsual(double best) const;
 
  private:
   double rateFast_;
@@ -38,6 +46,7 @@ class ORTUNG_API Recovery {
   double now_ = 0.0;
   double fast_ = 0.0;
   double slow_ = 0.0;
+  std::optional<double> best_;  ///< long-term average
   bool known_ = false;
 };
 

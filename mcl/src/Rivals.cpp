@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
+#include "Drift.hpp"
 #include "Resampling.hpp"
 
 namespace ortung {
 namespace {
-
-constexpr double kMostNats = 4.0;     ///< that one reading counts
-constexpr double kEnoughNats = 24.0;  ///< for a place to be left
-constexpr double kHopelessNats = -12.0;
 
 // Around the estimate.
 constexpr double kRing = 0.5;             ///< at first [m]
@@ -20,68 +19,150 @@ constexpr double kTurn = 0.35;            ///< to either side, at first [rad]
 constexpr double kTurnPerSecond = 0.35;   ///< [rad/s]
 constexpr double kLargestTurn = 1.6;      ///< [rad]
 constexpr double kIndependentNear = 0.1;  ///< way after which a reading counts whole [m]
+constexpr double kSamePlace = 0.3;   ///< from the belief: no rival [m]
+constexpr double kSameTurn = 0.2;    ///< [rad]
 constexpr double kShareTaken = 0.9;       ///< of the belief; the rest stays where it was
 constexpr std::size_t kSamplesAround = 400;
+constexpr std::size_t kSpreadAround = 1000;  ///< that follow odometry, and as many that drift
+constexpr double kDroppedAround = -2.0;      ///< [nats]: then they are drawn anew
 constexpr double kCandidatesAround = 10.0;  ///< for each of them
 
 // Elsewhere.
 constexpr double kIndependentFar = 0.3;  ///< [m]
-constexpr double kWayElsewhere = 2.0;    ///< that readings are spread over, at least [m]
-constexpr int kReadingsElsewhere = 8;    ///< at least
-constexpr int kPatience = 20;            ///< readings; who is behind then was a chance hit
+constexpr double kWayElsewhere = 1.0;    ///< that readings are spread over, at least [m]
+constexpr int kReadingsElsewhere = 5;    ///< at least
+constexpr int kMostUnusual = 4;          ///< readings on end that fit badly: it was a chance hit
 constexpr std::size_t kSamplesElsewhere = 1000;
 constexpr double kCandidatesElsewhere = 50.0;
 
-}  // namespace
-
-void Lead::count(double ratio, double part) {
-  nats_ += std::min(1.0, part) * std::clamp(ratio, -kMostNats, kMostNats);
+/// Mean of samples, and by how much they are apart: metres and radians alike.
+struct Centre {
+  Pose2 pose;
+  double open = 0.0;
+};
+Centre centreOf(const SampleSet& set) {
+  const std::vector<double> weights = normalized(set.logWeight);
+  double x = 0.0;
+  double y = 0.0;
+  double c = 0.0;
+  double s = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    x += weights[i] * static_cast<double>(set.x[i]);
+    y += weights[i] * static_cast<double>(set.y[i]);
+    c += weights[i] * std::cos(static_cast<double>(set.theta[i]));
+    s += weights[i] * std::sin(static_cast<double>(set.theta[i]));
+  }
+  Centre centre{{x, y, std::atan2(s, c)}, 0.0};
+  double squares = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double dx = static_cast<double>(set.x[i]) - x;
+    const double dy = static_cast<double>(set.y[i]) - y;
+    const double turn = wrapAngle(static_cast<double>(set.theta[i]) - centre.pose.theta);
+    squares += weights[i] * (dx * dx + dy * dy + turn * turn);
+  }
+  centre.open = std::sqrt(squares);
+  return centre;
 }
 
-void Lead::atLeast(double nats) { nats_ = std::max(nats, nats_); }
+/// Whether a rival is where the belief is, so that it is none.
+bool isSame(const Pose2& rival, const Pose2& belief) {
+  return distance(rival, belief) < kSamePlace &&
+         std::abs(wrapAngle(rival.theta - belief.theta)) < kSameTurn;
+}
 
-bool Lead::isEnough() const { return nats_ >= kEnoughNats; }
+/// ln of the mean of p over a part of a set. @param weights of all
+double evidenceOf(std::span<const double> weights, std::span<const float> logs, std::size_t first,
+                  std::size_t count) {
+  const auto its = weights.subspan(first, count);
+  return logMean(its, logs.subspan(first, count)) -
+         std::log(std::accumulate(its.begin(), its.end(), 0.0));
+}
 
-bool Lead::isHopeless() const { return nats_ <= kHopelessNats; }
+}  // namespace
 
 void Rivals::forget() {
   doubtSince_.reset();
-  around_ = {};
+  around_.reset();
   elsewhere_.reset();
 }
 
-std::optional<Rivals::Takeover> Rivals::follow(const Moment& moment, const Recovery& recovery,
-                                               const PoseSearch::Weigh& weigh,
-                                               const Random& random) {
-  if (auto around = lookAround(moment, recovery, weigh, random.fork(0))) return around;
-  return lookElsewhere(moment, recovery, weigh, random.fork(1));
+std::array<SampleSet*, 2> Rivals::samples() {
+  return {around_ ? &around_->samples : nullptr, elsewhere_ ? &elsewhere_->samples : nullptr};
 }
 
-std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const Recovery& recovery,
-                                                   const PoseSearch::Weigh& weigh,
-                                                   const Random& random) {
-  if (!recovery.isDoubtful()) {
-    doubtSince_.reset();
-    around_ = {};
-    return std::nullopt;
-  }
-  if (!doubtSince_) doubtSince_ = moment.stamp;
+std::optional<Rivals::Takeover> Rivals::follow(const Moment& moment, const Recovery& recovery,
+                                               const PoseSearch::Weigh& weigh, const Fit& fit) {
+  if (auto around = lookAround(moment, recovery, weigh, fit)) return around;
+  return lookElsewhere(moment, recovery, weigh, fit);
+}
+
+/// The reading that they are drawn from has chosen them, so it does not count for them.
+void Rivals::drawAround(const Moment& moment, const PoseSearch::Weigh& weigh) {
   const double seconds = toSeconds(moment.stamp - *doubtSince_);
   const PoseSearch::Ring ring{moment.predicted,
                               std::min(kRing + kRingPerSecond * seconds, kLargestRing),
                               std::min(kTurn + kTurnPerSecond * seconds, kLargestTurn)};
-  PoseSearch::Drawn drawn = search_.draw(kSamplesAround, kCandidatesAround, weigh, random, ring);
-  around_.count(drawn.logEvidence - moment.logEvidence, moment.way / kIndependentNear);
-  around_.atLeast(0.0);
-  if (!around_.isEnough()) return std::nullopt;
-  around_ = {};
-  return Takeover{std::move(drawn.samples), kShareTaken};
+  SampleSet drawn = search_
+                        .draw(kSamplesAround, kCandidatesAround, weigh,
+                              Random(config_.seed, moment.stream).fork(0), ring)
+                        .samples;
+  const Centre centre = centreOf(drawn);
+  around_ = Around{drawn, drawn, centre.pose, centre.open, moment.stamp};
+  around_->trust.lose();
+}
+
+std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const Recovery& recovery,
+                                                   const PoseSearch::Weigh& weigh, const Fit& fit) {
+  if (!recovery.isDoubtful() && (!around_ || around_->lead.nats() <= 0.0)) {
+    doubtSince_.reset();
+    around_.reset();
+    return std::nullopt;
+  }
+  if (!doubtSince_) doubtSince_ = moment.stamp;
+  if (!around_) {
+    drawAround(moment, weigh);
+    return std::nullopt;
+  }
+  Around& rival = *around_;
+  const double seconds = std::max(0.0, toSeconds(moment.stamp - rival.stamp));
+  Spread both =
+      spread(config_, rival.samples, rival.anchor, seconds, kSpreadAround, moment.stream);
+  std::vector<float> logs;
+  weigh(both.samples, logs);
+  const std::vector<double> before = normalized(both.samples.logWeight);
+  const double ratio = evidenceOf(before, logs, 0, logs.size()) - moment.logEvidence;
+  const double trust = evidenceOf(before, logs, 0, both.drifted) -
+                       evidenceOf(before, logs, both.drifted, logs.size() - both.drifted);
+  rival.trust.compare(trust, moment.way);
+  rival.samples = PoseSearch::drawNear(std::move(both.samples), kSamplesAround, weigh,
+                                       Random(config_.seed, moment.stream).fork(1))
+                      .samples;
+  rival.anchor = rival.samples;
+  rival.stamp = moment.stamp;
+  // The way is what odometry says of it, or the readings beyond what they leave open.
+  const Centre centre = centreOf(rival.samples);
+  const double seen = distance(rival.centre, centre.pose) +
+                      std::abs(wrapAngle(centre.pose.theta - rival.centre.theta)) - rival.open -
+                      centre.open;
+  rival.centre = centre.pose;
+  rival.open = centre.open;
+  if (ratio < 0.0 || recovery.isUsual(fit(rival.samples)))
+    rival.lead.count(ratio, std::max(moment.way, seen) / kIndependentNear);
+  if (rival.lead.isEnough()) {
+    Takeover takeover{std::move(rival.samples), kShareTaken, !rival.trust.isLost()};
+    around_.reset();
+    return takeover;
+  }
+  if (isSame(centre.pose, moment.predicted) && !rival.trust.isLost()) rival.lead = {};
+  if (rival.lead.nats() < kDroppedAround) drawAround(moment, weigh);
+  return std::nullopt;
 }
 
 std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
                                                       const Recovery& recovery,
                                                       const PoseSearch::Weigh& weigh,
-                                                      const Random& random) {
+                                                      const Fit& fit) {
+  const Random random = Random(config_.seed, moment.stream).fork(2);
   if (!elsewhere_) {
     // The reading that they are drawn from has chosen them, so it does not count for them.
     if (recovery.callsForSearch())
@@ -93,17 +174,21 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   std::vector<float> logs;
   weigh(rival.samples, logs);
   const double evidence = logMean(normalized(rival.samples.logWeight), logs);
-  rival.lead.count(evidence - moment.logEvidence, moment.way / kIndependentFar);
+  const double ratio = evidence - moment.logEvidence;
+  for (std::size_t i = 0; i < logs.size(); ++i) rival.samples.logWeight[i] += logs[i];
+  const bool isUsual = recovery.isUsual(fit(rival.samples));
+  rival.unusual = isUsual ? 0 : rival.unusual + 1;
+  if (ratio < 0.0 || isUsual) rival.lead.count(ratio, moment.way / kIndependentFar);
   rival.way += moment.way;
   ++rival.readings;
-  for (std::size_t i = 0; i < logs.size(); ++i) rival.samples.logWeight[i] += logs[i];
   if (rival.lead.isEnough() && rival.way >= kWayElsewhere && rival.readings >= kReadingsElsewhere) {
-    Takeover takeover{std::move(rival.samples), 1.0};
+    Takeover takeover{std::move(rival.samples), 1.0, true};
     forget();
     return takeover;
   }
-  if (rival.lead.isHopeless() || (rival.readings > kPatience && rival.lead.nats() < 0.0) ||
-      recovery.hasRecovered()) {
+  if (rival.lead.isHopeless() || rival.unusual >= kMostUnusual ||
+      (recovery.hasRecovered() && rival.lead.nats() <= 0.0) ||
+      isSame(centreOf(rival.samples).pose, moment.predicted)) {
     elsewhere_.reset();
     return std::nullopt;
   }

@@ -21,6 +21,14 @@ struct SampleSet {
     theta.resize(n);
     logWeight.resize(n);
   }
+  /// Those from @p first on. @pre first <= size()
+  SampleSet from(std::size_t first) const {
+    const auto begin = static_cast<std::ptrdiff_t>(first);
+    return {{x.begin() + begin, x.end()},
+            {y.begin() + begin, y.end()},
+            {theta.begin() + begin, theta.end()},
+            {logWeight.begin() + begin, logWeight.end()}};
+  }
   SampleView view() const { return {x, y, theta}; }
 };
 

@@ -1,0 +1,129 @@
+#include "Intake.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "ortung/formats/OdometryData.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kTimeJump = 5.0;  ///< back: a clock was set, or a log begins anew [s]
+/// So many words never come again by chance if their device lives: its noise sees to that.
+constexpr std::size_t kManyWords = 16;
+
+/// FNV-1a (Fowler, Noll, Vo), a word at a time.
+std::uint64_t hashOf(std::span<const std::uint32_t> words) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const std::uint32_t word : words) hash = (hash ^ word) * 1099511628211ULL;
+  return hash;
+}
+
+}  // namespace
+
+Intake::Look Intake::look(const SensorContainer& container, Timestamp ofBelief,
+                          bool trustsOdometry) {
+  const SensorContainer::ReadLock lock = container.read();
+  Look look;
+  look.clockSetTo = clockSetBack(container, ofBelief);
+  if (look.clockSetTo) {
+    forget();
+    ofBelief = *look.clockSetTo;
+  }
+  takeOdometry(container);
+  frozen_ = nullptr;
+  for (const auto& data : container.all()) {
+    if (isFrozen(*data)) frozen_ = data.get();
+    if (frozen_ == data.get() || !isNews(*data, ofBelief, trustsOdometry)) continue;  // so no weigher is made
+    if (std::shared_ptr<const Weigher> weigher = data->weigher())
+      look.news[data->stamp()].push_back({data.get(), data->sequence(), std::move(weigher)});
+  }
+  return look;
+}
+
+void Intake::followOdometry(const SensorContainer& container) {
+  const SensorContainer::ReadLock lock = container.read();
+  takeOdometry(container);
+}
+
+void Intake::used(const std::vector<News>& news, Timestamp stamp,
+                  const std::optional<Pose2>& odometry) {
+  for (const News& one : news)
+    uses_[one.feature] = {one.sequence, stamp, odometry.value_or(Pose2{})};
+}
+
+void Intake::forget() {
+  uses_.clear();
+  words_.clear();
+  frozen_ = nullptr;
+  odometrySequence_ = 0;
+  motion_.forget();
+}
+
+/// Readings older than the belief are late and don't count. But if all are older by far, time
+/// itself went back: then the belief stays, and what is known of times is forgotten.
+std::optional<Timestamp> Intake::clockSetBack(const SensorContainer& container,
+                                              Timestamp ofBelief) const {
+  std::optional<Timestamp> newest;
+  for (const auto& data : container.all()) {
+    if (data->sequence() > 0) newest = std::max(newest.value_or(data->stamp()), data->stamp());
+  }
+  if (!newest || *newest + fromSeconds(kTimeJump) >= ofBelief) return std::nullopt;
+  return newest;
+}
+
+/// The first feature that is odometry tells how the robot moves.
+void Intake::takeOdometry(const SensorContainer& container) {
+  newestOdometry_.reset();
+  for (const auto& data : container.all()) {
+    const auto* candidate = dynamic_cast<const OdometryData*>(data.get());
+    if (candidate == nullptr || candidate->sequence() == 0) continue;
+    newestOdometry_ = candidate->stamp();
+    if (candidate->sequence() != odometrySequence_) {
+      const OdometryData::Reading& reading = candidate->reading();
+      motion_.follow(candidate->stamp(),
+                     {reading.pose, reading.translationalVelocity, reading.rotationalVelocity,
+                      reading.motionData, reading.lateralVelocity});
+    }
+    odometrySequence_ = candidate->sequence();
+    return;
+  }
+}
+
+bool Intake::hasMoved(const Pose2& from, const Pose2& to) const {
+  const Pose2 change = inverse(from) * to;
+  return std::hypot(change.x, change.y) >= config_.minDistance ||
+         std::abs(change.theta) >= config_.minRotation;
+}
+
+bool Intake::isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry) const {
+  const auto it = uses_.find(&data);
+  if (it == uses_.end()) return true;
+  const Use& last = it->second;
+  if (data.sequence() == last.sequence || data.stamp() < ofBelief) return false;
+  const std::optional<Pose2> odometry = motion_.odometryAt(data.stamp());
+  return !trustsOdometry || !odometry || hasMoved(last.odometry, *odometry) ||
+         toSeconds(data.stamp() - last.stamp) >= config_.maxInterval;
+}
+
+/// Whether a reading's words came again and again while the robot moved. Where it stands, readings
+/// without noise may well repeat themselves.
+bool Intake::isFrozen(const SensorData& data) {
+  const std::span<const std::uint32_t> words = data.getData();
+  if (data.sequence() == 0 || words.size() < kManyWords) return false;
+  // Where nothing is seen, nothing changes.
+  if (std::adjacent_find(words.begin(), words.end(), std::not_equal_to<>()) == words.end())
+    return false;
+  Words& known = words_[&data];
+  if (data.sequence() == known.sequence) return known.isFrozen;
+  const std::optional<Pose2> odometry = motion_.odometryAt(data.stamp());
+  const std::uint64_t hash = hashOf(words);
+  if (known.sequence == 0 || hash != known.hash || !known.odometry || !odometry)
+    known = {data.sequence(), hash, odometry, false};
+  known.sequence = data.sequence();
+  if (odometry && hasMoved(*known.odometry, *odometry)) known.isFrozen = true;
+  return known.isFrozen;
+}
+
+}  // namespace ortung

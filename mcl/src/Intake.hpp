@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "News.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Time.hpp"
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/mcl/MclConfig.hpp"
+#include "ortung/motion/MotionModel.hpp"
+
+namespace ortung {
+
+/// Takes out of a container what the filter has not seen yet: odometry for the motion model, and
+/// readings that are news. A robot that stands and stares does not grow more certain with every
+/// repetition; readings older than the belief are late; and a scan that comes again word for word
+/// though the robot moved is that of a device that hangs. Not thread-safe.
+class ORTUNG_API Intake {
+ public:
+  /// What is new in a container.
+  struct Look {
+    NewsByTime news;  ///< by time, since what was read at one moment is weighed together
+    /// Time itself went back, to this: a clock was set, or a log begins anew.
+    std::optional<Timestamp> clockSetTo;
+  };
+
+  /// @param motion borrowed; follows odometry
+  Intake(const MclConfig& config, MotionModel& motion) : config_(config), motion_(motion) {}
+
+  /// Holds the container's lock meanwhile.
+  /// @param trustsOdometry it says whether the robot stands; else every reading is news
+  Look look(const SensorContainer& container, Timestamp ofBelief, bool trustsOdometry);
+  void followOdometry(const SensorContainer& container);
+  /// Notes that news were weighed. @param odometry at that time, if it is known
+  void used(const std::vector<News>& news, Timestamp stamp, const std::optional<Pose2>& odometry);
+  void forget();
+
+  /// Time of odometry's newest reading, if the robot has any.
+  const std::optional<Timestamp>& newestOdometry() const { return newestOdometry_; }
+  /// A feature whose readings repeat themselves though the robot moves; null: none.
+  const SensorData* frozen() const { return frozen_; }
+
+ private:
+  /// When and where a feature was last used.
+  struct Use {
+    std::uint64_t sequence = 0;
+    Timestamp stamp = 0;
+    Pose2 odometry;
+  };
+  /// A reading's words, and where the robot was when they first came.
+  struct Words {
+    std::uint64_t sequence = 0;
+    std::uint64_t hash = 0;
+    std::optional<Pose2> odometry;
+    bool isFrozen = false;
+  };
+  std::optional<Timestamp> clockSetBack(const SensorContainer& container, Timestamp ofBelief) const;
+  void takeOdometry(const SensorContainer& container);
+  bool isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry) const;
+  bool isFrozen(const SensorData& data);
+  bool hasMoved(const Pose2& from, const Pose2& to) const;
+
+  const MclConfig& config_;
+  MotionModel& motion_;
+  std::map<const SensorData*, Use> uses_;
+  std::map<const SensorData*, Words> words_;
+  std::optional<Timestamp> newestOdometry_;
+  std::uint64_t odometrySequence_ = 0;  ///< of the newest reading that motion took
+  const SensorData* frozen_ = nullptr;
+};
+
+}  // namespace ortung
