@@ -7,29 +7,6 @@
 #include "Resampling.hpp"
 
 namespace ortung {
-namespace {
-
-constexpr double kWorth = 0.5;  ///< share of the set that each rise of b leaves effective
-constexpr int kMostRises = 12;  ///< of b, even if 1 is not reached
-constexpr double kStepMetres[] = {0.15, 0.05};  ///< sigma of a Metropolis step, coarse and fine [m]
-constexpr double kStepRadians[] = {0.08, 0.02};  ///< [rad]
-
-std::vector<float> taken(const std::vector<float>& from,
-                         const std::vector<std::uint32_t>& indices) {
-  std::vector<float> values(indices.size());
-  for (std::size_t i = 0; i < indices.size(); ++i) values[i] = from[indices[i]];
-  return values;
-}
-
-std::vector<float> scaled(const std::vector<float>& values, double factor) {
-  std::vector<float> products(values.size());
-  std::transform(values.begin(), values.end(), products.begin(),
-                 [factor](float v) { return static_cast<float>(factor) * v; });
-  return products;
-}
-
-}  // namespace
-
 PoseSearch::PoseSearch(const FieldRegion& region) : region_(region) {
   for (std::size_t cell = 0; cell < region.standable.size(); ++cell) {
     if (region.standable[cell] != 0) standable_.push_back(static_cast<std::uint32_t>(cell));
@@ -64,7 +41,7 @@ SampleSet PoseSearch::around(const Ring& ring, std::size_t n, Random random) {
   return set;
 }
 
-PoseSearch::Within PoseSearch::within(std::span<const Ring> rings) {
+Annealing::Within PoseSearch::within(std::span<const Ring> rings) {
   return [rings](float x, float y, float theta) {
     return std::any_of(rings.begin(), rings.end(), [&](const Ring& ring) {
       return std::hypot(x - ring.pose.x, y - ring.pose.y) <= ring.radius &&
@@ -77,11 +54,13 @@ PoseSearch::Drawn PoseSearch::draw(std::size_t n, double candidates, const Weigh
                                    const Random& random, const std::optional<Ring>& ring) const {
   const auto tried = static_cast<std::size_t>(candidates * static_cast<double>(n));
   if (ring)
-    return anneal(around(*ring, tried, random.fork(0)), n, weigh, random, within({&*ring, 1}));
-  return anneal(anywhere(tried, random.fork(0)), n, weigh, random, [&](float x, float y, float) {
+    return Annealing(weigh, within({&*ring, 1}))
+        .draw(around(*ring, tried, random.fork(0)), n, random);
+  const auto isStandable = [&](float x, float y, float) {
     const std::ptrdiff_t cell = region_.grid.cellAt(x, y);
     return cell >= 0 && region_.standable[static_cast<std::size_t>(cell)] != 0;
-  });
+  };
+  return Annealing(weigh, isStandable).draw(anywhere(tried, random.fork(0)), n, random);
 }
 
 PoseSearch::Drawn PoseSearch::drawFrom(std::span<const Ring> rings, std::size_t n,
@@ -100,64 +79,10 @@ PoseSearch::Drawn PoseSearch::drawFrom(std::span<const Ring> rings, std::size_t 
     volume += std::numbers::pi * rings[i].radius * rings[i].radius * 2.0 * rings[i].turn;
   }
   set.logWeight.assign(set.x.size(), 0.0F);
-  Drawn drawn = anneal(std::move(set), n, weigh, random, within(rings));
+  Drawn drawn = Annealing(weigh, within(rings)).draw(std::move(set), n, random);
   const double floor = static_cast<double>(cells()) * region_.grid.cell * region_.grid.cell;
   drawn.logEvidence += std::log(volume / (floor * 2.0 * std::numbers::pi));
   return drawn;
-}
-
-PoseSearch::Drawn PoseSearch::drawNear(SampleSet from, std::size_t n, const Weigh& weigh,
-                                       const Random& random) {
-  return anneal(std::move(from), n, weigh, random, [](float, float, float) { return true; });
-}
-
-/// @param set of equal weights, from which the annealing begins
-PoseSearch::Drawn PoseSearch::anneal(SampleSet set, std::size_t n, const Weigh& weigh,
-                                     const Random& random, const Within& within) {
-  double logEvidence = 0.0;
-  std::vector<float> fit;
-  weigh(set, fit);
-  Random offsets = random.fork(1);
-  double exponent = 0.0;
-  for (int rise = 0; exponent < 1.0 && rise < kMostRises; ++rise) {
-    const std::vector<float> rest = scaled(fit, 1.0 - exponent);
-    const double share = temperFor(rest, kWorth * static_cast<double>(n));
-    const std::vector<float> risen = scaled(rest, share);
-    logEvidence += logMean(risen);
-    const auto indices = lowVariance(normalized(risen), n, offsets.uniform());
-    exponent = share >= 1.0 ? 1.0 : exponent + share * (1.0 - exponent);
-    set = taken(set, indices);
-    fit = taken(fit, indices);
-    climb(set, fit, exponent, weigh, random.fork(2 + static_cast<std::uint64_t>(rise)), within);
-  }
-  set.logWeight = scaled(fit, 1.0 - exponent);
-  logEvidence += logMean(set.logWeight);
-  return {std::move(set), logEvidence};
-}
-
-/// Metropolis steps whose invariant distribution is p^exponent over the poses to draw from.
-void PoseSearch::climb(SampleSet& set, std::vector<float>& fit, double exponent, const Weigh& weigh,
-                       Random random, const Within& within) {
-  SampleSet proposed;
-  proposed.resize(set.size());
-  std::vector<float> proposedFit;
-  for (std::size_t k = 0; k < std::size(kStepMetres); ++k) {
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      proposed.x[i] = set.x[i] + static_cast<float>(kStepMetres[k] * random.gaussian());
-      proposed.y[i] = set.y[i] + static_cast<float>(kStepMetres[k] * random.gaussian());
-      proposed.theta[i] = set.theta[i] + static_cast<float>(kStepRadians[k] * random.gaussian());
-    }
-    weigh(proposed, proposedFit);
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      const double chance = std::exp(std::min(0.0, exponent * (proposedFit[i] - fit[i])));
-      const bool accepted = random.uniform() < chance;
-      if (!accepted || !within(proposed.x[i], proposed.y[i], proposed.theta[i])) continue;
-      set.x[i] = proposed.x[i];
-      set.y[i] = proposed.y[i];
-      set.theta[i] = proposed.theta[i];
-      fit[i] = proposedFit[i];
-    }
-  }
 }
 
 }  // namespace ortung

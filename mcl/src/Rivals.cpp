@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Drift.hpp"
+#include "Kld.hpp"
 #include "Resampling.hpp"
 
 namespace ortung {
@@ -134,8 +135,10 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   const double trust = evidenceOf(before, logs, 0, both.drifted) -
                        evidenceOf(before, logs, both.drifted, logs.size() - both.drifted);
   rival.trust.compare(trust, moment.way);
-  rival.samples = PoseSearch::drawNear(std::move(both.samples), kSamplesAround, weigh,
-                                       Random(config_.seed, moment.stream).fork(1))
+  const PoseEstimate its = estimateOf(config_, both.samples.view(), before);
+  rival.samples = Annealing(weigh, its.covariance, both.samples.size())
+                      .draw(std::move(both.samples), kSamplesAround,
+                            Random(config_.seed, moment.stream).fork(1))
                       .samples;
   rival.anchor = rival.samples;
   rival.stamp = moment.stamp;
