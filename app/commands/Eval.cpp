@@ -109,9 +109,8 @@ std::vector<RunResult> runAll(const EvalSettings& settings, std::vector<EvalJob>
   Progress progress("localizing", settings.arguments.localization.progress);
   const unsigned threads = settings.arguments.localization.threads.value_or(
       std::max(1U, std::thread::hardware_concurrency()));
-  return runJobs(settings, std::move(jobs), threads, [&](std::size_t done) {
-    progress.update(static_cast<double>(done) / count);
-  });
+  return runJobs(settings, std::move(jobs), threads,
+                 [&](std::size_t done) { progress.update(static_cast<double>(done) / count); });
 }
 
 /// What is live can be had only once, as long as it lasts.

@@ -15,8 +15,11 @@ constexpr double kWorth = 0.5;  ///< share of the set that each rise of b leaves
 constexpr int kMostRises = 12;  ///< of b, even if 1 is not reached
 constexpr double kStepMetres[] = {0.15, 0.05};  ///< sigma of a Metropolis step, coarse and fine [m]
 constexpr double kStepRadians[] = {0.08, 0.02};  ///< [rad]
-constexpr double kLeastMetres = 0.02;  ///< sigma of a sample's surroundings, at least [m]
-constexpr double kLeastRadians = 0.01;  ///< [rad]
+// Sigmas of a sample's surroundings, at least: motion models promise more than wheels keep.
+constexpr double kLeastMetres = 0.06;   ///< [m]
+constexpr double kMostMetres = 0.15;    ///< at most [m]
+constexpr double kMostRadians = 0.1;    ///< [rad]
+constexpr double kLeastRadians = 0.03;  ///< [rad]
 
 std::vector<float> taken(const std::vector<float>& from,
                          const std::vector<std::uint32_t>& indices) {
@@ -40,14 +43,19 @@ Annealing::Annealing(Weigh weigh, Within within)
 Annealing::Annealing(Weigh weigh, const std::array<double, 9>& covariance, std::size_t samples)
     : weigh_(std::move(weigh)), isOfBelief_(true) {
   // Silverman's rule for three dimensions: h = (4 / (5 n))^(1/7).
-  const double h = std::pow(4.0 / (5.0 * static_cast<double>(std::max<std::size_t>(samples, 1))),
-                            1.0 / 7.0);
-  Eigen::Matrix3d surroundings =
-      h * h * Eigen::Map<const Eigen::Matrix3d>(covariance.data()) +
-      Eigen::Vector3d(kLeastMetres * kLeastMetres, kLeastMetres * kLeastMetres,
-                      kLeastRadians * kLeastRadians)
-          .asDiagonal()
-          .toDenseMatrix();
+  const double h =
+      std::pow(4.0 / (5.0 * static_cast<double>(std::max<std::size_t>(samples, 1))), 1.0 / 7.0);
+  const Eigen::Map<const Eigen::Matrix3d> whole(covariance.data());
+  // A wide belief is no Gaussian, but bent around what was seen: its parts are smaller than it.
+  const double shrunk =
+      std::min({1.0, kMostMetres / (h * std::sqrt(std::max(whole(0, 0), whole(1, 1)))),
+                kMostRadians / (h * std::sqrt(whole(2, 2)))});
+  const Eigen::Matrix3d surroundings =
+      h * h * shrunk * shrunk * whole + Eigen::Vector3d(kLeastMetres * kLeastMetres,
+                                                        kLeastMetres * kLeastMetres,
+                                                        kLeastRadians * kLeastRadians)
+                                            .asDiagonal()
+                                            .toDenseMatrix();
   Eigen::Map<Eigen::Matrix3d>(precision_.data()) = surroundings.inverse();
   mostMetres_ = std::sqrt(std::max(surroundings(0, 0), surroundings(1, 1)));
   mostRadians_ = std::sqrt(surroundings(2, 2));
@@ -102,10 +110,9 @@ void Annealing::climb(Climbing& some, double exponent, Random random) const {
     }
     weigh_(proposed, proposedFit);
     for (std::size_t i = 0; i < set.size(); ++i) {
-      const double gain =
-          exponent * static_cast<double>(proposedFit[i] - some.fit[i]) +
-          logPriorOf(some, i, proposed.x[i], proposed.y[i], proposed.theta[i]) -
-          logPriorOf(some, i, set.x[i], set.y[i], set.theta[i]);
+      const double gain = exponent * static_cast<double>(proposedFit[i] - some.fit[i]) +
+                          logPriorOf(some, i, proposed.x[i], proposed.y[i], proposed.theta[i]) -
+                          logPriorOf(some, i, set.x[i], set.y[i], set.theta[i]);
       const bool accepted = random.uniform() < std::exp(std::min(0.0, gain));
       if (!accepted || (within_ && !within_(proposed.x[i], proposed.y[i], proposed.theta[i])))
         continue;

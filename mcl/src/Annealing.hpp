@@ -25,7 +25,7 @@ class ORTUNG_API Annealing {
     double logEvidence;  ///< ln of the mean of p over all poses that were drawn from
   };
 
-  /// Of poses that are spread evenly.
+  /// Of poses that are spread evenly. @param within null: everywhere
   Annealing(Weigh weigh, Within within);
   /// Of a belief: each of its samples stands for its surroundings (Silverman 1986), a Gaussian with
   /// the covariance of the whole, made smaller. So climbing does not forget what was known.

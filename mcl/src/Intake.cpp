@@ -35,7 +35,8 @@ Intake::Look Intake::look(const SensorContainer& container, Timestamp ofBelief,
   frozen_ = nullptr;
   for (const auto& data : container.all()) {
     if (isFrozen(*data)) frozen_ = data.get();
-    if (frozen_ == data.get() || !isNews(*data, ofBelief, trustsOdometry)) continue;  // so no weigher is made
+    if (frozen_ == data.get() || !isNews(*data, ofBelief, trustsOdometry))
+      continue;  // so no weigher is made
     if (std::shared_ptr<const Weigher> weigher = data->weigher())
       look.news[data->stamp()].push_back({data.get(), data->sequence(), std::move(weigher)});
   }

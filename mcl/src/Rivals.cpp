@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "Drift.hpp"
-#include "Kld.hpp"
 #include "Resampling.hpp"
 
 namespace ortung {
@@ -20,13 +19,13 @@ constexpr double kTurn = 0.35;            ///< to either side, at first [rad]
 constexpr double kTurnPerSecond = 0.35;   ///< [rad/s]
 constexpr double kLargestTurn = 1.6;      ///< [rad]
 constexpr double kIndependentNear = 0.1;  ///< way after which a reading counts whole [m]
-constexpr double kSamePlace = 0.3;   ///< from the belief: no rival [m]
-constexpr double kSameTurn = 0.2;    ///< [rad]
+constexpr double kSamePlace = 0.3;        ///< from the belief: no rival [m]
+constexpr double kSameTurn = 0.2;         ///< [rad]
 constexpr double kShareTaken = 0.9;       ///< of the belief; the rest stays where it was
 constexpr std::size_t kSamplesAround = 400;
 constexpr std::size_t kSpreadAround = 1000;  ///< that follow odometry, and as many that drift
 constexpr double kDroppedAround = -2.0;      ///< [nats]: then they are drawn anew
-constexpr double kCandidatesAround = 10.0;  ///< for each of them
+constexpr double kCandidatesAround = 10.0;   ///< for each of them
 
 // Elsewhere.
 constexpr double kIndependentFar = 0.3;  ///< [m]
@@ -126,8 +125,7 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   }
   Around& rival = *around_;
   const double seconds = std::max(0.0, toSeconds(moment.stamp - rival.stamp));
-  Spread both =
-      spread(config_, rival.samples, rival.anchor, seconds, kSpreadAround, moment.stream);
+  Spread both = spread(config_, rival.samples, rival.anchor, seconds, kSpreadAround, moment.stream);
   std::vector<float> logs;
   weigh(both.samples, logs);
   const std::vector<double> before = normalized(both.samples.logWeight);
@@ -135,8 +133,7 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   const double trust = evidenceOf(before, logs, 0, both.drifted) -
                        evidenceOf(before, logs, both.drifted, logs.size() - both.drifted);
   rival.trust.compare(trust, moment.way);
-  const PoseEstimate its = estimateOf(config_, both.samples.view(), before);
-  rival.samples = Annealing(weigh, its.covariance, both.samples.size())
+  rival.samples = Annealing(weigh, nullptr)
                       .draw(std::move(both.samples), kSamplesAround,
                             Random(config_.seed, moment.stream).fork(1))
                       .samples;

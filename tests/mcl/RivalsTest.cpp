@@ -79,9 +79,8 @@ struct Drive {
         sum += weights[i] * (1.0 - static_cast<double>(logProbability(set, i, there)) / kFloor);
       return sum;
     };
-    return rivals.follow(
-        {stamp, believed, evidence, metres, static_cast<std::uint64_t>(readings)}, recovery, weigh,
-        fit);
+    return rivals.follow({stamp, believed, evidence, metres, static_cast<std::uint64_t>(readings)},
+                         recovery, weigh, fit);
   }
   bool hasElsewhere() { return rivals.samples()[1] != nullptr; }
   static float logProbability(const SampleSet& set, std::size_t i, const Pose2& there) {
