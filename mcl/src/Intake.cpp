@@ -62,13 +62,20 @@ void Intake::forget() {
   motion_.forget();
 }
 
+void Intake::countAgain(Timestamp since) {
+  std::erase_if(uses_, [&](const auto& use) { return use.second.stamp >= since; });
+}
+
 /// Readings older than the belief are late and don't count. But if all are older by far, time
-/// itself went back: then the belief stays, and what is known of times is forgotten.
+/// itself went back: then the belief stays, and what is known of times is forgotten. What others
+/// made of the belief is as old as that, so only odometry and what weighs tells the time.
 std::optional<Timestamp> Intake::clockSetBack(const SensorContainer& container,
                                               Timestamp ofBelief) const {
   std::optional<Timestamp> newest;
   for (const auto& data : container.all()) {
-    if (data->sequence() > 0) newest = std::max(newest.value_or(data->stamp()), data->stamp());
+    const bool isAsked = data->localizes() || dynamic_cast<const OdometryData*>(data.get());
+    if (data->sequence() > 0 && isAsked)
+      newest = std::max(newest.value_or(data->stamp()), data->stamp());
   }
   if (!newest || *newest + fromSeconds(kTimeJump) >= ofBelief) return std::nullopt;
   return newest;

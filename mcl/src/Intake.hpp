@@ -37,6 +37,8 @@ class ORTUNG_API Intake {
   /// Notes that news were weighed. @param odometry at that time, if it is known
   void used(const std::vector<News>& news, Timestamp stamp, const std::optional<Pose2>& odometry);
   void forget();
+  /// Readings that were weighed since then are news once more; odometry and clock stay.
+  void countAgain(Timestamp since);
 
   /// Time of odometry's newest reading, if the robot has any.
   const std::optional<Timestamp>& newestOdometry() const { return newestOdometry_; }

@@ -2,10 +2,13 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
 
+#include "BeliefFile.hpp"
+#include "EstimateData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/run/OpenSource.hpp"
 #include "ortung/tables/FieldParts.hpp"
@@ -80,7 +83,9 @@ Localization::Localization(Opened opened, const LocalizationConfig& config)
       robot_(std::move(opened.robot)),
       source_(std::move(opened.source)),
       mclConfig_(readMcl(config, robot_->config)),
-      mcl_(std::make_unique<Mcl>(mclConfig_, robot_->tables.region, readMotion(config, *robot_))) {
+      mcl_(std::make_unique<Mcl>(mclConfig_, robot_->tables.region, readMotion(config, *robot_))),
+      publishes_(config.publish) {
+  if (publishes_) robot_->container.add(std::make_unique<EstimateData>());
   if (source_) feeder_ = std::make_unique<Feeder>(sourceName_, *source_, robot_->container);
   checkWorld(config);
   start(config.start);
@@ -117,6 +122,34 @@ void Localization::startAt(const Pose2& pose) {
   waitsForTruth_ = false;
 }
 
+void Localization::setPose(const Pose2& pose, const std::array<double, 9>& covariance) {
+  const double variance = covariance[0] + covariance[4];
+  const bool isNumber = variance >= 0.0 && std::isfinite(variance);  // else MCL says what it is
+  checkPlace(robot_->tables.region, pose, isNumber ? std::sqrt(variance) : 0.0, "the pose set");
+  mcl_->setPose(pose, covariance);
+  waitsForTruth_ = false;
+}
+
+void Localization::relocalize() {
+  mcl_->relocalize();
+  waitsForTruth_ = false;
+}
+
+void Localization::saveBelief(const std::filesystem::path& file) const {
+  const auto belief = waitsForTruth_ ? std::nullopt : mcl_->belief();
+  if (!belief) throw std::logic_error("there is no belief yet that could be saved");
+  writeBelief(file, *belief, robot_->tables.worldFingerprint);
+}
+
+void Localization::restoreBelief(const std::filesystem::path& file) {
+  mcl_->restore(readBelief(file, robot_->tables));
+  waitsForTruth_ = false;
+}
+
+void Localization::publish(const PoseEstimate& estimate) {
+  if (publishes_) robot_->container.set(EstimateData::message(estimate));
+}
+
 std::optional<Pose2> Localization::truth() const {
   if (feeder_) return feeder_->truth();
   return robot_->container.get<PoseData>({.type = kGroundTruth});
@@ -135,6 +168,7 @@ std::optional<PoseEstimate> Localization::update() {
   sinceEstimate_ += millisecondsSince(begin);
   if (!weighed) return std::nullopt;
   updateMilliseconds_ = std::exchange(sinceEstimate_, 0.0);
+  publish(mcl_->estimate());
   return mcl_->estimate();
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/mcl/Belief.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/mcl/SampleSet.hpp"
@@ -32,6 +34,24 @@ class ORTUNG_API Mcl {
   /// Known start with standard deviations [m], [rad]. Whether the robot can stand there is not
   /// asked.
   void startAt(const Pose2& pose, double sigmaPosition, double sigmaHeading);
+
+  // While it runs: unlike a start, these keep what is known of time and odometry. What was weighed
+  // within the last half second counts again.
+
+  /// Somebody else knows where the robot is now, that is at the newest odometry that was looked at.
+  /// @param covariance row-major, of (x [m], y [m], theta [rad]); may be singular
+  /// @throws std::invalid_argument saying what is wrong, if the pose is not finite or that is no
+  ///   covariance; the belief stays then
+  void setPose(const Pose2& pose, const std::array<double, 9>& covariance);
+  /// The robot may be anywhere: the next readings say where.
+  void relocalize();
+  /// The belief, moved to the newest odometry. Nothing while a global start waits for its first
+  /// reading.
+  std::optional<Belief> belief() const;
+  /// Goes on with a belief of an earlier run. Odometry may have begun anew since; the robot is
+  /// taken to have stayed where it was.
+  /// @throws std::invalid_argument as Belief::check(); the present belief stays then
+  void restore(const Belief& belief);
 
   /// Looks at the container: moves the samples by what odometry says up to the newest reading
   /// (eq. 8), and weighs them by every feature that is newer than the last update (eq. 7).

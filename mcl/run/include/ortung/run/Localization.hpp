@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -46,6 +47,9 @@ struct LocalizationConfig {
   LocalizationStart start = {};
   std::optional<Parameters> motion = {};  ///< in place of the robot file's [motion]
   bool anyWorld = false;  ///< take readings of another world than that of the tables
+  /// Adds the feature mcl/LOCALIZATION/pose (words as of PoseFixData) to the container and sets it
+  /// to each new estimate, for whoever reads, records or serves the container.
+  bool publish = false;
 };
 
 /// Readings come from another world than the one that the tables were learned in.
@@ -100,6 +104,24 @@ class ORTUNG_API Localization {
   ///   stand, nor within three sigmas of it, such as one off the map. With kTruth, update() throws
   ///   that once the truth is known
   void start(const LocalizationStart& start);
+  /// Somebody else knows where the robot is now: a belief as wide as that is put there, which
+  /// odometry carries on and readings sharpen. Unlike start() it keeps what is known of time and
+  /// odometry, and does not wait for a reading.
+  /// @param covariance row-major, of (x [m], y [m], theta [rad]); may be singular
+  /// @throws std::invalid_argument if that is no covariance, or as start(). The belief stays then
+  void setPose(const Pose2& pose, const std::array<double, 9>& covariance);
+  /// The robot may be anywhere: the present readings, and else the next ones, say where. Odometry
+  /// goes on meanwhile.
+  void relocalize();
+
+  /// Writes the belief, moved to the newest odometry, into a file that appears whole or not at all.
+  /// @throws std::logic_error before there is a belief, TableError if it can't be written
+  void saveBelief(const std::filesystem::path& file) const;
+  /// Goes on with the belief that an earlier run in this world has saved. The robot is taken to
+  /// have stayed where it was; odometry may begin anew. If it was carried away, readings will tell.
+  /// @throws TableError saying why the file is refused. The belief stays then
+  void restoreBelief(const std::filesystem::path& file);
+
   /// False while the start waits for ground truth.
   bool isStarted() const { return !waitsForTruth_; }
 
@@ -124,6 +146,7 @@ class ORTUNG_API Localization {
   Localization(Opened opened, const LocalizationConfig& config);
   void checkWorld(const LocalizationConfig& config);
   void startAt(const Pose2& pose);
+  void publish(const PoseEstimate& estimate);
   std::optional<Pose2> truth() const;
 
   std::string sourceName_;
@@ -134,6 +157,7 @@ class ORTUNG_API Localization {
   std::unique_ptr<Mcl> mcl_;
   LocalizationStart start_;
   bool waitsForTruth_ = false;
+  bool publishes_ = false;
   std::string worldMismatch_;
   double sinceEstimate_ = 0.0;  ///< time that updates took since the newest estimate [ms]
   double updateMilliseconds_ = 0.0;

@@ -1,0 +1,243 @@
+// What a running localization is told from outside, and its belief across restarts.
+#include <cmath>
+#include <fstream>
+
+#include "RoomRun.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/tables/TableFile.hpp"
+
+namespace ortung::test {
+namespace {
+
+using Told = RoomRun;
+
+TEST_F(Told, APoseWithItsCovariance) {
+  LocalizationConfig truthless = config();
+  truthless.start.kind = LocalizationStart::Kind::kTruth;
+  Localization localization(truthless);
+  EXPECT_FALSE(localization.estimate(0));
+  localization.setPose({0.8, 0.1, 1.5}, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.02});
+  EXPECT_TRUE(localization.isStarted()) << "nobody waits for the truth any more";
+  ASSERT_TRUE(localization.estimate(0));
+  EXPECT_NEAR(localization.estimate(0)->pose.x, 0.8, 0.05);
+  for (const auto& moment : moments) {
+    localization.container().set(std::span(moment).first(2));
+    localization.update();
+  }
+  EXPECT_LT(distance(localization.mcl().estimate().pose, truth), 0.15);
+}
+
+TEST_F(Told, APoseWhereItCantBeIsRefused) {
+  Localization localization(config());
+  const auto error = [&](const Pose2& pose, const std::array<double, 9>& covariance) {
+    return messageOf<std::invalid_argument>([&] { localization.setPose(pose, covariance); });
+  };
+  EXPECT_EQ(error({50, 3, 0}, {}),
+            "the pose set (50.00, 3.00) m is off the map, which reaches from (-2.00, -1.50) to "
+            "(2.00, 1.50) m");
+  EXPECT_EQ(error({1.9, 0, 0}, {}),
+            "the pose set (1.90, 0.00) m is where the robot can't stand, nor within 0.10 m of it "
+            "(3 sigma)");
+  EXPECT_EQ(error({0, 0, 0}, {-1, 0, 0, 0, 1, 0, 0, 0, 1}),
+            "covariance (x, x) is -1, expected at least 0");
+  EXPECT_EQ(error({0, 0, std::nan("")}, {}), "the pose set is not a number");
+  EXPECT_NEAR(localization.estimate(0)->pose.x, start.x, 0.05) << "the belief stays";
+  EXPECT_NO_THROW(localization.setPose({1.9, 0, 0}, {0.01, 0, 0, 0, 0.01, 0, 0, 0, 1}));
+}
+
+TEST_F(Told, ThatItMayBeAnywhere) {
+  LocalizationConfig wrong = fromRecord();
+  wrong.start = {LocalizationStart::Kind::kPose, {-0.9, 0.5, 0}, 0.01, 0.01};
+  Localization localization(wrong);
+  ASSERT_TRUE(localization.next());
+  localization.relocalize();
+  EXPECT_FALSE(localization.estimate(localization.feeder().stamp()));
+  EXPECT_TRUE(localization.update()) << "the reading that is there is enough";
+  while (localization.next()) {
+  }
+  // The room is symmetric: half a turn about its middle changes no reading.
+  const Pose2 found = localization.mcl().estimate().pose;
+  EXPECT_LT(std::min(distance(found, truth), distance(found, {-truth.x, -truth.y, 0})), 0.15);
+}
+
+using Kept = RoomRun;
+
+/// A file with those arrays that a belief has, some of them exchanged.
+struct MadeBelief {
+  std::vector<float> x{0.9F, 0.8F}, y{0.0F, 0.1F}, theta{1.5F, 1.4F}, logWeight{0.0F, -1.0F};
+  double stamp = 1e6;
+  std::string world = "room-1";
+
+  void write(const std::filesystem::path& file) const {
+    TableWriter writer(file);
+    writer.add<float>("x", {x.size()}, x);
+    writer.add<float>("y", {y.size()}, y);
+    writer.add<float>("theta", {theta.size()}, theta);
+    writer.add<float>("logWeight", {logWeight.size()}, logWeight);
+    writer.add<double>("stamp_us", {1}, std::span(&stamp, 1));
+    writer.addText("world.txt", world);
+    writer.commit();
+  }
+};
+
+TEST_F(Kept, ABeliefGoesOnAfterARestart) {
+  const auto file = folder / "belief";
+  Pose2 last;
+  {
+    Localization localization(fromRecord());
+    EXPECT_THROW(
+        {
+          Localization nowhere(LocalizationConfig{.robot = robotFile, .tables = tables});
+          nowhere.saveBelief(file);
+        },
+        std::logic_error);
+    for (int i = 0; i < 20; ++i) localization.next();
+    localization.saveBelief(file);
+    last = localization.mcl().belief()->samples.size() > 0 ? localization.mcl().estimate().pose
+                                                           : Pose2{};
+    Localization restored(config());
+    restored.restoreBelief(file);
+    const SampleSet& samples = restored.mcl().samples();
+    const SampleSet saved = localization.mcl().belief()->samples;
+    EXPECT_EQ(samples.x, saved.x);
+    EXPECT_EQ(samples.y, saved.y);
+    EXPECT_EQ(samples.logWeight, saved.logWeight);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      EXPECT_NEAR(wrapAngle(samples.theta[i] - saved.theta[i]), 0.0, 1e-5);
+  }
+  // The rest of the drive with odometry that begins anew at (0, 0, 0).
+  Localization restored(LocalizationConfig{.robot = robotFile, .tables = tables});
+  restored.restoreBelief(file);
+  ASSERT_TRUE(restored.estimate(0)) << "it waits for nothing";
+  EXPECT_LT(distance(restored.estimate(0)->pose, last), 0.05);
+  std::optional<Pose2> first;
+  for (std::size_t i = 21; i < moments.size(); ++i) {
+    auto moment = moments[i];
+    const Pose2 place = [&] {
+      PoseData data({"a", "groundTruth", "b"});
+      data.setData(0, moment[2].words);
+      return data.reading();
+    }();
+    if (!first) first = place;
+    moment[0].words = OdometryData::encode({inverse(*first) * place, 0, 0, {}});
+    restored.container().set(std::span(moment).first(2));
+    restored.update();
+    EXPECT_LT(distance(restored.mcl().estimate().pose, place), 0.15) << i;
+  }
+}
+
+TEST_F(Kept, AReadableFileThatCantBeABeliefIsRefusedWithTheReason) {
+  const auto file = folder / "belief";
+  Localization localization(config());
+  const std::vector<float> before = localization.mcl().samples().x;
+  const auto refused = [&](auto change, const std::string& reason) {
+    MadeBelief made;
+    change(made);
+    made.write(file);
+    EXPECT_EQ(messageOf<TableError>([&] { localization.restoreBelief(file); }),
+              file.string() + ": " + reason);
+    EXPECT_EQ(localization.mcl().samples().x, before) << "the belief stays";
+  };
+  refused([](MadeBelief& b) { b.x[1] = std::nanf(""); },
+          "sample 1 of the belief is at (nan, 0.1, 1.4), expected numbers within 1e+06 m");
+  refused([](MadeBelief& b) { b.logWeight[0] = std::nanf(""); },
+          "sample 0 of the belief has the logarithmic weight nan, expected a number");
+  refused([](MadeBelief& b) { b.y.push_back(0); }, "table y has <f4 3, expected <f4 2");
+  refused([](MadeBelief& b) { b.stamp = HUGE_VAL; }, "its stamp_us is inf, expected microseconds");
+  refused([](MadeBelief& b) { b.world = "room-2"; },
+          "is a belief about the world 'room-2', but the tables were learned in 'room-1' ('room')");
+  refused([](MadeBelief& b) { b.x = {30, 40}; },
+          "none of its samples is where the robot can stand");
+  MadeBelief{}.write(file);
+  localization.restoreBelief(file);
+  EXPECT_EQ(localization.mcl().samples().x, MadeBelief{}.x);
+}
+
+TEST_F(Kept, FilesThatAreNoBeliefOrTornAreRefused) {
+  const auto file = folder / "belief";
+  Localization localization(config());
+  const auto error = [&](const std::filesystem::path& f) {
+    return messageOf<TableError>([&] { localization.restoreBelief(f); });
+  };
+  EXPECT_EQ(error(folder / "none"),
+            (folder / "none").string() + ": can't be read: No such file or directory");
+  EXPECT_NE(error(tables).find("has no table logWeight"), std::string::npos) << error(tables);
+  writeBytes(file, "not a belief");
+  EXPECT_NE(error(file).find("is torn or no table file"), std::string::npos) << error(file);
+  localization.saveBelief(file);
+  std::ifstream in(file, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const std::vector<float> before = localization.mcl().samples().x;
+  // Cut anywhere, or one bit turned in any of its parts.
+  for (std::size_t at = 0; at < whole.size(); at += whole.size() / 97) {
+    writeBytes(file, whole.substr(0, at));
+    EXPECT_THROW(localization.restoreBelief(file), TableError) << at;
+  }
+  writeBytes(file, whole);
+  EXPECT_NO_THROW(localization.restoreBelief(file));
+  std::string turned = whole;
+  turned[whole.size() / 2] = static_cast<char>(turned[whole.size() / 2] ^ 4);
+  writeBytes(file, turned);
+  EXPECT_THROW(localization.restoreBelief(file), TableError);
+  EXPECT_EQ(localization.mcl().samples().x, before);
+}
+
+using Published = RoomRun;
+
+TEST_F(Published, IsEachEstimateAsAFeature) {
+  LocalizationConfig published = fromRecord();
+  published.publish = true;
+  Localization localization(published);
+  Localization silent(fromRecord());
+  const SensorQuery query{"mcl", "LOCALIZATION", "pose"};
+  EXPECT_FALSE(localization.container().get<PoseFixData>(query));
+  std::size_t estimates = 0;
+  while (const auto estimate = localization.next()) {
+    const auto fixes = localization.container().get<PoseFixData>(query);
+    ASSERT_TRUE(fixes);
+    ASSERT_EQ(fixes->size(), 1U);
+    const PoseFixData::Fix& fix = fixes->front();
+    EXPECT_LT(distance(fix.pose, estimate->pose), 0.001);  // words are mm
+    EXPECT_NEAR(wrapAngle(fix.pose.theta - estimate->pose.theta), 0.0, 1e-4);
+    for (std::size_t i = 0; i < 9; ++i)
+      EXPECT_NEAR(fix.covariance[i], estimate->covariance[i],
+                  2e-4 * estimate->covariance[i % 4 == 0 ? i : 0] + 1e-6);
+    EXPECT_EQ(localization.container().find(query)->stamp(), estimate->stamp);
+    // It is no evidence: who publishes gets the same as who does not.
+    const auto other = silent.next();
+    ASSERT_TRUE(other);
+    EXPECT_EQ(other->pose.x, estimate->pose.x);
+    EXPECT_EQ(other->covariance, estimate->covariance);
+    ++estimates;
+  }
+  EXPECT_GT(estimates, 10U);
+  EXPECT_FALSE(silent.container().find(query));
+}
+
+// A clock that was set back is noticed, though what was published is as late as the belief.
+TEST_F(Published, DoesNotHideAClockThatWasSetBack) {
+  for (const bool publish : {false, true}) {
+    LocalizationConfig published = config();
+    published.publish = publish;
+    Localization localization(published);
+    for (auto moment : moments) {
+      for (Message& message : moment) message.stamp += 100'000'000;
+      localization.container().set(std::span(moment).first(2));
+      localization.update();
+    }
+    const Timestamp late = localization.mcl().estimate().stamp;
+    std::size_t weighed = 0;
+    for (auto moment = moments.rbegin(); moment != moments.rend(); ++moment) {
+      auto back = *moment;
+      for (Message& message : back) message.stamp = moments.back()[0].stamp - message.stamp;
+      localization.container().set(std::span(back).first(2));
+      if (localization.update()) ++weighed;
+    }
+    EXPECT_GT(weighed, 10U) << publish;
+    EXPECT_LT(localization.mcl().estimate().stamp, late);
+    EXPECT_LT(distance(localization.mcl().estimate().pose, start), 0.15) << publish;
+  }
+}
+
+}  // namespace
+}  // namespace ortung::test
