@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "ortung/formats/OdometryData.hpp"
 
@@ -10,6 +11,9 @@ namespace ortung {
 namespace {
 
 constexpr double kTimeJump = 5.0;  ///< back: a clock was set, or a log begins anew [s]
+// Where one feature is ahead of all that come: so many looks on end, over so much time of theirs.
+constexpr int kLooksBehind = 10;
+constexpr double kSecondsBehind = 2.0;
 /// So many words never come again by chance if their device lives: its noise sees to that.
 constexpr std::size_t kManyWords = 16;
 
@@ -30,6 +34,7 @@ Intake::Look Intake::look(const SensorContainer& container, Timestamp ofBelief,
   if (look.clockSetTo) {
     forget();
     ofBelief = *look.clockSetTo;
+    passOver(container, ofBelief + fromSeconds(kTimeJump));
   }
   takeOdometry(container);
   frozen_ = nullptr;
@@ -59,6 +64,7 @@ void Intake::forget() {
   words_.clear();
   frozen_ = nullptr;
   odometrySequence_ = 0;
+  looksBehind_ = 0;
   motion_.forget();
 }
 
@@ -67,18 +73,41 @@ void Intake::countAgain(Timestamp since) {
 }
 
 /// Readings older than the belief are late and don't count. But if all are older by far, time
-/// itself went back: then the belief stays, and what is known of times is forgotten. What others
-/// made of the belief is as old as that, so only odometry and what weighs tells the time.
+/// itself went back: then the belief stays, and what is known of times is forgotten. So it does if
+/// all that come for some time are: one stamp of the future must not blind the filter until then.
+/// What others made of the belief is as old as that, so only odometry and what weighs tells the
+/// time.
 std::optional<Timestamp> Intake::clockSetBack(const SensorContainer& container,
-                                              Timestamp ofBelief) const {
+                                              Timestamp ofBelief) {
   std::optional<Timestamp> newest;
+  std::optional<Timestamp> newestToCome;
   for (const auto& data : container.all()) {
     const bool isAsked = data->localizes() || dynamic_cast<const OdometryData*>(data.get());
-    if (data->sequence() > 0 && isAsked)
-      newest = std::max(newest.value_or(data->stamp()), data->stamp());
+    if (data->sequence() == 0 || !isAsked) continue;
+    newest = std::max(newest.value_or(data->stamp()), data->stamp());
+    if (std::exchange(seen_[data.get()], data->sequence()) != data->sequence())
+      newestToCome = std::max(newestToCome.value_or(data->stamp()), data->stamp());
   }
-  if (!newest || *newest + fromSeconds(kTimeJump) >= ofBelief) return std::nullopt;
-  return newest;
+  const auto isBehind = [ofBelief](Timestamp t) { return t + fromSeconds(kTimeJump) < ofBelief; };
+  if (!newest || isBehind(*newest)) return newest;
+  if (!newestToCome) return std::nullopt;
+  if (!isBehind(*newestToCome)) {
+    looksBehind_ = 0;
+    return std::nullopt;
+  }
+  if (looksBehind_++ == 0) behindSince_ = *newestToCome;
+  const double seconds = toSeconds(*newestToCome - behindSince_);
+  // Back once more: counted from there.
+  if (seconds < 0.0) behindSince_ = *newestToCome;
+  if (looksBehind_ < kLooksBehind || seconds < kSecondsBehind) return std::nullopt;
+  return newestToCome;
+}
+
+/// Readings beyond @p stamp are not of this time, so they are no news.
+void Intake::passOver(const SensorContainer& container, Timestamp stamp) {
+  for (const auto& data : container.all())
+    if (data->sequence() > 0 && data->stamp() > stamp)
+      uses_[data.get()] = {data->sequence(), 0, {}};
 }
 
 /// The first feature that is odometry tells how the robot moves.

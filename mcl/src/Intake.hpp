@@ -59,7 +59,8 @@ class ORTUNG_API Intake {
     std::optional<Pose2> odometry;
     bool isFrozen = false;
   };
-  std::optional<Timestamp> clockSetBack(const SensorContainer& container, Timestamp ofBelief) const;
+  std::optional<Timestamp> clockSetBack(const SensorContainer& container, Timestamp ofBelief);
+  void passOver(const SensorContainer& container, Timestamp stamp);
   void takeOdometry(const SensorContainer& container);
   bool isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry) const;
   bool isFrozen(const SensorData& data);
@@ -69,6 +70,9 @@ class ORTUNG_API Intake {
   MotionModel& motion_;
   std::map<const SensorData*, Use> uses_;
   std::map<const SensorData*, Words> words_;
+  std::map<const SensorData*, std::uint64_t> seen_;  ///< sequences at the look before
+  int looksBehind_ = 0;        ///< on end in which all that came was older by far than the belief
+  Timestamp behindSince_ = 0;  ///< the newest of what came at the first of them
   std::optional<Timestamp> newestOdometry_;
   std::uint64_t odometrySequence_ = 0;  ///< of the newest reading that motion took
   const SensorData* frozen_ = nullptr;

@@ -118,7 +118,8 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
     around_.reset();
     return std::nullopt;
   }
-  if (!doubtSince_) doubtSince_ = moment.stamp;
+  // Since now, too, if the clock was set back meanwhile.
+  doubtSince_ = std::min(doubtSince_.value_or(moment.stamp), moment.stamp);
   if (!around_) {
     drawAround(moment, weigh);
     return std::nullopt;

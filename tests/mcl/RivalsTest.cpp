@@ -187,5 +187,19 @@ TEST(Rivals, AreForgottenWhenItBeginsAnew) {
   EXPECT_FALSE(drive.hasElsewhere());
 }
 
+TEST(Rivals, ThoseAroundAreNearThoughTheClockWasSetBack) {
+  Drive drive;
+  drive.stamp = 1'000'000'000;
+  // Each reading speaks for another place near the belief: rivals are dropped and drawn anew.
+  for (int i = 0; i < 20; ++i) {
+    if (i == 5) drive.stamp = 0;
+    drive.reading(0.1, {5, -2, 0}, Pose2{i % 2 ? 4.55 : 5.45, -2, 0});
+    const SampleSet* around = drive.rivals.samples()[0];
+    if (around == nullptr) continue;
+    for (std::size_t k = 0; k < around->size(); ++k)
+      ASSERT_LT(std::hypot(around->x[k] - 5.0F, around->y[k] + 2.0F), 20.0F) << "reading " << i;
+  }
+}
+
 }  // namespace
 }  // namespace ortung
