@@ -95,7 +95,10 @@ int runCompare(const CompareArguments& arguments);
 
 struct LocalizeArguments {
   LocalizationArguments localization;
-  std::filesystem::path out;  ///< "": stdout
+  std::filesystem::path out;     ///< "": stdout
+  std::filesystem::path belief;  ///< "" for none
+  std::optional<double> rate;    ///< of poses [Hz]; without: one an update
+  std::string format = "text";   ///< "text" or "json"
 };
 int runLocalize(const LocalizeArguments& arguments);
 

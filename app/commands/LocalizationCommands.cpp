@@ -103,6 +103,19 @@ void addLocalize(Builder& build, CLI::App& app) {
   build.option("--source", a->localization.source, kSource)->required();
   addLocalization(build, a->localization);
   build.option("--out", a->out, "File to write; default: stdout");
+  build
+      .option("--rate", a->rate,
+              "Poses a second, at even times, carried on by odometry; default: one whenever "
+              "readings weighed the belief")
+      ->check(within(0.01, 1000));
+  build
+      .option("--format", a->format,
+              "text: a line of numbers a pose, which the first line names; json: an object a line")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  build.option("--belief", a->belief,
+               "Begin with the belief in this file, if it is there, in place of --start; save the "
+               "belief there at the end, and every 10 s of a live source");
 }
 
 }  // namespace ortung::app

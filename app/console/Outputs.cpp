@@ -49,6 +49,10 @@ Signature signatureOf(OutputKind kind) {
       return {"a picture (PNG)", "\x89PNG\r\n", ""};
     case OutputKind::kPoses:
       return {"poses of `ortung localize`", "# stamp_us x_m", ""};
+    case OutputKind::kPosesJson:
+      return {"poses of `ortung localize --format json`", "{\"stamp_us\":", ""};
+    case OutputKind::kBelief:
+      return {"a belief of `ortung localize`", "PK\x03\x04", "stamp_us.npy"};
     case OutputKind::kTrace:
       return {"a trace of `ortung sim`", "time_s,kind,name", ""};
     case OutputKind::kMotion:

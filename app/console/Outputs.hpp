@@ -18,6 +18,8 @@ enum class OutputKind : std::uint8_t {
   kReport,      ///< HTML of eval
   kPicture,     ///< PNG
   kPoses,       ///< of localize
+  kPosesJson,   ///< of localize --format json
+  kBelief,      ///< of localize; the run that replaces it may have read it
   kTrace,       ///< CSV of sim
   kMotion,      ///< TOML of learn-motion
   kNetwork,     ///< JSON of train-motion

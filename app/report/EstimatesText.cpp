@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 namespace ortung::app {
 
@@ -12,6 +15,29 @@ void appendEstimate(const PoseEstimate& estimate, std::string& text) {
                  "{} {:.4f} {:.4f} {:.5f} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.3f} {}\n",
                  estimate.stamp, estimate.pose.x, estimate.pose.y, estimate.pose.theta, c[0], c[1],
                  c[2], c[4], c[5], c[8], estimate.share, estimate.samples);
+}
+
+void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std::string& text) {
+  appendEstimate(estimate, text);
+  text.pop_back();
+  fmt::format_to(std::back_inserter(text), " {:.3f}\n",
+                 age.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
+                        std::string& text) {
+  const auto& c = estimate.covariance;
+  nlohmann::ordered_json line;
+  line["stamp_us"] = estimate.stamp;
+  line["x_m"] = estimate.pose.x;
+  line["y_m"] = estimate.pose.y;
+  line["theta_rad"] = estimate.pose.theta;
+  line["covariance"] = {
+      {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}};  // of those three
+  line["share"] = estimate.share;
+  line["samples"] = estimate.samples;
+  line["age_s"] = age ? nlohmann::ordered_json(*age) : nlohmann::ordered_json();
+  text += line.dump() + "\n";
 }
 
 }  // namespace ortung::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,14 @@ inline constexpr std::string_view kEstimatesHeader =
     "cov_thetatheta_rad2 share samples\n";
 
 void appendEstimate(const PoseEstimate& estimate, std::string& text);
+
+/// At even times there is one column more, the last one.
+inline constexpr std::string_view kAgeColumn = "age_s";
+
+/// @param age of the newest weighing [s]; nothing before there was one: nan
+void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std::string& text);
+
+/// The same as a JSON object and a line feed; the covariance row by row; no age is null.
+void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age, std::string& text);
 
 }  // namespace ortung::app

@@ -73,6 +73,17 @@ TEST(GoldenTexts, EstimatesOfPoses) {
               100000};
   appendEstimate(estimate, text);
   expectGolden("estimates.txt", text);
+
+  text = "";
+  appendEstimate(estimate, 2.0625, text);
+  appendEstimate(estimate, std::nullopt, text);
+  expectGolden("estimates-at-even-times.txt", text);
+
+  text = "";
+  appendEstimateJson(estimate, 2.0625, text);
+  estimate.covariance[0] = std::numeric_limits<double>::infinity();
+  appendEstimateJson(estimate, std::nullopt, text);
+  expectGolden("estimates.json", text);
 }
 
 Parameters learnedSettings() {

@@ -113,6 +113,58 @@ TEST_F(Served, LocalizationThatASignalEndsLeavesItsPoses) {
   }
 }
 
+// A robot that is switched off: the next run knows where it was.
+TEST_F(Served, LocalizationThatASignalEndsLeavesItsBelief) {
+  learnTables();
+  const std::vector<std::string> localize = {"localize",
+                                             "--source",
+                                             source(),
+                                             "--robot",
+                                             path("robot.toml"),
+                                             "--tables",
+                                             path("hall.ortung"),
+                                             "--out",
+                                             path("poses.txt"),
+                                             "--belief",
+                                             path("belief"),
+                                             "--rate",
+                                             "50"};
+  std::string before;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    Program program(localize);
+    waitForBytes("poses.txt", 400);
+    program.signal(signal);
+    const Outcome outcome = program.finish();
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(inLastLine("poses.txt", ' '), 12);
+    const std::string belief = read("belief");
+    EXPECT_FALSE(belief == before) << "it is that of this run's end";
+    before = belief;
+    fs::remove(path("poses.txt"));
+  }
+}
+
+// Whoever pulls the plug loses 10 s at most: the first belief is there with the first poses.
+TEST_F(Served, LocalizationThatIsKilledLeavesABelief) {
+  learnTables();
+  const std::vector<std::string> localize = {
+      "localize",          "--source", source(),       "--robot", path("robot.toml"), "--tables",
+      path("hall.ortung"), "--belief", path("belief"), "--out",   path("poses.txt")};
+  {
+    Program program(localize);
+    waitForBytes("belief", 1);
+    program.signal(SIGKILL);
+    EXPECT_EQ(program.finish().exitCode, 128 + SIGKILL);
+  }
+  fs::remove(path("poses.txt"));
+  Program program(localize);
+  waitForBytes("poses.txt", 400);
+  program.signal(SIGINT);
+  const Outcome outcome = program.finish();
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+}
+
 TEST_F(Served, EvaluationThatASignalEndsGivesTheFiguresUntilThen) {
   learnTables();
   Program program({"eval", "--source", source(), "--robot", path("robot.toml"), "--tables",

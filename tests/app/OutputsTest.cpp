@@ -54,11 +54,13 @@ TEST(Outputs, OfAnotherKindAreReplacedByForceOnly) {
       "<!DOCTYPE html>",
       "\x89PNG\r\n\x1a\n",
       "# stamp_us x_m y_m",
+      "{\"stamp_us\":0,\"x_m\":1.0",
+      "PK\x03\x04 ... stamp_us.npy",
       "time_s,kind,name,x_m",
       "# Learned by `ortung learn-motion` from",
       "{\n \"commands\": 5, \"format\": \"ortung motion network 1\"",
   };
-  constexpr int kKinds = 10;
+  constexpr int kKinds = 12;
   for (int content = 0; content < kKinds; ++content) {
     for (int kind = 0; kind <= kKinds; ++kind) {  // the last one is never replaced unasked
       writeBytes(folder / "a", samples[content]);

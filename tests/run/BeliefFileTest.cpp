@@ -93,8 +93,7 @@ TEST_F(Kept, ABeliefGoesOnAfterARestart) {
         std::logic_error);
     for (int i = 0; i < 20; ++i) localization.next();
     localization.saveBelief(file);
-    last = localization.mcl().belief()->samples.size() > 0 ? localization.mcl().estimate().pose
-                                                           : Pose2{};
+    last = localization.mcl().estimate().pose;
     Localization restored(config());
     restored.restoreBelief(file);
     const SampleSet& samples = restored.mcl().samples();
@@ -167,19 +166,32 @@ TEST_F(Kept, FilesThatAreNoBeliefOrTornAreRefused) {
   localization.saveBelief(file);
   std::ifstream in(file, std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
-  const std::vector<float> before = localization.mcl().samples().x;
-  // Cut anywhere, or one bit turned in any of its parts.
+  // Cut anywhere.
   for (std::size_t at = 0; at < whole.size(); at += whole.size() / 97) {
     writeBytes(file, whole.substr(0, at));
     EXPECT_THROW(localization.restoreBelief(file), TableError) << at;
   }
   writeBytes(file, whole);
-  EXPECT_NO_THROW(localization.restoreBelief(file));
-  std::string turned = whole;
-  turned[whole.size() / 2] = static_cast<char>(turned[whole.size() / 2] ^ 4);
-  writeBytes(file, turned);
-  EXPECT_THROW(localization.restoreBelief(file), TableError);
-  EXPECT_EQ(localization.mcl().samples().x, before);
+  localization.restoreBelief(file);
+  const SampleSet good = localization.mcl().samples();
+  // A bit turned anywhere is noticed, or it is one that nobody reads, of what aligns the arrays.
+  std::size_t refused = 0;
+  std::size_t tried = 0;
+  for (std::size_t at = 0; at < whole.size(); at += 61, ++tried) {
+    std::string turned = whole;
+    turned[at] = static_cast<char>(turned[at] ^ (1 << at % 8));
+    writeBytes(file, turned);
+    try {
+      localization.restoreBelief(file);
+    } catch (const TableError&) {
+      ++refused;
+    }
+    const SampleSet& now = localization.mcl().samples();
+    ASSERT_TRUE(now.x == good.x && now.y == good.y && now.theta == good.theta &&
+                now.logWeight == good.logWeight)
+        << at;
+  }
+  EXPECT_GT(refused, tried * 9 / 10);
 }
 
 using Published = RoomRun;

@@ -39,12 +39,12 @@ void writeBelief(const std::filesystem::path& file, const Belief& belief,
   for (const float any : samples.theta) theta.push_back(static_cast<float>(wrapAngle(any)));
   const double stamp = std::clamp(static_cast<double>(belief.stamp), -kLatest, kLatest);
   TableWriter writer(file);
+  writer.add<double>(kStamp, {1}, std::span(&stamp, 1));  // first: it tells what the file is
+  writer.addText(kWorld, worldFingerprint);
   writer.add<float>("x", {n}, samples.x);
   writer.add<float>("y", {n}, samples.y);
   writer.add<float>("theta", {n}, theta);
   writer.add<float>("logWeight", {n}, samples.logWeight);
-  writer.add<double>(kStamp, {1}, std::span(&stamp, 1));
-  writer.addText(kWorld, worldFingerprint);
   writer.commit();
 }
 
