@@ -76,6 +76,39 @@ TEST(Recovery, ForgetsThePastWhenItBeginsAnew) {
   EXPECT_FALSE(recovery.callsForSearch()) << "as good as it ever was";
 }
 
+// As good as 0.85 of the long-term average of best fits, and better than nothing.
+TEST(Recovery, UsualIsWhatReadingsUseToFitWhereTheyFitBest) {
+  Recovery recovery{MclConfig{}};
+  EXPECT_FALSE(recovery.isUsual(0.84)) << "as long as nothing is known: nearly perfect";
+  EXPECT_TRUE(recovery.isUsual(0.86));
+  recovery.followBest(0.6);
+  EXPECT_FALSE(recovery.isUsual(0.50));
+  EXPECT_TRUE(recovery.isUsual(0.52));
+  Recovery poor{MclConfig{}};
+  poor.followBest(0.2);
+  EXPECT_FALSE(poor.isUsual(0.24));
+  EXPECT_TRUE(poor.isUsual(0.26));
+  recovery.forget();
+  EXPECT_FALSE(recovery.isUsual(0.84));
+}
+
+// The average goes to 0.6 + 0.3 * (1 - rate)^100: rate 0.01, or a tenth of it in bad times.
+TEST(Recovery, WhatIsUsualFollowsSlowlyAndMoreSlowlyInBadTimes) {
+  Recovery good{MclConfig{}};
+  good.follow(0.9);
+  good.followBest(0.9);
+  Recovery bad = good;
+  for (int i = 0; i < 100; ++i) {
+    good.followBest(0.6);
+    bad.follow(0.1);
+    bad.followBest(0.6);
+  }
+  EXPECT_FALSE(good.isUsual(0.85 * 0.7098 - 0.002));
+  EXPECT_TRUE(good.isUsual(0.85 * 0.7098 + 0.002));
+  EXPECT_FALSE(bad.isUsual(0.85 * 0.8714 - 0.002));
+  EXPECT_TRUE(bad.isUsual(0.85 * 0.8714 + 0.002));
+}
+
 /// Answers by x; nowhere is -8.
 struct Answering : Weigher {
   explicit Answering(std::function<float(float)> a) : answer(std::move(a)) {}
