@@ -15,6 +15,7 @@ constexpr double kDoubtfulFit = 0.75;   ///< of its long-term average: of one mo
 constexpr double kFallenFit = 0.6;      ///< the same of its short-term average
 constexpr double kRecoveredFit = 0.8;   ///< the same: all is well again
 constexpr double kUsualFit = 0.85;      ///< of the long-term average of best fits
+constexpr int kUnusualReadings = 2;     ///< on end
 constexpr double kRateWhileFallen = 0.1;
 constexpr double kPoorFit = 0.25;  ///< below this the belief explains too little, always
 
@@ -74,6 +75,7 @@ bool Recovery::isDoubtful() const {
 
 void Recovery::followBest(double fit) {
   if (!best_) best_ = fit;
+  unusual_ = isUsual(fit) ? 0 : unusual_ + 1;
   *best_ += (isDoubtful() ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
 }
 
@@ -82,7 +84,8 @@ bool Recovery::isUsual(double best) const {
 }
 
 bool Recovery::callsForSearch() const {
-  return rateSlow_ > 0.0 && known_ && (fast_ < kFallenFit * slow_ || fast_ < kPoorFit);
+  return rateSlow_ > 0.0 && known_ &&
+         (fast_ < kFallenFit * slow_ || fast_ < kPoorFit || unusual_ >= kUnusualReadings);
 }
 
 bool Recovery::hasRecovered() const {

@@ -28,6 +28,7 @@ class ORTUNG_API Recovery {
   void forget() {
     known_ = false;
     best_.reset();
+    unusual_ = 0;
   }
   /// Whether the newest readings fit worse than they use to: the robot may have left the track.
   bool isDoubtful() const;
@@ -46,6 +47,7 @@ class ORTUNG_API Recovery {
   double now_ = 0.0;
   double fast_ = 0.0;
   double slow_ = 0.0;
+  int unusual_ = 0;             ///< readings on end that did not fit as they use to
   std::optional<double> best_;  ///< long-term average
   bool known_ = false;
 };

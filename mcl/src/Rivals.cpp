@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Drift.hpp"
+#include "News.hpp"
 #include "Resampling.hpp"
 
 namespace ortung {
@@ -33,7 +34,11 @@ constexpr double kWayElsewhere = 1.0;    ///< that readings are spread over, at 
 constexpr int kReadingsElsewhere = 5;    ///< at least
 constexpr int kMostUnusual = 4;          ///< readings on end that fit badly: it was a chance hit
 constexpr std::size_t kSamplesElsewhere = 1000;
-constexpr double kCandidatesElsewhere = 50.0;
+constexpr double kCandidatesElsewhere = 4.0;  ///< for each of them, around what a search has found
+constexpr double kSearchShare = 0.8;          ///< of an update's time
+constexpr double kSearchNats = 12.0;          ///< places that fit so much worse are none
+constexpr double kSearchRing = 0.25;          ///< around a place [m]
+constexpr double kSearchTurn = 0.17;          ///< [rad]
 
 /// Mean of samples, and by how much they are apart: metres and radians alike.
 struct Centre {
@@ -70,6 +75,16 @@ bool isSame(const Pose2& rival, const Pose2& belief) {
          std::abs(wrapAngle(rival.theta - belief.theta)) < kSameTurn;
 }
 
+/// @param change in each sample's own frame
+void moveBy(const Pose2& change, SampleSet& set) {
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const Pose2 there = Pose2{set.x[i], set.y[i], set.theta[i]} * change;
+    set.x[i] = static_cast<float>(there.x);
+    set.y[i] = static_cast<float>(there.y);
+    set.theta[i] = static_cast<float>(there.theta);
+  }
+}
+
 /// ln of the mean of p over a part of a set. @param weights of all
 double evidenceOf(std::span<const double> weights, std::span<const float> logs, std::size_t first,
                   std::size_t count) {
@@ -83,11 +98,16 @@ double evidenceOf(std::span<const double> weights, std::span<const float> logs, 
 void Rivals::forget() {
   doubtSince_.reset();
   around_.reset();
+  searching_.reset();
   elsewhere_.reset();
 }
 
 std::array<SampleSet*, 2> Rivals::samples() {
   return {around_ ? &around_->samples : nullptr, elsewhere_ ? &elsewhere_->samples : nullptr};
+}
+
+void Rivals::searchOn() {
+  if (searching_) searching_->job.work(kSearchShare * config_.budgetMs);
 }
 
 std::optional<Rivals::Takeover> Rivals::follow(const Moment& moment, const Recovery& recovery,
@@ -159,16 +179,53 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   return std::nullopt;
 }
 
+/// The reading that was searched for has chosen its places, so it does not count for them.
+void Rivals::goOnSearching(const Moment& moment) {
+  FieldSearch& job = searching_->job;
+  if (!job.work(kSearchShare * config_.budgetMs)) return;
+  const Moment then = std::move(searching_->moment);
+  std::vector<PoseSearch::Ring> rings;
+  for (const FieldSearch::Place& place : job.places()) {
+    if (place.logProbability > job.places().front().logProbability - kSearchNats)
+      rings.push_back({place.pose, kSearchRing, kSearchTurn});
+  }
+  searching_.reset();
+  if (getenv("DBG")) fprintf(stderr,"   %.2f found %zu rings best %.1f at %.2f %.2f\n",toSeconds(moment.stamp),rings.size(),job.places().empty()?0:job.places()[0].logProbability,rings[0].pose.x,rings[0].pose.y);
+  if (rings.empty()) return;
+  std::vector<News> news;
+  for (const auto& reading : then.readings) news.push_back({nullptr, 0, reading});
+  const auto weigh = [&](const SampleSet& set, std::vector<float>& out) {
+    ortung::weigh(news, set, config_.threads, out);
+  };
+  SampleSet found = search_
+                        .drawFrom(rings, kSamplesElsewhere, kCandidatesElsewhere, weigh,
+                                  Random(config_.seed, then.stream).fork(2))
+                        .samples;
+  if (then.odometry && moment.odometry) {
+    moveBy(inverse(*then.odometry) * *moment.odometry, found);
+  } else {
+    drift(config_, {found.x, found.y, found.theta}, toSeconds(moment.stamp - then.stamp),
+          moment.stream, 0);
+  }
+  elsewhere_.emplace(std::move(found));
+}
+
 std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
                                                       const Recovery& recovery,
                                                       const PoseSearch::Weigh& weigh,
                                                       const Fit& fit) {
   const Random random = Random(config_.seed, moment.stream).fork(2);
   if (!elsewhere_) {
-    // The reading that they are drawn from has chosen them, so it does not count for them.
-    if (recovery.callsForSearch())
-      elsewhere_.emplace(
-          search_.draw(kSamplesElsewhere, kCandidatesElsewhere, weigh, random).samples);
+    if (!searching_ && recovery.callsForSearch()) {
+      FieldSearch::Settings settings;
+      settings.threads = config_.threads;
+      searching_.emplace(Searching{FieldSearch(region_, settings), moment});
+      searching_->job.begin(moment.readings);
+  if (getenv("DBG")) fprintf(stderr,"   %.2f begin search\n",toSeconds(moment.stamp));
+    } else if (searching_ && recovery.hasRecovered()) {
+      searching_.reset();
+    }
+    if (searching_) goOnSearching(moment);
     return std::nullopt;
   }
   Elsewhere& rival = *elsewhere_;
@@ -180,6 +237,7 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   const bool isUsual = recovery.isUsual(fit(rival.samples));
   rival.unusual = isUsual ? 0 : rival.unusual + 1;
   if (ratio < 0.0 || isUsual) rival.lead.count(ratio, moment.way / kIndependentFar);
+  if (getenv("DBG")) fprintf(stderr,"   %.2f else ratio %.1f way %.2f fit %.2f usual %d lead %.1f allway %.1f n %d rec %d\n",toSeconds(moment.stamp),ratio,moment.way,fit(rival.samples),isUsual,rival.lead.nats(),rival.way,rival.readings,recovery.hasRecovered());
   rival.way += moment.way;
   ++rival.readings;
   if (rival.lead.isEnough() && rival.way >= kWayElsewhere && rival.readings >= kReadingsElsewhere) {

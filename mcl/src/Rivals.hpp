@@ -3,9 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "FieldSearch.hpp"
 #include "Lead.hpp"
 #include "OdometryTrust.hpp"
 #include "PoseSearch.hpp"
@@ -25,7 +28,8 @@ namespace ortung {
 ///
 /// - Around the estimate, drawn from a ring that grows with time: wheels that slip or lie, pushes.
 ///   Half of them follow odometry, the other half goes anywhere near.
-/// - Elsewhere: drawn from the whole field, moved by odometry.
+/// - Elsewhere: where a search of the whole field finds that one reading fits, moved by odometry. The
+///   search may take several updates.
 ///
 /// Both are drawn from one reading, and weighed by all later ones, as the belief is. A reading
 /// speaks for them only where it fits as readings use to fit: in a crowd it fits nowhere.
@@ -41,6 +45,8 @@ class ORTUNG_API Rivals {
     double logEvidence = 0.0;  ///< ln p(readings | belief)
     double way = 0.0;          ///< since the readings before [m]; a turn of 1 rad counts as 1 m
     std::uint64_t stream = 0;  ///< of random numbers
+    std::optional<Pose2> odometry = {};
+    std::vector<std::shared_ptr<const Weigher>> readings = {};
   };
   /// Samples that take this share of the belief from now on.
   struct Takeover {
@@ -49,13 +55,16 @@ class ORTUNG_API Rivals {
     bool trustsOdometry;
   };
 
-  /// @param search borrowed
-  Rivals(const MclConfig& config, const PoseSearch& search) : config_(config), search_(search) {}
+  /// All borrowed.
+  Rivals(const MclConfig& config, const FieldRegion& region, const PoseSearch& search)
+      : config_(config), region_(region), search_(search) {}
 
   void forget();
-  bool isIdle() const { return !doubtSince_ && !elsewhere_; }
+  bool isIdle() const { return !doubtSince_ && !elsewhere_ && !searching_; }
   /// Those to be moved as the belief is, at most two; null: not there.
   std::array<SampleSet*, 2> samples();
+  /// Goes on with a search, though there is no reading.
+  void searchOn();
   /// @param recovery of the same moment
   std::optional<Takeover> follow(const Moment& moment, const Recovery& recovery,
                                  const PoseSearch::Weigh& weigh, const Fit& fit);
@@ -78,6 +87,12 @@ class ORTUNG_API Rivals {
     int readings = 0;
     int unusual = 0;  ///< readings on end that fit badly
   };
+  /// A search of the field, as of the moment of its readings.
+  struct Searching {
+    FieldSearch job;
+    Moment moment;
+  };
+  void goOnSearching(const Moment& moment);
   std::optional<Takeover> lookAround(const Moment& moment, const Recovery& recovery,
                                      const PoseSearch::Weigh& weigh, const Fit& fit);
   void drawAround(const Moment& moment, const PoseSearch::Weigh& weigh);
@@ -85,9 +100,11 @@ class ORTUNG_API Rivals {
                                         const PoseSearch::Weigh& weigh, const Fit& fit);
 
   const MclConfig& config_;
+  const FieldRegion& region_;
   const PoseSearch& search_;
   std::optional<Timestamp> doubtSince_;
   std::optional<Around> around_;
+  std::optional<Searching> searching_;
   std::optional<Elsewhere> elsewhere_;
 };
 

@@ -92,7 +92,7 @@ struct Drive {
   FieldRegion region = test::Room{20, 12}.region(0.25, 0.2);
   PoseSearch search{region};
   MclConfig config;
-  Rivals rivals{config, search};
+  Rivals rivals{config, region, search};
   Recovery recovery{MclConfig{}};
   Pose2 truth{-8, 2, 0.3};
   Timestamp stamp = 0;
