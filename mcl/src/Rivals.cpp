@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Drift.hpp"
+#include "Kld.hpp"
 #include "News.hpp"
 #include "Resampling.hpp"
 
@@ -34,11 +35,12 @@ constexpr double kWayElsewhere = 1.0;    ///< that readings are spread over, at 
 constexpr int kReadingsElsewhere = 5;    ///< at least
 constexpr int kMostUnusual = 4;          ///< readings on end that fit badly: it was a chance hit
 constexpr std::size_t kSamplesElsewhere = 1000;
-constexpr double kCandidatesElsewhere = 4.0;  ///< for each of them, around what a search has found
-constexpr double kSearchShare = 0.8;          ///< of an update's time
-constexpr double kSearchNats = 12.0;          ///< places that fit so much worse are none
-constexpr double kSearchRing = 0.25;          ///< around a place [m]
-constexpr double kSearchTurn = 0.17;          ///< [rad]
+constexpr double kCandidatesElsewhere = 4.0;   ///< for each of them, around what a search has found
+constexpr double kEffectiveElsewhere = 100.0;  ///< samples
+constexpr double kSearchShare = 0.8;           ///< of an update's time
+constexpr double kSearchNats = 12.0;           ///< places that fit so much worse are none
+constexpr double kSearchRing = 0.25;           ///< around a place [m]
+constexpr double kSearchTurn = 0.17;           ///< [rad]
 
 /// Mean of samples, and by how much they are apart: metres and radians alike.
 struct Centre {
@@ -73,16 +75,6 @@ Centre centreOf(const SampleSet& set) {
 bool isSame(const Pose2& rival, const Pose2& belief) {
   return distance(rival, belief) < kSamePlace &&
          std::abs(wrapAngle(rival.theta - belief.theta)) < kSameTurn;
-}
-
-/// @param change in each sample's own frame
-void moveBy(const Pose2& change, SampleSet& set) {
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const Pose2 there = Pose2{set.x[i], set.y[i], set.theta[i]} * change;
-    set.x[i] = static_cast<float>(there.x);
-    set.y[i] = static_cast<float>(there.y);
-    set.theta[i] = static_cast<float>(there.theta);
-  }
 }
 
 /// ln of the mean of p over a part of a set. @param weights of all
@@ -190,7 +182,6 @@ void Rivals::goOnSearching(const Moment& moment) {
       rings.push_back({place.pose, kSearchRing, kSearchTurn});
   }
   searching_.reset();
-  if (getenv("DBG")) fprintf(stderr,"   %.2f found %zu rings best %.1f at %.2f %.2f\n",toSeconds(moment.stamp),rings.size(),job.places().empty()?0:job.places()[0].logProbability,rings[0].pose.x,rings[0].pose.y);
   if (rings.empty()) return;
   std::vector<News> news;
   for (const auto& reading : then.readings) news.push_back({nullptr, 0, reading});
@@ -202,7 +193,9 @@ void Rivals::goOnSearching(const Moment& moment) {
                                   Random(config_.seed, then.stream).fork(2))
                         .samples;
   if (then.odometry && moment.odometry) {
-    moveBy(inverse(*then.odometry) * *moment.odometry, found);
+    motion_.sampleMotion({found.x, found.y, found.theta},
+                         inverse(*then.odometry) * *moment.odometry, config_.seed, moment.stream,
+                         0);
   } else {
     drift(config_, {found.x, found.y, found.theta}, toSeconds(moment.stamp - then.stamp),
           moment.stream, 0);
@@ -221,9 +214,6 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
       settings.threads = config_.threads;
       searching_.emplace(Searching{FieldSearch(region_, settings), moment});
       searching_->job.begin(moment.readings);
-  if (getenv("DBG")) fprintf(stderr,"   %.2f begin search\n",toSeconds(moment.stamp));
-    } else if (searching_ && recovery.hasRecovered()) {
-      searching_.reset();
     }
     if (searching_) goOnSearching(moment);
     return std::nullopt;
@@ -231,13 +221,22 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   Elsewhere& rival = *elsewhere_;
   std::vector<float> logs;
   weigh(rival.samples, logs);
-  const double evidence = logMean(normalized(rival.samples.logWeight), logs);
-  const double ratio = evidence - moment.logEvidence;
+  const std::vector<double> before = normalized(rival.samples.logWeight);
+  const double ratio = logMean(before, logs) - moment.logEvidence;
   for (std::size_t i = 0; i < logs.size(); ++i) rival.samples.logWeight[i] += logs[i];
+  const std::vector<double> weights = normalized(rival.samples.logWeight);
+  if (effectiveSamples(weights) < kEffectiveElsewhere) {
+    // Where nobody is left at the top of the hill, they climb.
+    Random offset = random.fork(0);
+    rival.samples =
+        Annealing(weigh, estimateOf(config_, rival.samples.view(), before).covariance, logs.size())
+            .draw(taken(rival.samples, lowVariance(before, logs.size(), offset.uniform())),
+                  kSamplesElsewhere, random.fork(1))
+            .samples;
+  }
   const bool isUsual = recovery.isUsual(fit(rival.samples));
   rival.unusual = isUsual ? 0 : rival.unusual + 1;
   if (ratio < 0.0 || isUsual) rival.lead.count(ratio, moment.way / kIndependentFar);
-  if (getenv("DBG")) fprintf(stderr,"   %.2f else ratio %.1f way %.2f fit %.2f usual %d lead %.1f allway %.1f n %d rec %d\n",toSeconds(moment.stamp),ratio,moment.way,fit(rival.samples),isUsual,rival.lead.nats(),rival.way,rival.readings,recovery.hasRecovered());
   rival.way += moment.way;
   ++rival.readings;
   if (rival.lead.isEnough() && rival.way >= kWayElsewhere && rival.readings >= kReadingsElsewhere) {
@@ -250,11 +249,6 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
       isSame(centreOf(rival.samples).pose, moment.predicted)) {
     elsewhere_.reset();
     return std::nullopt;
-  }
-  const std::vector<double> weights = normalized(rival.samples.logWeight);
-  if (effectiveSamples(weights) < 0.5 * static_cast<double>(weights.size())) {
-    Random offset = random;
-    rival.samples = taken(rival.samples, lowVariance(weights, weights.size(), offset.uniform()));
   }
   return std::nullopt;
 }

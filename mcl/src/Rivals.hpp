@@ -18,6 +18,7 @@
 #include "ortung/base/Time.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/SampleSet.hpp"
+#include "ortung/motion/MotionModel.hpp"
 
 namespace ortung {
 
@@ -28,7 +29,8 @@ namespace ortung {
 ///
 /// - Around the estimate, drawn from a ring that grows with time: wheels that slip or lie, pushes.
 ///   Half of them follow odometry, the other half goes anywhere near.
-/// - Elsewhere: where a search of the whole field finds that one reading fits, moved by odometry. The
+/// - Elsewhere: where a search of the whole field finds that one reading fits, moved by odometry.
+/// The
 ///   search may take several updates.
 ///
 /// Both are drawn from one reading, and weighed by all later ones, as the belief is. A reading
@@ -56,8 +58,9 @@ class ORTUNG_API Rivals {
   };
 
   /// All borrowed.
-  Rivals(const MclConfig& config, const FieldRegion& region, const PoseSearch& search)
-      : config_(config), region_(region), search_(search) {}
+  Rivals(const MclConfig& config, const FieldRegion& region, const PoseSearch& search,
+         const MotionModel& motion)
+      : config_(config), region_(region), search_(search), motion_(motion) {}
 
   void forget();
   bool isIdle() const { return !doubtSince_ && !elsewhere_ && !searching_; }
@@ -102,6 +105,7 @@ class ORTUNG_API Rivals {
   const MclConfig& config_;
   const FieldRegion& region_;
   const PoseSearch& search_;
+  const MotionModel& motion_;
   std::optional<Timestamp> doubtSince_;
   std::optional<Around> around_;
   std::optional<Searching> searching_;

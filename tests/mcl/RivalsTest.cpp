@@ -41,6 +41,39 @@ TEST(Lead, FourReadingsAreEnoughAndThreeHopeless) {
   EXPECT_TRUE(behind.isHopeless());
 }
 
+float fitAt(float x, float y, float theta, const Pose2& there) {
+  const double way = std::hypot(x - there.x, y - there.y) / 0.1;
+  const double turn = wrapAngle(theta - there.theta) / 0.1;
+  return static_cast<float>(std::max(-0.5 * (way * way + turn * turn), kFloor));
+}
+
+/// A reading that fits at one place.
+class FitsAt : public Weigher {
+ public:
+  explicit FitsAt(const Pose2& there) : there_(there) {}
+
+ private:
+  void weigh(const SampleView& poses, std::span<float> out) const override {
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] += fitAt(poses.x[i], poses.y[i], poses.theta[i], there_);
+  }
+  Pose2 there_;
+};
+
+/// Odometry without noise.
+class Exact : public MotionModel {
+ public:
+  void sampleMotion(const MovableSamples& samples, const Pose2& change, std::uint64_t,
+                    std::uint64_t, std::uint64_t) const override {
+    for (std::size_t i = 0; i < samples.x.size(); ++i) {
+      const Pose2 there = Pose2{samples.x[i], samples.y[i], samples.theta[i]} * change;
+      samples.x[i] = static_cast<float>(there.x);
+      samples.y[i] = static_cast<float>(there.y);
+      samples.theta[i] = static_cast<float>(there.theta);
+    }
+  }
+};
+
 /// A robot drives through a hall; readings tell where it is, the belief is elsewhere.
 struct Drive {
   Drive() {
@@ -79,20 +112,25 @@ struct Drive {
         sum += weights[i] * (1.0 - static_cast<double>(logProbability(set, i, there)) / kFloor);
       return sum;
     };
-    return rivals.follow({stamp, believed, evidence, metres, static_cast<std::uint64_t>(readings)},
-                         recovery, weigh, fit);
+    const Rivals::Moment moment{stamp,
+                                believed,
+                                evidence,
+                                metres,
+                                static_cast<std::uint64_t>(readings),
+                                truth,
+                                {std::make_shared<FitsAt>(there)}};
+    return rivals.follow(moment, recovery, weigh, fit);
   }
   bool hasElsewhere() { return rivals.samples()[1] != nullptr; }
   static float logProbability(const SampleSet& set, std::size_t i, const Pose2& there) {
-    const double way = std::hypot(set.x[i] - there.x, set.y[i] - there.y) / 0.1;
-    const double turn = wrapAngle(set.theta[i] - there.theta) / 0.1;
-    return static_cast<float>(std::max(-0.5 * (way * way + turn * turn), kFloor));
+    return fitAt(set.x[i], set.y[i], set.theta[i], there);
   }
 
   FieldRegion region = test::Room{20, 12}.region(0.25, 0.2);
   PoseSearch search{region};
   MclConfig config;
-  Rivals rivals{config, region, search};
+  Exact motion;
+  Rivals rivals{config, region, search, motion};
   Recovery recovery{MclConfig{}};
   Pose2 truth{-8, 2, 0.3};
   Timestamp stamp = 0;

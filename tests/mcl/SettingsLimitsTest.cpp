@@ -41,7 +41,8 @@ TEST(MclSettingsLimits, KeysTakeTheirWholeRangeAndNothingBeyond) {
                                          {"min_rotation_deg", 0, 360, 1e-3},
                                          {"max_interval_s", 0, 1e6, 1e-3},
                                          {"drift_m", 0, 100, 1e-3},
-                                         {"drift_deg", 0, 3600, 1e-3}}) {
+                                         {"drift_deg", 0, 3600, 1e-3},
+                                         {"budget_ms", 1, 1e6, 1e-3}}) {
     for (const double fine : {key.least, key.most})
       EXPECT_EQ(complaintAbout(key.name, fine), "(nothing was thrown)") << key.name << " " << fine;
     for (const double wrong : {key.least - key.step, key.most + key.step}) {

@@ -333,11 +333,14 @@ TEST(MclSettings, DriftFollowsARobotThatTellsNoOdometry) {
 TEST(MclSettings, MclUsesWhatItsTableSays) {
   Parameters p("r.toml");
   const std::vector<std::pair<const char*, double>> values = {
-      {"particles", 3000},      {"min_particles", 300},  {"resample_below", 0.25},
-      {"kld_error", 0.03},      {"kld_quantile", 1.5},   {"bin_m", 0.3},
-      {"bin_deg", 20},          {"recover_fast", 0.3},   {"recover_slow", 0.02},
-      {"min_distance_m", 0.06}, {"min_rotation_deg", 3}, {"max_interval_s", 0.7},
-      {"drift_m", 0.8},         {"drift_deg", 45},       {"start_candidates_per_m2", 120}};
+      {"particles", 3000},      {"min_particles", 300},
+      {"resample_below", 0.25}, {"kld_error", 0.03},
+      {"kld_quantile", 1.5},    {"bin_m", 0.3},
+      {"bin_deg", 20},          {"recover_fast", 0.3},
+      {"recover_slow", 0.02},   {"min_distance_m", 0.06},
+      {"min_rotation_deg", 3},  {"max_interval_s", 0.7},
+      {"drift_m", 0.8},         {"budget_ms", 25},
+      {"drift_deg", 45},        {"start_candidates_per_m2", 120}};
   for (const auto& [key, value] : values) p.set(key, value);
   const MclConfig c = MclConfig::read(p);
   EXPECT_EQ(c.maxSamples, 3000u);
