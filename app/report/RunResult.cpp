@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "Calibration.hpp"
 #include "Console.hpp"
 #include "RunJson.hpp"
 #include "ortung/base/Angles.hpp"
@@ -45,6 +46,23 @@ nlohmann::ordered_json caseOf(const RunResult& run) {
                       {"after_readings", ifRight(event.readings)}});
   }
   return {{"kind", nameOf(run.kind)}, {"number", run.number}, {"events", std::move(events)}};
+}
+
+/// How well the filter's claim that the position is right to 0.5 m fits what came of it.
+nlohmann::ordered_json qualityOf(const EvaluationResult& figures) {
+  constexpr double kRight = 0.5;  // [m], as of PoseEstimate::quality
+  std::vector<Claim> claims;
+  for (const EvaluationPoint& p : figures.points)
+    claims.push_back({static_cast<float>(p.quality), p.positionError < kRight});
+  const Calibration calibration = calibrationOf(std::move(claims));
+  nlohmann::ordered_json bins = nlohmann::ordered_json::array();
+  for (const ReliabilityBin& bin : calibration.bins)
+    bins.push_back({{"moments", bin.count},
+                    {"claimed", jsonNumber(bin.claimed)},
+                    {"right_share", jsonNumber(bin.share)}});
+  return {{"calibration_error", jsonNumber(calibration.error)},
+          {"area_under_curve", jsonNumber(calibration.area)},
+          {"bins", bins}};
 }
 
 }  // namespace
@@ -99,6 +117,9 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
       {"converged_after_s", jsonNumber(figures.convergedAfter.value_or(kNever))},
       {"converged_after_m", jsonNumber(figures.convergedWay)},
       {"lost_share", jsonNumber(overTime.lostShare)},
+      {"tracking_share", jsonNumber(figures.trackingShare)},
+      {"wrong_while_tracking_share", jsonNumber(figures.wrongWhileTrackingShare)},
+      {"quality", qualityOf(figures)},
       {"update_ms_p50", jsonNumber(figures.updateMsP50)},
       {"update_ms_p99", jsonNumber(figures.updateMsP99)},
       {"update_ms_max", jsonNumber(figures.updateMsMax)},
@@ -140,6 +161,9 @@ std::vector<Figure> figuresOf(const RunResult& run) {
       {"Position error, most", show("{:.3f}", errors.positionMax, " m")},
       {"Heading error, RMS", show("{:.2f}", degrees(errors.headingRmse), " deg")},
       {"Share of time lost", show("{:.1f}", 100.0 * errors.lostShare, " %")},
+      {"Share of time it says tracking", show("{:.1f}", 100.0 * figures.trackingShare, " %")},
+      {"... with an error above 1 m",
+       show("{:.2f}", 100.0 * figures.wrongWhileTrackingShare, " %")},
       {"Consistency (NEES, 3 is right)", show("{:.2f}", errors.neesMean, "")},
       {"Position error at updates, RMS", show("{:.3f}", atUpdates.positionRmse, " m")},
       {"Samples, mean", show("{:.0f}", figures.particlesMean, "")},

@@ -74,7 +74,9 @@ bool Recovery::isDoubtful() const {
 }
 
 void Recovery::followBest(double fit) {
-  if (!best_) best_ = fit;
+  if (!best_) best_ = lately_ = fit;
+  last_ = fit;
+  lately_ += rateFast_ * (fit - lately_);
   unusual_ = isUsual(fit) ? 0 : unusual_ + 1;
   *best_ += (isDoubtful() ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
 }

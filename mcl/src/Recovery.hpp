@@ -35,6 +35,11 @@ class ORTUNG_API Recovery {
   /// Whether the fit has fallen for some time: it may be anywhere.
   bool callsForSearch() const;
   bool hasRecovered() const;
+  /// The newest best fit, and the average of the last ones, as shares of what is usual.
+  double fitOfUsual() const { return best_ ? last_ / *best_ : 1.0; }
+  double fitOfUsualLately() const { return best_ ? lately_ / *best_ : 1.0; }
+  /// Readings on end that did not fit as they use to.
+  int unusual() const { return unusual_; }
   /// @param fit of the same moment's readings where they fit the belief best: with the weights that
   ///   they have given it. How wide a belief has become on a long way does not matter then.
   void followBest(double fit);
@@ -48,6 +53,8 @@ class ORTUNG_API Recovery {
   double fast_ = 0.0;
   double slow_ = 0.0;
   int unusual_ = 0;             ///< readings on end that did not fit as they use to
+  double last_ = 0.0;           ///< best fit
+  double lately_ = 0.0;         ///< its short-term average
   std::optional<double> best_;  ///< long-term average
   bool known_ = false;
 };

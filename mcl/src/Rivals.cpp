@@ -94,6 +94,11 @@ void Rivals::forget() {
   elsewhere_.reset();
 }
 
+double Rivals::lead() const {
+  return std::max(
+      {0.0, around_ ? around_->lead.nats() : 0.0, elsewhere_ ? elsewhere_->lead.nats() : 0.0});
+}
+
 std::array<SampleSet*, 2> Rivals::samples() {
   return {around_ ? &around_->samples : nullptr, elsewhere_ ? &elsewhere_->samples : nullptr};
 }

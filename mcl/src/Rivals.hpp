@@ -64,6 +64,8 @@ class ORTUNG_API Rivals {
 
   void forget();
   bool isIdle() const { return !doubtSince_ && !elsewhere_ && !searching_; }
+  /// Of the one that is ahead of the belief, or 0 [nats].
+  double lead() const;
   /// Those to be moved as the belief is, at most two; null: not there.
   std::array<SampleSet*, 2> samples();
   /// Goes on with a search, though there is no reading.

@@ -32,6 +32,8 @@ struct EvaluationPoint {
   /// Whether nothing is known of the time since the point before it, longer than
   /// Options::longestGap: a drawn line breaks here. Not at the first point.
   bool followsGap = false;
+  double quality = 0.0;  ///< that the filter claims, as of PoseEstimate
+  TrackStatus status = TrackStatus::kLost;
 };
 
 /// Errors of some estimates; NaN where there are none.
@@ -66,6 +68,10 @@ struct EvaluationResult {
   /// out all times in which the robot saw nothing.
   EvaluationErrors atCorrections;
   double period = 0.1;  ///< between the moments of overTime [s]
+  /// Over the time, before convergence, too; NaN if nothing was compared.
+  double trackingShare = std::numeric_limits<double>::quiet_NaN();
+  /// The same, with an error above 1 m all the same: what must not be.
+  double wrongWhileTrackingShare = std::numeric_limits<double>::quiet_NaN();
   double updateMsP50 = 0.0;
   double updateMsP99 = 0.0;
   double updateMsMax = 0.0;

@@ -1,0 +1,104 @@
+#include "Confidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ortung {
+namespace {
+
+constexpr double kRight = 0.5;  ///< error of a position that is right [m]
+/// The covariance counts twice: the reference, the map and the readings' models err, too.
+constexpr double kInflation = 2.0;
+
+// Logistic regression of "the error is below 0.5 m" over eight laser logs and five of landmarks, as
+// they are, with constructed faults (but late stamps) and with kidnaps; docs/mcl.md.
+constexpr double kConstant = -8.0;
+constexpr double kOfBelief = 0.65;  ///< ln odds of share and covariance alone
+constexpr double kOfFit = 5.5;
+constexpr double kOfFitLately = 4.4;
+constexpr double kOfLead = -0.12;  ///< a nat
+constexpr double kMostLead = 16.0;
+
+constexpr double kTracking = 0.9;  ///< quality of an estimate that may be relied on, at least
+constexpr double kLost = 0.5;      ///< and of one that is none
+constexpr double kRivalNats = 4.0;
+constexpr double kOfOnePlace = 0.8;  ///< share of the belief
+constexpr double kLongSilence = 3.0;
+
+double square(double v) { return v * v; }
+
+}  // namespace
+
+double probabilityWithin(const std::array<double, 9>& covariance, double metres) {
+  const double middle = 0.5 * (covariance[0] + covariance[4]);
+  const double off = std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1]);
+  const double wide = std::sqrt(std::max(middle + off, 1e-12));
+  const double narrow = std::sqrt(std::max(middle - off, 1e-12));
+  // Over the long axis in polar steps, so that narrow Gaussians are met, too:
+  // P = E[erf(half chord / (narrow sqrt 2))], by quadrature over the wide one's quantiles.
+  constexpr int kSteps = 64;
+  const double reach = std::min(metres, 6.0 * wide);
+  const double step = 2.0 * reach / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = -reach + (i + 0.5) * step;
+    const double chord = std::sqrt(std::max(0.0, metres * metres - x * x));
+    sum += std::exp(-0.5 * square(x / wide)) * std::erf(chord / (narrow * std::numbers::sqrt2));
+  }
+  return std::min(1.0, sum * step / (wide * std::sqrt(2.0 * std::numbers::pi)));
+}
+
+void judge(const Signs& signs, PoseEstimate& estimate) {
+  std::array<double, 9> wide = estimate.covariance;
+  for (double& c : wide) c *= kInflation;
+  const double within = probabilityWithin(wide, kRight);
+  const double belief = std::clamp(within * estimate.share, 1e-3, 1.0 - 1e-3);
+  const double odds = kConstant + kOfBelief * std::log(belief / (1.0 - belief)) +
+                      kOfFit * std::clamp(signs.fit, 0.0, 1.0) +
+                      kOfFitLately * std::clamp(signs.fitLately, 0.0, 1.0) +
+                      kOfLead * std::clamp(signs.lead, 0.0, kMostLead);
+  estimate.quality = 1.0 / (1.0 + std::exp(-odds));
+  const bool isSilent = !signs.silence || *signs.silence > kLongSilence;
+  if (signs.isFrozen) {
+    estimate.reason = TrackReason::kFrozen;
+  } else if (isSilent) {
+    estimate.reason = TrackReason::kNoReading;
+  } else if (signs.lead >= kRivalNats) {
+    estimate.reason = TrackReason::kRival;
+  } else if (signs.unusual > 0) {
+    estimate.reason = TrackReason::kPoorFit;
+  } else if (estimate.share < kOfOnePlace) {
+    estimate.reason = TrackReason::kSeveralPlaces;
+  } else if (!signs.trustsOdometry) {
+    estimate.reason = TrackReason::kOdometry;  // or the readings' stamps are wrong
+  } else if (estimate.quality < kTracking) {
+    estimate.reason = TrackReason::kSpread;
+  } else {
+    estimate.reason = TrackReason::kFits;
+  }
+  estimate.status = estimate.quality < kLost                ? TrackStatus::kLost
+                    : estimate.reason == TrackReason::kFits ? TrackStatus::kTracking
+                                                            : TrackStatus::kUncertain;
+}
+
+const char* nameOf(TrackStatus status) {
+  constexpr const char* kNames[] = {"tracking", "uncertain", "lost"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+const char* nameOf(TrackReason reason) {
+  constexpr const char* kNames[] = {
+      "readings fit",
+      "several places fit",
+      "the belief is spread",
+      "no reading comes",
+      "a device repeats its reading though the robot moves",
+      "readings fit worse than they use to",
+      "readings fit elsewhere",
+      "readings contradict odometry",
+  };
+  return kNames[static_cast<std::size_t>(reason)];
+}
+
+}  // namespace ortung
