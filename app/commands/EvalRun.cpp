@@ -105,6 +105,7 @@ class Run {
       if (isDone(evaluation_)) break;
     }
     result_.figures = evaluation_.result(arguments_.source);
+    result_.calibration = calibrationOf(result_.figures.points);
   }
   RunResult& result() { return result_; }
 

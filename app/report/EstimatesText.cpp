@@ -11,10 +11,11 @@ namespace ortung::app {
 
 void appendEstimate(const PoseEstimate& estimate, std::string& text) {
   const auto& c = estimate.covariance;
-  fmt::format_to(std::back_inserter(text),
-                 "{} {:.4f} {:.4f} {:.5f} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.3f} {}\n",
-                 estimate.stamp, estimate.pose.x, estimate.pose.y, estimate.pose.theta, c[0], c[1],
-                 c[2], c[4], c[5], c[8], estimate.share, estimate.samples);
+  fmt::format_to(
+      std::back_inserter(text),
+      "{} {:.4f} {:.4f} {:.5f} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.3f} {} {:.3f} {}\n",
+      estimate.stamp, estimate.pose.x, estimate.pose.y, estimate.pose.theta, c[0], c[1], c[2], c[4],
+      c[5], c[8], estimate.share, estimate.samples, estimate.quality, nameOf(estimate.status));
 }
 
 void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std::string& text) {
@@ -36,6 +37,9 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
       {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}};  // of those three
   line["share"] = estimate.share;
   line["samples"] = estimate.samples;
+  line["quality"] = estimate.quality;
+  line["status"] = nameOf(estimate.status);
+  line["reason"] = nameOf(estimate.reason);
   line["age_s"] = age ? nlohmann::ordered_json(*age) : nlohmann::ordered_json();
   text += line.dump() + "\n";
 }

@@ -42,6 +42,8 @@ struct Summary {
   Share right;      ///< events
   Spread position;  ///< of all moments of all runs after convergence [m]
   double lostShare = kNan;
+  double trackingShare = kNan;
+  double wrongWhileTrackingShare = kNan;
   double neesMean = kNan;
   Spread after;     ///< converged, or right again [s]
   Spread way;       ///< [m]
@@ -83,6 +85,8 @@ class Adding {
     updateMs_.insert(updateMs_.end(), run.updateMs.begin(), run.updateMs.end());
     lost_.add(figures.overTime.lostShare, run.errors.size());
     nees_.add(figures.overTime.neesMean, run.errors.size());
+    tracking_.add(figures.trackingShare, figures.overTime.compared);
+    wrongWhileTracking_.add(figures.wrongWhileTrackingShare, figures.overTime.compared);
     if (run.kind == RunKind::kWhole && hasConverged) {
       after_.push_back(*figures.convergedAfter);
       way_.push_back(figures.convergedWay);
@@ -102,6 +106,8 @@ class Adding {
     s.position = spreadOf(errors_);
     s.lostShare = lost_.mean();
     s.neesMean = nees_.mean();
+    s.trackingShare = tracking_.mean();
+    s.wrongWhileTrackingShare = wrongWhileTracking_.mean();
     s.after = spreadOf(after_);
     s.way = spreadOf(way_);
     s.readings = spreadOf(readings_);
@@ -118,6 +124,8 @@ class Adding {
   std::vector<double> readings_;
   TimeMean lost_;
   TimeMean nees_;
+  TimeMean tracking_;
+  TimeMean wrongWhileTracking_;
 };
 
 /// In the order in which their first runs come.
@@ -165,6 +173,8 @@ Json jsonOf(const Summary& s) {
   if (s.kind != RunKind::kWhole) json["after_readings"] = jsonOf(s.readings);
   json["position_m"] = jsonOf(s.position);
   json["lost_share"] = jsonNumber(s.lostShare);
+  json["tracking_share"] = jsonNumber(s.trackingShare);
+  json["wrong_while_tracking_share"] = jsonNumber(s.wrongWhileTrackingShare);
   json["nees_mean"] = jsonNumber(s.neesMean);
   json["update_ms"] = jsonOf(s.updateMs);
   return json;
@@ -223,6 +233,8 @@ std::string show(const std::vector<RunResult>& runs, const Summary& s) {
   if (!isWhole) text += line("", show(s.readings, 0, " readings"));
   text += line("Position error", show(s.position, 3, " m"));
   text += line("Share of time lost", show(100.0 * s.lostShare, 2, " %"));
+  text += line("Share of time it says tracking", show(100.0 * s.trackingShare, 2, " %"));
+  text += line("... with an error above 1 m", show(100.0 * s.wrongWhileTrackingShare, 3, " %"));
   text += line("Consistency (NEES, 3 is right)", show(s.neesMean, 2, ""));
   text += line("Time an update", show(s.updateMs, 3, " ms"));
   return text + listOfCases(runs, s);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "Calibration.hpp"
 #include "Console.hpp"
 #include "RunJson.hpp"
 #include "ortung/base/Angles.hpp"
@@ -48,13 +47,7 @@ nlohmann::ordered_json caseOf(const RunResult& run) {
   return {{"kind", nameOf(run.kind)}, {"number", run.number}, {"events", std::move(events)}};
 }
 
-/// How well the filter's claim that the position is right to 0.5 m fits what came of it.
-nlohmann::ordered_json qualityOf(const EvaluationResult& figures) {
-  constexpr double kRight = 0.5;  // [m], as of PoseEstimate::quality
-  std::vector<Claim> claims;
-  for (const EvaluationPoint& p : figures.points)
-    claims.push_back({static_cast<float>(p.quality), p.positionError < kRight});
-  const Calibration calibration = calibrationOf(std::move(claims));
+nlohmann::ordered_json jsonOf(const Calibration& calibration) {
   nlohmann::ordered_json bins = nlohmann::ordered_json::array();
   for (const ReliabilityBin& bin : calibration.bins)
     bins.push_back({{"moments", bin.count},
@@ -119,7 +112,7 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
       {"lost_share", jsonNumber(overTime.lostShare)},
       {"tracking_share", jsonNumber(figures.trackingShare)},
       {"wrong_while_tracking_share", jsonNumber(figures.wrongWhileTrackingShare)},
-      {"quality", qualityOf(figures)},
+      {"quality", jsonOf(run.calibration)},
       {"update_ms_p50", jsonNumber(figures.updateMsP50)},
       {"update_ms_p99", jsonNumber(figures.updateMsP99)},
       {"update_ms_max", jsonNumber(figures.updateMsMax)},
@@ -137,6 +130,14 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
   };
   if (run.kind != RunKind::kWhole) json["case"] = caseOf(run);
   return json;
+}
+
+Calibration calibrationOf(const std::vector<EvaluationPoint>& points) {
+  constexpr double kRight = 0.5;  // [m], as of PoseEstimate::quality
+  std::vector<Claim> claims;
+  for (const EvaluationPoint& p : points)
+    claims.push_back({static_cast<float>(p.quality), p.positionError < kRight});
+  return calibrationOf(std::move(claims));
 }
 
 std::string toJson(const RunResult& run) { return jsonText(jsonOf(run)); }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "Calibration.hpp"
 #include "ortung/mcl/Evaluation.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TableInfo.hpp"
@@ -51,8 +52,12 @@ struct RunResult {
   std::size_t number = 1;         ///< of its kind, from 1
   std::vector<CaseEvent> events;  ///< of a case
   std::vector<float> updateMs;    ///< of all updates
+  Calibration calibration;        ///< of the claimed quality
   std::vector<float> errors;      ///< of the positions of all moments after convergence [m]
 };
+
+/// How well the filter's claim that a position is right to 0.5 m fits what came of it.
+Calibration calibrationOf(const std::vector<EvaluationPoint>& points);
 
 /// The figures as a JSON object for machines; what is not a number becomes null. docs/mcl.md tells
 /// its keys.
