@@ -33,7 +33,7 @@ class PoseOutput {
     text_ = kEstimatesHeader;
     if (!isEven_) return;
     text_.back() = ' ';
-    text_ += std::string(kAgeColumn) + "\n";
+    text_ += std::string(kAgeColumns) + "\n";
   }
   /// @param age of the newest weighing [s]
   void add(const PoseEstimate& estimate, std::optional<double> age) {

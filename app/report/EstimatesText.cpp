@@ -13,16 +13,16 @@ void appendEstimate(const PoseEstimate& estimate, std::string& text) {
   const auto& c = estimate.covariance;
   fmt::format_to(
       std::back_inserter(text),
-      "{} {:.4f} {:.4f} {:.5f} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.3f} {} {:.3f} {}\n",
+      "{} {:.4f} {:.4f} {:.5f} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.3f} {}\n",
       estimate.stamp, estimate.pose.x, estimate.pose.y, estimate.pose.theta, c[0], c[1], c[2], c[4],
-      c[5], c[8], estimate.share, estimate.samples, estimate.quality, nameOf(estimate.status));
+      c[5], c[8], estimate.share, estimate.samples);
 }
 
 void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std::string& text) {
   appendEstimate(estimate, text);
   text.pop_back();
-  fmt::format_to(std::back_inserter(text), " {:.3f}\n",
-                 age.value_or(std::numeric_limits<double>::quiet_NaN()));
+  fmt::format_to(std::back_inserter(text), " {:.3f} {:.3f}\n",
+                 age.value_or(std::numeric_limits<double>::quiet_NaN()), estimate.quality);
 }
 
 void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,

@@ -15,8 +15,8 @@ inline constexpr std::string_view kEstimatesHeader =
 
 void appendEstimate(const PoseEstimate& estimate, std::string& text);
 
-/// At even times there is one column more, the last one.
-inline constexpr std::string_view kAgeColumn = "age_s";
+/// At even times there are two columns more, the last ones.
+inline constexpr std::string_view kAgeColumns = "age_s quality";
 
 /// @param age of the newest weighing [s]; nothing before there was one: nan
 void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std::string& text);

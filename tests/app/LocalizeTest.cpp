@@ -82,14 +82,14 @@ TEST_F(Localize, WritesPosesAtAnEvenRateWithTheAgeOfTheLastWeighing) {
   });
   const Outcome outcome = run({"--start", "truth", "--start-sigma", "0.05,2", "--rate", "25"});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-  EXPECT_TRUE(outcome.out.substr(0, outcome.out.find('\n')).ends_with(" share samples age_s"));
+  EXPECT_TRUE(outcome.out.substr(0, outcome.out.find('\n')).ends_with(" share samples age_s quality"));
   const std::vector<Line> lines = linesOf(outcome.out);
   const auto first = static_cast<double>(truth_.begin()->first);
   const double seconds = static_cast<double>(truth_.rbegin()->first) / 1e6 - first / 1e6;
   EXPECT_EQ(lines.size(), static_cast<std::size_t>(std::floor(25 * seconds + 1e-9)) + 1);
   double oldest = 0.0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    ASSERT_EQ(lines[i].size(), 13U);
+    ASSERT_EQ(lines[i].size(), 14U);
     EXPECT_EQ(lines[i][0], first + 40'000.0 * static_cast<double>(i));
     EXPECT_LT(error(lines[i]), 0.3) << i;
     EXPECT_GE(lines[i][kAge], 0.0);
