@@ -26,8 +26,13 @@ class ORTUNG_API Recovery {
   /// @param fit of one moment's readings, in [0, 1]
   void follow(double fit);
   void forget() {
-    known_ = false;
+    beginAnew();
     best_.reset();
+  }
+  /// Of another belief: how well readings fit where they fit best stays known, for that is of the
+  /// sensors and the map.
+  void beginAnew() {
+    known_ = false;
     unusual_ = 0;
   }
   /// Whether the newest readings fit worse than they use to: the robot may have left the track.

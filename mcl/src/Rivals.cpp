@@ -15,7 +15,7 @@ namespace {
 
 // Around the estimate.
 constexpr double kRing = 0.5;             ///< at first [m]
-constexpr double kRingPerSecond = 0.5;    ///< [m/s]: as fast as wheels lie
+constexpr double kRingPerSecond = 1.5;    ///< [m/s]: as fast as wheels lie
 constexpr double kLargestRing = 3.0;      ///< [m]
 constexpr double kTurn = 0.35;            ///< to either side, at first [rad]
 constexpr double kTurnPerSecond = 0.35;   ///< [rad/s]

@@ -137,7 +137,7 @@ TEST_F(Served, LocalizationThatASignalEndsLeavesItsBelief) {
     const Outcome outcome = program.finish();
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
-    EXPECT_EQ(inLastLine("poses.txt", ' '), 12);
+    EXPECT_EQ(inLastLine("poses.txt", ' '), 13);
     const std::string belief = read("belief");
     EXPECT_FALSE(belief == before) << "it is that of this run's end";
     before = belief;

@@ -82,7 +82,8 @@ TEST_F(Localize, WritesPosesAtAnEvenRateWithTheAgeOfTheLastWeighing) {
   });
   const Outcome outcome = run({"--start", "truth", "--start-sigma", "0.05,2", "--rate", "25"});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-  EXPECT_TRUE(outcome.out.substr(0, outcome.out.find('\n')).ends_with(" share samples age_s quality"));
+  EXPECT_TRUE(
+      outcome.out.substr(0, outcome.out.find('\n')).ends_with(" share samples age_s quality"));
   const std::vector<Line> lines = linesOf(outcome.out);
   const auto first = static_cast<double>(truth_.begin()->first);
   const double seconds = static_cast<double>(truth_.rbegin()->first) / 1e6 - first / 1e6;
