@@ -1,0 +1,169 @@
+// How readings weigh the samples: the filter's second half (eq. 7).
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "Annealing.hpp"
+#include "Kld.hpp"
+#include "MclImpl.hpp"
+#include "Resampling.hpp"
+#include "ortung/base/Random.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kFewestCandidates = 2;  ///< for each sample at a global start
+constexpr double kMostCandidates = 5e6;  ///< in all, however large the building
+constexpr double kFewLeft = 25.0;  ///< effective samples: readings are far sharper than the belief
+
+}  // namespace
+
+/// From the poses that the readings speak for.
+void Mcl::Impl::start(const std::vector<News>& news) {
+  samples = search
+                .draw(config.maxSamples, startCandidates(), weigherOf(news),
+                      Random(config.seed, stream(Purpose::kStart)))
+                .samples;
+  waitsForStart = false;
+}
+
+std::vector<const Weigher*> Mcl::Impl::readingsOf(const std::vector<News>& news) {
+  std::vector<const Weigher*> readings;
+  for (const News& one : news) readings.push_back(one.weigher.get());
+  return readings;
+}
+
+/// How well samples explain the readings.
+double Mcl::Impl::fitNow(const std::vector<News>& news, const SampleSet& set) {
+  return fitOf(readingsOf(news), set, normalized(set.logWeight)).value_or(0.0);
+}
+
+/// @param before weights before the readings are weighed
+void Mcl::Impl::followFit(const std::vector<News>& news, const std::vector<double>& before) {
+  const auto fit = fitOf(readingsOf(news), samples, before);
+  if (fit) recovery.follow(*fit);
+}
+
+/// Lets other places have the belief, or a part of it, if they have explained readings better.
+void Mcl::Impl::compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment) {
+  const auto fit = [&](const SampleSet& set) { return fitNow(news, set); };
+  auto takeover = rivals.follow(moment, recovery, weigherOf(news), fit);
+  if (!takeover) return;
+  if (takeover->share < 1.0) {
+    add(samples, takeover->samples, takeover->share);
+  } else {
+    samples = std::move(takeover->samples);
+    recovery.beginAnew();
+  }
+  takeover->trustsOdometry ? trust.forget() : trust.lose();
+}
+
+/// Weighs the samples by what the readings say.
+/// @param before weights before that
+void Mcl::Impl::takeIn(const std::vector<News>& news, std::vector<double> before) {
+  if (drifted > 0) {
+    takeInUnsure(news, before);
+    return;
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i) samples.logWeight[i] += logProbability[i];
+  if (config.resampleBelow > 0.0 && effectiveSamples(normalized(samples.logWeight)) < kFewLeft)
+    sharpen(news, before);
+}
+
+/// While odometry is not trusted: whether it leads to where the readings are, or drifting about
+/// does as well. Samples that drifted count only if the readings fit there as they use to: in a
+/// crowd nothing fits, and wherever one goes a little less unlike it is no better a place.
+void Mcl::Impl::takeInUnsure(const std::vector<News>& news, const std::vector<double>& before) {
+  const auto evidenceOf = [&](std::size_t first, std::size_t count) {
+    const auto weights = std::span(before).subspan(first, count);
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    return logMean(weights, std::span(logProbability).subspan(first, count)) - std::log(sum);
+  };
+  const double ratio = evidenceOf(drifted, samples.size() - drifted) - evidenceOf(0, drifted);
+  trust.compare(-ratio, way);
+  const SampleSet near = Annealing(weigherOf(news), nullptr)
+                             .draw(samples.from(drifted), config.minSamples,
+                                   Random(config.seed, stream(Purpose::kSpread)))
+                             .samples;
+  samples.resize(std::exchange(drifted, 0));
+  logProbability.resize(samples.size());
+  takeIn(news, normalized(samples.logWeight));
+  if (recovery.isUsual(fitNow(news, near))) add(samples, near, 1.0 / (1.0 + std::exp(-ratio)));
+}
+
+void Mcl::Impl::resample(const std::vector<double>& weights) {
+  Random random(config.seed, stream(Purpose::kResampling));
+  const double offset = random.uniform();
+  SampleSet drawn = taken(samples, lowVariance(weights, samples.size(), offset));
+  const std::size_t n = kldSamples(config, PoseBins(config, drawn.view()).count());
+  if (n != drawn.size()) drawn = taken(samples, lowVariance(weights, n, offset));
+  samples = std::move(drawn);
+}
+
+/// Where readings are far sharper than the belief, hardly any sample is left, and none of them at
+/// the top of the hill: then the readings come in by degrees.
+/// @param before weights before the readings were weighed
+void Mcl::Impl::sharpen(const std::vector<News>& news, const std::vector<double>& before) {
+  const Random random(config.seed, stream(Purpose::kSpread));
+  Random offset = random.fork(1);
+  // After a way on which nothing was seen, they are to be found in many places.
+  const std::size_t n = std::min(
+      config.maxSamples, std::max({2 * config.minSamples, before.size(),
+                                   kldSamples(config, PoseBins(config, samples.view()).count())}));
+  const Annealing annealing =
+      lastOdometry
+          ? Annealing(weigherOf(news), estimateOf(config, samples.view(), before).covariance, n)
+          : Annealing(weigherOf(news), nullptr);
+  samples = annealing
+                .draw(taken(samples, lowVariance(before, n, offset.uniform())),
+                      std::max(config.minSamples, n / 4), random)
+                .samples;
+}
+
+/// How many poses are tried for each sample at a global start: the hill around the true pose must
+/// be met a few times, so their number goes with the floor.
+double Mcl::Impl::startCandidates() const {
+  const double area = static_cast<double>(search.cells()) * region.grid.cell * region.grid.cell;
+  const double all = std::min(config.startCandidates * area, kMostCandidates);
+  return std::max(all / static_cast<double>(config.maxSamples), kFewestCandidates);
+}
+
+void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
+  if (waitsForStart) {
+    start(news);
+  } else {
+    const std::vector<double> before = normalized(samples.logWeight);
+    followFit(news, before);
+    const bool isCompared = recovery.isDoubtful() || recovery.callsForSearch() || !rivals.isIdle();
+    Rivals::Moment moment{stamp, {}, 0.0, way, stream(Purpose::kRivals), lastOdometry, {}};
+    if (isCompared) {
+      moment.predicted = estimateOf(config, samples.view(), before).pose;
+      for (const News& one : news) moment.readings.push_back(one.weigher);
+    }
+    weigh(news, samples, config.threads, logProbability);
+    moment.logEvidence = logMean(before, logProbability);
+    takeIn(news, before);
+    recovery.followBest(fitNow(news, samples));
+    isCompared ? compareWithRivals(news, moment) : rivals.forget();
+  }
+  way = 0.0;
+  const std::vector<double> weights = normalized(samples.logWeight);
+  estimate = estimateOf(config, samples.view(), weights);
+  estimate.stamp = stamp;
+  coarsest = coarsestOf(news);
+  addResolution(estimate);
+  judge(signsAt(stamp), estimate);
+  present = estimate;
+  if (effectiveSamples(weights) < config.resampleBelow * static_cast<double>(samples.size())) {
+    resample(weights);
+  } else {
+    // Keeps the numbers small: weights matter up to a common factor only.
+    const float largest = *std::max_element(samples.logWeight.begin(), samples.logWeight.end());
+    if (std::isfinite(largest)) {
+      for (float& w : samples.logWeight) w -= largest;
+    }
+  }
+  if (trust.isLost()) anchor = samples;
+}
+
+}  // namespace ortung

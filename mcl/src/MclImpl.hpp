@@ -1,0 +1,123 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "Confidence.hpp"
+#include "Intake.hpp"
+#include "OdometryTrust.hpp"
+#include "PoseSearch.hpp"
+#include "Recovery.hpp"
+#include "Rivals.hpp"
+#include "ortung/mcl/Mcl.hpp"
+
+namespace ortung {
+
+/// Streams of random numbers: one a purpose and step.
+enum class Purpose : std::uint64_t { kMotion, kResampling, kStart, kRivals, kSpread, kCount };
+
+/// Where nobody knows how the robot moved there are so many samples at least, if the set may be so
+/// large.
+inline constexpr std::size_t kSpreadSamples = 4000;
+
+/// What was read so shortly ago is of the present place [us].
+inline constexpr Timestamp kPresent = 500'000;
+
+/// The filter in three parts: what is asked of it (Mcl.cpp), how the samples move
+/// (MclPrediction.cpp), and how readings weigh them (MclCorrection.cpp).
+struct Mcl::Impl {
+  MclConfig config;
+  FieldRegion region;
+  std::unique_ptr<MotionModel> motion;
+  PoseSearch search;
+  SampleSet samples;
+  PoseEstimate estimate;    ///< of the newest weighing
+  PoseResolution coarsest;  ///< of the tables that it was weighed by
+  /// Of the samples as they are now; made when it is asked for.
+  mutable std::optional<PoseEstimate> present;
+  Intake intake;
+  std::optional<Pose2> lastOdometry;
+  std::optional<Timestamp> lastTime;  ///< up to which the samples were moved to weigh them
+  double usualInterval = 0.0;         ///< between weighings, lately at most [s]
+  OdometryTrust trust;
+  SampleSet anchor;         ///< the belief when it was weighed last, while odometry is not trusted
+  std::size_t drifted = 0;  ///< of the samples, from this one on they drifted; 0: none
+  std::uint64_t step = 0;
+  Recovery recovery;
+  Rivals rivals;
+  double way = 0.0;           ///< since the last weighing [m]; a turn of 1 rad counts as 1 m
+  bool waitsForStart = true;  ///< a global start waits for the first reading
+  std::vector<float> logProbability;
+
+  Impl(const MclConfig& c, FieldRegion r, std::unique_ptr<MotionModel> m)
+      : config(c),
+        region((r.check(), std::move(r))),
+        motion(std::move(m)),
+        search(region),
+        intake(config, *motion),
+        recovery(config),
+        rivals(config, region, search, *motion) {
+    config.check();
+  }
+
+  std::uint64_t stream(Purpose purpose) const {
+    return step * static_cast<std::uint64_t>(Purpose::kCount) + static_cast<std::uint64_t>(purpose);
+  }
+
+  NewsByTime look(const SensorContainer& container);
+  void forgetTimes() {
+    lastOdometry.reset();
+    lastTime.reset();
+  }
+  void begin(bool waits) {
+    beginHere(waits);
+    intake.forget();
+    forgetTimes();
+  }
+  /// Another belief; time and odometry go on.
+  void beginHere(bool waits) {
+    waitsForStart = waits;
+    recovery.forget();
+    rivals.forget();
+    trust.forget();
+    coarsest = {};
+    present.reset();
+    intake.countAgain(estimate.stamp - kPresent);
+  }
+  std::optional<Timestamp> newestTime() const;
+  void followMotion(const Pose2& odometry);
+  void predict(const Pose2& odometry);
+  void predictBlindly(Timestamp stamp);
+  void spread(Timestamp stamp);
+  void predictFor(Timestamp stamp);
+  void enlarge(SampleSet& set);
+  template <class Move>
+  void move(const Move& moveSome);
+  PoseEstimate estimateNow() const;
+  /// ln p of readings, for whoever searches among poses. @param news borrowed
+  PoseSearch::Weigh weigherOf(const std::vector<News>& news) const {
+    return [this, &news](const SampleSet& set, std::vector<float>& out) {
+      weigh(news, set, config.threads, out);
+    };
+  }
+  void start(const std::vector<News>& news);
+  static std::vector<const Weigher*> readingsOf(const std::vector<News>& news);
+  static double fitNow(const std::vector<News>& news, const SampleSet& set);
+  void followFit(const std::vector<News>& news, const std::vector<double>& before);
+  void takeIn(const std::vector<News>& news, std::vector<double> before);
+  void takeInUnsure(const std::vector<News>& news, const std::vector<double>& before);
+  void compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment);
+  double startCandidates() const;
+  void resample(const std::vector<double>& weights);
+  void sharpen(const std::vector<News>& news, const std::vector<double>& before);
+  void addResolution(PoseEstimate& e) const;
+  void addDrift(PoseEstimate& e, Timestamp stamp) const;
+  Signs signsAt(Timestamp stamp) const;
+  void correct(const std::vector<News>& news, Timestamp stamp);
+};
+
+}  // namespace ortung

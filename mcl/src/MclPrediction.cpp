@@ -1,0 +1,107 @@
+// How the samples move: the filter's first half (eq. 8).
+#include <algorithm>
+#include <cmath>
+
+#include "Drift.hpp"
+#include "MclImpl.hpp"
+#include "Parallel.hpp"
+#include "Resampling.hpp"
+#include "ortung/base/Random.hpp"
+
+namespace ortung {
+namespace {
+
+// Motion without readings is followed in pieces of this size: the noise of a long way that leads
+// back to where it began is not that of no way at all.
+constexpr double kLongestPieceMetres = 0.1;
+constexpr double kLongestPieceRadians = 0.1;
+// The noise of rivals is not that of the belief's samples.
+constexpr std::size_t kNumberOfRivals = 1U << 24;
+constexpr double kIntervalKept = 0.9;
+
+}  // namespace
+
+/// Moves the samples, though there is nothing to weigh, once the robot has come some way.
+void Mcl::Impl::followMotion(const Pose2& odometry) {
+  if (!lastOdometry && !waitsForStart) lastOdometry = odometry;  // where the known start was
+  if (!lastOdometry) return;
+  const Pose2 change = inverse(*lastOdometry) * odometry;
+  if (std::hypot(change.x, change.y) < kLongestPieceMetres &&
+      std::abs(change.theta) < kLongestPieceRadians)
+    return;
+  ++step;
+  predict(odometry);
+}
+
+template <class Move>
+void Mcl::Impl::move(const Move& moveSome) {
+  if (waitsForStart) return;
+  const auto moveAll = [&](SampleSet& set, std::size_t number) {
+    forEachChunk(set.size(), config.threads, [&](std::size_t first, std::size_t count) {
+      moveSome(MovableSamples{std::span(set.x).subspan(first, count),
+                              std::span(set.y).subspan(first, count),
+                              std::span(set.theta).subspan(first, count)},
+               number + first);
+    });
+  };
+  moveAll(samples, 0);
+  std::size_t number = 0;
+  for (SampleSet* others : rivals.samples())
+    if (others != nullptr) moveAll(*others, ++number * kNumberOfRivals);
+  present.reset();
+}
+
+void Mcl::Impl::predict(const Pose2& odometry) {
+  const Pose2 change = lastOdometry ? inverse(*lastOdometry) * odometry : Pose2{};
+  lastOdometry = odometry;
+  way += std::hypot(change.x, change.y) + std::abs(change.theta);
+  move([&](const MovableSamples& some, std::size_t first) {
+    motion->sampleMotion(some, change, config.seed, stream(Purpose::kMotion), first);
+  });
+}
+
+/// Moves the samples to where the robot may be when a reading was taken.
+void Mcl::Impl::predictFor(Timestamp stamp) {
+  const std::optional<Pose2> now = motion->odometryAt(stamp);
+  drifted = 0;
+  if (!lastOdometry) predictBlindly(stamp);
+  if (now) predict(*now);
+  if (now && trust.isLost()) spread(stamp);
+  // Rises at once and falls slowly: what was usual a while ago is so still.
+  if (lastTime)
+    usualInterval = std::max(toSeconds(stamp - *lastTime), kIntervalKept * usualInterval);
+  lastTime = stamp;
+}
+
+/// While there is no odometry, or for the time before its first reading.
+void Mcl::Impl::predictBlindly(Timestamp stamp) {
+  const double seconds = lastTime ? std::max(0.0, toSeconds(stamp - *lastTime)) : 0.0;
+  if (seconds == 0.0) return;
+  way += config.driftMetres * std::sqrt(seconds);  // that it may have come
+  if (!waitsForStart) enlarge(samples);
+  move([&](const MovableSamples& some, std::size_t first) {
+    drift(config, some, seconds, stream(Purpose::kMotion), first);
+  });
+}
+
+/// While odometry is not trusted: one half of the samples is moved by it nevertheless, the other
+/// one goes anywhere near.
+void Mcl::Impl::spread(Timestamp stamp) {
+  const double seconds = lastTime ? std::max(0.0, toSeconds(stamp - *lastTime)) : 0.0;
+  if (seconds == 0.0 || waitsForStart) return;
+  Spread both =
+      ortung::spread(config, samples, anchor, seconds, kSpreadSamples, stream(Purpose::kSpread));
+  samples = std::move(both.samples);
+  drifted = both.drifted;
+  present.reset();
+}
+
+/// Samples drawn evenly, so many that they can go where a robot may go of which nothing is known.
+void Mcl::Impl::enlarge(SampleSet& set) {
+  const std::size_t n = std::min(config.maxSamples, kSpreadSamples);
+  if (set.size() >= n) return;
+  Random random(config.seed, stream(Purpose::kResampling));
+  set = taken(set, lowVariance(normalized(set.logWeight), n, random.uniform()));
+}
+
+}  // namespace ortung
