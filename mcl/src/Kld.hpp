@@ -46,6 +46,11 @@ class ORTUNG_API PoseBins {
 /// particle filters through KLD-sampling", 2003, eq. 7); within [minSamples, maxSamples].
 ORTUNG_API std::size_t kldSamples(const MclConfig& config, std::size_t bins);
 
+/// Mean and covariance of each cluster whose share of the belief is @p least at least, and of the
+/// heaviest one in any case; heaviest first.
+ORTUNG_API std::vector<PoseEstimate> clustersOf(const MclConfig& config, const SampleView& samples,
+                                                std::span<const double> weights, double least);
+
 /// The heaviest cluster's mean and covariance.
 ORTUNG_API PoseEstimate estimateOf(const MclConfig& config, const SampleView& samples,
                                    std::span<const double> weights);

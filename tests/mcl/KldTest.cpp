@@ -178,5 +178,28 @@ TEST(Estimate, TheMeanHeadingOfASetAroundPiIsPi) {
   EXPECT_NEAR(e.covariance[8], 1e-4 * 440 / 12, 1e-7);
 }
 
+TEST(Clusters, AreToldHeaviestFirstWithTheirShares) {
+  SampleSet set;
+  set.resize(60);
+  std::vector<double> weights(60, 1.0 / 60.0);
+  for (std::size_t i = 0; i < 60; ++i) {
+    // 10 samples around (0, 0), 20 around (5, 0), 30 around (0, 5), in turn.
+    const std::size_t place = i % 6 == 0 ? 0 : i % 6 < 3 ? 1 : 2;
+    set.x[i] = (place == 1 ? 5.0F : 0.0F) + (i % 2 == 0 ? 0.01F : -0.01F);
+    set.y[i] = place == 2 ? 5.0F : 0.0F;
+    set.theta[i] = 1.0F;
+  }
+  const auto clusters = clustersOf(MclConfig{}, set.view(), weights, 0.2);
+  ASSERT_EQ(clusters.size(), 2u) << "the third has a sixth";
+  EXPECT_NEAR(clusters[0].share, 0.5, 1e-9);
+  EXPECT_NEAR(clusters[0].pose.y, 5.0, 1e-6);
+  EXPECT_NEAR(clusters[1].share, 1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(clusters[1].pose.x, 5.0, 0.011);
+  EXPECT_LT(clusters[1].covariance[0], 1.1e-4);
+  EXPECT_EQ(clustersOf(MclConfig{}, set.view(), weights, 0.1).size(), 3u);
+  EXPECT_EQ(clustersOf(MclConfig{}, set.view(), weights, 2.0).size(), 1u);
+  EXPECT_NEAR(estimateOf(MclConfig{}, set.view(), weights).share, 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace ortung

@@ -70,6 +70,10 @@ class ORTUNG_API Mcl {
   /// change the filter.
   /// @returns nothing while a global start waits for its first reading
   std::optional<PoseEstimate> estimate(Timestamp stamp) const;
+  /// The places that the belief is spread over, as of the samples now, heaviest first: clusters
+  /// with a share of @p least at least, each with its covariance. Status and quality are those of
+  /// the whole. Nothing while a global start waits for its first reading.
+  std::vector<PoseEstimate> places(double least = 0.01) const;
   /// Whether there is odometry; without, samples drift (MclConfig::driftMetres).
   bool hasOdometry() const;
   const SampleSet& samples() const;
