@@ -1,0 +1,99 @@
+// How far an estimate can be relied on: closed forms, and what each sign does to it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "Confidence.hpp"
+
+namespace ortung {
+namespace {
+
+std::array<double, 9> covarianceOf(double xx, double xy, double yy) {
+  return {xx, xy, 0, xy, yy, 0, 0, 0, 0.01};
+}
+
+TEST(ProbabilityWithin, OfARoundGaussianIsTheClosedForm) {
+  for (const double sigma : {0.01, 0.1, 0.3, 0.5, 1.0, 5.0, 100.0}) {
+    const double exact = 1.0 - std::exp(-0.25 / (2.0 * sigma * sigma));
+    EXPECT_NEAR(probabilityWithin(covarianceOf(sigma * sigma, 0, sigma * sigma), 0.5), exact, 2e-3)
+        << sigma;
+  }
+}
+
+TEST(ProbabilityWithin, OfALineIsTheErrorFunctionWhateverItsDirection) {
+  for (const double angle : {0.0, 0.4, 0.25 * std::numbers::pi, 1.3, 0.5 * std::numbers::pi}) {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    const double exact = std::erf(0.5 / (0.6 * std::numbers::sqrt2));
+    EXPECT_NEAR(probabilityWithin(covarianceOf(0.36 * c * c, 0.36 * c * s, 0.36 * s * s), 0.5),
+                exact, 1e-2)
+        << angle;
+  }
+}
+
+TEST(ProbabilityWithin, OfNoSpreadIsOne) { EXPECT_NEAR(probabilityWithin({}, 0.5), 1.0, 1e-6); }
+
+PoseEstimate narrow() {
+  PoseEstimate estimate;
+  estimate.covariance = covarianceOf(0.0025, 0, 0.0025);
+  estimate.share = 1.0;
+  return estimate;
+}
+
+PoseEstimate judged(const Signs& signs, PoseEstimate estimate = narrow()) {
+  judge(signs, estimate);
+  return estimate;
+}
+
+TEST(Judge, ReliesOnANarrowBeliefThatReadingsFit) {
+  const PoseEstimate estimate = judged({});
+  EXPECT_EQ(estimate.status, TrackStatus::kTracking);
+  EXPECT_EQ(estimate.reason, TrackReason::kFits);
+  EXPECT_GT(estimate.quality, 0.98);
+  EXPECT_EQ(std::string(nameOf(estimate.status)), "tracking");
+}
+
+TEST(Judge, SaysWhatSpeaksAgainstIt) {
+  EXPECT_EQ(judged({.isFrozen = true}).reason, TrackReason::kFrozen);
+  EXPECT_EQ(judged({.silence = 3.1}).reason, TrackReason::kNoReading);
+  EXPECT_EQ(judged({.silence = std::nullopt}).reason, TrackReason::kNoReading);
+  EXPECT_EQ(judged({.silence = 2.9}).reason, TrackReason::kFits);
+  EXPECT_EQ(judged({.lead = 4.0}).reason, TrackReason::kRival);
+  EXPECT_EQ(judged({.lead = 3.9}).reason, TrackReason::kFits);
+  EXPECT_EQ(judged({.unusual = 1}).reason, TrackReason::kPoorFit);
+  EXPECT_EQ(judged({.trustsOdometry = false}).reason, TrackReason::kOdometry);
+  for (const Signs& signs : {Signs{.isFrozen = true}, Signs{.silence = 9.0}, Signs{.lead = 5.0},
+                             Signs{.unusual = 2}, Signs{.trustsOdometry = false}})
+    EXPECT_EQ(judged(signs).status, TrackStatus::kUncertain);
+}
+
+TEST(Judge, IsLostWhereReadingsDoNotFit) {
+  const PoseEstimate estimate = judged({.fit = 0.3, .fitLately = 0.4, .unusual = 5, .lead = 12.0});
+  EXPECT_EQ(estimate.status, TrackStatus::kLost);
+  EXPECT_LT(estimate.quality, 0.2);
+}
+
+TEST(Judge, TellsSeveralPlacesFromAWideOne) {
+  PoseEstimate half = narrow();
+  half.share = 0.5;
+  EXPECT_EQ(judged({}, half).reason, TrackReason::kSeveralPlaces);
+  PoseEstimate wide = narrow();
+  wide.covariance = covarianceOf(1.0, 0, 1.0);
+  EXPECT_EQ(judged({}, wide).reason, TrackReason::kSpread);
+  EXPECT_NE(judged({}, wide).status, TrackStatus::kTracking);
+}
+
+TEST(Judge, QualityFallsWithEverySign) {
+  const double best = judged({}).quality;
+  EXPECT_LT(judged({.fit = 0.8}).quality, best);
+  EXPECT_LT(judged({.fitLately = 0.8}).quality, best);
+  EXPECT_LT(judged({.lead = 8.0}).quality, best);
+  PoseEstimate shared = narrow();
+  shared.share = 0.7;
+  EXPECT_LT(judged({}, shared).quality, best);
+}
+
+}  // namespace
+}  // namespace ortung
