@@ -15,7 +15,7 @@ class ORTUNG_API Lead {
   void count(double ratio, double part);
   double nats() const { return nats_; }
   void atLeast(double nats);
-  bool isEnough() const;  ///< six readings at least that all speak for it
+  bool isEnough() const;  ///< four readings at least that all speak for it
   bool isHopeless() const;
 
  private:

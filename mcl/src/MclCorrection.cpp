@@ -1,7 +1,6 @@
 // How readings weigh the samples: the filter's second half (eq. 7).
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "Annealing.hpp"
 #include "Kld.hpp"
@@ -74,12 +73,8 @@ void Mcl::Impl::takeIn(const std::vector<News>& news, std::vector<double> before
 /// does as well. Samples that drifted count only if the readings fit there as they use to: in a
 /// crowd nothing fits, and wherever one goes a little less unlike it is no better a place.
 void Mcl::Impl::takeInUnsure(const std::vector<News>& news, const std::vector<double>& before) {
-  const auto evidenceOf = [&](std::size_t first, std::size_t count) {
-    const auto weights = std::span(before).subspan(first, count);
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    return logMean(weights, std::span(logProbability).subspan(first, count)) - std::log(sum);
-  };
-  const double ratio = evidenceOf(drifted, samples.size() - drifted) - evidenceOf(0, drifted);
+  const double ratio = logMeanOfPart(before, logProbability, drifted, samples.size() - drifted) -
+                       logMeanOfPart(before, logProbability, 0, drifted);
   trust.compare(-ratio, way);
   const SampleSet near = Annealing(weigherOf(news), nullptr)
                              .draw(samples.from(drifted), config.minSamples,

@@ -7,6 +7,7 @@
 #include "Resampling.hpp"
 
 namespace ortung {
+
 PoseSearch::PoseSearch(const FieldRegion& region) : region_(region) {
   for (std::size_t cell = 0; cell < region.standable.size(); ++cell) {
     if (region.standable[cell] != 0) standable_.push_back(static_cast<std::uint32_t>(cell));

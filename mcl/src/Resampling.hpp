@@ -16,6 +16,9 @@ ORTUNG_API std::vector<double> normalized(std::span<const float> logWeights);
 /// ln of the mean of e^v: of all alike, or by weights that sum to 1.
 ORTUNG_API double logMean(std::span<const float> values);
 ORTUNG_API double logMean(std::span<const double> weights, std::span<const float> values);
+/// The same over a part of them, whose weights count as they compare with each other.
+ORTUNG_API double logMeanOfPart(std::span<const double> weights, std::span<const float> values,
+                                std::size_t first, std::size_t count);
 
 /// 1 / sum w^2 of normalized weights: how many equal samples they are worth.
 ORTUNG_API double effectiveSamples(std::span<const double> weights);

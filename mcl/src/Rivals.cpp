@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "Drift.hpp"
@@ -77,14 +76,6 @@ bool isSame(const Pose2& rival, const Pose2& belief) {
          std::abs(wrapAngle(rival.theta - belief.theta)) < kSameTurn;
 }
 
-/// ln of the mean of p over a part of a set. @param weights of all
-double evidenceOf(std::span<const double> weights, std::span<const float> logs, std::size_t first,
-                  std::size_t count) {
-  const auto its = weights.subspan(first, count);
-  return logMean(its, logs.subspan(first, count)) -
-         std::log(std::accumulate(its.begin(), its.end(), 0.0));
-}
-
 }  // namespace
 
 void Rivals::forget() {
@@ -147,9 +138,9 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   std::vector<float> logs;
   weigh(both.samples, logs);
   const std::vector<double> before = normalized(both.samples.logWeight);
-  const double ratio = evidenceOf(before, logs, 0, logs.size()) - moment.logEvidence;
-  const double trust = evidenceOf(before, logs, 0, both.drifted) -
-                       evidenceOf(before, logs, both.drifted, logs.size() - both.drifted);
+  const double ratio = logMeanOfPart(before, logs, 0, logs.size()) - moment.logEvidence;
+  const double trust = logMeanOfPart(before, logs, 0, both.drifted) -
+                       logMeanOfPart(before, logs, both.drifted, logs.size() - both.drifted);
   rival.trust.compare(trust, moment.way);
   rival.samples = Annealing(weigh, nullptr)
                       .draw(std::move(both.samples), kSamplesAround,
