@@ -17,6 +17,10 @@ constexpr std::size_t kNumbersASample = 4;  ///< x, y, theta, none (fillGaussian
 
 }  // namespace
 
+double driftSeconds(Timestamp since, Timestamp until) {
+  return std::max(0.0, toSeconds(until - since));
+}
+
 void drift(const MclConfig& config, const MovableSamples& samples, double seconds,
            std::uint64_t stream, std::uint64_t first) {
   const auto sigma = static_cast<float>(config.driftMetres * std::sqrt(seconds));

@@ -3,11 +3,15 @@
 #include <cstdint>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/Time.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 #include "ortung/motion/MotionModel.hpp"
 
 namespace ortung {
+
+/// Time in which a robot may have drifted; none if the clock was set back meanwhile [s].
+ORTUNG_API double driftSeconds(Timestamp since, Timestamp until);
 
 /// Moves samples as a robot moves of whose motion nothing is known: anywhere, the variances growing
 /// with time (driftMetres, driftRadians of @p config).

@@ -44,10 +44,11 @@ void Mcl::Impl::followFit(const std::vector<News>& news, const std::vector<doubl
 }
 
 /// Lets other places have the belief, or a part of it, if they have explained readings better.
-void Mcl::Impl::compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment) {
+/// @returns whether they have
+bool Mcl::Impl::compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment) {
   const auto fit = [&](const SampleSet& set) { return fitNow(news, set); };
   auto takeover = rivals.follow(moment, recovery, weigherOf(news), fit);
-  if (!takeover) return;
+  if (!takeover) return false;
   if (takeover->share < 1.0) {
     add(samples, takeover->samples, takeover->share);
   } else {
@@ -55,6 +56,7 @@ void Mcl::Impl::compareWithRivals(const std::vector<News>& news, const Rivals::M
     recovery.beginAnew();
   }
   takeover->trustsOdometry ? trust.forget() : trust.lose();
+  return true;
 }
 
 /// Weighs the samples by what the readings say.
@@ -124,8 +126,10 @@ double Mcl::Impl::startCandidates() const {
 }
 
 void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
+  std::vector<double> weights;
   if (waitsForStart) {
     start(news);
+    weights = normalized(samples.logWeight);
   } else {
     const std::vector<double> before = normalized(samples.logWeight);
     followFit(news, before);
@@ -138,11 +142,15 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
     weigh(news, samples, config.threads, logProbability);
     moment.logEvidence = logMean(before, logProbability);
     takeIn(news, before);
-    recovery.followBest(fitNow(news, samples));
-    isCompared ? compareWithRivals(news, moment) : rivals.forget();
+    weights = normalized(samples.logWeight);
+    recovery.followBest(fitOf(readingsOf(news), samples, weights).value_or(0.0));
+    if (!isCompared) {
+      rivals.forget();
+    } else if (compareWithRivals(news, moment)) {
+      weights = normalized(samples.logWeight);
+    }
   }
   way = 0.0;
-  const std::vector<double> weights = normalized(samples.logWeight);
   estimate = estimateOf(config, samples.view(), weights);
   estimate.stamp = stamp;
   coarsest = coarsestOf(news);

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "Confidence.hpp"
+#include "Drift.hpp"
 #include "Intake.hpp"
 #include "OdometryTrust.hpp"
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
 #include "Rivals.hpp"
+#include "ortung/base/Random.hpp"
 #include "ortung/mcl/Mcl.hpp"
 
 namespace ortung {
@@ -89,6 +91,14 @@ struct Mcl::Impl {
     intake.countAgain(estimate.stamp - kPresent);
   }
   std::optional<Timestamp> newestTime() const;
+  /// Time in which nobody told how the robot moved [s].
+  double secondsSinceWeighing(Timestamp stamp) const {
+    return lastTime ? driftSeconds(*lastTime, stamp) : 0.0;
+  }
+  /// Where a robot may be of which nothing is known.
+  void goAnywhere() {
+    samples = search.anywhere(config.maxSamples, Random(config.seed, stream(Purpose::kStart)));
+  }
   void followMotion(const Pose2& odometry);
   void predict(const Pose2& odometry);
   void predictBlindly(Timestamp stamp);
@@ -110,7 +120,7 @@ struct Mcl::Impl {
   void followFit(const std::vector<News>& news, const std::vector<double>& before);
   void takeIn(const std::vector<News>& news, std::vector<double> before);
   void takeInUnsure(const std::vector<News>& news, const std::vector<double>& before);
-  void compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment);
+  bool compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment);
   double startCandidates() const;
   void resample(const std::vector<double>& weights);
   void sharpen(const std::vector<News>& news, const std::vector<double>& before);

@@ -75,7 +75,7 @@ void Mcl::Impl::predictFor(Timestamp stamp) {
 
 /// While there is no odometry, or for the time before its first reading.
 void Mcl::Impl::predictBlindly(Timestamp stamp) {
-  const double seconds = lastTime ? std::max(0.0, toSeconds(stamp - *lastTime)) : 0.0;
+  const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0) return;
   way += config.driftMetres * std::sqrt(seconds);  // that it may have come
   if (!waitsForStart) enlarge(samples);
@@ -87,7 +87,7 @@ void Mcl::Impl::predictBlindly(Timestamp stamp) {
 /// While odometry is not trusted: one half of the samples is moved by it nevertheless, the other
 /// one goes anywhere near.
 void Mcl::Impl::spread(Timestamp stamp) {
-  const double seconds = lastTime ? std::max(0.0, toSeconds(stamp - *lastTime)) : 0.0;
+  const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0 || waitsForStart) return;
   Spread both =
       ortung::spread(config, samples, anchor, seconds, kSpreadSamples, stream(Purpose::kSpread));

@@ -133,7 +133,7 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
     return std::nullopt;
   }
   Around& rival = *around_;
-  const double seconds = std::max(0.0, toSeconds(moment.stamp - rival.stamp));
+  const double seconds = driftSeconds(rival.stamp, moment.stamp);
   Spread both = spread(config_, rival.samples, rival.anchor, seconds, kSpreadAround, moment.stream);
   std::vector<float> logs;
   weigh(both.samples, logs);
@@ -169,8 +169,9 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
 
 /// The reading that was searched for has chosen its places, so it does not count for them.
 void Rivals::goOnSearching(const Moment& moment) {
-  FieldSearch& job = searching_->job;
-  if (!job.work(kSearchShare * config_.budgetMs)) return;
+  searchOn();
+  const FieldSearch& job = searching_->job;
+  if (!job.isDone()) return;
   const Moment then = std::move(searching_->moment);
   std::vector<PoseSearch::Ring> rings;
   for (const FieldSearch::Place& place : job.places()) {
@@ -193,7 +194,7 @@ void Rivals::goOnSearching(const Moment& moment) {
                          inverse(*then.odometry) * *moment.odometry, config_.seed, moment.stream,
                          0);
   } else {
-    drift(config_, {found.x, found.y, found.theta}, toSeconds(moment.stamp - then.stamp),
+    drift(config_, {found.x, found.y, found.theta}, driftSeconds(then.stamp, moment.stamp),
           moment.stream, 0);
   }
   elsewhere_.emplace(std::move(found));

@@ -89,6 +89,11 @@ void driftAll(SampleSet& set, double seconds, std::uint64_t stream) {
 }
 
 // Sigmas after 1 s are 0.5 m along each axis, and 30 degrees; variances grow with time.
+TEST(DriftSeconds, AreNoneIfTheClockWasSetBack) {
+  EXPECT_EQ(driftSeconds(1'000'000, 3'500'000), 2.5);
+  EXPECT_EQ(driftSeconds(3'500'000, 1'000'000), 0.0) << "of which a root is drawn";
+}
+
 TEST(Drift, HasTheVariancesOfARandomWalk) {
   for (const double seconds : {0.01, 1.0, 4.0}) {
     SampleSet set = at({3, -2, 1}, 5000);
