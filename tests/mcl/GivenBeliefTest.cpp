@@ -19,6 +19,19 @@ using test::messageOf;
 using test::MovingRobot;
 using Covariance = std::array<double, 9>;
 
+/// A filter that has followed the run's robot from a known start.
+auto trackingAfter(int readings, FakeRun& run) {
+  auto mcl = run.mcl(run.config());
+  const Pose2 start = FakeRun::onCircle(1, 0.5, 0.3);
+  mcl->startAt(start, 0.1, 0.05);
+  run.begin(start, 3);
+  for (int i = 0; i < readings; ++i) {
+    run.drive();
+    mcl->update(run.container);
+  }
+  return mcl;
+}
+
 constexpr Covariance kCovariance = {0.25,  0.06,  -0.02,  //
                                     0.06,  0.04,  0.004,  //
                                     -0.02, 0.004, 0.01};
@@ -144,13 +157,7 @@ TEST(StartAt, IsCarriedOnByOdometryBeforeAnythingIsWeighed) {
 
 TEST(SetPose, IsSharpenedByWhatWasReadJustBefore) {
   FakeRun run;
-  const auto mcl = run.mcl(run.config());
-  mcl->startAt(FakeRun::onCircle(1, 0.5, 0.3), 0.1, 0.05);
-  run.begin(FakeRun::onCircle(1, 0.5, 0.3), 3);
-  for (int i = 0; i < 5; ++i) {
-    run.drive();
-    mcl->update(run.container);
-  }
+  const auto mcl = trackingAfter(5, run);
   const Pose2 near = run.truth * Pose2{0.2, -0.2, 0.1};
   mcl->setPose(near, {0.09, 0, 0, 0, 0.09, 0, 0, 0, 0.03});
   ASSERT_TRUE(mcl->update(run.container)) << "the reading of this moment counts again";
@@ -161,13 +168,7 @@ TEST(SetPose, IsSharpenedByWhatWasReadJustBefore) {
 
 TEST(Relocalize, FindsACarriedRobotByThePresentReading) {
   FakeRun run;
-  const auto mcl = run.mcl(run.config());
-  mcl->startAt(FakeRun::onCircle(1, 0.5, 0.3), 0.1, 0.05);
-  run.begin(FakeRun::onCircle(1, 0.5, 0.3), 3);
-  for (int i = 0; i < 5; ++i) {
-    run.drive();
-    mcl->update(run.container);
-  }
+  const auto mcl = trackingAfter(5, run);
   run.truth = FakeRun::onCircle(-2, -0.5, 2);
   run.drive();
   mcl->update(run.container);
@@ -209,13 +210,7 @@ TEST(Belief, IsThatOfTheNewestOdometry) {
 
 TEST(Belief, GoesOnInAnotherFilterWhoseOdometryBeginsAnew) {
   FakeRun run;
-  const auto first = run.mcl(run.config());
-  first->startAt(FakeRun::onCircle(1, 0.5, 0.3), 0.1, 0.05);
-  run.begin(FakeRun::onCircle(1, 0.5, 0.3), 3);
-  for (int i = 0; i < 10; ++i) {
-    run.drive();
-    first->update(run.container);
-  }
+  const auto first = trackingAfter(10, run);
   const auto belief = first->belief();
   ASSERT_TRUE(belief);
   MclConfig small = run.config();
