@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "Workspace.hpp"
@@ -147,11 +148,13 @@ TEST_F(EvalMany, ComparisonTellsWhatAFaultDoes) {
       ortung({"compare", path("a.json"), path("b.json"), "--json", path("c.json")});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   EXPECT_TRUE(outcome.out.starts_with("6 pairs of runs\n")) << outcome.out;
-  for (const Json& figure : json("c.json")["figures"]) {
-    if (figure["name"] != "position_median_m") continue;
-    EXPECT_EQ(figure["worse"], 6);
-    EXPECT_DOUBLE_EQ(figure["p"].get<double>(), 2.0 / 64);
-  }
+  const Json comparison = json("c.json");
+  const Json& figures = comparison["figures"];
+  const auto median = std::ranges::find_if(
+      figures, [](const Json& figure) { return figure["name"] == "position_median_m"; });
+  ASSERT_NE(median, figures.end()) << comparison;
+  EXPECT_EQ((*median)["worse"], 6);
+  EXPECT_DOUBLE_EQ((*median)["p"].get<double>(), 2.0 / 64);
   EXPECT_EQ(ortung({"compare", path("b.json"), path("a.json"), "--json", path("c.json")}).exitCode,
             0)
       << "a comparison may be replaced";
