@@ -154,7 +154,7 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
   estimate = estimateOf(config, samples.view(), weights);
   estimate.stamp = stamp;
   coarsest = coarsestOf(news);
-  addResolution(estimate);
+  keepResolution(estimate);
   judge(signsAt(stamp), estimate);
   present = estimate;
   if (effectiveSamples(weights) < config.resampleBelow * static_cast<double>(samples.size())) {

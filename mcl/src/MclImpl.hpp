@@ -124,7 +124,7 @@ struct Mcl::Impl {
   double startCandidates() const;
   void resample(const std::vector<double>& weights);
   void sharpen(const std::vector<News>& news, const std::vector<double>& before);
-  void addResolution(PoseEstimate& e) const;
+  void keepResolution(PoseEstimate& e) const;
   void addDrift(PoseEstimate& e, Timestamp stamp) const;
   Signs signsAt(Timestamp stamp) const;
   void correct(const std::vector<News>& news, Timestamp stamp);

@@ -91,7 +91,7 @@ PoseResolution EndPointWeigher::resolution() const {
     squared += static_cast<double>(endX_[k] * endX_[k] + endY_[k] * endY_[k]);
   const double lever = std::sqrt(squared / static_cast<double>(endX_.size()));  // [m]
   const double cell = tables_->field.grid().cell;
-  return {.metres = tables_->region.cell, .radians = lever > cell ? cell / lever : 1.0};
+  return {.metres = cell, .radians = lever > cell ? cell / lever : 1.0};
 }
 
 double EndPointWeigher::logProbabilityAt(const Pose2& pose) const {
