@@ -18,4 +18,8 @@ inline constexpr Colour kLine{120, 120, 120};     ///< painted on the floor
 /// From pale yellow over green to dark blue, always darker; @p share in [0, 1] is cut off.
 Colour sequential(double share);
 
+/// Of the probability that an estimate is right: the surer, the darker, from yellow over red to
+/// dark blue; @p share in [0, 1] is cut off.
+Colour quality(double share);
+
 }  // namespace ortung::app::palette

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "Assets.hpp"
+#include "PathSvg.hpp"
 #include "TimeGaps.hpp"
 #include "ortung/base/Angles.hpp"
 
@@ -49,16 +50,23 @@ std::vector<Element> thin(const std::vector<Element>& elements, Value value) {
   return kept;
 }
 
+/// A member with the names of an enumeration that counts from 0.
+template <class Value>
+std::string namesOf(const char* member, Value last) {
+  std::string json = fmt::format("\"{}\":[", member);
+  for (int i = 0; i <= static_cast<int>(last); ++i)
+    json += fmt::format("{}\"{}\"", i == 0 ? "" : ",", nameOf(static_cast<Value>(i)));
+  return json + "],";
+}
+
 /// What report.js draws.
 std::string chartData(const RunResult& run) {
   const auto points = thin(run.figures.points, [](const auto& p) { return p.positionError; });
   const auto estimates = thin(run.estimates, [](const auto& e) { return e.samples; });
+  const auto path = thin(run.path, [](const PoseEstimate& e) {
+    return 2.0 * static_cast<double>(e.status) - e.quality;  // the least trust
+  });
   const auto time = [&](Timestamp stamp) { return toSeconds(stamp) - toSeconds(run.first); };
-  const auto longest = [](const auto& elements) {
-    std::vector<Timestamp> stamps;
-    for (const auto& element : elements) stamps.push_back(element.stamp);
-    return longestDrawnStep(std::move(stamps));
-  };
   std::string json = "{";
   const auto member = [&](const char* name, const std::string& array) {
     json += fmt::format("\"{}\":{},", name, array);
@@ -78,8 +86,16 @@ std::string chartData(const RunResult& run) {
   member("estimateY", jsonArray(points, [](const Point& p) { return p.estimate.y; }));
   member("samplesTime", jsonArray(estimates, [&](const auto& e) { return time(e.stamp); }));
   member("samples", jsonArray(estimates, [](const auto& e) { return double(e.samples); }));
-  json += fmt::format("\"longestStep\":{:.3f},\"longestSamplesStep\":{:.3f},", longest(points),
-                      longest(estimates));
+  member("pathTime", jsonArray(path, [&](const auto& e) { return time(e.stamp); }));
+  member("quality", jsonArray(path, [](const auto& e) { return e.quality; }));
+  member("status", jsonArray(path, [](const auto& e) { return double(e.status); }));
+  member("reason", jsonArray(path, [](const auto& e) { return double(e.reason); }));
+  json += namesOf<TrackStatus>("statusNames", TrackStatus::kLost) +
+          namesOf<TrackReason>("reasonNames", TrackReason::kOdometry);
+  json += fmt::format(
+      "\"longestStep\":{:.3f},\"longestSamplesStep\":{:.3f},\"longestPathStep\":{:.3f},",
+      longestDrawnStepOf(points), longestDrawnStepOf(estimates),
+      std::max(longestDrawnStepOf(path), longestPathStep(run)));
   const auto& converged = run.figures.convergedAfter;
   return json + "\"converged\":" + (converged ? fmt::format("{:.3f}", *converged) : "null") + "}";
 }
@@ -94,7 +110,9 @@ std::string row(const std::string& name, const std::string& value) {
 }
 
 std::string legend(bool hasTruth, const FieldModel& field) {
-  std::string html = R"(<p class="legend"><span class="key estimate"></span>estimate)";
+  std::string html =
+      R"(<p class="legend">estimate, its quality: 0 )" + qualityBar() +
+      R"( 1 <span class="key uncertain"></span>uncertain <span class="key lost"></span>lost)";
   if (hasTruth) {
     html += R"( <span class="key truth"></span>ground truth <span class="key start"></span>start)"
             R"( <span class="key end"></span>end)";
@@ -128,6 +146,9 @@ std::string charts(const RunResult& run) {
     html +=
         R"(<p class="note">The source gave no ground truth, so there are no errors to show.</p>)";
   }
+  html += chart("quality", "Quality",
+                "probability of an error below 0.5 m; bands: uncertain (low), lost (high)",
+                figure("Share of time it says tracking"));
   html += chart("samples", "Samples", "logarithmic", figure("Samples, mean"));
   return html +
          R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Lines break where nothing is known. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";

@@ -1,58 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "MapSvgParts.hpp"
+#include "PathSvg.hpp"
 #include "Report.hpp"
 #include "TimeGaps.hpp"
 
 namespace ortung::app {
 namespace {
-
-// A path is not drawn over steps that are longer and faster than this: nobody drove them.
-constexpr double kJump = 1.0;       ///< [m]
-constexpr double kJumpSpeed = 3.0;  ///< [m/s]
-constexpr std::size_t kMaxPoints = 20000;
-
-/// Collects the commands of an SVG path, which breaks at jumps and gaps.
-class Path {
- public:
-  explicit Path(double longestStep) : longestStep_(longestStep) {}
-
-  void add(Timestamp stamp, const Pose2& pose) {
-    if (!isFinite(pose)) return;
-    const double way = distance(last_, pose);
-    const double seconds = toSeconds(stamp) - toSeconds(lastStamp_);
-    const bool jumps = way > kJump && way > kJumpSpeed * seconds;
-    const bool begins = empty_ || jumps || seconds > longestStep_;
-    // "h0" makes a lonely point visible: its round cap is drawn.
-    text_ +=
-        fmt::format(fmt::runtime(begins ? "M{:.3f} {:.3f}h0" : "L{:.3f} {:.3f}"), pose.x, pose.y);
-    last_ = pose;
-    lastStamp_ = stamp;
-    empty_ = false;
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  double longestStep_;  ///< [s]
-  std::string text_;
-  Pose2 last_;
-  Timestamp lastStamp_ = 0;
-  bool empty_ = true;
-};
-
-template <class Element, class PoseOf>
-std::string pathOf(const std::vector<Element>& elements, PoseOf poseOf) {
-  const std::size_t every = elements.size() / kMaxPoints + 1;
-  std::vector<Timestamp> stamps;
-  for (std::size_t i = 0; i < elements.size(); i += every) stamps.push_back(elements[i].stamp);
-  Path path(longestDrawnStep(std::move(stamps)));
-  for (std::size_t i = 0; i < elements.size(); i += every)
-    path.add(elements[i].stamp, poseOf(elements[i]));
-  return path.text();
-}
 
 std::string mark(const Pose2& pose, double radius, const char* kind, const char* name) {
   return fmt::format(
@@ -61,6 +17,10 @@ std::string mark(const Pose2& pose, double radius, const char* kind, const char*
 }
 
 }  // namespace
+
+double longestPathStep(const RunResult& run) {
+  return std::max(longestDrawnStepOf(run.path), longestDrawnStepOf(run.estimates));
+}
 
 std::string mapSvg(const RunResult& run) {
   const MapFrame frame(run.tableInfo.region.grid);
@@ -76,11 +36,12 @@ std::string mapSvg(const RunResult& run) {
   svg += R"x(<g transform="scale(1,-1)">)x" + linesSvg(field);
   // The truth is a broad band, the estimate a thin line above it: neither hides the other.
   if (!points.empty()) {
+    std::vector<std::pair<Timestamp, Pose2>> truth;
+    for (const EvaluationPoint& point : points) truth.emplace_back(point.stamp, point.truth);
     svg += fmt::format(R"(<path class="truth" d="{}"/>)",
-                       pathOf(points, [](const auto& point) { return point.truth; }));
+                       pathCommands(truth, longestDrawnStepOf(points)));
   }
-  svg += fmt::format(R"(<path class="estimate" d="{}"/>)",
-                     pathOf(run.path, [](const auto& estimate) { return estimate.pose; }));
+  svg += estimateSvg(run.path, longestPathStep(run));
   svg += landmarksSvg(field, frame);
   if (!points.empty()) {
     svg += mark(points.front().truth, 0.5 * frame.letter, "start", "start");

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "Palette.hpp"
 #include "Report.hpp"
 #include "SyntheticRun.hpp"
 
@@ -113,6 +115,119 @@ TEST(Report, NeitherPathHidesTheOther) {
       << "the thin estimate lies above the broad truth";
 }
 
+/// The `d` of all paths with the attributes, one after the other.
+std::string commandsOf(const std::string& svg, const std::string& attributes) {
+  std::string commands;
+  const std::string begin = "<path " + attributes + " d=\"";
+  for (std::size_t at = svg.find(begin); at != svg.npos; at = svg.find(begin, at + 1)) {
+    const std::size_t from = at + begin.size();
+    commands += svg.substr(from, svg.find('"', from) - from);
+  }
+  return commands;
+}
+
+/// The attributes of what is coloured as of that quality.
+std::string qualityOf(double share) {
+  const Colour c = palette::quality(share);
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), R"(class="quality" stroke="#%02x%02x%02x")", c.red,
+                c.green, c.blue);
+  return text.data();
+}
+
+/// Moments 1 m and 1 s apart on the x axis, of these qualities.
+RunResult runOfQualities(std::vector<double> qualities) {
+  RunResult run = syntheticRun();
+  run.path.resize(qualities.size());
+  for (std::size_t i = 0; i < qualities.size(); ++i) {
+    run.path[i].stamp = fromSeconds(static_cast<double>(i));
+    run.path[i].pose = {static_cast<double>(i) - 2.0, 0.0, 0.0};
+    run.path[i].quality = qualities[i];
+    run.path[i].status = TrackStatus::kTracking;
+  }
+  return run;
+}
+
+TEST(Report, ThePathIsColouredByQuality) {
+  const std::string svg = mapSvg(runOfQualities({1.0, 0.97, 0.32, 0.35, 0.0}));
+  EXPECT_EQ(commandsOf(svg, qualityOf(0.95)), "M-2.000 0.000h0L-1.000 0.000")
+      << "up to the last sure pose";
+  EXPECT_EQ(commandsOf(svg, qualityOf(0.35)), "M-1.000 0.000h0L0.000 0.000L1.000 0.000")
+      << "a line has the quality of where it leads to";
+  EXPECT_EQ(commandsOf(svg, qualityOf(0.05)), "M1.000 0.000h0L2.000 0.000");
+  EXPECT_EQ(countOf(svg, "class=\"quality\""), 3u);
+  EXPECT_EQ(commandsOf(svg, R"(class="estimate")"),
+            "M-2.000 0.000h0L-1.000 0.000L0.000 0.000L1.000 0.000L2.000 0.000");
+}
+
+TEST(Report, EachStatusThatIsNotTrackingIsMarkedBelowThePaths) {
+  RunResult run = runOfQualities({0.99, 0.7, 0.4, 0.3, 0.99});
+  EXPECT_EQ(countOf(mapSvg(run), "class=\"uncertain\""), 0u);
+  run.path[1].status = TrackStatus::kUncertain;
+  run.path[2].status = run.path[3].status = TrackStatus::kLost;
+  const std::string svg = mapSvg(run);
+  EXPECT_EQ(commandsOf(svg, R"(class="uncertain")"), "M-2.000 0.000h0L-1.000 0.000");
+  EXPECT_EQ(commandsOf(svg, R"(class="lost")"), "M-1.000 0.000h0L0.000 0.000L1.000 0.000");
+  EXPECT_EQ(countOf(svg, "class=\"tracking\""), 0u);
+  EXPECT_LT(svg.find("class=\"lost\""), svg.find("class=\"estimate\""));
+  EXPECT_EQ(countOf(toHtml(run), "key uncertain"), 1u);
+  EXPECT_EQ(countOf(toHtml(run), "key lost"), 1u);
+}
+
+TEST(Report, TheColoursOfQualityGrowDarkerEvenly) {
+  double last = 1e9;
+  for (int i = 0; i <= 20; ++i) {
+    const Colour c = palette::quality(0.05 * i);
+    const double grey = 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;  // Rec. 709
+    EXPECT_LT(grey, last - 2.0) << i;
+    last = grey;
+  }
+}
+
+TEST(Report, QualityAndStatusOverTimeAreThereWithoutTruthAndInWords) {
+  RunResult run = runOfQualities({0.99, 0.7, 0.4});
+  run.path[1].status = TrackStatus::kUncertain;
+  run.path[1].reason = TrackReason::kSeveralPlaces;
+  run.path[2].status = TrackStatus::kLost;
+  run.path[2].reason = TrackReason::kOdometry;
+  run.figures.points.clear();
+  const std::string html = toHtml(run);
+  EXPECT_NE(html.find("id=\"quality\""), std::string::npos);
+  const nlohmann::json data = dataOf(html);
+  EXPECT_EQ(data["pathTime"], nlohmann::json({0, 1, 2}));
+  EXPECT_EQ(data["quality"], nlohmann::json({0.99, 0.7, 0.4}));
+  EXPECT_EQ(data["statusNames"][data["status"][1].get<int>()], "uncertain");
+  EXPECT_EQ(data["reasonNames"][data["reason"][1].get<int>()], "several places fit");
+  EXPECT_EQ(data["statusNames"][data["status"][2].get<int>()], "lost");
+  EXPECT_EQ(data["reasonNames"][data["reason"][2].get<int>()], nameOf(TrackReason::kOdometry));
+}
+
+TEST(Report, LongPathsKeepMomentsWithoutTrust) {
+  RunResult run = runOfQualities(std::vector<double>(100001, 0.99));
+  for (std::size_t i = 0; i < run.path.size(); ++i) run.path[i].pose.x = 1e-5 * double(i);
+  run.path[70001].status = TrackStatus::kLost;
+  run.path[70001].quality = 0.05;
+  const std::string svg = mapSvg(run);
+  EXPECT_EQ(countOf(commandsOf(svg, R"(class="lost")"), "L"), 1u);
+  EXPECT_EQ(countOf(commandsOf(svg, qualityOf(0.05)), "L"), 1u);
+  const nlohmann::json data = dataOf(toHtml(run));
+  EXPECT_EQ(std::count(data["status"].begin(), data["status"].end(), 2), 1);
+}
+
+TEST(Report, APathOfRareUpdatesIsALineAlthoughMomentsLieClose) {
+  RunResult run = syntheticRun();
+  run.path.clear();
+  run.estimates.resize(20);
+  for (std::size_t i = 0; i < 20; ++i) {  // an update every 2 s, and moments before each of them
+    run.estimates[i].stamp = fromSeconds(2.0 * static_cast<double>(i));
+    for (int moment = 4; moment >= 0; --moment) {
+      run.path.push_back(run.estimates[i]);
+      run.path.back().stamp -= fromSeconds(0.1 * moment);
+    }
+  }
+  EXPECT_EQ(countOf(commandsOf(mapSvg(run), R"(class="estimate")"), "M"), 1u);
+}
+
 TEST(Report, PathsAndChartsBreakAtGaps) {
   RunResult run = syntheticRun();
   for (std::size_t i = 300; i < 600; ++i) {  // 20 s without any reading
@@ -178,7 +293,7 @@ TEST(Report, ReadersOfScreensHearWhatIsDrawn) {
   EXPECT_NE(html.find("<title id=\"map-title\">Map with paths</title>"), std::string::npos);
   EXPECT_NE(html.find("aria-label=\"Position error over time. Position error, RMS: 0.100 m."),
             std::string::npos);
-  EXPECT_EQ(countOf(html, "class=\"chart\" role=\"img\""), 3u);
+  EXPECT_EQ(countOf(html, "class=\"chart\" role=\"img\""), 4u);
 }
 
 TEST(Report, HasADarkSchemeForAllItsColours) {

@@ -47,9 +47,33 @@
     canvas.fillRect(area.x, area.y, right - area.x, area.h);
   }
 
-  const all = data.time.concat(data.samplesTime);
+  // Bands where the status is not tracking: low ones uncertain, high ones lost.
+  function drawStatus(canvas, area, graph) {
+    shadeUntilConverged(canvas, area, graph);
+    data.pathTime.forEach(function (t, i) {
+      if (data.status[i] === 0) return;
+      const next = i + 1 < data.pathTime.length ? data.pathTime[i + 1] : t;
+      const until = next - t > data.longestPathStep ? t : next;
+      const left = Math.max(graph.toDomXCoord(t), area.x);
+      const right = Math.min(Math.max(graph.toDomXCoord(until), graph.toDomXCoord(t) + 1), area.x + area.w);
+      if (right <= left) return;
+      const height = data.status[i] === 2 ? area.h : area.h / 3;
+      canvas.fillStyle = colour(data.statusNames[data.status[i]]);
+      canvas.globalAlpha = 0.6;
+      canvas.fillRect(left, area.y + area.h - height, right - left, height);
+      canvas.globalAlpha = 1;
+    });
+  }
+
+  function qualityInWords(value, time) {
+    const i = lastUpTo(data.pathTime, time + 1e-6);
+    if (i < 0) return value.toFixed(3);
+    return value.toFixed(3) + ', ' + data.statusNames[data.status[i]] + ': ' + data.reasonNames[data.reason[i]];
+  }
+
+  const all = data.time.concat(data.samplesTime, data.pathTime);
   const range = [Math.min(...data.time.slice(0, 1), ...data.samplesTime.slice(0, 1), 0),
-                 Math.max(...data.time.slice(-1), ...data.samplesTime.slice(-1), 0.001)];
+                 Math.max(...data.time.slice(-1), ...data.samplesTime.slice(-1), ...data.pathTime.slice(-1), 0.001)];
   const graphs = [];
 
   // Rows with empty ones where nothing is known for longer than a line is drawn over.
@@ -104,6 +128,14 @@
 
   errorChart('position', 'm', data.position, data.positionSigma);
   errorChart('heading', 'deg', data.heading, data.headingSigma);
+  const qualities = data.pathTime.map(function (t, i) { return [t, data.quality[i]]; });
+  chart('quality', withGaps(qualities, data.longestPathStep), ['time', 'quality'], ['ink'], {
+    ylabel: 'quality', valueRange: [0, 1.05], underlayCallback: drawStatus,
+    axes: { x: { valueFormatter: function (t) { return t.toFixed(2) + ' s'; } },
+            y: { valueFormatter: function (value, opts, name, graph, row) {
+              return qualityInWords(value, graph.getValue(row, 0));
+            } } }
+  });
   const samples = data.samplesTime.map(function (t, i) { return [t, data.samples[i]]; });
   const counts = data.samples.filter(function (n) { return n > 0; });
   chart('samples', withGaps(samples, data.longestSamplesStep), ['time', 'samples'], ['samples'], {
