@@ -101,7 +101,8 @@ std::optional<EvaluationStep> nextStep(Localization& localization,
   while (unlessInterrupted(localization.source(), [&] { return localization.advance(); })) {
     if (onMoment) onMoment(localization.feeder());
     if (const std::optional<PoseEstimate> estimate = localization.update())
-      return EvaluationStep{*estimate, localization.updateMilliseconds()};
+      return EvaluationStep{*estimate, localization.updateMilliseconds(),
+                            localization.spentMilliseconds()};
   }
   if (!localization.isStarted()) {
     throw std::runtime_error(arguments.source +

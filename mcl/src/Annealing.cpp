@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "Resampling.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kWorth = 0.5;  ///< share of the set that each rise of b leaves effective
 constexpr int kMostRises = 12;  ///< of b, even if 1 is not reached
+constexpr std::size_t kMostTempered = 65536;    ///< poses that tell how far it may rise
 constexpr double kStepMetres[] = {0.15, 0.05};  ///< sigma of a Metropolis step, coarse and fine [m]
 constexpr double kStepRadians[] = {0.08, 0.02};  ///< [rad]
 // Sigmas of a sample's surroundings, at least: motion models promise more than wheels keep.
@@ -33,6 +35,15 @@ std::vector<float> scaled(const std::vector<float>& values, double factor) {
   std::transform(values.begin(), values.end(), products.begin(),
                  [factor](float v) { return static_cast<float>(factor) * v; });
   return products;
+}
+
+/// temperFor(), by every so manieth of very many.
+double temperOf(const std::vector<float>& logWeights, double least) {
+  const std::size_t stride = (logWeights.size() + kMostTempered - 1) / kMostTempered;
+  if (stride <= 1) return temperFor(logWeights, least);
+  std::vector<float> some;
+  for (std::size_t i = 0; i < logWeights.size(); i += stride) some.push_back(logWeights[i]);
+  return temperFor(some, least / static_cast<double>(stride));
 }
 
 }  // namespace
@@ -62,27 +73,77 @@ Annealing::Annealing(Weigh weigh, const std::array<double, 9>& covariance, std::
 }
 
 Annealing::Drawn Annealing::draw(SampleSet from, std::size_t n, const Random& random) const {
-  double logEvidence = 0.0;
-  Climbing some{std::move(from), {}, {}};
-  weigh_(some.set, some.fit);
-  if (isOfBelief_) some.origins = some.set;
-  Random offsets = random.fork(1);
-  double exponent = 0.0;
-  for (int rise = 0; exponent < 1.0 && rise < kMostRises; ++rise) {
-    const std::vector<float> rest = scaled(some.fit, 1.0 - exponent);
-    const double share = temperFor(rest, kWorth * static_cast<double>(n));
-    const std::vector<float> risen = scaled(rest, share);
-    logEvidence += logMean(risen);
-    const auto indices = lowVariance(normalized(risen), n, offsets.uniform());
-    exponent = share >= 1.0 ? 1.0 : exponent + share * (1.0 - exponent);
-    some.set = ortung::taken(some.set, indices);
-    if (isOfBelief_) some.origins = ortung::taken(some.origins, indices);
-    some.fit = taken(some.fit, indices);
-    climb(some, exponent, random.fork(2 + static_cast<std::uint64_t>(rise)));
+  Draw drawing(*this, std::move(from), n, random);
+  while (drawing.work(std::numeric_limits<std::size_t>::max()) > 0) {
   }
-  some.set.logWeight = scaled(some.fit, 1.0 - exponent);
-  logEvidence += logMean(some.set.logWeight);
-  return {std::move(some.set), logEvidence};
+  return drawing.take();
+}
+
+Annealing::Draw::Draw(Annealing annealing, SampleSet from, std::size_t n, const Random& random)
+    : annealing_(std::move(annealing)),
+      n_(n),
+      random_(random),
+      offsets_(random.fork(1)),
+      climb_(random),
+      weighing_(std::move(from)),
+      isDone_(n == 0) {}
+
+std::size_t Annealing::Draw::work(std::size_t most) {
+  if (isDone_) return 0;
+  const std::size_t first = fit_.size();
+  const std::size_t count = std::min(weighing_.size() - first, most);
+  const bool isWhole = count == weighing_.size();
+  std::vector<float> some;  // where a plugin throws, nothing has happened
+  annealing_.weigh_(isWhole ? weighing_ : weighing_.part(first, count), some);
+  if (isWhole)
+    fit_ = std::move(some);
+  else
+    fit_.insert(fit_.end(), some.begin(), some.end());
+  if (fit_.size() == weighing_.size()) endPass();
+  return count;
+}
+
+/// Once all of a pass are weighed: the first one's poses are drawn from, later ones are steps.
+void Annealing::Draw::endPass() {
+  if (rises_ == 0) {
+    climbing_ = {std::move(weighing_), {}, std::move(fit_)};
+    if (annealing_.isOfBelief_) climbing_.origins = climbing_.set;
+    rise();
+    return;
+  }
+  annealing_.accept(climbing_, weighing_, fit_, exponent_, climb_);
+  if (++step_ == std::size(kStepMetres)) {
+    rise();
+    return;
+  }
+  weighing_ = annealing_.proposed(climbing_.set, step_, climb_);
+  fit_.clear();
+}
+
+void Annealing::Draw::rise() {
+  if (exponent_ >= 1.0 || rises_ == kMostRises) {
+    finish();
+    return;
+  }
+  const std::vector<float> rest = scaled(climbing_.fit, 1.0 - exponent_);
+  const double share = temperOf(rest, kWorth * static_cast<double>(n_));
+  const std::vector<float> risen = scaled(rest, share);
+  logEvidence_ += logMean(risen);
+  const auto indices = lowVariance(normalized(risen), n_, offsets_.uniform());
+  exponent_ = share >= 1.0 ? 1.0 : exponent_ + share * (1.0 - exponent_);
+  climbing_.set = ortung::taken(climbing_.set, indices);
+  if (annealing_.isOfBelief_) climbing_.origins = ortung::taken(climbing_.origins, indices);
+  climbing_.fit = taken(climbing_.fit, indices);
+  climb_ = random_.fork(2 + static_cast<std::uint64_t>(rises_++));
+  step_ = 0;
+  weighing_ = annealing_.proposed(climbing_.set, step_, climb_);
+  fit_.clear();
+}
+
+void Annealing::Draw::finish() {
+  climbing_.set.logWeight = scaled(climbing_.fit, 1.0 - exponent_);
+  logEvidence_ += logMean(climbing_.set.logWeight);
+  isDone_ = true;
 }
 
 double Annealing::logPriorOf(const Climbing& some, std::size_t i, float x, float y,
@@ -94,33 +155,35 @@ double Annealing::logPriorOf(const Climbing& some, std::size_t i, float x, float
   return -0.5 * off.dot(Eigen::Map<const Eigen::Matrix3d>(precision_.data()) * off);
 }
 
-/// Metropolis steps whose invariant distribution is p^exponent times what is known before.
-void Annealing::climb(Climbing& some, double exponent, Random random) const {
-  SampleSet& set = some.set;
+/// Where each of a set would step to.
+SampleSet Annealing::proposed(const SampleSet& set, std::size_t step, Random& random) const {
+  const double metres = std::min(kStepMetres[step], mostMetres_);
+  const double radians = std::min(kStepRadians[step], mostRadians_);
   SampleSet proposed;
   proposed.resize(set.size());
-  std::vector<float> proposedFit;
-  for (std::size_t k = 0; k < std::size(kStepMetres); ++k) {
-    const double metres = std::min(kStepMetres[k], mostMetres_);
-    const double radians = std::min(kStepRadians[k], mostRadians_);
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      proposed.x[i] = set.x[i] + static_cast<float>(metres * random.gaussian());
-      proposed.y[i] = set.y[i] + static_cast<float>(metres * random.gaussian());
-      proposed.theta[i] = set.theta[i] + static_cast<float>(radians * random.gaussian());
-    }
-    weigh_(proposed, proposedFit);
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      const double gain = exponent * static_cast<double>(proposedFit[i] - some.fit[i]) +
-                          logPriorOf(some, i, proposed.x[i], proposed.y[i], proposed.theta[i]) -
-                          logPriorOf(some, i, set.x[i], set.y[i], set.theta[i]);
-      const bool accepted = random.uniform() < std::exp(std::min(0.0, gain));
-      if (!accepted || (within_ && !within_(proposed.x[i], proposed.y[i], proposed.theta[i])))
-        continue;
-      set.x[i] = proposed.x[i];
-      set.y[i] = proposed.y[i];
-      set.theta[i] = proposed.theta[i];
-      some.fit[i] = proposedFit[i];
-    }
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    proposed.x[i] = set.x[i] + static_cast<float>(metres * random.gaussian());
+    proposed.y[i] = set.y[i] + static_cast<float>(metres * random.gaussian());
+    proposed.theta[i] = set.theta[i] + static_cast<float>(radians * random.gaussian());
+  }
+  return proposed;
+}
+
+/// Metropolis: the invariant distribution is p^exponent times what is known before.
+void Annealing::accept(Climbing& some, const SampleSet& proposed,
+                       std::span<const float> proposedFit, double exponent, Random& random) const {
+  SampleSet& set = some.set;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const double gain = exponent * static_cast<double>(proposedFit[i] - some.fit[i]) +
+                        logPriorOf(some, i, proposed.x[i], proposed.y[i], proposed.theta[i]) -
+                        logPriorOf(some, i, set.x[i], set.y[i], set.theta[i]);
+    const bool accepted = random.uniform() < std::exp(std::min(0.0, gain));
+    if (!accepted || (within_ && !within_(proposed.x[i], proposed.y[i], proposed.theta[i])))
+      continue;
+    set.x[i] = proposed.x[i];
+    set.y[i] = proposed.y[i];
+    set.theta[i] = proposed.theta[i];
+    some.fit[i] = proposedFit[i];
   }
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
@@ -32,6 +35,7 @@ class ORTUNG_API Annealing {
   /// @param covariance of (x [m], y [m], theta [rad]) of the belief's heaviest cluster, row-major
   Annealing(Weigh weigh, const std::array<double, 9>& covariance, std::size_t samples);
 
+  class Draw;
   /// @p n poses by what @p from stands for times p(s|l). @param from its weights are not looked at
   Drawn draw(SampleSet from, std::size_t n, const Random& random) const;
 
@@ -42,7 +46,9 @@ class ORTUNG_API Annealing {
     std::vector<float> fit;
   };
   double logPriorOf(const Climbing& some, std::size_t i, float x, float y, float theta) const;
-  void climb(Climbing& some, double exponent, Random random) const;
+  SampleSet proposed(const SampleSet& set, std::size_t step, Random& random) const;
+  void accept(Climbing& some, const SampleSet& proposed, std::span<const float> proposedFit,
+              double exponent, Random& random) const;
 
   Weigh weigh_;
   Within within_;
@@ -50,6 +56,38 @@ class ORTUNG_API Annealing {
   std::array<double, 9> precision_{};  ///< of a sample's surroundings
   double mostMetres_ = 1.0;            ///< of a step's sigma
   double mostRadians_ = 1.0;
+};
+
+/// A drawing that may be spread over time: what is drawn does not depend on how much is done at a
+/// time. Not thread-safe.
+class ORTUNG_API Annealing::Draw {
+ public:
+  Draw(Annealing annealing, SampleSet from, std::size_t n, const Random& random);
+
+  /// Weighs the next poses. @param most at least 1 @returns how many it were; 0: it is done
+  std::size_t work(std::size_t most);
+  bool isDone() const { return isDone_; }
+  /// @pre isDone()
+  Drawn take() { return {std::move(climbing_.set), logEvidence_}; }
+
+ private:
+  void endPass();
+  void rise();
+  void finish();
+
+  Annealing annealing_;
+  std::size_t n_;
+  Random random_;
+  Random offsets_;
+  Random climb_;  ///< of this rise
+  Climbing climbing_;
+  SampleSet weighing_;      ///< at first those that are drawn from, then those that are proposed
+  std::vector<float> fit_;  ///< of the first of those
+  std::size_t step_ = 0;    ///< of a climb
+  int rises_ = 0;
+  double exponent_ = 0.0;
+  double logEvidence_ = 0.0;
+  bool isDone_ = false;
 };
 
 }  // namespace ortung

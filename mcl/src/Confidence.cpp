@@ -97,6 +97,7 @@ const char* nameOf(TrackReason reason) {
       "readings fit worse than they use to",
       "readings fit elsewhere",
       "readings contradict odometry",
+      "the field is searched",
   };
   return kNames[static_cast<std::size_t>(reason)];
 }

@@ -41,6 +41,15 @@ void require(bool holds, const char* what, double value) {
 
 }  // namespace
 
+double nominalNanoseconds(std::span<const std::shared_ptr<const Weigher>> readings) {
+  double sum = 0.0;
+  for (const std::shared_ptr<const Weigher>& weigher : readings) {
+    const auto* blurrable = dynamic_cast<const BlurrableWeigher*>(weigher.get());
+    sum += blurrable ? blurrable->nominalNanoseconds() : kOtherNanoseconds;
+  }
+  return sum;
+}
+
 void FieldSearch::Settings::check() const {
   require(spacing > 0.0 && spacing <= 100.0, "spacing is in (0, 100] m", spacing);
   require(headings >= 1 && headings <= 3600, "there are 1 to 3600 headings", headings);
@@ -109,11 +118,9 @@ void FieldSearch::begin(std::vector<std::shared_ptr<const Weigher>> readings) {
   kept_.clear();
   isPruned_ = false;
   next_ = 0;
-  sharp_ = {std::move(readings), 0.0};
-  for (const std::shared_ptr<const Weigher>& weigher : sharp_.weighers) {
-    const auto* blurrable = dynamic_cast<const BlurrableWeigher*>(weigher.get());
-    sharp_.nanoseconds += blurrable ? blurrable->nominalNanoseconds() : kOtherNanoseconds;
-  }
+  worked_ = 0.0;
+  const double nanoseconds = nominalNanoseconds(readings);
+  sharp_ = {std::move(readings), nanoseconds};
   spacing_ = spacingOfCover_;
   turn_ = 2.0 * std::numbers::pi / settings_.headings;
   const bool isNothing = cover_.empty() || sharp_.weighers.empty();
@@ -192,6 +199,7 @@ bool FieldSearch::work(double nominalMilliseconds) {
       if (stands) keep({pose, batch_.logWeight[i], next_ + i});
     }
     nanoseconds -= static_cast<double>(count) * present_.nanoseconds;
+    worked_ += static_cast<double>(count) * present_.nanoseconds;
     next_ += count;
     if (next_ == posesInStage()) endStage();
   } while (nanoseconds > 0.0);

@@ -13,6 +13,12 @@
 
 namespace ortung {
 
+/// Of an update's time, that a search may take.
+inline constexpr double kSearchShare = 0.8;
+
+/// What it takes to ask readings for a pose, about [ns]: constants of theirs.
+ORTUNG_API double nominalNanoseconds(std::span<const std::shared_ptr<const Weigher>> readings);
+
 /// The best poses of one moment's readings out of all where the robot can stand, in all headings. A
 /// cover of the floor is weighed by blurred readings (BlurrableWeigher); the best of it are divided
 /// again and again, until the readings themselves tell their parts from each other; and the best of
@@ -51,6 +57,8 @@ class ORTUNG_API FieldSearch {
   bool isDone() const { return stage_ == Stage::kDone; }
   /// What whole searches take by these readings, at most [ms]; 0 before the first begin().
   double nominalMilliseconds() const;
+  /// What was done of it since begin(), by nominal times [ms].
+  double workedMilliseconds() const { return 1e-6 * worked_; }
   /// Once it is done: best first, no two nearer than the settings say. A hill that is wider than
   /// that is several places, so with a vague reading they may all be of one.
   std::span<const Place> places() const { return places_; }
@@ -99,6 +107,7 @@ class ORTUNG_API FieldSearch {
   double spacing_ = 0.0;             ///< of its poses [m]
   double turn_ = 0.0;                ///< [rad]
   double nanosecondsOfCover_ = 0.0;  ///< a pose
+  double worked_ = 0.0;              ///< [ns]
   int climbs_ = 0;
   std::vector<Candidate> parents_;  ///< of its poses; none while it is the cover
   std::size_t next_ = 0;            ///< number of the pose that comes next

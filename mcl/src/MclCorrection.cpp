@@ -11,19 +11,41 @@
 namespace ortung {
 namespace {
 
-constexpr double kFewestCandidates = 2;  ///< for each sample at a global start
-constexpr double kMostCandidates = 5e6;  ///< in all, however large the building
 constexpr double kFewLeft = 25.0;  ///< effective samples: readings are far sharper than the belief
 
 }  // namespace
 
-/// From the poses that the readings speak for.
-void Mcl::Impl::start(const std::vector<News>& news) {
-  samples = search
-                .draw(config.maxSamples, startCandidates(), weigherOf(news),
-                      Random(config.seed, stream(Purpose::kStart)))
-                .samples;
+/// Where a robot may be of which nothing is known.
+void Mcl::Impl::waitAnywhere() {
+  samples = search.anywhere(config.maxSamples, Random(config.seed, stream(Purpose::kStart)));
+  globalStart.prepare();
+  estimate.status = TrackStatus::kLost;
+  estimate.reason = TrackReason::kSearching;
+  estimate.quality = 0.0;
+}
+
+/// The first moment's readings say where the robot was then. Those that come before that is known
+/// are left: the newest of them count afterwards. @param news what was used is taken out
+void Mcl::Impl::start(NewsByTime& news) {
+  if (!globalStart.isBegun()) {
+    if (news.empty()) return;
+    const auto first = news.extract(news.begin());
+    ++step;
+    predictFor(first.key());
+    intake.used(first.mapped(), first.key(), lastOdometry);
+    globalStart.begin(
+        {first.key(), lastOdometry, stream(Purpose::kStart), std::move(first.mapped())});
+  }
+  goOnStarting();
+}
+
+void Mcl::Impl::goOnStarting() {
+  if (!globalStart.isBegun() || !globalStart.work(kSearchShare * config.budgetMs)) return;
+  const GlobalStart::Moment then = globalStart.moment();
+  samples = globalStart.take();
   waitsForStart = false;
+  hasStarted = true;
+  conclude(then.news, normalized(samples.logWeight), then.stamp);
 }
 
 std::vector<const Weigher*> Mcl::Impl::readingsOf(const std::vector<News>& news) {
@@ -117,39 +139,31 @@ void Mcl::Impl::sharpen(const std::vector<News>& news, const std::vector<double>
                 .samples;
 }
 
-/// How many poses are tried for each sample at a global start: the hill around the true pose must
-/// be met a few times, so their number goes with the floor.
-double Mcl::Impl::startCandidates() const {
-  const double area = static_cast<double>(search.cells()) * region.grid.cell * region.grid.cell;
-  const double all = std::min(config.startCandidates * area, kMostCandidates);
-  return std::max(all / static_cast<double>(config.maxSamples), kFewestCandidates);
+void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
+  const std::vector<double> before = normalized(samples.logWeight);
+  followFit(news, before);
+  const bool isCompared = recovery.isDoubtful() || recovery.callsForSearch() || !rivals.isIdle();
+  Rivals::Moment moment{stamp, {}, 0.0, way, stream(Purpose::kRivals), lastOdometry, {}};
+  if (isCompared) {
+    moment.predicted = estimateOf(config, samples.view(), before).pose;
+    for (const News& one : news) moment.readings.push_back(one.weigher);
+  }
+  weigh(news, samples, config.threads, logProbability);
+  moment.logEvidence = logMean(before, logProbability);
+  takeIn(news, before);
+  std::vector<double> weights = normalized(samples.logWeight);
+  recovery.followBest(fitOf(readingsOf(news), samples, weights).value_or(0.0));
+  if (!isCompared) {
+    rivals.forget();
+  } else if (compareWithRivals(news, moment)) {
+    weights = normalized(samples.logWeight);
+  }
+  conclude(news, weights, stamp);
 }
 
-void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
-  std::vector<double> weights;
-  if (waitsForStart) {
-    start(news);
-    weights = normalized(samples.logWeight);
-  } else {
-    const std::vector<double> before = normalized(samples.logWeight);
-    followFit(news, before);
-    const bool isCompared = recovery.isDoubtful() || recovery.callsForSearch() || !rivals.isIdle();
-    Rivals::Moment moment{stamp, {}, 0.0, way, stream(Purpose::kRivals), lastOdometry, {}};
-    if (isCompared) {
-      moment.predicted = estimateOf(config, samples.view(), before).pose;
-      for (const News& one : news) moment.readings.push_back(one.weigher);
-    }
-    weigh(news, samples, config.threads, logProbability);
-    moment.logEvidence = logMean(before, logProbability);
-    takeIn(news, before);
-    weights = normalized(samples.logWeight);
-    recovery.followBest(fitOf(readingsOf(news), samples, weights).value_or(0.0));
-    if (!isCompared) {
-      rivals.forget();
-    } else if (compareWithRivals(news, moment)) {
-      weights = normalized(samples.logWeight);
-    }
-  }
+/// Estimates from the belief as it was weighed, and resamples it.
+void Mcl::Impl::conclude(const std::vector<News>& news, const std::vector<double>& weights,
+                         Timestamp stamp) {
   way = 0.0;
   estimate = estimateOf(config, samples.view(), weights);
   estimate.stamp = stamp;

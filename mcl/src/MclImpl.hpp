@@ -9,6 +9,7 @@
 
 #include "Confidence.hpp"
 #include "Drift.hpp"
+#include "GlobalStart.hpp"
 #include "Intake.hpp"
 #include "OdometryTrust.hpp"
 #include "PoseSearch.hpp"
@@ -52,7 +53,9 @@ struct Mcl::Impl {
   Recovery recovery;
   Rivals rivals;
   double way = 0.0;           ///< since the last weighing [m]; a turn of 1 rad counts as 1 m
-  bool waitsForStart = true;  ///< a global start waits for the first reading
+  bool waitsForStart = true;  ///< a global start waits for the first reading, or searches
+  GlobalStart globalStart;
+  bool hasStarted = false;  ///< there is an estimate that no update() has told of yet
   std::vector<float> logProbability;
 
   Impl(const MclConfig& c, FieldRegion r, std::unique_ptr<MotionModel> m)
@@ -62,7 +65,8 @@ struct Mcl::Impl {
         search(region),
         intake(config, *motion),
         recovery(config),
-        rivals(config, region, search, *motion) {
+        rivals(config, region, search, *motion),
+        globalStart(config, region, search) {
     config.check();
   }
 
@@ -83,6 +87,9 @@ struct Mcl::Impl {
   /// Another belief; time and odometry go on.
   void beginHere(bool waits) {
     waitsForStart = waits;
+    hasStarted = false;
+    globalStart.forget();
+    if (waits) waitAnywhere();
     recovery.forget();
     rivals.forget();
     trust.forget();
@@ -95,10 +102,7 @@ struct Mcl::Impl {
   double secondsSinceWeighing(Timestamp stamp) const {
     return lastTime ? driftSeconds(*lastTime, stamp) : 0.0;
   }
-  /// Where a robot may be of which nothing is known.
-  void goAnywhere() {
-    samples = search.anywhere(config.maxSamples, Random(config.seed, stream(Purpose::kStart)));
-  }
+  void waitAnywhere();
   void followMotion(const Pose2& odometry);
   void predict(const Pose2& odometry);
   void predictBlindly(Timestamp stamp);
@@ -114,20 +118,21 @@ struct Mcl::Impl {
       weigh(news, set, config.threads, out);
     };
   }
-  void start(const std::vector<News>& news);
+  void start(NewsByTime& news);
+  void goOnStarting();
   static std::vector<const Weigher*> readingsOf(const std::vector<News>& news);
   static double fitNow(const std::vector<News>& news, const SampleSet& set);
   void followFit(const std::vector<News>& news, const std::vector<double>& before);
   void takeIn(const std::vector<News>& news, std::vector<double> before);
   void takeInUnsure(const std::vector<News>& news, const std::vector<double>& before);
   bool compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment);
-  double startCandidates() const;
   void resample(const std::vector<double>& weights);
   void sharpen(const std::vector<News>& news, const std::vector<double>& before);
   void keepResolution(PoseEstimate& e) const;
   void addDrift(PoseEstimate& e, Timestamp stamp) const;
   Signs signsAt(Timestamp stamp) const;
   void correct(const std::vector<News>& news, Timestamp stamp);
+  void conclude(const std::vector<News>& news, const std::vector<double>& weights, Timestamp stamp);
 };
 
 }  // namespace ortung

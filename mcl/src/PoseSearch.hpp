@@ -46,14 +46,30 @@ class ORTUNG_API PoseSearch {
   Drawn draw(std::size_t n, double candidates, const Weigh& weigh, const Random& random,
              const std::optional<Ring>& ring = std::nullopt) const;
   /// The same, of the places that a search of the field has found (FieldSearch), and evenly from
-  /// rings of one size around each: all that p(s|l) has if elsewhere it is nothing. So few poses do
-  /// where an even spread needs many. `logEvidence` is that of the whole floor.
+  /// where the robot can stand in rings of one size around each: all that p(s|l) has if elsewhere
+  /// it is nothing. So few poses do where an even spread needs many. `logEvidence` is that of the
+  /// whole floor.
   /// @param rings one at least, none of which meet
   Drawn drawFrom(std::span<const Ring> rings, std::size_t n, double candidates, const Weigh& weigh,
                  const Random& random) const;
 
+  /// The same, to be spread over time.
+  struct Drawing {
+    Annealing::Draw draw;
+    double logShare;  ///< of the part that is drawn from, in the whole floor
+    /// @pre draw.isDone()
+    Drawn take();
+  };
+  Drawing drawingFrom(std::span<const Ring> rings, std::size_t n, double candidates,
+                      const Weigh& weigh, const Random& random) const;
+  /// Of all poses outside the rings.
+  Drawing drawingBeside(std::span<const Ring> rings, std::size_t n, double candidates,
+                        const Weigh& weigh, const Random& random) const;
+
  private:
-  static Annealing::Within within(std::span<const Ring> rings);
+  using Within = Annealing::Within;
+  static Within within(std::span<const Ring> rings);
+  Within standable(Within also) const;
 
   const FieldRegion& region_;
   std::vector<std::uint32_t> standable_;  ///< cells

@@ -36,7 +36,6 @@ constexpr int kMostUnusual = 4;          ///< readings on end that fit badly: it
 constexpr std::size_t kSamplesElsewhere = 1000;
 constexpr double kCandidatesElsewhere = 4.0;   ///< for each of them, around what a search has found
 constexpr double kEffectiveElsewhere = 100.0;  ///< samples
-constexpr double kSearchShare = 0.8;           ///< of an update's time
 constexpr double kSearchNats = 12.0;           ///< places that fit so much worse are none
 constexpr double kSearchRing = 0.25;           ///< around a place [m]
 constexpr double kSearchTurn = 0.17;           ///< [rad]

@@ -68,6 +68,7 @@ class ORTUNG_API Rivals {
   double lead() const;
   /// Those to be moved as the belief is, at most two; null: not there.
   std::array<SampleSet*, 2> samples();
+  bool isSearching() const { return searching_ && !searching_->job.isDone(); }
   /// Goes on with a search, though there is no reading.
   void searchOn();
   /// @param recovery of the same moment

@@ -1,89 +1,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "FakeRoom.hpp"
 #include "FieldSearch.hpp"
+#include "SearchedHall.hpp"
 #include "ortung/core/BlurrableWeigher.hpp"
 
 namespace ortung {
 namespace {
 
+using test::hall;
+using test::Hill;
+using test::Hills;
 using test::kPi;
-
-/// 10 x 10 m of which the left 2 m are a wall.
-FieldRegion hall() {
-  FieldRegion region{
-      {.originX = 0, .originY = 0, .cell = 0.1, .columns = 100, .rows = 100}, {}, {}};
-  for (std::size_t cell = 0; cell < region.grid.size(); ++cell)
-    region.standable.push_back(region.grid.centreX(cell) > 2.0 ? 1 : 0);
-  region.open = region.standable;
-  return region;
-}
-
-struct Hill {
-  Pose2 top;
-  double logHeight;
-};
-
-/// The highest of Gaussian hills of which hardly any pose of a cover meets one, unless blurred.
-class Hills final : public BlurrableWeigher {
- public:
-  explicit Hills(std::vector<Hill> hills, const PoseResolution& sigma = {0.03, 0.02},
-                 double floor = -1000.0)
-      : hills_(std::move(hills)), sigma_(sigma), floor_(floor) {}
-  std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override {
-    const PoseResolution sigma{std::hypot(sigma_.metres, spread.metres),
-                               std::hypot(sigma_.radians, spread.radians)};
-    auto wider = std::make_shared<Hills>(hills_, sigma, floor_);
-    wider->weighed_ = weighed_;
-    return wider;
-  }
-  double nominalNanoseconds() const override { return 100.0; }
-  std::size_t weighed() const { return *weighed_; }
-
- private:
-  void weigh(const SampleView& poses, std::span<float> out) const override {
-    *weighed_ += poses.size();
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      double best = floor_;
-      for (const Hill& hill : hills_) {
-        const double way = std::hypot(poses.x[i] - hill.top.x, poses.y[i] - hill.top.y);
-        const double turn = wrapAngle(poses.theta[i] - hill.top.theta);
-        best = std::max(best, hill.logHeight - 0.5 * std::pow(way / sigma_.metres, 2) -
-                                  0.5 * std::pow(turn / sigma_.radians, 2));
-      }
-      out[i] += static_cast<float>(best);
-    }
-  }
-  std::vector<Hill> hills_;
-  PoseResolution sigma_;
-  double floor_;
-  std::shared_ptr<std::atomic<std::size_t>> weighed_ =
-      std::make_shared<std::atomic<std::size_t>>(0);
-};
-
-/// Any function of x, y, theta.
-class Told final : public Weigher {
- public:
-  explicit Told(std::function<double(double, double, double)> what) : what_(std::move(what)) {}
-
- private:
-  void weigh(const SampleView& poses, std::span<float> out) const override {
-    for (std::size_t i = 0; i < poses.size(); ++i)
-      out[i] += static_cast<float>(what_(poses.x[i], poses.y[i], poses.theta[i]));
-  }
-  std::function<double(double, double, double)> what_;
-};
+using test::told;
 
 using Readings = std::vector<std::shared_ptr<const Weigher>>;
-
-std::shared_ptr<const Weigher> told(std::function<double(double, double, double)> what) {
-  return std::make_shared<Told>(std::move(what));
-}
 
 std::vector<FieldSearch::Place> found(const FieldRegion& region, Readings readings,
                                       const FieldSearch::Settings& settings = {},
@@ -239,6 +174,52 @@ TEST(FieldSearch, BeginsAnewAtAnyTime) {
   search.work(1e9);
   ASSERT_FALSE(search.places().empty());
   expectNear(search.places()[0].pose, {4.6, 2.2, 0.2}, 0.006, 0.004);
+}
+
+// Poses that were not good enough for the readings before may well be for these, whose probability
+// is smaller everywhere.
+TEST(FieldSearch, BeginsAnewWithoutTheThresholdOfTheSearchBefore) {
+  const FieldRegion region = hall();
+  FieldSearch search(region, {});
+  search.begin({told([](double x, double, double) { return -0.1 * x; })});
+  search.work(1.0);  // 20,000 of 50 ns: the best of them were chosen by now
+  ASSERT_FALSE(search.isDone());
+  const std::shared_ptr<const Weigher> poor =
+      std::make_shared<Hills>(std::vector<Hill>{{{7.3, 4.1, 2.9}, -60.0}});
+  search.begin({poor});
+  search.work(1e9);
+  const auto expected = found(region, {poor});
+  ASSERT_EQ(search.places().size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(search.places()[i].logProbability, expected[i].logProbability);
+  expectNear(search.places()[0].pose, {7.3, 4.1, 2.9}, 0.006, 0.004);
+}
+
+/// Around a pose a reading is more probable than at it.
+class Raised final : public BlurrableWeigher {
+ public:
+  explicit Raised(std::shared_ptr<const BlurrableWeigher> sharp, float by)
+      : sharp_(std::move(sharp)), by_(by) {}
+  std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override {
+    return std::make_shared<Raised>(sharp_->blurred(spread), 50.0F);
+  }
+  double nominalNanoseconds() const override { return 100.0; }
+
+ private:
+  void weigh(const SampleView& poses, std::span<float> out) const override {
+    sharp_->getProbability(poses, out);
+    for (float& log : out) log += by_;
+  }
+  std::shared_ptr<const BlurrableWeigher> sharp_;
+  float by_;
+};
+
+TEST(FieldSearch, EachStageHasAThresholdOfItsOwn) {
+  const auto hill = std::make_shared<Hills>(std::vector<Hill>{{{7.3, 4.1, 2.9}, -60.0}});
+  const auto places = found(hall(), {std::make_shared<Raised>(hill, 0.0F)});
+  ASSERT_FALSE(places.empty());
+  expectNear(places[0].pose, {7.3, 4.1, 2.9}, 0.006, 0.004);
+  EXPECT_NEAR(places[0].logProbability, -60.0, 0.05);
 }
 
 TEST(FieldSearch, MultipliesReadingsOfWhichNoneTellsThePlace) {

@@ -176,7 +176,13 @@ TEST(Relocalize, FindsACarriedRobotByThePresentReading) {
   mcl->relocalize();
   EXPECT_FALSE(mcl->estimate(run.stamp)) << "it may be anywhere";
   EXPECT_FALSE(mcl->belief());
-  ASSERT_TRUE(mcl->update(run.container)) << "without a new reading";
+  EXPECT_EQ(mcl->estimate().status, TrackStatus::kLost);
+  EXPECT_EQ(mcl->estimate().reason, TrackReason::kSearching) << "nor is the one before right";
+  int updates = 1;
+  while (!mcl->update(run.container) && updates < 20) ++updates;
+  EXPECT_LT(updates, 20) << "without a new reading";
+  EXPECT_EQ(mcl->estimate().stamp, run.stamp);
+  EXPECT_NE(mcl->estimate().reason, TrackReason::kSearching);
   EXPECT_LT(distance(mcl->estimate().pose, run.truth), 0.1);
   EXPECT_TRUE(mcl->hasOdometry());
   // Odometry is not begun anew: from here on it leads.

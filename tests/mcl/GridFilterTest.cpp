@@ -180,6 +180,7 @@ struct McLocalizer {
     config.maxSamples = config.minSamples = 60000;
     config.minDistance = config.minRotation = 0.0;
     config.recoverSlow = 0.0;
+    config.budgetMs = 1e6;  // of the start, too
     mcl = std::make_unique<Mcl>(config, region, std::make_unique<OdometryMotion>(kNoise));
     mcl->startGlobal();
   }

@@ -156,7 +156,9 @@ TEST(MclSettings, BinsSayWhatHangsTogether) {
   EXPECT_GT(shareOf({0, 0, kPi / 4}, 0.25, 45), 0.99);
 }
 
-TEST(MclSettings, StartTriesSoManyCandidatesASquareMetre) {
+// A reading that says nothing fits everywhere: beside the places that the search finds, candidates
+// all over the floor are tried.
+TEST(MclSettings, VagueStartTriesSoManyCandidatesASquareMetre) {
   const auto triedOf = [](double perSquareMetre, std::size_t samples) {
     ToldRobot robot([](const SampleView&, std::size_t) { return 0.0F; });
     std::size_t tried = 0;
@@ -166,17 +168,23 @@ TEST(MclSettings, StartTriesSoManyCandidatesASquareMetre) {
     }));
     MclConfig config = ofSize(samples);
     config.startCandidates = perSquareMetre;
+    config.budgetMs = 1e6;
     const auto mcl = robot.mcl(config);
     mcl->startGlobal();
     robot.container.set({1, {"told", "test", "counts"}, {1}});
-    mcl->update(robot.container);
+    EXPECT_TRUE(mcl->update(robot.container));
     return tried;
   };
-  // Cells of 0.25 m^2 whose centre is 0.2 m from the walls of 8 x 5 m: all 16 x 10. Each of those
-  // that stay is weighed twice more, by the two Metropolis steps.
-  EXPECT_EQ(triedOf(500, 1000), 40u * 500 + 2 * 1000);
-  EXPECT_EQ(triedOf(100, 1000), 40u * 100 + 2 * 1000);
-  EXPECT_EQ(triedOf(1, 1000), 2u * 1000 + 2 * 1000) << "but at least two a sample";
+  // Cells of 0.25 m^2 whose centre is 0.2 m from the walls of 8 x 5 m: all 16 x 10. What lies
+  // around the 50 places is left out: 2 % of all.
+  const auto asMany = [](std::size_t tried, double expected) {
+    EXPECT_LE(static_cast<double>(tried), expected);
+    EXPECT_GT(static_cast<double>(tried), 0.96 * expected);
+  };
+  const std::size_t fewest = triedOf(1, 1000);
+  asMany(triedOf(500, 1000) - fewest, 40.0 * 500 - 2 * 500);
+  asMany(triedOf(100, 1000) - fewest, 40.0 * 100 - 2 * 500);
+  asMany(triedOf(1e5, 1000) - fewest, 100000.0 - 2 * 500);
 }
 
 TEST(MclSettings, FeaturesAreNewsOnlyAfterSoMuchMotionOrTime) {

@@ -225,6 +225,39 @@ TEST_F(Localizing, TellsThePoseAtAnyTime) {
   }
 }
 
+// Where a log has no reading for seconds, a robot would have asked for its pose all the while.
+TEST_F(Localizing, AGlobalStartSearchesOnBetweenMomentsThatAreFarApart) {
+  const std::string robot = readBytes(robotFile);
+  moments = {moments[0], moments[40]};
+  record("room-1");
+  const auto knownSince = [&](double budget) {
+    writeBytes(robotFile, robot + "budget_ms = " + std::to_string(budget) + "\n");
+    LocalizationConfig config = fromRecord();
+    config.start = {LocalizationStart::Kind::kGlobal};
+    Localization localization(config);
+    EXPECT_TRUE(localization.advance());
+    const bool isAtOnce = localization.update().has_value();
+    EXPECT_EQ(localization.estimate(0).has_value(), isAtOnce);
+    EXPECT_TRUE(localization.advance());
+    localization.followOdometry();
+    Timestamp since = isAtOnce ? 0 : 4'000'000;
+    for (Timestamp now = 3'950'000; now >= 0; now -= 50'000)
+      if (localization.estimate(now)) since = now;
+    for (Timestamp now = since; now < 4'000'000; now += 50'000)
+      EXPECT_TRUE(localization.estimate(now)) << "once known, it stays so";
+    EXPECT_TRUE(localization.update());
+    EXPECT_EQ(localization.mcl().estimate().stamp, 4'000'000);
+    EXPECT_GE(localization.spentMilliseconds(), localization.updateMilliseconds());
+    return since;
+  };
+  EXPECT_EQ(knownSince(1e6), 0);
+  const Timestamp since = knownSince(1.0);
+  EXPECT_GE(since, 200'000) << "not before it was found";
+  EXPECT_LT(since, 4'000'000) << "nor as late as the next reading";
+  EXPECT_EQ(since % 100'000, 0);
+  EXPECT_LT(knownSince(3.0), since);
+}
+
 TEST_F(Localizing, TakesSettingsInPlaceOfTheRobotFiles) {
   LocalizationConfig config = fromRecord();
   config.particles = 300;

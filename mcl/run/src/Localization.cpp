@@ -1,5 +1,6 @@
 #include "ortung/run/Localization.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -15,6 +16,8 @@
 
 namespace ortung {
 namespace {
+
+constexpr Timestamp kAsking = 100'000;  ///< between two times that a program asks [us]
 
 MclConfig readMcl(const LocalizationConfig& config, const RobotConfig& robot) {
   MclConfig mcl = MclConfig::read(robot.mcl);
@@ -165,19 +168,44 @@ std::optional<PoseEstimate> Localization::update() {
   }
   const auto begin = std::chrono::steady_clock::now();
   const bool weighed = mcl_->update(robot_->container);
-  sinceEstimate_ += millisecondsSince(begin);
+  count(millisecondsSince(begin));
   if (!weighed) return std::nullopt;
-  updateMilliseconds_ = std::exchange(sinceEstimate_, 0.0);
+  longest_ = std::exchange(longestSince_, 0.0);
+  spent_ = std::exchange(spentSince_, 0.0);
   publish(mcl_->estimate());
   return mcl_->estimate();
 }
 
 std::optional<PoseEstimate> Localization::estimate(Timestamp stamp) const {
-  if (waitsForTruth_) return std::nullopt;
+  if (waitsForTruth_ || (knownSince_ && stamp < *knownSince_)) return std::nullopt;
   return mcl_->estimate(stamp);
 }
 
-bool Localization::advance() { return feeder().next(); }
+bool Localization::advance() {
+  const Timestamp since = feeder().stamp();
+  if (!feeder().next()) return false;
+  if (knownSince_ && feeder().stamp() < *knownSince_) knownSince_.reset();  // a clock was set back
+  searchMeanwhile(since, feeder().stamp());
+  return true;
+}
+
+/// Logs have moments that are seconds apart, in which a robot does not sleep: it asks for its pose,
+/// and searches meanwhile. What is found so is known from then on, not before.
+void Localization::searchMeanwhile(Timestamp since, Timestamp until) {
+  for (Timestamp now = since + kAsking; now < until && mcl_->isSearching(); now += kAsking) {
+    const bool waited = !mcl_->estimate(now);
+    const auto begin = std::chrono::steady_clock::now();
+    mcl_->searchOn();
+    count(millisecondsSince(begin));
+    if (waited && mcl_->estimate(now)) knownSince_ = now;
+  }
+}
+
+/// Of an update.
+void Localization::count(double milliseconds) {
+  longestSince_ = std::max(longestSince_, milliseconds);
+  spentSince_ += milliseconds;
+}
 
 std::optional<PoseEstimate> Localization::next(const std::function<bool()>& goOn) {
   while (!goOn || goOn()) {

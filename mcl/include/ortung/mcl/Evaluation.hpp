@@ -17,7 +17,8 @@ namespace ortung {
 /// One update of MCL, for evaluation.
 struct EvaluationStep {
   PoseEstimate estimate;
-  double updateMilliseconds = 0.0;
+  double updateMilliseconds = 0.0;  ///< of the longest one since the step before
+  double spentMilliseconds = 0.0;   ///< of all of them
 };
 
 /// An estimate beside the truth at its time.

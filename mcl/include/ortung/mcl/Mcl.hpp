@@ -29,7 +29,8 @@ class ORTUNG_API Mcl {
   Mcl(const Mcl&) = delete;
   Mcl& operator=(const Mcl&) = delete;
 
-  /// Unknown start: candidates all over the region, weighed by the first reading.
+  /// Unknown start: the whole region is searched for where the first readings fit. That may take
+  /// some updates (MclConfig::budgetMs); until then there is no estimate.
   void startGlobal();
   /// Known start with standard deviations [m], [rad]. Whether the robot can stand there is not
   /// asked.
@@ -43,10 +44,10 @@ class ORTUNG_API Mcl {
   /// @throws std::invalid_argument saying what is wrong, if the pose is not finite or that is no
   ///   covariance; the belief stays then
   void setPose(const Pose2& pose, const std::array<double, 9>& covariance);
-  /// The robot may be anywhere: the next readings say where.
+  /// The robot may be anywhere: the next readings say where, as of a global start.
   void relocalize();
   /// The belief, moved to the newest odometry. Nothing while a global start waits for its first
-  /// reading.
+  /// reading, or searches.
   std::optional<Belief> belief() const;
   /// Goes on with a belief of an earlier run. Odometry may have begun anew since; the robot is
   /// taken to have stayed where it was.
@@ -58,21 +59,28 @@ class ORTUNG_API Mcl {
   /// Returns whether the belief was weighed, i.e. whether there is a new estimate.
   bool update(const SensorContainer& container);
 
+  /// Whether there is a search of the field that is spread over updates: a global start, or for
+  /// other places where the robot may be (MclConfig::budgetMs).
+  bool isSearching() const;
+  /// Goes on with it as an update() without anything new does: for whoever has time between two
+  /// readings.
+  void searchOn();
+
   /// Takes odometry alone, so that estimate(stamp) knows of it before the next update().
   void followOdometry(const SensorContainer& container);
 
   /// As of the newest reading that was weighed, which `stamp` tells: it may be long ago. All zero
-  /// before the first one.
+  /// before the first one. While a global start waits or searches, its reason is kSearching.
   const PoseEstimate& estimate() const;
   /// As of @p stamp: the belief carried on by odometry, as the newest update() or followOdometry()
   /// saw it. Later than that, the robot is taken to keep its velocities for 0.3 s and to stand
   /// then. May be asked at any time, costs nothing to speak of while the robot stands, and does not
   /// change the filter.
-  /// @returns nothing while a global start waits for its first reading
+  /// @returns nothing while a global start waits for its first reading, or searches
   std::optional<PoseEstimate> estimate(Timestamp stamp) const;
   /// The places that the belief is spread over, as of the samples now, heaviest first: clusters
   /// with a share of @p least at least, each with its covariance. Status and quality are those of
-  /// the whole. Nothing while a global start waits for its first reading.
+  /// the whole. Nothing while a global start waits for its first reading, or searches.
   std::vector<PoseEstimate> places(double least = 0.01) const;
   /// Whether there is odometry; without, samples drift (MclConfig::driftMetres).
   bool hasOdometry() const;

@@ -10,14 +10,14 @@ namespace ortung {
 
 /// Settings of MCL; the defaults work. In files: the table [mcl] of a robot file.
 struct MclConfig {
-  std::size_t maxSamples = 20000;  ///< `particles`: most samples, and how many at a global start
+  std::size_t maxSamples = 20000;  ///< `particles`: most samples
   std::size_t minSamples = 500;    ///< `min_particles`
   double resampleBelow = 0.5;      ///< `resample_below`: effective share of samples, in [0, 1]
   double kldError = 0.02;          ///< `kld_error`: bound of the KLD-adaptive size (Fox 2003)
   double kldQuantile = 2.33;       ///< `kld_quantile`: of the normal distribution (0.99)
   double binMetres = 0.25;         ///< `bin_m`: edge of a bin that counts as one place
   double binRadians = 0.1745;      ///< `bin_deg` (10 degrees)
-  double startCandidates = 500.0;  ///< `start_candidates_per_m2`: poses tried at a global start
+  double startCandidates = 500.0;  ///< `start_candidates_per_m2`: if readings are vague
   double recoverFast = 0.2;        ///< `recover_fast`: rate of the short-term fit average
   double recoverSlow = 0.01;       ///< `recover_slow`: of the long-term one; 0: no recovery
   double minDistance = 0.05;       ///< `min_distance_m`: weigh only after this much motion,

@@ -27,6 +27,7 @@ enum class TrackReason : std::uint8_t {
   kPoorFit,    ///< readings fit worse than they use to
   kRival,      ///< several readings have fitted better elsewhere
   kOdometry,   ///< readings contradict it
+  kSearching,  ///< a global start has found no place yet
 };
 
 /// "tracking", "uncertain", "lost".

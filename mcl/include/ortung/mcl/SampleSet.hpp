@@ -21,14 +21,17 @@ struct SampleSet {
     theta.resize(n);
     logWeight.resize(n);
   }
-  /// Those from @p first on. @pre first <= size()
-  SampleSet from(std::size_t first) const {
+  /// @p count of them from @p first on. @pre first + count <= size()
+  SampleSet part(std::size_t first, std::size_t count) const {
     const auto begin = static_cast<std::ptrdiff_t>(first);
-    return {{x.begin() + begin, x.end()},
-            {y.begin() + begin, y.end()},
-            {theta.begin() + begin, theta.end()},
-            {logWeight.begin() + begin, logWeight.end()}};
+    const auto end = static_cast<std::ptrdiff_t>(first + count);
+    return {{x.begin() + begin, x.begin() + end},
+            {y.begin() + begin, y.begin() + end},
+            {theta.begin() + begin, theta.begin() + end},
+            {logWeight.begin() + begin, logWeight.begin() + end}};
   }
+  /// Those from @p first on. @pre first <= size()
+  SampleSet from(std::size_t first) const { return part(first, size() - first); }
   SampleView view() const { return {x, y, theta}; }
 };
 

@@ -134,8 +134,9 @@ class ORTUNG_API Localization {
   Feeder& feeder();  ///< @throws std::logic_error without a source
   /// How the source's world is not that of the tables, if `anyWorld` let that pass; else "".
   const std::string& worldMismatch() const { return worldMismatch_; }
-  /// Time that the updates took which led to the newest estimate [ms].
-  double updateMilliseconds() const { return updateMilliseconds_; }
+  /// Of the updates which led to the newest estimate: time of the longest one, and of all [ms].
+  double updateMilliseconds() const { return longest_; }
+  double spentMilliseconds() const { return spent_; }
 
  private:
   struct Opened {
@@ -146,6 +147,8 @@ class ORTUNG_API Localization {
   Localization(Opened opened, const LocalizationConfig& config);
   void checkWorld(const LocalizationConfig& config);
   void startAt(const Pose2& pose);
+  void searchMeanwhile(Timestamp since, Timestamp until);
+  void count(double milliseconds);
   void publish(const PoseEstimate& estimate);
   std::optional<Pose2> truth() const;
 
@@ -159,8 +162,12 @@ class ORTUNG_API Localization {
   bool waitsForTruth_ = false;
   bool publishes_ = false;
   std::string worldMismatch_;
-  double sinceEstimate_ = 0.0;  ///< time that updates took since the newest estimate [ms]
-  double updateMilliseconds_ = 0.0;
+  std::optional<Timestamp> knownSince_;  ///< a search ended then, between two moments
+  double longest_ = 0.0;
+  double spent_ = 0.0;
+  // Since the newest estimate.
+  double longestSince_ = 0.0;
+  double spentSince_ = 0.0;
 };
 
 }  // namespace ortung

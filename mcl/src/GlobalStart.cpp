@@ -1,0 +1,178 @@
+#include "GlobalStart.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "Resampling.hpp"
+#include "ortung/base/Random.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kNats = 10.0;  ///< places that fit so much worse than the best are none
+constexpr double kRing = 0.25;  ///< around a place [m]
+constexpr double kTurn = 0.17;  ///< [rad]
+/// A hill that has lost less than this at the edge of its ring is wider than that [nats].
+constexpr double kEdgeNats = 3.0;
+constexpr std::size_t kSamples = 2000;      ///< of all places ...
+constexpr std::size_t kSamplesAPlace = 50;  ///< ... and so many more for each
+constexpr double kLeastShare = 1e-4;        ///< of the belief: less is nothing
+constexpr double kCandidates = 4.0;         ///< for each sample
+constexpr double kFewestCandidates = 2.0;   ///< for each sample, all over the floor
+constexpr double kMostCandidates = 1e5;     ///< in all, however large the building
+/// Of drawing, beside what readings take: random numbers, choices [ns a pose].
+constexpr double kDrawNanoseconds = 150.0;
+
+}  // namespace
+
+GlobalStart::GlobalStart(const MclConfig& config, const FieldRegion& region,
+                         const PoseSearch& search)
+    : config_(config), region_(region), search_(search) {}
+
+void GlobalStart::prepare() {
+  if (field_) return;
+  FieldSearch::Settings settings;
+  settings.threads = config_.threads;
+  field_.emplace(region_, settings);
+}
+
+void GlobalStart::forget() {
+  moment_.reset();
+  around_.reset();
+  others_.reset();
+  beside_ = 0;
+  isFound_ = false;
+  if (field_) field_->begin({});
+}
+
+void GlobalStart::begin(Moment moment) {
+  forget();
+  moment_ = std::move(moment);
+  std::vector<std::shared_ptr<const Weigher>> readings;
+  for (const News& one : moment_->news) readings.push_back(one.weigher);
+  nanoseconds_ = nominalNanoseconds(readings) + kDrawNanoseconds;
+  prepare();
+  field_->begin(std::move(readings));
+}
+
+bool GlobalStart::work(double nominalMilliseconds) {
+  double left = std::max(nominalMilliseconds, 1e-6);
+  if (!isFound_) {
+    const double before = field_->workedMilliseconds();
+    if (!field_->work(left)) return false;
+    left -= field_->workedMilliseconds() - before;
+    beginAround();
+    isFound_ = true;
+  }
+  if (around_ && !drawOn(*around_, left)) return false;
+  if (beside_ == 0) return true;
+  if (left <= 0.0) return false;
+  if (!others_) beginBeside();
+  return drawOn(*others_, left);
+}
+
+/// @param left of the time; what is used is taken off @returns whether it is done
+bool GlobalStart::drawOn(PoseSearch::Drawing& drawing, double& left) const {
+  while (!drawing.draw.isDone()) {
+    if (left <= 0.0) return false;
+    const double affordable = std::clamp(1e6 * left / nanoseconds_, 1.0, 1e9);
+    const std::size_t weighed = drawing.draw.work(static_cast<std::size_t>(affordable));
+    left -= 1e-6 * static_cast<double>(weighed) * nanoseconds_;
+  }
+  return true;
+}
+
+PoseSearch::Weigh GlobalStart::weigher() const {
+  return [this](const SampleSet& set, std::vector<float>& out) {
+    ortung::weigh(moment_->news, set, config_.threads, out);
+  };
+}
+
+void GlobalStart::beginAround() {
+  rings_ = found();
+  const bool areAll = !rings_.empty() && !areNotAll();
+  const std::size_t most = areAll ? config_.maxSamples : config_.maxSamples / 2;
+  const std::size_t n =
+      rings_.empty() ? 0 : std::min(most, kSamples + kSamplesAPlace * rings_.size());
+  const Random random = Random(config_.seed, moment_->stream).fork(0);
+  if (n > 0) around_.emplace(search_.drawingFrom(rings_, n, kCandidates, weigher(), random));
+  beside_ = areAll ? 0 : config_.maxSamples - n;
+}
+
+void GlobalStart::beginBeside() {
+  if (!around_) rings_.clear();
+  others_.emplace(search_.drawingBeside(rings_, beside_, candidatesFor(beside_), weigher(),
+                                        Random(config_.seed, moment_->stream).fork(1)));
+}
+
+/// Of both, by what the readings say of all poses there.
+SampleSet GlobalStart::take() {
+  std::optional<PoseSearch::Drawn> around;
+  std::optional<PoseSearch::Drawn> beside;
+  if (around_) around = around_->take();
+  if (others_) beside = others_->take();
+  forget();
+  if (!beside || beside->samples.size() == 0) return std::move(around->samples);
+  if (!around) return std::move(beside->samples);
+  const double share = 1.0 / (1.0 + std::exp(around->logEvidence - beside->logEvidence));
+  if (share < kLeastShare) return std::move(around->samples);
+  if (share > 1.0 - kLeastShare) return std::move(beside->samples);
+  add(around->samples, beside->samples, share);
+  return std::move(around->samples);
+}
+
+/// Around the places that fit.
+std::vector<PoseSearch::Ring> GlobalStart::found() const {
+  const std::span<const FieldSearch::Place> places = field_->places();
+  std::vector<PoseSearch::Ring> rings;
+  for (const FieldSearch::Place& place : places)
+    if (place.logProbability > places.front().logProbability - kNats)
+      rings.push_back({place.pose, kRing, kTurn});
+  return rings;
+}
+
+/// Whether there may be more places, or readings fit beyond the rings as they do within.
+bool GlobalStart::areNotAll() const {
+  constexpr std::array<Pose2, 6> kEdges = {Pose2{kRing, 0, 0}, {-kRing, 0, 0}, {0, kRing, 0},
+                                           {0, -kRing, 0},     {0, 0, kTurn},  {0, 0, -kTurn}};
+  const FieldSearch::Settings settings;
+  if (rings_.size() >= settings.places) return true;
+  SampleSet edges;
+  std::vector<double> tops;
+  for (std::size_t i = 0; i < rings_.size(); ++i) {
+    for (const Pose2& edge : kEdges) {
+      const Pose2& top = rings_[i].pose;
+      const Pose2 pose{top.x + edge.x, top.y + edge.y, top.theta + edge.theta};
+      const bool isOfAnother =
+          std::any_of(rings_.begin(), rings_.end(), [&](const PoseSearch::Ring& ring) {
+            return &ring != &rings_[i] && distance(ring.pose, pose) < settings.apartMetres &&
+                   std::abs(wrapAngle(ring.pose.theta - pose.theta)) < settings.apartRadians;
+          });
+      const std::ptrdiff_t cell = region_.grid.cellAt(pose.x, pose.y);
+      if (isOfAnother || cell < 0 || region_.standable[static_cast<std::size_t>(cell)] == 0)
+        continue;
+      edges.x.push_back(static_cast<float>(pose.x));
+      edges.y.push_back(static_cast<float>(pose.y));
+      edges.theta.push_back(static_cast<float>(pose.theta));
+      edges.logWeight.push_back(0.0F);
+      tops.push_back(field_->places()[i].logProbability);
+    }
+  }
+  std::vector<float> logs;
+  ortung::weigh(moment_->news, edges, 1, logs);
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    if (static_cast<double>(logs[i]) > tops[i] - kEdgeNats) return true;
+  return false;
+}
+
+/// For each sample, all over the floor: the hill around the true pose must be met a few times, so
+/// their number goes with the floor.
+double GlobalStart::candidatesFor(std::size_t samples) const {
+  const double area = static_cast<double>(search_.cells()) * region_.grid.cell * region_.grid.cell;
+  const double all = std::min(config_.startCandidates * area, kMostCandidates);
+  return std::max(all / static_cast<double>(samples), kFewestCandidates);
+}
+
+}  // namespace ortung
