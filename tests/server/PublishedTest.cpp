@@ -5,6 +5,7 @@
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/run/TrackData.hpp"
 #include "ortung/server/ServedContainer.hpp"
 
 namespace ortung::test {
@@ -43,6 +44,60 @@ TEST_F(PublishedEstimate, ReachesClientsThatSubscribeToIt) {
     ++estimates;
   }
   EXPECT_GT(estimates, 10U);
+}
+
+// What clients are told of the status is what the program itself gets, with the same stamp.
+TEST_F(PublishedEstimate, TellsHowFarItCanBeReliedOn) {
+  LocalizationConfig own = config();
+  own.publish = true;
+  Localization localization(own);
+  std::atomic<Timestamp> clock{0};
+  ServedContainer::Config served;
+  served.period = 0.002;
+  ServedContainer world(localization.container(), [&] { return clock.load(); }, served);
+  const RunningBoard board(world, {});
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1 role=viewer");
+  client.ask("SUBSCRIBE mcl/LOCALIZATION/status robot=1");
+  TrackData heard;
+  std::size_t tracking = 0;
+  const auto hear = [&] {
+    const auto reading = parseLine(client.lineWith("mcl/LOCALIZATION/status"));
+    if (reading) heard.setData(reading->stamp, reading->words);
+    return reading.has_value();
+  };
+  for (const auto& moment : moments) {
+    clock = moment[0].stamp;
+    localization.container().set(moment);
+    const auto estimate = localization.update();
+    if (!estimate) continue;
+    ASSERT_TRUE(hear());
+    EXPECT_EQ(heard.stamp(), estimate->stamp);
+    EXPECT_EQ(heard.reading().status, estimate->status);
+    EXPECT_EQ(heard.reading().reason, estimate->reason);
+    EXPECT_NEAR(heard.reading().quality, estimate->quality, 1e-4);
+    EXPECT_NEAR(heard.reading().share, estimate->share, 1e-4);
+    if (estimate->status == TrackStatus::kTracking) ++tracking;
+  }
+  EXPECT_GT(tracking, 10U);
+  // The scanner is unplugged, odometry goes on: told once, though there is no new estimate.
+  Message odometry = moments.back()[0];
+  std::size_t silent = 0;
+  while (silent < 100 && heard.reading().reason != TrackReason::kNoReading) {
+    odometry.stamp += 100'000;
+    clock = odometry.stamp;
+    localization.container().set(odometry);
+    ASSERT_FALSE(localization.update());
+    ++silent;
+    const auto now = localization.container().get<TrackData>({"mcl", "LOCALIZATION", "status"});
+    ASSERT_TRUE(now);
+    if (now->reason == TrackReason::kNoReading) {
+      ASSERT_TRUE(hear());
+    }
+  }
+  EXPECT_EQ(heard.stamp(), odometry.stamp);
+  EXPECT_NE(heard.reading().status, TrackStatus::kTracking);
+  EXPECT_LE(silent, 20U) << "within 2 s";
 }
 
 }  // namespace

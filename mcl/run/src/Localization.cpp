@@ -10,8 +10,10 @@
 
 #include "BeliefFile.hpp"
 #include "EstimateData.hpp"
+#include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/run/OpenSource.hpp"
+#include "ortung/run/TrackData.hpp"
 #include "ortung/tables/FieldParts.hpp"
 
 namespace ortung {
@@ -88,7 +90,12 @@ Localization::Localization(Opened opened, const LocalizationConfig& config)
       mclConfig_(readMcl(config, robot_->config)),
       mcl_(std::make_unique<Mcl>(mclConfig_, robot_->tables.region, readMotion(config, *robot_))),
       publishes_(config.publish) {
-  if (publishes_) robot_->container.add(std::make_unique<EstimateData>());
+  for (const auto& data : robot_->container.all())
+    if (odometry_ == nullptr) odometry_ = dynamic_cast<const OdometryData*>(data.get());
+  if (publishes_) {
+    robot_->container.add(std::make_unique<EstimateData>());
+    robot_->container.add(std::make_unique<TrackData>());
+  }
   if (source_) feeder_ = std::make_unique<Feeder>(sourceName_, *source_, robot_->container);
   checkWorld(config);
   start(config.start);
@@ -150,7 +157,24 @@ void Localization::restoreBelief(const std::filesystem::path& file) {
 }
 
 void Localization::publish(const PoseEstimate& estimate) {
-  if (publishes_) robot_->container.set(EstimateData::message(estimate));
+  if (!publishes_) return;
+  const std::array both{EstimateData::message(estimate), TrackData::message(estimate)};
+  robot_->container.set(both);
+  published_ = {estimate.status, estimate.reason};
+}
+
+/// Without a new estimate, the status alone, if it is another one by now.
+void Localization::publishChange() {
+  if (!publishes_ || odometry_ == nullptr || !published_) return;
+  Timestamp now = 0;
+  {
+    const SensorContainer::ReadLock lock = robot_->container.read();
+    now = odometry_->stamp();
+  }
+  const std::optional<PoseEstimate> estimate = mcl_->estimate(now);
+  if (!estimate || std::pair(estimate->status, estimate->reason) == *published_) return;
+  robot_->container.set(TrackData::message(*estimate));
+  published_ = {estimate->status, estimate->reason};
 }
 
 std::optional<Pose2> Localization::truth() const {
@@ -169,7 +193,10 @@ std::optional<PoseEstimate> Localization::update() {
   const auto begin = std::chrono::steady_clock::now();
   const bool weighed = mcl_->update(robot_->container);
   count(millisecondsSince(begin));
-  if (!weighed) return std::nullopt;
+  if (!weighed) {
+    publishChange();
+    return std::nullopt;
+  }
   longest_ = std::exchange(longestSince_, 0.0);
   spent_ = std::exchange(spentSince_, 0.0);
   publish(mcl_->estimate());

@@ -47,8 +47,10 @@ struct LocalizationConfig {
   LocalizationStart start = {};
   std::optional<Parameters> motion = {};  ///< in place of the robot file's [motion]
   bool anyWorld = false;  ///< take readings of another world than that of the tables
-  /// Adds the feature mcl/LOCALIZATION/pose (words as of PoseFixData) to the container and sets it
-  /// to each new estimate, for whoever reads, records or serves the container.
+  /// Adds the features mcl/LOCALIZATION/pose (words as of PoseFixData) and mcl/LOCALIZATION/status
+  /// (TrackData) to the container and sets them to each new estimate, for whoever reads, records or
+  /// serves the container. Status is also set when it or its reason changes between two of them, as
+  /// of the newest odometry: no reading comes any more.
   bool publish = false;
 };
 
@@ -150,6 +152,7 @@ class ORTUNG_API Localization {
   void searchMeanwhile(Timestamp since, Timestamp until);
   void count(double milliseconds);
   void publish(const PoseEstimate& estimate);
+  void publishChange();
   std::optional<Pose2> truth() const;
 
   std::string sourceName_;
@@ -161,6 +164,8 @@ class ORTUNG_API Localization {
   LocalizationStart start_;
   bool waitsForTruth_ = false;
   bool publishes_ = false;
+  const SensorData* odometry_ = nullptr;  ///< if there is any
+  std::optional<std::pair<TrackStatus, TrackReason>> published_;
   std::string worldMismatch_;
   std::optional<Timestamp> knownSince_;  ///< a search ended then, between two moments
   double longest_ = 0.0;

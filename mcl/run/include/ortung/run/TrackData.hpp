@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/mcl/PoseEstimate.hpp"
+
+namespace ortung {
+
+/// How far a localization's estimate can be relied on, for others to read: the feature
+/// mcl/LOCALIZATION/status beside mcl/LOCALIZATION/pose (LocalizationConfig::publish).
+/// Words: status (0 tracking, 1 uncertain, 2 lost), reason (in the order of TrackReason), quality
+/// and share [1/10000], both in [0, 1]. It says nothing about the pose, so it weighs no samples.
+/// Not thread-safe, see SensorData.
+class ORTUNG_API TrackData : public SensorData {
+ public:
+  struct Reading {
+    TrackStatus status = TrackStatus::kLost;
+    TrackReason reason = TrackReason::kNoReading;
+    double quality = 0.0;  ///< as of PoseEstimate
+    double share = 0.0;    ///< as of PoseEstimate
+  };
+
+  TrackData();
+  ~TrackData() override;
+  const Reading& reading() const { return reading_; }
+  static std::vector<std::uint32_t> encode(const PoseEstimate& estimate);
+  static Message message(const PoseEstimate& estimate);
+  std::string wordsHelp() const override;
+
+ private:
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  Reading reading_;
+};
+
+}  // namespace ortung

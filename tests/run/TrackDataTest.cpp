@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "Files.hpp"
+#include "ortung/run/TrackData.hpp"
+
+namespace ortung::test {
+namespace {
+
+TEST(TrackData, HasTheWordsThatTheProtocolStates) {
+  PoseEstimate estimate;
+  estimate.stamp = 7;
+  estimate.status = TrackStatus::kUncertain;
+  estimate.reason = TrackReason::kRival;
+  estimate.quality = 0.81234;
+  estimate.share = 0.5;
+  const Message message = TrackData::message(estimate);
+  EXPECT_EQ(message.stamp, 7);
+  EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/status");
+  EXPECT_EQ(message.words, (std::vector<std::uint32_t>{1, 6, 8123, 5000}));
+  TrackData data;
+  data.setData(message.stamp, message.words);
+  EXPECT_EQ(data.reading().status, TrackStatus::kUncertain);
+  EXPECT_EQ(data.reading().reason, TrackReason::kRival);
+  EXPECT_DOUBLE_EQ(data.reading().quality, 0.8123);
+  EXPECT_DOUBLE_EQ(data.reading().share, 0.5);
+  EXPECT_FALSE(data.canWeigh());
+  EXPECT_FALSE(data.localizes());
+}
+
+TEST(TrackData, NoNumberIsSureOfNothing) {
+  PoseEstimate estimate;
+  estimate.quality = std::nan("");
+  estimate.share = 1.0 + 1e-9;
+  EXPECT_EQ(TrackData::encode(estimate), (std::vector<std::uint32_t>{2, 3, 0, 10000}));
+}
+
+TEST(TrackData, RefusesWhatCannotBe) {
+  TrackData data;
+  const auto told = [&](std::vector<std::uint32_t> words) {
+    return messageOf<std::invalid_argument>([&] { data.setData(1, words); });
+  };
+  const auto expectTold = [&](const std::vector<std::uint32_t>& words, const char* text) {
+    EXPECT_NE(told(words).find(text), std::string::npos) << told(words);
+  };
+  expectTold({1, 1, 1}, "found 3 words, expected 4");
+  expectTold({3, 0, 0, 0}, "found the status 3, expected 0 to 2");
+  expectTold({0, 8, 0, 0}, "found the reason 8, expected 0 to 7");
+  expectTold({0, 0, 10001, 0}, "found the quality 10001, expected 0 to 10000");
+  expectTold({0, 0, 0, 10001}, "found the share 10001, expected 0 to 10000");
+  EXPECT_EQ(data.sequence(), 0U);
+  data.setData(1, std::vector<std::uint32_t>{2, 7, 10000, 10000});
+  EXPECT_EQ(data.sequence(), 1U);
+}
+
+TEST(TrackData, ItsHelpNamesEveryStatusAndReason) {
+  const std::string help = TrackData().wordsHelp();
+  EXPECT_EQ(help.find('\n'), std::string::npos);
+  for (const char* text : {"0 tracking", "1 uncertain", "2 lost", "0 readings fit",
+                           "3 no reading comes", "7 readings contradict odometry"})
+    EXPECT_NE(help.find(text), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace ortung::test
