@@ -95,7 +95,7 @@ TEST_F(Kept, ABeliefGoesOnAfterARestart) {
     localization.saveBelief(file);
     last = localization.mcl().estimate().pose;
     Localization restored(config());
-    restored.restoreBelief(file);
+    restored.restoreBelief(file, 0.0, 0.0);
     const SampleSet& samples = restored.mcl().samples();
     const SampleSet saved = localization.mcl().belief()->samples;
     EXPECT_EQ(samples.x, saved.x);
@@ -125,6 +125,79 @@ TEST_F(Kept, ABeliefGoesOnAfterARestart) {
   }
 }
 
+TEST_F(Kept, ItIsWidenedByTheStatedSigmasSinceTheRobotMayHaveBeenPushed) {
+  MadeBelief many;
+  many.x.assign(20000, 0.5F);
+  many.y.assign(20000, -0.25F);
+  many.theta.assign(20000, 3.1F);  // turns wrap around
+  many.logWeight.assign(20000, 0.0F);
+  const auto file = folder / "belief";
+  many.write(file);
+  LocalizationConfig large = config();
+  large.particles = 20000;
+  const auto expectSigmas = [](const Localization& localization, double position, double heading) {
+    const SampleSet& samples = localization.mcl().samples();
+    std::array<double, 3> sum{};
+    std::array<double, 3> squares{};
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const std::array<double, 3> off{samples.x[i] - 0.5, samples.y[i] + 0.25,
+                                      wrapAngle(samples.theta[i] - 3.1)};
+      for (std::size_t k = 0; k < 3; ++k) {
+        sum[k] += off[k];
+        squares[k] += off[k] * off[k];
+      }
+      ASSERT_LE(std::abs(samples.theta[i]), 3.1416F);
+    }
+    const auto n = static_cast<double>(samples.size());
+    ASSERT_EQ(samples.size(), 20000U);
+    for (std::size_t k = 0; k < 3; ++k) {  // four standard errors of mean and sigma
+      const double sigma = k == 2 ? heading : position;
+      EXPECT_NEAR(sum[k] / n, 0.0, 4 * sigma / std::sqrt(n) + 1e-6) << k;
+      EXPECT_NEAR(std::sqrt(squares[k] / n), sigma, 4 * sigma / std::sqrt(2 * n) + 1e-6) << k;
+    }
+  };
+  Localization localization(large);
+  localization.restoreBelief(file);
+  expectSigmas(localization, 0.1, 5 * kPi / 180);
+  localization.restoreBelief(file, 0.4, 0.02);
+  expectSigmas(localization, 0.4, 0.02);
+  localization.restoreBelief(file, 0.0, 0.0);
+  expectSigmas(localization, 0.0, 0.0);
+  const SampleSet before = localization.mcl().samples();
+  for (const auto& [position, heading] :
+       {std::pair(-0.1, 0.1), {0.1, -0.1}, {std::nan(""), 0.1}, {0.1, INFINITY}}) {
+    EXPECT_THROW(localization.restoreBelief(file, position, heading), std::invalid_argument);
+    EXPECT_EQ(localization.mcl().samples().x, before.x) << "the belief stays";
+  }
+}
+
+// Saved when it was sure, and pushed by 0.2 m and 8 degrees while nobody looked.
+TEST_F(Kept, ARobotThatWasPushedWhileItWasOffIsRightAfterTheFirstReading) {
+  for (const double turn : {8.0, -8.0}) {
+    MadeBelief sure;
+    const Pose2 pushed = start * Pose2{0.15, turn > 0 ? 0.13 : -0.13, turn * kPi / 180};
+    sure.x.assign(500, static_cast<float>(pushed.x));
+    sure.y.assign(500, static_cast<float>(pushed.y));
+    sure.theta.assign(500, static_cast<float>(pushed.theta));
+    sure.logWeight.assign(500, 0.0F);
+    const auto file = folder / "belief";
+    sure.write(file);
+    Localization localization(LocalizationConfig{.robot = robotFile, .tables = tables});
+    localization.restoreBelief(file);
+    std::size_t within = 0;
+    for (const auto& moment : moments) {
+      localization.container().set(std::span(moment).first(2));
+      const auto estimate = localization.update();
+      if (!estimate) continue;
+      PoseData there({"a", "groundTruth", "b"});
+      there.setData(0, moment[2].words);
+      if (within++ == 0) continue;
+      EXPECT_LT(distance(estimate->pose, there.reading()), 0.08) << turn << " " << moment[0].stamp;
+    }
+    EXPECT_GT(within, 10U);
+  }
+}
+
 TEST_F(Kept, AReadableFileThatCantBeABeliefIsRefusedWithTheReason) {
   const auto file = folder / "belief";
   Localization localization(config());
@@ -148,7 +221,7 @@ TEST_F(Kept, AReadableFileThatCantBeABeliefIsRefusedWithTheReason) {
   refused([](MadeBelief& b) { b.x = {30, 40}; },
           "none of its samples is where the robot can stand");
   MadeBelief{}.write(file);
-  localization.restoreBelief(file);
+  localization.restoreBelief(file, 0.0, 0.0);
   EXPECT_EQ(localization.mcl().samples().x, MadeBelief{}.x);
 }
 

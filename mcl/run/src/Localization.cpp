@@ -10,6 +10,7 @@
 
 #include "BeliefFile.hpp"
 #include "EstimateData.hpp"
+#include "ortung/base/Random.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/run/OpenSource.hpp"
@@ -66,6 +67,25 @@ void checkPlace(const FieldRegion& region, const Pose2& pose, double sigma,
                               metres(near) + " m of it (3 sigma)");
 }
 
+void checkSigmas(const char* of, double position, double heading) {
+  if (position >= 0.0 && heading >= 0.0 && std::isfinite(position) && std::isfinite(heading))
+    return;
+  throw std::invalid_argument(std::string(of) + ": sigmas are " + std::to_string(position) +
+                              " m and " + std::to_string(heading) + " rad, expected numbers >= 0");
+}
+
+/// Moves each sample by normal noise.
+void widen(double sigmaPosition, double sigmaHeading, std::uint64_t seed, SampleSet& samples) {
+  constexpr std::uint64_t kStream = 0x62656c696566;  // no other stream of that seed
+  Random random(seed, kStream);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples.x[i] += static_cast<float>(sigmaPosition * random.gaussian());
+    samples.y[i] += static_cast<float>(sigmaPosition * random.gaussian());
+    samples.theta[i] = static_cast<float>(
+        wrapAngle(static_cast<double>(samples.theta[i]) + sigmaHeading * random.gaussian()));
+  }
+}
+
 }  // namespace
 
 WorldMismatch::~WorldMismatch() = default;
@@ -115,10 +135,7 @@ void Localization::checkWorld(const LocalizationConfig& config) {
 }
 
 void Localization::start(const LocalizationStart& start) {
-  if (!(start.sigmaPosition >= 0.0 && start.sigmaHeading >= 0.0))
-    throw std::invalid_argument("start: sigmas are " + std::to_string(start.sigmaPosition) +
-                                " m and " + std::to_string(start.sigmaHeading) +
-                                " rad, expected numbers >= 0");
+  checkSigmas("start", start.sigmaPosition, start.sigmaHeading);
   start_ = start;
   waitsForTruth_ = start.kind == LocalizationStart::Kind::kTruth;
   if (start.kind == LocalizationStart::Kind::kGlobal) mcl_->startGlobal();
@@ -151,8 +168,12 @@ void Localization::saveBelief(const std::filesystem::path& file) const {
   writeBelief(file, *belief, robot_->tables.worldFingerprint);
 }
 
-void Localization::restoreBelief(const std::filesystem::path& file) {
-  mcl_->restore(readBelief(file, robot_->tables));
+void Localization::restoreBelief(const std::filesystem::path& file, double sigmaPosition,
+                                 double sigmaHeading) {
+  checkSigmas("belief", sigmaPosition, sigmaHeading);
+  Belief belief = readBelief(file, robot_->tables);
+  widen(sigmaPosition, sigmaHeading, mclConfig_.seed, belief.samples);
+  mcl_->restore(belief);
   waitsForTruth_ = false;
 }
 

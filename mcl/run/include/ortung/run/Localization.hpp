@@ -119,10 +119,14 @@ class ORTUNG_API Localization {
   /// Writes the belief, moved to the newest odometry, into a file that appears whole or not at all.
   /// @throws std::logic_error before there is a belief, TableError if it can't be written
   void saveBelief(const std::filesystem::path& file) const;
-  /// Goes on with the belief that an earlier run in this world has saved. The robot is taken to
-  /// have stayed where it was; odometry may begin anew. If it was carried away, readings will tell.
-  /// @throws TableError saying why the file is refused. The belief stays then
-  void restoreBelief(const std::filesystem::path& file);
+  /// Goes on with the belief that an earlier run in this world has saved; odometry may begin anew.
+  /// The robot may have been pushed meanwhile, so each sample is moved by a random amount. If it
+  /// was carried farther away, readings will tell.
+  /// @param sigmaPosition, sigmaHeading standard deviations of that [m], [rad]; 0: it stayed
+  /// @throws TableError saying why the file is refused, std::invalid_argument for sigmas that are
+  ///   no numbers >= 0. The belief stays then
+  void restoreBelief(const std::filesystem::path& file, double sigmaPosition = 0.1,
+                     double sigmaHeading = 0.0873);
 
   /// False while the start waits for ground truth.
   bool isStarted() const { return !waitsForTruth_; }
