@@ -13,8 +13,8 @@ std::string toHtml(const RunResult& run);
 /// The map with both paths, as inline SVG.
 std::string mapSvg(const RunResult& run);
 
-/// The longest time [s] over which the estimate's path is drawn: that of its moments, which lie
-/// close together where the truth is known, or that of the updates, if they are farther apart.
+/// The longest time [s] over which the estimate's path is drawn. Where the truth is rare, moments
+/// lie close together here and there, and are joined as the truth is.
 double longestPathStep(const RunResult& run);
 
 /// @p text as HTML text or attribute value.

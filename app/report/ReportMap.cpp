@@ -19,7 +19,9 @@ std::string mark(const Pose2& pose, double radius, const char* kind, const char*
 }  // namespace
 
 double longestPathStep(const RunResult& run) {
-  return std::max(longestDrawnStepOf(run.path), longestDrawnStepOf(run.estimates));
+  const auto& points = run.figures.points;
+  return std::max(longestDrawnStepOf(run.path),
+                  points.empty() ? longestDrawnStepOf(run.estimates) : longestDrawnStepOf(points));
 }
 
 std::string mapSvg(const RunResult& run) {

@@ -225,6 +225,10 @@ TEST(Report, APathOfRareUpdatesIsALineAlthoughMomentsLieClose) {
       run.path.back().stamp -= fromSeconds(0.1 * moment);
     }
   }
+  for (std::size_t i = 0; i < 20; ++i) run.figures.points[i].stamp = run.estimates[i].stamp;
+  run.figures.points.resize(20);
+  EXPECT_EQ(countOf(commandsOf(mapSvg(run), R"(class="estimate")"), "M"), 1u);
+  run.figures.points.clear();
   EXPECT_EQ(countOf(commandsOf(mapSvg(run), R"(class="estimate")"), "M"), 1u);
 }
 
