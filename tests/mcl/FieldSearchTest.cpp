@@ -201,7 +201,7 @@ class Raised final : public BlurrableWeigher {
   explicit Raised(std::shared_ptr<const BlurrableWeigher> sharp, float by)
       : sharp_(std::move(sharp)), by_(by) {}
   std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override {
-    return std::make_shared<Raised>(sharp_->blurred(spread), 50.0F);
+    return std::make_shared<Raised>(sharp_->blurred(spread), 2000.0F);
   }
   double nominalNanoseconds() const override { return 100.0; }
 

@@ -333,6 +333,31 @@ TEST(MclGlobalStart, IsForgottenWhenAPoseIsSet) {
   }
 }
 
+// What was read by another clock is of no use, nor is its odometry.
+TEST(MclGlobalStart, BeginsAnewWhenTheClockIsSetBack) {
+  test::FakeRun own;
+  MclConfig config = own.config();
+  config.budgetMs = 1.0;
+  const auto mcl = own.mcl(config);
+  own.begin(test::FakeRun::onCircle(1, 0.5, 0.3), 5);
+  own.stamp = fromSeconds(1000);
+  mcl->startAt(own.truth, 0.1, 0.1);
+  own.drive();
+  ASSERT_TRUE(mcl->update(own.container));
+  mcl->relocalize();
+  own.drive();
+  ASSERT_FALSE(mcl->update(own.container));
+  ASSERT_TRUE(mcl->isSearching());
+  own.stamp = fromSeconds(10);
+  own.begin(test::FakeRun::onCircle(-1, -0.5, 2.0), 6);
+  int updates = 0;
+  do {
+    own.drive();
+  } while (!mcl->update(own.container) && ++updates < 200);
+  EXPECT_LT(mcl->estimate().stamp, fromSeconds(100));
+  EXPECT_LT(distance(mcl->estimate().pose, own.truth), 0.2);
+}
+
 // Half a turn of the room looks the same to a scanner.
 TEST(MclGlobalStart, KeepsAllPlacesOfASymmetricField) {
   test::FakeRun twins(false);
