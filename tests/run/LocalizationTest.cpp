@@ -3,6 +3,7 @@
 
 #include "RoomRun.hpp"
 #include "ortung/run/Localization.hpp"
+#include "ortung/run/TrackData.hpp"
 
 namespace ortung::test {
 namespace {
@@ -256,6 +257,29 @@ TEST_F(Localizing, AGlobalStartSearchesOnBetweenMomentsThatAreFarApart) {
   EXPECT_LT(since, 4'000'000) << "nor as late as the next reading";
   EXPECT_EQ(since % 100'000, 0);
   EXPECT_LT(knownSince(3.0), since);
+}
+
+TEST_F(Localizing, ItIsPublishedThatTheFieldIsSearched) {
+  writeBytes(robotFile, readBytes(robotFile) + "budget_ms = 1\n");
+  LocalizationConfig config = fromRecord();
+  config.start = {LocalizationStart::Kind::kGlobal};
+  config.publish = true;
+  Localization localization(config);
+  const auto status = [&] {
+    return localization.container().get<TrackData>({.feature = "status"});
+  };
+  ASSERT_TRUE(localization.advance());
+  EXPECT_FALSE(localization.update());
+  ASSERT_TRUE(status());
+  EXPECT_EQ(status()->status, TrackStatus::kLost);
+  EXPECT_EQ(status()->reason, TrackReason::kSearching);
+  ASSERT_TRUE(localization.next());
+  EXPECT_NE(status()->reason, TrackReason::kSearching);
+  localization.relocalize();
+  EXPECT_FALSE(localization.update());
+  EXPECT_EQ(status()->reason, TrackReason::kSearching);
+  ASSERT_TRUE(localization.next());
+  EXPECT_NE(status()->reason, TrackReason::kSearching);
 }
 
 TEST_F(Localizing, TakesSettingsInPlaceOfTheRobotFiles) {

@@ -186,16 +186,18 @@ void Localization::publish(const PoseEstimate& estimate) {
 
 /// Without a new estimate, the status alone, if it is another one by now.
 void Localization::publishChange() {
-  if (!publishes_ || odometry_ == nullptr || !published_) return;
+  if (!publishes_ || odometry_ == nullptr || !(published_ || mcl_->isSearching())) return;
   Timestamp now = 0;
   {
     const SensorContainer::ReadLock lock = robot_->container.read();
     now = odometry_->stamp();
   }
-  const std::optional<PoseEstimate> estimate = mcl_->estimate(now);
-  if (!estimate || std::pair(estimate->status, estimate->reason) == *published_) return;
-  robot_->container.set(TrackData::message(*estimate));
-  published_ = {estimate->status, estimate->reason};
+  PoseEstimate estimate = mcl_->estimate(now).value_or(mcl_->estimate());  // the field is searched
+  estimate.stamp = now;
+  const std::pair status(estimate.status, estimate.reason);
+  if (status == published_) return;
+  robot_->container.set(TrackData::message(estimate));
+  published_ = status;
 }
 
 std::optional<Pose2> Localization::truth() const {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kOne = 10'000;
 constexpr auto kLastStatus = static_cast<std::uint32_t>(TrackStatus::kLost);
-constexpr auto kLastReason = static_cast<std::uint32_t>(TrackReason::kOdometry);
+constexpr auto kLastReason = static_cast<std::uint32_t>(TrackReason::kSearching);
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "status"}; }
 
