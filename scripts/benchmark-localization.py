@@ -6,7 +6,8 @@
 
 Tracking from the truth and from an unknown start; wake-ups at random moments; kidnaps, and teleports after Fox, Burgard,
 Thrun (JAIR 1999); and constructed faults, each at other moments of the log. What fails is listed. All runs go into
-OUT/benchmark.json, which `ortung compare` reads. With --mrpt, the table of scripts/compare-mrpt.sh stands beside it.
+OUT/benchmark.json, which `ortung compare` reads. With --mrpt, MRPT's pf-localization (Debian: mrpt-apps) tracks the same logs,
+and a table has both.
 """
 import argparse
 import concurrent.futures
@@ -282,14 +283,47 @@ def faults(bench, bases, cases):
         print("- " + failure)
 
 
-def mrpt(data, logs):
-    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "compare-mrpt.sh")
-    folders = [os.path.basename(LASER[name][0]) for name in logs]
-    print("\n## MRPT's pf-localization on the same logs\n", flush=True)
+def beside_rows(runs, others):
+    """Rows of ours beside MRPT's: tracking of each log and start, errors at the times of updates, since MRPT's program tells no
+    others; and why there are dashes."""
+    rows, reasons = [], []
+    for other in others:
+        ours = [r for r in runs if os.path.basename(r["source"]) == other["log"] + ".rec" and r["start"] == other["start"] and
+                not r["faults"] and "case" not in r]
+        ours_good = [r for r in ours if r["converged_after_s"] is not None]
+        good = [r for r in other["runs"] if r["converged_after"] is not None]
+        row = [other["log"], other["start"], str(other["samples"])]
+        row += ["%d of %d" % (len(g), len(a)) if a else "-" for g, a in ((ours_good, ours), (good, other["runs"]))]
+        for mine, its, form in (("lost_share", "lost", "%.4f"), ("position_median_m", "median", "%.3f"),
+                                ("position_rmse_m", "rmse", "%.3f")):
+            row += [cell(mean([r["at_corrections"][mine] for r in ours_good]), form), cell(mean([r[its] for r in good]), form)]
+        row += [cell(mean([r["update_ms_p50"] for r in ours]), "%.2f"), cell(mean([r["update_ms"] for r in other["runs"]]), "%.1f")]
+        rows.append(row)
+        reasons += ["%s, start %s, %d samples: MRPT not run: %s" % (other["log"], other["start"], other["samples"], why)
+                    for why in dict.fromkeys(other["not_run"])]
+        if other["runs"] and not good:
+            reasons.append("%s, start %s, %d samples: MRPT never converged" % (other["log"], other["start"], other["samples"]))
+    return rows, reasons
+
+
+def mrpt(bench, data, logs, cases):
     if shutil.which("pf-localization") is None:
-        print("Left out: pf-localization is not installed (Debian: mrpt-apps).")
+        print("\n## MRPT's pf-localization beside it\n\nLeft out: pf-localization is not installed (Debian: mrpt-apps).")
         return
-    subprocess.run([script, data, "--logs", ",".join(folders)], check=False)
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "compare-mrpt.sh")
+    file = os.path.join(bench.out, "mrpt.json")
+    done = subprocess.run([script, data, "--logs", ",".join(logs), "--samples", "2000", "--seeds", str(cases or 2), "--jobs", "1",
+                           "--longest", "600", "--budget", "3600", "--json", file], stdout=subprocess.DEVNULL, check=False)
+    if done.returncode != 0:
+        print("\n## MRPT's pf-localization beside it\n\nLeft out: compare-mrpt.sh failed.")
+        return
+    with open(file) as text:
+        rows, reasons = beside_rows(bench.runs, json.load(text))
+    table("MRPT's pf-localization beside it, errors at updates",
+          ["log", "start", "MRPT's samples", "converged, ours", "MRPT", "lost, ours", "MRPT", "median [m], ours", "MRPT",
+           "RMSE [m], ours", "MRPT", "ms, ours", "MRPT"], rows)
+    for reason in reasons:
+        print("- " + reason)
 
 
 def main():
@@ -323,7 +357,7 @@ def main():
         with open(os.path.join(arguments.out, "benchmark.json"), "w") as file:
             json.dump({"compared_steps": sum(r["compared_steps"] for r in bench.runs), "runs": bench.runs}, file, indent=1)
     if arguments.mrpt:
-        mrpt(arguments.data, logs)
+        mrpt(bench, arguments.data, logs, cases)
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import argparse
 import concurrent.futures
 import dataclasses
 import gzip
+import json
 import lzma
 import math
 import os
@@ -22,10 +23,11 @@ import sys
 import tempfile
 import time
 
+from evaluate import LASER
+
 CONVERGED_M, CONVERGED_RAD, CONVERGED_S, LOST_M = 0.5, math.radians(15), 5.0, 1.0
 SCAN_PERIOD_S = 1.0  # of a log whose stamps do not tell its scans apart
 KNOWN_HALF_WIDTH_M, KNOWN_HALF_WIDTH_DEG = 0.35, 10.0  # uniform: sigma 0.2 m, 5.8 degrees
-LONGEST_RUN_S = 240
 GRACE_S = 60  # that a run may take beyond the budget
 
 CONFIG = """\
@@ -94,7 +96,7 @@ class Log:
 
 @dataclasses.dataclass
 class Result:
-    converged_after: float  # [s]; None: never
+    converged_after: float | None  # [s]; None: never
     median: float = math.nan  # [m]
     rmse: float = math.nan  # [m]
     lost: float = math.nan
@@ -124,22 +126,24 @@ def read_truth(folder):
     return truth
 
 
-def prepare_carmen(folder, work, converter):
+def prepare_scans(name, folder, world, work, converter):
+    """A log of scans.txt and gt.txt on the map `world`."""
     work.mkdir()
     scans = read_bytes(folder, "scans.txt")
     rawlog = work / "log.rawlog"
     subprocess.run([converter, rawlog], input=scans, check=True)
-    (work / "map.pgm").write_bytes(read_bytes(folder, "map.pgm"))
-    shutil.copy(folder / "map.yaml", work / "map.yaml")
-    subprocess.run(["ros-map-yaml2mrpt", "-w", "-i", work / "map.yaml"], check=True,
+    settings = world.read_text()
+    image = re.search(r"^image: *(\S+)", settings, re.M)[1]
+    (work / image).write_bytes(read_bytes(world.parent, image))
+    (work / "map.yaml").write_text(settings)
+    subprocess.run(["ros-map-yaml2mrpt", "-w", "-i", work / "map.yaml"], check=True, cwd=work,
                    stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
     # A step of the program is a scan of the log. (Stamps would not do: some logs lost theirs.)
     first = next(line for line in scans.decode().splitlines() if not line.startswith("#"))
-    return Log(folder.name, work / "map.gridmap.gz", rawlog, read_truth(folder),
-               int(first.split()[4]))
+    return Log(name, next(work.glob("*.gridmap.gz")), rawlog, read_truth(folder), int(first.split()[4]))
 
 
-def prepare_mrpt(folder, converter):
+def prepare_mrpt(name, folder, converter):
     raw = folder / "raw"
     maps = sorted(raw.glob("*.simplemap.gz")) + sorted(raw.glob("*.gridmap.gz"))
     rawlogs = sorted(raw.glob("*.rawlog"))
@@ -148,7 +152,20 @@ def prepare_mrpt(folder, converter):
     stamps = subprocess.run([converter, "--stamps", rawlogs[0]], check=True,
                             stdout=subprocess.PIPE).stdout.decode().split()
     truth = {f"{row[0]:.6f}": row for row in read_truth(folder)}
-    return Log(folder.name, maps[0], rawlogs[0], [truth.get(stamp) for stamp in stamps], 361)
+    return Log(name, maps[0], rawlogs[0], [truth.get(stamp) for stamp in stamps], 361)
+
+
+def prepare(name, data, work, converter):
+    """The log of that name among those of evaluate.py."""
+    folder, options = LASER[name]
+    folder = (data / folder).resolve()
+    if not folder.is_dir():
+        raise FileNotFoundError(f"{folder}: is not there")
+    if (folder / "raw").is_dir():
+        return prepare_mrpt(name, folder, converter)
+    world = next((o.removeprefix("map=") for o in options if o.startswith("map=")), None)
+    world = pathlib.Path(world.format(data=data)).resolve() if world else folder / "map.yaml"
+    return prepare_scans(name, folder, world, work / name, converter)
 
 
 def start_of(log, known):
@@ -167,6 +184,7 @@ def start_of(log, known):
 
 ESTIMATE = re.compile(r"PDF estimation: \(([-\d.e+]+),([-\d.e+]+),([-\d.e+]+)deg\)")
 DONE = re.compile(r"Done in ([\d.]+)(ms|us|s)?, ESS")
+MILLISECONDS = {"s": 1000.0, "ms": 1.0, "us": 0.001, "": 1.0}
 
 
 def localize(log, known, samples, beams, timeout):
@@ -183,7 +201,7 @@ def localize(log, known, samples, beams, timeout):
     poses = [(float(x), float(y), math.radians(float(d))) for x, y, d in ESTIMATE.findall(text)]
     if run.returncode != 0 or not poses:
         raise RuntimeError(f"{log.name}: pf-localization failed:\n{text[-2000:]}")
-    return poses, [float(ms) for ms, _ in DONE.findall(text)]
+    return poses, [float(value) * MILLISECONDS[unit] for value, unit in DONE.findall(text)]
 
 
 def errors_of(log, poses):
@@ -219,80 +237,96 @@ def evaluate(log, poses, update_ms):
                   sum(e > LOST_M for e in after) / len(after), ms)
 
 
-def print_table(logs, results, sample_counts):
+KINDS = ((False, "unknown"), (True, "known"))
+
+
+def print_table(names, runs_of, reasons, sample_counts):
+    """One row for each log, start and number of samples; what could not be done is a dash, with the reason below."""
     def cell(values, form):
         return form.format(statistics.median(values)) if values else "-"
     print("| log | start | samples | converged | after [s] | median [m] | RMSE [m] | lost | ms/update |")
     print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
-    for log in logs:
-        for known in (False, True):
-            for samples in sample_counts:
-                runs = results.get((log.name, known, samples), [])
-                if not runs:
-                    continue
-                good = [r for r in runs if r.converged_after is not None]
-                lost = f"{statistics.mean(r.lost for r in good):.1%}" if good else "-"
-                print(f"| {log.name} | {'known' if known else 'unknown'} | {samples} "
-                      f"| {len(good)}/{len(runs)} | {cell([r.converged_after for r in good], '{:.1f}')} "
-                      f"| {cell([r.median for r in good], '{:.3f}')} "
-                      f"| {cell([r.rmse for r in good], '{:.3f}')} | {lost} "
-                      f"| {cell([r.update_ms for r in runs], '{:.1f}')} |")
+    for key in ((n, k, s) for n in names for k, _ in KINDS for s in sample_counts):
+        runs = runs_of.get(key, [])
+        good = [r for r in runs if r.converged_after is not None]
+        lost = f"{statistics.mean(r.lost for r in good):.1%}" if good else "-"
+        print(f"| {key[0]} | {dict(KINDS)[key[1]]} | {key[2]} | {f'{len(good)}/{len(runs)}' if runs else '-'} "
+              f"| {cell([r.converged_after for r in good], '{:.1f}')} | {cell([r.median for r in good], '{:.3f}')} "
+              f"| {cell([r.rmse for r in good], '{:.3f}')} | {lost} | {cell([r.update_ms for r in runs], '{:.1f}')} |")
+    print()
+    for (name, known, samples), texts in reasons.items():
+        for text in dict.fromkeys(texts):
+            print(f"- {name}, {dict(KINDS)[known]} start, {samples} samples: {text} ({texts.count(text)} times)")
+
+
+def write_json(file, runs_of, reasons):
+    """All runs, for scripts/benchmark-localization.py."""
+    rows = [{"log": name, "start": "truth" if known else "global", "samples": samples,
+             "runs": [dataclasses.asdict(run) for run in runs_of.get((name, known, samples), [])],
+             "not_run": reasons.get((name, known, samples), [])}
+            for name, known, samples in dict.fromkeys([*runs_of, *reasons])]
+    file.write_text(json.dumps([{**row, "runs": [{k: None if v != v else v for k, v in run.items()} for run in row["runs"]]}
+                                for row in rows], indent=1) + "\n")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("data", type=pathlib.Path, help="folder that holds mrpt_* and carmen/*")
+    parser.add_argument("data", type=pathlib.Path, help="folder that holds mrpt_*, carmen/* and crob_lab_jarvis")
     parser.add_argument("--converter", required=True, help="path of scanlog2rawlog")
     parser.add_argument("--seeds", type=int, default=5, help="runs of each kind; the program seeds itself by the clock")
     parser.add_argument("--budget", type=float, default=780, help="no run starts after this time [s]")
+    parser.add_argument("--longest", type=float, default=240, help="a run is stopped after this time [s]")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time")
     parser.add_argument("--samples", type=int, nargs="+", default=[10000, 2000])
     parser.add_argument("--beams", type=int, default=36,
                         help="of a scan that are used; MRPT's own default is every 5th of 180")
-    parser.add_argument("--logs", help="comma-separated names; all if missing")
+    parser.add_argument("--logs", default=",".join(LASER), help="of " + ", ".join(LASER))
+    parser.add_argument("--json", type=pathlib.Path, help="write all runs into this file, too")
     options = parser.parse_args()
+    names = options.logs.split(",")
+    if unknown := [name for name in names if name not in LASER]:
+        parser.error(f"--logs is {','.join(unknown)}, expected some of {', '.join(LASER)}")
     for program in ("pf-localization", "ros-map-yaml2mrpt"):
         if shutil.which(program) is None:
             sys.exit(f"compare-mrpt: {program} is not installed (Debian: mrpt-apps)")
-    wanted = options.logs.split(",") if options.logs else None
     began = time.monotonic()
-    results = {}
+    runs_of = {}
+    reasons = {}
 
     with tempfile.TemporaryDirectory() as work:
-        work = pathlib.Path(work)
-        folders = [options.data / n for n in ("mrpt_localization_demo", "mrpt_sena_telecom", "mrpt_uwb_ro")]
-        folders += [options.data / "carmen" / n for n in ("intel", "aces", "belgioioso", "freiburg-101")]
-        logs = []
-        for folder in folders:
-            if (wanted and folder.name not in wanted) or not folder.is_dir():
-                continue
-            is_mrpt = folder.name.startswith("mrpt_")
-            logs.append(prepare_mrpt(folder.resolve(), options.converter) if is_mrpt
-                        else prepare_carmen(folder.resolve(), work / folder.name, options.converter))
-        if not logs:
-            sys.exit(f"compare-mrpt: {options.data} holds none of the logs")
+        logs = {}
+        for name in names:
+            try:
+                logs[name] = prepare(name, options.data, pathlib.Path(work), options.converter)
+            except (OSError, subprocess.CalledProcessError, StopIteration) as error:
+                for key in ((name, k, s) for k, _ in KINDS for s in options.samples):
+                    reasons[key] = [f"can't be brought to MRPT's format: {error}"]
 
         def run(job):
-            log, known, samples = job
+            """A result, or text that says why there is none."""
+            name, known, samples = job
             spent = time.monotonic() - began
             if spent > options.budget:
-                return None
+                return f"not begun within {options.budget:g} s (--budget)"
+            timeout = min(options.longest, options.budget + GRACE_S - spent)
             try:
-                timeout = min(LONGEST_RUN_S, options.budget + GRACE_S - spent)
-                poses, update_ms = localize(log, known, samples, options.beams, timeout)
-                return evaluate(log, poses, update_ms)
-            except subprocess.TimeoutExpired as late:
-                print(f"{log.name}: a run was stopped after {late.timeout:.0f} s", file=sys.stderr)
-                return None
+                poses, update_ms = localize(logs[name], known, samples, options.beams, timeout)
+                return evaluate(logs[name], poses, update_ms)
+            except subprocess.TimeoutExpired:
+                return f"stopped after {timeout:.0f} s"
+            except RuntimeError as error:
+                return " ".join(str(error).splitlines()[-1:])
 
-        jobs = [(log, known, samples) for _ in range(options.seeds) for log in logs
-                for known in (False, True) for samples in options.samples]
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            for (log, known, samples), result in zip(jobs, pool.map(run, jobs)):
-                if result is not None:
-                    results.setdefault((log.name, known, samples), []).append(result)
-        done = sum(len(r) for r in results.values())
-        print(f"{done} of {len(jobs)} runs in {time.monotonic() - began:.0f} s", file=sys.stderr)
-        print_table(logs, results, options.samples)
+        jobs = [(name, known, samples) for _ in range(options.seeds) for name in logs
+                for known, _ in KINDS for samples in options.samples]
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            for job, result in zip(jobs, pool.map(run, jobs)):
+                (reasons if isinstance(result, str) else runs_of).setdefault(job, []).append(result)
+                if options.json:  # what is there already, should somebody stop this
+                    write_json(options.json, runs_of, reasons)
+    done = sum(len(r) for r in runs_of.values())
+    print(f"{done} of {len(jobs)} runs in {time.monotonic() - began:.0f} s", file=sys.stderr)
+    print_table(names, runs_of, reasons, options.samples)
 
 
 if __name__ == "__main__":

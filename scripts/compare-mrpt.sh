@@ -6,7 +6,7 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(dirname "$here")
 if [ $# -lt 1 ]; then
-  echo "usage: $0 DATA [--seeds N] [--budget SECONDS] [--logs NAME,...]" >&2
+  echo "usage: $0 DATA [--seeds N] [--samples N...] [--budget SECONDS] [--logs NAME,...] [--json FILE]" >&2
   exit 2
 fi
 if [ ! -x "$root/build/release/bin/scanlog2rawlog" ]; then

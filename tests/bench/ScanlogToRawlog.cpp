@@ -1,8 +1,9 @@
 /// scanlog2rawlog --stamps LOG.rawlog: prints the time [s] of every step that MRPT's programs make
 /// of a log of actions and observations. scanlog2rawlog OUT.rawlog < scans.txt: brings a neutral
 /// text log of scans with odometry (t odom_x odom_y odom_theta n r1..rn; the first comment line
-/// names the beams' step as "k*STEP rad", beam 0 looks at -90 degrees) to MRPT's rawlog format, so
-/// that MRPT's own programs can be compared on it.
+/// names the beams' step as "k*STEP rad", where beam 0 looks at -90 degrees, or "ANGLES FIRST
+/// STEP", and may say where the scanner is, as "sensor at x=X m") to MRPT's rawlog format, so that
+/// MRPT's own programs can be compared on it.
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
@@ -38,12 +39,29 @@ struct Scan {
   throw std::runtime_error("line " + std::to_string(line) + ": " + message);
 }
 
-/// The step between beams [rad], from a comment like "... at angle -pi/2 + k*0.0174533 rad".
-std::optional<double> stepOf(const std::string& comment) {
-  const std::size_t at = comment.find("k*");
-  if (at == std::string::npos) return std::nullopt;
-  const double step = std::strtod(comment.c_str() + at + 2, nullptr);
-  return step > 1e-4 && step < 1.0 ? std::optional(step) : std::nullopt;
+/// How the scanner looks and where it is, as the log's first comment says.
+struct Scanner {
+  double first = kFirstAngle;  // angle of beam 0 [rad]
+  double step = 0.0;           // [rad]
+  double x = 0.0;              // before the robot's centre [m]
+};
+
+std::optional<Scanner> scannerOf(const std::string& comment) {
+  Scanner scanner;
+  const auto behind = [&](const char* text) -> const char* {
+    const std::size_t at = comment.find(text);
+    return at == std::string::npos ? nullptr : comment.c_str() + at + std::string_view(text).size();
+  };
+  if (const char* angles = behind("ANGLES")) {
+    char* end = nullptr;
+    scanner.first = std::strtod(angles, &end);
+    scanner.step = std::strtod(end, nullptr);
+  } else if (const char* step = behind("k*")) {
+    scanner.step = std::strtod(step, nullptr);
+  }
+  if (const char* x = behind("sensor at x=")) scanner.x = std::strtod(x, nullptr);
+  if (scanner.step <= 1e-4 || scanner.step >= 1.0) return std::nullopt;
+  return scanner;
 }
 
 Scan parse(const std::string& text, std::size_t line) {
@@ -65,9 +83,9 @@ Scan parse(const std::string& text, std::size_t line) {
   return scan;
 }
 
-mrpt::obs::CObservation2DRangeScan::Ptr observationOf(const Scan& scan, double step) {
+mrpt::obs::CObservation2DRangeScan::Ptr observationOf(const Scan& scan, const Scanner& scanner) {
   auto observation = mrpt::obs::CObservation2DRangeScan::Create();
-  const double span = step * static_cast<double>(scan.ranges.size() - 1);
+  const double span = scanner.step * static_cast<double>(scan.ranges.size() - 1);
   observation->timestamp = mrpt::Clock::fromDouble(scan.stamp);
   observation->sensorLabel = "LASER";
   observation->aperture = static_cast<float>(span);
@@ -75,7 +93,7 @@ mrpt::obs::CObservation2DRangeScan::Ptr observationOf(const Scan& scan, double s
   observation->maxRange = kMaxRange;
   observation->stdError = kNoise;
   // MRPT centres a scan on the sensor's axis.
-  observation->sensorPose = mrpt::poses::CPose3D(0, 0, 0, kFirstAngle + span / 2, 0, 0);
+  observation->sensorPose = mrpt::poses::CPose3D(scanner.x, 0, 0, scanner.first + span / 2, 0, 0);
   observation->resizeScan(scan.ranges.size());
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     observation->setScanRange(i, scan.ranges[i]);
@@ -97,21 +115,25 @@ mrpt::obs::CActionRobotMovement2D motionBetween(const Scan& from, const Scan& to
 
 void convert(std::istream& in, const std::string& file) {
   mrpt::obs::CRawlog log;
-  std::optional<double> step;
+  std::optional<Scanner> scanner;
   std::optional<Scan> last;
   std::string text;
   for (std::size_t line = 1; std::getline(in, text); ++line) {
     if (text.empty()) continue;
     if (text[0] == '#') {
-      if (!step) step = stepOf(text);
+      if (!scanner) scanner = scannerOf(text);
       continue;
     }
-    if (!step) fail(line, "no comment before the first scan names the step of the beams (k*STEP)");
+    if (!scanner) {
+      fail(line,
+           "no comment before the first scan names the step of the beams (k*STEP, or ANGLES FIRST "
+           "STEP)");
+    }
     const Scan scan = parse(text, line);
     mrpt::obs::CActionCollection actions;
     actions.insert(motionBetween(last.value_or(scan), scan));
     mrpt::obs::CSensoryFrame frame;
-    frame.insert(observationOf(scan, *step));
+    frame.insert(observationOf(scan, *scanner));
     log.insert(actions);
     log.insert(frame);
     last = scan;
