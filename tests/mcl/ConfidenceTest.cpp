@@ -85,6 +85,41 @@ TEST(Judge, TellsSeveralPlacesFromAWideOne) {
   EXPECT_NE(judged({}, wide).status, TrackStatus::kTracking);
 }
 
+// The odds of a belief count with one factor, whatever its width: those of the closed form for
+// twice the covariance.
+TEST(Judge, TheCovarianceCountsTwice) {
+  const auto odds = [](double p) { return std::log(p / (1.0 - p)); };
+  const auto claimed = [&](double sigma) {
+    PoseEstimate estimate = narrow();
+    estimate.share = 1.0;
+    estimate.covariance = covarianceOf(sigma * sigma, 0, sigma * sigma);
+    return odds(judged({}, estimate).quality);
+  };
+  const auto doubled = [&](double sigma) {
+    return odds(1.0 - std::exp(-0.25 / (2.0 * 2.0 * sigma * sigma)));
+  };
+  const double factor = (claimed(0.3) - claimed(0.6)) / (doubled(0.3) - doubled(0.6));
+  EXPECT_NEAR((claimed(0.15) - claimed(0.3)) / (doubled(0.15) - doubled(0.3)), factor, 0.01);
+  EXPECT_NEAR((claimed(0.6) - claimed(1.5)) / (doubled(0.6) - doubled(1.5)), factor, 0.01);
+  EXPECT_GT(factor, 0.0);
+}
+
+TEST(Judge, AnEndlessLeadCountsNoMoreThanOneThatTakesOver) {
+  EXPECT_DOUBLE_EQ(judged({.lead = 16.0}).quality, judged({.lead = 1e6}).quality);
+  EXPECT_LT(judged({.lead = 16.0}).quality, judged({.lead = 15.0}).quality);
+}
+
+TEST(Judge, IsLostExactlyWhereAnErrorIsMoreLikelyThanNot) {
+  int lost = 0;
+  for (int i = 0; i <= 1000; ++i) {
+    const PoseEstimate estimate = judged({.fit = 0.001 * i, .fitLately = 0.6});
+    EXPECT_EQ(estimate.status == TrackStatus::kLost, estimate.quality < 0.5) << i;
+    if (estimate.status == TrackStatus::kLost) ++lost;
+  }
+  EXPECT_GT(lost, 0);
+  EXPECT_LT(lost, 1000);
+}
+
 TEST(Judge, QualityFallsWithEverySign) {
   const double best = judged({}).quality;
   EXPECT_LT(judged({.fit = 0.8}).quality, best);

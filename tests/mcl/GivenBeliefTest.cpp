@@ -195,6 +195,15 @@ TEST(Relocalize, FindsACarriedRobotByThePresentReading) {
   EXPECT_GT(distance(before, run.truth), 0.04);
 }
 
+TEST(Belief, HasABoundThatFilesCannotExceed) {
+  Belief belief;
+  belief.samples.resize(5'000'000);
+  EXPECT_NO_THROW(belief.check());
+  belief.samples.resize(5'000'001);
+  EXPECT_EQ(messageOf<std::invalid_argument>([&] { belief.check(); }),
+            "the belief has 5000001 samples, expected 1 to 5000000");
+}
+
 TEST(Belief, IsThatOfTheNewestOdometry) {
   MovingRobot robot;
   const auto mcl = robot.mcl();

@@ -27,6 +27,23 @@ TEST(Recovery, IsContentWhileReadingsFitAsEver) {
   }
 }
 
+TEST(Recovery, IsNoneWhereTheFitWasAlwaysPoor) {
+  EXPECT_TRUE(after({}, {{0.26, 500}}).hasRecovered());
+  EXPECT_FALSE(after({}, {{0.24, 500}}).hasRecovered());
+}
+
+TEST(Recovery, TwoUnusualReadingsOnEndCallForASearch) {
+  Recovery recovery = after({}, {{0.9, 100}});
+  for (int i = 0; i < 100; ++i) recovery.followBest(0.9);
+  recovery.followBest(0.7);
+  EXPECT_FALSE(recovery.callsForSearch());
+  recovery.followBest(0.9);
+  recovery.followBest(0.7);
+  EXPECT_FALSE(recovery.callsForSearch()) << "not on end";
+  recovery.followBest(0.7);
+  EXPECT_TRUE(recovery.callsForSearch());
+}
+
 // Below 0.75 of what is usual the moment is doubtful; the short average, 0.3 + 0.6 (1 - rate)^n,
 // has to fall below 0.6 of it (0.54) for a search: rate 0.2 after five readings, 0.5 after two.
 TEST(Recovery, DoubtsAtOnceAndSearchesLater) {
