@@ -64,6 +64,8 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
     estimate.reason = TrackReason::kFrozen;
   } else if (isSilent) {
     estimate.reason = TrackReason::kNoReading;
+  } else if (signs.isLate) {
+    estimate.reason = TrackReason::kLate;
   } else if (signs.lead >= kRivalNats) {
     estimate.reason = TrackReason::kRival;
   } else if (signs.unusual > 0) {
@@ -98,6 +100,7 @@ const char* nameOf(TrackReason reason) {
       "readings fit elsewhere",
       "readings contradict odometry",
       "the field is searched",
+      "readings are late",
   };
   return kNames[static_cast<std::size_t>(reason)];
 }

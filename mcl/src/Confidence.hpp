@@ -18,6 +18,7 @@ struct Signs {
   bool trustsOdometry = true;
   /// Time since the last reading that was weighed, in what is usual between two; none: no reading.
   std::optional<double> silence = 0.0;
+  bool isLate = false;  ///< readings, by their stamps
 };
 
 /// Probability that a position is within @p metres of the mean of a Gaussian with this covariance

@@ -26,8 +26,8 @@ std::uint64_t hashOf(std::span<const std::uint32_t> words) {
 
 }  // namespace
 
-Intake::Look Intake::look(const SensorContainer& container, Timestamp ofBelief,
-                          bool trustsOdometry) {
+Intake::Look Intake::look(const SensorContainer& container, Timestamp ofBelief, bool trustsOdometry,
+                          Timestamp delay) {
   const SensorContainer::ReadLock lock = container.read();
   Look look;
   look.clockSetTo = clockSetBack(container, ofBelief);
@@ -40,7 +40,7 @@ Intake::Look Intake::look(const SensorContainer& container, Timestamp ofBelief,
   frozen_ = nullptr;
   for (const auto& data : container.all()) {
     if (isFrozen(*data)) frozen_ = data.get();
-    if (frozen_ == data.get() || !isNews(*data, ofBelief, trustsOdometry))
+    if (frozen_ == data.get() || !isNews(*data, ofBelief, trustsOdometry, delay))
       continue;  // so no weigher is made
     if (std::shared_ptr<const Weigher> weigher = data->weigher())
       look.news[data->stamp()].push_back({data.get(), data->sequence(), std::move(weigher)});
@@ -134,12 +134,13 @@ bool Intake::hasMoved(const Pose2& from, const Pose2& to) const {
          std::abs(change.theta) >= config_.minRotation;
 }
 
-bool Intake::isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry) const {
+bool Intake::isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry,
+                    Timestamp delay) const {
   const auto it = uses_.find(&data);
   if (it == uses_.end()) return true;
   const Use& last = it->second;
   if (data.sequence() == last.sequence || data.stamp() < ofBelief) return false;
-  const std::optional<Pose2> odometry = motion_.odometryAt(data.stamp());
+  const std::optional<Pose2> odometry = motion_.odometryAt(data.stamp() - delay);
   return !trustsOdometry || !odometry || hasMoved(last.odometry, *odometry) ||
          toSeconds(data.stamp() - last.stamp) >= config_.maxInterval;
 }

@@ -31,8 +31,10 @@ class ORTUNG_API Intake {
   Intake(const MclConfig& config, MotionModel& motion) : config_(config), motion_(motion) {}
 
   /// Holds the container's lock meanwhile.
+  /// @param delay by which stamps of readings are late
   /// @param trustsOdometry it says whether the robot stands; else every reading is news
-  Look look(const SensorContainer& container, Timestamp ofBelief, bool trustsOdometry);
+  Look look(const SensorContainer& container, Timestamp ofBelief, bool trustsOdometry,
+            Timestamp delay = 0);
   void followOdometry(const SensorContainer& container);
   /// Notes that news were weighed. @param odometry at that time, if it is known
   void used(const std::vector<News>& news, Timestamp stamp, const std::optional<Pose2>& odometry);
@@ -62,7 +64,8 @@ class ORTUNG_API Intake {
   std::optional<Timestamp> clockSetBack(const SensorContainer& container, Timestamp ofBelief);
   void passOver(const SensorContainer& container, Timestamp stamp);
   void takeOdometry(const SensorContainer& container);
-  bool isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry) const;
+  bool isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry,
+              Timestamp delay) const;
   bool isFrozen(const SensorData& data);
   bool hasMoved(const Pose2& from, const Pose2& to) const;
 

@@ -65,6 +65,22 @@ void Mcl::Impl::followFit(const std::vector<News>& news, const std::vector<doubl
   if (fit) recovery.follow(*fit);
 }
 
+/// Lets another delay of the readings be in force, if it has explained them better.
+/// @returns whether it is
+bool Mcl::Impl::compareDelays(const std::vector<News>& news, const Lateness::Moment& moment) {
+  const auto fit = [&](const SampleSet& set) { return fitNow(news, set); };
+  auto change = lateness.follow(moment, recovery, weigherOf(news), fit);
+  if (!change) return false;
+  if (change->samples) {
+    samples = std::move(*change->samples);
+    recovery.beginAnew();
+  }
+  lastOdometry = lateness.odometryAt(moment.stamp);
+  trust.forget();
+  rivals.forget();
+  return true;
+}
+
 /// Lets other places have the belief, or a part of it, if they have explained readings better.
 /// @returns whether they have
 bool Mcl::Impl::compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment) {
@@ -158,19 +174,30 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
   } else if (compareWithRivals(news, moment)) {
     weights = normalized(samples.logWeight);
   }
-  conclude(news, weights, stamp);
+  conclude(
+      news, std::move(weights), stamp,
+      Lateness::Moment{
+          stamp, moment.logEvidence, isCompared || trust.isLost(), {}, stream(Purpose::kRivals)});
 }
 
 /// Estimates from the belief as it was weighed, and resamples it.
-void Mcl::Impl::conclude(const std::vector<News>& news, const std::vector<double>& weights,
-                         Timestamp stamp) {
+/// @param weighed nothing: the readings have made the belief
+void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weights,
+                         Timestamp stamp, std::optional<Lateness::Moment> weighed) {
   way = 0.0;
   estimate = estimateOf(config, samples.view(), weights);
+  if (weighed) weighed->pose = estimate.pose;
+  if (weighed && compareDelays(news, *weighed)) {
+    weights = normalized(samples.logWeight);
+    estimate = estimateOf(config, samples.view(), weights);
+  }
   estimate.stamp = stamp;
   coarsest = coarsestOf(news);
   keepResolution(estimate);
-  judge(signsAt(stamp), estimate);
+  lateness.keep(samples, weights, estimate.pose, stamp);
   present = estimate;
+  if (lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);
+  judge(signsAt(stamp), estimate);
   if (effectiveSamples(weights) < config.resampleBelow * static_cast<double>(samples.size())) {
     resample(weights);
   } else {

@@ -11,6 +11,7 @@
 #include "Drift.hpp"
 #include "GlobalStart.hpp"
 #include "Intake.hpp"
+#include "Lateness.hpp"
 #include "OdometryTrust.hpp"
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
@@ -47,6 +48,7 @@ struct Mcl::Impl {
   std::optional<Timestamp> lastTime;  ///< up to which the samples were moved to weigh them
   double usualInterval = 0.0;         ///< between weighings, lately at most [s]
   OdometryTrust trust;
+  Lateness lateness;
   SampleSet anchor;         ///< the belief when it was weighed last, while odometry is not trusted
   std::size_t drifted = 0;  ///< of the samples, from this one on they drifted; 0: none
   std::uint64_t step = 0;
@@ -64,6 +66,7 @@ struct Mcl::Impl {
         motion(std::move(m)),
         search(region),
         intake(config, *motion),
+        lateness(config, *motion),
         recovery(config),
         rivals(config, region, search, *motion),
         globalStart(config, region, search) {
@@ -82,6 +85,7 @@ struct Mcl::Impl {
   void begin(bool waits) {
     beginHere(waits);
     intake.forget();
+    lateness.forget();
     forgetTimes();
   }
   /// Another belief; time and odometry go on.
@@ -93,6 +97,7 @@ struct Mcl::Impl {
     recovery.forget();
     rivals.forget();
     trust.forget();
+    lateness.forgetBelief();
     coarsest = {};
     present.reset();
     intake.countAgain(estimate.stamp - kPresent);
@@ -125,14 +130,17 @@ struct Mcl::Impl {
   void followFit(const std::vector<News>& news, const std::vector<double>& before);
   void takeIn(const std::vector<News>& news, std::vector<double> before);
   void takeInUnsure(const std::vector<News>& news, const std::vector<double>& before);
+  bool compareDelays(const std::vector<News>& news, const Lateness::Moment& moment);
   bool compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment);
   void resample(const std::vector<double>& weights);
   void sharpen(const std::vector<News>& news, const std::vector<double>& before);
   void keepResolution(PoseEstimate& e) const;
+  PoseEstimate atStamp(const PoseEstimate& e, Timestamp stamp) const;
   void addDrift(PoseEstimate& e, Timestamp stamp) const;
   Signs signsAt(Timestamp stamp) const;
   void correct(const std::vector<News>& news, Timestamp stamp);
-  void conclude(const std::vector<News>& news, const std::vector<double>& weights, Timestamp stamp);
+  void conclude(const std::vector<News>& news, std::vector<double> weights, Timestamp stamp,
+                std::optional<Lateness::Moment> weighed = {});
 };
 
 }  // namespace ortung

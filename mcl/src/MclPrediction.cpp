@@ -62,7 +62,7 @@ void Mcl::Impl::predict(const Pose2& odometry) {
 
 /// Moves the samples to where the robot may be when a reading was taken.
 void Mcl::Impl::predictFor(Timestamp stamp) {
-  const std::optional<Pose2> now = motion->odometryAt(stamp);
+  const std::optional<Pose2> now = lateness.odometryAt(stamp);
   drifted = 0;
   if (!lastOdometry) predictBlindly(stamp);
   if (now) predict(*now);

@@ -1,5 +1,5 @@
 // What goes wrong with robots, constructed in recordings of real ones: a crowd, a scanner that
-// hangs or falls silent, wheels that slip or count backwards, no wheels at all.
+// hangs, falls silent or has another clock, wheels that slip or count backwards, no wheels at all.
 #include <algorithm>
 #include <cstdio>
 
@@ -79,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
                               {{"readings=frozen@20-50", 1, kNever, kNever},
                                {"odometry=slip@30-34", 2, kNever, kNever},
                                {"odometry=reverse@30-34", 2, kNever, kNever},
-                               {"odometry=none@0-30", 1, kNever, kNever}}},
+                               {"odometry=none@0-30", 1, kNever, kNever},
+                               {"readings=late:2", 1, kNever, kNever}}},
                     FaultyLog{"Telecom",
                               "mrpt_sena_telecom",
                               "",
@@ -94,6 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                               "",
                               "0.1",
                               {{"readings=crowd@600-630", 2, 0.027, 0.025},
+                               {"readings=late:1.5@300-1200", 1, 0.01, 0.01},
                                {"odometry=reverse@600-604", 2, 0.013, 0.016}}}),
     [](const auto& one) { return std::string(one.param.name); });
 

@@ -64,8 +64,10 @@ TEST(Judge, SaysWhatSpeaksAgainstIt) {
   EXPECT_EQ(judged({.lead = 3.9}).reason, TrackReason::kFits);
   EXPECT_EQ(judged({.unusual = 1}).reason, TrackReason::kPoorFit);
   EXPECT_EQ(judged({.trustsOdometry = false}).reason, TrackReason::kOdometry);
-  for (const Signs& signs : {Signs{.isFrozen = true}, Signs{.silence = 9.0}, Signs{.lead = 5.0},
-                             Signs{.unusual = 2}, Signs{.trustsOdometry = false}})
+  EXPECT_EQ(judged({.isLate = true}).reason, TrackReason::kLate);
+  for (const Signs& signs :
+       {Signs{.isFrozen = true}, Signs{.silence = 9.0}, Signs{.lead = 5.0}, Signs{.unusual = 2},
+        Signs{.trustsOdometry = false}, Signs{.isLate = true}})
     EXPECT_EQ(judged(signs).status, TrackStatus::kUncertain);
 }
 

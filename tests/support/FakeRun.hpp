@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "FakeRoom.hpp"
 #include "ortung/formats/LandmarksData.hpp"
@@ -44,12 +46,14 @@ class FakeRun {
   void begin(const Pose2& start, std::uint64_t seed) {
     truth = start;
     odometry_ = {};
+    truths_.clear();
     random_ = Random(seed);
   }
 
-  /// One period: drives a piece of the circle, then reads everything.
-  void drive() {
-    const Pose2 change{kSpeed * kPeriod, 0, kTurn * kPeriod};
+  /// One period: drives a piece of the circle, or of another way, then reads everything.
+  void drive(double speed = kSpeed, double turn = kTurn) {
+    const Pose2 change{speed * kPeriod, 0, turn * kPeriod};
+    truths_.push_back(truth);
     truth = truth * change;
     odometry_ = odometry_ * Pose2{change.x * (1 + 0.02 * random_.gaussian()), 0,
                                   change.theta + 0.004 * random_.gaussian()};
@@ -66,7 +70,7 @@ class FakeRun {
     if (posts_ != nullptr)
       container.set({stamp,
                      {"cam", "camera", "posts"},
-                     landmarkWords(points, truth, 20.0, &random_, 0.05, 0.02)});
+                     landmarkWords(points, seen(), 20.0, &random_, 0.05, 0.02)});
   }
 
   MclConfig config() const {
@@ -93,11 +97,16 @@ class FakeRun {
   Pose2 truth;
   Timestamp stamp = 0;
   bool tellsOdometry = true;
+  std::size_t late = 0;  ///< periods by which stamps of readings are
 
  private:
   using Words = std::vector<std::uint32_t>;
+  Pose2 seen() const {
+    const std::size_t back = std::min(late, truths_.size());
+    return back == 0 ? truth : truths_[truths_.size() - back];
+  }
   Words scanNow() {
-    const Pose2 sensor = truth * data_->mount();
+    const Pose2 sensor = seen() * data_->mount();
     std::vector<float> ranges;
     for (int i = 0; i < scan.beams; ++i) {
       const double range =
@@ -111,6 +120,7 @@ class FakeRun {
   SensorData* data_ = nullptr;
   SensorData* posts_ = nullptr;
   Pose2 odometry_;
+  std::vector<Pose2> truths_;  ///< up to the period before
   Random random_{1};
 };
 

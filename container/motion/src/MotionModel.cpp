@@ -5,7 +5,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kKept = 3.0;  ///< of odometry: readings of sensors are hardly ever older [s]
+constexpr double kKept = 6.0;  ///< of odometry: twice as old as readings may be [s]
 
 }  // namespace
 

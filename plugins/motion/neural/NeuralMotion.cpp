@@ -6,7 +6,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kKept = 3.0;          ///< of the past [s]
+constexpr double kKept = 6.0;          ///< of the past [s]
 constexpr double kLongestPause = 2.0;  ///< of commands that is bridged [s]
 
 /// What is left of [motion] when the network has read its part.

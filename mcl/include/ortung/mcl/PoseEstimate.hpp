@@ -28,6 +28,7 @@ enum class TrackReason : std::uint8_t {
   kRival,      ///< several readings have fitted better elsewhere
   kOdometry,   ///< readings contradict it
   kSearching,  ///< a global start has found no place yet
+  kLate,       ///< the stamps of readings are, against odometry's
 };
 
 /// "tracking", "uncertain", "lost".
