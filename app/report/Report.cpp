@@ -90,8 +90,8 @@ std::string chartData(const RunResult& run) {
   member("quality", jsonArray(path, [](const auto& e) { return e.quality; }));
   member("status", jsonArray(path, [](const auto& e) { return double(e.status); }));
   member("reason", jsonArray(path, [](const auto& e) { return double(e.reason); }));
-  json += namesOf<TrackStatus>("statusNames", TrackStatus::kLost) +
-          namesOf<TrackReason>("reasonNames", TrackReason::kOdometry);
+  json += namesOf<TrackStatus>("statusNames", TrackStatus::kLast) +
+          namesOf<TrackReason>("reasonNames", TrackReason::kLast);
   json += fmt::format(
       "\"longestStep\":{:.3f},\"longestSamplesStep\":{:.3f},\"longestPathStep\":{:.3f},",
       longestDrawnStepOf(points), longestDrawnStepOf(estimates),

@@ -72,6 +72,8 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
     estimate.reason = TrackReason::kPoorFit;
   } else if (estimate.share < kOfOnePlace) {
     estimate.reason = TrackReason::kSeveralPlaces;
+  } else if (!signs.isConfirmed) {
+    estimate.reason = TrackReason::kUnconfirmed;
   } else if (!signs.trustsOdometry) {
     estimate.reason = TrackReason::kOdometry;  // or the readings' stamps are wrong
   } else if (estimate.quality < kTracking) {
@@ -101,7 +103,9 @@ const char* nameOf(TrackReason reason) {
       "readings contradict odometry",
       "the field is searched",
       "readings are late",
+      "few readings have confirmed the place yet",
   };
+  static_assert(std::size(kNames) == static_cast<std::size_t>(TrackReason::kLast) + 1);
   return kNames[static_cast<std::size_t>(reason)];
 }
 

@@ -16,6 +16,7 @@ struct Signs {
   double lead = 0.0;       ///< of a rival over the belief [nats]
   bool isFrozen = false;   ///< a device repeats its reading though the robot moves
   bool trustsOdometry = true;
+  bool isConfirmed = true;  ///< where a global start has found the robot, by readings since
   /// Time since the last reading that was weighed, in what is usual between two; none: no reading.
   std::optional<double> silence = 0.0;
   bool isLate = false;  ///< readings, by their stamps

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "Lead.hpp"
 #include "Resampling.hpp"
 #include "ortung/base/Random.hpp"
 
@@ -90,6 +91,29 @@ PoseSearch::Weigh GlobalStart::weigher() const {
   };
 }
 
+/// Places that fit worse than the best count as if by 4 nats at most: one reading does not decide,
+/// however sure its model is, since what is wrong with it is wrong with all of its parts.
+PoseSearch::Weigh GlobalStart::cautiousWeigher() const {
+  std::vector<std::pair<PoseSearch::Ring, float>> raised;
+  const std::span<const FieldSearch::Place> places = field_->places();
+  for (std::size_t i = 0; i < rings_.size(); ++i) {
+    const double worse = places.front().logProbability - places[i].logProbability;
+    if (worse > kMostNatsOfAReading)
+      raised.emplace_back(rings_[i], static_cast<float>(worse - kMostNatsOfAReading));
+  }
+  return [plain = weigher(), raised = std::move(raised)](const SampleSet& set,
+                                                         std::vector<float>& out) {
+    plain(set, out);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      for (const auto& [ring, nats] : raised) {
+        if (!PoseSearch::isWithin(ring, set.x[i], set.y[i], set.theta[i])) continue;
+        out[i] += nats;
+        break;
+      }
+    }
+  };
+}
+
 void GlobalStart::beginAround() {
   rings_ = found();
   const bool areAll = !rings_.empty() && !areNotAll();
@@ -97,7 +121,8 @@ void GlobalStart::beginAround() {
   const std::size_t n =
       rings_.empty() ? 0 : std::min(most, kSamples + kSamplesAPlace * rings_.size());
   const Random random = Random(config_.seed, moment_->stream).fork(0);
-  if (n > 0) around_.emplace(search_.drawingFrom(rings_, n, kCandidates, weigher(), random));
+  const PoseSearch::Weigh weigh = areAll ? cautiousWeigher() : weigher();
+  if (n > 0) around_.emplace(search_.drawingFrom(rings_, n, kCandidates, weigh, random));
   beside_ = areAll ? 0 : config_.maxSamples - n;
 }
 

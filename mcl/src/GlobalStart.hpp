@@ -58,6 +58,7 @@ class ORTUNG_API GlobalStart {
   void beginBeside();
   bool drawOn(PoseSearch::Drawing& drawing, double& left) const;
   PoseSearch::Weigh weigher() const;
+  PoseSearch::Weigh cautiousWeigher() const;
   std::vector<PoseSearch::Ring> found() const;
   bool areNotAll() const;
   double candidatesFor(std::size_t samples) const;

@@ -5,14 +5,13 @@
 namespace ortung {
 namespace {
 
-constexpr double kMostNats = 4.0;     ///< that one reading counts
 constexpr double kEnoughNats = 16.0;  ///< for a place to be left
 constexpr double kHopelessNats = -12.0;
 
 }  // namespace
 
 void Lead::count(double ratio, double part) {
-  nats_ += std::min(1.0, part) * std::clamp(ratio, -kMostNats, kMostNats);
+  nats_ += std::min(1.0, part) * std::clamp(ratio, -kMostNatsOfAReading, kMostNatsOfAReading);
 }
 
 void Lead::atLeast(double nats) { nats_ = std::max(nats, nats_); }

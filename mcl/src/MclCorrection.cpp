@@ -45,6 +45,7 @@ void Mcl::Impl::goOnStarting() {
   samples = globalStart.take();
   waitsForStart = false;
   hasStarted = true;
+  confirmation.begin();
   conclude(then.news, normalized(samples.logWeight), then.stamp);
 }
 
@@ -92,6 +93,7 @@ bool Mcl::Impl::compareWithRivals(const std::vector<News>& news, const Rivals::M
   } else {
     samples = std::move(takeover->samples);
     recovery.beginAnew();
+    confirmation.forget();  // it was compared on a way of its own
   }
   takeover->trustsOdometry ? trust.forget() : trust.lose();
   return true;
@@ -169,6 +171,7 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
   takeIn(news, before);
   std::vector<double> weights = normalized(samples.logWeight);
   recovery.followBest(fitOf(readingsOf(news), samples, weights).value_or(0.0));
+  confirmation.count(recovery.unusual() == 0, way);
   if (!isCompared) {
     rivals.forget();
   } else if (compareWithRivals(news, moment)) {

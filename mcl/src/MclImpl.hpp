@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Confidence.hpp"
+#include "Confirmation.hpp"
 #include "Drift.hpp"
 #include "GlobalStart.hpp"
 #include "Intake.hpp"
@@ -57,7 +58,8 @@ struct Mcl::Impl {
   double way = 0.0;           ///< since the last weighing [m]; a turn of 1 rad counts as 1 m
   bool waitsForStart = true;  ///< a global start waits for the first reading, or searches
   GlobalStart globalStart;
-  bool hasStarted = false;  ///< there is an estimate that no update() has told of yet
+  Confirmation confirmation;  ///< of where that has found the robot
+  bool hasStarted = false;    ///< there is an estimate that no update() has told of yet
   std::vector<float> logProbability;
 
   Impl(const MclConfig& c, FieldRegion r, std::unique_ptr<MotionModel> m)
@@ -94,6 +96,7 @@ struct Mcl::Impl {
     hasStarted = false;
     globalStart.forget();
     if (waits) waitAnywhere();
+    confirmation.forget();
     recovery.forget();
     rivals.forget();
     trust.forget();

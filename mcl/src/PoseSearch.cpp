@@ -72,14 +72,17 @@ SampleSet PoseSearch::around(const Ring& ring, std::size_t n, Random random) {
   return set;
 }
 
+bool PoseSearch::isWithin(const Ring& ring, float x, float y, float theta) {
+  const double dx = static_cast<double>(x) - ring.pose.x;
+  const double dy = static_cast<double>(y) - ring.pose.y;
+  return dx * dx + dy * dy <= ring.radius * ring.radius &&
+         std::abs(wrapAngle(static_cast<double>(theta) - ring.pose.theta)) <= ring.turn;
+}
+
 Annealing::Within PoseSearch::within(std::span<const Ring> rings) {
   return [all = std::vector<Ring>(rings.begin(), rings.end())](float x, float y, float theta) {
-    return std::any_of(all.begin(), all.end(), [&](const Ring& ring) {
-      const double dx = static_cast<double>(x) - ring.pose.x;
-      const double dy = static_cast<double>(y) - ring.pose.y;
-      return dx * dx + dy * dy <= ring.radius * ring.radius &&
-             std::abs(wrapAngle(static_cast<double>(theta) - ring.pose.theta)) <= ring.turn;
-    });
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Ring& ring) { return isWithin(ring, x, y, theta); });
   };
 }
 

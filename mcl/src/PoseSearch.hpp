@@ -36,6 +36,7 @@ class ORTUNG_API PoseSearch {
     double radius;  ///< [m]
     double turn;    ///< to either side [rad]
   };
+  static bool isWithin(const Ring& ring, float x, float y, float theta);
   /// @p n poses spread evenly over a ring, whether or not the map says that a robot can stand
   /// there.
   static SampleSet around(const Ring& ring, std::size_t n, Random random);

@@ -57,6 +57,7 @@ TEST(Judge, ReliesOnANarrowBeliefThatReadingsFit) {
 
 TEST(Judge, SaysWhatSpeaksAgainstIt) {
   EXPECT_EQ(judged({.isFrozen = true}).reason, TrackReason::kFrozen);
+  EXPECT_EQ(judged({.isConfirmed = false}).reason, TrackReason::kUnconfirmed);
   EXPECT_EQ(judged({.silence = 3.1}).reason, TrackReason::kNoReading);
   EXPECT_EQ(judged({.silence = std::nullopt}).reason, TrackReason::kNoReading);
   EXPECT_EQ(judged({.silence = 2.9}).reason, TrackReason::kFits);

@@ -134,6 +134,20 @@ TEST(GlobalStart, DrawsEachPlaceByItsIntegral) {
   EXPECT_LT(set.size(), 2500U) << "sharp readings need few";
 }
 
+// Six and nine nats worse: one reading does not decide, so each has a share of e^-4 of the best.
+TEST(GlobalStart, OneReadingCountsFourNatsAtMost) {
+  const std::vector<Hill> hills = {{{3.17, 8.24, -1.01}, -6.0},
+                                   {{8.43, 1.72, 1.53}, 0.0},
+                                   {{8.43, 6.02, -1.63}, -9.0},
+                                   {{2.86, 2.51, 0.4}, -1.0}};
+  const SampleSet set = Start(std::make_shared<Hills>(hills)).drawn();
+  const double sum = 1.0 + std::exp(-1.0) + 2.0 * std::exp(-4.0);
+  EXPECT_NEAR(shareNear(set, hills[0].top, 0.2, 0.15), std::exp(-4.0) / sum, 0.006);
+  EXPECT_NEAR(shareNear(set, hills[1].top, 0.2, 0.15), 1.0 / sum, 0.05);
+  EXPECT_NEAR(shareNear(set, hills[2].top, 0.2, 0.15), std::exp(-4.0) / sum, 0.006);
+  EXPECT_NEAR(shareNear(set, hills[3].top, 0.2, 0.15), std::exp(-1.0) / sum, 0.05);
+}
+
 /// Share, mean and variances of what is within a box, by all poses of a fine grid.
 struct Moments {
   double share = 0.0;

@@ -46,11 +46,11 @@ TEST(TrackData, RefusesWhatCannotBe) {
   };
   expectTold({1, 1, 1}, "found 3 words, expected 4");
   expectTold({3, 0, 0, 0}, "found the status 3, expected 0 to 2");
-  expectTold({0, 9, 0, 0}, "found the reason 9, expected 0 to 8");
+  expectTold({0, 11, 0, 0}, "found the reason 11, expected 0 to 10");
   expectTold({0, 0, 10001, 0}, "found the quality 10001, expected 0 to 10000");
   expectTold({0, 0, 0, 10001}, "found the share 10001, expected 0 to 10000");
   EXPECT_EQ(data.sequence(), 0U);
-  data.setData(1, std::vector<std::uint32_t>{2, 8, 10000, 10000});
+  data.setData(1, std::vector<std::uint32_t>{2, 10, 10000, 10000});
   EXPECT_EQ(data.sequence(), 1U);
 }
 
@@ -59,7 +59,8 @@ TEST(TrackData, ItsHelpNamesEveryStatusAndReason) {
   EXPECT_EQ(help.find('\n'), std::string::npos);
   for (const char* text :
        {"0 tracking", "1 uncertain", "2 lost", "0 readings fit", "3 no reading comes",
-        "7 readings contradict odometry", "8 the field is searched"})
+        "7 readings contradict odometry", "8 the field is searched", "9 readings are late",
+        "10 few readings have confirmed the place yet"})
     EXPECT_NE(help.find(text), std::string::npos) << text;
 }
 

@@ -8,8 +8,8 @@ namespace ortung {
 namespace {
 
 constexpr std::uint32_t kOne = 10'000;
-constexpr auto kLastStatus = static_cast<std::uint32_t>(TrackStatus::kLost);
-constexpr auto kLastReason = static_cast<std::uint32_t>(TrackReason::kSearching);
+constexpr auto kLastStatus = static_cast<std::uint32_t>(TrackStatus::kLast);
+constexpr auto kLastReason = static_cast<std::uint32_t>(TrackReason::kLast);
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "status"}; }
 
