@@ -148,9 +148,9 @@ void Mcl::Impl::sharpen(const std::vector<News>& news, const std::vector<double>
       config.maxSamples, std::max({2 * config.minSamples, before.size(),
                                    kldSamples(config, PoseBins(config, samples.view()).count())}));
   const Annealing annealing =
-      lastOdometry
-          ? Annealing(weigherOf(news), estimateOf(config, samples.view(), before).covariance, n)
-          : Annealing(weigherOf(news), nullptr);
+      isBlind
+          ? Annealing(weigherOf(news), nullptr)
+          : Annealing(weigherOf(news), estimateOf(config, samples.view(), before).covariance, n);
   samples = annealing
                 .draw(taken(samples, lowVariance(before, n, offset.uniform())),
                       std::max(config.minSamples, n / 4), random)

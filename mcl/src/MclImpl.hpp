@@ -52,6 +52,7 @@ struct Mcl::Impl {
   Lateness lateness;
   SampleSet anchor;         ///< the belief when it was weighed last, while odometry is not trusted
   std::size_t drifted = 0;  ///< of the samples, from this one on they drifted; 0: none
+  bool isBlind = true;      ///< nobody tells how the robot moved up to this reading
   std::uint64_t step = 0;
   Recovery recovery;
   Rivals rivals;

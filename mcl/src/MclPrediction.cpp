@@ -64,16 +64,22 @@ void Mcl::Impl::predict(const Pose2& odometry) {
 void Mcl::Impl::predictFor(Timestamp stamp) {
   const std::optional<Pose2> now = lateness.odometryAt(stamp);
   drifted = 0;
-  if (!lastOdometry) predictBlindly(stamp);
+  isBlind = !lastOdometry;
+  if (isBlind) predictBlindly(stamp);
   if (now) predict(*now);
-  if (now && trust.isLost()) spread(stamp);
+  if (now && trust.isLost()) {
+    // Odometry that says that the robot stands, though the readings say that it does not, is none.
+    isBlind = way < kStands;
+    isBlind ? predictBlindly(stamp) : spread(stamp);
+  }
   // Rises at once and falls slowly: what was usual a while ago is so still.
   if (lastTime)
     usualInterval = std::max(toSeconds(stamp - *lastTime), kIntervalKept * usualInterval);
   lastTime = stamp;
 }
 
-/// While there is no odometry, or for the time before its first reading.
+/// While there is no odometry, it is not trusted and stands, or for the time before its first
+/// reading.
 void Mcl::Impl::predictBlindly(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0) return;

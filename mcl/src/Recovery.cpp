@@ -70,7 +70,8 @@ void Recovery::follow(double fit) {
 }
 
 bool Recovery::isDoubtful() const {
-  return rateSlow_ > 0.0 && known_ && (now_ < kDoubtfulFit * slow_ || now_ < kPoorFit);
+  return rateSlow_ > 0.0 && known_ &&
+         (now_ < kDoubtfulFit * slow_ || now_ < kPoorFit || unusual_ >= kUnusualReadings);
 }
 
 void Recovery::followBest(double fit) {

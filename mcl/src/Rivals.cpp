@@ -152,17 +152,24 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   const double seen = distance(rival.centre, centre.pose) +
                       std::abs(wrapAngle(centre.pose.theta - rival.centre.theta)) - rival.open -
                       centre.open;
-  rival.centre = centre.pose;
-  rival.open = centre.open;
-  if (ratio < 0.0 || recovery.isUsual(fit(rival.samples)))
-    rival.lead.count(ratio, std::max(moment.way, seen) / kIndependentNear);
+  // A slow robot comes far enough in some readings.
+  const bool hasMoved = seen >= kIndependentNear;
+  if (hasMoved || moment.way > kStands) {
+    rival.centre = centre.pose;
+    rival.open = centre.open;
+  }
+  const bool isUsual = recovery.isUsual(fit(rival.samples));
+  rival.unusual = isUsual ? 0 : rival.unusual + 1;
+  if (ratio < 0.0 || isUsual)
+    rival.lead.count(ratio, std::max(moment.way / kIndependentNear, hasMoved ? 1.0 : 0.0));
   if (rival.lead.isEnough()) {
     Takeover takeover{std::move(rival.samples), kShareTaken, !rival.trust.isLost()};
     around_.reset();
     return takeover;
   }
   if (isSame(centre.pose, moment.predicted) && !rival.trust.isLost()) rival.lead = {};
-  if (rival.lead.nats() < kDroppedAround) drawAround(moment, weigh);
+  if (rival.lead.nats() < kDroppedAround || rival.unusual >= kMostUnusual)
+    drawAround(moment, weigh);
   return std::nullopt;
 }
 

@@ -84,6 +84,7 @@ class ORTUNG_API Rivals {
     Timestamp stamp = 0;
     Lead lead = {};
     OdometryTrust trust = {};
+    int unusual = 0;  ///< readings on end that fit badly
   };
   struct Elsewhere {
     explicit Elsewhere(SampleSet drawn) : samples(std::move(drawn)) {}
