@@ -63,7 +63,7 @@ double Mcl::Impl::fitNow(const std::vector<News>& news, const SampleSet& set) {
 /// @param before weights before the readings are weighed
 void Mcl::Impl::followFit(const std::vector<News>& news, const std::vector<double>& before) {
   const auto fit = fitOf(readingsOf(news), samples, before);
-  if (fit) recovery.follow(*fit);
+  if (fit) recovery.follow(*fit, lastOdometry && way < kStands);
 }
 
 /// Lets another delay of the readings be in force, if it has explained them better.

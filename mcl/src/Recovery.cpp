@@ -59,7 +59,8 @@ std::optional<double> fitOf(std::span<const Weigher* const> readings, const Samp
 Recovery::Recovery(const MclConfig& config)
     : rateFast_(config.recoverFast), rateSlow_(config.recoverSlow) {}
 
-void Recovery::follow(double fit) {
+void Recovery::follow(double fit, bool stands) {
+  stands_ = stands;
   if (!known_) fast_ = slow_ = fit;
   known_ = true;
   now_ = fit;
@@ -69,9 +70,12 @@ void Recovery::follow(double fit) {
   slow_ += rate * (fit - slow_);
 }
 
+bool Recovery::fitsBadly() const {
+  return rateSlow_ > 0.0 && known_ && (now_ < kDoubtfulFit * slow_ || now_ < kPoorFit);
+}
+
 bool Recovery::isDoubtful() const {
-  return rateSlow_ > 0.0 && known_ &&
-         (now_ < kDoubtfulFit * slow_ || now_ < kPoorFit || unusual_ >= kUnusualReadings);
+  return fitsBadly() || (rateSlow_ > 0.0 && known_ && stands_ && unusual_ >= kUnusualReadings);
 }
 
 void Recovery::followBest(double fit) {
@@ -79,7 +83,7 @@ void Recovery::followBest(double fit) {
   last_ = fit;
   lately_ += rateFast_ * (fit - lately_);
   unusual_ = isUsual(fit) ? 0 : unusual_ + 1;
-  *best_ += (isDoubtful() ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
+  *best_ += (fitsBadly() ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
 }
 
 bool Recovery::isUsual(double best) const {

@@ -23,8 +23,9 @@ ORTUNG_API std::optional<double> fitOf(std::span<const Weigher* const> readings,
 class ORTUNG_API Recovery {
  public:
   explicit Recovery(const MclConfig& config);
-  /// @param fit of one moment's readings, in [0, 1]
-  void follow(double fit);
+  /// @param fit of one moment's readings where they are expected, in [0, 1]
+  /// @param stands odometry has said so since the readings before
+  void follow(double fit, bool stands = false);
   void forget() {
     beginAnew();
     best_.reset();
@@ -36,6 +37,8 @@ class ORTUNG_API Recovery {
     unusual_ = 0;
   }
   /// Whether the newest readings fit worse than they use to: the robot may have left the track.
+  /// Where odometry that stands has long been wrong, what is expected is always poor; then it
+  /// counts that they fit nowhere in the belief.
   bool isDoubtful() const;
   /// Whether the fit has fallen for some time: it may be anywhere.
   bool callsForSearch() const;
@@ -52,9 +55,11 @@ class ORTUNG_API Recovery {
   bool isUsual(double best) const;
 
  private:
+  bool fitsBadly() const;  ///< where the robot was expected
   double rateFast_;
   double rateSlow_;
   double now_ = 0.0;
+  bool stands_ = false;
   double fast_ = 0.0;
   double slow_ = 0.0;
   int unusual_ = 0;             ///< readings on end that did not fit as they use to

@@ -152,16 +152,16 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   const double seen = distance(rival.centre, centre.pose) +
                       std::abs(wrapAngle(centre.pose.theta - rival.centre.theta)) - rival.open -
                       centre.open;
-  // A slow robot comes far enough in some readings.
-  const bool hasMoved = seen >= kIndependentNear;
-  if (hasMoved || moment.way > kStands) {
+  // By the readings alone, a slow robot comes far enough in some of them.
+  const bool stands = moment.way < kStands;
+  const double part = stands && seen < kIndependentNear ? 0.0 : std::max(moment.way, seen);
+  if (!stands || part > 0.0) {
     rival.centre = centre.pose;
     rival.open = centre.open;
   }
   const bool isUsual = recovery.isUsual(fit(rival.samples));
   rival.unusual = isUsual ? 0 : rival.unusual + 1;
-  if (ratio < 0.0 || isUsual)
-    rival.lead.count(ratio, std::max(moment.way / kIndependentNear, hasMoved ? 1.0 : 0.0));
+  if (ratio < 0.0 || isUsual) rival.lead.count(ratio, part / kIndependentNear);
   if (rival.lead.isEnough()) {
     Takeover takeover{std::move(rival.samples), kShareTaken, !rival.trust.isLost()};
     around_.reset();

@@ -13,7 +13,7 @@ namespace {
 Recovery after(const MclConfig& config, const std::vector<std::pair<double, int>>& fits) {
   Recovery recovery(config);
   for (const auto& [fit, times] : fits)
-    for (int i = 0; i < times; ++i) recovery.follow(fit);
+    for (int i = 0; i < times; ++i) recovery.follow(fit, false);
   return recovery;
 }
 
@@ -58,6 +58,28 @@ TEST(Recovery, DoubtsAtOnceAndSearchesLater) {
   }
 }
 
+// Where odometry never leads to the readings, what is expected is always poor; what is left after
+// they are weighed tells.
+TEST(Recovery, DoubtsOdometryThatStandsWhenTwoReadingsFitNowhereInTheBelief) {
+  const auto isDoubtfulAfter = [](int unusual, bool stands) {
+    const MclConfig config;
+    Recovery recovery(config);
+    for (int i = 0; i < 50; ++i) {
+      recovery.follow(0.4, stands);
+      recovery.followBest(0.9);
+    }
+    EXPECT_FALSE(recovery.isDoubtful());
+    for (int i = 0; i < unusual; ++i) {
+      recovery.follow(0.4, stands);
+      recovery.followBest(0.5);
+    }
+    return recovery.isDoubtful();
+  };
+  EXPECT_FALSE(isDoubtfulAfter(1, true)) << "one may be a chance";
+  EXPECT_TRUE(isDoubtfulAfter(2, true));
+  EXPECT_FALSE(isDoubtfulAfter(2, false));
+}
+
 TEST(Recovery, SearchesWhereTheFitWasAlwaysPoor) {
   EXPECT_TRUE(after({}, {{0.24, 30}}).callsForSearch());
   EXPECT_TRUE(after({}, {{0.24, 30}}).isDoubtful());
@@ -89,7 +111,7 @@ TEST(Recovery, ForgetsThePastWhenItBeginsAnew) {
   ASSERT_TRUE(recovery.callsForSearch());
   recovery.forget();
   EXPECT_FALSE(recovery.callsForSearch());
-  for (int i = 0; i < 10; ++i) recovery.follow(0.3);
+  for (int i = 0; i < 10; ++i) recovery.follow(0.3, false);
   EXPECT_FALSE(recovery.callsForSearch()) << "as good as it ever was";
 }
 
@@ -112,12 +134,12 @@ TEST(Recovery, UsualIsWhatReadingsUseToFitWhereTheyFitBest) {
 // The average goes to 0.6 + 0.3 * (1 - rate)^100: rate 0.01, or a tenth of it in bad times.
 TEST(Recovery, WhatIsUsualFollowsSlowlyAndMoreSlowlyInBadTimes) {
   Recovery good{MclConfig{}};
-  good.follow(0.9);
+  good.follow(0.9, false);
   good.followBest(0.9);
   Recovery bad = good;
   for (int i = 0; i < 100; ++i) {
     good.followBest(0.6);
-    bad.follow(0.1);
+    bad.follow(0.1, false);
     bad.followBest(0.6);
   }
   EXPECT_FALSE(good.isUsual(0.85 * 0.7098 - 0.002));
