@@ -13,9 +13,6 @@
 
 namespace ortung {
 
-/// Of an update's time, that a search may take.
-inline constexpr double kSearchShare = 0.8;
-
 /// What it takes to ask readings for a pose, about [ns]: constants of theirs.
 ORTUNG_API double nominalNanoseconds(std::span<const std::shared_ptr<const Weigher>> readings);
 

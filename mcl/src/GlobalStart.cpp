@@ -53,7 +53,7 @@ void GlobalStart::begin(Moment moment) {
   moment_ = std::move(moment);
   std::vector<std::shared_ptr<const Weigher>> readings;
   for (const News& one : moment_->news) readings.push_back(one.weigher);
-  nanoseconds_ = nominalNanoseconds(readings) + kDrawNanoseconds;
+  nanoseconds_ = nanosecondsOf(moment_->news) + kDrawNanoseconds;
   prepare();
   field_->begin(std::move(readings));
 }

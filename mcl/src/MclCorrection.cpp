@@ -11,6 +11,9 @@
 namespace ortung {
 namespace {
 
+/// That a sample is weighed until readings that come in by degrees are in, about: a quarter of them
+/// climbs eight times in two steps.
+constexpr double kTimesWeighed = 5.0;
 constexpr double kFewLeft = 25.0;  ///< effective samples: readings are far sharper than the belief
 
 }  // namespace
@@ -40,7 +43,7 @@ void Mcl::Impl::start(NewsByTime& news) {
 }
 
 void Mcl::Impl::goOnStarting() {
-  if (!globalStart.isBegun() || !globalStart.work(kSearchShare * config.budgetMs)) return;
+  if (!globalStart.isBegun() || !globalStart.work(time.left())) return;
   const GlobalStart::Moment then = globalStart.moment();
   samples = globalStart.take();
   waitsForStart = false;
@@ -144,9 +147,13 @@ void Mcl::Impl::sharpen(const std::vector<News>& news, const std::vector<double>
   const Random random(config.seed, stream(Purpose::kSpread));
   Random offset = random.fork(1);
   // After a way on which nothing was seen, they are to be found in many places.
-  const std::size_t n = std::min(
-      config.maxSamples, std::max({2 * config.minSamples, before.size(),
-                                   kldSamples(config, PoseBins(config, samples.view()).count())}));
+  const std::size_t wanted =
+      std::max(before.size(), kldSamples(config, PoseBins(config, samples.view()).count()));
+  const double affordable = 1e6 * time.left() / (kTimesWeighed * nanosecondsOf(news));
+  const std::size_t n =
+      std::min(config.maxSamples,
+               std::max(2 * config.minSamples,
+                        std::min(wanted, static_cast<std::size_t>(std::min(affordable, 1e9)))));
   const Annealing annealing =
       isBlind
           ? Annealing(weigherOf(news), nullptr)
@@ -166,7 +173,7 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
     moment.predicted = estimateOf(config, samples.view(), before).pose;
     for (const News& one : news) moment.readings.push_back(one.weigher);
   }
-  weigh(news, samples, config.threads, logProbability);
+  weigherOf(news)(samples, logProbability);
   moment.logEvidence = logMean(before, logProbability);
   takeIn(news, before);
   std::vector<double> weights = normalized(samples.logWeight);

@@ -17,6 +17,7 @@
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
 #include "Rivals.hpp"
+#include "UpdateTime.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/mcl/Mcl.hpp"
 
@@ -39,6 +40,7 @@ struct Mcl::Impl {
   FieldRegion region;
   std::unique_ptr<MotionModel> motion;
   PoseSearch search;
+  UpdateTime time;
   SampleSet samples;
   PoseEstimate estimate;    ///< of the newest weighing
   PoseResolution coarsest;  ///< of the tables that it was weighed by
@@ -68,10 +70,11 @@ struct Mcl::Impl {
         region((r.check(), std::move(r))),
         motion(std::move(m)),
         search(region),
+        time(config),
         intake(config, *motion),
         lateness(config, *motion),
         recovery(config),
-        rivals(config, region, search, *motion),
+        rivals(config, region, search, *motion, time),
         globalStart(config, region, search) {
     config.check();
   }
@@ -122,10 +125,12 @@ struct Mcl::Impl {
   void move(const Move& moveSome);
   PoseEstimate estimateNow() const;
   /// ln p of readings, for whoever searches among poses. @param news borrowed
-  PoseSearch::Weigh weigherOf(const std::vector<News>& news) const {
-    return [this, &news](const SampleSet& set, std::vector<float>& out) {
-      weigh(news, set, config.threads, out);
-    };
+  PoseSearch::Weigh weigherOf(const std::vector<News>& news) {
+    return
+        [this, &news, each = nanosecondsOf(news)](const SampleSet& set, std::vector<float>& out) {
+          time.spend(each * static_cast<double>(set.size()));
+          weigh(news, set, config.threads, out);
+        };
   }
   void start(NewsByTime& news);
   void goOnStarting();

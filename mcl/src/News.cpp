@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "FieldSearch.hpp"
 #include "Parallel.hpp"
 
 namespace ortung {
@@ -20,6 +21,12 @@ PoseResolution coarsestOf(const std::vector<News>& news) {
     coarsest.radians = std::max(coarsest.radians, its.radians);
   }
   return coarsest;
+}
+
+double nanosecondsOf(const std::vector<News>& news) {
+  std::vector<std::shared_ptr<const Weigher>> readings;
+  for (const News& one : news) readings.push_back(one.weigher);
+  return nominalNanoseconds(readings);
 }
 
 void weigh(const std::vector<News>& news, const SampleSet& set, unsigned threads,

@@ -25,6 +25,8 @@ using NewsByTime = std::map<Timestamp, std::vector<News>>;
 
 /// What the readings of one moment round poses to, at most.
 PoseResolution coarsestOf(const std::vector<News>& news);
+/// What it takes to ask all of them for a pose, about [ns].
+double nanosecondsOf(const std::vector<News>& news);
 
 /// ln p of the readings of one moment at each sample, finite whatever plugins answer.
 /// @param out as many as samples

@@ -94,7 +94,7 @@ std::array<SampleSet*, 2> Rivals::samples() {
 }
 
 void Rivals::searchOn() {
-  if (searching_) searching_->job.work(kSearchShare * config_.budgetMs);
+  if (searching_) searching_->job.work(time_.left());
 }
 
 std::optional<Rivals::Takeover> Rivals::follow(const Moment& moment, const Recovery& recovery,

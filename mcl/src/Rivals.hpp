@@ -13,6 +13,7 @@
 #include "OdometryTrust.hpp"
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
+#include "UpdateTime.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
@@ -59,8 +60,8 @@ class ORTUNG_API Rivals {
 
   /// All borrowed.
   Rivals(const MclConfig& config, const FieldRegion& region, const PoseSearch& search,
-         const MotionModel& motion)
-      : config_(config), region_(region), search_(search), motion_(motion) {}
+         const MotionModel& motion, const UpdateTime& time)
+      : config_(config), region_(region), search_(search), motion_(motion), time_(time) {}
 
   void forget();
   bool isIdle() const { return !doubtSince_ && !elsewhere_ && !searching_; }
@@ -110,6 +111,7 @@ class ORTUNG_API Rivals {
   const FieldRegion& region_;
   const PoseSearch& search_;
   const MotionModel& motion_;
+  const UpdateTime& time_;
   std::optional<Timestamp> doubtSince_;
   std::optional<Around> around_;
   std::optional<Searching> searching_;

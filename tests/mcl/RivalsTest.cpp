@@ -130,7 +130,8 @@ struct Drive {
   PoseSearch search{region};
   MclConfig config;
   Exact motion;
-  Rivals rivals{config, region, search, motion};
+  UpdateTime time{config};
+  Rivals rivals{config, region, search, motion, time};
   Recovery recovery{MclConfig{}};
   Pose2 truth{-8, 2, 0.3};
   Timestamp stamp = 0;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <algorithm>
+
+#include "ortung/mcl/MclConfig.hpp"
+
+namespace ortung {
+
+/// What is left of an update's time (MclConfig::budgetMs) for searches, by the nominal times of the
+/// weighers: no clock is asked, so replays do the same in each update.
+class UpdateTime {
+ public:
+  /// @param config borrowed
+  explicit UpdateTime(const MclConfig& config) : config_(config) {}
+
+  void begin() { spent_ = 0.0; }
+  void spend(double nominalNanoseconds) { spent_ += 1e-6 * nominalNanoseconds; }
+  /// Something always, so that searches end [ms].
+  double left() const {
+    return std::max(kShare * config_.budgetMs - spent_, kLeastShare * config_.budgetMs);
+  }
+
+ private:
+  static constexpr double kShare = 0.8;  ///< the rest is for what is not weighing
+  static constexpr double kLeastShare = 0.1;
+  const MclConfig& config_;
+  double spent_ = 0.0;  ///< [ms]
+};
+
+}  // namespace ortung
