@@ -16,7 +16,7 @@ class ORTUNG_API Confirmation {
     readings_ = 0;
   }
   void forget() { isOpen_ = false; }
-  /// @param way since the readings before [m]; a turn of 1 rad counts as 1 m
+  /// @param way since the readings before [m]; a turn on the spot shows the same surroundings
   void count(bool isUsual, double way);
   bool isOpen() const { return isOpen_; }
 

@@ -178,7 +178,7 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
   takeIn(news, before);
   std::vector<double> weights = normalized(samples.logWeight);
   recovery.followBest(fitOf(readingsOf(news), samples, weights).value_or(0.0));
-  confirmation.count(recovery.unusual() == 0, way);
+  confirmation.count(recovery.unusual() == 0, metres);
   if (!isCompared) {
     rivals.forget();
   } else if (compareWithRivals(news, moment)) {
@@ -194,7 +194,7 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
 /// @param weighed nothing: the readings have made the belief
 void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weights,
                          Timestamp stamp, std::optional<Lateness::Moment> weighed) {
-  way = 0.0;
+  way = metres = 0.0;
   estimate = estimateOf(config, samples.view(), weights);
   if (weighed) weighed->pose = estimate.pose;
   if (weighed && compareDelays(news, *weighed)) {

@@ -59,6 +59,7 @@ struct Mcl::Impl {
   Recovery recovery;
   Rivals rivals;
   double way = 0.0;           ///< since the last weighing [m]; a turn of 1 rad counts as 1 m
+  double metres = 0.0;        ///< the same without turns
   bool waitsForStart = true;  ///< a global start waits for the first reading, or searches
   GlobalStart globalStart;
   Confirmation confirmation;  ///< of where that has found the robot

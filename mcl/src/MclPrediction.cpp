@@ -54,6 +54,7 @@ void Mcl::Impl::move(const Move& moveSome) {
 void Mcl::Impl::predict(const Pose2& odometry) {
   const Pose2 change = lastOdometry ? inverse(*lastOdometry) * odometry : Pose2{};
   lastOdometry = odometry;
+  metres += std::hypot(change.x, change.y);
   way += std::hypot(change.x, change.y) + std::abs(change.theta);
   move([&](const MovableSamples& some, std::size_t first) {
     motion->sampleMotion(some, change, config.seed, stream(Purpose::kMotion), first);
@@ -83,7 +84,9 @@ void Mcl::Impl::predictFor(Timestamp stamp) {
 void Mcl::Impl::predictBlindly(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0) return;
-  way += config.driftMetres * std::sqrt(seconds);  // that it may have come
+  const double come = config.driftMetres * std::sqrt(seconds);  // it may have
+  metres += come;
+  way += come;
   if (!waitsForStart) enlarge(samples);
   move([&](const MovableSamples& some, std::size_t first) {
     drift(config, some, seconds, stream(Purpose::kMotion), first);
