@@ -23,7 +23,6 @@ constexpr double kIndependent = 0.2;  ///< difference at which a reading counts 
 constexpr double kNearer = 0.4;       ///< of the difference: then another delay is looked at
 constexpr double kExplained = 0.7;    ///< of the difference: what may be left of it
 constexpr double kToll = 1.0;  ///< [nats] of each reading: motions that are both wrong differ, too
-constexpr double kMostNats = 4.0;     ///< that one reading counts
 constexpr double kMostOfEvent = 8.0;  ///< [nats] in kEvent
 constexpr double kEvent = 3.0;        ///< [s]
 constexpr double kSuspect = 12.0;     ///< [nats]
@@ -69,7 +68,7 @@ double share(const Pose2& from, const Pose2& to, const Pose2& motion) {
 bool Lateness::isSuspected() const {
   return inForce_ > 0 || lead() >= kSuspect ||
          std::any_of(jumps_.begin(), jumps_.end(),
-                     [](const Jump& jump) { return jump.lead.nats() > kMostNats; });
+                     [](const Jump& jump) { return jump.lead.nats() > kMostNatsOfAReading; });
 }
 
 double Lateness::lead() const {
@@ -181,8 +180,9 @@ void Lateness::compare(const Moment& moment, const Recovery& recovery,
 void Lateness::count(std::size_t delay, double ratio, double part) {
   Case& one = cases_[delay];
   const double before = one.ofEvent;
-  one.ofEvent = std::clamp(before + part * std::clamp(ratio, -kMostNats, kMostNats), -kMostOfEvent,
-                           kMostOfEvent);
+  one.ofEvent =
+      std::clamp(before + part * std::clamp(ratio, -kMostNatsOfAReading, kMostNatsOfAReading),
+                 -kMostOfEvent, kMostOfEvent);
   one.nats += one.ofEvent - before;
   one.sharp += part * std::clamp(ratio, -kMostSharp, kMostSharp);
   one.nats = std::max(one.nats, inForce_ == 0 ? 0.0 : kLeastIfLate);

@@ -54,8 +54,9 @@ void Mcl::Impl::move(const Move& moveSome) {
 void Mcl::Impl::predict(const Pose2& odometry) {
   const Pose2 change = lastOdometry ? inverse(*lastOdometry) * odometry : Pose2{};
   lastOdometry = odometry;
-  metres += std::hypot(change.x, change.y);
-  way += std::hypot(change.x, change.y) + std::abs(change.theta);
+  const double come = std::hypot(change.x, change.y);
+  metres += come;
+  way += come + std::abs(change.theta);
   move([&](const MovableSamples& some, std::size_t first) {
     motion->sampleMotion(some, change, config.seed, stream(Purpose::kMotion), first);
   });

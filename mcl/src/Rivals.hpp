@@ -31,8 +31,7 @@ namespace ortung {
 /// - Around the estimate, drawn from a ring that grows with time: wheels that slip or lie, pushes.
 ///   Half of them follow odometry, the other half goes anywhere near.
 /// - Elsewhere: where a search of the whole field finds that one reading fits, moved by odometry.
-/// It
-///   may take several updates.
+///   The search may take several updates.
 ///
 /// Both are drawn from one reading, and weighed by all later ones, as the belief is. A reading
 /// speaks for them only where it fits as readings use to fit: in a crowd it fits nowhere.

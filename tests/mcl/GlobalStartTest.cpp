@@ -263,6 +263,16 @@ test::FakeRun& run() {
   return run;
 }
 
+/// A filter that knows nothing, of a robot that begins to drive.
+std::unique_ptr<Mcl> startedGlobally(double budgetMs) {
+  MclConfig config = run().config();
+  config.budgetMs = budgetMs;
+  auto mcl = run().mcl(config);
+  run().begin(test::FakeRun::onCircle(1, 0.5, 0.3), 5);
+  mcl->startGlobal();
+  return mcl;
+}
+
 /// Updates until there is an estimate.
 int updatesUntilStarted(Mcl& mcl, int most) {
   for (int i = 1; i <= most; ++i) {
@@ -280,11 +290,7 @@ int updatesUntilStarted(Mcl& mcl, int most) {
 
 // The robot drives on meanwhile, a third of a turn and more.
 TEST(MclGlobalStart, IsSpreadOverUpdatesAndCarriedOnByOdometry) {
-  MclConfig config = run().config();
-  config.budgetMs = 1.0;
-  const auto mcl = run().mcl(config);
-  run().begin(test::FakeRun::onCircle(1, 0.5, 0.3), 5);
-  mcl->startGlobal();
+  const auto mcl = startedGlobally(1.0);
   EXPECT_FALSE(mcl->isSearching()) << "it waits for a reading";
   const int updates = updatesUntilStarted(*mcl, 200);
   EXPECT_GT(updates, 10);
@@ -295,11 +301,7 @@ TEST(MclGlobalStart, IsSpreadOverUpdatesAndCarriedOnByOdometry) {
 }
 
 TEST(MclGlobalStart, IsDoneInOneUpdateIfTheBudgetPermits) {
-  MclConfig config = run().config();
-  config.budgetMs = 1e6;
-  const auto mcl = run().mcl(config);
-  run().begin(test::FakeRun::onCircle(1, 0.5, 0.3), 5);
-  mcl->startGlobal();
+  const auto mcl = startedGlobally(1e6);
   EXPECT_EQ(updatesUntilStarted(*mcl, 1), 1);
   EXPECT_LT(distance(mcl->estimate().pose, run().truth), 0.15);
 }
@@ -330,11 +332,7 @@ TEST(MclGlobalStart, MayBeSearchedOnBetweenUpdates) {
 }
 
 TEST(MclGlobalStart, IsForgottenWhenAPoseIsSet) {
-  MclConfig config = run().config();
-  config.budgetMs = 1.0;
-  const auto mcl = run().mcl(config);
-  run().begin(test::FakeRun::onCircle(1, 0.5, 0.3), 5);
-  mcl->startGlobal();
+  const auto mcl = startedGlobally(1.0);
   run().drive();
   EXPECT_FALSE(mcl->update(run().container));
   ASSERT_TRUE(mcl->isSearching());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "ExactMotion.hpp"
 #include "FakeRun.hpp"
 #include "Lateness.hpp"
 #include "Resampling.hpp"
@@ -17,20 +18,6 @@ using test::FakeRun;
 
 constexpr double kFloor = -30.0;    ///< ln p of readings that fit nowhere
 constexpr double kDoubtful = -5.0;  ///< where they fit badly
-
-/// Odometry without noise.
-class Exact : public MotionModel {
- public:
-  void sampleMotion(const MovableSamples& samples, const Pose2& change, std::uint64_t,
-                    std::uint64_t, std::uint64_t) const override {
-    for (std::size_t i = 0; i < samples.x.size(); ++i) {
-      const Pose2 there = Pose2{samples.x[i], samples.y[i], samples.theta[i]} * change;
-      samples.x[i] = static_cast<float>(there.x);
-      samples.y[i] = static_cast<float>(there.y);
-      samples.theta[i] = static_cast<float>(there.theta);
-    }
-  }
-};
 
 struct Velocity {
   double way = 0.0;   ///< [m/s]
@@ -112,7 +99,7 @@ struct Robot {
   std::vector<Pose2> truths{Pose2{}};
   std::vector<Pose2> odometry{Pose2{}};
   MclConfig config;
-  Exact motion;
+  test::ExactMotion motion;
   Recovery recovery{config};
   Lateness lateness{config, motion};
   Pose2 believed;  ///< at the last reading

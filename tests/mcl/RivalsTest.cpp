@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "ExactMotion.hpp"
 #include "FakeRoom.hpp"
 #include "Resampling.hpp"
 #include "Rivals.hpp"
@@ -60,20 +61,6 @@ class FitsAt : public Weigher {
   Pose2 there_;
 };
 
-/// Odometry without noise.
-class Exact : public MotionModel {
- public:
-  void sampleMotion(const MovableSamples& samples, const Pose2& change, std::uint64_t,
-                    std::uint64_t, std::uint64_t) const override {
-    for (std::size_t i = 0; i < samples.x.size(); ++i) {
-      const Pose2 there = Pose2{samples.x[i], samples.y[i], samples.theta[i]} * change;
-      samples.x[i] = static_cast<float>(there.x);
-      samples.y[i] = static_cast<float>(there.y);
-      samples.theta[i] = static_cast<float>(there.theta);
-    }
-  }
-};
-
 /// A robot drives through a hall; readings tell where it is, the belief is elsewhere.
 struct Drive {
   Drive() {
@@ -129,7 +116,7 @@ struct Drive {
   FieldRegion region = test::Room{20, 12}.region(0.25, 0.2);
   PoseSearch search{region};
   MclConfig config;
-  Exact motion;
+  test::ExactMotion motion;
   UpdateTime time{config};
   Rivals rivals{config, region, search, motion, time};
   Recovery recovery{MclConfig{}};

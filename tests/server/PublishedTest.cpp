@@ -13,18 +13,29 @@ namespace {
 
 using PublishedEstimate = RoomRun;
 
-TEST_F(PublishedEstimate, ReachesClientsThatSubscribeToIt) {
-  LocalizationConfig own = config();
-  own.publish = true;
-  Localization localization(own);
+/// A robot that publishes, served, and a client that subscribes to one of its features.
+struct Listening {
+  Listening(LocalizationConfig config, const std::string& feature)
+      : localization((config.publish = true, config)) {
+    client.ask("HELLO ortung/1 role=viewer");
+    client.ask("SUBSCRIBE " + feature + " robot=1");
+  }
+  static ServedContainer::Config served() {
+    ServedContainer::Config config;
+    config.period = 0.002;
+    return config;
+  }
+
+  Localization localization;
   std::atomic<Timestamp> clock{0};
-  ServedContainer::Config served;
-  served.period = 0.002;
-  ServedContainer world(localization.container(), [&] { return clock.load(); }, served);
-  const RunningBoard board(world, {});
-  TestClient client(board.port());
-  client.ask("HELLO ortung/1 role=viewer");
-  client.ask("SUBSCRIBE mcl/LOCALIZATION/pose robot=1");
+  ServedContainer world{localization.container(), [this] { return clock.load(); }, served()};
+  RunningBoard board{world, {}};
+  TestClient client{board.port()};
+};
+
+TEST_F(PublishedEstimate, ReachesClientsThatSubscribeToIt) {
+  Listening listening(config(), "mcl/LOCALIZATION/pose");
+  auto& [localization, clock, world, board, client] = listening;
   PoseFixData heard({"mcl", "LOCALIZATION", "pose"}, {});
   std::size_t estimates = 0;
   for (const auto& moment : moments) {
@@ -48,17 +59,8 @@ TEST_F(PublishedEstimate, ReachesClientsThatSubscribeToIt) {
 
 // What clients are told of the status is what the program itself gets, with the same stamp.
 TEST_F(PublishedEstimate, TellsHowFarItCanBeReliedOn) {
-  LocalizationConfig own = config();
-  own.publish = true;
-  Localization localization(own);
-  std::atomic<Timestamp> clock{0};
-  ServedContainer::Config served;
-  served.period = 0.002;
-  ServedContainer world(localization.container(), [&] { return clock.load(); }, served);
-  const RunningBoard board(world, {});
-  TestClient client(board.port());
-  client.ask("HELLO ortung/1 role=viewer");
-  client.ask("SUBSCRIBE mcl/LOCALIZATION/status robot=1");
+  Listening listening(config(), "mcl/LOCALIZATION/status");
+  auto& [localization, clock, world, board, client] = listening;
   TrackData heard;
   std::size_t tracking = 0;
   const auto hear = [&] {
