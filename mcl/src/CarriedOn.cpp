@@ -41,7 +41,20 @@ Change changeOf(const MotionModel& motion, const Pose2& odometryChange, std::uin
   return change;
 }
 
-/// What is known of a pose after an exact change of it in its own frame.
+/// Adds noise of the robot's frame at heading @p theta, turned into the field's.
+void add(const std::array<double, 9>& noise, double theta, std::array<double, 9>& covariance) {
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  const std::array<std::array<double, 3>, 3> turn = {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          covariance[3 * row + column] += turn[row][i] * noise[3 * i + k] * turn[column][k];
+}
+
+}  // namespace
+
 PoseEstimate moved(PoseEstimate e, const Pose2& change) {
   // With the way turned into the field, (dx, dy), a heading that is off by h shifts the new place
   // by h (-dy, dx): the covariance is F P F^T with F = [1 0 -dy; 0 1 dx; 0 0 1].
@@ -60,20 +73,6 @@ PoseEstimate moved(PoseEstimate e, const Pose2& change) {
   }
   return e;
 }
-
-/// Adds noise of the robot's frame at heading @p theta, turned into the field's.
-void add(const std::array<double, 9>& noise, double theta, std::array<double, 9>& covariance) {
-  const double c = std::cos(theta);
-  const double s = std::sin(theta);
-  const std::array<std::array<double, 3>, 3> turn = {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
-  for (std::size_t row = 0; row < 3; ++row)
-    for (std::size_t column = 0; column < 3; ++column)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-          covariance[3 * row + column] += turn[row][i] * noise[3 * i + k] * turn[column][k];
-}
-
-}  // namespace
 
 PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionModel& motion,
                        const Pose2& odometryChange, std::uint64_t seed, std::uint64_t stream) {

@@ -16,4 +16,7 @@ ORTUNG_API PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionMode
                                   const Pose2& odometryChange, std::uint64_t seed,
                                   std::uint64_t stream);
 
+/// What is known of a pose after an exact change of it in its own frame.
+ORTUNG_API PoseEstimate moved(PoseEstimate estimate, const Pose2& change);
+
 }  // namespace ortung

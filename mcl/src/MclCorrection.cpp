@@ -204,6 +204,7 @@ void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weig
   estimate.stamp = stamp;
   coarsest = coarsestOf(news);
   keepResolution(estimate);
+  momentum.follow(estimate, stamp);
   lateness.keep(samples, weights, estimate.pose, stamp);
   present = estimate;
   if (lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);

@@ -13,6 +13,7 @@
 #include "GlobalStart.hpp"
 #include "Intake.hpp"
 #include "Lateness.hpp"
+#include "Momentum.hpp"
 #include "OdometryTrust.hpp"
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
@@ -52,6 +53,7 @@ struct Mcl::Impl {
   double usualInterval = 0.0;         ///< between weighings, lately at most [s]
   OdometryTrust trust;
   Lateness lateness;
+  Momentum momentum;        ///< where isBlind
   SampleSet anchor;         ///< the belief when it was weighed last, while odometry is not trusted
   std::size_t drifted = 0;  ///< of the samples, from this one on they drifted; 0: none
   bool isBlind = true;      ///< nobody tells how the robot moved up to this reading
@@ -74,6 +76,7 @@ struct Mcl::Impl {
         time(config),
         intake(config, *motion),
         lateness(config, *motion),
+        momentum(config),
         recovery(config),
         rivals(config, region, search, *motion, time),
         globalStart(config, region, search) {
@@ -106,6 +109,7 @@ struct Mcl::Impl {
     rivals.forget();
     trust.forget();
     lateness.forgetBelief();
+    momentum.forget();
     coarsest = {};
     present.reset();
     intake.countAgain(estimate.stamp - kPresent);
@@ -146,6 +150,8 @@ struct Mcl::Impl {
   void sharpen(const std::vector<News>& news, const std::vector<double>& before);
   void keepResolution(PoseEstimate& e) const;
   PoseEstimate atStamp(const PoseEstimate& e, Timestamp stamp) const;
+  /// Whether odometry says nothing of the way since the last weighing.
+  bool drifts() const { return !lastOdometry || (trust.isLost() && isBlind); }
   void addDrift(PoseEstimate& e, Timestamp stamp) const;
   Signs signsAt(Timestamp stamp) const;
   void correct(const std::vector<News>& news, Timestamp stamp);

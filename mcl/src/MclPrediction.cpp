@@ -89,8 +89,9 @@ void Mcl::Impl::predictBlindly(Timestamp stamp) {
   metres += come;
   way += come;
   if (!waitsForStart) enlarge(samples);
+  const Pose2 ahead = momentum.changeAt(stamp);
   move([&](const MovableSamples& some, std::size_t first) {
-    drift(config, some, seconds, stream(Purpose::kMotion), first);
+    drift(config, some, ahead, seconds, stream(Purpose::kMotion), first);
   });
 }
 
@@ -99,8 +100,8 @@ void Mcl::Impl::predictBlindly(Timestamp stamp) {
 void Mcl::Impl::spread(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0 || waitsForStart) return;
-  Spread both =
-      ortung::spread(config, samples, anchor, seconds, kSpreadSamples, stream(Purpose::kSpread));
+  Spread both = ortung::spread(config, samples, anchor, momentum.changeAt(stamp), seconds,
+                               kSpreadSamples, stream(Purpose::kSpread));
   samples = std::move(both.samples);
   drifted = both.drifted;
   present.reset();

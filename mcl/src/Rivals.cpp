@@ -133,7 +133,8 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   }
   Around& rival = *around_;
   const double seconds = driftSeconds(rival.stamp, moment.stamp);
-  Spread both = spread(config_, rival.samples, rival.anchor, seconds, kSpreadAround, moment.stream);
+  Spread both =
+      spread(config_, rival.samples, rival.anchor, {}, seconds, kSpreadAround, moment.stream);
   std::vector<float> logs;
   weigh(both.samples, logs);
   const std::vector<double> before = normalized(both.samples.logWeight);
@@ -200,7 +201,7 @@ void Rivals::goOnSearching(const Moment& moment) {
                          inverse(*then.odometry) * *moment.odometry, config_.seed, moment.stream,
                          0);
   } else {
-    drift(config_, {found.x, found.y, found.theta}, driftSeconds(then.stamp, moment.stamp),
+    drift(config_, {found.x, found.y, found.theta}, {}, driftSeconds(then.stamp, moment.stamp),
           moment.stream, 0);
   }
   elsewhere_.emplace(std::move(found));

@@ -85,7 +85,7 @@ double productOf(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 void driftAll(SampleSet& set, double seconds, std::uint64_t stream) {
-  drift(MclConfig{}, {set.x, set.y, set.theta}, seconds, stream, 0);
+  drift(MclConfig{}, {set.x, set.y, set.theta}, {}, seconds, stream, 0);
 }
 
 // Sigmas after 1 s are 0.5 m along each axis, and 30 degrees; variances grow with time.
@@ -122,7 +122,7 @@ TEST(Drift, OfPartsIsThatOfTheWhole) {
     drift(MclConfig{},
           {std::span(parts.x).subspan(first, count), std::span(parts.y).subspan(first, count),
            std::span(parts.theta).subspan(first, count)},
-          1.0, 5, first);
+          {}, 1.0, 5, first);
   EXPECT_EQ(parts.x, whole.x);
   EXPECT_EQ(parts.theta, whole.theta);
 }
@@ -134,7 +134,7 @@ TEST(Spread, IsHalfWhereOdometryLedAndHalfAnywhereNearWhereTheRobotWas) {
     moved.x[i] = 6.0F;
     moved.logWeight[i] = static_cast<float>(std::log(3.0));
   }
-  const Spread both = spread(MclConfig{}, moved, at({1, 2, 3}, 500), 1.0, 4000, 7);
+  const Spread both = spread(MclConfig{}, moved, at({1, 2, 3}, 500), {}, 1.0, 4000, 7);
   ASSERT_EQ(both.drifted, 4000u);
   ASSERT_EQ(both.samples.size(), 8000u);
   const auto weights = normalized(both.samples.logWeight);
@@ -156,7 +156,7 @@ TEST(Spread, IsHalfWhereOdometryLedAndHalfAnywhereNearWhereTheRobotWas) {
 TEST(Spread, HasAsManySamplesAsTheBeliefButNoMoreThanAreAllowed) {
   MclConfig config;
   const auto halfOf = [&](std::size_t samples, std::size_t least) {
-    const Spread both = spread(config, at({}, samples), at({}, 300), 0.1, least, 1);
+    const Spread both = spread(config, at({}, samples), at({}, 300), {}, 0.1, least, 1);
     EXPECT_EQ(both.samples.size(), 2 * both.drifted);
     return both.drifted;
   };
