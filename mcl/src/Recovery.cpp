@@ -83,7 +83,9 @@ void Recovery::followBest(double fit) {
   last_ = fit;
   lately_ += rateFast_ * (fit - lately_);
   unusual_ = isUsual(fit) ? 0 : unusual_ + 1;
-  *best_ += (fitsBadly() ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
+  // A crowd that stays with the robot must not become what is usual: then places would do that look
+  // a little like it.
+  *best_ += (fit < *best_ ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
 }
 
 bool Recovery::isUsual(double best) const {

@@ -65,7 +65,7 @@ class ORTUNG_API Recovery {
   int unusual_ = 0;             ///< readings on end that did not fit as they use to
   double last_ = 0.0;           ///< best fit
   double lately_ = 0.0;         ///< its short-term average
-  std::optional<double> best_;  ///< long-term average
+  std::optional<double> best_;  ///< what they use to be: most of them are no better
   bool known_ = false;
 };
 
