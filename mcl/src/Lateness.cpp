@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "Annealing.hpp"
+#include "CarriedOn.hpp"
 #include "Kld.hpp"
 #include "Resampling.hpp"
 #include "ortung/base/Random.hpp"
@@ -16,31 +18,18 @@ constexpr std::size_t kSamples = 128;
 constexpr std::uint64_t kFirstNumber = 1ULL << 28;  ///< of their noise, which no other samples have
 constexpr double kEffective = 16.0;                 ///< samples: fewer climb
 
-// What odometry tells between two readings.
-constexpr double kPiece = 1.0;        ///< of time between them, at least [s]
-constexpr double kApart = 0.05;       ///< motions that differ by less say nothing [m + rad]
-constexpr double kIndependent = 0.2;  ///< difference at which a reading counts whole [m + rad]
-constexpr double kNearer = 0.4;       ///< of the difference: then another delay is looked at
-constexpr double kExplained = 0.7;    ///< of the difference: what may be left of it
-constexpr double kToll = 1.0;  ///< [nats] of each reading: motions that are both wrong differ, too
-constexpr double kMostOfEvent = 8.0;  ///< [nats] in kEvent
-constexpr double kEvent = 3.0;        ///< [s]
-constexpr double kSuspect = 12.0;     ///< [nats]
-constexpr double kEnough = 20.0;      ///< [nats] for a delay
-// To tell apart what is far ahead, readings count more: as good as the best is what is behind by
-constexpr double kMostSharp = 20.0;    ///< that one reading counts then [nats]
-constexpr double kNearlyEnough = 4.0;  ///< [nats] of those
-constexpr double kNearlySharp = 10.0;  ///< and of these
-
-// While a delay is in force.
-constexpr std::size_t kFewSteps = 2;    ///< a delay so near ...
-constexpr double kEnoughNear = 12.0;    ///< ... needs no more [nats]
-constexpr double kEnoughForNone = 8.0;  ///< [nats]: to have none is the rule
-constexpr double kLeastIfLate = -12.0;  ///< [nats]: what is long past does not count against it
-constexpr double kLeastSharp = -100.0;  ///< the same
+constexpr double kPiece = 1.0;          ///< of time between places that are compared, at least [s]
+constexpr double kSurely = 10.0;        ///< times more probable: then another delay is in force
+constexpr double kLeftOut = 0.005;      ///< probability of delays that may be left out
+constexpr double kSamePlace = 0.5;      ///< [m]
+constexpr double kFarthest = 50.0;      ///< within some seconds [m]: else odometry's counter jumped
+constexpr double kNegligible = 1e-6;    ///< probability that is not looked at
+constexpr double kEnoughForNone = 8.0;  ///< [nats] for a jump: to have no delay is the rule
+constexpr double kMostSharp = 20.0;     ///< that one reading counts to tell jumps apart [nats]
 
 // Where a delay may have begun.
 constexpr double kPlacesApart = 0.3;  ///< so that it shows [m + rad]
+constexpr double kIndependent = 0.2;  ///< way after which a reading counts whole [m + rad]
 constexpr double kLongGap = 3.0;      ///< between readings, of what is usual
 constexpr double kGapKept = 0.9;      ///< of what is usual, from reading to reading
 constexpr double kGapMore = 1.5;      ///< the same, at most
@@ -51,42 +40,82 @@ double apart(const Pose2& a, const Pose2& b) {
   return distance(a, b) + std::abs(wrapAngle(a.theta - b.theta));
 }
 
-/// Where a motion is on the way from one to another: 0 at the one, 1 at the other.
-double share(const Pose2& from, const Pose2& to, const Pose2& motion) {
-  const auto minus = [](const Pose2& a, const Pose2& b) {
-    return std::array{a.x - b.x, a.y - b.y, wrapAngle(a.theta - b.theta)};
-  };
-  const auto dot = [](const auto& a, const auto& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  };
-  const auto way = minus(to, from);
-  return dot(minus(motion, from), way) / dot(way, way);
-}
-
 }  // namespace
 
-bool Lateness::isSuspected() const {
-  return inForce_ > 0 || lead() >= kSuspect ||
-         std::any_of(jumps_.begin(), jumps_.end(),
-                     [](const Jump& jump) { return jump.lead.nats() > kMostNatsOfAReading; });
+Lateness::Odometry Lateness::odometryByDelay(Timestamp stamp) const {
+  Odometry odometry;
+  for (std::size_t i = 0; i < Delays::kCount; ++i) odometry[i] = odometryAt(stamp, i);
+  return odometry;
 }
 
-double Lateness::lead() const {
-  double lead = 0.0;
-  for (const Case& one : cases_) lead = std::max(lead, one.nats);
-  for (const Jump& jump : jumps_) lead = std::max(lead, jump.lead.nats());
-  return lead;
+/// Where the robot is by each delay if it is at @p inForce by the one in force.
+std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose2& inForce) const {
+  std::array<Pose2, Delays::kCount> places;
+  places.fill(inForce);
+  const std::optional<Pose2> now = motion_.odometryAt(stamp);
+  const std::optional<Pose2>& then = odometry_[inForce_];
+  if (!now || !before_ || !then) return places;
+  // From the place of the last reading on, the way is longer or shorter.
+  for (std::size_t i = 0; i < Delays::kCount; ++i)
+    if (i != inForce_ && odometry_[i] && probability(i) >= kNegligible) {
+      const Pose2 place = inForce * inverse(*now) * *then * inverse(*odometry_[i]) * *now;
+      if (distance(place, inForce) < kFarthest) places[i] = place;
+    }
+  return places;
 }
 
-bool Lateness::isOpen() const { return inForce_ > 0 || lead() > 0.0; }
+bool Lateness::isSuspected(Timestamp stamp) const {
+  // A delay of one step is hardly one.
+  if (inForce_ > 1 || std::any_of(jumps_.begin(), jumps_.end(), [](const Jump& jump) {
+        return jump.lead.nats() > kMostNatsOfAReading;
+      }))
+    return true;
+  const auto places = placesAt(stamp, Pose2{});
+  double elsewhere = 0.0;
+  for (std::size_t i = 0; i < Delays::kCount; ++i)
+    if (distance(places[i], Pose2{}) > kSamePlace) elsewhere += probability(i);
+  return elsewhere > kLeftOut;
+}
+
+PoseEstimate Lateness::widened(const PoseEstimate& e, Timestamp stamp) const {
+  const auto places = placesAt(stamp, e.pose);
+  PoseEstimate wide = e;
+  const auto offOf = [](const Pose2& a, const Pose2& b) {
+    return std::array{a.x - b.x, a.y - b.y, wrapAngle(a.theta - b.theta)};
+  };
+  // While none is in force, stamps are taken at their word.
+  for (std::size_t i = 0; i < Delays::kCount && inForce_ > 0; ++i) {
+    const auto off = offOf(places[i], e.pose);
+    wide.pose.x += probability(i) * off[0];
+    wide.pose.y += probability(i) * off[1];
+    wide.pose.theta += probability(i) * off[2];
+  }
+  wide.pose.theta = wrapAngle(wide.pose.theta);
+  const auto add = [&wide](double share, const std::array<double, 3>& off) {
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 3; ++column)
+        wide.covariance[3 * row + column] += share * off[row] * off[column];
+  };
+  for (std::size_t i = 0; i < Delays::kCount; ++i) {
+    add(probability(i), offOf(places[i], wide.pose));
+    // A delay is anywhere within its step.
+    if (i > 0) add(0.25 * probability(i), offOf(places[i], places[i - 1]));
+  }
+  return wide;
+}
+
+void Lateness::hear(Timestamp odometry) {
+  if (!odometrySince_ || odometry < *odometrySince_) odometrySince_ = odometry;
+}
 
 void Lateness::forget() {
   inForce_ = 0;
+  delays_.forget();
+  odometrySince_.reset();
   forgetBelief();
 }
 
 void Lateness::forgetBelief() {
-  cases_ = {};
   jumps_.clear();
   anchor_.reset();
   before_.reset();
@@ -94,25 +123,18 @@ void Lateness::forgetBelief() {
 }
 
 std::optional<Pose2> Lateness::odometryAt(Timestamp stamp, std::size_t delay) const {
-  return motion_.odometryAt(stamp - fromSeconds(secondsOf(delay)));
+  return motion_.odometryAt(stamp - fromSeconds(Delays::secondsOf(delay)));
 }
 
-void Lateness::keep(const SampleSet& belief, std::span<const double> weights, const Pose2& pose,
-                    Timestamp stamp) {
+void Lateness::keep(const SampleSet& belief, std::span<const double> weights,
+                    const PoseEstimate& estimate, Timestamp stamp) {
   // Rises soon, not at once: a silence is not usual. Falls slowly.
   const double gap = toSeconds(stamp - before_.value_or(stamp));
   usualGap_ = usualGap_ > 0.0 ? std::clamp(gap, kGapKept * usualGap_, kGapMore * usualGap_) : gap;
   before_ = stamp;
+  odometry_ = odometryByDelay(stamp);
   if (anchor_ && stamp >= anchor_->stamp && toSeconds(stamp - anchor_->stamp) < kPiece) return;
-  anchor_.reset();
-  std::array<Pose2, kDelays> odometry;
-  for (std::size_t i = 0; i < kDelays; ++i) {
-    const std::optional<Pose2> then = odometryAt(stamp, i);
-    if (!then) return;
-    odometry[i] = *then;
-  }
-  anchor_ =
-      Anchor{stamp, pose, taken(belief, lowVariance(weights, kSamples, 0.5)), odometry, false};
+  anchor_ = Anchor{stamp, estimate, taken(belief, lowVariance(weights, kSamples, 0.5)), odometry_};
 }
 
 /// With the same noise for each delay, so that only what odometry says makes a difference.
@@ -128,65 +150,28 @@ std::optional<Lateness::Change> Lateness::follow(const Moment& moment, const Rec
   if (!anchor_ || moment.stamp <= anchor_->stamp) return std::nullopt;
   const double gap = before_ ? toSeconds(moment.stamp - *before_) : 0.0;
   const bool isLonger = usualGap_ > 0.0 && gap > kLongGap * usualGap_;
-  anchor_->isDoubtful |= moment.isDoubtful;
-  if (!isLonger) compare(moment, recovery, weigh, fit);
+  if (!isLonger) compare(moment);
   goOn(moment, recovery, weigh, fit);
   if (jumps_.empty() && (moment.isDoubtful || isLonger)) begin(moment, gap, weigh);
   return decide();
 }
 
-/// Which delay leads from the last reading to this one.
-void Lateness::compare(const Moment& moment, const Recovery& recovery,
-                       const PoseSearch::Weigh& weigh, const Fit& fit) {
-  if (toSeconds(moment.stamp - anchor_->stamp) < kPiece) return;
-  std::array<Pose2, kDelays> motions;
-  for (std::size_t i = 0; i < kDelays; ++i) {
+/// Which delay leads from the last place to this one.
+void Lateness::compare(const Moment& moment) {
+  const double seconds = toSeconds(moment.stamp - anchor_->stamp);
+  // What odometry would have said before its first reading is not known.
+  const Timestamp longest = fromSeconds(Delays::secondsOf(Delays::kCount - 1));
+  if (seconds < kPiece || !odometrySince_ || anchor_->stamp - longest < *odometrySince_) return;
+  Delays::Predicted predicted;
+  for (std::size_t i = 0; i < Delays::kCount; ++i) {
     const std::optional<Pose2> now = odometryAt(moment.stamp, i);
-    if (!now) return;
-    motions[i] = inverse(anchor_->odometry[i]) * *now;
+    const std::optional<Pose2>& then = anchor_->odometry[i];
+    if (!now || !then) return;
+    const Pose2 change = inverse(*then) * *now;
+    if (!(distance(change, Pose2{}) < kFarthest)) return;
+    predicted[i] = carriedOn(anchor_->estimate, motion_, change, config_.seed, moment.stream);
   }
-  const auto isApart = [&](const Pose2& m) { return apart(m, motions[inForce_]) >= kIndependent; };
-  if (std::none_of(motions.begin(), motions.end(), isApart)) return;
-  const Pose2 seen = inverse(anchor_->pose) * moment.pose;
-  const auto isNearer = [&](const Pose2& m) {
-    return isApart(m) && share(motions[inForce_], m, seen) > kNearer;
-  };
-  if (!anchor_->isDoubtful && !isOpen() && std::none_of(motions.begin(), motions.end(), isNearer))
-    return;
-  std::vector<float> logs;
-  std::optional<double> ofPresent;
-  for (std::size_t i = 0; i < kDelays; ++i) {
-    const double difference = apart(motions[i], motions[inForce_]);
-    if (i == inForce_ || difference < kApart) continue;
-    if (!ofPresent) {
-      weigh(moved(anchor_->samples, motions[inForce_], moment), logs);
-      ofPresent = logMean(logs);
-    }
-    SampleSet set = moved(anchor_->samples, motions[i], moment);
-    weigh(set, logs);
-    const double ratio = logMean(logs) - *ofPresent;
-    set.logWeight = logs;
-    if (ratio > 0.0 &&
-        (apart(seen, motions[i]) > kExplained * difference || !recovery.isUsual(fit(set))))
-      continue;
-    if (toSeconds(moment.stamp - eventSince_) > kEvent || moment.stamp < eventSince_) {
-      eventSince_ = moment.stamp;
-      for (Case& one : cases_) one.ofEvent = 0.0;
-    }
-    count(i, ratio - kToll, std::min(1.0, difference / kIndependent));
-  }
-}
-
-void Lateness::count(std::size_t delay, double ratio, double part) {
-  Case& one = cases_[delay];
-  const double before = one.ofEvent;
-  one.ofEvent =
-      std::clamp(before + part * std::clamp(ratio, -kMostNatsOfAReading, kMostNatsOfAReading),
-                 -kMostOfEvent, kMostOfEvent);
-  one.nats += one.ofEvent - before;
-  one.sharp += part * std::clamp(ratio, -kMostSharp, kMostSharp);
-  one.nats = std::max(one.nats, inForce_ == 0 ? 0.0 : kLeastIfLate);
-  one.sharp = std::max(one.sharp, inForce_ == 0 ? 0.0 : kLeastSharp);
+  delays_.follow(predicted, inForce_, moment.estimate, seconds);
 }
 
 /// Weighs samples that were moved to this reading. @returns whether they stay
@@ -218,15 +203,16 @@ bool Lateness::weighJump(Jump& jump, const Moment& moment, const PoseSearch::Wei
 void Lateness::begin(const Moment& moment, double gap, const PoseSearch::Weigh& weigh) {
   const std::optional<Pose2> present = odometryAt(moment.stamp, inForce_);
   if (!present) return;
-  const Pose2& then = anchor_->odometry[inForce_];
-  for (std::size_t i = 0; i < kDelays; ++i) {
-    const double grown = secondsOf(i) - secondsOf(inForce_);
+  const std::optional<Pose2>& then = anchor_->odometry[inForce_];
+  if (!then) return;
+  for (std::size_t i = 0; i < Delays::kCount; ++i) {
+    const double grown = Delays::secondsOf(i) - Delays::secondsOf(inForce_);
     // After a longer silence odometry alone is to blame.
     if (i == inForce_ || grown > gap || gap - std::max(0.0, grown) > kLongGap * usualGap_) continue;
     const std::optional<Pose2> now = odometryAt(moment.stamp, i);
     if (!now) continue;
-    const Pose2 change = inverse(then) * *now;
-    if (apart(change, inverse(then) * *present) < kPlacesApart) continue;
+    const Pose2 change = inverse(*then) * *now;
+    if (apart(change, inverse(*then) * *present) < kPlacesApart) continue;
     Jump jump{i, moved(anchor_->samples, change, moment), *now};
     if (weighJump(jump, moment, weigh, 1.0, nullptr, nullptr) && jump.lead.nats() > 0.0)
       jumps_.push_back(std::move(jump));
@@ -253,48 +239,21 @@ std::optional<Lateness::Change> Lateness::decide() {
     if (isEnough && (jump == nullptr || one.sharp > jump->sharp)) jump = &one;
   }
   if (jump != nullptr) {
+    std::array<double, Delays::kCount> nats;
+    nats.fill(-std::numeric_limits<double>::infinity());
+    for (const Jump& one : jumps_) nats[one.delay] = one.lead.nats();
+    delays_.change(nats);
+    inForce_ = jump->delay;
     Change found{jump->samples};
-    change(jump->delay);
+    jumps_.clear();
+    anchor_.reset();
     return found;
   }
-  // To have no delay is the rule.
-  if (cases_[0].nats >= kEnoughForNone && cases_[0].sharp >= kEnoughForNone && inForce_ != 0) {
-    change(0);
-    return Change{};
-  }
-  const Case* best = nullptr;
-  for (std::size_t i = 0; i < kDelays; ++i) {
-    const Case& one = cases_[i];
-    const bool isNear = i + kFewSteps >= inForce_ && i <= inForce_ + kFewSteps;
-    const bool isEnough =
-        one.nats >= (inForce_ > 0 && isNear ? kEnoughNear : kEnough) && one.sharp >= one.nats;
-    if (isEnough && (best == nullptr || one.sharp > best->sharp)) best = &one;
-  }
-  if (best == nullptr) return std::nullopt;
-  // A larger delay is found wrong later than a smaller one, so of those that do as well the
-  // smallest.
-  const auto winner = std::find_if(cases_.begin(), cases_.end(),
-                                   [&](const Case& one) {
-                                     return one.nats >= best->nats - kNearlyEnough &&
-                                            one.sharp >= best->sharp - kNearlySharp;
-                                   }) -
-                      cases_.begin();
-  change(static_cast<std::size_t>(winner));
-  return Change{};
-}
-
-void Lateness::change(std::size_t delay) {
-  cases_[inForce_] = {};
-  const Case present = cases_[delay];
-  for (Case& one : cases_)
-    one = {one.nats - present.nats, one.ofEvent - present.ofEvent, one.sharp - present.sharp};
-  inForce_ = delay;
-  for (Case& one : cases_) {
-    one.nats = std::max(one.nats, inForce_ == 0 ? 0.0 : kLeastIfLate);
-    one.sharp = std::max(one.sharp, inForce_ == 0 ? 0.0 : kLeastSharp);
-  }
+  const std::size_t best = delays_.mostProbable();
+  if (probability(best) < kSurely * probability(inForce_)) return std::nullopt;
+  inForce_ = best;
   jumps_.clear();
-  anchor_.reset();
+  return Change{};
 }
 
 }  // namespace ortung

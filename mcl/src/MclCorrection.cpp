@@ -196,7 +196,7 @@ void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weig
                          Timestamp stamp, std::optional<Lateness::Moment> weighed) {
   way = metres = 0.0;
   estimate = estimateOf(config, samples.view(), weights);
-  if (weighed) weighed->pose = estimate.pose;
+  if (weighed) weighed->estimate = estimate;
   if (weighed && compareDelays(news, *weighed)) {
     weights = normalized(samples.logWeight);
     estimate = estimateOf(config, samples.view(), weights);
@@ -205,9 +205,10 @@ void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weig
   coarsest = coarsestOf(news);
   keepResolution(estimate);
   momentum.follow(estimate, stamp);
-  lateness.keep(samples, weights, estimate.pose, stamp);
+  lateness.keep(samples, weights, estimate, stamp);
   present = estimate;
   if (lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);
+  estimate = lateness.widened(estimate, stamp);
   judge(signsAt(stamp), estimate);
   if (effectiveSamples(weights) < config.resampleBelow * static_cast<double>(samples.size())) {
     resample(weights);

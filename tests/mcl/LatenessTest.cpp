@@ -2,6 +2,7 @@
 // belief.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -47,6 +48,7 @@ struct Robot {
       step(truths.back(), course, truths);
       step(odometry.back(), told, odometry);
       motion.follow(now(), {odometry.back(), 0.0, 0.0, {}});
+      lateness.hear(now());
     }
     if (reads) read();
   }
@@ -72,7 +74,10 @@ struct Robot {
     };
     ++readings;
     const double evidence = isElsewhere ? kFloor : expected(there);
-    const auto change = lateness.follow({now(), evidence, evidence < kDoubtful, there, readings},
+    PoseEstimate seen;
+    seen.pose = there;
+    seen.covariance = {kSigma * kSigma, 0, 0, 0, kSigma * kSigma, 0, 0, 0, kTurn * kTurn};
+    const auto change = lateness.follow({now(), evidence, evidence < kDoubtful, seen, readings},
                                         recovery, weigh, fit);
     if (change) {
       ++changes;
@@ -82,16 +87,18 @@ struct Robot {
     belief.resize(200);
     Random random(readings);
     for (std::size_t i = 0; i < belief.size(); ++i) {
-      belief.x[i] = static_cast<float>(there.x + 0.02 * random.gaussian());
-      belief.y[i] = static_cast<float>(there.y + 0.02 * random.gaussian());
-      belief.theta[i] = static_cast<float>(there.theta + 0.01 * random.gaussian());
+      belief.x[i] = static_cast<float>(there.x + kSigma * random.gaussian());
+      belief.y[i] = static_cast<float>(there.y + kSigma * random.gaussian());
+      belief.theta[i] = static_cast<float>(there.theta + kTurn * random.gaussian());
     }
-    lateness.keep(belief, normalized(belief.logWeight), there, now());
+    lateness.keep(belief, normalized(belief.logWeight), seen, now());
     believed = there;
     odometryThen = *lateness.odometryAt(now());
   }
 
   static constexpr double kStep = 0.025;  ///< [s]
+  static constexpr double kSigma = 0.02;  ///< of the belief [m]
+  static constexpr double kTurn = 0.01;   ///< [rad]
   Course course;
   Course told;  ///< by odometry
   double late = 0.0;
@@ -137,26 +144,83 @@ TEST(Lateness, IsFoundWhereTheRobotTurns) {
     Robot robot(roundCorners);
     robot.driveFor(8);
     EXPECT_EQ(robot.lateness.seconds(), 0.0);
-    EXPECT_EQ(robot.lateness.lead(), 0.0);
+    EXPECT_GT(robot.lateness.probability(0), 0.999);
+    EXPECT_FALSE(robot.lateness.isSuspected(robot.now()));
     Robot delayed(roundCorners);
     delayed.late = late;
-    delayed.driveFor(5);
-    EXPECT_EQ(delayed.changes, 0) << late << ": two events at most";
-    EXPECT_GE(delayed.lateness.lead(), 8.0) << late;
-    delayed.driveFor(32);
+    delayed.driveFor(12);
+    EXPECT_NEAR(delayed.lateness.seconds(), late, 0.3);
+    delayed.driveFor(30);
     EXPECT_NEAR(delayed.lateness.seconds(), late, 0.3);
     EXPECT_FALSE(delayed.changed) << late << ": the belief stays";
+    EXPECT_TRUE(delayed.lateness.isSuspected(delayed.now())) << "its end may go unseen";
+  }
+}
+
+// Nothing but the start tells it: afterwards the way is straight, and the speed is the same.
+TEST(Lateness, IsFoundWhereTheRobotSetsOffOnce) {
+  const auto setsOff = [](double t) { return Velocity{t < 5.0 ? 0.0 : 1.5, 0.0}; };
+  for (const double late : {0.0, 0.5, 1.0, 2.0, 3.0}) {
+    Robot robot(setsOff);
+    robot.late = late;
+    robot.driveFor(5);
+    EXPECT_FALSE(robot.lateness.isSuspected(robot.now())) << "it stands";
+    for (int i = 0; i < 40; ++i) {
+      robot.drive();
+      const Pose2 there = robot.truths[robot.truths.size() - 1];
+      const Pose2 told = robot.believed * inverse(robot.odometryThen) * robot.odometry.back();
+      if (distance(there, told) > 1.0) {
+        EXPECT_TRUE(robot.lateness.isSuspected(robot.now()));
+      }
+    }
+    if (late == 0.0 || late >= 2.0) {
+      EXPECT_EQ(robot.lateness.seconds(), late);
+    }
+    EXPECT_EQ(robot.lateness.isSuspected(robot.now()), late > 0.0);
   }
 }
 
 TEST(Lateness, CannotBeKnownOnAStraightWay) {
   Robot robot(straight);
-  robot.late = 2.0;
-  robot.driveFor(10);  // of the first seconds, in which it set off, it has heard
-  const double before = robot.lateness.lead();
+  robot.driveFor(5);
+  const double before = robot.lateness.probability(8);
   robot.driveFor(60);
-  EXPECT_LE(robot.lateness.lead(), before);
+  EXPECT_NEAR(robot.lateness.probability(8), before, 1e-4);
   EXPECT_EQ(robot.lateness.seconds(), 0.0);
+  EXPECT_TRUE(robot.lateness.isSuspected(robot.now())) << "the robot may be 2 m ahead";
+  // Estimates are so much wider, along the way alone.
+  double squares = 0.0;
+  for (std::size_t i = 0; i < Delays::kCount; ++i) {
+    const double ahead = Delays::secondsOf(i);  // [m], at 1 m/s
+    const double step = i > 0 ? Delays::kStep : 0.0;
+    squares += robot.lateness.probability(i) * (ahead * ahead + step * step / 4.0);
+  }
+  PoseEstimate e;
+  e.pose = robot.truths.back();
+  const PoseEstimate wide = robot.lateness.widened(e, robot.now());
+  EXPECT_EQ(wide.pose.x, e.pose.x) << "as long as none is in force";
+  EXPECT_NEAR(wide.covariance[0], squares, 1e-6);
+  EXPECT_NEAR(wide.covariance[4], 0.0, 1e-9);
+  EXPECT_NEAR(wide.covariance[8], 0.0, 1e-9);
+}
+
+// What is not known of the delay is known of the estimate, whatever the direction.
+TEST(Lateness, InForceWidensByHalfAStep) {
+  Robot robot([](double t) { return t < 20.0 ? roundCorners(t) : Velocity{1.5, 0.0}; });
+  robot.late = 2.0;
+  robot.driveFor(40);
+  ASSERT_NEAR(robot.lateness.seconds(), 2.0, 0.25);
+  PoseEstimate e;
+  e.pose = {0, 0, robot.truths.back().theta};
+  const PoseEstimate wide = robot.lateness.widened(e, robot.now());
+  const double along = wide.covariance[0] + wide.covariance[4];
+  EXPECT_GE(std::sqrt(along), 0.5 * Delays::kStep * 1.5);
+  EXPECT_LE(std::sqrt(along), 2.0 * Delays::kStep * 1.5);
+  const double c = std::cos(e.pose.theta);
+  const double s = std::sin(e.pose.theta);
+  const double across =
+      s * s * wide.covariance[0] - 2.0 * s * c * wide.covariance[1] + c * c * wide.covariance[4];
+  EXPECT_LT(across, 0.01 * along);
 }
 
 // What odometry gets wrong speaks for a delay when it begins, and against it when it is over.
@@ -190,7 +254,7 @@ TEST(Lateness, IsFoundWhereItBegins) {
     robot.isElsewhere = true;  // the belief is expected 2 m farther on
     for (int i = 0; i < 3; ++i) robot.drive();
     EXPECT_EQ(robot.changes, 0);
-    EXPECT_EQ(robot.lateness.isSuspected(), hasGap);
+    EXPECT_TRUE(robot.lateness.isSuspected(robot.now())) << "so far nothing has told of it";
     robot.drive();
     EXPECT_EQ(robot.changes, hasGap ? 1 : 0);
     EXPECT_NEAR(robot.lateness.seconds(), hasGap ? 2.0 : 0.0, 0.25);
@@ -218,7 +282,6 @@ TEST(Lateness, EndsWithinThreeReadings) {
   EXPECT_NEAR(robot.lateness.seconds(), 1.0, 0.25);
   robot.lateness.forgetBelief();
   EXPECT_NEAR(robot.lateness.seconds(), 1.0, 0.25) << "that is of the devices";
-  EXPECT_EQ(robot.lateness.lead(), 0.0);
   robot.lateness.forget();
   EXPECT_EQ(robot.lateness.seconds(), 0.0);
 }
@@ -250,6 +313,92 @@ TEST(LateReadings, DoNotKeepTheEstimateBehind) {
   }
   EXPECT_LT(worst, 0.3);
   EXPECT_EQ(mcl->estimate(run.stamp)->status, TrackStatus::kTracking);
+}
+
+/// A robot somewhere: by delay d it is d/2 m farther along x than by none.
+Delays::Predicted ahead(double variance) {
+  Delays::Predicted predicted;
+  for (std::size_t i = 0; i < Delays::kCount; ++i) {
+    predicted[i].pose = {2.0 + 0.5 * Delays::secondsOf(i), -1.0, 3.1};
+    predicted[i].covariance = {variance, 0, 0, 0, variance, 0, 0, 0, 0.01};
+  }
+  return predicted;
+}
+
+// Against Bayes' rule by hand: sharp readings are at a point.
+TEST(LatenessDelays, FollowBayesRule) {
+  Delays delays;
+  PoseEstimate seen;
+  seen.pose = {2.1, -1.0, 3.1};
+  seen.covariance = {};
+  const double variance = 0.1;
+  const std::array before = {delays.probability(0), delays.probability(1)};
+  delays.follow(ahead(variance), 0, seen, 1e-9);
+  const auto normal = [&](double off) {
+    return std::exp(-0.5 * off * off / (variance + 0.05 * 0.05)) + std::exp(-4.0);
+  };
+  const double odds = before[0] * normal(0.1) / (before[1] * normal(0.025));
+  EXPECT_NEAR(delays.probability(0) / delays.probability(1), odds, 1e-3 * odds);
+}
+
+// In a corridor the belief is where odometry has put it, by the delay that is in force.
+TEST(LatenessDelays, LearnNothingFromReadingsThatTellNothing) {
+  for (const std::size_t inForce : {0, 6}) {
+    Delays delays;
+    const Delays::Predicted predicted = ahead(0.1);
+    PoseEstimate seen = predicted[inForce];
+    seen.covariance[0] += 0.0024;  // as wide as it was expected
+    seen.covariance[4] = 1e-4;     // across, they do
+    const double before = delays.probability(0);
+    for (int i = 0; i < 20; ++i) delays.follow(predicted, inForce, seen, 1e-9);
+    EXPECT_NEAR(delays.probability(0), before, 0.005) << inForce;
+  }
+}
+
+// Where readings are vague the belief lies between them and the motion in force: 4 nats, no more.
+TEST(LatenessDelays, CountOneSecondOnceHoweverFarTheReadingsAre) {
+  for (const double x : {1.0, 2.4, 3.2, 4.0}) {
+    Delays delays;
+    std::array<double, Delays::kCount> before{};
+    for (std::size_t i = 0; i < Delays::kCount; ++i) before[i] = delays.probability(i);
+    PoseEstimate seen;
+    seen.pose = {x, -1.0, 3.1};
+    seen.covariance = {0.009, 0, 0, 0, 0.009, 0, 0, 0, 0.009};
+    delays.follow(ahead(0.01), 0, seen, 1e-9);
+    for (std::size_t i = 1; i < Delays::kCount; ++i) {
+      const double nats =
+          std::log(delays.probability(i) / delays.probability(0)) - std::log(before[i] / before[0]);
+      EXPECT_LT(std::abs(nats), 4.1) << x << ", delay " << i;
+    }
+  }
+}
+
+TEST(LatenessDelays, LearnNothingWhereNoDelayLeadsToTheReadings) {
+  Delays delays;
+  PoseEstimate seen;
+  seen.pose = {-3.0, -1.0, 3.1};
+  seen.covariance = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4};
+  const double before = delays.probability(0);
+  for (int i = 0; i < 20; ++i) delays.follow(ahead(0.1), 0, seen, 1e-9);
+  EXPECT_NEAR(delays.probability(0), before, 1e-3);
+}
+
+TEST(LatenessDelays, CanAlwaysBeginAndEnd) {
+  Delays delays;
+  const Delays::Predicted predicted = ahead(0.01);
+  const auto readFor = [&](std::size_t delay, int seconds) {
+    PoseEstimate seen = predicted[delay];
+    seen.covariance = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4};
+    for (int i = 0; i < seconds; ++i) delays.follow(predicted, 0, seen, 1.0);
+  };
+  readFor(0, 1000);
+  EXPECT_GT(delays.probability(0), 0.9999);
+  readFor(8, 3);
+  EXPECT_EQ(delays.mostProbable(), 0U) << "so long odometry may be wrong";
+  readFor(8, 1000);
+  EXPECT_EQ(delays.mostProbable(), 8U);
+  readFor(0, 4);
+  EXPECT_EQ(delays.mostProbable(), 0U) << "to have none is the rule";
 }
 
 }  // namespace

@@ -249,7 +249,8 @@ TEST(MclSettings, CovarianceOfSamplesThatFillACellIsTheirOwn) {
   EXPECT_NEAR(covariance[8], 0.05 * 0.05, 0.0002);
 }
 
-// Two metres forth and back leave the robot where it was, but not what is known of that.
+// Two metres forth and back leave the robot where it was, but not what is known of that. It stands
+// for so long that a delay of the readings would make no difference.
 TEST(MclSettings, MotionWithoutReadingsIsFollowedInPieces) {
   MovingRobot robot;
   const auto mcl = robot.mcl(OdometryNoise{0, 0, 0.1, 0, 0, 0}, 5000);
@@ -257,11 +258,11 @@ TEST(MclSettings, MotionWithoutReadingsIsFollowedInPieces) {
   robot.odometry(0.0, {{0, 0, 0}, 0, 0.0, {}});
   robot.feature("early", 0.0);
   mcl->update(robot.container);
-  for (int i = 1; i <= 80; ++i) {
-    robot.odometry(0.1 * i, {{i <= 40 ? 0.05 * i : 4.0 - 0.05 * i, 0, 0}, 0, 0.0, {}});
+  for (int i = 1; i <= 120; ++i) {
+    robot.odometry(0.1 * i, {{0.05 * std::max(0, std::min(i, 80 - i)), 0, 0}, 0, 0.0, {}});
     EXPECT_FALSE(mcl->update(robot.container));
   }
-  robot.feature("late", 8.0);
+  robot.feature("late", 12.0);
   ASSERT_TRUE(mcl->update(robot.container));
   EXPECT_NEAR(mcl->estimate().pose.x, 0.0, 0.02);
   EXPECT_NEAR(mcl->estimate().covariance[0], 4 * 0.01, 0.004);
