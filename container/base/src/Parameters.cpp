@@ -53,6 +53,13 @@ void Parameters::set(const std::string& key, bool value) { set(key, Node{value, 
 void Parameters::set(const std::string& key, double value) { set(key, Node{value, 0}); }
 void Parameters::set(const std::string& key, const char* value) { set(key, std::string(value)); }
 void Parameters::set(const std::string& key, const std::string& value) { set(key, Node{value, 0}); }
+void Parameters::set(const std::string& key, const std::vector<double>& values) {
+  List list(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) list[i].value = values[i];
+  Node node;
+  node.value = std::move(list);
+  set(key, std::move(node));
+}
 void Parameters::set(const std::string& key, Node value) {
   table_->values.insert_or_assign(key, std::move(value));
 }

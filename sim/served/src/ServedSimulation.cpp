@@ -99,7 +99,7 @@ void ServedSimulation::dropPlanners(std::size_t most) {
       ++plan;
       continue;
     }
-    run_->forgetPlanner(*plan);
+    run_->plans().forget(*plan);
     plan = planned_.erase(plan);
   }
 }
@@ -112,13 +112,13 @@ void ServedSimulation::preparePlanner(const RobotSize& size, bool wanders) {
     std::rotate(known, known + 1, planned_.end());
     return;
   }
-  if (run_->hasPlanner(size)) return;  // the scene's
+  if (run_->plans().has(size)) return;  // the scene's
   dropPlanners(kMostPlanners - 1);
   if (wanders && planned_.size() >= kMostPlanners)
     throw ServeError("limit", "robots of " + std::to_string(kMostPlanners) +
                                   " different sizes wander here already; do not ask for wandering");
   try {
-    run_->planner(size);
+    run_->plans().of(size);
   } catch (const std::invalid_argument& error) {
     throw ServeError("no-room", error.what());
   }

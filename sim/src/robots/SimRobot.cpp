@@ -183,19 +183,47 @@ void SimRobot::command(const Command& command) {
     switchDriveOff(failure);
     throw;
   }
-  driver_.reset();
 }
 
 void SimRobot::setTranslationalVelocity(double metresPerSecond) {
   command([&] { drive_->setTranslationalVelocity(metresPerSecond); });
+  ++orders_;
 }
 
 void SimRobot::setRotationalVelocity(double radiansPerSecond) {
   command([&] { drive_->setRotationalVelocity(radiansPerSecond); });
+  ++orders_;
 }
 
 void SimRobot::setMotion(std::span<const double> numbers) {
   command([&] { drive_->setCommand(numbers); });
+  ++orders_;
+}
+
+template <class Command>
+void SimRobot::Voice::command(const Command& command) {
+  if (!robot_.driveWorks_) return;
+  try {
+    robot_.command(command);
+  } catch (const PluginFailure&) {
+    // The drive is switched off, which is among the robot's problems.
+  }
+}
+
+void SimRobot::Voice::setTranslationalVelocity(double metresPerSecond) {
+  command([&] { robot_.drive_->setTranslationalVelocity(metresPerSecond); });
+}
+
+void SimRobot::Voice::setRotationalVelocity(double radiansPerSecond) {
+  command([&] { robot_.drive_->setRotationalVelocity(radiansPerSecond); });
+}
+
+void SimRobot::Voice::setMotion(std::span<const double> numbers) {
+  command([&] { robot_.drive_->setCommand(numbers); });
+}
+
+void SimRobot::Voice::setManipulator(std::string_view manipulator, std::string_view state) {
+  robot_.setManipulator(manipulator, state);
 }
 
 SimRobot::WantedState SimRobot::findManipulator(std::string_view manipulator,
@@ -241,7 +269,10 @@ Pose2 SimRobot::plan(Timestamp now, double dt) {
   now_ = now;
   if (!driveWorks_) return {};
   try {
-    if (driver_) driver_->command(state_.pose, now, *drive_);
+    if (isHeld_) {
+      drive_->setTranslationalVelocity(0.0);
+      drive_->setRotationalVelocity(0.0);
+    }
     const Pose2 change = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
     drive_->velocity();  // of which odometry may be made
     return planned_ = change;

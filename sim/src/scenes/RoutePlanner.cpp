@@ -90,6 +90,8 @@ void visitNeighbours(const FieldGrid& grid, const std::vector<std::uint8_t>& isF
 
 }  // namespace
 
+RoutePlanner::~RoutePlanner() = default;
+
 RoutePlanner::RoutePlanner(const SimWorld& world, const RobotSize& robot, double clearance) {
   FieldRegion region = coarseRegion(world, {robot.radius + clearance, robot.height});
   if (!hasRoom(region)) region = coarseRegion(world, robot);

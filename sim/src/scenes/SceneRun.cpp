@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ortung/core/PluginGuard.hpp"
+#include "ortung/core/ShippedFiles.hpp"
 
 namespace ortung {
 namespace {
@@ -13,10 +14,21 @@ constexpr int kAttempts = 200;       // to find room on a crowded field
 constexpr double kLook = 0.05;       // along the way to a waypoint [m]
 constexpr double kMostLooks = 4000;  // on a way
 
-DriveLimits limitsOf(SimRobot& robot, std::optional<double> speed) {
-  DriveLimits limits = robot.drive().limits();
-  if (speed) limits.speed = std::min(limits.speed, *speed);
-  return limits;
+/// The player that drives one of the scene's robots.
+PlayerWish wishOf(const char* plugin, const std::string& robot, std::optional<double> speed) {
+  PlayerWish wish;
+  wish.plugin = plugin;
+  wish.options = Parameters("robot " + robot);
+  if (speed) wish.options.set("speed_m_s", *speed);
+  return wish;
+}
+
+PlayerWish followWish(const SceneRobot& robot) {
+  PlayerWish wish = wishOf("follow", robot.name, robot.speed);
+  std::vector<double> numbers;
+  for (const FloorPoint& point : robot.waypoints) numbers.insert(numbers.end(), {point.x, point.y});
+  wish.options.set("waypoints_m", numbers);
+  return wish;
 }
 
 /// Does something with a robot somewhere on its floor. @throws NoRoom if none is found for it
@@ -61,8 +73,13 @@ void checkWaypoints(const SimWorld& world, const SimRobot& robot, const SceneRob
 
 }  // namespace
 
-SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory)
-    : scene_(scene), simulation_(std::make_unique<Simulation>(readWorld(scene.world), config)) {
+SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory,
+                   const PlayerControl::Config& players)
+    : scene_(scene),
+      simulation_(std::make_unique<Simulation>(readWorld(scene.world), config)),
+      factory_(factory),
+      plans_(std::make_unique<FloorPlans>(simulation_->world())),
+      players_(std::make_unique<PlayerControl>(*simulation_, *plans_, factory, players)) {
   // Those with a place of their own first, so that nobody stands there already.
   for (const bool hasStart : {true, false})
     for (std::size_t i = 0; i < scene_.robots.size(); ++i)
@@ -81,7 +98,7 @@ void SceneRun::addRobot(const SceneRobot& robot, std::size_t place, PluginFactor
   if (robot.wanders) letWander(added, place, robot.speed);
   checkWaypoints(simulation_->world(), added, robot);
   if (!robot.waypoints.empty())
-    added.setDriver(makeFollower(robot.waypoints, limitsOf(added, robot.speed)));
+    players_->lead(added, followWish(robot), simulation_->random(2 * place + 1));
   if (!robot.kidnaps.empty()) kidnapped_.push_back({added, robot.kidnaps, placing});
 }
 
@@ -96,7 +113,7 @@ SimRobot& SceneRun::enter(const RobotConfig& config, PluginFactory& factory,
   const auto add = [&](const Pose2& pose) -> SimRobot& {
     return simulation_->addRobot(config, factory, pose);
   };
-  return start ? add(*start) : anywhere(planner(sizeOf(config)), placing, config.name, add);
+  return start ? add(*start) : anywhere(*plans_->of(sizeOf(config)), placing, config.name, add);
 }
 
 void SceneRun::kidnap(Kidnapped& kidnapped) {
@@ -105,19 +122,29 @@ void SceneRun::kidnap(Kidnapped& kidnapped) {
     return;
   ++kidnapped.next;
   const RobotConfig& config = kidnapped.robot.config();
-  anywhere(planner(sizeOf(config)), kidnapped.placing, config.name,
+  anywhere(*plans_->of(sizeOf(config)), kidnapped.placing, config.name,
            [&](const Pose2& pose) { simulation_->place(kidnapped.robot, pose); });
 }
 
 void SceneRun::letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed) {
-  robot.setDriver(makeWanderer(planner(sizeOf(robot.config())), limitsOf(robot, speed),
-                               simulation_->random(2 * number + 1)));
+  players_->lead(robot, wishOf("wander", robot.config().name, speed),
+                 simulation_->random(2 * number + 1));
 }
 
-const RoutePlanner& SceneRun::planner(const RobotSize& size) {
-  const auto known = planners_.find(size);
-  if (known != planners_.end()) return known->second;
-  return planners_.try_emplace(size, simulation_->world(), size).first->second;
+SimRobot& SceneRun::addPlayer(const PlayerWish& wish, std::uint64_t number) {
+  std::unique_ptr<Player> player = players_->make(wish);
+  const std::filesystem::path file = wish.robot.empty() ? player->robotFile() : wish.robot;
+  if (file.empty())
+    throw std::invalid_argument("the player '" + wish.plugin +
+                                "' names no robot file, so one must be given (robot=FILE)");
+  RobotConfig config = readRobot(shippedFile("robots", file));
+  if (!wish.name.empty()) config.name = wish.name;
+  const std::string name = config.name;
+  for (int i = 2; wish.name.empty() && find(config.name); ++i)
+    config.name = name + "-" + std::to_string(i);
+  SimRobot& robot = addRobot(config, factory_, wish.start, number);
+  players_->own(robot, std::move(player), wish, simulation_->random(2 * number + 1));
+  return robot;
 }
 
 std::optional<std::size_t> SceneRun::find(const std::string& robot) const {
@@ -161,7 +188,10 @@ void SceneRun::step() {
   while (nextCommand_ < scene_.commands.size() && scene_.commands[nextCommand_].at <= now)
     obey(scene_.commands[nextCommand_++]);
   for (Kidnapped& kidnapped : kidnapped_) kidnap(kidnapped);
-  simulation_->step();
+  simulation_->sense();
+  players_->act({});
+  simulation_->move();
+  players_->clear();
 }
 
 void SceneRun::put(const ScenePlacement& placement) {

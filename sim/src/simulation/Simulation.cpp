@@ -132,8 +132,7 @@ void Simulation::removeRobot(const SimRobot& robot) {
   robots_.erase(found);
 }
 
-void Simulation::step() {
-  senseAll();
+void Simulation::move() {
   moveManipulators();
   moveBodies();
   now_ += cycle_;
@@ -146,7 +145,7 @@ void Simulation::tellProblems() {
       config_.onProblem(robot->problems_[robot->problemsTold_]);
 }
 
-void Simulation::senseAll() {
+void Simulation::sense() {
   workers_->run(robots_.size(),
                 [this](std::size_t i) { readings_[i] = robots_[i]->sense(*world_, now_); });
 }

@@ -7,28 +7,25 @@
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/sim/SimWorld.hpp"
+#include "ortung/sim_api/Stage.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 
 /// Where a robot can be and how it gets there: the largest connected part of the floor on which
 /// its body fits, as cells. Not thread-safe.
-class ORTUNG_API RoutePlanner {
+class ORTUNG_API RoutePlanner : public FloorPlan {
  public:
   /// @param clearance how far from walls routes stay [m], less where there is no room
   /// @throws std::invalid_argument if the robot fits nowhere
   RoutePlanner(const SimWorld& world, const RobotSize& robot, double clearance = 0.1);
+  ~RoutePlanner() override;
 
-  /// A pose from which routes lead everywhere else, every cell and heading as likely.
-  Pose2 randomPose(Random& random) const;
-
-  /// Corners of a short way, without its beginning; the last is the cell of @p to.
+  Pose2 randomPose(Random& random) const override;
   /// Both ends are moved to the nearest cell of the free space first.
-  std::vector<FloorPoint> route(const FloorPoint& from, const FloorPoint& to) const;
-
-  const FieldGrid& grid() const { return grid_; }
-  /// Indices of the grid's cells that belong to the free space.
-  const std::vector<std::uint32_t>& cells() const { return cells_; }
+  std::vector<FloorPoint> route(const FloorPoint& from, const FloorPoint& to) const override;
+  const FieldGrid& grid() const override { return grid_; }
+  const std::vector<std::uint32_t>& cells() const override { return cells_; }
   bool contains(double x, double y) const;
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,24 +8,28 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/robot/RobotFile.hpp"
-#include "ortung/sim/RoutePlanner.hpp"
+#include "ortung/sim/FloorPlans.hpp"
+#include "ortung/sim/PlayerControl.hpp"
 #include "ortung/sim/Scene.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 namespace ortung {
 
-/// A scene under way: a simulation of its own with the scene's robots in it, and the script.
+/// A scene under way: a simulation of its own with the scene's robots and players in it, and the
+/// script.
 /// Not thread-safe.
 class ORTUNG_API SceneRun {
  public:
   /// @throws ConfigError, PluginError, std::invalid_argument for commands to what is not there and
   ///   for waypoints that can't be reached
-  SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory);
+  SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory,
+           const PlayerControl::Config& players = {});
   ~SceneRun();
   SceneRun(const SceneRun&) = delete;
   SceneRun& operator=(const SceneRun&) = delete;
 
-  /// One cycle: what the script says is due, then everything moves.
+  /// One cycle: what the script says is due, then all robots sense, players act, and everything
+  /// moves. Robots whose players have ended leave the field.
   /// @throws std::invalid_argument for a command that its robot refuses, and for a robot to be
   ///   carried elsewhere that finds no room
   void step();
@@ -42,14 +45,15 @@ class ORTUNG_API SceneRun {
   /// @throws std::invalid_argument if there is no room; ConfigError, PluginError
   SimRobot& addRobot(const RobotConfig& config, PluginFactory& factory,
                      const std::optional<Pose2>& start, std::uint64_t number);
+  /// Starts a player on a robot of its own. @param number as for addRobot()
+  /// @throws as addRobot(), and for a player that can't be made
+  SimRobot& addPlayer(const PlayerWish& wish, std::uint64_t number);
+  PlayerControl& players() { return *players_; }
+  const PlayerControl& players() const { return *players_; }
   /// Lets a robot drive about by itself. @param number as for addRobot() @param speed at most [m/s]
   void letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed = std::nullopt);
-  /// The plan of the floor for robots of a size, made when it is first asked for.
-  /// @throws std::invalid_argument if such a robot fits nowhere
-  const RoutePlanner& planner(const RobotSize& size);
-  bool hasPlanner(const RobotSize& size) const { return planners_.contains(size); }
-  /// Gives the memory of a plan back. @pre no robot of that size wanders, and none is kidnapped
-  void forgetPlanner(const RobotSize& size) { planners_.erase(size); }
+  /// Plans of the floor, of the scene's robots and those of others.
+  FloorPlans& plans() { return *plans_; }
 
  private:
   /// A robot that is carried elsewhere now and then.
@@ -70,8 +74,10 @@ class ORTUNG_API SceneRun {
   std::size_t needThing(const std::string& thing) const;
 
   Scene scene_;
-  std::map<RobotSize, RoutePlanner> planners_;  ///< outlive the drivers
   std::unique_ptr<Simulation> simulation_;
+  PluginFactory& factory_;
+  std::unique_ptr<FloorPlans> plans_;
+  std::unique_ptr<PlayerControl> players_;
   std::vector<Kidnapped> kidnapped_;
   std::size_t nextCommand_ = 0;
   std::size_t nextPlacement_ = 0;

@@ -14,7 +14,6 @@
 #include "ortung/core/RobotCommands.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/robot/RobotFile.hpp"
-#include "ortung/sim/Driver.hpp"
 #include "ortung/sim/RobotShape.hpp"
 #include "ortung/sim_api/Drive.hpp"
 #include "ortung/sim_api/Sensor.hpp"
@@ -36,15 +35,21 @@ class ORTUNG_API SimRobot : public RobotCommands {
   SimRobot(const SimRobot&) = delete;
   SimRobot& operator=(const SimRobot&) = delete;
 
-  /// Who commands the drive from now on; null: nobody.
-  void setDriver(std::unique_ptr<Driver> driver) { driver_ = std::move(driver); }
-
-  // --- commands; whoever tells it to move replaces its driver
+  // --- commands from outside
   void setTranslationalVelocity(double metresPerSecond) override;
   void setRotationalVelocity(double radiansPerSecond) override;
   void setMotion(std::span<const double> numbers) override;
   /// It moves in the cycle that begins, or as soon as it has room.
   void setManipulator(std::string_view manipulator, std::string_view state) override;
+
+  /// The voice of the player that sits on this robot. Unlike commands from outside it says nothing
+  /// once the drive has failed, which is among the problems().
+  RobotCommands& voice() { return voice_; }
+  /// How many times it was told from outside to move.
+  std::uint64_t orders() const { return orders_; }
+  /// Whether it stands where it is, whatever it is told.
+  void hold(bool isHeld) { isHeld_ = isHeld; }
+  bool isHeld() const { return isHeld_; }
 
   /// Places of a manipulator and of one of its states, in shape().
   struct WantedState {
@@ -83,7 +88,7 @@ class ORTUNG_API SimRobot : public RobotCommands {
   /// The state that a manipulator is to enter, if that is not the one it is in.
   std::optional<std::size_t> nextState(std::size_t manipulator, Timestamp now);
   void enterState(std::size_t manipulator, std::size_t state, Timestamp now);
-  /// Lets the driver command; the change of pose that the drive wants within @p dt [s].
+  /// The change of pose that the drive wants within @p dt [s].
   Pose2 plan(Timestamp now, double dt);
   /// Goes where the physics brought it.
   /// @param velocity in the field frame
@@ -91,6 +96,20 @@ class ORTUNG_API SimRobot : public RobotCommands {
   void move(const Pose2& pose, const Twist& velocity, bool wasDisturbed);
   /// Carries the robot elsewhere, unnoticed by its odometry.
   void place(const Pose2& pose);
+
+  class Voice : public RobotCommands {
+   public:
+    explicit Voice(SimRobot& robot) : robot_(robot) {}
+    void setTranslationalVelocity(double metresPerSecond) override;
+    void setRotationalVelocity(double radiansPerSecond) override;
+    void setMotion(std::span<const double> numbers) override;
+    void setManipulator(std::string_view manipulator, std::string_view state) override;
+
+   private:
+    template <class Command>
+    void command(const Command& command);
+    SimRobot& robot_;
+  };
 
   struct Mounted;
   void generate(Mounted& mounted, const World& world, Timestamp now);
@@ -112,7 +131,9 @@ class ORTUNG_API SimRobot : public RobotCommands {
   bool driveWorks_ = true;
   bool extracts_ = false;  ///< whether it has extractors, and none has failed
   Pose2 planned_;          ///< change of pose that the drive wanted last
-  std::unique_ptr<Driver> driver_;
+  Voice voice_{*this};
+  std::uint64_t orders_ = 0;
+  bool isHeld_ = false;
   RobotState state_;
   Random odometryRandom_;
   Random slipRandom_;

@@ -63,9 +63,16 @@ class ORTUNG_API Simulation {
   /// Takes a robot off the field, and all that is known of it.
   void removeRobot(const SimRobot& robot);
 
-  /// One cycle: all robots sense at now(), are commanded, and everything moves until the next
-  /// cycle.
-  void step();
+  /// One cycle: all robots sense at now(), and everything moves until the next cycle. Whoever
+  /// commands by what is sensed in this cycle calls the two halves.
+  void step() {
+    sense();
+    move();
+  }
+  /// All robots sense at now().
+  void sense();
+  /// Everything moves until the next cycle.
+  void move();
   /// What a robot's sensors gave in the last cycle; valid until the next.
   std::span<const Message> readings(std::size_t robot) const { return readings_[robot]; }
 
@@ -91,7 +98,6 @@ class ORTUNG_API Simulation {
   void moveManipulators();
   bool moveManipulator(std::size_t robot, std::size_t manipulator, std::size_t state);
   void moveBodies();
-  void senseAll();
   void checkEntry(const RobotConfig& config, const RobotShape& shape) const;
   void tellProblems();
   bool fits(std::span<const Primitive> pieces, const Pose2& pose, std::size_t self) const;

@@ -43,6 +43,7 @@ class ORTUNG_API Parameters {
   void set(const std::string& key, double value);
   void set(const std::string& key, const char* value);
   void set(const std::string& key, const std::string& value);
+  void set(const std::string& key, const std::vector<double>& values);
   void set(const std::string& key, Node value);
 
   bool has(const std::string& key) const;

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/sim/FloorPlans.hpp"
+#include "ortung/sim/PlayerWish.hpp"
+#include "ortung/sim/Simulation.hpp"
+#include "ortung/sim_api/Game.hpp"
+#include "ortung/sim_api/Player.hpp"
+
+namespace ortung {
+
+/// Supervises players and their robots in a simulation (paper, section 4): if one of the two ends,
+/// the other is removed. It also carries what players say to their teams.
+///
+/// Players act one after the other, in the order of their coming, after all robots have sensed; so
+/// the same seed gives the same bits. What goes wrong with one of them ends that one alone.
+/// Not thread-safe.
+class ORTUNG_API PlayerControl {
+ public:
+  struct Config {
+    /// Of a processor's time for one call [s]; who takes more is stopped. 0: as long as it likes.
+    double budget = 1.0;
+    /// Told of each player that was stopped, and why; may be empty.
+    std::function<void(const std::string&)> onProblem = {};
+  };
+  /// A player that is there.
+  struct Seated {
+    std::string robot;
+    std::string plugin;
+    std::string team;
+    Timestamp since = 0;
+    bool isGuest = false;  ///< on a robot that stays when the player ends
+  };
+
+  /// @param simulation, plans, factory borrowed
+  PlayerControl(Simulation& simulation, FloorPlans& plans, PluginFactory& factory,
+                const Config& config);
+  ~PlayerControl();
+  PlayerControl(const PlayerControl&) = delete;
+  PlayerControl& operator=(const PlayerControl&) = delete;
+
+  /// A player that the factory makes, on a robot that is there already and stays when it ends. It
+  /// ends as soon as somebody else tells the robot to move.
+  void lead(SimRobot& robot, const PlayerWish& wish, const Random& random);
+  /// The same on a robot that is the player's own: it leaves the field when the player ends.
+  void own(SimRobot& robot, std::unique_ptr<Player> player, const PlayerWish& wish,
+           const Random& random);
+  /// Makes a player, as it is before it takes its seat. @throws PluginError, ConfigError
+  std::unique_ptr<Player> make(const PlayerWish& wish);
+
+  /// Ends the player on a robot. @returns whether there was one
+  bool stop(std::string_view robot);
+  /// Lets all players act whose time has come. @pre Simulation::sense()
+  void act(const Game& game);
+  /// Takes robots off the field whose players have ended; those must not be used any more.
+  void clear();
+
+  /// The world's state, for referees and whoever else sets situations up.
+  Stage& stage();
+  /// Of a robot's team, "" if it has none. @param robot that a player does not sit on, too
+  void setTeam(std::string_view robot, std::string_view team);
+  std::string teamOf(std::string_view robot) const;
+  /// What a robot without player here, as that of a client, says to its team.
+  void say(std::string_view robot, std::string_view text);
+
+  std::vector<Seated> players() const;
+  bool isEmpty() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,263 @@
+#include "ortung/sim/PlayerControl.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "SimSeat.hpp"
+#include "SimStage.hpp"
+#include "ortung/core/PluginGuard.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMostText = 400;
+
+/// Time that this thread has used of a processor [s].
+double processorTime() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// @throws std::invalid_argument for what can't be said
+void checkText(std::string_view text) {
+  if (text.size() > kMostText)
+    throw std::invalid_argument("has " + std::to_string(text.size()) +
+                                " characters to say, expected at most " +
+                                std::to_string(kMostText));
+  if (std::any_of(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }))
+    throw std::invalid_argument("wants to say what is not printable ASCII");
+}
+
+}  // namespace
+
+struct PlayerControl::Parts {
+  /// A player on its seat.
+  struct Seating {
+    std::string plugin;
+    std::unique_ptr<Player> player;
+    std::unique_ptr<PluginGuard> guard;
+    std::unique_ptr<SimSeat> seat;
+    Timestamp since = 0;
+    Timestamp period = 0;
+    Timestamp due = 0;
+    std::uint64_t orders = 0;  ///< from outside, that the robot had when it began
+    RobotNumber number = 0;    ///< of the robot, which no other one ever has
+    bool isGuest = false;
+    bool isOver = false;
+  };
+
+  Simulation& simulation;
+  FloorPlans& plans;
+  PluginFactory& factory;
+  Config config;
+  SimStage stage;
+  FieldModel field;
+  std::vector<std::unique_ptr<Seating>> seatings;
+  std::map<std::string, std::string, std::less<>> teams;  ///< by robot
+  std::vector<Heard> said;                                ///< in this cycle
+
+  Parts(Simulation& s, FloorPlans& p, PluginFactory& f, const Config& c)
+      : simulation(s),
+        plans(p),
+        factory(f),
+        config(c),
+        stage(s, p, [this](std::string_view robot) { return teamOf(robot); }),
+        field(fieldModelOf(s.world())) {}
+
+  std::string teamOf(std::string_view robot) const {
+    const auto found = teams.find(robot);
+    return found == teams.end() ? "" : found->second;
+  }
+  /// Robots are in the order of their coming, and so are their numbers.
+  bool isThere(const Seating& one) const {
+    const auto robots = simulation.robots();
+    const auto found = std::lower_bound(
+        robots.begin(), robots.end(), one.number,
+        [](const auto& robot, RobotNumber n) { return robot->state().number < n; });
+    return found != robots.end() && (*found)->state().number == one.number;
+  }
+  void sit(SimRobot& robot, std::unique_ptr<Player> player, const PlayerWish& wish,
+           const Random& random, bool isGuest);
+  void say(std::string_view robot, std::string_view text);
+  void deliver();
+  template <class Call>
+  void call(Seating& one, const char* what, const Call& call);
+  void act(Seating& one, const Game& game);
+  void finish(Seating& one);
+  void drop();
+};
+
+void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
+                               const PlayerWish& wish, const Random& random, bool isGuest) {
+  const std::string& name = robot.config().name;
+  for (const auto& one : seatings)
+    if (!one->isOver && one->number == robot.state().number)
+      throw std::invalid_argument("robot " + name + ": the player '" + one->plugin +
+                                  "' plays it already, so '" + wish.plugin + "' can't");
+  if (player->needsStage() && !wish.seesStage)
+    throw std::invalid_argument("robot " + name + ": the player '" + wish.plugin +
+                                "' needs the world's state, which it is not to see");
+  auto seating = std::make_unique<Seating>();
+  seating->plugin = wish.plugin;
+  seating->guard =
+      std::make_unique<PluginGuard>("the player '" + wish.plugin + "' of robot " + name);
+  seating->seat =
+      std::make_unique<SimSeat>(robot, wish.team, field, wish.seesStage ? &stage : nullptr, random,
+                                [this, name](std::string_view text) { say(name, text); });
+  seating->player = std::move(player);
+  seating->since = simulation.now();
+  seating->period = fromSeconds(std::clamp(seating->player->period(), 0.0, 1e6));
+  seating->due = simulation.now();
+  seating->orders = robot.orders();
+  seating->number = robot.state().number;
+  seating->isGuest = isGuest;
+  seating->seat->setTime(simulation.now());
+  if (!wish.team.empty()) teams[name] = wish.team;
+  Seating& one = *seating;
+  seatings.push_back(std::move(seating));
+  call(one, "begin", [&] { one.player->begin(*one.seat); });
+}
+
+/// What a player does wrong ends it, and nobody else.
+template <class Call>
+void PlayerControl::Parts::call(Seating& one, const char* what, const Call& call) {
+  const double before = config.budget > 0.0 ? processorTime() : 0.0;
+  const auto stopped = [&](const std::string& why) {
+    one.isOver = true;
+    if (config.onProblem)
+      config.onProblem("at " + std::to_string(toSeconds(simulation.now())) + " s: " + why +
+                       "; it is stopped" + (one.isGuest ? "" : ", and its robot leaves the field"));
+  };
+  try {
+    (*one.guard)(what, call);
+  } catch (const PluginFailure& failure) {
+    return stopped(failure.what());
+  }
+  if (config.budget <= 0.0) return;
+  const double taken = processorTime() - before;
+  if (taken > config.budget)
+    stopped("the player '" + one.plugin + "' of robot " + one.seat->name() + ": " + what +
+            "() took " + std::to_string(taken) + " s of a processor, expected at most " +
+            std::to_string(config.budget) + " s");
+}
+
+void PlayerControl::Parts::say(std::string_view robot, std::string_view text) {
+  checkText(text);
+  said.push_back({std::string(robot), simulation.now(), std::string(text)});
+}
+
+/// What was said in the last cycle comes to all others of the team.
+void PlayerControl::Parts::deliver() {
+  if (said.empty()) return;
+  const std::vector<Heard> messages = std::exchange(said, {});
+  for (const Heard& message : messages) {
+    const std::string team = teamOf(message.from);
+    for (const auto& one : seatings)
+      if (one->seat->name() != message.from && one->seat->team() == team) one->seat->hear(message);
+  }
+}
+
+void PlayerControl::Parts::act(Seating& one, const Game& game) {
+  const Timestamp now = simulation.now();
+  if (one.isOver || now < one.due) return;
+  // Keeps the rhythm when a period is no multiple of the cycle.
+  one.due = std::max(one.due + one.period, now + 1);
+  one.seat->setTime(now);
+  one.seat->setGame(game);
+  call(one, "senseAndAct", [&] {
+    if (!one.player->senseAndAct(*one.seat)) one.isOver = true;
+  });
+  one.seat->forgetHeard();
+}
+
+void PlayerControl::Parts::finish(Seating& one) {
+  const bool wasThere = isThere(one);
+  if (wasThere) call(one, "end", [&] { one.player->end(*one.seat); });
+  one.player.reset();
+  if (!wasThere || one.isGuest) return;
+  teams.erase(one.seat->name());
+  simulation.removeRobot(one.seat->simRobot());
+}
+
+/// Players whose robots are gone, or are told by others where to go.
+void PlayerControl::Parts::drop() {
+  for (const auto& one : seatings) {
+    if (one->isOver) continue;
+    one->isOver = !isThere(*one) || (one->isGuest && one->seat->simRobot().orders() != one->orders);
+  }
+}
+
+PlayerControl::PlayerControl(Simulation& simulation, FloorPlans& plans, PluginFactory& factory,
+                             const Config& config)
+    : parts_(std::make_unique<Parts>(simulation, plans, factory, config)) {
+  if (!(config.budget >= 0.0))
+    throw std::invalid_argument("PlayerControl::Config::budget is " +
+                                std::to_string(config.budget) + ", must be at least 0 s");
+}
+
+PlayerControl::~PlayerControl() = default;
+
+std::unique_ptr<Player> PlayerControl::make(const PlayerWish& wish) {
+  return parts_->factory.make<Player>(wish.plugin, wish.options);
+}
+
+void PlayerControl::lead(SimRobot& robot, const PlayerWish& wish, const Random& random) {
+  parts_->sit(robot, make(wish), wish, random, true);
+}
+
+void PlayerControl::own(SimRobot& robot, std::unique_ptr<Player> player, const PlayerWish& wish,
+                        const Random& random) {
+  parts_->sit(robot, std::move(player), wish, random, false);
+}
+
+bool PlayerControl::stop(std::string_view robot) {
+  for (const auto& one : parts_->seatings) {
+    if (one->isOver || one->seat->name() != robot) continue;
+    one->isOver = true;
+    return true;
+  }
+  return false;
+}
+
+void PlayerControl::act(const Game& game) {
+  parts_->stage.forget();
+  parts_->drop();
+  parts_->deliver();
+  for (std::size_t i = 0; i < parts_->seatings.size(); ++i) parts_->act(*parts_->seatings[i], game);
+}
+
+void PlayerControl::clear() {
+  parts_->drop();
+  std::erase_if(parts_->seatings, [&](const std::unique_ptr<Parts::Seating>& one) {
+    if (one->isOver) parts_->finish(*one);
+    return one->isOver;
+  });
+}
+
+Stage& PlayerControl::stage() { return parts_->stage; }
+
+void PlayerControl::setTeam(std::string_view robot, std::string_view team) {
+  parts_->teams[std::string(robot)] = team;
+}
+
+std::string PlayerControl::teamOf(std::string_view robot) const { return parts_->teamOf(robot); }
+
+void PlayerControl::say(std::string_view robot, std::string_view text) { parts_->say(robot, text); }
+
+std::vector<PlayerControl::Seated> PlayerControl::players() const {
+  std::vector<Seated> players;
+  for (const auto& one : parts_->seatings)
+    if (!one->isOver)
+      players.push_back(
+          {one->seat->name(), one->plugin, one->seat->team(), one->since, one->isGuest});
+  return players;
+}
+
+bool PlayerControl::isEmpty() const { return parts_->seatings.empty(); }
+
+}  // namespace ortung

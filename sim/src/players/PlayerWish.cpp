@@ -1,0 +1,105 @@
+#include "ortung/sim/PlayerWish.hpp"
+
+#include <string_view>
+
+#include "ortung/base/Angles.hpp"
+#include "ortung/core/SourceOptions.hpp"
+
+namespace ortung {
+namespace {
+
+/// What a value of a text means to a plugin.
+void setOption(Parameters& options, const std::string& key, const std::string& text) {
+  const auto numbers = parseNumbers(text);
+  if (text == "yes" || text == "no") {
+    options.set(key, text == "yes");
+  } else if (numbers && numbers->size() == 1) {
+    options.set(key, numbers->front());
+  } else if (numbers) {
+    options.set(key, *numbers);
+  } else {
+    options.set(key, text);
+  }
+}
+
+/// Cuts @p text at the first @p mark. @returns what is behind it; nothing: there is none
+std::optional<std::string_view> cut(std::string_view& text, char mark) {
+  const std::size_t place = text.find(mark);
+  if (place == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = text.substr(place + 1);
+  text = text.substr(0, place);
+  return rest;
+}
+
+bool isTeam(const std::string& name) {
+  return !name.empty() && name.size() <= 32 &&
+         name.find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+             std::string::npos;
+}
+
+}  // namespace
+
+PlayerWish parsePlayer(const std::string& text) {
+  const auto refuse = [&](const std::string& why) {
+    throw ConfigError("player '" + text + "': " + why +
+                      ", expected PLUGIN[:key=value&key=value...][@TEAM]");
+  };
+  std::string_view rest = text;
+  PlayerWish wish;
+  // A team is a word, so that an "@" of a file's name is none.
+  const std::size_t at = rest.rfind('@');
+  if (at != std::string_view::npos) {
+    wish.team = rest.substr(at + 1);
+    if (!isTeam(wish.team)) refuse("'" + wish.team + "' is no name of a team");
+    rest = rest.substr(0, at);
+  }
+  std::optional<std::string_view> options = cut(rest, ':');
+  wish.plugin = rest;
+  if (wish.plugin.empty()) refuse("it names no plugin");
+  const std::string where = "player '" + text + "'";
+  wish.options = Parameters(where);
+  Parameters own(where);
+  while (options && !options->empty()) {
+    std::string_view option = *options;
+    options = cut(option, '&');
+    const auto value = cut(option, '=');
+    const std::string key(option);
+    if (!value || key.empty()) refuse("'" + key + "' is no key=value");
+    const bool isOwn = key == "robot" || key == "name" || key == "start" || key == "stage";
+    if (own.has(key) || wish.options.has(key)) refuse(key + " is given twice");
+    if (isOwn)
+      own.set(key, std::string(*value));
+    else
+      setOption(wish.options, key, std::string(*value));
+  }
+  wish.robot = own.textOr("robot", "");
+  wish.name = own.textOr("name", "");
+  wish.start = optionPose(own, "start");
+  wish.seesStage = own.choiceOr("stage", "yes", {"yes", "no"}) == "yes";
+  return wish;
+}
+
+PlayerWish readPlayer(const Parameters& table, const std::filesystem::path& folder) {
+  PlayerWish wish;
+  wish.plugin = table.text("plugin");
+  wish.team = table.textOr("team", "");
+  if (!wish.team.empty() && !isTeam(wish.team))
+    table.fail("team", "is \"" + wish.team + "\", expected a word of at most 32 letters");
+  wish.name = table.textOr("name", "");
+  const std::string robot = table.textOr("robot", "");
+  if (robot.find('\0') != std::string::npos) table.fail("robot", "names no file");
+  if (!robot.empty()) wish.robot = folder / robot;
+  if (table.has("start")) {
+    const Parameters start = table.table("start");
+    wish.start = Pose2{start.number("x_m", {-1e4, 1e4}), start.number("y_m", {-1e4, 1e4}),
+                       wrapAngle(radians(start.numberOr("theta_deg", 0.0, {-3600.0, 3600.0})))};
+    start.refuseUnread();
+  }
+  wish.seesStage = table.flagOr("stage", true);
+  wish.options = table.table("options");
+  table.refuseUnread();
+  return wish;
+}
+
+}  // namespace ortung

@@ -1,0 +1,43 @@
+#include "SimSeat.hpp"
+
+#include <utility>
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMostHeard = 1000;  ///< messages that wait for a player; older ones are lost
+
+RobotAbilities abilitiesOf(const SimRobot& robot) {
+  RobotAbilities abilities;
+  const RobotSize size = sizeOf(robot.config());
+  abilities.radius = size.radius;
+  abilities.height = size.height;
+  abilities.limits = robot.drive().limits();
+  abilities.motionHelp = robot.drive().commandHelp();
+  for (const Manipulator& manipulator : robot.shape().manipulators) {
+    RobotAbilities::Manipulator one{manipulator.name, {}};
+    for (const ManipulatorState& state : manipulator.states) one.states.push_back(state.name);
+    abilities.manipulators.push_back(std::move(one));
+  }
+  return abilities;
+}
+
+}  // namespace
+
+SimSeat::SimSeat(SimRobot& robot, std::string team, const FieldModel& field, Stage* stage,
+                 const Random& random, std::function<void(std::string_view)> say)
+    : robot_(robot),
+      name_(robot.config().name),
+      team_(std::move(team)),
+      field_(field),
+      stage_(stage),
+      random_(random),
+      say_(std::move(say)),
+      abilities_(abilitiesOf(robot)) {}
+
+void SimSeat::hear(const Heard& heard) {
+  if (heard_.size() == kMostHeard) heard_.erase(heard_.begin());
+  heard_.push_back(heard);
+}
+
+}  // namespace ortung

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ortung/sim/SimRobot.hpp"
+#include "ortung/sim_api/Player.hpp"
+
+namespace ortung {
+
+/// A player's seat on a simulated robot.
+class SimSeat : public PlayerSeat {
+ public:
+  /// @param robot, field borrowed
+  /// @param stage null: it is not to see it
+  /// @param say tells others
+  SimSeat(SimRobot& robot, std::string team, const FieldModel& field, Stage* stage,
+          const Random& random, std::function<void(std::string_view)> say);
+
+  const std::string& name() const override { return name_; }
+  const std::string& team() const override { return team_; }
+  Timestamp now() const override { return now_; }
+  SensorContainer& container() override { return robot_.container(); }
+  RobotCommands& robot() override { return robot_.voice(); }
+  const RobotAbilities& abilities() const override { return abilities_; }
+  const FieldModel& field() const override { return field_; }
+  const Game& game() const override { return game_; }
+  Random& random() override { return random_; }
+  void say(std::string_view text) override { say_(text); }
+  std::span<const Heard> heard() const override { return heard_; }
+  Stage* stage() override { return stage_; }
+
+  // --- for whoever supervises
+  SimRobot& simRobot() { return robot_; }
+  void setTime(Timestamp now) { now_ = now; }
+  void setGame(const Game& game) {
+    if (!(game == game_)) game_ = game;
+  }
+  void hear(const Heard& heard);
+  void forgetHeard() { heard_.clear(); }
+
+ private:
+  SimRobot& robot_;
+  std::string name_;  ///< which outlives the robot
+  std::string team_;
+  const FieldModel& field_;
+  Stage* stage_;
+  Random random_;
+  std::function<void(std::string_view)> say_;
+  RobotAbilities abilities_;
+  Game game_;
+  Timestamp now_ = 0;
+  std::vector<Heard> heard_;
+};
+
+}  // namespace ortung
