@@ -232,6 +232,19 @@ void addSim(Builder& build, CLI::App& app) {
       ->expected(1)
       ->take_all();
   build
+      .option("--player", a->players,
+              "PLUGIN[:key=value&key=value...][@TEAM]: a player on a robot of its own, e.g. "
+              "wander:robot=maps/robots/pioneer.toml&speed_m_s=0.5@blue; robot, name, start (x,y,deg) "
+              "and stage (yes, no) are for all, `ortung plugins` shows the others; may be given again")
+      ->expected(1)
+      ->take_all();
+  build
+      .option("--player-budget-ms", a->playerBudgetMs,
+              "What a player may take of a processor for one call before it is stopped [ms]; 0: as "
+              "long as it likes")
+      ->check(within(0.0, 1e6))
+      ->capture_default_str();
+  build
       .option("--duration", a->duration,
               "Time to simulate [s]; default: the scene's, or until a signal")
       ->check(within(0.0, 1e6));

@@ -166,6 +166,8 @@ int runServe(const ServeArguments& arguments);
 struct SimArguments {
   std::filesystem::path world;                ///< a world or a scene
   std::vector<std::filesystem::path> robots;  ///< robot files: they wander about
+  std::vector<std::string> players;           ///< as parsePlayer() reads them
+  double playerBudgetMs = 1000.0;             ///< of a processor's time for one call; 0: none
   std::optional<double> duration;             ///< [s]; default: the scene's, or until a signal
   std::filesystem::path record;               ///< "" for none
   std::filesystem::path trace;                ///< "" for none

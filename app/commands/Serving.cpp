@@ -97,7 +97,8 @@ void checkPace(const ServingArguments& arguments) {
     throw UsageError("--free-run and --lockstep exclude each other: in lockstep, clients decide");
 }
 
-void serve(ServedWorld& world, const ServingArguments& arguments) {
+void serve(ServedWorld& world, const ServingArguments& arguments,
+           std::vector<BoardCommand> commands) {
   BoardConfig config;
   readListen(arguments.listen, config);
   config.tokens = readTokens(arguments.tokens);
@@ -110,6 +111,7 @@ void serve(ServedWorld& world, const ServingArguments& arguments) {
   config.limits.sessions = arguments.clients;
   config.limits.sessionsOfAddress = arguments.clientsOfAddress;
   config.log = warn;
+  config.commands = std::move(commands);
   try {
     MessageBoard board(world, config);
     fmt::print("listening on {} port {}\n", config.address, board.port());

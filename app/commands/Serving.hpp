@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Commands.hpp"
+#include "ortung/server/BoardCommand.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung::app {
@@ -8,9 +9,11 @@ namespace ortung::app {
 /// @throws UsageError for paces that exclude each other
 void checkPace(const ServingArguments& arguments);
 
+/// @param commands further ones that clients may give
 /// Serves @p world to clients until a signal comes. Says on stdout where it listens. If the world
 /// has not come to an end 2 s after the signal, the program ends with 128 + the signal's number.
 /// @throws UsageError, std::runtime_error
-void serve(ServedWorld& world, const ServingArguments& arguments);
+void serve(ServedWorld& world, const ServingArguments& arguments,
+           std::vector<BoardCommand> commands = {});
 
 }  // namespace ortung::app

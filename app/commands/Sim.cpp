@@ -11,6 +11,7 @@
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
+#include "PlayerCommands.hpp"
 #include "Progress.hpp"
 #include "Rescue.hpp"
 #include "Serving.hpp"
@@ -31,13 +32,21 @@ Simulation::Config configOf(const SimArguments& arguments) {
   return config;
 }
 
+PlayerControl::Config playersOf(const SimArguments& arguments,
+                                const std::function<void(const std::string&)>& onProblem) {
+  return {arguments.playerBudgetMs / 1000.0, onProblem};
+}
+
 /// The scene of the file, or the world of the file, with further robots that wander about.
 Scene sceneOf(const SimArguments& arguments) {
   Scene scene = Scene::open(arguments.world);
-  if (scene.robots.size() + arguments.robots.size() > Scene::kMostRobots)
-    throw UsageError(fmt::format("there are {} robots, {} of them by --robot; expected at most {}",
-                                 scene.robots.size() + arguments.robots.size(),
-                                 arguments.robots.size(), Scene::kMostRobots));
+  const std::size_t more = arguments.robots.size() + arguments.players.size();
+  const std::size_t all = scene.robots.size() + scene.players.size() + more;
+  if (all > Scene::kMostRobots)
+    throw UsageError(
+        fmt::format("there are {} robots, {} of them by --robot and --player; expected at most {}",
+                    all, more, Scene::kMostRobots));
+  for (const std::string& text : arguments.players) scene.players.push_back(parsePlayer(text));
   for (const std::filesystem::path& file : arguments.robots) {
     const std::string name = readRobot(file).name;
     std::string unused = name;
@@ -135,7 +144,7 @@ Outputs outputsOf(const SimArguments& arguments) {
 /// and a signal is how most runs end, so all of it is written as it comes.
 struct Recording {
   std::string name;  ///< of the robot; "": none is recorded
-  std::size_t robot = 0;
+  RobotNumber robot = 0;
   std::optional<RecordWriter> record;
   std::optional<Trace> trace;
 
@@ -143,17 +152,21 @@ struct Recording {
             const SceneRun& run) {
     if (!arguments.trace.empty()) trace.emplace(outputs.ready(arguments.trace));
     if (arguments.record.empty()) return;
-    if (scene.robots.empty()) throw UsageError("--record: there is no robot; see --robot");
-    name = arguments.recorded.empty() ? scene.robots.front().name : arguments.recorded;
+    const auto robots = run.simulation().robots();
+    if (robots.empty())
+      throw UsageError("--record: there is no robot; see --robot and --player");
+    name = !arguments.recorded.empty() ? arguments.recorded
+           : scene.robots.empty()      ? robots.front()->config().name
+                                       : scene.robots.front().name;
     const auto found = run.find(name);
     if (!found) throw UsageError("--record: there is no robot '" + name + "' to record");
-    robot = *found;
+    robot = robots[*found]->state().number;
     record.emplace(outputs.ready(arguments.record), run.simulation().world().fingerprint(),
                    RecordWriter::Pace::kLive);
   }
   void add(const Simulation& simulation) {
     if (!record) return;
-    for (const Message& message : simulation.readings(robot)) record->write(message);
+    for (const Message& message : simulation.readingsOf(robot)) record->write(message);
     record->endMoment();
   }
   void commit() {
@@ -172,7 +185,7 @@ int play(const SimArguments& arguments) {
     warn(problem);
     ++problems;
   };
-  SceneRun run(scene, config, factory);
+  SceneRun run(scene, config, factory, playersOf(arguments, config.onProblem));
   Simulation& simulation = run.simulation();
   Recording recording(arguments, outputs, scene, run);
   const std::optional<double> duration = arguments.duration ? arguments.duration : scene.duration;
@@ -228,8 +241,8 @@ int runSim(const SimArguments& arguments) {
         "the server runs until it is stopped");
   Simulation::Config config = configOf(arguments);
   config.onProblem = warn;
-  ServedSimulation simulation(sceneOf(arguments), config);
-  serve(simulation, arguments.serving);
+  ServedSimulation simulation(sceneOf(arguments), config, playersOf(arguments, warn));
+  serve(simulation, arguments.serving, playerCommands(simulation));
   return 0;
 }
 

@@ -28,31 +28,27 @@ std::string value(const char* key, double number) {
 
 struct ServedSimulation::Guest {
   RobotWish wish;
-  SimRobot* robot = nullptr;  ///< the simulation's
+  RobotNumber robot = 0;      ///< the simulation's; 0: it is not there
   bool isResident = false;    ///< of the scene, which has let it in
   RobotSize size;             ///< of a robot that is no resident
 };
 
 ServedSimulation::ServedSimulation(const std::filesystem::path& file,
-                                   const Simulation::Config& config)
-    : ServedSimulation(Scene::open(file), config) {}
+                                   const Simulation::Config& config,
+                                   const PlayerControl::Config& players)
+    : ServedSimulation(Scene::open(file), config, players) {}
 
-ServedSimulation::ServedSimulation(Scene scene, const Simulation::Config& config)
+ServedSimulation::ServedSimulation(Scene scene, const Simulation::Config& config,
+                                   const PlayerControl::Config& players)
     : scene_(std::move(scene)),
       config_(config),
+      playerConfig_(players),
       factory_(PluginFactory::standardFolders()),
       plugins_(robotPlugins(factory_, kInterfaces)),
-      run_(std::make_unique<SceneRun>(scene_, config_, factory_)),
-      entered_(scene_.robots.size()) {
+      run_(std::make_unique<SceneRun>(scene_, config_, factory_, playerConfig_)),
+      entered_(run_->entrants()) {
   nameObjects();
-  for (const SceneRobot& robot : scene_.robots) {
-    auto guest = std::make_unique<Guest>();
-    guest->wish.name = robot.name;
-    guest->isResident = true;
-    const auto id = static_cast<RobotId>(guests_.size() + 1);
-    enter(id, *guest);
-    guests_[id] = std::move(guest);
-  }
+  enterResidents();
 }
 
 ServedSimulation::~ServedSimulation() = default;
@@ -81,14 +77,69 @@ std::vector<Resident> ServedSimulation::residents() const {
   std::vector<Resident> residents;
   for (const auto& [id, guest] : guests_)
     if (guest->isResident)
-      residents.push_back({id, guest->wish.name, servedFeatures(guest->robot->container())});
+      residents.push_back({id, guest->wish.name, servedFeatures(find(id).container())});
   return residents;
+}
+
+/// The scene's robots, which it has let in. After a reset they are who they were.
+void ServedSimulation::enterResidents() {
+  std::erase_if(guests_, [&](const auto& entry) {
+    const Guest& guest = *entry.second;
+    return guest.isResident && !run_->find(guest.wish.name);
+  });
+  for (const auto& robot : simulation().robots()) addResident(*robot);
+  ++version_;
+}
+
+void ServedSimulation::addResident(SimRobot& robot) {
+  ++version_;
+  const std::string& name = robot.config().name;
+  for (const auto& [id, guest] : guests_)
+    if (guest->isResident && guest->wish.name == name) {
+      guest->robot = robot.state().number;
+      return;
+    }
+  auto guest = std::make_unique<Guest>();
+  guest->wish.name = name;
+  guest->isResident = true;
+  guest->robot = robot.state().number;
+  guests_[++lastId_] = std::move(guest);
+}
+
+/// Residents whose players have ended.
+void ServedSimulation::dropLeavers() {
+  const std::size_t gone = std::erase_if(guests_, [&](const auto& entry) {
+    return entry.second->isResident && simulation().find(entry.second->robot) == nullptr;
+  });
+  if (gone > 0) ++version_;
+}
+
+void ServedSimulation::step() {
+  run_->step();
+  dropLeavers();
+}
+
+std::string ServedSimulation::startPlayer(const PlayerWish& wish) {
+  try {
+    SimRobot& robot = run_->addPlayer(wish, entered_++);
+    addResident(robot);
+    return robot.config().name;
+  } catch (const NoRoom& error) {
+    throw ServeError("no-room", error.what());
+  }
+}
+
+void ServedSimulation::stopPlayer(const std::string& robot) {
+  if (!run_->players().stop(robot))
+    throw ServeError("no-player", "no player plays robot '" + robot + "'; PLAYERS lists them");
+  run_->players().clear();
+  dropLeavers();
 }
 
 bool ServedSimulation::hasWanderer(const RobotSize& size) const {
   return std::any_of(guests_.begin(), guests_.end(), [&](const auto& entry) {
     const Guest& guest = *entry.second;
-    return guest.wish.wanders && guest.robot != nullptr && guest.size == size;
+    return guest.wish.wanders && guest.robot != 0 && guest.size == size;
   });
 }
 
@@ -128,20 +179,16 @@ void ServedSimulation::preparePlanner(const RobotSize& size, bool wanders) {
 /// Brings a robot onto the field, where it wants to be; if that place is taken at a reset,
 /// anywhere.
 void ServedSimulation::enter(RobotId robot, Guest& guest) {
-  if (guest.isResident) {
-    guest.robot = simulation().robots()[*run_->find(guest.wish.name)].get();
-    return;
-  }
   RobotConfig config = guest.wish.config;
   // Clients name their robots as they like, so two of them may like the same.
   while (run_->find(config.name)) config.name += "-" + std::to_string(robot);
   const bool isRestart = guests_.contains(robot);
-  guest.robot = nullptr;
+  guest.robot = 0;
   guest.size = sizeOf(config);
   if (guest.wish.wanders || !guest.wish.start) preparePlanner(guest.size, guest.wish.wanders);
   const std::uint64_t number = entered_;
   const auto add = [&](const std::optional<Pose2>& start) {
-    guest.robot = &run_->addRobot(config, factory_, start, number);
+    guest.robot = run_->addRobot(config, factory_, start, number).state().number;
   };
   try {
     add(guest.wish.start);
@@ -153,16 +200,17 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
     throw ServeError("limit", error.what());
   }
   ++entered_;
-  if (guest.wish.wanders) run_->letWander(*guest.robot, number);
+  if (guest.wish.wanders) run_->letWander(*simulation().find(guest.robot), number);
 }
 
 ServedRobot ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
+  lastId_ = std::max(lastId_, robot);
   auto guest = std::make_unique<Guest>();
   guest->wish = std::move(wish);
   ServedRobot served;
   try {
     enter(robot, *guest);
-    SimRobot& entered = *guest->robot;
+    SimRobot& entered = *simulation().find(guest->robot);
     served = {servedFeatures(entered.container()), entered.raysPerSecond(simulation().cycle()),
               entered.raysAtOnce()};
   } catch (...) {  // its plugins may fail when they are asked, too
@@ -176,8 +224,8 @@ ServedRobot ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
 
 /// Nothing of a robot stays on the field, if it is there.
 void ServedSimulation::takeOff(Guest& guest) {
-  if (guest.robot != nullptr) simulation().removeRobot(*guest.robot);
-  guest.robot = nullptr;
+  if (const SimRobot* robot = simulation().find(guest.robot)) simulation().removeRobot(*robot);
+  guest.robot = 0;
 }
 
 ServedSimulation::Guest& ServedSimulation::guest(RobotId robot) const {
@@ -188,7 +236,7 @@ ServedSimulation::Guest& ServedSimulation::guest(RobotId robot) const {
 }
 
 SimRobot& ServedSimulation::find(RobotId robot) const {
-  SimRobot* found = guest(robot).robot;
+  SimRobot* found = simulation().find(guest(robot).robot);
   if (found == nullptr)
     throw ServeError("no-room", "robot " + std::to_string(robot) + " found no room at the reset");
   return *found;
@@ -202,11 +250,7 @@ void ServedSimulation::removeRobot(RobotId robot) {
 }
 
 std::span<const Message> ServedSimulation::readings(RobotId robot) const {
-  const SimRobot* wanted = guest(robot).robot;
-  const auto robots = simulation().robots();
-  for (std::size_t i = 0; i < robots.size(); ++i)
-    if (robots[i].get() == wanted) return simulation().readings(i);
-  return {};
+  return simulation().readingsOf(guest(robot).robot);
 }
 
 std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
@@ -230,12 +274,14 @@ std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
 void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
   Simulation::Config config = config_;
   if (seed) config.seed = *seed;
-  auto fresh = std::make_unique<SceneRun>(scene_, config, factory_);
+  auto fresh = std::make_unique<SceneRun>(scene_, config, factory_, playerConfig_);
   run_ = std::move(fresh);
   planned_.clear();
   config_ = config;
-  entered_ = scene_.robots.size();
+  entered_ = run_->entrants();
+  enterResidents();
   for (auto& [id, guest] : guests_) {
+    if (guest->isResident) continue;
     try {
       enter(id, *guest);
     } catch (const std::exception&) {

@@ -49,15 +49,7 @@ WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
       livePeriod_(world.livePeriod()),
       speed_(config.speed),
       isFree_(config.pace != Pace::kRealTime) {
-  for (Resident& resident : world_.residents()) {
-    lastRobot_ = std::max(lastRobot_, resident.robot);
-    robots_[resident.robot] = {
-        kNobody,
-        std::make_shared<RobotReadings>(resident.robot, std::move(resident.name),
-                                        std::move(resident.features)),
-        0.0, 0.0};
-  }
-  robotCount_ = robots_.size();
+  meetResidents();
   clock_.set(world_.now(), wallTime(), 0.0);
 }
 
@@ -193,11 +185,12 @@ void WorldKeeper::execute(Given& given) {
   std::string text;
   try {
     std::optional<std::string> reply = given.order(*this, given.done);
-    if (!reply) return;
+    if (!reply) return meetResidents();
     text = std::move(*reply);
   } catch (...) {
     text = currentErrorText();
   }
+  meetResidents();
   if (given.done) given.done(std::move(text));
 }
 
@@ -210,6 +203,7 @@ void WorldKeeper::cycle(Timestamp due) {
     fail(error.what());
     return;
   }
+  meetResidents();
   cycle_ = isLive() ? livePeriod_ : world_.now() - stamp;
   const double behind = static_cast<double>(begin - due) * speed_;
   if (!isFree_ && !isPaused_ && behind > static_cast<double>(cycle_)) ++missed_;

@@ -112,6 +112,7 @@ class WorldKeeper {
   void anchor(Timestamp wall);
   Timestamp latest() const;
   void remove(RobotId robot);
+  void meetResidents();
   Client& client(ClientId id);
 
   ServedWorld& world_;
@@ -128,6 +129,7 @@ class WorldKeeper {
   std::map<ClientId, Client> clients_;
   std::map<RobotId, Robot> robots_;
   RobotId lastRobot_ = 0;
+  std::optional<std::uint64_t> residentsVersion_;  ///< of those that it has met
   const Timestamp livePeriod_;              ///< see ServedWorld [us]
   std::map<RobotId, ClientId> commanders_;  ///< of live robots: who commanded them last
   bool isPaused_ = false;

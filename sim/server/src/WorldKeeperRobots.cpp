@@ -1,4 +1,5 @@
 // Clients, their robots, and who may command which.
+#include <algorithm>
 #include <cmath>
 
 #include "WorldKeeper.hpp"
@@ -89,6 +90,30 @@ void WorldKeeper::remove(RobotId robot) {
   const auto found = robots_.find(robot);
   found->second.readings->retire();
   robots_.erase(found);
+}
+
+/// Robots that the world has let in or taken off by itself.
+void WorldKeeper::meetResidents() {
+  const std::uint64_t version = world_.residentsVersion();
+  if (residentsVersion_ == version) return;
+  residentsVersion_ = version;
+  std::set<RobotId> there;
+  for (Resident& resident : world_.residents()) {
+    there.insert(resident.robot);
+    if (robots_.contains(resident.robot)) continue;
+    lastRobot_ = std::max(lastRobot_, resident.robot);
+    robots_[resident.robot] = {
+        kNobody,
+        std::make_shared<RobotReadings>(resident.robot, std::move(resident.name),
+                                        std::move(resident.features)),
+        0.0, 0.0};
+  }
+  std::erase_if(robots_, [&](const auto& entry) {
+    const bool hasLeft = entry.second.owner == kNobody && !there.contains(entry.first);
+    if (hasLeft) entry.second.readings->retire();
+    return hasLeft;
+  });
+  robotCount_ = robots_.size();
 }
 
 void WorldKeeper::checkOwner(ClientId client, RobotId robot) const {

@@ -73,14 +73,7 @@ struct PlayerControl::Parts {
     const auto found = teams.find(robot);
     return found == teams.end() ? "" : found->second;
   }
-  /// Robots are in the order of their coming, and so are their numbers.
-  bool isThere(const Seating& one) const {
-    const auto robots = simulation.robots();
-    const auto found = std::lower_bound(
-        robots.begin(), robots.end(), one.number,
-        [](const auto& robot, RobotNumber n) { return robot->state().number < n; });
-    return found != robots.end() && (*found)->state().number == one.number;
-  }
+  bool isThere(const Seating& one) const { return simulation.find(one.number) != nullptr; }
   void sit(SimRobot& robot, std::unique_ptr<Player> player, const PlayerWish& wish,
            const Random& random, bool isGuest);
   void say(std::string_view robot, std::string_view text);

@@ -113,7 +113,11 @@ Scene Scene::read(const std::filesystem::path& file) {
   if (about.has("duration_s")) scene.duration = about.number("duration_s", kTime);
   for (const Parameters& table : readTables(toml, "robot", Scene::kMostRobots))
     addRobot(table, folder, scene.robots);
-  if (scene.robots.empty()) toml.fail("robot", "is missing: a scene has at least one [[robot]]");
+  for (const Parameters& table :
+       readTables(toml, "player", Scene::kMostRobots - scene.robots.size()))
+    scene.players.push_back(readPlayer(table, folder));
+  if (scene.robots.empty() && scene.players.empty())
+    toml.fail("robot", "is missing: a scene has at least one [[robot]] or [[player]]");
   for (const Parameters& table : readTables(toml, "command", kMostCommands))
     scene.commands.push_back(readCommand(table));
   for (const Parameters& table : readTables(toml, "thing", kMostCommands))

@@ -84,6 +84,8 @@ SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginF
   for (const bool hasStart : {true, false})
     for (std::size_t i = 0; i < scene_.robots.size(); ++i)
       if (scene_.robots[i].start.has_value() == hasStart) addRobot(scene_.robots[i], i, factory);
+  for (std::size_t i = 0; i < scene_.players.size(); ++i)
+    addPlayer(scene_.players[i], scene_.robots.size() + i);
   for (const SceneCommand& command : scene_.commands) check(command);
   for (const ScenePlacement& placement : scene_.placements) needThing(placement.thing);
 }
@@ -199,7 +201,9 @@ void SceneRun::put(const ScenePlacement& placement) {
 }
 
 void SceneRun::obey(const SceneCommand& command) {
-  SimRobot& robot = *simulation_->robots()[need(command.robot)];
+  const auto place = find(command.robot);
+  if (!place) return;  // its player has ended
+  SimRobot& robot = *simulation_->robots()[*place];
   try {
     if (command.translational) robot.setTranslationalVelocity(*command.translational);
     if (command.rotational) robot.setRotationalVelocity(*command.rotational);

@@ -132,6 +132,20 @@ void Simulation::removeRobot(const SimRobot& robot) {
   robots_.erase(found);
 }
 
+/// Robots are in the order of their coming, and so are their numbers.
+SimRobot* Simulation::find(RobotNumber robot) const {
+  const auto found = std::lower_bound(
+      robots_.begin(), robots_.end(), robot,
+      [](const auto& one, RobotNumber number) { return one->state().number < number; });
+  return found != robots_.end() && (*found)->state().number == robot ? found->get() : nullptr;
+}
+
+std::span<const Message> Simulation::readingsOf(RobotNumber robot) const {
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+    if (robots_[i]->state().number == robot) return readings_[i];
+  return {};
+}
+
 void Simulation::move() {
   moveManipulators();
   moveBodies();

@@ -8,8 +8,9 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
-#include "ortung/sim/RoutePlanner.hpp"
+#include "ortung/sim/PlayerWish.hpp"
 #include "ortung/sim_api/Twist.hpp"
+#include "ortung/sim_api/World.hpp"
 
 namespace ortung {
 
@@ -51,6 +52,7 @@ struct Scene {
   std::filesystem::path world;
   std::optional<double> duration;  ///< [s]
   std::vector<SceneRobot> robots;
+  std::vector<PlayerWish> players;         ///< on robots of their own
   std::vector<SceneCommand> commands;      ///< in the order of time
   std::vector<ScenePlacement> placements;  ///< in the order of time
 

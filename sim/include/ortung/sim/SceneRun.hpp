@@ -48,6 +48,8 @@ class ORTUNG_API SceneRun {
   /// Starts a player on a robot of its own. @param number as for addRobot()
   /// @throws as addRobot(), and for a player that can't be made
   SimRobot& addPlayer(const PlayerWish& wish, std::uint64_t number);
+  /// Robots that the scene itself has; those of others have later numbers.
+  std::size_t entrants() const { return scene_.robots.size() + scene_.players.size(); }
   PlayerControl& players() { return *players_; }
   const PlayerControl& players() const { return *players_; }
   /// Lets a robot drive about by itself. @param number as for addRobot() @param speed at most [m/s]

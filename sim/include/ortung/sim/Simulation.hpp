@@ -73,8 +73,12 @@ class ORTUNG_API Simulation {
   void sense();
   /// Everything moves until the next cycle.
   void move();
+  /// The robot with this number, which no other one ever has, or null if it has left.
+  SimRobot* find(RobotNumber robot) const;
   /// What a robot's sensors gave in the last cycle; valid until the next.
   std::span<const Message> readings(std::size_t robot) const { return readings_[robot]; }
+  /// The same of the robot with a number; none if it has left.
+  std::span<const Message> readingsOf(RobotNumber robot) const;
 
   /// Carries a robot elsewhere (kidnaps it). @throws NoRoom if it does not fit there
   void place(SimRobot& robot, const Pose2& pose);

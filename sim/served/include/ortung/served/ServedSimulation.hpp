@@ -18,16 +18,19 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
  public:
   /// @param file of a world or a scene
   /// @throws ConfigError, PluginError, std::invalid_argument for what SceneRun refuses
-  ServedSimulation(const std::filesystem::path& file, const Simulation::Config& config);
+  ServedSimulation(const std::filesystem::path& file, const Simulation::Config& config,
+                   const PlayerControl::Config& players = {});
   /// @throws ConfigError, PluginError, std::invalid_argument for what SceneRun refuses
-  ServedSimulation(Scene scene, const Simulation::Config& config);
+  ServedSimulation(Scene scene, const Simulation::Config& config,
+                   const PlayerControl::Config& players = {});
   ~ServedSimulation() override;
 
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return plugins_; }
   Timestamp now() const override { return simulation().now(); }
-  void step() override { run_->step(); }
+  void step() override;
   std::vector<Resident> residents() const override;
+  std::uint64_t residentsVersion() const override { return version_; }
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
@@ -37,6 +40,13 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;
 
+  /// Starts a player on a robot of its own, until the next reset. @returns the robot's name
+  /// @throws ServeError, ConfigError, PluginError
+  std::string startPlayer(const PlayerWish& wish);
+  /// Ends the player on a robot. @throws ServeError if there is none
+  void stopPlayer(const std::string& robot);
+  std::vector<PlayerControl::Seated> players() const { return run_->players().players(); }
+
  private:
   struct Guest;
   Guest& guest(RobotId robot) const;
@@ -45,19 +55,25 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   void enter(RobotId robot, Guest& guest);
   void takeOff(Guest& guest);
   void nameObjects();
+  void enterResidents();
+  void addResident(SimRobot& robot);
+  void dropLeavers();
   void preparePlanner(const RobotSize& size, bool wanders);
   void dropPlanners(std::size_t most);
   bool hasWanderer(const RobotSize& size) const;
 
   Scene scene_;
   Simulation::Config config_;
+  PlayerControl::Config playerConfig_;
   PluginFactory factory_;
   std::vector<std::string> plugins_;
   std::vector<ServedObject> objects_;  ///< in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
   std::vector<RobotSize> planned_;  ///< for robots of clients, the plan last asked for at the end
   std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
-  std::uint64_t entered_;  ///< robots since the last reset: each has chances of its own
+  RobotId lastId_ = 0;
+  std::uint64_t version_ = 0;  ///< of residents
+  std::uint64_t entered_;      ///< robots since the last reset: each has chances of its own
 };
 
 }  // namespace ortung

@@ -106,8 +106,11 @@ class ORTUNG_API ServedWorld {
   /// One cycle. @throws std::runtime_error if the world can't go on
   virtual void step() = 0;
 
-  /// Robots of the world's own, numbered from 1.
+  /// Robots of the world's own, numbered from 1. They may come and go: one that comes has a number
+  /// that no robot had before.
   virtual std::vector<Resident> residents() const { return {}; }
+  /// Changes whenever residents() do.
+  virtual std::uint64_t residentsVersion() const { return 0; }
   virtual ServedRobot addRobot(RobotId robot, RobotWish wish) = 0;
   /// What a robot is and can be told, one line each, its first word saying which: "drive COMMAND",
   /// "limits v_m_s=V w_rad_s=W ...", "body radius_m=R ...", "manipulator NAME STATE ...".

@@ -5,41 +5,79 @@
 
 #include "FakeWorld.hpp"
 #include "WorldFiles.hpp"
-#include "ortung/sim/Driver.hpp"
+#include "ortung/sim/RoutePlanner.hpp"
 #include "ortung/sim/SceneRun.hpp"
+#include "ortung/sim_api/Player.hpp"
 
 namespace ortung {
 namespace {
 
 /// Notes what it is told.
-struct NotedDrive : Drive {
+struct NotedRobot : RobotCommands {
   void setTranslationalVelocity(double v) override { translational = v; }
   void setRotationalVelocity(double w) override { rotational = w; }
-  void setCommand(std::span<const double>) override {}
-  std::size_t commandSize() const override { return 2; }
-  std::string commandHelp() const override { return ""; }
-  DriveLimits limits() const override { return {}; }
-  Pose2 relocate(double, Random*) override { return {}; }
-  Twist velocity() const override { return {}; }
-  void setVelocity(const Twist&) override {}
-  Pose2 measure(const Pose2& trueChange, Random*) override { return trueChange; }
+  void setMotion(std::span<const double>) override {}
+  void setManipulator(std::string_view, std::string_view) override {}
 
   double translational = 0.0;
   double rotational = 0.0;
 };
 
+/// A stage with one robot that does not get away from where it is.
+struct StuckStage : Stage {
+  Timestamp now() const override { return time; }
+  double cycle() const override { return 0.01; }
+  const World& world() const override { return field; }
+  std::span<const StagedRobot> robots() const override { return {&robot, 1}; }
+  std::span<const StagedThing> things() const override { return {}; }
+  void placeRobot(std::string_view, const Pose2&) override {}
+  void placeThing(std::string_view, const Pose2&, const Twist&) override {}
+  std::shared_ptr<const FloorPlan> floorPlan(const RobotSize& size) override {
+    return std::make_shared<RoutePlanner>(field, size);
+  }
+
+  FakeWorld field{12.0, 8.0};
+  StagedRobot robot{"bert", "", {1.0, 1.0, 0.5}, {}, 0.25};
+  Timestamp time = 0;
+};
+
+struct StuckSeat : PlayerSeat {
+  const std::string& name() const override { return stuck.robot.name; }
+  const std::string& team() const override { return stuck.robot.team; }
+  Timestamp now() const override { return stuck.time; }
+  SensorContainer& container() override { return sensors; }
+  RobotCommands& robot() override { return noted; }
+  const RobotAbilities& abilities() const override { return able; }
+  const FieldModel& field() const override { return known; }
+  const Game& game() const override { return free; }
+  Random& random() override { return chance; }
+  void say(std::string_view) override {}
+  std::span<const Heard> heard() const override { return {}; }
+  Stage* stage() override { return &stuck; }
+
+  StuckStage stuck;
+  SensorContainer sensors;
+  NotedRobot noted;
+  RobotAbilities able{0.25, 0.5, {}, "", {}};
+  FieldModel known;
+  Game free;
+  Random chance{1};
+};
+
 TEST(Wanderer, BacksAfterItWasStuckAndOnlyThen) {
   constexpr Timestamp kCycle = 10'000;
-  const RoutePlanner planner(FakeWorld(12.0, 8.0), {0.25});
-  const auto driver = makeWanderer(planner, {}, Random(1));
-  NotedDrive drive;
+  PluginFactory factory(PluginFactory::standardFolders());
+  const auto player = factory.make<Player>("wander", Parameters());
+  StuckSeat seat;
+  player->begin(seat);
   std::vector<Timestamp> backwards;
   // Whatever it does, it does not get away from here.
   for (Timestamp now = 0; now < 9'500'000; now += kCycle) {
-    driver->command({1.0, 1.0, 0.5}, now, drive);
-    if (drive.translational >= 0.0) continue;
+    seat.stuck.time = now;
+    EXPECT_TRUE(player->senseAndAct(seat));
+    if (seat.noted.translational >= 0.0) continue;
     backwards.push_back(now);
-    EXPECT_EQ(drive.rotational, 0.0) << now;
+    EXPECT_EQ(seat.noted.rotational, 0.0) << now;
   }
   // Half a second each time when it has been stuck for four.
   ASSERT_EQ(backwards.size(), 100u);

@@ -1,0 +1,60 @@
+#include "PlayerCommands.hpp"
+
+#include <fmt/format.h>
+
+#include "ortung/base/Time.hpp"
+#include "ortung/sim/PlayerWish.hpp"
+
+namespace ortung::app {
+namespace {
+
+/// What a client wants, as the text of a player. It names shipped robot files only, never a path.
+PlayerWish wishOf(const BoardCommand::Call& call) {
+  if (call.words.size() != 1)
+    throw ServeError("argument", "PLAY names one plugin; HELP shows its arguments");
+  std::string text = call.words.front();
+  std::string team;
+  char mark = ':';
+  for (const auto& [key, value] : call.keys) {
+    if (key == "robot" && value.find('/') != std::string::npos)
+      throw ServeError("argument", "robot is '" + value + "', expected a name of a shipped file");
+    if ((key + value).find_first_of("&@:") != std::string::npos)
+      throw ServeError("argument", key + " is '" + value + "', which must not have &, @ or :");
+    if (key == "team") {
+      team = "@" + value;
+      continue;
+    }
+    text += mark + key + "=" + value;
+    mark = '&';
+  }
+  return parsePlayer(text + team);
+}
+
+}  // namespace
+
+std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
+  std::vector<BoardCommand> commands(3);
+  commands[0] = {"PLAY", "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
+                 true, [&simulation](const BoardCommand::Call& call) {
+                   return BoardCommand::Reply{
+                       "robot=" + simulation.startPlayer(wishOf(call)), {}};
+                 }};
+  commands[1] = {"STOP", "ROBOT: ends the player that plays it", true,
+                 [&simulation](const BoardCommand::Call& call) {
+                   if (call.words.size() != 1)
+                     throw ServeError("argument", "STOP names one robot; PLAYERS lists them");
+                   simulation.stopPlayer(call.words.front());
+                   return BoardCommand::Reply{};
+                 }};
+  commands[2] = {"PLAYERS", "who plays", false, [&simulation](const BoardCommand::Call&) {
+                   BoardCommand::Reply reply;
+                   for (const PlayerControl::Seated& one : simulation.players())
+                     reply.lines.push_back(
+                         fmt::format("robot={} player={}{} since={}", one.robot, one.plugin,
+                                     one.team.empty() ? "" : " team=" + one.team, one.since));
+                   return reply;
+                 }};
+  return commands;
+}
+
+}  // namespace ortung::app
