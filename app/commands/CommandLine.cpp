@@ -232,10 +232,11 @@ void addSim(Builder& build, CLI::App& app) {
       ->expected(1)
       ->take_all();
   build
-      .option("--player", a->players,
-              "PLUGIN[:key=value&key=value...][@TEAM]: a player on a robot of its own, e.g. "
-              "wander:robot=maps/robots/pioneer.toml&speed_m_s=0.5@blue; robot, name, start (x,y,deg) "
-              "and stage (yes, no) are for all, `ortung plugins` shows the others; may be given again")
+      .option(
+          "--player", a->players,
+          "PLUGIN[:key=value&key=value...][@TEAM]: a player on a robot of its own, e.g. "
+          "wander:robot=maps/robots/pioneer.toml&speed_m_s=0.5@blue; robot, name, start (x,y,deg) "
+          "and stage (yes, no) are for all, `ortung plugins` shows the others; may be given again")
       ->expected(1)
       ->take_all();
   build

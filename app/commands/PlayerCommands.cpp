@@ -34,10 +34,10 @@ PlayerWish wishOf(const BoardCommand::Call& call) {
 
 std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
   std::vector<BoardCommand> commands(3);
-  commands[0] = {"PLAY", "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
+  commands[0] = {"PLAY",
+                 "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
                  true, [&simulation](const BoardCommand::Call& call) {
-                   return BoardCommand::Reply{
-                       "robot=" + simulation.startPlayer(wishOf(call)), {}};
+                   return BoardCommand::Reply{"robot=" + simulation.startPlayer(wishOf(call)), {}};
                  }};
   commands[1] = {"STOP", "ROBOT: ends the player that plays it", true,
                  [&simulation](const BoardCommand::Call& call) {

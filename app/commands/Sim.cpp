@@ -153,8 +153,7 @@ struct Recording {
     if (!arguments.trace.empty()) trace.emplace(outputs.ready(arguments.trace));
     if (arguments.record.empty()) return;
     const auto robots = run.simulation().robots();
-    if (robots.empty())
-      throw UsageError("--record: there is no robot; see --robot and --player");
+    if (robots.empty()) throw UsageError("--record: there is no robot; see --robot and --player");
     name = !arguments.recorded.empty() ? arguments.recorded
            : scene.robots.empty()      ? robots.front()->config().name
                                        : scene.robots.front().name;

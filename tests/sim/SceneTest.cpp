@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "WorldFiles.hpp"
+#include "ortung/sim/PlayerControl.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
 namespace ortung::test {
@@ -175,30 +176,38 @@ TEST(RobotCommands, AreGivenByNumberOfAStateToo) {
   EXPECT_THROW(commands.setManipulator("kicker", "2"), std::invalid_argument);
 }
 
-/// Drives ahead for ever.
-struct Ahead : Driver {
-  void command(const Pose2&, Timestamp, Drive& drive) override {
-    drive.setTranslationalVelocity(0.5);
-  }
-};
-
-TEST(RobotCommands, ReplaceTheDriverOnceTheyAreTaken) {
+TEST(RobotCommands, EndTheGuestOnceTheyAreTaken) {
   Kicker kicker;
   RobotCommands& commands = kicker.robot;
   kicker.simulation.placeThing(0, {3.0, 3.0, 0.0});
-  kicker.robot.setDriver(std::make_unique<Ahead>());
+  FloorPlans plans(kicker.simulation.world());
+  PluginFactory factory(PluginFactory::standardFolders());
+  PlayerControl players(kicker.simulation, plans, factory, {});
+  PlayerWish ahead;
+  ahead.plugin = "follow";
+  const Pose2 far = kicker.robot.state().pose * Pose2{50.0, 0.0, 0.0};
+  ahead.options.set("waypoints_m", std::vector<double>{far.x, far.y});
+  players.lead(kicker.robot, ahead, Random(1));
   const auto way = [&] {
     const double before = kicker.robot.state().pose.x;
-    for (int i = 0; i < 100; ++i) kicker.simulation.step();
+    for (int i = 0; i < 100; ++i) {
+      kicker.simulation.sense();
+      players.act({});
+      kicker.simulation.move();
+      players.clear();
+    }
     return kicker.robot.state().pose.x - before;
   };
   EXPECT_THROW(commands.setTranslationalVelocity(std::nan("")), std::invalid_argument);
   EXPECT_THROW(commands.setMotion(std::vector<double>{1.0}), std::invalid_argument);
   commands.setManipulator("kicker", "kick");
   EXPECT_GT(way(), 0.1);
+  EXPECT_EQ(players.players().size(), 1u);
   commands.setTranslationalVelocity(0.0);
   way();  // brakes
   EXPECT_EQ(way(), 0.0);
+  EXPECT_TRUE(players.players().empty());
+  EXPECT_EQ(kicker.simulation.robots().size(), 1u) << "the robot stays";
 }
 
 TEST(SceneRun, CarriesARobotElsewhereWithoutItsOdometry) {

@@ -10,6 +10,7 @@
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/robot/TomlFile.hpp"
+#include "ortung/sim/PlayerControl.hpp"
 #include "ortung/sim/Simulation.hpp"
 
 namespace ortung {
@@ -52,16 +53,26 @@ std::unique_ptr<FakeWorld> field() {
 struct Wandering {
   explicit Wandering(const Simulation::Config& config, std::unique_ptr<FakeWorld> world = field())
       : factory(PluginFactory::standardFolders()),
-        planner(*world, {0.25}),
-        simulation(std::move(world), config) {
+        simulation(std::move(world), config),
+        plans(simulation.world()),
+        players(simulation, plans, factory, {}) {
     Random random = simulation.random(0);
-    robot = &simulation.addRobot(robotConfig(), factory, planner.randomPose(random));
-    robot->setDriver(makeWanderer(planner, robot->drive().limits(), simulation.random(1)));
+    const RobotConfig its = robotConfig();
+    robot = &simulation.addRobot(its, factory, plans.of(sizeOf(its))->randomPose(random));
+    PlayerWish wish;
+    wish.plugin = "wander";
+    players.lead(*robot, wish, simulation.random(1));
+  }
+  void step() {
+    simulation.sense();
+    players.act({});
+    simulation.move();
   }
 
   PluginFactory factory;
-  RoutePlanner planner;
   Simulation simulation;
+  FloorPlans plans;
+  PlayerControl players;
   SimRobot* robot;
 };
 
@@ -72,7 +83,7 @@ TEST(Simulation, GivesReadingsAtTheirPeriodsInOneFrameEach) {
   int truths = 0;
   for (int cycle = 0; cycle < 100; ++cycle) {
     const Timestamp now = run.simulation.now();
-    run.simulation.step();
+    run.step();
     for (const Message& message : run.simulation.readings(0)) {
       EXPECT_EQ(message.stamp, now);
       odometry += message.id.type == "odometry" ? 1 : 0;
@@ -90,7 +101,7 @@ TEST(Simulation, MeasuresTheTruthWithoutNoise) {
   Wandering run({.cycle = 0.01, .seed = 3, .noise = false});
   const Pose2 start = run.robot->state().pose;
   for (int cycle = 0; cycle < 3000; ++cycle) {
-    run.simulation.step();
+    run.step();
     const Pose2 believed = start * run.robot->state().odometry;
     const Pose2& truth = run.robot->state().pose;
     ASSERT_LT(distance(believed, truth), 1e-9);
@@ -134,7 +145,7 @@ TEST(Simulation, OdometryTellsTheLateralVelocityOfAnOmnidirectionalBase) {
 TEST(Simulation, DriftsWithNoise) {
   Wandering run({.cycle = 0.01, .seed = 3, .noise = true});
   const Pose2 start = run.robot->state().pose;
-  for (int cycle = 0; cycle < 6000; ++cycle) run.simulation.step();
+  for (int cycle = 0; cycle < 6000; ++cycle) run.step();
   const double error = distance(start * run.robot->state().odometry, run.robot->state().pose);
   EXPECT_GT(error, 0.005);
   EXPECT_LT(error, 5.0);
@@ -205,9 +216,9 @@ TEST(Simulation, GivesTheSameBitsForTheSameSeed) {
   Wandering different({.cycle = 0.01, .seed = 43, .noise = true});
   bool differs = false;
   for (int cycle = 0; cycle < 3000; ++cycle) {
-    one.simulation.step();
-    other.simulation.step();
-    different.simulation.step();
+    one.step();
+    other.step();
+    different.step();
     const auto a = one.simulation.readings(0);
     const auto b = other.simulation.readings(0);
     ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << cycle;
@@ -221,8 +232,8 @@ TEST(Simulation, DrivesTheSameWayWithAndWithoutNoise) {
   Wandering noisy({.cycle = 0.01, .seed = 8, .noise = true});
   Wandering quiet({.cycle = 0.01, .seed = 8, .noise = false});
   for (int cycle = 0; cycle < 2000; ++cycle) {
-    noisy.simulation.step();
-    quiet.simulation.step();
+    noisy.step();
+    quiet.step();
   }
   EXPECT_EQ(distance(noisy.robot->state().pose, quiet.robot->state().pose), 0.0);
 }
@@ -267,7 +278,7 @@ TEST_P(WandererTest, CoversMostOfTheFieldInFiveMinutes) {
   double longestStay = 0.0;
   double stay = 0.0;
   for (int cycle = 0; cycle < 30000; ++cycle) {
-    run.simulation.step();
+    run.step();
     const Pose2& pose = run.robot->state().pose;
     visited.insert({static_cast<int>(std::floor(pose.x)), static_cast<int>(std::floor(pose.y))});
     stay += 0.01;

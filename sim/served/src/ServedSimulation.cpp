@@ -28,9 +28,9 @@ std::string value(const char* key, double number) {
 
 struct ServedSimulation::Guest {
   RobotWish wish;
-  RobotNumber robot = 0;      ///< the simulation's; 0: it is not there
-  bool isResident = false;    ///< of the scene, which has let it in
-  RobotSize size;             ///< of a robot that is no resident
+  RobotNumber robot = 0;    ///< the simulation's; 0: it is not there
+  bool isResident = false;  ///< of the scene, which has let it in
+  RobotSize size;           ///< of a robot that is no resident
 };
 
 ServedSimulation::ServedSimulation(const std::filesystem::path& file,

@@ -130,8 +130,8 @@ class WorldKeeper {
   std::map<RobotId, Robot> robots_;
   RobotId lastRobot_ = 0;
   std::optional<std::uint64_t> residentsVersion_;  ///< of those that it has met
-  const Timestamp livePeriod_;              ///< see ServedWorld [us]
-  std::map<RobotId, ClientId> commanders_;  ///< of live robots: who commanded them last
+  const Timestamp livePeriod_;                     ///< see ServedWorld [us]
+  std::map<RobotId, ClientId> commanders_;         ///< of live robots: who commanded them last
   bool isPaused_ = false;
   std::uint64_t steps_ = 0;  ///< to be made although it is paused
   Done stepsDone_;
