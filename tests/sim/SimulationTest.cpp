@@ -288,9 +288,9 @@ TEST_P(WandererTest, CoversMostOfTheFieldInFiveMinutes) {
     stay = 0.0;
   }
   std::set<std::pair<int, int>> reachable;  // squares of 1 m
-  for (const std::uint32_t cell : run.planner.cells())
-    reachable.insert({static_cast<int>(std::floor(run.planner.grid().centreX(cell))),
-                      static_cast<int>(std::floor(run.planner.grid().centreY(cell)))});
+  for (const std::uint32_t cell : run.plans.of({0.25})->cells())
+    reachable.insert({static_cast<int>(std::floor(run.plans.of({0.25})->grid().centreX(cell))),
+                      static_cast<int>(std::floor(run.plans.of({0.25})->grid().centreY(cell)))});
   EXPECT_GT(static_cast<double>(visited.size()), 0.6 * static_cast<double>(reachable.size()));
   EXPECT_LT(longestStay, 5.0);  // never stuck: it turns on the spot, but moves on
   RecordProperty("visited", static_cast<int>(100 * visited.size() / reachable.size()));
