@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "Pitch.hpp"
+#include "Scene.hpp"
+
+namespace ortung::soccer {
+
+/// How the ball has left the pitch.
+struct Leaving {
+  enum class Over { touchLine, goalLine, intoGoal };
+  Over over = Over::touchLine;
+  double x = 0.0;  ///< where its middle crossed the line, on the line's outer edge [m]
+  double y = 0.0;
+};
+
+/// Sees the ball leave the pitch: over a touch line, over a goal line, or into a goal. Where the
+/// ball crosses is found between two looks, so that fast balls are judged at the line.
+class BallOut {
+ public:
+  BallOut(const Rules::Out& out, const Rules::Goal& goal) : out_(out), goal_(goal) {}
+
+  std::optional<Leaving> look(const Scene::Ball& ball, const Pitch& pitch);
+  /// The ball was put elsewhere.
+  void reset() { before_.reset(); }
+
+ private:
+  Rules::Out out_;
+  Rules::Goal goal_;
+  std::optional<FloorPoint> before_;
+};
+
+}  // namespace ortung::soccer

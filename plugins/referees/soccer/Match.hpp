@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "AreaFouls.hpp"
+#include "BallOut.hpp"
+#include "BallStuck.hpp"
+#include "MatchClock.hpp"
+#include "Orders.hpp"
+#include "Pitch.hpp"
+#include "Restarts.hpp"
+#include "Rules.hpp"
+#include "Scene.hpp"
+#include "Touches.hpp"
+#include "ortung/sim_api/Referee.hpp"
+
+namespace ortung::soccer {
+
+/// Who decides: the rules, or a person (a referee box) by orders alone.
+enum class Control { kRules, kOrders };
+
+/// A game of two teams: puts together what the other classes see, and says what follows.
+class Match {
+ public:
+  struct Config {
+    Rules rules;
+    Control control = Control::kRules;
+    std::array<std::string, 2> teams = {"blue", "yellow"};
+    std::size_t kickOff = 0;  ///< the team that has the first one
+    std::size_t left = 0;     ///< the team that begins on the left
+  };
+
+  explicit Match(Config config);
+
+  const Game& watch(Stage& stage);
+  std::vector<RefereeEvent> takeEvents();
+  bool holds(std::string_view robot) const;
+  /// Checks an order; it is carried out at the next watch(). @throws std::invalid_argument
+  void order(std::string_view text);
+
+ private:
+  void obey(Stage& stage, const Order& order);
+  void start(Stage& stage);
+  void beginHalf(Stage& stage, int half);
+  void reset();
+
+  void countTime(double elapsed);
+  void endHalf();
+  void endGame();
+  void whileStopped(Stage& stage);
+  void whileReady(Stage& stage);
+  void whilePlaying(Stage& stage);
+  void leave(Stage& stage, const Leaving& leaving);
+  void judgeGoal(Stage& stage, const Leaving& leaving);
+  void give(Stage& stage, const Restart& restart, const std::string& why);
+  void giveAt(Stage& stage, Game::Restart kind, std::optional<std::size_t> team,
+              const FloorPoint& at, const std::string& why);
+  void place(Stage& stage);
+  void begin(Stage& stage);
+  void play();
+  void forgetPlay();
+  bool hasNewcomer() const;
+
+  FloorPoint ballPlace() const;
+  std::string nameOfTeam(std::optional<std::size_t> team) const;
+  void tell(const std::string& what, std::optional<std::size_t> team, const std::string& text);
+
+  const Config config_;
+  Game game_;
+  MatchClock clock_;
+  Touches touches_;
+  BallOut ballOut_;
+  BallStuck stuck_;
+  AreaFouls areas_;
+  std::optional<Pitch> pitch_;
+  Scene scene_;
+  std::optional<Timestamp> last_;  ///< when it looked
+
+  std::optional<Restart> restart_;   ///< while it is prepared or to be taken
+  bool waits_ = false;               ///< the restart, for the order to start
+  bool isPause_ = false;             ///< between halves
+  Timestamp since_ = 0;              ///< of this phase
+  std::vector<std::string> placed_;  ///< robots that were there when the restart was given
+
+  std::vector<Order> orders_;
+  std::vector<RefereeEvent> events_;
+};
+
+}  // namespace ortung::soccer
