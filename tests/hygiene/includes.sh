@@ -29,8 +29,9 @@ deny 'sim/api' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|nl
 deny 'sim' 'ortung/(mcl|realsensors)|mrpt|opencv'
 deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nlohmann|$foreign"
 deny 'sim/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
-deny 'sim/src sim/include' 'ortung/(server|served|client)/'
-deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)'
+deny 'sim/refbox' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|mrpt|opencv|embree|GL/|box2d"
+deny 'sim/src sim/include' 'ortung/(server|served|client|refbox)/'
+deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)|refbox/src/RefBoxClient\.cpp)'
 deny 'plugins' 'ortung/(mcl|realsensors)|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
 deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
@@ -51,7 +52,7 @@ done
 
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include sim/include sim/api/include sim/server/include \
-              sim/served/include sim/client/include; do
+              sim/served/include sim/client/include sim/refbox/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/refbox/WorldState.hpp"
+
+namespace ortung::refbox {
+
+struct ORTUNG_API RefBoxConfig {
+  std::string host = "127.0.0.1";  ///< of the box: name or address
+  std::uint16_t port = 28097;
+  std::string ownTeam = "blue";  ///< as the referee calls it
+  std::string otherTeam = "yellow";
+  /// How the box calls the own team; "": as its WELCOME says.
+  std::string address;
+  double reportPeriod = 0.1;             ///< between two worldstates [s]
+  double retry = 1.0;                    ///< between two attempts to connect [s]
+  double connectTimeout = 5.0;           ///< [s]
+  std::size_t longestMessage = 1 << 16;  ///< of the box [bytes]
+  void check() const;                    ///< @throws std::invalid_argument naming the field
+};
+
+/// Connects a referee and a team to a RefBox of the Middle Size League: hands on what the box
+/// commands as orders, and tells the box the team's state. It connects again whenever the box is
+/// gone. Whatever the box says, a message that makes no sense is told and passed over.
+///
+/// It has no thread of its own: all happens in poll(), on its caller's thread. Not thread-safe.
+class ORTUNG_API RefBoxClient {
+ public:
+  /// @param state what the team tells of itself; asked once a period while there is a connection
+  /// @param order gets the orders, one at a time; an std::invalid_argument of it is told
+  /// @param tell gets what a person should know, a line each: connected, lost, nonsense
+  /// @throws std::invalid_argument
+  RefBoxClient(const RefBoxConfig& config, std::function<WorldState()> state,
+               std::function<void(const std::string&)> order,
+               std::function<void(const std::string&)> tell);
+  ~RefBoxClient();
+  RefBoxClient(const RefBoxClient&) = delete;
+  RefBoxClient& operator=(const RefBoxClient&) = delete;
+
+  /// Does what is to be done, without waiting; once a cycle, say.
+  /// @param now time of a clock that only goes forwards [s]
+  void poll(double now);
+
+  bool isConnected() const;
+  /// How the box calls the own team; "" as long as that is not known.
+  const std::string& address() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ortung::refbox

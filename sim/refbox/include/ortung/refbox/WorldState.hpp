@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/sim_api/Twist.hpp"
+
+namespace ortung::refbox {
+
+/// What a team tells the box of itself. Field frame, [m], [rad], [m/s]. Entries with numbers that
+/// are not finite are left out of the message.
+struct WorldState {
+  struct Robot {
+    int id = 0;
+    Pose2 pose = {};
+    Pose2 targetPose = {};
+    Twist velocity = {};
+    std::string intention = {};
+    double batteryLevel = 1.0;  ///< share
+    bool ballEngaged = false;
+  };
+  struct Point {
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+  };
+  struct Ball {
+    Point position = {};
+    Point velocity = {};
+    double confidence = 1.0;
+  };
+  struct Obstacle {
+    double x = 0.0;
+    double y = 0.0;
+    double vx = 0.0;
+    double vy = 0.0;
+    double radius = 0.25;
+    double confidence = 1.0;
+  };
+
+  std::string teamName;
+  std::string intention;
+  std::vector<Robot> robots;
+  std::vector<Ball> balls;
+  std::vector<Obstacle> obstacles;
+  double age = 0.0;  ///< [s]
+};
+
+/// The message `worldstate` without its NUL byte, on one line. Bytes that are no UTF-8 are
+/// replaced.
+ORTUNG_API std::string toJson(const WorldState& state);
+
+}  // namespace ortung::refbox
