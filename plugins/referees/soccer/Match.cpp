@@ -12,7 +12,6 @@ namespace ortung::soccer {
 namespace {
 
 constexpr std::size_t kMostEvents = 10000;  ///< that nobody takes
-constexpr double kAtPlace = 0.02;           ///< a ball that lies there was not moved [m]
 
 std::string told(double x, double y) {
   char text[64];
@@ -220,15 +219,9 @@ bool Match::hasNewcomer() const {
 void Match::begin(Stage& stage) {
   waits_ = false;
   since_ = scene_.now;
-  if (scene_.ball) {  // it may have rolled while all stood still, or lie aside for want of room
-    const FloorPoint ball = ballPlace();
-    if (std::hypot(ball.x - restart_->place.x, ball.y - restart_->place.y) > kAtPlace) {
-      Placing(stage, scene_, *pitch_).placeBall(restart_->place);
-      const Scene now = Scene::of(stage, game_, config_.rules.ball.radius);
-      if (now.ball) restart_->place = {now.ball->x, now.ball->y};
-    }
-  }
-  forgetPlay();
+  place(stage);  // robots may have rolled on, and the ball
+  const Scene now = Scene::of(stage, game_, config_.rules.ball.radius);
+  if (now.ball) restart_->place = {now.ball->x, now.ball->y};  // aside, for want of room
   if (!restart_->team) return play();
   game_.phase = Game::Phase::kReady;
 }

@@ -8,10 +8,12 @@
 namespace ortung::soccer {
 namespace {
 
-constexpr double kStep = 0.1;        ///< between rings of the search, and along them [m]
-constexpr double kHair = 1e-6;       ///< [m]
-constexpr int kMostRefusals = 200;   ///< of the stage, for one robot
-constexpr double kBallSearch = 2.0;  ///< how far the ball may come to lie aside [m]
+constexpr double kStep = 0.1;         ///< between rings of the search, and along them [m]
+constexpr double kThere = 0.05;       ///< a robot as near as that has its wish [m]
+constexpr double kThereTurned = 0.1;  ///< [rad]
+constexpr double kHair = 1e-6;        ///< [m]
+constexpr int kMostRefusals = 200;    ///< of the stage, for one robot
+constexpr double kBallSearch = 2.0;   ///< how far the ball may come to lie aside [m]
 
 std::string told(double value) {
   const double rounded = std::round(value * 100.0) / 100.0;
@@ -82,8 +84,8 @@ bool Placing::isOfNobody(const Wish& wish, double x, double y) const {
 
 bool Placing::isThere(const Wish& wish) const {
   const Pose2& pose = poses_[wish.robot];
-  return distance(pose, wish.pose) < kHair &&
-         std::abs(wrapAngle(pose.theta - wish.pose.theta)) < kHair &&
+  return distance(pose, wish.pose) < kThere &&
+         std::abs(wrapAngle(pose.theta - wish.pose.theta)) < kThereTurned &&
          isPermitted(wish, pose.x, pose.y);
 }
 
