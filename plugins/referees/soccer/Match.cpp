@@ -206,6 +206,7 @@ void Match::place(Stage& stage) {
     tell("problem", std::nullopt, problem);
   placed_.clear();
   for (const Scene::Robot& robot : scene_.robots) placed_.push_back(robot.name);
+  scene_ = Scene::of(stage, game_, config_.rules.ball.radius);
   forgetPlay();
 }
 
@@ -220,8 +221,7 @@ void Match::begin(Stage& stage) {
   waits_ = false;
   since_ = scene_.now;
   place(stage);  // robots may have rolled on, and the ball
-  const Scene now = Scene::of(stage, game_, config_.rules.ball.radius);
-  if (now.ball) restart_->place = {now.ball->x, now.ball->y};  // aside, for want of room
+  if (scene_.ball) restart_->place = ballPlace();  // aside, for want of room
   if (!restart_->team) return play();
   game_.phase = Game::Phase::kReady;
 }
