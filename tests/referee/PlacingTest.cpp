@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <stdexcept>
 
 #include "FakeStage.hpp"
@@ -24,6 +25,9 @@ struct Places {
   double halfLength, halfWidth;
   AreaOf penaltyArea;
 };
+
+/// In names of tests.
+void PrintTo(const Places& places, std::ostream* out) { *out << places.field; }
 
 std::unique_ptr<Referee> refereeBy(const std::string& rules, const std::string& control = "rules") {
   Parameters p("test");

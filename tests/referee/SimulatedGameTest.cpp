@@ -10,6 +10,7 @@
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TomlFile.hpp"
+#include "ortung/sim/PlayerControl.hpp"
 #include "ortung/sim/Simulation.hpp"
 #include "ortung/sim_api/Referee.hpp"
 
@@ -52,49 +53,13 @@ body_height_m = 0.6
 plugin = "odometry"
 )";
 
-/// A simulation as a stage; the first letter of a robot's name is that of its team.
-class SimulationStage final : public Stage {
- public:
-  explicit SimulationStage(Simulation& simulation) : simulation_(simulation) {}
-
-  Timestamp now() const override { return simulation_.now(); }
-  double cycle() const override { return simulation_.cycle(); }
-  const World& world() const override { return simulation_.world(); }
-  std::span<const StagedRobot> robots() const override {
-    robots_.clear();
-    for (const auto& robot : simulation_.robots()) {
-      const std::string& name = robot->config().name;
-      robots_.push_back({name, name[0] == 'b' ? "blue" : "yellow", robot->state().pose,
-                         robot->state().velocity, robot->config().radius});
-    }
-    return robots_;
-  }
-  std::span<const StagedThing> things() const override {
-    things_.clear();
-    for (const auto& thing : simulation_.things())
-      things_.push_back({thing.name, thing.kind, thing.pose, thing.velocity});
-    return things_;
-  }
-  void placeRobot(std::string_view name, const Pose2& pose) override {
-    for (const auto& robot : simulation_.robots())
-      if (robot->config().name == name) simulation_.place(*robot, pose);
-  }
-  void placeThing(std::string_view, const Pose2& pose, const Twist& velocity) override {
-    simulation_.placeThing(0, pose, velocity);
-  }
-  std::shared_ptr<const FloorPlan> floorPlan(const RobotSize&) override { return nullptr; }
-
- private:
-  Simulation& simulation_;
-  mutable std::vector<StagedRobot> robots_;
-  mutable std::vector<StagedThing> things_;
-};
-
+/// The first letter of a robot's name is that of its team.
 class SimulatedGame {
  public:
   explicit SimulatedGame(const std::string& rules, std::uint64_t seed = 1)
       : simulation_(readWorld(ORTUNG_SOURCE_DIR "/maps/fields/msl.toml"), {.seed = seed}),
-        stage_(simulation_) {
+        plans_(simulation_.world()),
+        control_(simulation_, plans_, factory_, {}) {
     test::writeBytes(folder_ / "rules.toml", rules);
     Parameters p("test");
     p.set("rules", (folder_ / "rules.toml").string());
@@ -104,6 +69,7 @@ class SimulatedGame {
   void add(const std::string& name, const Pose2& pose) {
     const std::string text = "[robot]\nname = \"" + name + "\"\n" + kRobot;
     simulation_.addRobot(readRobot(parseToml(text, name)), factory_, pose);
+    control_.setTeam(name, name[0] == 'b' ? "blue" : "yellow");
   }
   SimRobot& robot(std::size_t i) { return *simulation_.robots()[i]; }
   Simulation& simulation() { return simulation_; }
@@ -115,7 +81,7 @@ class SimulatedGame {
   /// One cycle. @param act what robots do that are not held
   template <class Act>
   void step(const Act& act) {
-    game_ = referee_->watch(stage_);
+    game_ = referee_->watch(control_.stage());
     for (const RefereeEvent& event : referee_->takeEvents()) {
       ++count_[event.what];
       log_ += std::to_string(event.stamp) + " " + event.what + " " + event.team + "\n";
@@ -136,7 +102,8 @@ class SimulatedGame {
   test::TemporaryFolder folder_;
   PluginFactory factory_{PluginFactory::standardFolders()};
   Simulation simulation_;
-  SimulationStage stage_;
+  FloorPlans plans_;
+  PlayerControl control_;
   std::unique_ptr<Referee> referee_;
   Game game_;
   std::map<std::string, int> count_;

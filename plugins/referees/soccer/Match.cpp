@@ -220,7 +220,7 @@ bool Match::hasNewcomer() const {
 void Match::begin(Stage& stage) {
   waits_ = false;
   since_ = scene_.now;
-  place(stage);  // robots may have rolled on, and the ball
+  place(stage);                                    // robots may have rolled on, and the ball
   if (scene_.ball) restart_->place = ballPlace();  // aside, for want of room
   if (!restart_->team) return play();
   game_.phase = Game::Phase::kReady;

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "ortung/core/ShippedFiles.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
 namespace ortung::soccer {
@@ -173,5 +174,16 @@ Rules read(const std::filesystem::path& file, int depth) {
 }  // namespace
 
 Rules readRules(const std::filesystem::path& file) { return read(file, 0); }
+
+std::filesystem::path shippedRules(const std::string& name) {
+  if (name.empty() || name.find_first_of("/\\") != name.npos)
+    throw ConfigError("'" + name + "' is no name of rules that ship; those of files end in .toml");
+  // With its folder, so that a world file of that name where the program runs is not taken for it.
+  const auto file = shippedFile(".", std::filesystem::path("rules") / (name + ".toml"));
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored)) return file;
+  throw ConfigError("there are no rules '" + name + "' among those that ship (" + file.string() +
+                    "); ORTUNG_MAPS_PATH may name the folder of the maps");
+}
 
 }  // namespace ortung::soccer

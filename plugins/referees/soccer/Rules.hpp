@@ -97,8 +97,7 @@ struct Rules {
 /// @throws ConfigError with file and line for what is no rule, or out of its range
 Rules readRules(const std::filesystem::path& file);
 
-/// The file of rules that ship under this name: in $ORTUNG_MAPS/rules, or beside what this library
-/// was installed or built with. @throws ConfigError saying where it was looked for
+/// The file of rules that ship under this name, as all shipped files are found. @throws ConfigError
 std::filesystem::path shippedRules(const std::string& name);
 
 }  // namespace ortung::soccer
