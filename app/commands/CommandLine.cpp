@@ -264,6 +264,39 @@ void addSim(Builder& build, CLI::App& app) {
   addServing(build, a->serving);
 }
 
+#ifdef ORTUNG_HAS_PLAY
+void addPlay(Builder& build, CLI::App& app) {
+  const auto a = build.command<PlayArguments>(
+      app, "play", "Let a player play on the field of a server, as it does in the simulator",
+      "ortung play 'seeker:robot=pioneer.toml@blue' --server 127.0.0.1:7777", runPlay);
+  build
+      .option(
+          "player", a->player,
+          "PLUGIN[:key=value&key=value...][@TEAM]; robot, name and start (x,y,deg) are for all, "
+          "`ortung plugins` shows the others")
+      ->required();
+  build.option("--server", a->server, "HOST:PORT of `ortung sim --listen`")->required();
+  build.option("--token-file", a->tokens,
+               "File with a line 'NAME TOKEN' for the robot's name, or * for any; default: "
+               "$ORTUNG_TOKEN");
+  build.option("--tables", a->tables,
+               "Table file of `ortung learn`: what the robot's features expect, and the field");
+  build.flag("--lockstep", a->lockstep,
+             "The world goes on only when the player has acted (the server's --lockstep)");
+  build
+      .option("--player-budget-ms", a->budgetMs,
+              "What the player may take of a processor for one call before it is stopped [ms]; 0: "
+              "as long as it likes")
+      ->check(within(0.0, 1e6))
+      ->capture_default_str();
+  build
+      .option("--duration", a->duration,
+              "Time to play [s]; default: until the player ends, or a signal")
+      ->check(within(0.0, 1e6));
+  build.option("--seed", a->seed, "Seed of the player's random numbers")->capture_default_str();
+}
+#endif
+
 void addServe(Builder& build, CLI::App& app) {
   const auto a = build.command<ServeArguments>(
       app, "serve", "Serve a record to clients as if it were a simulation",
@@ -333,6 +366,9 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   addShow(build, app);
   addCheck(build, app);
   addSim(build, app);
+#ifdef ORTUNG_HAS_PLAY
+  addPlay(build, app);
+#endif
   addServe(build, app);
   addPlugins(build, app);
   try {

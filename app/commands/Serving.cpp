@@ -41,28 +41,6 @@ void readListen(const std::string& text, BoardConfig& config) {
                     text));
 }
 
-std::vector<BoardToken> readTokens(const std::filesystem::path& file) {
-  std::vector<BoardToken> tokens;
-  if (file.empty()) return tokens;
-  std::string why;
-  std::ifstream in = openInput(file, why);
-  if (!in) throw std::runtime_error(file.string() + ": " + why);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    std::istringstream words(line);
-    BoardToken token;
-    if (!(words >> token.name) || token.name.starts_with('#')) continue;
-    std::string more;
-    if (!(words >> token.token) || (words >> more) || token.token.size() < 8)
-      throw std::runtime_error(fmt::format(
-          "{}:{}: expected a client's name (or *) and its token of at least 8 characters",
-          file.string(), number));
-    tokens.push_back(token);
-  }
-  if (tokens.empty()) throw std::runtime_error(file.string() + ": has no tokens");
-  return tokens;
-}
-
 /// Ends the program if it goes on for too long after a signal: a cycle of the world that hangs is
 /// never asked whether to go on.
 class Deadline {
@@ -89,6 +67,28 @@ class Deadline {
 };
 
 }  // namespace
+
+std::vector<BoardToken> readTokens(const std::filesystem::path& file) {
+  std::vector<BoardToken> tokens;
+  if (file.empty()) return tokens;
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) throw std::runtime_error(file.string() + ": " + why);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::istringstream words(line);
+    BoardToken token;
+    if (!(words >> token.name) || token.name.starts_with('#')) continue;
+    std::string more;
+    if (!(words >> token.token) || (words >> more) || token.token.size() < 8)
+      throw std::runtime_error(fmt::format(
+          "{}:{}: expected a client's name (or *) and its token of at least 8 characters",
+          file.string(), number));
+    tokens.push_back(token);
+  }
+  if (tokens.empty()) throw std::runtime_error(file.string() + ": has no tokens");
+  return tokens;
+}
 
 void checkPace(const ServingArguments& arguments) {
   if (arguments.freeRun && arguments.speed != 1.0)

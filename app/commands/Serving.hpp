@@ -2,9 +2,13 @@
 
 #include "Commands.hpp"
 #include "ortung/server/BoardCommand.hpp"
+#include "ortung/server/MessageBoard.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung::app {
+
+/// Lines 'NAME TOKEN' of a file; nothing if it is "". @throws std::runtime_error
+std::vector<BoardToken> readTokens(const std::filesystem::path& file);
 
 /// @throws UsageError for paces that exclude each other
 void checkPace(const ServingArguments& arguments);

@@ -118,7 +118,8 @@ TEST_F(SourceEquivalence, ARemotePlayerIsAsReproducibleAsOneInProcess) {
     for (int cycle = 0; cycle < kCycles; ++cycle) {
       robot.drive().setTranslationalVelocity(speedAt(cycle));
       robot.drive().setRotationalVelocity(turnAt(cycle));
-      simulation.step();
+      if (cycle > 0) simulation.move();  // by what it is told once it has sensed
+      simulation.sense();
       for (const Message& reading : simulation.readings(0)) {
         writeLine(reading, live);
         live += '\n';

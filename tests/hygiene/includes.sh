@@ -28,6 +28,7 @@ deny 'mcl/run' "(.*/)?($headers_of_app)\\.hpp|unistd|csignal|iostream"
 deny 'sim/api' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|nlohmann|$foreign"
 deny 'sim' 'ortung/(mcl|realsensors)|mrpt|opencv'
 deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nlohmann|$foreign"
+deny 'sim/remote' "ortung/(mcl|sim|realsensors|server|served)/|toml|nlohmann|$foreign"
 deny 'sim/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
 deny 'sim/refbox' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|mrpt|opencv|embree|GL/|box2d"
 deny 'sim/src sim/include' 'ortung/(server|served|client|refbox)/'
@@ -52,7 +53,7 @@ done
 
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include sim/include sim/api/include sim/server/include \
-              sim/served/include sim/client/include sim/refbox/include; do
+              sim/served/include sim/client/include sim/refbox/include sim/remote/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

@@ -82,6 +82,7 @@ struct RemoteRobot::Parts {
   void connect() {
     session = std::make_unique<RobotSession>(options.session, robotToml);
     description = session->describe();
+    newest = session->newest();
     isConnected = true;
     offset = {};
     isLockstep = false;
@@ -113,6 +114,7 @@ struct RemoteRobot::Parts {
 
   void fill(std::vector<Message> readings) {
     for (Message& reading : readings) reading.stamp = localStamp(reading.stamp);
+    newest = session->newest();
     container.set(readings);
     {
       const std::lock_guard lock(waiting);
@@ -247,6 +249,7 @@ struct RemoteRobot::Parts {
   std::unique_ptr<RobotSession> session;
   RobotDescription description;
   ClockOffset offset;
+  Timestamp newest = 0;
   Timestamp exchanged = 0;
   std::optional<Timestamp> lastServer;
   Timestamp lastLocal = 0;
@@ -329,6 +332,11 @@ std::string RemoteRobot::trouble() const {
 std::vector<std::string> RemoteRobot::takeNews() {
   const std::lock_guard lock(parts_->talking);
   return parts_->session ? parts_->session->takeNews() : std::vector<std::string>{};
+}
+
+Timestamp RemoteRobot::newest() const {
+  const std::lock_guard lock(parts_->talking);
+  return parts_->newest;
 }
 
 ClockOffset RemoteRobot::clockOffset() const {

@@ -82,7 +82,9 @@ RobotSession::RobotSession(const SessionOptions& options, std::string_view robot
   socket_ = std::make_unique<client::LineSocket>(options_);
   std::string hello = "HELLO ortung/1 name=" + options_.name;
   if (!options_.token.empty()) hello += " token=" + options_.token;
-  kind_ = valueOf(ask(hello), "kind");
+  const std::string greeting = ask(hello);
+  kind_ = valueOf(greeting, "kind");
+  if (!valueOf(greeting, "now").empty()) newest_ = stampOf(greeting, "now");
   std::string create = "CREATE " + options_.name;
   if (options_.start)
     create += " x_m=" + shown(options_.start->x) + " y_m=" + shown(options_.start->y) +
@@ -172,6 +174,7 @@ std::vector<Message> RobotSession::takeReadings(const std::string& reply) {
     if (!reading) failOn(reply + ", then other bytes");
     readings.push_back(std::move(*reading));
   }
+  if (!readings.empty()) newest_ = readings.back().stamp;
   return readings;
 }
 

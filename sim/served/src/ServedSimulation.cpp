@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "ortung/motion/MotionModel.hpp"
 #include "ortung/server/RobotPlugins.hpp"
@@ -114,12 +115,26 @@ void ServedSimulation::dropLeavers() {
   if (gone > 0) ++version_;
 }
 
+Timestamp ServedSimulation::now() const {
+  return simulation().now() + (isMovePending_ ? fromSeconds(simulation().cycle()) : 0);
+}
+
+/// Clients command by what they have sensed in a cycle, as players in the simulator do. So robots
+/// move only when those have had their say: before the next cycle, or whatever else is done.
 void ServedSimulation::step() {
-  run_->step();
+  finishCycle();
+  run_->act();
+  isMovePending_ = true;
+}
+
+void ServedSimulation::finishCycle() {
+  if (!std::exchange(isMovePending_, false)) return;
+  run_->move();
   dropLeavers();
 }
 
 std::string ServedSimulation::startPlayer(const PlayerWish& wish) {
+  finishCycle();
   try {
     SimRobot& robot = run_->addPlayer(wish, entered_++);
     addResident(robot);
@@ -130,6 +145,7 @@ std::string ServedSimulation::startPlayer(const PlayerWish& wish) {
 }
 
 void ServedSimulation::stopPlayer(const std::string& robot) {
+  finishCycle();
   if (!run_->players().stop(robot))
     throw ServeError("no-player", "no player plays robot '" + robot + "'; PLAYERS lists them");
   run_->players().clear();
@@ -204,6 +220,7 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
 }
 
 ServedRobot ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
+  finishCycle();
   lastId_ = std::max(lastId_, robot);
   auto guest = std::make_unique<Guest>();
   guest->wish = std::move(wish);
@@ -245,6 +262,7 @@ SimRobot& ServedSimulation::find(RobotId robot) const {
 RobotCommands& ServedSimulation::commands(RobotId robot) { return find(robot); }
 
 void ServedSimulation::removeRobot(RobotId robot) {
+  finishCycle();
   takeOff(guest(robot));
   guests_.erase(robot);
 }
@@ -276,6 +294,7 @@ void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
   if (seed) config.seed = *seed;
   auto fresh = std::make_unique<SceneRun>(scene_, config, factory_, playerConfig_);
   run_ = std::move(fresh);
+  isMovePending_ = false;
   planned_.clear();
   config_ = config;
   entered_ = run_->entrants();
@@ -291,6 +310,7 @@ void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
 }
 
 void ServedSimulation::placeRobot(RobotId robot, const Pose2& pose) {
+  finishCycle();
   try {
     simulation().place(find(robot), pose);
   } catch (const std::invalid_argument& error) {
@@ -299,6 +319,7 @@ void ServedSimulation::placeRobot(RobotId robot, const Pose2& pose) {
 }
 
 void ServedSimulation::placeObject(const std::string& object, const Pose2& pose) {
+  finishCycle();
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     if (objects_[i].name != object) continue;
     try {

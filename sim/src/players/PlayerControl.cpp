@@ -1,7 +1,5 @@
 #include "ortung/sim/PlayerControl.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -9,38 +7,15 @@
 
 #include "SimSeat.hpp"
 #include "SimStage.hpp"
-#include "ortung/core/PluginGuard.hpp"
+#include "ortung/sim_api/PlayerGuard.hpp"
 
 namespace ortung {
-namespace {
-
-constexpr std::size_t kMostText = 400;
-
-/// Time that this thread has used of a processor [s].
-double processorTime() {
-  timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// @throws std::invalid_argument for what can't be said
-void checkText(std::string_view text) {
-  if (text.size() > kMostText)
-    throw std::invalid_argument("has " + std::to_string(text.size()) +
-                                " characters to say, expected at most " +
-                                std::to_string(kMostText));
-  if (std::any_of(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }))
-    throw std::invalid_argument("wants to say what is not printable ASCII");
-}
-
-}  // namespace
-
 struct PlayerControl::Parts {
   /// A player on its seat.
   struct Seating {
     std::string plugin;
     std::unique_ptr<Player> player;
-    std::unique_ptr<PluginGuard> guard;
+    std::unique_ptr<PlayerGuard> guard;
     std::unique_ptr<SimSeat> seat;
     Timestamp since = 0;
     Timestamp period = 0;
@@ -97,8 +72,7 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
                                 "' needs the world's state, which it is not to see");
   auto seating = std::make_unique<Seating>();
   seating->plugin = wish.plugin;
-  seating->guard =
-      std::make_unique<PluginGuard>("the player '" + wish.plugin + "' of robot " + name);
+  seating->guard = std::make_unique<PlayerGuard>(wish.plugin, name, config.budget);
   seating->seat =
       std::make_unique<SimSeat>(robot, wish.team, field, wish.seesStage ? &stage : nullptr, random,
                                 [this, name](std::string_view text) { say(name, text); });
@@ -119,28 +93,16 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
 /// What a player does wrong ends it, and nobody else.
 template <class Call>
 void PlayerControl::Parts::call(Seating& one, const char* what, const Call& call) {
-  const double before = config.budget > 0.0 ? processorTime() : 0.0;
-  const auto stopped = [&](const std::string& why) {
-    one.isOver = true;
-    if (config.onProblem)
-      config.onProblem("at " + std::to_string(toSeconds(simulation.now())) + " s: " + why +
-                       "; it is stopped" + (one.isGuest ? "" : ", and its robot leaves the field"));
-  };
-  try {
-    (*one.guard)(what, call);
-  } catch (const PluginFailure& failure) {
-    return stopped(failure.what());
-  }
-  if (config.budget <= 0.0) return;
-  const double taken = processorTime() - before;
-  if (taken > config.budget)
-    stopped("the player '" + one.plugin + "' of robot " + one.seat->name() + ": " + what +
-            "() took " + std::to_string(taken) + " s of a processor, expected at most " +
-            std::to_string(config.budget) + " s");
+  const std::string why = (*one.guard)(what, call);
+  if (why.empty()) return;
+  one.isOver = true;
+  if (config.onProblem)
+    config.onProblem("at " + std::to_string(toSeconds(simulation.now())) + " s: " + why +
+                     "; it is stopped" + (one.isGuest ? "" : ", and its robot leaves the field"));
 }
 
 void PlayerControl::Parts::say(std::string_view robot, std::string_view text) {
-  checkText(text);
+  checkSaid(text);
   said.push_back({std::string(robot), simulation.now(), std::string(text)});
 }
 

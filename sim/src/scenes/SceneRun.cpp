@@ -184,6 +184,11 @@ std::size_t SceneRun::needThing(const std::string& thing) const {
 }
 
 void SceneRun::step() {
+  act();
+  move();
+}
+
+void SceneRun::act() {
   const Timestamp now = simulation_->now();
   while (nextPlacement_ < scene_.placements.size() && scene_.placements[nextPlacement_].at <= now)
     put(scene_.placements[nextPlacement_++]);
@@ -192,6 +197,9 @@ void SceneRun::step() {
   for (Kidnapped& kidnapped : kidnapped_) kidnap(kidnapped);
   simulation_->sense();
   players_->act({});
+}
+
+void SceneRun::move() {
   simulation_->move();
   players_->clear();
 }

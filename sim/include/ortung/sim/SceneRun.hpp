@@ -33,6 +33,10 @@ class ORTUNG_API SceneRun {
   /// @throws std::invalid_argument for a command that its robot refuses, and for a robot to be
   ///   carried elsewhere that finds no room
   void step();
+  /// The two halves of step(): until all have acted, and from there. Whoever commands a robot
+  /// between them does so by what it senses in this cycle, as players do.
+  void act();
+  void move();
 
   Simulation& simulation() { return *simulation_; }
   const Simulation& simulation() const { return *simulation_; }

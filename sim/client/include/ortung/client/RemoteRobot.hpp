@@ -72,6 +72,9 @@ class ORTUNG_API RemoteRobot : public RobotCommands {
   std::string trouble() const;
   /// What the server and other clients said since the last call.
   std::vector<std::string> takeNews();
+  /// Stamp of the newest reading that came, by the server's clock; at first the time when it
+  /// connected. Readings of features that the container does not have count, too.
+  Timestamp newest() const;
   /// How the server's clock relates to ours.
   ClockOffset clockOffset() const;
 

@@ -81,6 +81,9 @@ class ORTUNG_API RobotSession : public RobotCommands {
   /// "simulation" or "record".
   const std::string& kind() const { return kind_; }
 
+  /// By the server's clock: stamp of the newest reading that came, at first the time of greeting.
+  Timestamp newest() const { return newest_; }
+
   /// What the server says of the robot.
   RobotDescription describe();
 
@@ -130,6 +133,7 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::unique_ptr<client::LineSocket> socket_;
   std::string fingerprint_;
   std::string kind_;
+  Timestamp newest_ = 0;
   std::vector<std::string> news_;
   std::uint64_t lastTag_ = 0;
 };

@@ -27,7 +27,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
 
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return plugins_; }
-  Timestamp now() const override { return simulation().now(); }
+  Timestamp now() const override;
   void step() override;
   std::vector<Resident> residents() const override;
   std::uint64_t residentsVersion() const override { return version_; }
@@ -52,6 +52,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   Guest& guest(RobotId robot) const;
   SimRobot& find(RobotId robot) const;
   Simulation& simulation() const { return run_->simulation(); }
+  void finishCycle();
   void enter(RobotId robot, Guest& guest);
   void takeOff(Guest& guest);
   void nameObjects();
@@ -69,6 +70,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   std::vector<std::string> plugins_;
   std::vector<ServedObject> objects_;  ///< in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
+  bool isMovePending_ = false;      ///< all have sensed, nothing has moved yet
   std::vector<RobotSize> planned_;  ///< for robots of clients, the plan last asked for at the end
   std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
   RobotId lastId_ = 0;

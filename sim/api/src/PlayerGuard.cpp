@@ -1,0 +1,42 @@
+#include "ortung/sim_api/PlayerGuard.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMostText = 400;
+
+}  // namespace
+
+PlayerGuard::PlayerGuard(const std::string& plugin, const std::string& robot, double budget)
+    : who_("the player '" + plugin + "' of robot " + robot), budget_(budget), guard_(who_) {}
+
+PlayerGuard::~PlayerGuard() = default;
+
+/// Time that this thread has used of a processor [s].
+double PlayerGuard::processorTime() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::string PlayerGuard::overdue(const char* what, double taken) const {
+  if (taken <= budget_) return "";
+  return who_ + ": " + what + "() took " + std::to_string(taken) +
+         " s of a processor, expected at most " + std::to_string(budget_) + " s";
+}
+
+void checkSaid(std::string_view text) {
+  if (text.size() > kMostText)
+    throw std::invalid_argument("has " + std::to_string(text.size()) +
+                                " characters to say, expected at most " +
+                                std::to_string(kMostText));
+  if (std::any_of(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }))
+    throw std::invalid_argument("wants to say what is not printable ASCII");
+}
+
+}  // namespace ortung

@@ -1,0 +1,139 @@
+#include "ortung/remote/RemotePlay.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "RemoteSeat.hpp"
+#include "ortung/core/ShippedFiles.hpp"
+#include "ortung/robot/TableInfo.hpp"
+#include "ortung/sim_api/PlayerGuard.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::uint64_t kStream = 1;            // of the player's random numbers
+constexpr std::chrono::milliseconds kPause{5};  // before it is asked again what is new
+constexpr std::chrono::seconds kPatience{60};   // without a reading
+
+std::filesystem::path robotFileOf(const Player& player, const RemotePlayConfig& config) {
+  if (player.needsStage())
+    throw std::invalid_argument("the player '" + config.plugin +
+                                "' needs the world's state, which clients of a server do not see; "
+                                "it plays in the simulator only (ortung sim --player)");
+  const std::filesystem::path file = config.robot.empty() ? player.robotFile() : config.robot;
+  if (file.empty())
+    throw std::invalid_argument("the player '" + config.plugin +
+                                "' names no robot file, so one must be given (robot=FILE)");
+  return shippedFile("robots", file);
+}
+
+RemoteOptions optionsOf(const RemotePlayConfig& config) {
+  RemoteOptions options;
+  options.session = config.session;
+  options.cycle = 0.0;  // the player's rhythm is that of the readings
+  options.reconnects = false;
+  options.hasLocalStamps = false;
+  return options;
+}
+
+}  // namespace
+
+PlayerStopped::~PlayerStopped() = default;
+
+struct RemotePlay::Parts {
+  using Clock = std::chrono::steady_clock;
+
+  RemotePlayConfig config;
+  std::unique_ptr<Player> player;
+  RemoteRobot robot;
+  PlayerGuard guard;
+  remote::RemoteSeat seat;
+  Timestamp period;
+
+  Parts(std::unique_ptr<Player> given, const RemotePlayConfig& c)
+      : config(c),
+        player(std::move(given)),
+        robot(robotFileOf(*player, config), optionsOf(config)),
+        guard(config.plugin, config.session.name, config.budget),
+        seat(robot, config.session.name, config.team, readField(), Random(config.seed, kStream)),
+        period(fromSeconds(std::clamp(player->period(), 0.0, 1e6))) {}
+
+  FieldModel readField() {
+    if (config.tables.empty()) return {};
+    return loadTables(std::make_shared<const TableFile>(config.tables), robot.container()).field;
+  }
+
+  template <class Call>
+  void call(const char* what, const Call& action) {
+    const std::string why = guard(what, action);
+    if (why.empty()) return;
+    if (!goesOn()) return;   // who ended it has ended the connection, too
+    seat.voice().rethrow();  // the connection's fault
+    throw PlayerStopped("at " + std::to_string(toSeconds(seat.now())) + " s: " + why +
+                        "; it is stopped, and its robot leaves the field");
+  }
+
+  /// Something went wrong with the server, or its world has come to an end.
+  void checkTrouble() const {
+    const std::string trouble = robot.trouble();
+    if (trouble.empty() || !goesOn()) return;
+    throw robot.isConnected() ? std::runtime_error(trouble) : ConnectionLost(trouble);
+  }
+
+  /// Waits for new readings. @returns whether there are some
+  bool advance() {
+    if (config.isLockstep) {
+      if (robot.next()) return true;
+      checkTrouble();
+      return false;
+    }
+    const auto begin = Clock::now();
+    const Timestamp before = seat.now();
+    while (goesOn()) {
+      if (!robot.update()) checkTrouble();
+      if (robot.newest() != before) return true;
+      if (Clock::now() - begin > kPatience)
+        throw ConnectionLost(config.session.server() + ": gave no reading for " +
+                             std::to_string(kPatience.count()) + " s");
+      std::this_thread::sleep_for(kPause);
+    }
+    return false;
+  }
+
+  bool goesOn() const { return !config.goesOn || config.goesOn(); }
+
+  void play() {
+    const Timestamp begin = seat.now();
+    Timestamp due = begin;
+    bool isOver = false;
+    while (!isOver && goesOn() && advance()) {
+      const Timestamp last = seat.now();
+      seat.look();
+      const Timestamp now = seat.now();
+      if (config.duration && now - begin > fromSeconds(*config.duration)) return;
+      if (now < last) due = now;  // the world has started over
+      if (now < due) continue;
+      due = std::max(due + period, now + 1);
+      call("senseAndAct", [&] { isOver = !player->senseAndAct(seat); });
+      seat.forgetHeard();
+    }
+  }
+};
+
+RemotePlay::RemotePlay(std::unique_ptr<Player> player, const RemotePlayConfig& config)
+    : parts_(std::make_unique<Parts>(std::move(player), config)) {}
+
+RemotePlay::~RemotePlay() = default;
+
+void RemotePlay::run() {
+  Parts& parts = *parts_;
+  parts.call("begin", [&] { parts.player->begin(parts.seat); });
+  parts.play();
+  parts.call("end", [&] { parts.player->end(parts.seat); });
+}
+
+Timestamp RemotePlay::now() const { return parts_->seat.now(); }
+
+}  // namespace ortung

@@ -1,0 +1,87 @@
+#include "RemoteSeat.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "ortung/sim_api/PlayerGuard.hpp"
+
+namespace ortung::remote {
+namespace {
+
+/// @throws std::invalid_argument
+void checkNumber(const char* what, double value) {
+  if (!std::isfinite(value))
+    throw std::invalid_argument(std::string("commands ") + what + " of " + std::to_string(value) +
+                                ", expected a finite number");
+}
+
+RobotAbilities abilitiesOf(const RobotDescription& description) {
+  RobotAbilities abilities;
+  abilities.radius = description.radius.value_or(0.0);
+  abilities.height = description.height.value_or(0.0);
+  abilities.limits.speed = description.maxTranslationalVelocity.value_or(0.0);
+  abilities.limits.turn = description.maxRotationalVelocity.value_or(0.0);
+  abilities.limits.acceleration = description.maxTranslationalAcceleration.value_or(0.0);
+  abilities.limits.turnAcceleration = description.maxRotationalAcceleration.value_or(0.0);
+  abilities.motionHelp = description.motion;
+  for (const RobotDescription::Manipulator& manipulator : description.manipulators)
+    abilities.manipulators.push_back({manipulator.name, manipulator.states});
+  return abilities;
+}
+
+}  // namespace
+
+template <class Command>
+void Voice::tell(const Command& command) {
+  try {
+    command();
+  } catch (const ConnectionLost&) {
+    lost_ = std::current_exception();
+    throw;
+  }
+}
+
+void Voice::setTranslationalVelocity(double metresPerSecond) {
+  checkNumber("a translational velocity", metresPerSecond);
+  tell([&] { robot_.setTranslationalVelocity(metresPerSecond); });
+}
+
+void Voice::setRotationalVelocity(double radiansPerSecond) {
+  checkNumber("a rotational velocity", radiansPerSecond);
+  tell([&] { robot_.setRotationalVelocity(radiansPerSecond); });
+}
+
+void Voice::setMotion(std::span<const double> command) {
+  for (const double number : command) checkNumber("a motion", number);
+  tell([&] { robot_.setMotion(command); });
+}
+
+void Voice::setManipulator(std::string_view manipulator, std::string_view state) {
+  tell([&] { robot_.setManipulator(manipulator, state); });
+}
+
+void Voice::rethrow() const {
+  if (lost_) std::rethrow_exception(lost_);
+}
+
+RemoteSeat::RemoteSeat(RemoteRobot& robot, std::string name, std::string team, FieldModel field,
+                       const Random& random)
+    : robot_(robot),
+      voice_(robot),
+      name_(std::move(name)),
+      team_(std::move(team)),
+      field_(std::move(field)),
+      random_(random),
+      abilities_(abilitiesOf(robot.description())) {
+  look();
+}
+
+void RemoteSeat::say(std::string_view text) {
+  checkSaid(text);
+  robot_.say(std::string(text));
+}
+
+void RemoteSeat::look() { now_ = robot_.newest(); }
+
+}  // namespace ortung::remote
