@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "BenchmarkCommands.hpp"
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "LocalizationCommands.hpp"
@@ -370,6 +371,7 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   addPlay(build, app);
 #endif
   addServe(build, app);
+  addBenchmark(build, app);
   addPlugins(build, app);
   try {
     app.parse(argc, argv);

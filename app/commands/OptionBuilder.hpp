@@ -54,8 +54,10 @@ class Builder {
                      "and ends [s]; 0: for ever")
         ->check(within(0.0, 1e6))
         ->capture_default_str();
-    current_->callback([parsed = &parsed_, arguments, name, run] {
-      parsed->name = name;
+    const std::string called =
+        app.get_parent() == nullptr ? name : app.get_name() + " " + name;  // one of a subcommand
+    current_->callback([parsed = &parsed_, arguments, called, run] {
+      parsed->name = called;
       parsed->run = [arguments, run] { return run(*arguments); };
     });
     return arguments;

@@ -59,6 +59,8 @@ Signature signatureOf(OutputKind kind) {
       return {"[motion] of `ortung learn-motion`", "# Learned by `ortung learn-motion`", ""};
     case OutputKind::kNetwork:
       return {"a motion network", "{", "\"ortung motion network"};
+    case OutputKind::kBenchmark:
+      return {"a result of `ortung benchmark`", "{", "\"ortung goalkeeper benchmark"};
     case OutputKind::kSettings:
       break;
   }

@@ -23,6 +23,7 @@ enum class OutputKind : std::uint8_t {
   kTrace,       ///< CSV of sim
   kMotion,      ///< TOML of learn-motion
   kNetwork,     ///< JSON of train-motion
+  kBenchmark,   ///< JSON of benchmark
   kSettings,  ///< worlds, their maps, and robots: people work on them, so none is replaced unasked
 };
 

@@ -32,6 +32,8 @@ deny 'sim/remote' "ortung/(mcl|sim|realsensors|server|served)/|toml|nlohmann|$fo
 deny 'sim/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
 deny 'sim/refbox' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|mrpt|opencv|embree|GL/|box2d"
 deny 'sim/src sim/include' 'ortung/(server|served|client|refbox)/'
+deny 'sim/benchmark' 'ortung/(server|served|client|refbox|remote)/'
+deny 'sim/src sim/include sim/api sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/benchmark/'
 deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)|refbox/src/RefBoxClient\.cpp)'
 deny 'plugins' 'ortung/(mcl|realsensors)|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
@@ -53,7 +55,7 @@ done
 
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include sim/include sim/api/include sim/server/include \
-              sim/served/include sim/client/include sim/refbox/include sim/remote/include; do
+              sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "ortung/sim_api/Player.hpp"
+
+namespace ortung {
+
+/// The goal at one end of the field, as a player knows it. The field's landmarks of kind "goal"
+/// tell where it is.
+struct GoalSide {
+  FloorPoint middle;     ///< of its mouth, in the field frame [m]
+  double inwards = 1.0;  ///< 1: the field is towards positive x of it, -1: towards negative
+
+  /// @param end 1: the goal at the largest x, -1: at the smallest
+  /// @throws std::runtime_error if the field has none there
+  static GoalSide at(const FieldModel& field, double end) {
+    std::optional<GoalSide> found;
+    for (const Landmark& landmark : field.landmarks)
+      if (landmark.kind == "goal" && landmark.x * end > 0.0 &&
+          (!found || landmark.x * end > found->middle.x * end))
+        found = GoalSide{{landmark.x, landmark.y}, -end};
+    if (!found)
+      throw std::runtime_error(std::string("the field has no landmark of kind 'goal' at its ") +
+                               (end > 0.0 ? "positive" : "negative") + " end of x");
+    return *found;
+  }
+  /// The point so far before the goal line, and so far to the left of its middle [m].
+  FloorPoint before(double depth, double aside) const {
+    return {middle.x + inwards * depth, middle.y + aside};
+  }
+  /// How far before the goal line [m].
+  double depthOf(double x) const { return (x - middle.x) * inwards; }
+};
+
+}  // namespace ortung

@@ -1,0 +1,205 @@
+// Keeps a goal by one of six policies (paper, section 5.1). It stands across on a line before its
+// goal and drives along it forwards and backwards, so any robot can do it.
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "GoalSide.hpp"
+#include "Policy.hpp"
+#include "Steering.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/formats/ObjectsData.hpp"
+#include "ortung/formats/PoseData.hpp"
+
+namespace ortung {
+namespace {
+
+const std::vector<std::string> kPolicies = {"still",    "random",       "pattern",
+                                            "blocking", "intercepting", "mixed"};
+
+struct Settings {
+  KeeperPolicy policy = KeeperPolicy::intercepting;
+  bool seesStage = true;
+  double speed = 1.5;       ///< [m/s]
+  double delay = 0.0;       ///< of seeing [s]
+  double noise = 0.0;       ///< of seeing, sigma of both coordinates [m]
+  double period = 0.04;     ///< [s]
+  double lineOut = 0.5;     ///< line before the goal [m]
+  double reach = 0.75;      ///< [m]
+  double braking = 0.2943;  ///< of a rolling ball [m/s^2]: 0.03 of gravity
+
+  explicit Settings(const Parameters& p) {
+    const std::string name = p.choiceOr("policy", "intercepting", kPolicies);
+    policy = static_cast<KeeperPolicy>(std::find(kPolicies.begin(), kPolicies.end(), name) -
+                                       kPolicies.begin());
+    seesStage = p.choiceOr("sees", "truth", {"truth", "features"}) == "truth";
+    speed = p.numberOr("speed_m_s", speed, {0.0, 10.0});
+    delay = p.numberOr("delay_s", delay, {0.0, 5.0});
+    noise = p.numberOr("noise_m", noise, {0.0, 5.0});
+    period = p.numberOr("period_s", period, {0.01, 1.0});
+    lineOut = p.numberOr("line_m", lineOut, {0.1, 5.0});
+    reach = p.numberOr("reach_m", reach, {0.0, 10.0});
+    braking = p.numberOr("braking_m_s2", braking, {0.0, 10.0});
+  }
+};
+
+class GoalkeeperPlayer : public Player {
+ public:
+  explicit GoalkeeperPlayer(const Parameters& p)
+      : settings_(p), track_(settings_.braking, settings_.noise) {}
+
+  std::filesystem::path robotFile() const override { return "goalkeeper.toml"; }
+  double period() const override { return settings_.period; }
+  bool needsStage() const override { return settings_.seesStage; }
+
+  void begin(PlayerSeat& seat) override {
+    goal_ = GoalSide::at(seat.field(), -seat.game().directionOf(seat.team()));
+    line_ = {goal_.middle, goal_.before(settings_.lineOut, 0.0).x, settings_.reach};
+    mind_.emplace(settings_.policy, line_);
+    limits_ = limitsOf(seat, settings_.speed);
+  }
+
+  bool senseAndAct(PlayerSeat& seat) override {
+    const std::optional<Pose2> pose = ownPose(seat);
+    if (!pose) return true;  // its sensors have said nothing yet
+    look(seat, *pose);
+    if (!seat.game().mayPlay(seat.team())) {
+      Steering::stand(seat.robot());
+      return true;
+    }
+    const std::optional<double> wanted =
+        mind_->decide(seat.now(), pose->y, newestBall(seat.now()), seat.random());
+    if (!wanted || limits_.speed <= 0.0) {
+      Steering::stand(seat.robot());
+    } else if (isAway(*pose)) {
+      Steering(limits_).steer(*pose, {line_.x, line_.goal.y}, seat.robot());
+    } else {
+      slide(*pose, *wanted, seat.robot());
+    }
+    return true;
+  }
+
+ private:
+  static constexpr double kAway = 0.4;  ///< from its line [m]
+
+  struct Sight {
+    Timestamp stamp = 0;
+    FloorPoint at;
+  };
+
+  bool isAway(const Pose2& pose) const {
+    return std::abs(pose.x - line_.x) > kAway ||
+           std::abs(pose.y - line_.goal.y) > line_.reach + kAway;
+  }
+
+  std::optional<Pose2> ownPose(PlayerSeat& seat) const {
+    if (settings_.seesStage) return poseOf(seat);
+    return seat.container().get<PoseData>({.type = "groundTruth"});
+  }
+
+  /// The ball where it is now, in the field frame.
+  std::optional<Sight> sight(PlayerSeat& seat, const Pose2& pose) const {
+    if (settings_.seesStage) {
+      for (const StagedThing& thing : seat.stage()->things())
+        if (thing.kind == "ball") return Sight{seat.now(), {thing.pose.x, thing.pose.y}};
+      return std::nullopt;
+    }
+    const SensorContainer::ReadLock lock = seat.container().read();
+    const auto* seen = dynamic_cast<const ObjectsData*>(seat.container().find({.feature = "ball"}));
+    if (seen == nullptr)
+      throw std::runtime_error(
+          "its robot has no sensor with a feature 'ball', which sees=features "
+          "needs");
+    if (seen->sequence() == 0 || seen->reading().empty()) return std::nullopt;
+    const ObjectsData::Object& ball = seen->reading().front();  // what is imagined comes last
+    const Pose2 eye = pose * seen->mount();
+    const double angle = eye.theta + ball.bearing;
+    return Sight{seen->stamp(),
+                 {eye.x + ball.range * std::cos(angle), eye.y + ball.range * std::sin(angle)}};
+  }
+
+  /// What it sees now it knows after its delay.
+  void look(PlayerSeat& seat, const Pose2& pose) {
+    if (auto seen = sight(seat, pose); seen && seen->stamp > newest_) {
+      newest_ = seen->stamp;
+      if (settings_.noise > 0.0) {
+        seen->at.x += settings_.noise * seat.random().gaussian();
+        seen->at.y += settings_.noise * seat.random().gaussian();
+      }
+      coming_.push_back(*seen);
+    }
+    const Timestamp known = seat.now() - fromSeconds(settings_.delay);
+    for (; !coming_.empty() && coming_.front().stamp <= known; coming_.pop_front())
+      track_.see(coming_.front().stamp, coming_.front().at);
+  }
+
+  /// Carried on from when it was seen to now.
+  std::optional<RollingBall> newestBall(Timestamp now) const {
+    std::optional<RollingBall> ball = track_.ball();
+    if (!ball) return ball;
+    const double passed = toSeconds(now - track_.lastSeen());
+    const double v = ball->speed();
+    ball->at = ball->later(passed);
+    const double share = v > 0.0 ? std::max(0.0, 1.0 - ball->braking * passed / v) : 0.0;
+    ball->speedX *= share;
+    ball->speedY *= share;
+    return ball;
+  }
+
+  /// Along its line, standing across: to the left of the field forwards or backwards, whichever way
+  /// it happens to look.
+  void slide(const Pose2& pose, double wanted, RobotCommands& robot) const {
+    const double across = std::sin(pose.theta) >= 0.0 ? 1.0 : -1.0;
+    const double away = wanted - pose.y;
+    // As fast as most of its acceleration can still brake.
+    const double fast =
+        std::min({limits_.speed, std::sqrt(1.6 * limits_.acceleration * std::abs(away)),
+                  8.0 * std::abs(away)});
+    const double speed = std::copysign(fast, away) * across;
+    constexpr double kMoves = 0.1;  // slower it can't steer [m/s]
+    const double tilt =
+        std::abs(speed) > kMoves ? std::clamp(2.0 * (line_.x - pose.x) / speed, -0.3, 0.3) : 0.0;
+    const double error = wrapAngle(across * (std::numbers::pi / 2.0 - tilt) - pose.theta);
+    robot.setRotationalVelocity(std::clamp(5.0 * error, -limits_.turn, limits_.turn));
+    constexpr double kAcross = 0.6;  // otherwise it turns first [rad]
+    robot.setTranslationalVelocity(std::abs(error) < kAcross ? speed : 0.0);
+  }
+
+  Settings settings_;
+  GoalSide goal_;
+  KeeperLine line_;
+  std::optional<KeeperMind> mind_;
+  DriveLimits limits_;
+  BallTrack track_;
+  std::deque<Sight> coming_;  ///< seen, and not yet known
+  Timestamp newest_ = -1;     ///< sight
+};
+
+struct GoalkeeperHelp : PlayerHelp {
+  explicit GoalkeeperHelp(const Parameters&)
+      : PlayerHelp(
+            "keeps a goal by one of six policies",
+            {{"policy", "still|random|pattern|blocking|intercepting|mixed", "intercepting",
+              "how it moves along its line"},
+             {"sees", "truth|features", "truth",
+              "where robot and ball really are; or its pose by ground truth and the ball by its "
+              "camera"},
+             {"speed_m_s", "m/s", "1.5", "how fast it drives at most"},
+             {"delay_s", "s", "0", "how late it knows what it sees"},
+             {"noise_m", "m", "0", "sigma of where it sees the ball"},
+             {"period_s", "s", "0.04", "between two decisions"},
+             {"line_m", "m", "0.5", "how far its line is before the goal line"},
+             {"reach_m", "m", "0.75", "how far it goes to either side of the goal's middle"},
+             {"braking_m_s2", "m/s^2", "0.2943", "how the floor brakes a ball, as it believes"}}) {}
+};
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("goalkeeper",
+               ortung::provide<ortung::Player, ortung::GoalkeeperPlayer>("goalkeeper"),
+               ortung::provide<ortung::PlayerHelp, ortung::GoalkeeperHelp>("goalkeeper"));

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "RollingBall.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/base/Time.hpp"
+
+namespace ortung {
+
+/// How a goalkeeper moves along its line (paper, section 5.1).
+enum class KeeperPolicy : std::uint8_t { still, random, pattern, blocking, intercepting, mixed };
+
+/// The line before its goal on which a keeper moves. The frame is the field's.
+struct KeeperLine {
+  FloorPoint goal;     ///< middle of the goal's mouth [m]
+  double x = 0.0;      ///< of the line [m]
+  double reach = 0.8;  ///< how far it moves to either side of the goal's middle [m]
+
+  double within(double y) const { return std::clamp(y, goal.y - reach, goal.y + reach); }
+  /// Where the straight line from the ball to the goal's middle comes over the line. A ball behind
+  /// the line is as near as it can be.
+  double blockingPlace(const FloorPoint& ball) const {
+    const double depth = (ball.x - goal.x) * (x > goal.x ? 1.0 : -1.0);
+    const double share = std::abs(x - goal.x) / std::max(depth, std::abs(x - goal.x));
+    return within(goal.y + share * (ball.y - goal.y));
+  }
+};
+
+/// Decides where on its line a keeper wants to be. Deterministic by the random numbers that it is
+/// given.
+class KeeperMind {
+ public:
+  KeeperMind(KeeperPolicy policy, const KeeperLine& line) : policy_(policy), line_(line) {}
+
+  /// @param y where the keeper is on its line [m]
+  /// @param ball as it was last seen; nothing: never
+  /// @returns where it wants to be [m]; nothing: it does not move
+  std::optional<double> decide(Timestamp now, double y, const std::optional<RollingBall>& ball,
+                               Random& random) {
+    KeeperPolicy policy = policy_;
+    if (policy == KeeperPolicy::mixed) {
+      if (now >= mixedUntil_) {
+        constexpr std::array kMix = {KeeperPolicy::still, KeeperPolicy::random,
+                                     KeeperPolicy::pattern, KeeperPolicy::blocking,
+                                     KeeperPolicy::intercepting};
+        mixed_ = kMix[random.below(kMix.size())];
+        mixedUntil_ = now + kMixed;
+      }
+      policy = mixed_;
+    }
+    switch (policy) {
+      case KeeperPolicy::random:
+        return wander(now, y, random);
+      case KeeperPolicy::pattern:
+        return swing(y);
+      case KeeperPolicy::blocking:
+        return ball ? line_.blockingPlace(ball->at) : line_.goal.y;
+      case KeeperPolicy::intercepting:
+        return intercept(ball);
+      case KeeperPolicy::still:
+      case KeeperPolicy::mixed:
+        break;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr Timestamp kMixed = 800'000;  ///< one policy of `mixed` lasts so long [us]
+  static constexpr double kThere = 0.05;        ///< [m]
+  static constexpr double kRolls = 0.3;         ///< slower balls are as good as at rest [m/s]
+
+  /// Chooses another place when it is there, or after a while.
+  double wander(Timestamp now, double y, Random& random) {
+    if (!target_ || now >= wanderUntil_ || std::abs(*target_ - y) < kThere) {
+      target_ = line_.goal.y + random.uniform(-line_.reach, line_.reach);
+      wanderUntil_ = now + fromSeconds(random.uniform(0.4, 1.2));
+    }
+    return *target_;
+  }
+  /// To and fro between the ends of its line.
+  double swing(double y) {
+    if (y >= line_.goal.y + line_.reach - kThere) side_ = -1.0;
+    if (y <= line_.goal.y - line_.reach + kThere) side_ = 1.0;
+    return line_.goal.y + side_ * line_.reach;
+  }
+  /// Where the ball will come; as long as it does not come, it blocks.
+  double intercept(const std::optional<RollingBall>& ball) const {
+    if (!ball) return line_.goal.y;
+    if (ball->speed() > kRolls)
+      if (const auto crossing = ball->crossing(line_.x)) return line_.within(crossing->y);
+    return line_.blockingPlace(ball->at);
+  }
+
+  KeeperPolicy policy_;
+  KeeperLine line_;
+  std::optional<double> target_;
+  Timestamp wanderUntil_ = 0;
+  double side_ = 1.0;
+  KeeperPolicy mixed_ = KeeperPolicy::still;
+  Timestamp mixedUntil_ = 0;
+};
+
+}  // namespace ortung

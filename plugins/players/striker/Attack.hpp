@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "GoalSide.hpp"
+#include "ortung/sim_api/Player.hpp"
+
+namespace ortung {
+
+/// What all kinds of strikers know: the goal that they play at, and what stands where.
+struct Attack {
+  GoalSide goal;
+  double halfMouth = 1.0;    ///< half the goal's width [m]
+  double braking = 0.2943;   ///< of a rolling ball [m/s^2]
+  double ballAhead = 0.285;  ///< of the robot's middle, when the ball lies at its kicker [m]
+
+  /// Where the ball is. @throws std::runtime_error if there is none
+  static const StagedThing& ball(PlayerSeat& seat) {
+    for (const StagedThing& thing : seat.stage()->things())
+      if (thing.kind == "ball") return thing;
+    throw std::runtime_error("there is no ball on the field");
+  }
+  static const StagedRobot& self(PlayerSeat& seat) {
+    for (const StagedRobot& robot : seat.stage()->robots())
+      if (robot.name == seat.name()) return robot;
+    throw std::runtime_error("its robot is not on the stage");
+  }
+  /// The other robot that is nearest to the goal, if one is within 2 m of it.
+  std::optional<FloorPoint> keeper(PlayerSeat& seat) const {
+    std::optional<FloorPoint> found;
+    double nearest = 2.0;
+    for (const StagedRobot& robot : seat.stage()->robots()) {
+      const double away = std::hypot(robot.pose.x - goal.middle.x, robot.pose.y - goal.middle.y);
+      if (robot.name == seat.name() || away >= nearest) continue;
+      nearest = away;
+      found = FloorPoint{robot.pose.x, robot.pose.y};
+    }
+    return found;
+  }
+  /// The corner of the goal that is farther from the keeper, a little within the post; without a
+  /// keeper the left one.
+  FloorPoint freeCorner(PlayerSeat& seat) const {
+    constexpr double kWithin = 0.25;  // [m]
+    const auto stands = keeper(seat);
+    const double side = stands && stands->y > goal.middle.y ? -1.0 : 1.0;
+    return {goal.middle.x, goal.middle.y + side * (halfMouth - kWithin)};
+  }
+  /// Puts the robot somewhere and the ball at its kicker, or nothing if there is no room.
+  bool putWithBall(PlayerSeat& seat, const Pose2& pose) const {
+    return put(seat, pose, pose * Pose2{ballAhead, 0.0, 0.0}, {});
+  }
+  static bool put(PlayerSeat& seat, const Pose2& robot, const Pose2& ball, const Twist& velocity) {
+    const std::string name = Attack::ball(seat).name;
+    try {
+      seat.stage()->placeRobot(seat.name(), robot);
+      seat.stage()->placeThing(name, {ball.x, ball.y, 0.0}, velocity);
+    } catch (const std::invalid_argument&) {
+      return false;  // there is no room
+    }
+    return true;
+  }
+};
+
+/// One kind of striker: makes a situation, and acts in it.
+class Strike {
+ public:
+  virtual ~Strike() = default;
+  /// @returns false: there is no room for what was drawn, another one may be drawn
+  virtual bool setUp(PlayerSeat& seat) = 0;
+  virtual void act(PlayerSeat& seat) = 0;
+};
+
+inline double angleTo(const FloorPoint& from, const FloorPoint& to) {
+  return std::atan2(to.y - from.y, to.x - from.x);
+}
+
+}  // namespace ortung

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Time.hpp"
+
+namespace ortung {
+
+/// How a striker's one chance ended.
+enum class GoalOutcome : std::uint8_t {
+  goal,
+  saved,  ///< the keeper touched the ball, which then lay still, came back or left the field
+  out,    ///< the ball left the field, lay still or came back, and the keeper had no part in it
+  time    ///< nothing of that within 10 s
+};
+
+/// What became of one episode.
+struct GoalEpisode {
+  GoalOutcome outcome = GoalOutcome::time;
+  Timestamp end = 0;         ///< after its beginning [us]
+  std::uint32_t digest = 0;  ///< of the bits of where everything was at the end
+  bool operator==(const GoalEpisode&) const = default;
+};
+
+/// Plays episodes between a goalkeeper and a striker on the F2000 field: the keeper defends the
+/// goal at negative x from somewhere on its line, the striker makes its situation.
+///
+/// An episode is a function of the two players, the seed and its number alone: everything is made
+/// anew for it. Situations are paired: whoever keeps, the same seed and number begin alike, as far
+/// as the striker does not look at the keeper. Not thread-safe: each thread has its own.
+class ORTUNG_API GoalEpisodes {
+ public:
+  /// What an episode lasts at most [us].
+  static constexpr Timestamp kLongest = 10'000'000;
+
+  /// @throws ConfigError for a world that can't be read
+  GoalEpisodes();
+  ~GoalEpisodes();
+  GoalEpisodes(const GoalEpisodes&) = delete;
+  GoalEpisodes& operator=(const GoalEpisodes&) = delete;
+
+  /// @param keeper, striker as parsePlayer() reads them; name, team and start are not theirs to say
+  /// @throws ConfigError, PluginError for players that can't be made
+  /// @throws std::runtime_error with seed and number for one that was stopped
+  GoalEpisode play(const std::string& keeper, const std::string& striker, std::uint64_t seed,
+                   std::uint64_t number);
+  /// Makes both players without playing. @throws as play()
+  void check(const std::string& keeper, const std::string& striker);
+  /// Of the world, see SimWorld::fingerprint().
+  const std::string& fingerprint() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,225 @@
+#include "ortung/benchmark/GoalMatrix.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "ortung/base/Random.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::array<std::string_view, 6> kPolicies = {"still",    "random",       "pattern",
+                                                       "blocking", "intercepting", "mixed"};
+constexpr std::array<std::string_view, 4> kKinds = {"roll", "shot", "dribble", "yardstick-v1"};
+constexpr std::uint64_t kMostEpisodes = 10'000'000;
+
+/// One episode to be played.
+struct Job {
+  const std::string* keeper = nullptr;
+  const std::string* striker = nullptr;
+  std::uint64_t number = 0;
+  GoalEpisode* result = nullptr;
+};
+
+/// Plays all of them with several threads. What an episode becomes depends on nobody else, so it
+/// does not matter who plays it.
+void play(const std::vector<Job>& jobs, std::uint64_t seed, const GoalMatrixRun& run) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> isOver = false;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&](bool tells) {
+    try {
+      GoalEpisodes episodes;
+      for (std::size_t i = next++; i < jobs.size() && !isOver; i = next++) {
+        *jobs[i].result = episodes.play(*jobs[i].keeper, *jobs[i].striker, seed, jobs[i].number);
+        if (tells && run.goesOn &&
+            !run.goesOn(static_cast<double>(i + 1) / static_cast<double>(jobs.size())))
+          throw std::runtime_error("the benchmark was ended before it was done");
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      isOver = true;
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (unsigned i = 1; i < std::min<std::size_t>(run.threads, jobs.size()); ++i)
+      others.emplace_back(work, false);
+    work(true);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// How many episodes a shard has of each pair.
+std::uint64_t ownEpisodes(const GoalMatrixConfig& c) {
+  return (c.episodes + c.shards - c.shard) / c.shards;
+}
+/// Number of a shard's own episode.
+std::uint64_t numberOf(const GoalMatrixConfig& c, std::size_t place) {
+  return c.shard - 1 + place * c.shards;
+}
+
+void checkNames(const std::vector<std::string>& names, const char* what) {
+  if (names.empty()) throw std::invalid_argument(std::string("there are no ") + what);
+  std::set<std::string> known;
+  for (const std::string& name : names)
+    if (!known.insert(name).second)
+      throw std::invalid_argument("'" + name + "' is twice among the " + what);
+}
+
+std::uint64_t mixed(std::uint64_t word) {  // splitmix64 (Steele et al., 2014)
+  word += 0x9e3779b97f4a7c15U;
+  word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9U;
+  word = (word ^ (word >> 27)) * 0x94d049bb133111ebU;
+  return word ^ (word >> 31);
+}
+
+}  // namespace
+
+std::span<const std::string_view> goalkeeperPolicies() { return kPolicies; }
+std::span<const std::string_view> strikerKinds() { return kKinds; }
+
+std::string keeperText(const std::string& name) {
+  const bool isShort = std::find(kPolicies.begin(), kPolicies.end(), name) != kPolicies.end();
+  return isShort ? "goalkeeper:policy=" + name : name;
+}
+
+std::string strikerText(const std::string& name) {
+  const bool isShort = std::find(kKinds.begin(), kKinds.end(), name) != kKinds.end();
+  return isShort ? "striker:kind=" + name : name;
+}
+
+std::string_view nameOf(GoalOutcome outcome) {
+  constexpr std::array<std::string_view, 4> kNames = {"goal", "saved", "out", "time"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
+
+void GoalMatrixConfig::check() const {
+  checkNames(keepers, "keepers");
+  checkNames(strikers, "strikers");
+  if (episodes < 1 || episodes > kMostEpisodes)
+    throw std::invalid_argument("there are " + std::to_string(episodes) +
+                                " episodes a pair, expected 1 to " + std::to_string(kMostEpisodes));
+  if (shards < 1 || shard < 1 || shard > shards || shards > episodes)
+    throw std::invalid_argument("the shard is " + std::to_string(shard) + "/" +
+                                std::to_string(shards) + " of " + std::to_string(episodes) +
+                                " episodes, expected one from 1/N to N/N with N at most as many");
+}
+
+std::uint64_t GoalCell::count(GoalOutcome outcome) const {
+  return static_cast<std::uint64_t>(
+      std::count_if(episodes.begin(), episodes.end(),
+                    [&](const GoalEpisode& episode) { return episode.outcome == outcome; }));
+}
+
+std::optional<double> GoalCell::meanTimeToScore() const {
+  Timestamp sum = 0;
+  for (const GoalEpisode& episode : episodes)
+    if (episode.outcome == GoalOutcome::goal) sum += episode.end;
+  const std::uint64_t goals = count(GoalOutcome::goal);
+  if (goals == 0) return std::nullopt;
+  return toSeconds(sum) / static_cast<double>(goals);
+}
+
+std::uint64_t GoalCell::hash(const GoalMatrixConfig& config) const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < episodes.size(); ++i) {
+    std::uint64_t word = mixed(numberOf(config, i));
+    word = mixed(word ^ static_cast<std::uint64_t>(episodes[i].outcome));
+    word = mixed(word ^ static_cast<std::uint64_t>(episodes[i].end));
+    sum += mixed(word ^ episodes[i].digest);
+  }
+  return sum;
+}
+
+Interval GoalMatrix::difference(std::size_t keeper, std::size_t other, std::size_t striker) const {
+  const auto& a = cell(keeper, striker).episodes;
+  const auto& b = cell(other, striker).episodes;
+  std::vector<int> differences;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    differences.push_back(int{a[i].outcome == GoalOutcome::goal} -
+                          int{b[i].outcome == GoalOutcome::goal});
+  return pairedBootstrap(differences, config.seed);
+}
+
+GoalMatrix playMatrix(const GoalMatrixConfig& config, const GoalMatrixRun& run) {
+  config.check();
+  GoalMatrix matrix{config, {}, {}};
+  GoalEpisodes first;
+  matrix.world = first.fingerprint();
+  for (const std::string& keeper : config.keepers)
+    for (const std::string& striker : config.strikers) {
+      first.check(keeper, striker);
+      matrix.cells.push_back({keeper, striker, {}});
+      matrix.cells.back().episodes.resize(ownEpisodes(config));
+    }
+  std::vector<Job> jobs;
+  for (GoalCell& cell : matrix.cells)
+    for (std::size_t i = 0; i < cell.episodes.size(); ++i)
+      jobs.push_back({&cell.keeper, &cell.striker, numberOf(config, i), &cell.episodes[i]});
+  play(jobs, config.seed, run);
+  return matrix;
+}
+
+GoalMatrix mergeShards(std::span<const GoalMatrix> shards) {
+  if (shards.empty()) throw std::invalid_argument("there are no shards");
+  GoalMatrix whole{shards.front().config, shards.front().world, {}};
+  whole.config.shard = whole.config.shards = 1;
+  const std::uint64_t n = shards.front().config.shards;
+  if (shards.size() != n)
+    throw std::invalid_argument("there are " + std::to_string(shards.size()) +
+                                " shards, expected all " + std::to_string(n));
+  for (const std::string& keeper : whole.config.keepers)
+    for (const std::string& striker : whole.config.strikers) {
+      whole.cells.push_back({keeper, striker, {}});
+      whole.cells.back().episodes.resize(whole.config.episodes);
+    }
+  std::set<std::uint64_t> seen;
+  for (const GoalMatrix& shard : shards) {
+    GoalMatrixConfig same = shard.config;
+    same.shard = same.shards = 1;
+    if (!(same == whole.config) || shard.config.shards != n || shard.world != whole.world)
+      throw std::invalid_argument("shard " + std::to_string(shard.config.shard) +
+                                  " is of another run: keepers, strikers, episodes, seed, world "
+                                  "and number of shards must be the same");
+    if (!seen.insert(shard.config.shard).second)
+      throw std::invalid_argument("shard " + std::to_string(shard.config.shard) +
+                                  " is there twice");
+    for (std::size_t c = 0; c < shard.cells.size(); ++c)
+      for (std::size_t i = 0; i < shard.cells[c].episodes.size(); ++i)
+        whole.cells[c].episodes[numberOf(shard.config, i)] = shard.cells[c].episodes[i];
+  }
+  return whole;
+}
+
+std::vector<GoalMismatch> verify(const GoalMatrix& matrix, std::uint64_t sample, std::uint64_t seed,
+                                 const GoalMatrixRun& run, std::uint64_t& played) {
+  Random random(seed, 0);
+  std::vector<GoalMismatch> drawn;
+  const std::uint64_t ofEach = std::max<std::uint64_t>(sample / matrix.cells.size(), 1);
+  for (const GoalCell& cell : matrix.cells) {
+    std::set<std::uint64_t> places;
+    while (places.size() < std::min<std::uint64_t>(ofEach, cell.episodes.size()))
+      places.insert(random.below(cell.episodes.size()));
+    for (const std::uint64_t place : places)
+      drawn.push_back(
+          {cell.keeper, cell.striker, numberOf(matrix.config, place), cell.episodes[place], {}});
+  }
+  std::vector<Job> jobs;
+  for (GoalMismatch& one : drawn)
+    jobs.push_back({&one.keeper, &one.striker, one.number, &one.found});
+  play(jobs, matrix.config.seed, run);
+  played = drawn.size();
+  std::erase_if(drawn, [](const GoalMismatch& one) { return one.told == one.found; });
+  return drawn;
+}
+
+}  // namespace ortung

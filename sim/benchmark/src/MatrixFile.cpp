@@ -1,0 +1,138 @@
+#include <charconv>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "ortung/benchmark/GoalMatrix.hpp"
+
+namespace ortung {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "ortung goalkeeper benchmark 1";
+constexpr std::string_view kLetters = "gsot";  ///< of the outcomes, in their order
+
+std::string hexadecimal(std::uint64_t word, int digits) {
+  char text[24];
+  std::snprintf(text, sizeof text, "%0*llx", digits, static_cast<unsigned long long>(word));
+  return text;
+}
+
+Json toJson(const Interval& interval) {
+  return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
+}
+
+Json cellJson(const GoalMatrix& matrix, std::size_t k, std::size_t s) {
+  const GoalCell& cell = matrix.cell(k, s);
+  Json json = {{"keeper", cell.keeper}, {"striker", cell.striker}};
+  for (const GoalOutcome outcome :
+       {GoalOutcome::goal, GoalOutcome::saved, GoalOutcome::out, GoalOutcome::time})
+    json["count"][std::string(nameOf(outcome))] = cell.count(outcome);
+  json["scoring"] = toJson(cell.scoring());
+  const auto time = cell.meanTimeToScore();
+  json["time_to_score_s"] = time ? Json(*time) : Json(nullptr);
+  if (k > 0) json["more_than_first_keeper"] = toJson(matrix.difference(k, 0, s));
+  json["hash"] = hexadecimal(cell.hash(matrix.config), 16);
+  std::string outcomes;
+  std::string digests;
+  Json ends = Json::array();
+  for (const GoalEpisode& episode : cell.episodes) {
+    outcomes += kLetters[static_cast<std::size_t>(episode.outcome)];
+    digests += hexadecimal(episode.digest, 8);
+    ends.push_back(episode.end);
+  }
+  json["outcomes"] = outcomes;
+  json["digests"] = digests;
+  json["ends_us"] = ends;
+  return json;
+}
+
+/// @throws std::runtime_error
+GoalCell readCell(const Json& json, const GoalMatrixConfig& config) {
+  GoalCell cell{json.at("keeper"), json.at("striker"), {}};
+  const std::string what = "'" + cell.striker + "' against '" + cell.keeper + "': ";
+  const std::string outcomes = json.at("outcomes");
+  const std::string digests = json.at("digests");
+  const auto ends = json.at("ends_us").get<std::vector<Timestamp>>();
+  const std::uint64_t n = (config.episodes + config.shards - config.shard) / config.shards;
+  if (outcomes.size() != n || digests.size() != 8 * n || ends.size() != n)
+    throw std::runtime_error(what + "has " + std::to_string(outcomes.size()) + " outcomes, " +
+                             std::to_string(digests.size()) + " digits of digests and " +
+                             std::to_string(ends.size()) + " ends, expected those of " +
+                             std::to_string(n) + " episodes");
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t outcome = kLetters.find(outcomes[i]);
+    GoalEpisode episode;
+    const char* digits = digests.data() + 8 * i;
+    const auto [end, error] = std::from_chars(digits, digits + 8, episode.digest, 16);
+    if (outcome == kLetters.npos || error != std::errc() || end != digits + 8)
+      throw std::runtime_error(what + "episode " + std::to_string(i) +
+                               " of the file has outcome '" + outcomes[i] +
+                               "' and a digest that can't be read, expected one of 'gsot' and 8 "
+                               "hexadecimal digits");
+    episode.outcome = static_cast<GoalOutcome>(outcome);
+    episode.end = ends[i];
+    cell.episodes.push_back(episode);
+  }
+  const std::string hash = json.at("hash");
+  if (hash != hexadecimal(cell.hash(config), 16))
+    throw std::runtime_error(what + "its hash is " + hash + ", but its episodes have " +
+                             hexadecimal(cell.hash(config), 16));
+  return cell;
+}
+
+}  // namespace
+
+std::string toJson(const GoalMatrix& matrix, std::string_view version) {
+  const GoalMatrixConfig& c = matrix.config;
+  Json json = {{"format", kFormat},     {"version", version},     {"world", matrix.world},
+               {"seed", c.seed},        {"episodes", c.episodes}, {"shard", c.shard},
+               {"shards", c.shards},    {"keepers", c.keepers},   {"strikers", c.strikers},
+               {"cells", Json::array()}};
+  for (std::size_t k = 0; k < c.keepers.size(); ++k)
+    for (std::size_t s = 0; s < c.strikers.size(); ++s)
+      json["cells"].push_back(cellJson(matrix, k, s));
+  // Nothing that a command line may hold is refused for its letters.
+  return json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
+}
+
+GoalMatrix readGoalMatrix(std::string_view text, const std::string& name) {
+  const auto refuse = [&](const std::string& why) -> GoalMatrix {
+    throw std::runtime_error(name + ": is no result of `ortung benchmark goalkeeper`: " + why);
+  };
+  try {
+    const Json json = Json::parse(text);
+    if (!json.is_object() || json.value("format", "") != kFormat)
+      return refuse(std::string("expected the format '") + kFormat + "'");
+    GoalMatrix matrix;
+    GoalMatrixConfig& c = matrix.config;
+    matrix.world = json.at("world");
+    c.seed = json.at("seed");
+    c.episodes = json.at("episodes");
+    c.shard = json.at("shard");
+    c.shards = json.at("shards");
+    c.keepers = json.at("keepers").get<std::vector<std::string>>();
+    c.strikers = json.at("strikers").get<std::vector<std::string>>();
+    c.check();
+    const Json& cells = json.at("cells");
+    if (!cells.is_array() || cells.size() != c.keepers.size() * c.strikers.size())
+      return refuse("expected a cell for each keeper and striker");
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      matrix.cells.push_back(readCell(cells[i], c));
+      if (matrix.cells[i].keeper != c.keepers[i / c.strikers.size()] ||
+          matrix.cells[i].striker != c.strikers[i % c.strikers.size()])
+        return refuse("cell " + std::to_string(i) + " is not in its place");
+    }
+    return matrix;
+  } catch (const Json::exception& error) {
+    return refuse(error.what());
+  } catch (const std::invalid_argument& error) {
+    return refuse(error.what());
+  } catch (const std::runtime_error& error) {
+    if (std::string(error.what()).starts_with(name + ": ")) throw;
+    return refuse(error.what());
+  }
+}
+
+}  // namespace ortung

@@ -1,0 +1,44 @@
+#include "ortung/benchmark/Rates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ortung/base/Random.hpp"
+
+namespace ortung {
+
+Interval wilson(std::uint64_t hits, std::uint64_t n) {
+  if (n == 0) return {0.0, 0.0, 1.0};
+  constexpr double kZ = 1.959963984540054;  // of 95 %
+  const auto count = static_cast<double>(n);
+  const double p = static_cast<double>(hits) / count;
+  const double scale = 1.0 + kZ * kZ / count;
+  const double middle = (p + kZ * kZ / (2.0 * count)) / scale;
+  const double half =
+      kZ / scale * std::sqrt(p * (1.0 - p) / count + kZ * kZ / (4.0 * count * count));
+  // Ends of 0 and 1 are exact; the formula rounds.
+  return {p, hits == 0 ? 0.0 : middle - half, hits == n ? 1.0 : middle + half};
+}
+
+Interval pairedBootstrap(std::span<const int> differences, std::uint64_t seed,
+                         std::size_t resamples) {
+  const std::size_t n = differences.size();
+  if (n == 0 || resamples == 0) return {0.0, -1.0, 1.0};
+  std::int64_t sum = 0;
+  for (const int difference : differences) sum += difference;
+  Random random(seed, 0);
+  std::vector<double> means;
+  for (std::size_t i = 0; i < resamples; ++i) {
+    std::int64_t drawn = 0;
+    for (std::size_t k = 0; k < n; ++k) drawn += differences[random.below(n)];
+    means.push_back(static_cast<double>(drawn) / static_cast<double>(n));
+  }
+  std::sort(means.begin(), means.end());
+  const auto at = [&](double share) {
+    return means[static_cast<std::size_t>(std::lround(share * static_cast<double>(resamples - 1)))];
+  };
+  return {static_cast<double>(sum) / static_cast<double>(n), at(0.025), at(0.975)};
+}
+
+}  // namespace ortung

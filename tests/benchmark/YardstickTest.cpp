@@ -1,0 +1,145 @@
+// The striker yardstick-v1 is frozen: whatever it is shown, it does what it did when it was new.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "FakeWorld.hpp"
+#include "Files.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/core/ShippedFiles.hpp"
+#include "ortung/sim_api/Player.hpp"
+
+namespace ortung {
+namespace {
+
+/// What a player has done, as text to a millionth: the last bits of sines may differ between
+/// computers.
+struct Notes : RobotCommands {
+  std::string text;
+  void note(const char* what, double value) {
+    char line[64];
+    std::snprintf(line, sizeof line, "%s %.6f\n", what, value + 0.0);
+    text += line;
+  }
+  void setTranslationalVelocity(double v) override { note("v", v); }
+  void setRotationalVelocity(double w) override { note("w", w); }
+  void setMotion(std::span<const double> numbers) override {
+    for (const double number : numbers) note("m", number);
+  }
+  void setManipulator(std::string_view manipulator, std::string_view state) override {
+    text += std::string(manipulator) + " " + std::string(state) + "\n";
+  }
+};
+
+/// A stage without physics: the robot goes exactly as it is told, the keeper to and fro.
+struct PlainStage : Stage {
+  Notes* notes = nullptr;
+  Timestamp time = 0;
+  FakeWorld field{14.0, 10.0};
+  std::vector<StagedRobot> all = {{"me", "yellow", {3.0, 0.0, 3.0}, {}, 0.36},
+                                  {"keeper", "blue", {-5.5, 0.0, 1.5}, {}, 0.32}};
+  std::vector<StagedThing> balls = {{"ball", "ball", {}, {}}};
+
+  Timestamp now() const override { return time; }
+  double cycle() const override { return 0.02; }
+  const World& world() const override { return field; }
+  std::span<const StagedRobot> robots() const override { return all; }
+  std::span<const StagedThing> things() const override { return balls; }
+  void placeRobot(std::string_view, const Pose2& pose) override {
+    all[0].pose = pose;
+    notes->note("x", pose.x), notes->note("y", pose.y), notes->note("theta", pose.theta);
+  }
+  void placeThing(std::string_view, const Pose2& pose, const Twist& velocity) override {
+    balls[0].pose = pose;
+    notes->note("ball x", pose.x), notes->note("ball y", pose.y);
+    notes->note("ball v", std::hypot(velocity.x, velocity.y));
+  }
+  std::shared_ptr<const FloorPlan> floorPlan(const RobotSize&) override { return nullptr; }
+};
+
+struct PlainSeat : PlayerSeat {
+  explicit PlainSeat(std::uint64_t seed) : chance(seed) {
+    stands.notes = &notes;
+    known.landmarks = {{1, "goal", -6.0, 0.0, 0.5}, {2, "goal", 6.0, 0.0, 0.5}};
+  }
+  const std::string& name() const override { return stands.all[0].name; }
+  const std::string& team() const override { return stands.all[0].team; }
+  Timestamp now() const override { return stands.time; }
+  SensorContainer& container() override { return sensors; }
+  RobotCommands& robot() override { return notes; }
+  const RobotAbilities& abilities() const override { return able; }
+  const FieldModel& field() const override { return known; }
+  const Game& game() const override { return free; }
+  Random& random() override { return chance; }
+  void say(std::string_view) override {}
+  std::span<const Heard> heard() const override { return {}; }
+  Stage* stage() override { return &stands; }
+
+  Notes notes;
+  PlainStage stands;
+  SensorContainer sensors;
+  RobotAbilities able;
+  FieldModel known;
+  Game free;
+  Random chance;
+};
+
+std::string actionsOf(std::uint64_t seed) {
+  PluginFactory factory(PluginFactory::standardFolders());
+  Parameters options;
+  options.set("kind", "yardstick-v1");
+  const auto player = factory.make<Player>("striker", options);
+  PlainSeat seat(seed);
+  player->begin(seat);
+  for (int i = 0; i < 200; ++i) {
+    seat.stands.time = i * 20'000;
+    seat.stands.all[1].pose.y = 0.7 * std::sin(0.05 * i + static_cast<double>(seed));
+    const std::size_t before = seat.notes.text.size();
+    EXPECT_TRUE(player->senseAndAct(seat));
+    double v = 0.0;
+    double w = 0.0;
+    const std::string told = seat.notes.text.substr(before);
+    std::sscanf(told.substr(told.find("v ")).c_str(), "v %lf\nw %lf", &v, &w);
+    seat.stands.all[0].pose = seat.stands.all[0].pose * Pose2{0.02 * v, 0.0, 0.02 * w};
+  }
+  return seat.notes.text;
+}
+
+std::uint64_t hashOf(const std::string& text) {  // FNV-1a
+  std::uint64_t hash = 14695981039346656037U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  return hash;
+}
+
+TEST(Yardstick, DoesWhatItDidWhenItWasNew) {
+  std::string all;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) all += actionsOf(seed);
+  EXPECT_EQ(hashOf(all), 3119608592110242418U)
+      << "yardstick-v1 is frozen: mend the change, never this number";
+}
+
+// Its robot is part of it: where its kicker is, how hard it kicks.
+TEST(Yardstick, HasTheRobotThatItHadWhenItWasNew) {
+  std::string figures;
+  std::istringstream lines(test::readBytes(shippedFile("robots", "striker.toml")));
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with('#')) figures += line + "\n";
+  EXPECT_EQ(hashOf(figures), 8636493038571426545U)
+      << "give another striker a robot file of its own";
+}
+
+TEST(Yardstick, KicksOnce) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::string told = actionsOf(seed);
+    const std::size_t kick = told.find("kicker kick");
+    ASSERT_NE(kick, told.npos) << seed;
+    EXPECT_EQ(told.find("kicker kick", kick + 1), told.npos) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace ortung
