@@ -66,10 +66,14 @@ int runPlay(const PlayArguments& arguments) {
   config.budget = arguments.budgetMs / 1000.0;
   config.duration = arguments.duration;
   config.goesOn = [] { return interruptSignal() == 0; };
-  RemotePlay play(std::move(player), config);
-  play.run();
-  fmt::print("{}: {} played until {:.2f} s\n", config.session.server(), config.session.name,
-             toSeconds(play.now()));
+  try {
+    RemotePlay play(std::move(player), config);
+    play.run();
+    fmt::print("{}: {} played until {:.2f} s\n", config.session.server(), config.session.name,
+               toSeconds(play.now()));
+  } catch (const ConnectionLost&) {
+    if (interruptSignal() == 0) throw;  // else it is the signal that has ended the connection
+  }
   return 0;
 }
 

@@ -297,6 +297,16 @@ void RemoteRobot::setManipulator(std::string_view manipulator, std::string_view 
   parts_->perform([&] { parts_->session->setManipulator(manipulator, state); });
 }
 
+void RemoteRobot::tellTeam(const std::string& text) {
+  parts_->perform([&] { parts_->session->tellTeam(text); });
+}
+
+std::vector<TeamWords> RemoteRobot::hearTeam() {
+  std::vector<TeamWords> talk;
+  parts_->perform([&] { talk = parts_->session->hearTeam(); });
+  return talk;
+}
+
 bool RemoteRobot::say(const std::string& text) {
   return parts_->attempt([&] { parts_->session->say(text); });
 }

@@ -72,6 +72,9 @@ void SessionOptions::check() const {
                                 ", expected 1 to 32 of [A-Za-z0-9_-]");
   if (!isPrintableWord(token))  // and not said, since it is a secret
     throw std::invalid_argument("the token has a blank or a character that is not printable ASCII");
+  if (!team.empty() && (!isName(team) || team.size() > kLongestName))
+    throw std::invalid_argument("the team is " + inQuotes(team) +
+                                ", expected 1 to 32 of [A-Za-z0-9_-]");
   checkTime(timeout, "timeout");
   checkTime(patience, "patience");
 }
@@ -89,6 +92,7 @@ RobotSession::RobotSession(const SessionOptions& options, std::string_view robot
   if (options_.start)
     create += " x_m=" + shown(options_.start->x) + " y_m=" + shown(options_.start->y) +
               " theta_rad=" + shown(options_.start->theta);
+  if (!options_.team.empty()) create += " team=" + options_.team;
   if (options_.wanders) create += " drive=wander";
   exchange(create + "\n" + withDotsDoubled(robotToml) + ".", options_.timeout);
   std::vector<std::string> world;
@@ -190,13 +194,21 @@ std::vector<Message> RobotSession::update(const std::string& queries) {
       exchange(withForm(queries.empty() ? "UPDATE" : "UPDATE " + queries), options_.timeout));
 }
 
-void RobotSession::setLockstep(bool isOn) { ask(isOn ? "LOCKSTEP on" : "LOCKSTEP off"); }
+void RobotSession::setLockstep(bool isOn) {
+  ask(isOn ? "LOCKSTEP on" : "LOCKSTEP off");
+  clock_ = stampOf(ask("TIME"), "received");
+}
 
 std::optional<std::vector<Message>> RobotSession::next(std::uint64_t cycles) {
   try {
-    return takeReadings(
+    const std::string reply =
         exchange(withForm(cycles == 1 ? "NEXT" : "NEXT cycles=" + std::to_string(cycles)),
-                 options_.patience));
+                 options_.patience);
+    std::vector<Message> readings = takeReadings(reply);
+    const Timestamp now = stampOf(reply, "now");
+    newest_ = now - (now - clock_) / static_cast<Timestamp>(std::max<std::uint64_t>(cycles, 1));
+    clock_ = now;
+    return readings;
   } catch (const ServerRefused& refusal) {
     if (refusal.code() == "end") return std::nullopt;
     throw;
@@ -238,6 +250,22 @@ void RobotSession::setManipulator(std::string_view manipulator, std::string_view
 }
 
 void RobotSession::say(const std::string& text) { ask("SAY " + text); }
+
+void RobotSession::tellTeam(const std::string& text) { tell("TELL " + text); }
+
+std::vector<TeamWords> RobotSession::hearTeam() {
+  std::vector<std::string> lines;
+  ask("HEAR", &lines);
+  std::vector<TeamWords> talk;
+  for (const std::string& line : lines) {
+    const std::size_t name = line.find(' ');
+    const std::size_t text = name == line.npos ? name : line.find(' ', name + 1);
+    const auto stamp = client::numberFrom<Timestamp>(std::string_view(line).substr(0, name));
+    if (text == line.npos || !stamp) failOn(line);
+    talk.push_back({*stamp, line.substr(name + 1, text - name - 1), line.substr(text + 1)});
+  }
+  return talk;
+}
 
 RobotDescription RobotSession::describe() {
   std::vector<std::string> lines;

@@ -32,6 +32,7 @@ std::filesystem::path robotFileOf(const Player& player, const RemotePlayConfig& 
 RemoteOptions optionsOf(const RemotePlayConfig& config) {
   RemoteOptions options;
   options.session = config.session;
+  options.session.team = config.team;
   options.cycle = 0.0;  // the player's rhythm is that of the readings
   options.reconnects = false;
   options.hasLocalStamps = false;
@@ -116,6 +117,7 @@ struct RemotePlay::Parts {
       if (now < last) due = now;  // the world has started over
       if (now < due) continue;
       due = std::max(due + period, now + 1);
+      seat.listen();
       call("senseAndAct", [&] { isOver = !player->senseAndAct(seat); });
       seat.forgetHeard();
     }

@@ -61,6 +61,10 @@ void Voice::setManipulator(std::string_view manipulator, std::string_view state)
   tell([&] { robot_.setManipulator(manipulator, state); });
 }
 
+void Voice::say(std::string_view text) {
+  tell([&] { robot_.tellTeam(std::string(text)); });
+}
+
 void Voice::rethrow() const {
   if (lost_) std::rethrow_exception(lost_);
 }
@@ -79,7 +83,12 @@ RemoteSeat::RemoteSeat(RemoteRobot& robot, std::string name, std::string team, F
 
 void RemoteSeat::say(std::string_view text) {
   checkSaid(text);
-  robot_.say(std::string(text));
+  voice_.say(text);
+}
+
+void RemoteSeat::listen() {
+  for (TeamWords& words : robot_.hearTeam())
+    heard_.push_back({std::move(words.from), words.stamp, std::move(words.text)});
 }
 
 void RemoteSeat::look() { now_ = robot_.newest(); }

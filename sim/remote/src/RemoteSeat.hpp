@@ -20,6 +20,7 @@ class Voice : public RobotCommands {
   void setRotationalVelocity(double radiansPerSecond) override;
   void setMotion(std::span<const double> command) override;
   void setManipulator(std::string_view manipulator, std::string_view state) override;
+  void say(std::string_view text);
   /// @throws what the connection threw when the player talked through it last
   void rethrow() const;
 
@@ -52,8 +53,10 @@ class RemoteSeat : public PlayerSeat {
   Stage* stage() override { return nullptr; }
 
   // --- for whoever runs the player
-  /// The server's clock, and what was said.
+  /// The server's clock.
   void look();
+  /// What was said meanwhile. @throws ConnectionLost, ServerRefused
+  void listen();
   void forgetHeard() { heard_.clear(); }
   const Voice& voice() const { return voice_; }
 

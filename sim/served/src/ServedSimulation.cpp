@@ -205,6 +205,7 @@ void ServedSimulation::enter(RobotId robot, Guest& guest) {
   const std::uint64_t number = entered_;
   const auto add = [&](const std::optional<Pose2>& start) {
     guest.robot = run_->addRobot(config, factory_, start, number).state().number;
+    run_->players().join(config.name, guest.wish.team);
   };
   try {
     add(guest.wish.start);
@@ -241,7 +242,10 @@ ServedRobot ServedSimulation::addRobot(RobotId robot, RobotWish wish) {
 
 /// Nothing of a robot stays on the field, if it is there.
 void ServedSimulation::takeOff(Guest& guest) {
-  if (const SimRobot* robot = simulation().find(guest.robot)) simulation().removeRobot(*robot);
+  if (const SimRobot* robot = simulation().find(guest.robot)) {
+    run_->players().leave(robot->config().name);
+    simulation().removeRobot(*robot);
+  }
   guest.robot = 0;
 }
 
@@ -260,6 +264,22 @@ SimRobot& ServedSimulation::find(RobotId robot) const {
 }
 
 RobotCommands& ServedSimulation::commands(RobotId robot) { return find(robot); }
+
+void ServedSimulation::tell(RobotId robot, std::string_view text) {
+  const std::string& name = find(robot).config().name;
+  try {
+    run_->players().say(name, text);
+  } catch (const std::invalid_argument& error) {
+    throw ServeError("limit", "robot " + name + " " + error.what());
+  }
+}
+
+std::vector<ServedTalk> ServedSimulation::takeHeard(RobotId robot) {
+  std::vector<ServedTalk> talk;
+  for (Heard& heard : run_->players().takeHeard(find(robot).config().name))
+    talk.push_back({heard.stamp, std::move(heard.from), std::move(heard.text)});
+  return talk;
+}
 
 void ServedSimulation::removeRobot(RobotId robot) {
   finishCycle();

@@ -48,6 +48,8 @@ const std::vector<Conversation::Command>& Conversation::commands() {
       {"UNSUBSCRIBE", all, &C::unsubscribe, ""},
       {"LOCKSTEP", player, &C::lockstep, "on|off, the world waits for every NEXT of this client"},
       {"NEXT", player, &C::next, "[cycles=N] and as UPDATE; answered when they are over"},
+      {"TELL", player, &C::tellTeam, "[robot=N] TEXT to all others of the robot's team"},
+      {"HEAR", player, &C::hearTeam, "[robot=N], what others of its team have told"},
       {"SAY", all, &C::say, "TEXT to all other clients"},
       {"SCORE", all, &C::score, "[left=N right=N], which is for operators"},
       {"PAUSE", control, &C::pause, ""},

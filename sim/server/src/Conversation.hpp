@@ -157,6 +157,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void describe(Request& request);
   void describeWorld(const std::string& tag);
   void say(Request& request);
+  void tellTeam(Request& request);
+  void hearTeam(Request& request);
   void score(Request& request);
 
   // ConversationControl.cpp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "SimSeat.hpp"
@@ -10,6 +11,13 @@
 #include "ortung/sim_api/PlayerGuard.hpp"
 
 namespace ortung {
+namespace {
+
+constexpr std::ptrdiff_t kMostSaid = 64;  // by one robot in a cycle
+constexpr std::size_t kMostHeard = 1000;  // that wait for one; older ones are lost
+
+}  // namespace
+
 struct PlayerControl::Parts {
   /// A player on its seat.
   struct Seating {
@@ -33,8 +41,9 @@ struct PlayerControl::Parts {
   SimStage stage;
   FieldModel field;
   std::vector<std::unique_ptr<Seating>> seatings;
-  std::map<std::string, std::string, std::less<>> teams;  ///< by robot
-  std::vector<Heard> said;                                ///< in this cycle
+  std::map<std::string, std::string, std::less<>> teams;        ///< by robot
+  std::map<std::string, std::vector<Heard>, std::less<>> ears;  ///< of robots without player
+  std::vector<Heard> said;                                      ///< in this cycle
 
   Parts(Simulation& s, FloorPlans& p, PluginFactory& f, const Config& c)
       : simulation(s),
@@ -103,17 +112,30 @@ void PlayerControl::Parts::call(Seating& one, const char* what, const Call& call
 
 void PlayerControl::Parts::say(std::string_view robot, std::string_view text) {
   checkSaid(text);
+  if (std::count_if(said.begin(), said.end(),
+                    [&](const Heard& one) { return one.from == robot; }) >= kMostSaid)
+    throw std::invalid_argument("says more than " + std::to_string(kMostSaid) +
+                                " texts in a cycle");
   said.push_back({std::string(robot), simulation.now(), std::string(text)});
 }
 
 /// What was said in the last cycle comes to all others of the team.
 void PlayerControl::Parts::deliver() {
   if (said.empty()) return;
-  const std::vector<Heard> messages = std::exchange(said, {});
+  std::vector<Heard> messages = std::exchange(said, {});
+  // Whose words came first over a network is chance.
+  std::stable_sort(messages.begin(), messages.end(), [](const Heard& a, const Heard& b) {
+    return std::tie(a.stamp, a.from) < std::tie(b.stamp, b.from);
+  });
   for (const Heard& message : messages) {
     const std::string team = teamOf(message.from);
     for (const auto& one : seatings)
       if (one->seat->name() != message.from && one->seat->team() == team) one->seat->hear(message);
+    for (auto& [name, heard] : ears) {
+      if (name == message.from || teamOf(name) != team) continue;
+      if (heard.size() == kMostHeard) heard.erase(heard.begin());
+      heard.push_back(message);
+    }
   }
 }
 
@@ -201,6 +223,23 @@ void PlayerControl::setTeam(std::string_view robot, std::string_view team) {
 }
 
 std::string PlayerControl::teamOf(std::string_view robot) const { return parts_->teamOf(robot); }
+
+void PlayerControl::join(std::string_view robot, std::string_view team) {
+  setTeam(robot, team);
+  parts_->ears[std::string(robot)].clear();
+}
+
+void PlayerControl::leave(std::string_view robot) {
+  const auto teamed = parts_->teams.find(robot);
+  if (teamed != parts_->teams.end()) parts_->teams.erase(teamed);
+  const auto listening = parts_->ears.find(robot);
+  if (listening != parts_->ears.end()) parts_->ears.erase(listening);
+}
+
+std::vector<Heard> PlayerControl::takeHeard(std::string_view robot) {
+  const auto found = parts_->ears.find(robot);
+  return found == parts_->ears.end() ? std::vector<Heard>{} : std::exchange(found->second, {});
+}
 
 void PlayerControl::say(std::string_view robot, std::string_view text) { parts_->say(robot, text); }
 

@@ -70,8 +70,14 @@ class ORTUNG_API PlayerControl {
   /// Of a robot's team, "" if it has none. @param robot that a player does not sit on, too
   void setTeam(std::string_view robot, std::string_view team);
   std::string teamOf(std::string_view robot) const;
-  /// What a robot without player here, as that of a client, says to its team.
+
+  // --- robots without player here, as those of clients: their team's talk reaches them, too
+  void join(std::string_view robot, std::string_view team);
+  void leave(std::string_view robot);
+  /// To all others of its team, as PlayerSeat::say(). @throws std::invalid_argument
   void say(std::string_view robot, std::string_view text);
+  /// What a robot that has joined was told since it was last asked, in the order of time.
+  std::vector<Heard> takeHeard(std::string_view robot);
 
   std::vector<Seated> players() const;
   bool isEmpty() const;

@@ -55,6 +55,10 @@ class ORTUNG_API RemoteRobot : public RobotCommands {
   void setMotion(std::span<const double> command) override;
   void setManipulator(std::string_view manipulator, std::string_view state) override;
 
+  /// To all other robots of the team, and what they told; errors as of commands.
+  void tellTeam(const std::string& text);
+  std::vector<TeamWords> hearTeam();
+
   // --- what follows returns whether it was done; if not, trouble() says why
   bool say(const std::string& text);
   /// Brings the container up to date now.
@@ -72,8 +76,9 @@ class ORTUNG_API RemoteRobot : public RobotCommands {
   std::string trouble() const;
   /// What the server and other clients said since the last call.
   std::vector<std::string> takeNews();
-  /// Stamp of the newest reading that came, by the server's clock; at first the time when it
-  /// connected. Readings of features that the container does not have count, too.
+  /// By the server's clock: the cycle that next() gave; without lockstep the stamp of the newest
+  /// reading that came, of features that the container does not have, too; at first the time when
+  /// it connected.
   Timestamp newest() const;
   /// How the server's clock relates to ours.
   ClockOffset clockOffset() const;

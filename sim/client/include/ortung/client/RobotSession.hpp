@@ -47,6 +47,7 @@ struct ORTUNG_API SessionOptions {
   std::uint16_t port = 7777;
   std::string name = "robot";    ///< of client and robot: [A-Za-z0-9_-], 1 to 32 characters
   std::string token;             ///< of printable characters without blanks; "": none
+  std::string team;              ///< of the robot: as a name; "": none
   std::optional<Pose2> start;    ///< in the field frame; nothing: anywhere
   bool wanders = false;          ///< the server drives the robot about
   bool isBinary = false;         ///< form of readings: better for large ones, such as images
@@ -61,6 +62,13 @@ struct ORTUNG_API SessionOptions {
   std::string server() const { return host + ":" + std::to_string(port); }
   /// @throws std::invalid_argument for a name, a token or a time that can't be one, saying which
   void check() const;
+};
+
+/// What another robot of the team has told.
+struct TeamWords {
+  Timestamp stamp = 0;  ///< when it said so, by the server's clock
+  std::string from;     ///< the robot's name
+  std::string text;
 };
 
 /// A connection to a message board with one robot on its field: the protocol of docs/protocol.md as
@@ -81,7 +89,8 @@ class ORTUNG_API RobotSession : public RobotCommands {
   /// "simulation" or "record".
   const std::string& kind() const { return kind_; }
 
-  /// By the server's clock: stamp of the newest reading that came, at first the time of greeting.
+  /// By the server's clock: the cycle that next() gave, whether a sensor read in it or not; without
+  /// lockstep the stamp of the newest reading that came; at first the time of greeting.
   Timestamp newest() const { return newest_; }
 
   /// What the server says of the robot.
@@ -91,7 +100,12 @@ class ORTUNG_API RobotSession : public RobotCommands {
   void setRotationalVelocity(double radiansPerSecond) override;
   void setMotion(std::span<const double> command) override;
   void setManipulator(std::string_view manipulator, std::string_view state) override;
+  /// To all other clients.
   void say(const std::string& text);
+  /// To all other robots of the team, of clients and of the server: they hear it in the next cycle.
+  void tellTeam(const std::string& text);
+  /// What others of the team have told since the last call, in the order of time.
+  std::vector<TeamWords> hearTeam();
 
   /// Readings that are new, oldest first, stamped by the server's clock.
   /// @param queries "model/type/feature", separated by blanks; "": all
@@ -134,6 +148,7 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::string fingerprint_;
   std::string kind_;
   Timestamp newest_ = 0;
+  Timestamp clock_ = 0;  ///< in lockstep: when the next cycle is
   std::vector<std::string> news_;
   std::uint64_t lastTag_ = 0;
 };

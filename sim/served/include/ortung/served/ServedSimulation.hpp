@@ -36,6 +36,8 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   void removeRobot(RobotId robot) override;
   std::span<const Message> readings(RobotId robot) const override;
   RobotCommands& commands(RobotId robot) override;
+  void tell(RobotId robot, std::string_view text) override;
+  std::vector<ServedTalk> takeHeard(RobotId robot) override;
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;

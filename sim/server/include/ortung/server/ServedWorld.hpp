@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
@@ -37,6 +38,7 @@ struct RobotWish {
   std::string name;
   RobotConfig config;
   std::optional<Pose2> start;  ///< in the field frame; nothing: where there is room
+  std::string team = {};       ///< "": none
   bool wanders = false;        ///< the server drives it about until the first command
 };
 
@@ -83,6 +85,13 @@ struct WorldDescription {
   std::vector<ServedObject> objects = {};
 };
 
+/// What one robot said to all others of its team.
+struct ServedTalk {
+  Timestamp stamp = 0;  ///< when it said so, by the clock of the readings
+  std::string from;     ///< the robot's name
+  std::string text;     ///< printable ASCII
+};
+
 /// What the message board serves: a simulation, a record as if it were one, a running robot.
 /// Not thread-safe: one thread owns it. Refusals are ServeErrors, or the errors of configurations
 /// and plugins.
@@ -121,6 +130,11 @@ class ORTUNG_API ServedWorld {
 
   /// Through which a robot is commanded; valid until the next call of anything.
   virtual RobotCommands& commands(RobotId robot) = 0;
+
+  /// What a robot says to all others of its team; nobody hears it where there is no talk.
+  virtual void tell(RobotId, std::string_view /*text*/) {}
+  /// What a robot was told since it was last asked, in the order of time.
+  virtual std::vector<ServedTalk> takeHeard(RobotId) { return {}; }
 
   /// Starts over: time, chance and robots as at their beginning.
   virtual void reset(std::optional<std::uint64_t> seed) = 0;
