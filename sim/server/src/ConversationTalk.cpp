@@ -10,6 +10,7 @@ namespace {
 using Reply = std::optional<std::string>;
 
 constexpr std::int64_t kMostGoals = 999;
+constexpr double kLastRobot = 0xFFFFFFFF;
 constexpr std::size_t kLongestHelp = 1000;
 constexpr const char* kWrongToken = "ERR token it is missing or wrong";
 
@@ -252,6 +253,42 @@ void Conversation::say(Request& request) {
     self.host_.spread(self.id_, line);
     self.reply(tag, "OK SAY");
   });
+}
+
+void Conversation::tellTeam(Request& request) {
+  const RobotId robot = owned_.empty() ? 0 : *owned_.begin();
+  std::string text = request.rest();
+  RobotId teller = robot;
+  if (text.starts_with("robot=")) {
+    const std::string number = text.substr(6, text.find(' ') - 6);
+    teller = static_cast<RobotId>(parseNumber(number, "robot", 1.0, kLastRobot));
+    text = text.substr(std::min(text.size(), 6 + number.size() + 1));
+  }
+  if (teller == 0) throw ServeError("no-robot", "this client has no robot; CREATE makes one");
+  order(request.tag(), [id = id_, teller, text](WorldKeeper& keeper, WorldKeeper::Done&) {
+    keeper.checkOwner(id, teller);
+    keeper.world().tell(teller, text);
+    return Reply("OK TELL");
+  });
+}
+
+void Conversation::hearTeam(Request& request) {
+  const RobotId robot = takeRobot(request);
+  request.refuseRest();
+  auto lines = std::make_shared<std::string>();
+  order(
+      request.tag(),
+      [id = id_, robot, lines](WorldKeeper& keeper, WorldKeeper::Done&) {
+        keeper.checkOwner(id, robot);
+        const std::vector<ServedTalk> talk = keeper.world().takeHeard(robot);
+        for (const ServedTalk& one : talk)
+          *lines += std::to_string(one.stamp) + " " + oneWord(one.from) + " " + one.text + "\n";
+        return Reply("OK HEAR robot=" + std::to_string(robot) +
+                     " lines=" + std::to_string(talk.size()));
+      },
+      [lines](Conversation& self, const std::string& tag, const std::string& text) {
+        self.reply(tag, text, *lines);
+      });
 }
 
 void Conversation::score(Request& request) {
