@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -11,6 +12,7 @@
 #include "Console.hpp"
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/PluginFactory.hpp"
+#include "ortung/sim_api/Player.hpp"
 
 namespace ortung::app {
 namespace {
@@ -23,7 +25,14 @@ std::string kindOf(const std::string& interface) {
   return interface.substr(begin, interface.find('/', begin) - begin);
 }
 
-void print(const PluginFactory::Found& found) {
+/// What a library offers, and what its players say of themselves, a line each.
+struct Offer {
+  PluginFactory::Found found;
+  std::map<std::string, std::vector<std::string>> help;  ///< by player
+};
+
+void print(const Offer& offer) {
+  const PluginFactory::Found& found = offer.found;
   if (!found.error.empty()) {
     fmt::print("{}\n  BROKEN: {}\n", printable(found.file.string()), printable(found.error));
     return;
@@ -31,29 +40,37 @@ void print(const PluginFactory::Found& found) {
   fmt::print("{}\n  library {}, version {}\n", printable(found.file.string()),
              printable(found.library), printable(found.version));
   for (const auto& entry : found.entries) {
+    if (entry.interface == PlayerHelp::kInterface) continue;
     fmt::print("  {:<12} {}\n", printable(kindOf(entry.interface)), printable(entry.name));
+    const auto help = offer.help.find(entry.name);
+    if (entry.interface != Player::kInterface || help == offer.help.end()) continue;
+    for (const std::string& line : help->second) fmt::print("    {}\n", printable(line));
   }
 }
 
-std::string toText(const PluginFactory::Found& found) {
+std::string toText(const Offer& offer) {
+  const PluginFactory::Found& found = offer.found;
   auto entries = nlohmann::json::array();
   for (const auto& entry : found.entries) entries.push_back({entry.interface, entry.name});
   const nlohmann::json json = {{"library", found.library},
                                {"version", found.version},
                                {"error", found.error},
-                               {"entries", entries}};
+                               {"entries", entries},
+                               {"help", offer.help}};
   return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
 /// @throws nlohmann::json::exception
-PluginFactory::Found fromText(const std::string& text) {
+Offer fromText(const std::string& text) {
   const auto json = nlohmann::json::parse(text);
-  PluginFactory::Found found;
+  Offer offer;
+  PluginFactory::Found& found = offer.found;
   found.library = json.at("library");
   found.version = json.at("version");
   found.error = json.at("error");
   for (const auto& entry : json.at("entries")) found.entries.push_back({entry.at(0), entry.at(1)});
-  return found;
+  json.at("help").get_to(offer.help);
+  return offer;
 }
 
 // --- in a process of its own
@@ -68,6 +85,26 @@ PluginFactory::Found fromText(const std::string& text) {
   ::_exit(0);
 }
 
+Offer lookInside(const std::filesystem::path& library) {
+  PluginFactory factory;
+  Offer offer{factory.look(library), {}};
+  for (const auto& entry : offer.found.entries) {
+    if (entry.interface != PlayerHelp::kInterface) continue;
+    std::vector<std::string>& lines = offer.help[entry.name];
+    try {
+      const auto help = factory.make<PlayerHelp>(entry.name, Parameters());
+      lines.push_back(help->what());
+      for (const PlayerOption& option : help->options())
+        lines.push_back(fmt::format(
+            "{}{}: {}{}", option.key, option.unit.empty() ? "" : " [" + option.unit + "]",
+            option.meaning, option.fallback.empty() ? "" : "; default: " + option.fallback));
+    } catch (const std::exception& error) {
+      lines = {std::string("does not say what it does: ") + error.what()};
+    }
+  }
+  return offer;
+}
+
 /// Loads a library in this process and writes what it offers to standard output, where the
 /// library's own code writes nothing. That may hang, so somebody watches.
 [[noreturn]] void describe(const std::filesystem::path& library, double timeout) {
@@ -75,22 +112,23 @@ PluginFactory::Found fromText(const std::string& text) {
   const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (out < 0 || nothing < 0 || ::dup2(nothing, STDOUT_FILENO) < 0)
     throw std::runtime_error(std::string("no output: ") + std::strerror(errno));
-  PluginFactory::Found late;
-  late.error = fmt::format("was not loaded within {:g} s", timeout);
+  Offer late;
+  late.found.error = fmt::format("was not loaded within {:g} s", timeout);
   std::thread([out, timeout, text = toText(late)] {
     std::this_thread::sleep_for(std::chrono::duration<double>(timeout));
     tell(out, text);
   }).detach();
-  tell(out, toText(PluginFactory().look(library)));
+  tell(out, toText(lookInside(library)));
 }
 
 // --- in ours
 
 /// What a library offers, whatever its code does when it is loaded.
-PluginFactory::Found look(const std::filesystem::path& library, double timeout) {
-  PluginFactory::Found found;
+Offer look(const std::filesystem::path& library, double timeout) {
+  Offer offer;
+  PluginFactory::Found& found = offer.found;
   try {
-    found = fromText(runHelper(
+    offer = fromText(runHelper(
         std::filesystem::read_symlink("/proc/self/exe"),
         {"plugins", "--inside", library.string(), "--timeout", fmt::format("{}", timeout)},
         library.string(), kMostBytes));
@@ -100,7 +138,7 @@ PluginFactory::Found look(const std::filesystem::path& library, double timeout) 
     found.error = error.what();
   }
   found.file = library;
-  return found;
+  return offer;
 }
 
 }  // namespace
@@ -110,10 +148,10 @@ int runPlugins(const PluginsArguments& arguments) {
   const std::vector<std::filesystem::path> folders = PluginFactory::standardFolders();
   std::size_t broken = 0, count = 0;
   for (const auto& library : PluginFactory(folders).libraries()) {
-    const PluginFactory::Found found = look(library, arguments.timeout);
-    print(found);
+    const Offer offer = look(library, arguments.timeout);
+    print(offer);
     ++count;
-    if (!found.error.empty()) ++broken;
+    if (!offer.found.error.empty()) ++broken;
   }
   fmt::print("{} libraries, {} broken; looked in", count, broken);
   for (const auto& folder : folders) fmt::print(" {}", printable(folder.string()));

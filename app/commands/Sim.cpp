@@ -11,12 +11,12 @@
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
-#include "PlayerCommands.hpp"
 #include "Progress.hpp"
 #include "Rescue.hpp"
 #include "Serving.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Record.hpp"
+#include "ortung/served/PlayerCommands.hpp"
 #include "ortung/served/ServedSimulation.hpp"
 #include "ortung/sim/SceneRun.hpp"
 

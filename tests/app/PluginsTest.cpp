@@ -35,6 +35,17 @@ TEST(Plugins, ThoseThatCrashExitOrTalkWhenLoadedAreNamedAndTheOthersListed) {
   EXPECT_EQ(outcome.out.find("hello"), std::string::npos) << outcome.out;
 }
 
+TEST(Plugins, PlayersSayWhatTheyDoAndWhatTheirOptionsAre) {
+  const Outcome outcome = ortung({"plugins"});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  const std::string wander = linesOf(outcome.out, "ortung_wander_player");
+  EXPECT_NE(wander.find("  Player       wander\n    drives about for ever"), std::string::npos)
+      << wander;
+  EXPECT_NE(wander.find("\n    speed_m_s [m/s]: how fast it drives at most; default: as fast"),
+            std::string::npos)
+      << wander;
+}
+
 TEST(Plugins, OneThatNeverFinishesIsGivenUp) {
   const Outcome outcome =
       ortung({"plugins", "--timeout", "0.2"}, {"ORTUNG_PLUGIN_PATH=" TEST_ON_LOAD "/loops"});

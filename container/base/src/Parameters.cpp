@@ -220,6 +220,13 @@ Parameters Parameters::table(const std::string& key) const {
   return *table;
 }
 
+Parameters Parameters::takeTable(const std::string& key) const {
+  Parameters taken = table(key);
+  const auto found = table_->values.find(key);
+  if (found != table_->values.end()) found->second.value = Parameters(table_->where);
+  return taken;
+}
+
 std::vector<Parameters> Parameters::tables(const std::string& key) const {
   const Node* node = look(key);
   if (node == nullptr) return {};

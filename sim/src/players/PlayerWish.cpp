@@ -1,5 +1,6 @@
 #include "ortung/sim/PlayerWish.hpp"
 
+#include <set>
 #include <string_view>
 
 #include "ortung/base/Angles.hpp"
@@ -60,6 +61,7 @@ PlayerWish parsePlayer(const std::string& text) {
   const std::string where = "player '" + text + "'";
   wish.options = Parameters(where);
   Parameters own(where);
+  std::set<std::string> given;
   while (options && !options->empty()) {
     std::string_view option = *options;
     options = cut(option, '&');
@@ -67,7 +69,7 @@ PlayerWish parsePlayer(const std::string& text) {
     const std::string key(option);
     if (!value || key.empty()) refuse("'" + key + "' is no key=value");
     const bool isOwn = key == "robot" || key == "name" || key == "start" || key == "stage";
-    if (own.has(key) || wish.options.has(key)) refuse(key + " is given twice");
+    if (!given.insert(key).second) refuse(key + " is given twice");
     if (isOwn)
       own.set(key, std::string(*value));
     else
@@ -97,7 +99,7 @@ PlayerWish readPlayer(const Parameters& table, const std::filesystem::path& fold
     start.refuseUnread();
   }
   wish.seesStage = table.flagOr("stage", true);
-  wish.options = table.table("options");
+  wish.options = table.takeTable("options");  // what they may be the plugin says
   table.refuseUnread();
   return wish;
 }

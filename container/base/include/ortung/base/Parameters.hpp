@@ -70,6 +70,8 @@ class ORTUNG_API Parameters {
   std::vector<std::string> texts(const std::string& key) const;
   /// A table; empty (and has() false) if it is missing.
   Parameters table(const std::string& key) const;
+  /// The same for somebody else to read and to check: refuseUnread() here looks no more into it.
+  Parameters takeTable(const std::string& key) const;
   /// The tables of an array of tables, none if it is missing.
   std::vector<Parameters> tables(const std::string& key) const;
 

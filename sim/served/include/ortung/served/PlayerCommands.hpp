@@ -2,13 +2,14 @@
 
 #include <vector>
 
+#include "ortung/base/Export.hpp"
 #include "ortung/served/ServedSimulation.hpp"
 #include "ortung/server/BoardCommand.hpp"
 
-namespace ortung::app {
+namespace ortung {
 
 /// PLAY, STOP and PLAYERS: clients start, stop and list the players of a served simulation.
 /// @param simulation borrowed
-std::vector<BoardCommand> playerCommands(ServedSimulation& simulation);
+ORTUNG_API std::vector<BoardCommand> playerCommands(ServedSimulation& simulation);
 
-}  // namespace ortung::app
+}  // namespace ortung

@@ -1,11 +1,9 @@
-#include "PlayerCommands.hpp"
-
-#include <fmt/format.h>
+#include "ortung/served/PlayerCommands.hpp"
 
 #include "ortung/base/Time.hpp"
 #include "ortung/sim/PlayerWish.hpp"
 
-namespace ortung::app {
+namespace ortung {
 namespace {
 
 /// What a client wants, as the text of a player. It names shipped robot files only, never a path.
@@ -49,12 +47,12 @@ std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
   commands[2] = {"PLAYERS", "who plays", false, [&simulation](const BoardCommand::Call&) {
                    BoardCommand::Reply reply;
                    for (const PlayerControl::Seated& one : simulation.players())
-                     reply.lines.push_back(
-                         fmt::format("robot={} player={}{} since={}", one.robot, one.plugin,
-                                     one.team.empty() ? "" : " team=" + one.team, one.since));
+                     reply.lines.push_back("robot=" + one.robot + " player=" + one.plugin +
+                                           (one.team.empty() ? "" : " team=" + one.team) +
+                                           " since=" + std::to_string(one.since));
                    return reply;
                  }};
   return commands;
 }
 
-}  // namespace ortung::app
+}  // namespace ortung

@@ -1,0 +1,75 @@
+// Players of a served world: clients start, list and stop them, and see their robots come and go.
+#include <gtest/gtest.h>
+
+#include "Files.hpp"
+#include "RunningBoard.hpp"
+#include "TestClient.hpp"
+#include "ortung/served/PlayerCommands.hpp"
+#include "ortung/served/ServedSimulation.hpp"
+
+namespace ortung::test {
+namespace {
+
+const std::string kField = ORTUNG_SOURCE_DIR "/maps/fields/f2000.toml";
+const std::string kRobot = ORTUNG_SOURCE_DIR "/maps/robots/pioneer.toml";
+
+BoardConfig withPlayers(ServedSimulation& world) {
+  BoardConfig config = controlledConfig();
+  config.commands = playerCommands(world);
+  return config;
+}
+
+TEST(ServedPlayers, AreStartedListedAndStopped) {
+  ServedSimulation world(kField, {.noise = false});
+  const RunningBoard board(world, withPlayers(world));
+  TestClient client(board.port());
+  ASSERT_EQ(client.join(readBytes(kRobot), "guest").substr(0, 17), "OK CREATE robot=1");
+  EXPECT_EQ(client.ask("PLAYERS"), "OK PLAYERS");
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml speed_m_s=0.5 team=blue start=2,1,90"),
+            "OK PLAY robot=pioneer");
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml name=bert"), "OK PLAY robot=bert");
+  EXPECT_EQ(client.ask("PLAYERS"), "OK PLAYERS lines=2");
+  EXPECT_TRUE(client.line().starts_with("robot=pioneer player=wander team=blue since="));
+  EXPECT_TRUE(client.line().starts_with("robot=bert player=wander since="));
+  EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=3");
+  EXPECT_EQ(client.line(), "robot=1 name=guest client=1");
+  EXPECT_EQ(client.line(), "robot=2 name=pioneer client=0");
+  EXPECT_EQ(client.line(), "robot=3 name=bert client=0");
+  // Robots of clients have numbers of their own.
+  EXPECT_EQ(client.ask("CREATE late\n" + readBytes(kRobot) + "\n.").substr(0, 17),
+            "OK CREATE robot=4");
+  EXPECT_EQ(client.ask("VELOCITY v_m_s=1 robot=2"), "ERR not-yours robot 2 belongs to the world");
+  EXPECT_EQ(client.ask("STOP bert"), "OK STOP");
+  EXPECT_EQ(client.ask("STOP bert"),
+            "ERR no-player no player plays robot 'bert'; PLAYERS lists them");
+  EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=3");
+  for (int i = 0; i < 3; ++i) client.line();
+  EXPECT_TRUE(client.ask("READ robot=3").starts_with("ERR no-robot"));
+  EXPECT_TRUE(client.ask("RESET").starts_with("OK RESET"));
+  EXPECT_EQ(client.ask("PLAYERS"), "OK PLAYERS") << "the reset starts over";
+}
+
+TEST(ServedPlayers, ThatCantBeSayWhy) {
+  ServedSimulation world(kField, {.noise = false});
+  const RunningBoard board(world, withPlayers(world));
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1 name=anna role=operator");
+  EXPECT_TRUE(client.ask("PLAY").starts_with("ERR argument PLAY names one plugin"));
+  EXPECT_TRUE(client.ask("PLAY nobody").starts_with("ERR configuration there is no plugin"));
+  EXPECT_TRUE(client.ask("PLAY wander").starts_with("ERR argument the player 'wander' names no"));
+  EXPECT_TRUE(client.ask("PLAY wander robot=/etc/passwd").starts_with("ERR argument robot is"));
+  EXPECT_TRUE(client.ask("PLAY wander robot=../robots/pioneer.toml").starts_with("ERR argument"));
+  EXPECT_TRUE(
+      client.ask("PLAY wander robot=pioneer.toml speed=2").starts_with("ERR configuration"));
+  EXPECT_TRUE(
+      client.ask("PLAY wander robot=pioneer.toml speed_m_s=fast").starts_with("ERR configuration"));
+  EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml team=a@b").starts_with("ERR"));
+  EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml start=90,0,0").starts_with("ERR no-room"));
+  EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=0");
+  TestClient other(board.port());
+  other.ask("HELLO ortung/1 name=bert role=player");
+  EXPECT_TRUE(other.ask("PLAY wander robot=pioneer.toml").starts_with("ERR role"));
+}
+
+}  // namespace
+}  // namespace ortung::test

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "WorldFiles.hpp"
+#include "ortung/sim/PlayerWish.hpp"
+#include "ortung/sim/Scene.hpp"
+#include "ortung/sim/SceneRun.hpp"
+
+namespace ortung {
+namespace {
+
+TEST(PlayerWish, IsReadFromAText) {
+  const PlayerWish bare = parsePlayer("wander");
+  EXPECT_EQ(bare.plugin, "wander");
+  EXPECT_EQ(bare.team, "");
+  EXPECT_TRUE(bare.seesStage);
+  EXPECT_FALSE(bare.start);
+  const PlayerWish wish = parsePlayer(
+      "keeper:policy=blocking&robot=a@b/r.toml&speed_m_s=-0.5e0&start=1,-2,90&name=anna&stage=no&"
+      "way=1,2,3&loud=yes&empty=@blue");
+  EXPECT_EQ(wish.plugin, "keeper");
+  EXPECT_EQ(wish.team, "blue");
+  EXPECT_EQ(wish.robot, "a@b/r.toml");
+  EXPECT_EQ(wish.name, "anna");
+  EXPECT_FALSE(wish.seesStage);
+  ASSERT_TRUE(wish.start);
+  EXPECT_EQ(wish.start->x, 1.0);
+  EXPECT_NEAR(wish.start->theta, std::acos(0.0), 1e-12);
+  EXPECT_EQ(wish.options.text("policy"), "blocking");
+  EXPECT_EQ(wish.options.number("speed_m_s"), -0.5);
+  EXPECT_EQ(wish.options.numbers("way"), (std::vector<double>{1, 2, 3}));
+  EXPECT_TRUE(wish.options.flagOr("loud", false));
+  EXPECT_EQ(wish.options.text("empty"), "");
+  EXPECT_NO_THROW(wish.options.refuseUnread());
+}
+
+TEST(PlayerWish, ThatCantBeReadSaysWhy) {
+  for (const auto& [text, why] :
+       std::vector<std::pair<std::string, std::string>>{{"", "names no plugin"},
+                                                        {":a=1", "names no plugin"},
+                                                        {"x@", "no name of a team"},
+                                                        {"x@red blue", "no name of a team"},
+                                                        {"x:a", "'a' is no key=value"},
+                                                        {"x:=1", "is no key=value"},
+                                                        {"x:a=1&&b=2", "is no key=value"},
+                                                        {"x:a=1&a=2", "a is given twice"},
+                                                        {"x:name=a&name=b", "name is given twice"},
+                                                        {"x:start=1", "start"},
+                                                        {"x:stage=perhaps", "stage"}}) {
+    SCOPED_TRACE(text);
+    try {
+      parsePlayer(text);
+      ADD_FAILURE() << "was taken";
+    } catch (const ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  }
+}
+
+/// A scene of two players, and what is wrong with it.
+std::string sceneWith(const std::string& player) {
+  return "[scene]\nworld = \"w.toml\"\n[[player]]\nplugin = \"wander\"\nrobot = \"r.toml\"\n"
+         "team = \"blue\"\nstart = { x_m = 1, y_m = 2, theta_deg = 90 }\noptions = { speed_m_s = "
+         "0.3 }\n[[player]]\n" +
+         player;
+}
+
+TEST(PlayerWish, IsReadFromAScene) {
+  const test::TemporaryFolder folder;
+  folder.write("w.toml",
+               "[world]\nx_m = [-8, 8]\ny_m = [-8, 8]\n[[rectangle]]\ncenter_m = [-7.9, "
+               "-7.9]\nsize_m = [0.1, 0.1]\n");
+  folder.write("r.toml",
+               "[robot]\nname = \"anna\"\nradius_m = 0.2\n[[sensor]]\nplugin = \"odometry\"\n");
+  PluginFactory factory(PluginFactory::standardFolders());
+  const Scene scene =
+      Scene::read(folder.write("s.toml", sceneWith("plugin = \"wander\"\nrobot = \"r.toml\"\n")));
+  SceneRun run(scene, {}, factory);
+  const auto players = run.players().players();
+  ASSERT_EQ(players.size(), 2u);
+  EXPECT_EQ(players[0].robot, "anna");
+  EXPECT_EQ(players[0].team, "blue");
+  EXPECT_EQ(players[1].robot, "anna-2");
+  EXPECT_FALSE(players[1].isGuest);
+  EXPECT_EQ(run.simulation().robots()[0]->state().pose.y, 2.0);
+  for (int i = 0; i < 300; ++i) run.step();
+  const Twist velocity = run.simulation().robots()[0]->state().velocity;
+  EXPECT_LT(std::hypot(velocity.x, velocity.y), 0.32);
+
+  for (const auto& [player, why] : std::vector<std::pair<std::string, std::string>>{
+           {"plugin = \"wander\"\n", "names no robot file"},
+           {"plugin = \"wander\"\nrobot = \"none.toml\"\n", "none.toml"},
+           {"plugin = \"nobody\"\nrobot = \"r.toml\"\n", "nobody"},
+           {"plugin = \"wander\"\nrobot = \"r.toml\"\noptions = { speed = 1 }\n", "speed"},
+           {"plugin = \"wander\"\nrobot = \"r.toml\"\noptions = { speed_m_s = \"x\" }\n",
+            "speed_m_s"},
+           {"plugin = \"wander\"\nrobot = \"r.toml\"\nspeed = 1\n", "speed"},
+           {"plugin = \"wander\"\nrobot = \"r.toml\"\nname = \"anna\"\n", "anna"},
+           {"plugin = \"wander\"\nrobot = \"r.toml\"\nteam = \"a b\"\n", "team"}}) {
+    SCOPED_TRACE(player);
+    try {
+      const Scene bad = Scene::read(folder.write("b.toml", sceneWith(player)));
+      SceneRun(bad, {}, factory);
+      ADD_FAILURE() << "was taken";
+    } catch (const std::exception& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ortung
