@@ -240,6 +240,8 @@ void addSim(Builder& build, CLI::App& app) {
           "and stage (yes, no) are for all, `ortung plugins` shows the others; may be given again")
       ->expected(1)
       ->take_all();
+  build.option("--referee", a->referee,
+               "PLUGIN[:key=value&key=value...]: who sees to the rules, e.g. soccer:league=msl");
   build
       .option("--player-budget-ms", a->playerBudgetMs,
               "What a player may take of a processor for one call before it is stopped [ms]; 0: as "

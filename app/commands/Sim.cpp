@@ -46,6 +46,7 @@ Scene sceneOf(const SimArguments& arguments) {
     throw UsageError(
         fmt::format("there are {} robots, {} of them by --robot and --player; expected at most {}",
                     all, more, Scene::kMostRobots));
+  if (!arguments.referee.empty()) scene.referee = parseReferee(arguments.referee);
   for (const std::string& text : arguments.players) scene.players.push_back(parsePlayer(text));
   for (const std::filesystem::path& file : arguments.robots) {
     const std::string name = readRobot(file).name;
@@ -174,6 +175,12 @@ struct Recording {
   }
 };
 
+void print(const std::vector<RefereeEvent>& events) {
+  for (const RefereeEvent& event : events)
+    fmt::print("{:9.2f} s  {}{}: {}\n", toSeconds(event.stamp), printable(event.what),
+               event.team.empty() ? "" : " " + printable(event.team), printable(event.text));
+}
+
 int play(const SimArguments& arguments) {
   const Outputs outputs = outputsOf(arguments);
   const Scene scene = sceneOf(arguments);
@@ -199,6 +206,7 @@ int play(const SimArguments& arguments) {
         recording.trace->add(simulation);
       }
       run.step();
+      if (run.referee() != nullptr) print(run.referee()->takeEvents());
       ++cycles;
       {
         const auto held = rescue.hold();

@@ -28,10 +28,21 @@ PlayerWish wishOf(const BoardCommand::Call& call) {
   return parsePlayer(text + team);
 }
 
+/// "phase=ready restart=kick-off restart_of=blue half=1 clock_s=12.5 blue=0 yellow=1 left=blue".
+std::string textOf(const Game& game) {
+  std::string text =
+      "phase=" + std::string(nameOf(game.phase)) + " restart=" + std::string(nameOf(game.restart));
+  if (game.restartOf) text += " restart_of=" + game.teams.at(*game.restartOf).name;
+  text += " half=" + std::to_string(game.half) + " clock_s=" + std::to_string(game.clock);
+  for (const Game::Team& team : game.teams)
+    text += " " + team.name + "=" + std::to_string(team.score);
+  return text + " left=" + game.teams.at(game.teamOnTheLeft).name;
+}
+
 }  // namespace
 
 std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
-  std::vector<BoardCommand> commands(3);
+  std::vector<BoardCommand> commands(5);
   commands[0] = {"PLAY",
                  "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
                  true, [&simulation](const BoardCommand::Call& call) {
@@ -51,6 +62,17 @@ std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
                                            (one.team.empty() ? "" : " team=" + one.team) +
                                            " since=" + std::to_string(one.since));
                    return reply;
+                 }};
+  commands[3] = {"REFEREE", "ORDER: e.g. start, stop, kick-off blue", true,
+                 [&simulation](const BoardCommand::Call& call) {
+                   std::string order;
+                   for (const std::string& word : call.words)
+                     order += (order.empty() ? "" : " ") + word;
+                   simulation.orderReferee(order);
+                   return BoardCommand::Reply{};
+                 }};
+  commands[4] = {"GAME", "how the game stands", false, [&simulation](const BoardCommand::Call&) {
+                   return BoardCommand::Reply{textOf(simulation.game()), {}};
                  }};
   return commands;
 }

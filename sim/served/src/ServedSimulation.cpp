@@ -152,6 +152,11 @@ void ServedSimulation::stopPlayer(const std::string& robot) {
   dropLeavers();
 }
 
+void ServedSimulation::orderReferee(const std::string& order) {
+  if (run_->referee() == nullptr) throw ServeError("no-referee", "nobody referees here");
+  run_->referee()->order(order);
+}
+
 bool ServedSimulation::hasWanderer(const RobotSize& size) const {
   return std::any_of(guests_.begin(), guests_.end(), [&](const auto& entry) {
     const Guest& guest = *entry.second;

@@ -216,7 +216,10 @@ void PlayerControl::clear() {
   });
 }
 
-Stage& PlayerControl::stage() { return parts_->stage; }
+Stage& PlayerControl::stage() {
+  parts_->stage.forget();
+  return parts_->stage;
+}
 
 void PlayerControl::setTeam(std::string_view robot, std::string_view team) {
   parts_->teams[std::string(robot)] = team;

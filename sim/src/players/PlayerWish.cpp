@@ -82,6 +82,13 @@ PlayerWish parsePlayer(const std::string& text) {
   return wish;
 }
 
+RefereeWish parseReferee(const std::string& text) {
+  const PlayerWish wish = parsePlayer(text);
+  if (!wish.team.empty() || !wish.name.empty() || !wish.robot.empty() || wish.start)
+    throw ConfigError("referee '" + text + "': has no team, name, robot and start");
+  return {wish.plugin, wish.options};
+}
+
 PlayerWish readPlayer(const Parameters& table, const std::filesystem::path& folder) {
   PlayerWish wish;
   wish.plugin = table.text("plugin");

@@ -116,6 +116,10 @@ Scene Scene::read(const std::filesystem::path& file) {
   for (const Parameters& table :
        readTables(toml, "player", Scene::kMostRobots - scene.robots.size()))
     scene.players.push_back(readPlayer(table, folder));
+  if (toml.has("referee")) {
+    const Parameters table = toml.table("referee");
+    scene.referee = RefereeWish{table.text("plugin"), table.takeTable("options")};
+  }
   if (scene.robots.empty() && scene.players.empty())
     toml.fail("robot", "is missing: a scene has at least one [[robot]] or [[player]]");
   for (const Parameters& table : readTables(toml, "command", kMostCommands))

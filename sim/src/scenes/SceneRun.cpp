@@ -79,7 +79,10 @@ SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginF
       simulation_(std::make_unique<Simulation>(readWorld(scene.world), config)),
       factory_(factory),
       plans_(std::make_unique<FloorPlans>(simulation_->world())),
+      playerConfig_(players),
       players_(std::make_unique<PlayerControl>(*simulation_, *plans_, factory, players)) {
+  if (scene_.referee)
+    referee_ = factory.make<Referee>(scene_.referee->plugin, scene_.referee->options);
   // Those with a place of their own first, so that nobody stands there already.
   for (const bool hasStart : {true, false})
     for (std::size_t i = 0; i < scene_.robots.size(); ++i)
@@ -196,12 +199,36 @@ void SceneRun::act() {
     obey(scene_.commands[nextCommand_++]);
   for (Kidnapped& kidnapped : kidnapped_) kidnap(kidnapped);
   simulation_->sense();
-  players_->act({});
+  watch();
+  players_->act(game_);
 }
 
 void SceneRun::move() {
   simulation_->move();
   players_->clear();
+}
+
+/// A referee that fails goes; the game goes on without one.
+void SceneRun::watch() {
+  if (!referee_) return;
+  std::string why;
+  try {
+    game_ = referee_->watch(players_->stage());
+    for (const auto& robot : simulation_->robots())
+      robot->hold(referee_->holds(robot->config().name));
+    return;
+  } catch (const std::exception& error) {
+    why = error.what();
+  } catch (...) {
+    why = "it threw no std::exception";
+  }
+  if (playerConfig_.onProblem)
+    playerConfig_.onProblem("at " + std::to_string(toSeconds(simulation_->now())) +
+                            " s: the referee '" + scene_.referee->plugin + "': " + why +
+                            "; the game goes on without it");
+  referee_.reset();
+  game_ = {};
+  for (const auto& robot : simulation_->robots()) robot->hold(false);
 }
 
 void SceneRun::put(const ScenePlacement& placement) {

@@ -21,6 +21,15 @@ struct PlayerWish {
   bool seesStage = true;        ///< whether it may look at the world's state and change it
 };
 
+/// A referee that is to watch.
+struct RefereeWish {
+  std::string plugin;
+  Parameters options;  ///< of the plugin
+};
+
+/// Reads "PLUGIN[:key=value&key=value...]", e.g. "soccer:league=msl". @throws ConfigError
+ORTUNG_API RefereeWish parseReferee(const std::string& text);
+
 /// Reads "PLUGIN[:key=value&key=value...][@TEAM]", e.g. "goalkeeper:policy=blocking@blue". `robot`
 /// (file), `name`, `start` (x,y,theta in metres and degrees) and `stage` (yes, no) are for whoever
 /// starts it, all others for the plugin: numbers, yes and no, and texts.

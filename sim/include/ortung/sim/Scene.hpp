@@ -52,7 +52,8 @@ struct Scene {
   std::filesystem::path world;
   std::optional<double> duration;  ///< [s]
   std::vector<SceneRobot> robots;
-  std::vector<PlayerWish> players;         ///< on robots of their own
+  std::vector<PlayerWish> players;  ///< on robots of their own
+  std::optional<RefereeWish> referee;
   std::vector<SceneCommand> commands;      ///< in the order of time
   std::vector<ScenePlacement> placements;  ///< in the order of time
 

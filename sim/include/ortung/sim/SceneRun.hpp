@@ -12,6 +12,7 @@
 #include "ortung/sim/PlayerControl.hpp"
 #include "ortung/sim/Scene.hpp"
 #include "ortung/sim/Simulation.hpp"
+#include "ortung/sim_api/Referee.hpp"
 
 namespace ortung {
 
@@ -56,6 +57,10 @@ class ORTUNG_API SceneRun {
   std::size_t entrants() const { return scene_.robots.size() + scene_.players.size(); }
   PlayerControl& players() { return *players_; }
   const PlayerControl& players() const { return *players_; }
+  /// Who sees to the rules, or null.
+  Referee* referee() { return referee_.get(); }
+  /// How the game stands; free if nobody referees.
+  const Game& game() const { return game_; }
   /// Lets a robot drive about by itself. @param number as for addRobot() @param speed at most [m/s]
   void letWander(SimRobot& robot, std::uint64_t number, std::optional<double> speed = std::nullopt);
   /// Plans of the floor, of the scene's robots and those of others.
@@ -72,6 +77,7 @@ class ORTUNG_API SceneRun {
   void addRobot(const SceneRobot& robot, std::size_t place, PluginFactory& factory);
   SimRobot& enter(const RobotConfig& config, PluginFactory& factory,
                   const std::optional<Pose2>& start, Random& placing);
+  void watch();
   void kidnap(Kidnapped& kidnapped);
   void obey(const SceneCommand& command);
   void put(const ScenePlacement& placement);
@@ -83,7 +89,10 @@ class ORTUNG_API SceneRun {
   std::unique_ptr<Simulation> simulation_;
   PluginFactory& factory_;
   std::unique_ptr<FloorPlans> plans_;
+  PlayerControl::Config playerConfig_;
   std::unique_ptr<PlayerControl> players_;
+  std::unique_ptr<Referee> referee_;
+  Game game_;
   std::vector<Kidnapped> kidnapped_;
   std::size_t nextCommand_ = 0;
   std::size_t nextPlacement_ = 0;

@@ -47,6 +47,9 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   std::string startPlayer(const PlayerWish& wish);
   /// Ends the player on a robot. @throws ServeError if there is none
   void stopPlayer(const std::string& robot);
+  /// @throws ServeError if nobody referees; std::invalid_argument for an order that is none
+  void orderReferee(const std::string& order);
+  const Game& game() const { return run_->game(); }
   std::vector<PlayerControl::Seated> players() const { return run_->players().players(); }
 
  private:
