@@ -71,5 +71,34 @@ TEST(ServedPlayers, ThatCantBeSayWhy) {
   EXPECT_TRUE(other.ask("PLAY wander robot=pioneer.toml").starts_with("ERR role"));
 }
 
+TEST(ServedPlayers, AReferee) {
+  Scene scene = Scene::open(kField);
+  scene.referee = parseReferee("soccer:league=f2000");
+  ServedSimulation world(scene, {.noise = false});
+  const RunningBoard board(world, withPlayers(world));
+  TestClient client(board.port());
+  client.join(readBytes(kRobot), "guest");
+  client.ask("LOCKSTEP on");
+  client.ask("PLAY wander robot=pioneer.toml team=blue start=-3,2,0");
+  EXPECT_TRUE(client.ask("NEXT none/none/none").starts_with("OK NEXT"));
+  const std::string game = client.ask("GAME");
+  EXPECT_TRUE(game.starts_with("OK GAME phase=")) << game;
+  EXPECT_NE(game.find(" half=1 "), std::string::npos) << game;
+  EXPECT_NE(game.find(" blue=0 yellow=0 left=blue"), std::string::npos) << game;
+  EXPECT_TRUE(client.ask("REFEREE fly away").starts_with("ERR argument"));
+  EXPECT_EQ(client.ask("REFEREE stop"), "OK REFEREE");
+  EXPECT_TRUE(client.ask("NEXT none/none/none").starts_with("OK NEXT"));
+  EXPECT_TRUE(client.ask("GAME").starts_with("OK GAME phase=stopped"));
+}
+
+TEST(ServedPlayers, WithoutARefereeOrdersAreRefused) {
+  ServedSimulation world(kField, {.noise = false});
+  const RunningBoard board(world, withPlayers(world));
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1 name=anna role=operator");
+  EXPECT_EQ(client.ask("REFEREE stop"), "ERR no-referee nobody referees here");
+  EXPECT_TRUE(client.ask("GAME").starts_with("OK GAME phase=free"));
+}
+
 }  // namespace
 }  // namespace ortung::test

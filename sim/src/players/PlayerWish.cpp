@@ -39,12 +39,11 @@ bool isTeam(const std::string& name) {
              std::string::npos;
 }
 
-}  // namespace
-
-PlayerWish parsePlayer(const std::string& text) {
+/// @param kind what the text is of: "player"
+PlayerWish parse(const std::string& kind, const std::string& text) {
+  const std::string where = kind + " '" + text + "'";
   const auto refuse = [&](const std::string& why) {
-    throw ConfigError("player '" + text + "': " + why +
-                      ", expected PLUGIN[:key=value&key=value...][@TEAM]");
+    throw ConfigError(where + ": " + why + ", expected PLUGIN[:key=value&key=value...][@TEAM]");
   };
   std::string_view rest = text;
   PlayerWish wish;
@@ -58,7 +57,6 @@ PlayerWish parsePlayer(const std::string& text) {
   std::optional<std::string_view> options = cut(rest, ':');
   wish.plugin = rest;
   if (wish.plugin.empty()) refuse("it names no plugin");
-  const std::string where = "player '" + text + "'";
   wish.options = Parameters(where);
   Parameters own(where);
   std::set<std::string> given;
@@ -82,8 +80,12 @@ PlayerWish parsePlayer(const std::string& text) {
   return wish;
 }
 
+}  // namespace
+
+PlayerWish parsePlayer(const std::string& text) { return parse("player", text); }
+
 RefereeWish parseReferee(const std::string& text) {
-  const PlayerWish wish = parsePlayer(text);
+  const PlayerWish wish = parse("referee", text);
   if (!wish.team.empty() || !wish.name.empty() || !wish.robot.empty() || wish.start)
     throw ConfigError("referee '" + text + "': has no team, name, robot and start");
   return {wish.plugin, wish.options};
