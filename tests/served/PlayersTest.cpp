@@ -65,7 +65,11 @@ TEST(ServedPlayers, ThatCantBeSayWhy) {
       client.ask("PLAY wander robot=pioneer.toml speed_m_s=fast").starts_with("ERR configuration"));
   EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml team=a@b").starts_with("ERR"));
   EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml start=90,0,0").starts_with("ERR no-room"));
+  EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml stage=no").starts_with("ERR argument"));
   EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=0");
+  client.ask("CREATE guest\n" + readBytes(kRobot) + "\n.");
+  EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=1") << "and nobody stands about";
+  client.line();
   TestClient other(board.port());
   other.ask("HELLO ortung/1 name=bert role=player");
   EXPECT_TRUE(other.ask("PLAY wander robot=pioneer.toml").starts_with("ERR role"));

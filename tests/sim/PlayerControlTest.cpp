@@ -7,6 +7,7 @@
 
 #include "FakeWorld.hpp"
 #include "WorldFiles.hpp"
+#include "ortung/core/PluginGuard.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/PlayerControl.hpp"
 
@@ -262,6 +263,35 @@ TEST(PlayerControl, CarriesWhatIsSaidToTheTeamInTheNextCycle) {
   EXPECT_EQ(heard,
             (std::vector<std::string>{"early@30000:anna@20000 mine", "late@30000:anna@20000 mine",
                                       "slow@50000:anna@20000 mine"}));
+}
+
+/// Wants what nobody can give, or throws when it is asked.
+struct Demanding : ScriptedPlayer {
+  Demanding(double period, bool throws)
+      : ScriptedPlayer([](PlayerSeat&) { return true; }, period), throws_(throws) {}
+  bool needsStage() const override {
+    if (throws_) throw 5;
+    return false;
+  }
+
+ private:
+  bool throws_;
+};
+
+TEST(PlayerControl, APlayerThatWantsWhatIsNoneIsRefusedByName) {
+  Field field;
+  SimRobot& robot = field.simulation.addRobot(robotNamed("anna"), field.factory, {});
+  PlayerWish wish;
+  wish.plugin = "demanding";
+  for (const double period : {-1.0, std::nan(""), HUGE_VAL, 0.0}) {
+    try {
+      field.players.own(robot, std::make_unique<Demanding>(period, period == 0.0), wish, Random(1));
+      ADD_FAILURE() << period;
+    } catch (const PluginFailure& failure) {
+      EXPECT_NE(std::string(failure.what()).find("the player 'demanding'"), std::string::npos);
+    }
+  }
+  EXPECT_TRUE(field.players.isEmpty());
 }
 
 TEST(PlayerControl, OneRobotHasOnePlayer) {

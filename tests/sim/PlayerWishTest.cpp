@@ -97,7 +97,9 @@ TEST(PlayerWish, IsReadFromAScene) {
             "speed_m_s"},
            {"plugin = \"wander\"\nrobot = \"r.toml\"\nspeed = 1\n", "speed"},
            {"plugin = \"wander\"\nrobot = \"r.toml\"\nname = \"anna\"\n", "anna"},
-           {"plugin = \"wander\"\nrobot = \"r.toml\"\nteam = \"a b\"\n", "team"}}) {
+           {"plugin = \"wander\"\nrobot = \"r.toml\"\nteam = \"a b\"\n", "team"},
+           {"plugin = \"wander\"\nrobot = \"r.toml\"\nname = \"a b\"\n", "[A-Za-z0-9_-]"},
+           {"plugin = \"wander\"\nrobot = \"r.toml\"\nstage = false\n", "state"}}) {
     SCOPED_TRACE(player);
     try {
       const Scene bad = Scene::read(folder.write("b.toml", sceneWith(player)));

@@ -30,6 +30,18 @@ std::string PlayerGuard::overdue(const char* what, double taken) const {
          " s of a processor, expected at most " + std::to_string(budget_) + " s";
 }
 
+PlayerNeeds needsOf(const Player& player, const std::string& plugin) {
+  constexpr double kLongest = 1e6;  // [s]
+  const PluginGuard guard("the player '" + plugin + "'");
+  PlayerNeeds needs;
+  guard("robotFile", [&] { needs.robotFile = player.robotFile(); });
+  guard("needsStage", [&] { needs.stage = player.needsStage(); });
+  guard("period", [&] { needs.period = player.period(); });
+  if (!(needs.period >= 0.0 && needs.period <= kLongest))
+    guard.fail("period", "is " + std::to_string(needs.period) + ", must be in [0, 1e6] s");
+  return needs;
+}
+
 void checkSaid(std::string_view text) {
   if (text.size() > kMostText)
     throw std::invalid_argument("has " + std::to_string(text.size()) +

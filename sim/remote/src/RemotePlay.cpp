@@ -17,12 +17,12 @@ constexpr std::uint64_t kStream = 1;            // of the player's random number
 constexpr std::chrono::milliseconds kPause{5};  // before it is asked again what is new
 constexpr std::chrono::seconds kPatience{60};   // without a reading
 
-std::filesystem::path robotFileOf(const Player& player, const RemotePlayConfig& config) {
-  if (player.needsStage())
+std::filesystem::path robotFileOf(const PlayerNeeds& needs, const RemotePlayConfig& config) {
+  if (needs.stage)
     throw std::invalid_argument("the player '" + config.plugin +
                                 "' needs the world's state, which clients of a server do not see; "
                                 "it plays in the simulator only (ortung sim --player)");
-  const std::filesystem::path file = config.robot.empty() ? player.robotFile() : config.robot;
+  const std::filesystem::path file = config.robot.empty() ? needs.robotFile : config.robot;
   if (file.empty())
     throw std::invalid_argument("the player '" + config.plugin +
                                 "' names no robot file, so one must be given (robot=FILE)");
@@ -48,6 +48,7 @@ struct RemotePlay::Parts {
 
   RemotePlayConfig config;
   std::unique_ptr<Player> player;
+  PlayerNeeds needs;
   RemoteRobot robot;
   PlayerGuard guard;
   remote::RemoteSeat seat;
@@ -56,10 +57,11 @@ struct RemotePlay::Parts {
   Parts(std::unique_ptr<Player> given, const RemotePlayConfig& c)
       : config(c),
         player(std::move(given)),
-        robot(robotFileOf(*player, config), optionsOf(config)),
+        needs(needsOf(*player, config.plugin)),
+        robot(robotFileOf(needs, config), optionsOf(config)),
         guard(config.plugin, config.session.name, config.budget),
         seat(robot, config.session.name, config.team, readField(), Random(config.seed, kStream)),
-        period(fromSeconds(std::clamp(player->period(), 0.0, 1e6))) {}
+        period(fromSeconds(needs.period)) {}
 
   FieldModel readField() {
     if (config.tables.empty()) return {};

@@ -137,8 +137,14 @@ std::string ServedSimulation::startPlayer(const PlayerWish& wish) {
   finishCycle();
   try {
     SimRobot& robot = run_->addPlayer(wish, entered_++);
+    const std::string name = robot.config().name;
     addResident(robot);
-    return robot.config().name;
+    run_->players().clear();
+    dropLeavers();
+    if (!run_->find(name))
+      throw ServeError(
+          "player", "the player '" + wish.plugin + "' failed when it began; the server says why");
+    return name;
   } catch (const NoRoom& error) {
     throw ServeError("no-room", error.what());
   }

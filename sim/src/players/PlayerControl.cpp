@@ -76,7 +76,8 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
     if (!one->isOver && one->number == robot.state().number)
       throw std::invalid_argument("robot " + name + ": the player '" + one->plugin +
                                   "' plays it already, so '" + wish.plugin + "' can't");
-  if (player->needsStage() && !wish.seesStage)
+  const PlayerNeeds needs = needsOf(*player, wish.plugin);
+  if (needs.stage && !wish.seesStage)
     throw std::invalid_argument("robot " + name + ": the player '" + wish.plugin +
                                 "' needs the world's state, which it is not to see");
   auto seating = std::make_unique<Seating>();
@@ -87,7 +88,7 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
                                 [this, name](std::string_view text) { say(name, text); });
   seating->player = std::move(player);
   seating->since = simulation.now();
-  seating->period = fromSeconds(std::clamp(seating->player->period(), 0.0, 1e6));
+  seating->period = fromSeconds(needs.period);
   seating->due = simulation.now();
   seating->orders = robot.orders();
   seating->number = robot.state().number;

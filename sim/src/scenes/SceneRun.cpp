@@ -4,8 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "PrimitiveFile.hpp"
 #include "ortung/core/PluginGuard.hpp"
 #include "ortung/core/ShippedFiles.hpp"
+#include "ortung/sim_api/PlayerGuard.hpp"
 
 namespace ortung {
 namespace {
@@ -138,17 +140,26 @@ void SceneRun::letWander(SimRobot& robot, std::uint64_t number, std::optional<do
 
 SimRobot& SceneRun::addPlayer(const PlayerWish& wish, std::uint64_t number) {
   std::unique_ptr<Player> player = players_->make(wish);
-  const std::filesystem::path file = wish.robot.empty() ? player->robotFile() : wish.robot;
+  const std::filesystem::path file =
+      wish.robot.empty() ? needsOf(*player, wish.plugin).robotFile : wish.robot;
   if (file.empty())
     throw std::invalid_argument("the player '" + wish.plugin +
                                 "' names no robot file, so one must be given (robot=FILE)");
   RobotConfig config = readRobot(shippedFile("robots", file));
+  if (!wish.name.empty() && !isWord(wish.name))
+    throw std::invalid_argument("the player '" + wish.plugin + "': the name of its robot is '" +
+                                wish.name + "', expected [A-Za-z0-9_-]{1,64}");
   if (!wish.name.empty()) config.name = wish.name;
   const std::string name = config.name;
   for (int i = 2; wish.name.empty() && find(config.name); ++i)
     config.name = name + "-" + std::to_string(i);
   SimRobot& robot = addRobot(config, factory_, wish.start, number);
-  players_->own(robot, std::move(player), wish, simulation_->random(2 * number + 1));
+  try {
+    players_->own(robot, std::move(player), wish, simulation_->random(2 * number + 1));
+  } catch (...) {  // nobody plays it
+    simulation_->removeRobot(robot);
+    throw;
+  }
   return robot;
 }
 

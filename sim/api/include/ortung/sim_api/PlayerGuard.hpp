@@ -1,11 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/PluginGuard.hpp"
+#include "ortung/sim_api/Player.hpp"
 
 namespace ortung {
 
@@ -40,6 +42,15 @@ class ORTUNG_API PlayerGuard {
   double budget_;
   PluginGuard guard_;
 };
+
+/// What a player wants before it takes its seat.
+struct PlayerNeeds {
+  std::filesystem::path robotFile;  ///< empty: whoever starts it says which
+  double period = 0.0;              ///< [s]
+  bool stage = false;
+};
+/// Asks it. @throws PluginFailure that names it for what it throws and for a period that is none
+ORTUNG_API PlayerNeeds needsOf(const Player& player, const std::string& plugin);
 
 /// @throws std::invalid_argument for what PlayerSeat::say() refuses
 ORTUNG_API void checkSaid(std::string_view text);
