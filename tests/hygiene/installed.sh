@@ -61,6 +61,18 @@ ln -s "$prefix/bin/ortung" ortung
 ortung=./ortung
 "$ortung" plugins > plugins.txt || fail "$(cat plugins.txt)"
 [ "$(grep -c "^$prefix.*\.so$" plugins.txt)" = "$(ls "$lib"/ortung/plugins | wc -l)" ] || fail "$(cat plugins.txt)"
+
+# The player of docs/players.md as a project of its own, which plays with what is installed.
+mkdir "$work/shy"
+awk -v folder="$work/shy/" '/^`ShyPlayer.cpp`/ { file = "ShyPlayer.cpp" } /^```cmake/ { file = "CMakeLists.txt" }
+  /^```$/ { writes = 0 } writes { print > (folder file) } /^```(cpp|cmake)$/ && file != "" { writes = 1 }' "$source/docs/players.md"
+"$cmake" -S "$work/shy" -B "$work/shy/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+  > "$work/configure.log" 2>&1 || fail "$(cat "$work/configure.log")"
+"$cmake" --build "$work/shy/build" > "$work/build.log" 2>&1 || fail "$(cat "$work/build.log")"
+ORTUNG_PLUGIN_PATH="$work/shy/build" "$ortung" sim world.toml --player 'shy:near_m=0.5@blue' --duration 5 --free-run > played.txt ||
+  fail "the player of docs/players.md does not play"
+grep -q '1 robots' played.txt || fail "$(cat played.txt)"
+
 "$ortung" learn --world world.toml --robot robot.toml --out tables.ortung
 "$ortung" import sim world.toml --with-robot robot.toml --option duration=10 --option seed=3 --out run.rec
 "$ortung" localize --source record:run.rec --robot robot.toml --tables tables.ortung |
