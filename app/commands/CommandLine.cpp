@@ -242,6 +242,9 @@ void addSim(Builder& build, CLI::App& app) {
       ->take_all();
   build.option("--referee", a->referee,
                "PLUGIN[:key=value&key=value...]: who sees to the rules, e.g. soccer:league=msl");
+  build.option("--refbox", a->refBox,
+               "HOST[:PORT][@TEAM]: a RefBox of the Middle Size League leads the game; it is told "
+               "of TEAM (blue). With --referee soccer:control=orders");
   build
       .option("--player-budget-ms", a->playerBudgetMs,
               "What a player may take of a processor for one call before it is stopped [ms]; 0: as "

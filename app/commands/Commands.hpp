@@ -168,6 +168,7 @@ struct SimArguments {
   std::vector<std::filesystem::path> robots;  ///< robot files: they wander about
   std::vector<std::string> players;           ///< as parsePlayer() reads them
   std::string referee;                        ///< as parseReferee() reads it; "": nobody
+  std::string refBox;                         ///< HOST[:PORT][@TEAM]; "": none
   double playerBudgetMs = 1000.0;             ///< of a processor's time for one call; 0: none
   std::optional<double> duration;             ///< [s]; default: the scene's, or until a signal
   std::filesystem::path record;               ///< "" for none

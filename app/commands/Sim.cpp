@@ -12,6 +12,7 @@
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
+#include "RefBoxLink.hpp"
 #include "Rescue.hpp"
 #include "Serving.hpp"
 #include "ortung/base/Angles.hpp"
@@ -179,6 +180,7 @@ void print(const std::vector<RefereeEvent>& events) {
   for (const RefereeEvent& event : events)
     fmt::print("{:9.2f} s  {}{}: {}\n", toSeconds(event.stamp), printable(event.what),
                event.team.empty() ? "" : " " + printable(event.team), printable(event.text));
+  if (!events.empty()) flushOutput();
 }
 
 int play(const SimArguments& arguments) {
@@ -194,6 +196,8 @@ int play(const SimArguments& arguments) {
   SceneRun run(scene, config, factory, playersOf(arguments, config.onProblem));
   Simulation& simulation = run.simulation();
   Recording recording(arguments, outputs, scene, run);
+  std::optional<RefBoxLink> box;
+  if (!arguments.refBox.empty()) box.emplace(arguments.refBox, run);
   const std::optional<double> duration = arguments.duration ? arguments.duration : scene.duration;
   Rescue rescue([&] { recording.commit(); });
   const Pacing pacing(arguments.serving);
@@ -205,6 +209,7 @@ int play(const SimArguments& arguments) {
         const auto held = rescue.hold();
         recording.trace->add(simulation);
       }
+      if (box) box->poll(pacing.elapsed());
       run.step();
       if (run.referee() != nullptr) print(run.referee()->takeEvents());
       ++cycles;
@@ -246,6 +251,8 @@ int runSim(const SimArguments& arguments) {
     throw UsageError(
         "--record, --trace and --duration do not fit --listen: clients keep their own records, and "
         "the server runs until it is stopped");
+  if (!arguments.refBox.empty())
+    throw UsageError("--refbox does not fit --listen: clients order the referee there (REFEREE)");
   Simulation::Config config = configOf(arguments);
   config.onProblem = warn;
   ServedSimulation simulation(sceneOf(arguments), config, playersOf(arguments, warn));

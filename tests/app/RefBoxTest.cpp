@@ -1,0 +1,61 @@
+// `ortung sim --refbox`: a box of the league leads a simulated game.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "Program.hpp"
+#include "StandInBox.hpp"
+
+namespace ortung::test {
+namespace {
+
+const std::string kField = ORTUNG_SOURCE_DIR "/maps/fields/f2000.toml";
+
+std::vector<std::string> game(const std::string& box) {
+  return {"sim",        kField,
+          "--referee",  "soccer:control=orders",
+          "--player",   "wander:robot=pioneer.toml&start=-3,2,0@blue",
+          "--duration", "60",
+          "--no-noise", "--refbox",
+          box};
+}
+
+TEST(RefBox, LeadsASimulatedGame) {
+  StandInBox box;
+  Program program(game("127.0.0.1:" + std::to_string(box.port())));
+  for (int i = 0; i < 30'000 && !box.hasClient(); ++i) box.look();
+  ASSERT_TRUE(box.hasClient());
+  box.command("WELCOME", "224.16.32.10");
+  box.command("FIRST_HALF");
+  box.command("KICKOFF", "224.16.32.10");
+  box.say("no JSON");
+  const std::string out = program.waitForOutput("kick-off blue");
+  EXPECT_NE(out.find("kick-off blue"), std::string::npos) << out;
+  box.command("START");
+  EXPECT_NE(program.waitForOutput("start").find("start"), std::string::npos);
+  for (int i = 0; i < 30'000 && box.messages().empty(); ++i) box.look();
+  ASSERT_FALSE(box.messages().empty());
+  const std::string state = box.messages().front();
+  EXPECT_NE(state.find("\"type\":\"worldstate\""), std::string::npos) << state;
+  EXPECT_NE(state.find("\"teamName\":\"blue\""), std::string::npos) << state;
+  EXPECT_TRUE(program.waitForError("JSON"));
+  program.signal(SIGTERM);
+  program.finish();
+}
+
+TEST(RefBox, ThatCantBeIsAUsageError) {
+  for (const auto& [box, why] : std::vector<std::pair<std::string, std::string>>{
+           {"localhost:none", "expected HOST[:PORT][@TEAM]"},
+           {"localhost:0", "expected HOST[:PORT][@TEAM]"},
+           {"localhost@red", "expected blue or yellow"}}) {
+    const Outcome outcome = ortung(game(box));
+    EXPECT_EQ(outcome.exitCode, 2) << box;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+  }
+  const Outcome alone = ortung({"sim", kField, "--refbox", "localhost", "--duration", "1"});
+  EXPECT_EQ(alone.exitCode, 2);
+  EXPECT_NE(alone.err.find("nobody referees"), std::string::npos) << alone.err;
+}
+
+}  // namespace
+}  // namespace ortung::test
