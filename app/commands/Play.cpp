@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdlib>
 
 #include "Commands.hpp"
 #include "Console.hpp"
+#include "HostPort.hpp"
 #include "Interrupt.hpp"
 #include "Serving.hpp"
 #include "ortung/base/Time.hpp"
@@ -18,16 +18,13 @@ namespace ortung::app {
 namespace {
 
 void readServer(const std::string& text, SessionOptions& options) {
-  const std::size_t colon = text.rfind(':');  // [::1]:7777 is an address, too
-  const std::string port = colon == text.npos ? "" : text.substr(colon + 1);
-  const char* end = port.data() + port.size();
-  const auto [rest, error] = std::from_chars(port.data(), end, options.port);
-  if (colon == 0 || port.empty() || error != std::errc() || rest != end || options.port == 0)
+  const auto found = parseHostPort(text);
+  // Without a host, or with port 0, nobody can be reached.
+  if (!found || text.starts_with(':') || found->port.value_or(0) == 0)
     throw UsageError(
         fmt::format("--server is '{}', expected HOST:PORT, e.g. 127.0.0.1:7777", text));
-  options.host = text.substr(0, colon);
-  if (options.host.starts_with('[') && options.host.ends_with(']'))
-    options.host = options.host.substr(1, options.host.size() - 2);
+  options.host = found->host;
+  options.port = *found->port;
 }
 
 /// The line of the robot's name, else that of "*".

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <stdexcept>
 
 #include "Console.hpp"
+#include "HostPort.hpp"
 #include "ortung/refbox/RefBoxClient.hpp"
 
 namespace ortung::app {
@@ -19,16 +19,11 @@ refbox::RefBoxConfig readConfig(const std::string& text) {
     config.ownTeam = rest.substr(at + 1);
     rest.resize(at);
   }
-  const std::size_t colon = rest.rfind(':');
-  if (colon != rest.npos) {
-    const std::string port = rest.substr(colon + 1);
-    const char* end = port.data() + port.size();
-    const auto [behind, error] = std::from_chars(port.data(), end, config.port);
-    if (error != std::errc() || behind != end || config.port == 0)
-      throw UsageError(fmt::format("--refbox is '{}', expected HOST[:PORT][@TEAM]", text));
-    rest.resize(colon);
-  }
-  config.host = rest;
+  const auto found = parseHostPort(rest);
+  if (!found || found->port == 0)
+    throw UsageError(fmt::format("--refbox is '{}', expected HOST[:PORT][@TEAM]", text));
+  config.host = found->host;
+  config.port = found->port.value_or(config.port);
   return config;
 }
 

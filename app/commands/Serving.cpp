@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
@@ -14,6 +13,7 @@
 #include <thread>
 
 #include "Console.hpp"
+#include "HostPort.hpp"
 #include "Interrupt.hpp"
 #include "Rescue.hpp"
 #include "ortung/base/InputFile.hpp"
@@ -24,21 +24,15 @@ namespace {
 
 /// Fills in address and port of "[ADDRESS:]PORT".
 void readListen(const std::string& text, BoardConfig& config) {
-  const std::size_t colon = text.rfind(':');
-  std::string port = text;
-  if (colon != text.npos) {
-    config.address = text.substr(0, colon);
-    port = text.substr(colon + 1);
-    if (config.address.starts_with('[') && config.address.ends_with(']'))  // [::1]:7777
-      config.address = config.address.substr(1, config.address.size() - 2);
-  }
-  const char* end = port.data() + port.size();
-  const auto [rest, error] = std::from_chars(port.data(), end, config.port);
-  if (port.empty() || error != std::errc() || rest != end)
+  const bool hasAddress = text.find(':') != text.npos;
+  const auto found = parseHostPort(hasAddress ? text : ":" + text);
+  if (!found)
     throw UsageError(
         fmt::format("--listen is '{}', expected [ADDRESS:]PORT with a port from 0 to "
                     "65535, e.g. 7777",
                     text));
+  if (hasAddress) config.address = found->host;
+  config.port = *found->port;
 }
 
 /// Ends the program if it goes on for too long after a signal: a cycle of the world that hangs is

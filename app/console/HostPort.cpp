@@ -1,0 +1,22 @@
+#include "HostPort.hpp"
+
+#include <charconv>
+
+namespace ortung::app {
+
+std::optional<HostPort> parseHostPort(const std::string& text) {
+  const std::size_t colon = text.rfind(':');  // [::1]:7777 is an address, too
+  HostPort found{text.substr(0, colon), std::nullopt};
+  if (colon != text.npos) {
+    const char* end = text.data() + text.size();
+    std::uint16_t port = 0;
+    const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, port);
+    if (error != std::errc() || rest != end) return std::nullopt;
+    found.port = port;
+  }
+  if (found.host.starts_with('[') && found.host.ends_with(']'))
+    found.host = found.host.substr(1, found.host.size() - 2);
+  return found;
+}
+
+}  // namespace ortung::app
