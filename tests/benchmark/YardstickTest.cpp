@@ -9,6 +9,7 @@
 
 #include "FakeWorld.hpp"
 #include "Files.hpp"
+#include "SeatOnStage.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/sim_api/Player.hpp"
@@ -61,31 +62,15 @@ struct PlainStage : Stage {
   std::shared_ptr<const FloorPlan> floorPlan(const RobotSize&) override { return nullptr; }
 };
 
-struct PlainSeat : PlayerSeat {
-  explicit PlainSeat(std::uint64_t seed) : chance(seed) {
+struct Play {
+  explicit Play(std::uint64_t seed) : seat(stands, notes, seed) {
     stands.notes = &notes;
-    known.landmarks = {{1, "goal", -6.0, 0.0, 0.5}, {2, "goal", 6.0, 0.0, 0.5}};
+    seat.known.landmarks = {{1, "goal", -6.0, 0.0, 0.5}, {2, "goal", 6.0, 0.0, 0.5}};
   }
-  const std::string& name() const override { return stands.all[0].name; }
-  const std::string& team() const override { return stands.all[0].team; }
-  Timestamp now() const override { return stands.time; }
-  SensorContainer& container() override { return sensors; }
-  RobotCommands& robot() override { return notes; }
-  const RobotAbilities& abilities() const override { return able; }
-  const FieldModel& field() const override { return known; }
-  const Game& game() const override { return free; }
-  Random& random() override { return chance; }
-  void say(std::string_view) override {}
-  std::span<const Heard> heard() const override { return {}; }
-  Stage* stage() override { return &stands; }
 
   Notes notes;
   PlainStage stands;
-  SensorContainer sensors;
-  RobotAbilities able;
-  FieldModel known;
-  Game free;
-  Random chance;
+  test::SeatOnStage seat;
 };
 
 std::string actionsOf(std::uint64_t seed) {
@@ -93,20 +78,20 @@ std::string actionsOf(std::uint64_t seed) {
   Parameters options;
   options.set("kind", "yardstick-v1");
   const auto player = factory.make<Player>("striker", options);
-  PlainSeat seat(seed);
-  player->begin(seat);
+  Play play(seed);
+  player->begin(play.seat);
   for (int i = 0; i < 200; ++i) {
-    seat.stands.time = i * 20'000;
-    seat.stands.all[1].pose.y = 0.7 * std::sin(0.05 * i + static_cast<double>(seed));
-    const std::size_t before = seat.notes.text.size();
-    EXPECT_TRUE(player->senseAndAct(seat));
+    play.stands.time = i * 20'000;
+    play.stands.all[1].pose.y = 0.7 * std::sin(0.05 * i + static_cast<double>(seed));
+    const std::size_t before = play.notes.text.size();
+    EXPECT_TRUE(player->senseAndAct(play.seat));
     double v = 0.0;
     double w = 0.0;
-    const std::string told = seat.notes.text.substr(before);
+    const std::string told = play.notes.text.substr(before);
     std::sscanf(told.substr(told.find("v ")).c_str(), "v %lf\nw %lf", &v, &w);
-    seat.stands.all[0].pose = seat.stands.all[0].pose * Pose2{0.02 * v, 0.0, 0.02 * w};
+    play.stands.all[0].pose = play.stands.all[0].pose * Pose2{0.02 * v, 0.0, 0.02 * w};
   }
-  return seat.notes.text;
+  return play.notes.text;
 }
 
 std::uint64_t hashOf(const std::string& text) {  // FNV-1a

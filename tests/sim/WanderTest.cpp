@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "FakeWorld.hpp"
+#include "SeatOnStage.hpp"
 #include "WorldFiles.hpp"
 #include "ortung/sim/RoutePlanner.hpp"
 #include "ortung/sim/SceneRun.hpp"
@@ -41,43 +42,23 @@ struct StuckStage : Stage {
   Timestamp time = 0;
 };
 
-struct StuckSeat : PlayerSeat {
-  const std::string& name() const override { return stuck.robot.name; }
-  const std::string& team() const override { return stuck.robot.team; }
-  Timestamp now() const override { return stuck.time; }
-  SensorContainer& container() override { return sensors; }
-  RobotCommands& robot() override { return noted; }
-  const RobotAbilities& abilities() const override { return able; }
-  const FieldModel& field() const override { return known; }
-  const Game& game() const override { return free; }
-  Random& random() override { return chance; }
-  void say(std::string_view) override {}
-  std::span<const Heard> heard() const override { return {}; }
-  Stage* stage() override { return &stuck; }
-
-  StuckStage stuck;
-  SensorContainer sensors;
-  NotedRobot noted;
-  RobotAbilities able{0.25, 0.5, {}, "", {}};
-  FieldModel known;
-  Game free;
-  Random chance{1};
-};
-
 TEST(Wanderer, BacksAfterItWasStuckAndOnlyThen) {
   constexpr Timestamp kCycle = 10'000;
   PluginFactory factory(PluginFactory::standardFolders());
   const auto player = factory.make<Player>("wander", Parameters());
-  StuckSeat seat;
+  StuckStage stuck;
+  NotedRobot noted;
+  test::SeatOnStage seat(stuck, noted, 1);
+  seat.able = {0.25, 0.5, {}, "", {}};
   player->begin(seat);
   std::vector<Timestamp> backwards;
   // Whatever it does, it does not get away from here.
   for (Timestamp now = 0; now < 9'500'000; now += kCycle) {
-    seat.stuck.time = now;
+    stuck.time = now;
     EXPECT_TRUE(player->senseAndAct(seat));
-    if (seat.noted.translational >= 0.0) continue;
+    if (noted.translational >= 0.0) continue;
     backwards.push_back(now);
-    EXPECT_EQ(seat.noted.rotational, 0.0) << now;
+    EXPECT_EQ(noted.rotational, 0.0) << now;
   }
   // Half a second each time when it has been stuck for four.
   ASSERT_EQ(backwards.size(), 100u);

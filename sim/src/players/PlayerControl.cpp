@@ -14,7 +14,6 @@ namespace ortung {
 namespace {
 
 constexpr std::ptrdiff_t kMostSaid = 64;  // by one robot in a cycle
-constexpr std::size_t kMostHeard = 1000;  // that wait for one; older ones are lost
 
 }  // namespace
 
@@ -133,9 +132,7 @@ void PlayerControl::Parts::deliver() {
     for (const auto& one : seatings)
       if (one->seat->name() != message.from && one->seat->team() == team) one->seat->hear(message);
     for (auto& [name, heard] : ears) {
-      if (name == message.from || teamOf(name) != team) continue;
-      if (heard.size() == kMostHeard) heard.erase(heard.begin());
-      heard.push_back(message);
+      if (name != message.from && teamOf(name) == team) keepHeard(heard, message);
     }
   }
 }

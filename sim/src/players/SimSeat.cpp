@@ -24,6 +24,11 @@ RobotAbilities abilitiesOf(const SimRobot& robot) {
 
 }  // namespace
 
+void keepHeard(std::vector<Heard>& waiting, const Heard& message) {
+  if (waiting.size() == kMostHeard) waiting.erase(waiting.begin());
+  waiting.push_back(message);
+}
+
 SimSeat::SimSeat(SimRobot& robot, std::string team, const FieldModel& field, Stage* stage,
                  const Random& random, std::function<void(std::string_view)> say)
     : robot_(robot),
@@ -34,10 +39,5 @@ SimSeat::SimSeat(SimRobot& robot, std::string team, const FieldModel& field, Sta
       random_(random),
       say_(std::move(say)),
       abilities_(abilitiesOf(robot)) {}
-
-void SimSeat::hear(const Heard& heard) {
-  if (heard_.size() == kMostHeard) heard_.erase(heard_.begin());
-  heard_.push_back(heard);
-}
 
 }  // namespace ortung

@@ -10,6 +10,9 @@
 
 namespace ortung {
 
+/// Adds what waits for a listener; of too many the oldest are lost.
+void keepHeard(std::vector<Heard>& waiting, const Heard& message);
+
 /// A player's seat on a simulated robot.
 class SimSeat : public PlayerSeat {
  public:
@@ -38,7 +41,7 @@ class SimSeat : public PlayerSeat {
   void setGame(const Game& game) {
     if (!(game == game_)) game_ = game;
   }
-  void hear(const Heard& heard);
+  void hear(const Heard& message) { keepHeard(heard_, message); }
   void forgetHeard() { heard_.clear(); }
 
  private:
