@@ -20,13 +20,17 @@ deny() {
 foreign='mrpt|opencv|embree|GL/|box2d|boost|spdlog|fmt/|CLI/'
 deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|served|client)|$foreign"
 deny 'container' 'toml\+\+|toml\.|nlohmann' 'container/robot/'
-deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign"
+deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign" 'mcl/player/.*sim_api/'
+deny 'container mcl/include mcl/src mcl/run sim/api sim/src sim/include sim/remote realsensors' 'ortung/mcl_player/'
+deny 'plugins/sensors plugins/motion plugins/sources plugins/referees' 'ortung/mcl_player/'
 deny 'mcl/include mcl/src' 'ortung/(robot|run)/'
 # The main job as a library: whoever uses it prints by himself and has his own command line.
 headers_of_app=$(ls app/*/*.hpp | xargs -n1 basename | sed 's/\.hpp$//' | paste -sd '|')
 deny 'mcl/run' "(.*/)?($headers_of_app)\\.hpp|unistd|csignal|iostream"
+# MCL for players sees a seat, not who runs it.
+deny 'mcl/player' 'ortung/(sim|realsensors|server|served|client|remote|benchmark)/|toml|nlohmann'
 deny 'sim/api' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|nlohmann|$foreign"
-deny 'sim' 'ortung/(mcl|realsensors)|mrpt|opencv'
+deny 'sim' 'ortung/(mcl|run|realsensors)/|mrpt|opencv'
 deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nlohmann|$foreign"
 deny 'sim/remote' "ortung/(mcl|sim|realsensors|server|served)/|toml|nlohmann|$foreign"
 deny 'sim/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
@@ -35,7 +39,7 @@ deny 'sim/src sim/include' 'ortung/(server|served|client|refbox)/'
 deny 'sim/benchmark' 'ortung/(server|served|client|refbox|remote)/'
 deny 'sim/src sim/include sim/api sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/benchmark/'
 deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)|refbox/src/RefBoxClient\.cpp)'
-deny 'plugins' 'ortung/(mcl|realsensors)|mrpt|opencv|embree|GL/|box2d'
+deny 'plugins' 'ortung/(mcl|run|realsensors)/|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
 deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
 
@@ -54,7 +58,7 @@ for room in $later; do
 done
 
 # Public headers name no library but the standard one and Eigen.
-for folder in container/*/include mcl/include mcl/run/include sim/include sim/api/include sim/server/include \
+for folder in container/*/include mcl/include mcl/run/include mcl/player/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done

@@ -59,6 +59,8 @@ TEST(ServedPlayers, ThatCantBeSayWhy) {
   EXPECT_TRUE(client.ask("PLAY wander").starts_with("ERR argument the player 'wander' names no"));
   EXPECT_TRUE(client.ask("PLAY wander robot=/etc/passwd").starts_with("ERR argument robot is"));
   EXPECT_TRUE(client.ask("PLAY wander robot=../robots/pioneer.toml").starts_with("ERR argument"));
+  EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml tables=pioneer.tables")
+                  .starts_with("ERR argument tables is"));
   EXPECT_TRUE(
       client.ask("PLAY wander robot=pioneer.toml speed=2").starts_with("ERR configuration"));
   EXPECT_TRUE(

@@ -5,6 +5,7 @@
 
 #include "FieldModelJson.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/robot/RobotTables.hpp"
 
 namespace ortung {
 namespace {
@@ -141,8 +142,10 @@ TableInfo readTableInfo(const TableFile& file) {
   return info;
 }
 
-TableInfo loadTables(const std::shared_ptr<const TableFile>& file, SensorContainer& container) {
-  TableInfo info = readTableInfo(*file);
+namespace {
+
+void giveTables(const std::shared_ptr<const TableFile>& file, const TableInfo& info,
+                SensorContainer& container) {
   for (const auto& data : container.all()) {
     if (!data->localizes()) continue;
     const std::string id = toText(data->id());
@@ -160,8 +163,24 @@ TableInfo loadTables(const std::shared_ptr<const TableFile>& file, SensorContain
     }
     data->loadTables(file, it->prefix, info.region.grid);
   }
+}
+
+}  // namespace
+
+TableInfo loadTables(const std::shared_ptr<const TableFile>& file, SensorContainer& container) {
+  TableInfo info = readTableInfo(*file);
+  giveTables(file, info, container);
   container.setField(std::make_shared<FieldModel>(info.field));
   return info;
+}
+
+RobotTables::RobotTables(const std::filesystem::path& file)
+    : file_(std::make_shared<const TableFile>(file)),
+      info_(std::make_shared<const TableInfo>(readTableInfo(*file_))) {}
+
+void RobotTables::giveTo(SensorContainer& container) const {
+  giveTables(file_, *info_, container);
+  container.setField({info_, &info_->field});
 }
 
 }  // namespace ortung

@@ -12,6 +12,11 @@ PlayerSeat::~PlayerSeat() = default;
 Player::~Player() = default;
 Referee::~Referee() = default;
 
+const Taught& PlayerSeat::taught() const {
+  static const Taught kNothing;
+  return kNothing;
+}
+
 PlayerHelp::PlayerHelp(std::string what, std::vector<PlayerOption> options)
     : what_(std::move(what)), options_(std::move(options)) {}
 PlayerHelp::~PlayerHelp() = default;

@@ -7,7 +7,8 @@
 
 #include "RemoteSeat.hpp"
 #include "ortung/core/ShippedFiles.hpp"
-#include "ortung/robot/TableInfo.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/robot/RobotTables.hpp"
 #include "ortung/sim_api/PlayerGuard.hpp"
 
 namespace ortung {
@@ -22,6 +23,10 @@ std::filesystem::path robotFileOf(const PlayerNeeds& needs, const RemotePlayConf
     throw std::invalid_argument("the player '" + config.plugin +
                                 "' needs the world's state, which clients of a server do not see; "
                                 "it plays in the simulator only (ortung sim --player)");
+  if (needs.tables && config.tables.empty())
+    throw std::invalid_argument("the player '" + config.plugin +
+                                "' needs tables of its robot for the server's world "
+                                "(--tables FILE)");
   const std::filesystem::path file = config.robot.empty() ? needs.robotFile : config.robot;
   if (file.empty())
     throw std::invalid_argument("the player '" + config.plugin +
@@ -51,6 +56,8 @@ struct RemotePlay::Parts {
   PlayerNeeds needs;
   RemoteRobot robot;
   PlayerGuard guard;
+  Taught taught;
+  FieldModel field;
   remote::RemoteSeat seat;
   Timestamp period;
 
@@ -60,12 +67,20 @@ struct RemotePlay::Parts {
         needs(needsOf(*player, config.plugin)),
         robot(robotFileOf(needs, config), optionsOf(config)),
         guard(config.plugin, config.session.name, config.budget),
-        seat(robot, config.session.name, config.team, readField(), Random(config.seed, kStream)),
+        field(teach()),
+        seat(robot, config.session.name, config.team, field, taught, Random(config.seed, kStream)),
         period(fromSeconds(needs.period)) {}
 
-  FieldModel readField() {
+  /// @returns what is known of the field
+  FieldModel teach() {
+    const RobotConfig file = readRobot(robotFileOf(needs, config));
+    taught.mcl = file.mcl;
+    taught.motion = file.motion;
     if (config.tables.empty()) return {};
-    return loadTables(std::make_shared<const TableFile>(config.tables), robot.container()).field;
+    const RobotTables tables(config.tables);
+    tables.giveTo(robot.container());
+    taught.region = tables.region();
+    return tables.info().field;
   }
 
   template <class Call>

@@ -70,12 +70,13 @@ void Voice::rethrow() const {
 }
 
 RemoteSeat::RemoteSeat(RemoteRobot& robot, std::string name, std::string team, FieldModel field,
-                       const Random& random)
+                       Taught taught, const Random& random)
     : robot_(robot),
       voice_(robot),
       name_(std::move(name)),
       team_(std::move(team)),
       field_(std::move(field)),
+      taught_(std::move(taught)),
       random_(random),
       abilities_(abilitiesOf(robot.description())) {
   look();

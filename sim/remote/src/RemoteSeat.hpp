@@ -37,7 +37,7 @@ class RemoteSeat : public PlayerSeat {
  public:
   /// @param robot borrowed
   RemoteSeat(RemoteRobot& robot, std::string name, std::string team, FieldModel field,
-             const Random& random);
+             Taught taught, const Random& random);
 
   const std::string& name() const override { return name_; }
   const std::string& team() const override { return team_; }
@@ -46,6 +46,7 @@ class RemoteSeat : public PlayerSeat {
   RobotCommands& robot() override { return voice_; }
   const RobotAbilities& abilities() const override { return abilities_; }
   const FieldModel& field() const override { return field_; }
+  const Taught& taught() const override { return taught_; }
   const Game& game() const override { return game_; }
   Random& random() override { return random_; }
   void say(std::string_view text) override;
@@ -66,6 +67,7 @@ class RemoteSeat : public PlayerSeat {
   std::string name_;
   std::string team_;
   FieldModel field_;
+  Taught taught_;
   Random random_;
   RobotAbilities abilities_;
   Game game_;

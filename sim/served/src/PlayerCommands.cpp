@@ -16,6 +16,8 @@ PlayerWish wishOf(const BoardCommand::Call& call) {
   for (const auto& [key, value] : call.keys) {
     if (key == "robot" && value.find('/') != std::string::npos)
       throw ServeError("argument", "robot is '" + value + "', expected a name of a shipped file");
+    if (key == "tables")
+      throw ServeError("argument", "tables is a file of the server's, which no client names");
     if ((key + value).find_first_of("&@:") != std::string::npos)
       throw ServeError("argument", key + " is '" + value + "', which must not have &, @ or :");
     if (key == "team") {

@@ -15,6 +15,11 @@ namespace {
 
 constexpr std::ptrdiff_t kMostSaid = 64;  // by one robot in a cycle
 
+std::shared_ptr<const FieldRegion> give(const RobotTables& tables, SimRobot& robot) {
+  tables.giveTo(robot.container());
+  return tables.region();
+}
+
 }  // namespace
 
 struct PlayerControl::Parts {
@@ -59,6 +64,7 @@ struct PlayerControl::Parts {
   bool isThere(const Seating& one) const { return simulation.find(one.number) != nullptr; }
   void sit(SimRobot& robot, std::unique_ptr<Player> player, const PlayerWish& wish,
            const Random& random, bool isGuest);
+  std::shared_ptr<const FieldRegion> teach(SimRobot& robot, const PlayerWish& wish, bool needs);
   void say(std::string_view robot, std::string_view text);
   void deliver();
   template <class Call>
@@ -79,12 +85,13 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
   if (needs.stage && !wish.seesStage)
     throw std::invalid_argument("robot " + name + ": the player '" + wish.plugin +
                                 "' needs the world's state, which it is not to see");
+  std::shared_ptr<const FieldRegion> region = teach(robot, wish, needs.tables);
   auto seating = std::make_unique<Seating>();
   seating->plugin = wish.plugin;
   seating->guard = std::make_unique<PlayerGuard>(wish.plugin, name, config.budget);
-  seating->seat =
-      std::make_unique<SimSeat>(robot, wish.team, field, wish.seesStage ? &stage : nullptr, random,
-                                [this, name](std::string_view text) { say(name, text); });
+  seating->seat = std::make_unique<SimSeat>(
+      robot, wish.team, field, wish.seesStage ? &stage : nullptr, std::move(region), random,
+      [this, name](std::string_view text) { say(name, text); });
   seating->player = std::move(player);
   seating->since = simulation.now();
   seating->period = fromSeconds(needs.period);
@@ -97,6 +104,23 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
   Seating& one = *seating;
   seatings.push_back(std::move(seating));
   call(one, "begin", [&] { one.player->begin(*one.seat); });
+}
+
+/// Gives a robot its tables. @returns where it can stand; null: nobody asks for them
+std::shared_ptr<const FieldRegion> PlayerControl::Parts::teach(SimRobot& robot,
+                                                               const PlayerWish& wish, bool needs) {
+  const std::string who = "robot " + robot.config().name + ": the player '" + wish.plugin + "'";
+  if (wish.tables.empty() && !needs) return nullptr;
+  if (wish.tables.empty() && !config.tables)
+    throw std::invalid_argument(who + " needs tables of its robot for this world (tables=FILE)");
+  if (wish.tables.empty()) return give(*config.tables->of(robot, factory), robot);
+  const RobotTables tables(wish.tables);
+  const std::string world = simulation.world().fingerprint();
+  if (tables.info().worldFingerprint != world)
+    throw std::invalid_argument(who + ": " + wish.tables.string() + " was learned in the world " +
+                                tables.info().worldFingerprint + " ('" + tables.info().world +
+                                "'), but it plays in " + world);
+  return give(tables, robot);
 }
 
 /// What a player does wrong ends it, and nobody else.

@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/SourceOptions.hpp"
@@ -66,7 +67,8 @@ PlayerWish parse(const std::string& kind, const std::string& text) {
     const auto value = cut(option, '=');
     const std::string key(option);
     if (!value || key.empty()) refuse("'" + key + "' is no key=value");
-    const bool isOwn = key == "robot" || key == "name" || key == "start" || key == "stage";
+    const bool isOwn =
+        key == "robot" || key == "tables" || key == "name" || key == "start" || key == "stage";
     if (!given.insert(key).second) refuse(key + " is given twice");
     if (isOwn)
       own.set(key, std::string(*value));
@@ -74,6 +76,7 @@ PlayerWish parse(const std::string& kind, const std::string& text) {
       setOption(wish.options, key, std::string(*value));
   }
   wish.robot = own.textOr("robot", "");
+  wish.tables = own.textOr("tables", "");
   wish.name = own.textOr("name", "");
   wish.start = optionPose(own, "start");
   wish.seesStage = own.choiceOr("stage", "yes", {"yes", "no"}) == "yes";
@@ -98,9 +101,11 @@ PlayerWish readPlayer(const Parameters& table, const std::filesystem::path& fold
   if (!wish.team.empty() && !isTeam(wish.team))
     table.fail("team", "is \"" + wish.team + "\", expected a word of at most 32 letters");
   wish.name = table.textOr("name", "");
-  const std::string robot = table.textOr("robot", "");
-  if (robot.find('\0') != std::string::npos) table.fail("robot", "names no file");
-  if (!robot.empty()) wish.robot = folder / robot;
+  for (const auto& [key, file] : {std::pair{"robot", &wish.robot}, {"tables", &wish.tables}}) {
+    const std::string name = table.textOr(key, "");
+    if (name.find('\0') != std::string::npos) table.fail(key, "names no file");
+    if (!name.empty()) *file = folder / name;
+  }
   if (table.has("start")) {
     const Parameters start = table.table("start");
     wish.start = Pose2{start.number("x_m", {-1e4, 1e4}), start.number("y_m", {-1e4, 1e4}),

@@ -30,12 +30,14 @@ void keepHeard(std::vector<Heard>& waiting, const Heard& message) {
 }
 
 SimSeat::SimSeat(SimRobot& robot, std::string team, const FieldModel& field, Stage* stage,
-                 const Random& random, std::function<void(std::string_view)> say)
+                 std::shared_ptr<const FieldRegion> region, const Random& random,
+                 std::function<void(std::string_view)> say)
     : robot_(robot),
       name_(robot.config().name),
       team_(std::move(team)),
       field_(field),
       stage_(stage),
+      taught_{robot.config().mcl, robot.config().motion, std::move(region)},
       random_(random),
       say_(std::move(say)),
       abilities_(abilitiesOf(robot)) {}

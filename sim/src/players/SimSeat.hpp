@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +19,11 @@ class SimSeat : public PlayerSeat {
  public:
   /// @param robot, field borrowed
   /// @param stage null: it is not to see it
+  /// @param region where its robot can stand, if it has tables; may be null
   /// @param say tells others
   SimSeat(SimRobot& robot, std::string team, const FieldModel& field, Stage* stage,
-          const Random& random, std::function<void(std::string_view)> say);
+          std::shared_ptr<const FieldRegion> region, const Random& random,
+          std::function<void(std::string_view)> say);
 
   const std::string& name() const override { return name_; }
   const std::string& team() const override { return team_; }
@@ -29,6 +32,7 @@ class SimSeat : public PlayerSeat {
   RobotCommands& robot() override { return robot_.voice(); }
   const RobotAbilities& abilities() const override { return abilities_; }
   const FieldModel& field() const override { return field_; }
+  const Taught& taught() const override { return taught_; }
   const Game& game() const override { return game_; }
   Random& random() override { return random_; }
   void say(std::string_view text) override { say_(text); }
@@ -50,6 +54,7 @@ class SimSeat : public PlayerSeat {
   std::string team_;
   const FieldModel& field_;
   Stage* stage_;
+  Taught taught_;
   Random random_;
   std::function<void(std::string_view)> say_;
   RobotAbilities abilities_;

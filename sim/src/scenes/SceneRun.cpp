@@ -73,6 +73,13 @@ void checkWaypoints(const SimWorld& world, const SimRobot& robot, const SceneRob
   }
 }
 
+/// Players that localize themselves learn how their robots see the scene's world.
+PlayerControl::Config withTables(PlayerControl::Config players,
+                                 const std::filesystem::path& world) {
+  if (!players.tables) players.tables = std::make_shared<TableStore>(world);
+  return players;
+}
+
 }  // namespace
 
 SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginFactory& factory,
@@ -81,8 +88,8 @@ SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginF
       simulation_(std::make_unique<Simulation>(readWorld(scene.world), config)),
       factory_(factory),
       plans_(std::make_unique<FloorPlans>(simulation_->world())),
-      playerConfig_(players),
-      players_(std::make_unique<PlayerControl>(*simulation_, *plans_, factory, players)) {
+      playerConfig_(withTables(players, scene.world)),
+      players_(std::make_unique<PlayerControl>(*simulation_, *plans_, factory, playerConfig_)) {
   if (scene_.referee)
     referee_ = factory.make<Referee>(scene_.referee->plugin, scene_.referee->options);
   // Those with a place of their own first, so that nobody stands there already.

@@ -14,6 +14,7 @@
 #include "ortung/sim/FloorPlans.hpp"
 #include "ortung/sim/PlayerWish.hpp"
 #include "ortung/sim/Simulation.hpp"
+#include "ortung/sim/TableStore.hpp"
 #include "ortung/sim_api/Game.hpp"
 #include "ortung/sim_api/Player.hpp"
 
@@ -32,6 +33,8 @@ class ORTUNG_API PlayerControl {
     double budget = 1.0;
     /// Told of each player that was stopped, and why; may be empty.
     std::function<void(const std::string&)> onProblem = {};
+    /// Of this world, for robots whose players need tables and name none; null: they are refused.
+    std::shared_ptr<TableStore> tables = nullptr;
   };
   /// A player that is there.
   struct Seated {
@@ -53,6 +56,7 @@ class ORTUNG_API PlayerControl {
   /// ends as soon as somebody else tells the robot to move.
   void lead(SimRobot& robot, const PlayerWish& wish, const Random& random);
   /// The same on a robot that is the player's own: it leaves the field when the player ends.
+  /// @throws std::invalid_argument for what it needs and does not get; TableError for its tables
   void own(SimRobot& robot, std::unique_ptr<Player> player, const PlayerWish& wish,
            const Random& random);
   /// Makes a player, as it is before it takes its seat. @throws PluginError, ConfigError

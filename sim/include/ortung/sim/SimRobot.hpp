@@ -75,6 +75,7 @@ class ORTUNG_API SimRobot : public RobotCommands {
   const RobotConfig& config() const { return config_; }
   const RobotShape& shape() const { return shape_; }
   SensorContainer& container() { return container_; }
+  const SensorContainer& container() const { return container_; }
   const RobotState& state() const { return state_; }
   /// What went wrong with its plugins, in the order of time.
   std::span<const std::string> problems() const { return problems_; }

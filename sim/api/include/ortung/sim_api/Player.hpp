@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "ortung/sim_api/Drive.hpp"
 #include "ortung/sim_api/Game.hpp"
 #include "ortung/sim_api/Stage.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 
@@ -30,6 +32,14 @@ struct RobotAbilities {
   DriveLimits limits;
   std::string motionHelp;  ///< what the numbers of setMotion() mean
   std::vector<Manipulator> manipulators;
+};
+
+/// What a robot was taught, so that its player can tell where it is: ortung/mcl_player.
+struct Taught {
+  Parameters mcl;     ///< [mcl] of its file
+  Parameters motion;  ///< [motion]
+  /// Where it can stand, by its tables; null: its features have none.
+  std::shared_ptr<const FieldRegion> region;
 };
 
 /// What somebody has said to all of his team.
@@ -58,6 +68,8 @@ class ORTUNG_API PlayerSeat {
   virtual const RobotAbilities& abilities() const = 0;
   /// What is known of the field beforehand; empty if nothing is.
   virtual const FieldModel& field() const = 0;
+  /// Nothing, if whoever runs the player has not taught its robot.
+  virtual const Taught& taught() const;
   virtual const Game& game() const = 0;
   /// Chance of its own, by the seed of the run.
   virtual Random& random() = 0;
@@ -100,6 +112,8 @@ class ORTUNG_API Player {
   virtual double period() const { return 0.0; }
   /// Whether it does nothing without PlayerSeat::stage().
   virtual bool needsStage() const { return false; }
+  /// Whether it does nothing without tables of its robot for this world, see PlayerSeat::taught().
+  virtual bool needsTables() const { return false; }
   /// It has taken its seat; its robot stands on the field and has sensed nothing yet.
   virtual void begin(PlayerSeat&) {}
   /// Retrieves what the sensors say, and commands. @returns whether it goes on; else it has

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/robot/RobotTables.hpp"
+#include "ortung/sim/SimRobot.hpp"
+
+namespace ortung {
+
+/// What robots of one world learn, when they are first asked for it: tables in memory, for any
+/// number of simulations of that world and robots with the same sensors. Thread-safe; who asks
+/// while others learn waits.
+class ORTUNG_API TableStore {
+ public:
+  /// More open cells of 0.1 m are not learned on the way.
+  static constexpr std::size_t kMostCells = 250'000;
+
+  /// @param world its file
+  explicit TableStore(std::filesystem::path world) : world_(std::move(world)) {}
+
+  /// As `ortung learn` without options learns them.
+  /// @throws std::runtime_error for a world that is too large; ConfigError, PluginError, TableError
+  std::shared_ptr<const RobotTables> of(const SimRobot& robot, PluginFactory& factory);
+
+ private:
+  std::shared_ptr<const RobotTables> learnFor(const RobotConfig& robot,
+                                              PluginFactory& factory) const;
+
+  std::filesystem::path world_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const RobotTables>> known_;  ///< by what was learned
+};
+
+}  // namespace ortung
