@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "Workers.hpp"
+#include "ortung/sim/Workers.hpp"
 
 namespace ortung {
 namespace {

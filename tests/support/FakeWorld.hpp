@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -139,6 +140,7 @@ class FakeWorld : public SimWorld {
   void reshapeBody(RobotNumber, std::span<const Primitive>) override {}
   void removeBody(RobotNumber body) override { robots_.erase(body); }
 
+  std::unique_ptr<SimWorld> another() const override { return std::make_unique<FakeWorld>(*this); }
   Solids solids() const override {
     Solids solids;
     solids.bounds = {-halfWidth_, halfWidth_, -halfHeight_, halfHeight_};

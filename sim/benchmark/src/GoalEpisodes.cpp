@@ -90,8 +90,8 @@ class Judge {
 }  // namespace
 
 struct GoalEpisodes::Parts {
-  std::filesystem::path world = shippedFile("fields", "f2000.toml");
-  std::string fingerprint = readWorld(world)->fingerprint();
+  std::unique_ptr<SimWorld> world = readWorld(shippedFile("fields", "f2000.toml"));
+  std::string fingerprint = world->fingerprint();
   PluginFactory factory{PluginFactory::standardFolders()};
   std::map<std::string, Entrant> entrants;  ///< by text and side
 
@@ -133,7 +133,7 @@ GoalEpisode GoalEpisodes::play(const std::string& keeper, const std::string& str
   Random simulationSeed = stream(kSimulation);
   Simulation::Config config;
   config.seed = (std::uint64_t{simulationSeed.next()} << 32) | simulationSeed.next();
-  Simulation simulation(readWorld(parts_->world), config);
+  Simulation simulation(parts_->world->another(), config);
   FloorPlans plans(simulation.world());
   std::string problem;
   PlayerControl::Config players;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "Physics.hpp"
-#include "Workers.hpp"
+#include "ortung/sim/Workers.hpp"
 
 namespace ortung {
 namespace {

@@ -1,4 +1,4 @@
-#include "Workers.hpp"
+#include "ortung/sim/Workers.hpp"
 
 #include <atomic>
 #include <condition_variable>

@@ -37,35 +37,55 @@ bool isSane(const ConeFan& fan) {
 
 constexpr RobotNumber kFixed = std::numeric_limits<RobotNumber>::max();  ///< nobody's number
 
+/// What stands in a world, for all worlds that stand on the same ground. Immutable, so thread-safe.
+struct Ground {
+  explicit Ground(WorldModel read)
+      : model(std::move(read)),
+        fingerprint(fingerprintOf(model)),
+        space(model),
+        rays(makeMesh(model)),
+        lines(linesOf(model)) {
+    for (const Primitive& primitive : model.primitives)
+      if (primitive.isSolid()) {
+        objects.push_back(objectOf(primitive));
+        solids.add({&primitive, 1}, kFixed, {});
+      }
+    for (const GridBody& body : model.grids) addMapWalls(body, mapWalls);
+  }
+  Ground(const Ground&) = delete;
+  Ground& operator=(const Ground&) = delete;
+
+  WorldModel model;
+  std::string fingerprint;
+  FreeSpace space;
+  RayCaster rays;
+  std::vector<FieldLine> lines;
+  std::vector<FieldWall> mapWalls;
+  std::vector<WorldObject> objects;
+  BodyRays solids;  ///< what is no map, for cones
+};
+
 class ModelledWorld final : public SimWorld {
  public:
-  explicit ModelledWorld(WorldModel model)
-      : model_(std::move(model)),
-        fingerprint_(fingerprintOf(model_)),
-        space_(model_),
-        rays_(makeMesh(model_)),
-        lines_(linesOf(model_)) {
-    for (const Primitive& primitive : model_.primitives)
-      if (primitive.isSolid()) {
-        objects_.push_back(objectOf(primitive));
-        solids_.add({&primitive, 1}, kFixed, {});
-      }
-    fixedObjects_ = objects_.size();
-    for (const GridBody& body : model_.grids) addMapWalls(body, mapWalls_);
+  explicit ModelledWorld(std::shared_ptr<const Ground> ground)
+      : ground_(std::move(ground)), objects_(ground_->objects) {}
+
+  std::unique_ptr<SimWorld> another() const override {
+    return std::make_unique<ModelledWorld>(ground_);
   }
 
-  const std::string& name() const override { return model_.name; }
-  std::string fingerprint() const override { return fingerprint_; }
+  const std::string& name() const override { return ground_->model.name; }
+  std::string fingerprint() const override { return ground_->fingerprint; }
   FieldRegion region(double cell, const RobotSize& robot) const override {
-    return space_.region(cell, robot);
+    return ground_->space.region(cell, robot);
   }
-  std::span<const Landmark> landmarks() const override { return model_.landmarks; }
-  std::span<const FieldLine> lines() const override { return lines_; }
+  std::span<const Landmark> landmarks() const override { return ground_->model.landmarks; }
+  std::span<const FieldLine> lines() const override { return ground_->lines; }
   std::span<const WorldObject> objects() const override { return objects_; }
-  std::span<const FieldWall> mapWalls() const override { return mapWalls_; }
-  const PhysicsConfig& physics() const override { return model_.physics; }
+  std::span<const FieldWall> mapWalls() const override { return ground_->mapWalls; }
+  const PhysicsConfig& physics() const override { return ground_->model.physics; }
   bool isFree(double x, double y, const RobotSize& size) const override {
-    return space_.isFree(x, y, size);
+    return ground_->space.isFree(x, y, size);
   }
 
   void castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const override {
@@ -74,7 +94,7 @@ class ModelledWorld final : public SimWorld {
                 fan.maxRange > 0.0 ? static_cast<float>(fan.maxRange) : 0.0f);
       return;
     }
-    rays_.castFan(fan, ranges);
+    ground_->rays.castFan(fan, ranges);
     bodies_.castFan(fan, ignore, ranges);
   }
 
@@ -82,8 +102,9 @@ class ModelledWorld final : public SimWorld {
     std::fill(ranges.begin(), ranges.end(),
               fan.maxRange > 0.0 ? static_cast<float>(fan.maxRange) : 0.0f);
     if (!isSane(fan)) return;
-    if (!model_.grids.empty()) castConesAtMaps(*this, model_.grids, fan, ignore, ranges);
-    solids_.castCones(fan, 0, ranges);
+    if (!ground_->model.grids.empty())
+      castConesAtMaps(*this, ground_->model.grids, fan, ignore, ranges);
+    ground_->solids.castCones(fan, 0, ranges);
     bodies_.castCones(fan, ignore, ranges);
   }
 
@@ -95,7 +116,7 @@ class ModelledWorld final : public SimWorld {
     if (length <= slack) return true;
     const std::array<double, 3> from{x0, y0, z0};
     const std::array<double, 3> direction{way[0] / length, way[1] / length, way[2] / length};
-    return !rays_.isBlocked(from, direction, length - slack) &&
+    return !ground_->rays.isBlocked(from, direction, length - slack) &&
            !bodies_.isBlocked(from, direction, length - slack, ignore);
   }
 
@@ -123,8 +144,8 @@ class ModelledWorld final : public SimWorld {
   void moveBody(RobotNumber body, const Pose2& pose, const Twist& velocity) override {
     if (!isFinite(pose)) throw std::invalid_argument("a body's pose that is not finite");
     const std::size_t place = find(body);
-    objects_[fixedObjects_ + place].pose = pose;
-    objects_[fixedObjects_ + place].velocity = velocity;
+    objects_[ground_->objects.size() + place].pose = pose;
+    objects_[ground_->objects.size() + place].velocity = velocity;
     bodies_.move(place, pose);
   }
 
@@ -132,28 +153,28 @@ class ModelledWorld final : public SimWorld {
     const std::size_t place = find(body);
     checkPieces(pieces);
     bodies_.reshape(place, pieces);
-    measure(pieces, objects_[fixedObjects_ + place]);
+    measure(pieces, objects_[ground_->objects.size() + place]);
   }
 
   void removeBody(RobotNumber body) override {
     const std::size_t place = find(body);
     bodies_.remove(place);
-    objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(fixedObjects_ + place));
+    objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(ground_->objects.size() + place));
     numbers_.erase(numbers_.begin() + static_cast<std::ptrdiff_t>(place));
   }
 
   Solids solids() const override {
     Solids solids;
-    solids.bounds = model_.bounds;
-    for (const Primitive& primitive : model_.primitives)
+    solids.bounds = ground_->model.bounds;
+    for (const Primitive& primitive : ground_->model.primitives)
       if (primitive.isSolid()) solids.primitives.push_back(primitive);
-    for (const GridBody& body : model_.grids)
+    for (const GridBody& body : ground_->model.grids)
       forOutline(body, [&](const Point2& from, const Point2& to) {
         solids.walls.push_back({from, to, body.zLow, body.zHigh});
       });
     return solids;
   }
-  std::span<const Primitive> movables() const override { return model_.movables; }
+  std::span<const Primitive> movables() const override { return ground_->model.movables; }
 
  private:
   static void checkPieces(std::span<const Primitive> pieces) {
@@ -199,15 +220,8 @@ class ModelledWorld final : public SimWorld {
     return static_cast<std::size_t>(found - numbers_.begin());
   }
 
-  WorldModel model_;
-  std::string fingerprint_;
-  FreeSpace space_;
-  RayCaster rays_;
-  std::vector<FieldLine> lines_;
-  std::vector<FieldWall> mapWalls_;
-  std::vector<WorldObject> objects_;  ///< first what is fixed, then what moves
-  std::size_t fixedObjects_ = 0;
-  BodyRays solids_;  ///< what is fixed and no map, for cones
+  std::shared_ptr<const Ground> ground_;
+  std::vector<WorldObject> objects_;  ///< first what stands, then what moves
   BodyRays bodies_;
   std::vector<RobotNumber> numbers_;  ///< of moving bodies, in the order of objects_, rising
   RobotNumber lastNumber_ = 0;
@@ -218,7 +232,7 @@ class ModelledWorld final : public SimWorld {
 std::unique_ptr<SimWorld> readWorld(const std::filesystem::path& file) {
   WorldModel model = readWorldModel(file);
   try {
-    return std::make_unique<ModelledWorld>(std::move(model));
+    return std::make_unique<ModelledWorld>(std::make_shared<const Ground>(std::move(model)));
   } catch (const std::runtime_error& error) {
     throw ConfigError(file.string() + ": " + error.what());
   } catch (const std::logic_error& error) {  // too many walls

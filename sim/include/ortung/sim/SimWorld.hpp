@@ -46,6 +46,9 @@ class ORTUNG_API SimWorld : public World {
   virtual const std::string& name() const = 0;
   virtual const PhysicsConfig& physics() const = 0;
   virtual Solids solids() const = 0;
+  /// The same place for another simulation, as it was read: nothing moves in it yet. What stands is
+  /// shared, so it costs little; each may be used by a thread of its own.
+  virtual std::unique_ptr<SimWorld> another() const = 0;
   /// What is movable, where it is at the beginning. It takes part once addBody() was called for it.
   virtual std::span<const Primitive> movables() const { return {}; }
 

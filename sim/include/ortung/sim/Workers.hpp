@@ -3,10 +3,12 @@
 #include <functional>
 #include <memory>
 
+#include "ortung/base/Export.hpp"
+
 namespace ortung {
 
 /// Does equal pieces of work with several threads that wait for it.
-class Workers {
+class ORTUNG_API Workers {
  public:
   /// @param threads at least 1, with the caller's own
   explicit Workers(unsigned threads);
