@@ -1,0 +1,128 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ScanPose.hpp"
+#include "Steering.hpp"
+#include "ortung/formats/ObjectsData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/mcl_player/SelfLocalization.hpp"
+
+namespace ortung {
+
+/// How a player knows where its robot is.
+enum class SightMode : std::uint8_t {
+  truth,     ///< by the stage, and so where everything else is
+  features,  ///< by ground truth; all else by its robot's camera
+  scan,      ///< by the newest position of a single scan; all else by the camera
+  localized  ///< by MCL on all that its robot senses; all else by the camera
+};
+
+inline const PlayerOption kSeesOption{
+    "sees", "truth|features|scan|localized", "truth",
+    "where things really are; or by its camera, and itself by ground truth, single scans or MCL"};
+
+/// What a robot's camera sees of something, where it was at that time.
+struct Sighting {
+  Timestamp stamp = 0;
+  Pose2 inRobot;       ///< heading 0 [m]
+  double sigma = 0.0;  ///< of a coordinate, about [m]
+};
+
+/// A player's own view: its pose by one of four ways, and what its camera shows.
+class OwnSight {
+ public:
+  explicit OwnSight(SightMode mode) : mode_(mode) {}
+  /// The option `sees`. @throws ConfigError
+  static SightMode read(const Parameters& p, const std::string& fallback = "truth") {
+    static const std::vector<std::string> kModes = {"truth", "features", "scan", "localized"};
+    const std::string name = p.choiceOr("sees", fallback, kModes);
+    return static_cast<SightMode>(std::find(kModes.begin(), kModes.end(), name) - kModes.begin());
+  }
+
+  bool isTruth() const { return mode_ == SightMode::truth; }
+  bool needsTables() const { return mode_ == SightMode::localized; }
+  /// Whether its robot has to have a scanner.
+  bool needsScanner() const { return mode_ >= SightMode::scan; }
+
+  /// Its robot was put somewhere, and it was told where, as well as those sigmas [m], [rad] say.
+  void begin(PlayerSeat& seat, const Pose2& told, double sigma, double sigmaHeading) {
+    if (mode_ == SightMode::scan) scan_.emplace(seat, told);
+    if (mode_ == SightMode::localized) {
+      if (!self_) self_ = std::make_unique<SelfLocalization>(seat);
+      self_->startAt(told, sigma, sigmaHeading);
+    }
+  }
+  /// Once each time it acts, before it asks anything.
+  void update(PlayerSeat& seat) {
+    if (scan_) scan_->update(seat);
+    if (self_) self_->update(seat);
+    stamp_ = seat.now();
+    pose_ = poseAt(seat, stamp_);
+  }
+  /// Where its robot is now; nothing: its sensors have said nothing yet.
+  const std::optional<Pose2>& pose() const { return pose_; }
+  std::optional<BelievedPose> believed() const {
+    return pose_ ? std::optional(BelievedPose{stamp_, *pose_}) : std::nullopt;
+  }
+
+  /// The ball, and what is no ball, as the newest image shows them; nothing is seen or imagined
+  /// twice. @throws std::runtime_error for a robot whose sensors have no feature of that name
+  std::optional<Sighting> ball(PlayerSeat& seat) const {
+    const auto seen = objects(seat, "ball");
+    return seen.empty() ? std::nullopt : std::optional(seen.front());  // what is imagined is last
+  }
+  std::vector<Sighting> robots(PlayerSeat& seat) const { return objects(seat, "robots"); }
+
+ private:
+  static constexpr double kSigma = 0.02;          ///< of a camera's places at range 0 [m]
+  static constexpr double kSigmaPerMetre = 0.03;  ///< and for each metre
+
+  std::optional<Pose2> poseAt(PlayerSeat& seat, Timestamp now) const {
+    switch (mode_) {
+      case SightMode::truth:
+        return poseOf(seat);
+      case SightMode::features:
+        return seat.container().get<PoseData>({.type = "groundTruth"});
+      case SightMode::scan:
+        return scan_ ? std::optional(scan_->at(now)) : std::nullopt;
+      case SightMode::localized:
+        break;
+    }
+    const auto estimate = self_ ? self_->estimate(now) : std::nullopt;
+    return estimate ? std::optional(estimate->pose) : std::nullopt;
+  }
+
+  static std::vector<Sighting> objects(PlayerSeat& seat, const char* feature) {
+    const SensorContainer::ReadLock lock = seat.container().read();
+    const auto* seen =
+        dynamic_cast<const ObjectsData*>(seat.container().find({.feature = feature}));
+    if (seen == nullptr)
+      throw std::runtime_error(std::string("its robot has no sensor with a feature '") + feature +
+                               "', which it needs unless sees=truth");
+    std::vector<Sighting> sightings;
+    for (const ObjectsData::Object& one : seen->reading()) {
+      const double angle = seen->mount().theta + one.bearing;
+      sightings.push_back({seen->stamp(),
+                           {seen->mount().x + one.range * std::cos(angle),
+                            seen->mount().y + one.range * std::sin(angle), 0.0},
+                           kSigma + kSigmaPerMetre * one.range});
+    }
+    return sightings;
+  }
+
+  SightMode mode_;
+  std::optional<ScanPose> scan_;
+  std::unique_ptr<SelfLocalization> self_;
+  Timestamp stamp_ = 0;
+  std::optional<Pose2> pose_;  ///< then
+};
+
+}  // namespace ortung

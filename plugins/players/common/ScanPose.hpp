@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/sim_api/Player.hpp"
+
+namespace ortung {
+
+/// A pose from single scans: the newest position that one of them gave (lrf_iconic), carried on by
+/// odometry. What earlier ones said is forgotten, but for telling apart places that look alike.
+class ScanPose {
+ public:
+  /// @param told where it was put
+  /// @throws std::runtime_error for a robot without positions
+  ScanPose(PlayerSeat& seat, const Pose2& told) : fix_(told), since_(seat.now()) {
+    if (find(seat) == nullptr)
+      throw std::runtime_error(
+          "its robot has no sensor with a feature 'position', which sees=scan needs (lrf_iconic)");
+  }
+
+  void update(PlayerSeat& seat) {
+    const SensorContainer::ReadLock lock = seat.container().read();
+    if (const auto* odometry =
+            dynamic_cast<const OdometryData*>(seat.container().find({.type = "odometry"}));
+        odometry != nullptr && odometry->sequence() > 0) {
+      if (!last_) atFix_ = odometry->reading().pose;
+      last_ = odometry->reading();
+      lastStamp_ = odometry->stamp();
+    }
+    const PoseFixData* position = find(seat);
+    if (position == nullptr || position->sequence() == seen_) return;
+    seen_ = position->sequence();
+    const Pose2 expected = at(position->stamp());
+    const PoseFixData::Fix* nearest = nullptr;
+    for (const PoseFixData::Fix& fix : position->reading())
+      if (nearest == nullptr || away(fix.pose, expected) < away(nearest->pose, expected))
+        nearest = &fix;
+    if (nearest == nullptr) return;
+    fix_ = nearest->pose;
+    since_ = position->stamp();
+    atFix_ = odometryAt(since_);
+  }
+  Pose2 at(Timestamp stamp) const {
+    return last_ ? fix_ * (inverse(atFix_) * odometryAt(stamp)) : fix_;
+  }
+
+ private:
+  static const PoseFixData* find(PlayerSeat& seat) {
+    return dynamic_cast<const PoseFixData*>(seat.container().find({.feature = "position"}));
+  }
+  static double away(const Pose2& a, const Pose2& b) {
+    return distance(a, b) + std::abs(wrapAngle(a.theta - b.theta));
+  }
+  /// It is taken to go on as it went when odometry was read last, or to have gone so before.
+  Pose2 odometryAt(Timestamp stamp) const {
+    const double dt = toSeconds(stamp - lastStamp_);
+    const double turn = last_->rotationalVelocity * dt;
+    const double c = std::cos(0.5 * turn);
+    const double s = std::sin(0.5 * turn);
+    const double x = last_->translationalVelocity * dt;
+    const double y = last_->lateralVelocity * dt;
+    return last_->pose * Pose2{c * x - s * y, s * x + c * y, turn};
+  }
+
+  Pose2 fix_;
+  Timestamp since_;
+  Pose2 atFix_;  ///< odometry then
+  std::optional<OdometryData::Reading> last_;
+  Timestamp lastStamp_ = 0;
+  std::uint64_t seen_ = 0;
+};
+
+}  // namespace ortung

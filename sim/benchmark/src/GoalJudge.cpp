@@ -1,0 +1,60 @@
+#include "ortung/benchmark/GoalJudge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ortung/sim/Primitive.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kBack = 0.2;    ///< away from the goal it comes back [m/s]
+constexpr double kRest = 0.05;   ///< [m/s]
+constexpr double kTouch = 0.01;  ///< between ball and body, beside what the ball rolls [m]
+constexpr double kBump = 0.1;    ///< what a touch changes the ball's velocity by, at least [m/s]
+
+/// Whether the ball is at one of the robot's pieces, or was within the cycle.
+bool isAt(const SimRobot& robot, const Simulation::Thing& ball, double cycle) {
+  const double rolled = std::hypot(ball.velocity.x, ball.velocity.y) * cycle;
+  const double reach = GoalField::kBall + kTouch + rolled;
+  const Pose2 place = inverse(robot.state().pose) * ball.pose;
+  const auto isNear = [&](const Primitive& piece) {
+    return distanceTo(piece, {place.x, place.y}) < reach;
+  };
+  const RobotShape& shape = robot.shape();
+  if (std::any_of(shape.pieces.begin(), shape.pieces.end(), isNear)) return true;
+  for (std::size_t i = 0; i < shape.manipulators.size(); ++i) {
+    const auto& pieces = shape.manipulators[i].states[robot.manipulatorStates()[i]].pieces;
+    if (std::any_of(pieces.begin(), pieces.end(), isNear)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view nameOf(GoalOutcome outcome) {
+  constexpr std::array<std::string_view, 4> kNames = {"goal", "saved", "out", "time"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
+
+bool GoalJudge::sees(const Simulation::Thing& ball, const SimRobot& keeper, double cycle) {
+  const double towards = -ball.velocity.x;
+  wasShot_ = wasShot_ || towards > kShot;
+  const double bump =
+      std::hypot(ball.velocity.x - velocity_.x, ball.velocity.y - velocity_.y);
+  velocity_ = ball.velocity;
+  wasTouched_ = wasTouched_ || (wasShot_ && bump > kBump && isAt(keeper, ball, cycle));
+  if (ball.pose.x < GoalField::kGoalX - GoalField::kBall) {
+    outcome_ = std::abs(ball.pose.y) < GoalField::kHalfMouth ? GoalOutcome::goal : missed();
+    return true;
+  }
+  const bool isOff = ball.pose.x > GoalField::kHalfLength + GoalField::kBall ||
+                     std::abs(ball.pose.y) > GoalField::kHalfWidth + GoalField::kBall;
+  const bool isBack =
+      wasShot_ && (towards < -kBack || std::hypot(ball.velocity.x, ball.velocity.y) < kRest);
+  if (isOff || isBack) outcome_ = missed();
+  return isOff || isBack;
+}
+
+}  // namespace ortung
