@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""picture-of-scene.py SCENE --out NAME [--ortung PROGRAM] [--duration S] [--width PIXELS]
+"""picture-of-scene.py SCENE --out NAME [--ortung PROGRAM] [--from S] [--duration S] [--seed N] [--width PIXELS]
 
-Plays a scene with `ortung sim` and draws what it did: NAME.png, all ways in one picture, and NAME.gif,
-the play itself at twice its speed. Needs python3-pil (Pillow)."""
+Plays a scene with `ortung sim` and draws what it did, from a time to the end: NAME.png, all ways in one picture,
+and NAME.gif, the play itself at twice its speed. Needs python3-pil (Pillow)."""
 import argparse
 import csv
 import gzip
@@ -21,6 +21,7 @@ except ImportError:
 
 # Colours of M. Okabe and K. Ito, told apart with any colour vision.
 ROBOTS = ["#56b4e9", "#f0e442", "#cc79a7", "#d55e00", "#0072b2", "#e69f00", "#009e73", "#f5f5f5"]
+TEAMS = {"blue": "#56b4e9", "yellow": "#f0e442"}
 BALL = "#ff8c00"
 GRASS = "#2f6b3c"  # where lines are painted
 FLOOR = "#e4e7eb"
@@ -286,12 +287,26 @@ def palette_of(frame, entries):
     return frame.quantize(palette=large.quantize(128, method=Image.Quantize.MEDIANCUT), dither=Image.Dither.NONE)
 
 
-def play(ortung, scene, duration):
+def robots_of(scene, folder):
+    """Robot files by the robots' names, those of players among them, and the colour of each."""
+    entries = [(r["name"], r["file"], None) for r in scene.get("robot", [])]
+    for player in scene.get("player", []):
+        if "name" not in player or "robot" not in player:
+            sys.exit("picture-of-scene.py: a [[player]] without name or robot can't be drawn")
+        entries.append((player["name"], player["robot"], player.get("team")))
+    files = {name: tomllib.loads((folder / file).read_text()) for name, file, _ in entries}
+    free = iter(ROBOTS * (1 + len(entries)))
+    return files, {name: TEAMS.get(team) or next(free) for name, _, team in entries}
+
+
+def play(ortung, scene, duration, seed):
     with tempfile.TemporaryDirectory() as folder:
         trace = f"{folder}/trace.csv"
         command = [ortung, "sim", str(scene), "--free-run", "--trace", trace]
         if duration:
             command += ["--duration", str(duration)]
+        if seed is not None:
+            command += ["--seed", str(seed)]
         if subprocess.run(command).returncode != 0:
             sys.exit("picture-of-scene.py: %s could not play %s" % (ortung, scene))
         return read_trace(trace)
@@ -302,18 +317,21 @@ def main():
     parser.add_argument("scene", type=pathlib.Path)
     parser.add_argument("--out", required=True, help="name of the pictures, without .png and .gif")
     parser.add_argument("--ortung", default="ortung")
+    parser.add_argument("--from", dest="begin", type=float, default=0.0)
     parser.add_argument("--duration", type=float)
+    parser.add_argument("--seed", type=int)
     parser.add_argument("--width", type=int, default=900)
     args = parser.parse_args()
 
     scene = tomllib.loads(args.scene.read_text())
     world_file = args.scene.parent / scene["scene"]["world"]
     world = tomllib.loads(world_file.read_text())
-    robots = {r["name"]: tomllib.loads((args.scene.parent / r["file"]).read_text())
-              for r in scene.get("robot", [])}
-    colours = {name: ROBOTS[i % len(ROBOTS)] for i, name in enumerate(robots)}
+    robots, colours = robots_of(scene, args.scene.parent)
     things = [Thing(shape, piece) for shape, piece in pieces_of(world) if is_movable(piece)]
-    moments = play(args.ortung, args.scene, args.duration)
+    moments = play(args.ortung, args.scene, args.duration, args.seed)
+    moments = {at: bodies for at, bodies in moments.items() if at >= args.begin}
+    if not moments:
+        sys.exit(f"picture-of-scene.py: the play is over before {args.begin:g} s")
 
     bounds = bounds_of(world, world_file.parent)
     has_lines = any(piece.get("kind") == "line" for _, piece in pieces_of(world))

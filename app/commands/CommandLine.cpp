@@ -258,6 +258,8 @@ void addSim(Builder& build, CLI::App& app) {
   build.option("--record", a->record, "Write all readings of one robot as a record");
   build.option("--recorded", a->recorded, "Name of the robot to record; default: the first");
   build.option("--trace", a->trace, "Write where everything was, 20 times a second, as CSV");
+  build.flag("--digest", a->digest,
+             "Print a hash of all that happened: the same in every run that did the same");
   build.option("--threads", a->threads, "Threads that sense; the result does not depend on it")
       ->check(within(1, 256));
   build.option("--seed", a->seed, "Seed of all random numbers")->capture_default_str();

@@ -174,6 +174,7 @@ struct SimArguments {
   std::filesystem::path record;               ///< "" for none
   std::filesystem::path trace;                ///< "" for none
   std::string recorded;                       ///< name of the robot to record; "": the first
+  bool digest = false;                        ///< print a hash of all that happened
   unsigned threads = 1;
   std::uint64_t seed = 1;
   std::optional<double> cycleMs;  ///< default: the world's

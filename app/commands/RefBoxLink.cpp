@@ -48,11 +48,11 @@ refbox::WorldState stateOf(SceneRun& run, const std::string& team) {
 
 }  // namespace
 
-RefBoxLink::RefBoxLink(const std::string& text, SceneRun& run) {
-  if (run.referee() == nullptr)
+RefBoxLink::RefBoxLink(const std::string& text, const Run& run) {
+  if (run().referee() == nullptr)
     throw UsageError("--refbox: nobody referees; see --referee soccer:control=orders");
   refbox::RefBoxConfig config = readConfig(text);
-  const Game& game = run.referee()->watch(run.players().stage());
+  const Game& game = run().referee()->watch(run().players().stage());
   const auto own = game.find(config.ownTeam);
   if (!own)
     throw UsageError(fmt::format("--refbox is '{}', its team is '{}', expected {} or {}", text,
@@ -60,9 +60,9 @@ RefBoxLink::RefBoxLink(const std::string& text, SceneRun& run) {
   config.otherTeam = game.teams.at(1 - *own).name;
   try {
     client_ = std::make_unique<refbox::RefBoxClient>(
-        config, [&run, team = config.ownTeam] { return stateOf(run, team); },
-        [&run](const std::string& order) {
-          if (run.referee() != nullptr) run.referee()->order(order);
+        config, [run, team = config.ownTeam] { return stateOf(run(), team); },
+        [run](const std::string& order) {
+          if (run().referee() != nullptr) run().referee()->order(order);
         },
         [](const std::string& line) { note("refbox: " + line); });
   } catch (const std::invalid_argument& error) {

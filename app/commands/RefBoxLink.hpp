@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -15,9 +16,11 @@ namespace ortung::app {
 /// referee, and it is told where one team's robots and the ball are.
 class RefBoxLink {
  public:
-  /// @param text "HOST[:PORT][@TEAM]" @param run borrowed, with a referee
-  /// @throws UsageError for what is none
-  RefBoxLink(const std::string& text, SceneRun& run);
+  /// The game that is under way, with a referee; it may be another one each time.
+  using Run = std::function<SceneRun&()>;
+
+  /// @param text "HOST[:PORT][@TEAM]" @throws UsageError for what is none
+  RefBoxLink(const std::string& text, const Run& run);
   ~RefBoxLink();
   RefBoxLink(const RefBoxLink&) = delete;
   RefBoxLink& operator=(const RefBoxLink&) = delete;

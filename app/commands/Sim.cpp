@@ -19,6 +19,7 @@
 #include "ortung/core/Record.hpp"
 #include "ortung/served/PlayerCommands.hpp"
 #include "ortung/served/ServedSimulation.hpp"
+#include "ortung/sim/RunDigest.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
 namespace ortung::app {
@@ -183,6 +184,26 @@ void print(const std::vector<RefereeEvent>& events) {
   if (!events.empty()) flushOutput();
 }
 
+/// A served simulation whose referee a box may lead; what happens in the game is printed.
+class RefereedSimulation : public ServedSimulation {
+ public:
+  /// @param box as RefBoxLink has it; "": none
+  RefereedSimulation(Scene scene, const Simulation::Config& config,
+                     const PlayerControl::Config& players, const std::string& box)
+      : ServedSimulation(std::move(scene), config, players) {
+    if (!box.empty()) box_.emplace(box, [this]() -> SceneRun& { return run(); });
+  }
+  void step() override {
+    if (box_) box_->poll(clock_.elapsed());
+    ServedSimulation::step();
+    if (run().referee() != nullptr) print(run().referee()->takeEvents());
+  }
+
+ private:
+  Pacing clock_{ServingArguments{}};
+  std::optional<RefBoxLink> box_;
+};
+
 int play(const SimArguments& arguments) {
   const Outputs outputs = outputsOf(arguments);
   const Scene scene = sceneOf(arguments);
@@ -197,11 +218,13 @@ int play(const SimArguments& arguments) {
   Simulation& simulation = run.simulation();
   Recording recording(arguments, outputs, scene, run);
   std::optional<RefBoxLink> box;
-  if (!arguments.refBox.empty()) box.emplace(arguments.refBox, run);
+  if (!arguments.refBox.empty())
+    box.emplace(arguments.refBox, [&run]() -> SceneRun& { return run; });
   const std::optional<double> duration = arguments.duration ? arguments.duration : scene.duration;
   Rescue rescue([&] { recording.commit(); });
   const Pacing pacing(arguments.serving);
   std::size_t cycles = 0;
+  RunDigest digest;
   {
     Progress progress("simulating", false);
     while (interruptSignal() == 0 && !(duration && simulation.now() > fromSeconds(*duration))) {
@@ -211,7 +234,13 @@ int play(const SimArguments& arguments) {
       }
       if (box) box->poll(pacing.elapsed());
       run.step();
-      if (run.referee() != nullptr) print(run.referee()->takeEvents());
+      const std::vector<RefereeEvent> events =
+          run.referee() != nullptr ? run.referee()->takeEvents() : std::vector<RefereeEvent>();
+      print(events);
+      if (arguments.digest) {
+        digest.add(run);
+        for (const RefereeEvent& event : events) digest.add(event);
+      }
       ++cycles;
       {
         const auto held = rescue.hold();
@@ -234,6 +263,7 @@ int play(const SimArguments& arguments) {
                  ? fmt::format("; {} readings of {} in {}", recording.record->messages(),
                                recording.name, printable(arguments.record.string()))
                  : "");
+  if (arguments.digest) fmt::print("digest {:016x}\n", digest.value());
   return problems == 0 ? 0 : 1;
 }
 
@@ -247,15 +277,15 @@ int runSim(const SimArguments& arguments) {
       throw UsageError("--lockstep, --allow-control and --token-file are for --listen");
     return play(arguments);
   }
-  if (!arguments.record.empty() || !arguments.trace.empty() || arguments.duration)
+  if (!arguments.record.empty() || !arguments.trace.empty() || arguments.duration ||
+      arguments.digest)
     throw UsageError(
-        "--record, --trace and --duration do not fit --listen: clients keep their own records, and "
-        "the server runs until it is stopped");
-  if (!arguments.refBox.empty())
-    throw UsageError("--refbox does not fit --listen: clients order the referee there (REFEREE)");
+        "--record, --trace, --duration and --digest do not fit --listen: clients keep their own "
+        "records, and the server runs until it is stopped");
   Simulation::Config config = configOf(arguments);
   config.onProblem = warn;
-  ServedSimulation simulation(sceneOf(arguments), config, playersOf(arguments, warn));
+  RefereedSimulation simulation(sceneOf(arguments), config, playersOf(arguments, warn),
+                                arguments.refBox);
   serve(simulation, arguments.serving, playerCommands(simulation));
   return 0;
 }

@@ -11,18 +11,17 @@ namespace {
 
 const std::string kField = ORTUNG_SOURCE_DIR "/maps/fields/f2000.toml";
 
-std::vector<std::string> game(const std::string& box) {
+std::vector<std::string> game(const std::string& box, const std::string& until = "--duration",
+                              const std::string& value = "60") {
   return {"sim",        kField,
           "--referee",  "soccer:control=orders",
           "--player",   "wander:robot=pioneer.toml&start=-3,2,0@blue",
-          "--duration", "60",
+          until,        value,
           "--no-noise", "--refbox",
           box};
 }
 
-TEST(RefBox, LeadsASimulatedGame) {
-  StandInBox box;
-  Program program(game("127.0.0.1:" + std::to_string(box.port())));
+void expectLedBy(StandInBox& box, Program& program) {
   for (int i = 0; i < 30'000 && !box.hasClient(); ++i) box.look();
   ASSERT_TRUE(box.hasClient());
   box.command("WELCOME", "224.16.32.10");
@@ -43,14 +42,29 @@ TEST(RefBox, LeadsASimulatedGame) {
   program.finish();
 }
 
+TEST(RefBox, LeadsASimulatedGame) {
+  StandInBox box;
+  Program program(game("127.0.0.1:" + std::to_string(box.port())));
+  expectLedBy(box, program);
+}
+
+// Clients play in it, and the box leads it.
+TEST(RefBox, LeadsAServedGame) {
+  StandInBox box;
+  Program program(game("127.0.0.1:" + std::to_string(box.port()), "--listen", "0"));
+  expectLedBy(box, program);
+}
+
 TEST(RefBox, ThatCantBeIsAUsageError) {
   for (const auto& [box, why] : std::vector<std::pair<std::string, std::string>>{
            {"localhost:none", "expected HOST[:PORT][@TEAM]"},
            {"localhost:0", "expected HOST[:PORT][@TEAM]"},
            {"localhost@red", "expected blue or yellow"}}) {
-    const Outcome outcome = ortung(game(box));
-    EXPECT_EQ(outcome.exitCode, 2) << box;
-    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    for (const auto& arguments : {game(box), game(box, "--listen", "0")}) {
+      const Outcome outcome = ortung(arguments);
+      EXPECT_EQ(outcome.exitCode, 2) << box;
+      EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    }
   }
   const Outcome alone = ortung({"sim", kField, "--refbox", "localhost", "--duration", "1"});
   EXPECT_EQ(alone.exitCode, 2);

@@ -112,6 +112,7 @@ Parameters refereeOf(const Parameters& p, const std::filesystem::path& folder,
                                                 : (maps / "rules" / (rules + ".toml")).string());
   for (const char* key : {"control", "kick_off", "left", "team_1", "team_2"})
     if (p.has(key)) options.set(key, p.text(key));
+  if (p.has("matches")) options.set("matches", p.number("matches"));
   return options;
 }
 

@@ -39,6 +39,7 @@ const Game& Match::watch(Stage& stage) {
   countTime(elapsed);
   const std::vector<Order> orders = std::exchange(orders_, {});
   for (const Order& order : orders) obey(stage, order);
+  if (game_.phase == Game::Phase::kOver && isPause_) beginNextMatch();
   const bool isSomebodyThere =
       std::any_of(scene_.robots.begin(), scene_.robots.end(), [](const auto& r) { return r.team; });
   if (clock_.half() == 0 && config_.control == Control::kRules && !waits_ && isSomebodyThere)
@@ -72,7 +73,12 @@ void Match::countTime(double elapsed) {
 
 void Match::endHalf() {
   const bool isDraw = game_.teams[0].score == game_.teams[1].score;
-  if (!clock_.hasNext(isDraw)) return endGame();
+  if (!clock_.hasNext(isDraw)) {
+    endGame();
+    isPause_ = config_.matches == 0 || match_ < config_.matches;
+    since_ = scene_.now;
+    return;
+  }
   game_.phase = Game::Phase::kStopped;
   restart_.reset();
   isPause_ = true;
@@ -87,6 +93,14 @@ void Match::endGame() {
   tell("end", std::nullopt,
        "the game is over: " + game_.teams[0].name + " " + std::to_string(game_.teams[0].score) +
            ", " + game_.teams[1].name + " " + std::to_string(game_.teams[1].score));
+}
+
+/// After the pause, as if nothing had been before.
+void Match::beginNextMatch() {
+  if (toSeconds(scene_.now - since_) < config_.rules.match.pause) return;
+  reset();
+  ++match_;
+  tell("match", std::nullopt, "match " + std::to_string(match_) + " begins");
 }
 
 void Match::whileStopped(Stage& stage) {

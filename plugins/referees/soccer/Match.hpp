@@ -32,6 +32,7 @@ class Match {
     std::array<std::string, 2> teams = {"blue", "yellow"};
     std::size_t kickOff = 0;  ///< the team that has the first one
     std::size_t left = 0;     ///< the team that begins on the left
+    int matches = 1;          ///< one after the other, each from 0:0; 0: without end
   };
 
   explicit Match(Config config);
@@ -51,6 +52,7 @@ class Match {
   void countTime(double elapsed);
   void endHalf();
   void endGame();
+  void beginNextMatch();
   void whileStopped(Stage& stage);
   void whileReady(Stage& stage);
   void whilePlaying(Stage& stage);
@@ -82,7 +84,8 @@ class Match {
 
   std::optional<Restart> restart_;   ///< while it is prepared or to be taken
   bool waits_ = false;               ///< the restart, for the order to start
-  bool isPause_ = false;             ///< between halves
+  bool isPause_ = false;             ///< between halves, or matches
+  int match_ = 1;                    ///< the one that is played
   Timestamp since_ = 0;              ///< of this phase
   std::vector<std::string> placed_;  ///< robots that were there when the restart was given
 

@@ -39,6 +39,7 @@ Match::Config configOf(const Parameters& p) {
   };
   config.kickOff = placeOf("kick_off");
   config.left = placeOf("left");
+  config.matches = static_cast<int>(p.integerOr("matches", 1, {0.0, 1e6}));
   config.control = p.choiceOr("control", "rules", {"rules", "orders"}) == "rules"
                        ? Control::kRules
                        : Control::kOrders;

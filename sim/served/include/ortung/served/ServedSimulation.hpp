@@ -50,6 +50,8 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   /// @throws ServeError if nobody referees; std::invalid_argument for an order that is none
   void orderReferee(const std::string& order);
   const Game& game() const { return run_->game(); }
+  /// What is under way; after a reset it is another one.
+  SceneRun& run() { return *run_; }
   std::vector<PlayerControl::Seated> players() const { return run_->players().players(); }
 
  private:

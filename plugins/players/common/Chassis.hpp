@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "Plane.hpp"
+#include "ortung/sim_api/Player.hpp"
+
+namespace ortung {
+
+/// Three wheels that roll freely along their axles, as the drive `omni` has them.
+struct WheelPlaces {
+  std::array<double, 3> angles{};  ///< round the robot [rad]
+  double radius = 0.2;             ///< from its middle [m]
+
+  /// Speeds at the rims for a velocity in the robot frame [m/s], [rad/s].
+  std::array<double, 3> speeds(const FloorPoint& velocity, double turn) const {
+    std::array<double, 3> wheels{};
+    for (std::size_t i = 0; i < wheels.size(); ++i)
+      wheels[i] =
+          -std::sin(angles[i]) * velocity.x + std::cos(angles[i]) * velocity.y + radius * turn;
+    return wheels;
+  }
+};
+
+/// Moves a robot as its kind of drive can: three wheels in any direction while it turns, others
+/// turn to where they go.
+class Chassis {
+ public:
+  /// @param wheels nothing: it can't go sideways
+  Chassis(const DriveLimits& limits, const std::optional<WheelPlaces>& wheels)
+      : limits_(limits), wheels_(wheels) {}
+
+  const DriveLimits& limits() const { return limits_; }
+  bool isOmni() const { return wheels_.has_value(); }
+
+  /// @param velocity in the field frame [m/s] @param heading that it is to have [rad]
+  void move(const Pose2& pose, const FloorPoint& velocity, double heading,
+            RobotCommands& robot) const {
+    const double speed = std::min(lengthOf(velocity), limits_.speed);
+    if (wheels_) {
+      const FloorPoint inRobot = speed * towards(wrapAngle(angleOf(velocity) - pose.theta));
+      const auto wheels = wheels_->speeds(inRobot, turnFor(wrapAngle(heading - pose.theta)));
+      robot.setMotion(wheels);
+      return;
+    }
+    constexpr double kMoves = 0.05;  // [m/s]
+    const double wanted = speed > kMoves ? angleOf(velocity) : heading;
+    const double error = wrapAngle(wanted - pose.theta);
+    robot.setRotationalVelocity(turnFor(error));
+    robot.setTranslationalVelocity(speed * std::max(1.0 - std::abs(error) / kFacing, 0.0));
+  }
+  /// Ahead and turning, as any drive can. [m/s], [rad/s]
+  void drive(double ahead, double turn, RobotCommands& robot) const {
+    if (wheels_) {
+      robot.setMotion(wheels_->speeds({ahead, 0.0}, turn));
+      return;
+    }
+    robot.setRotationalVelocity(turn);
+    robot.setTranslationalVelocity(ahead);
+  }
+  void stand(RobotCommands& robot) const { drive(0.0, 0.0, robot); }
+
+  /// As fast as half the acceleration can still brake (v^2 = 2 a s).
+  double speedFor(double distance) const {
+    return std::min(limits_.speed, std::sqrt(limits_.acceleration * std::max(distance, 0.0)));
+  }
+  double turnFor(double error) const {
+    const double turn = std::min({limits_.turn, 5.0 * std::abs(error),
+                                  std::sqrt(limits_.turnAcceleration * std::abs(error))});
+    return error < 0.0 ? -turn : turn;
+  }
+
+ private:
+  static constexpr double kFacing = 0.6;  ///< a larger error of heading is turned away first [rad]
+
+  DriveLimits limits_;
+  std::optional<WheelPlaces> wheels_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "Plane.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/tables/FieldModel.hpp"
+
+namespace ortung {
+
+/// A soccer field as its players know it: its middle is the origin, goals are at the ends of x.
+struct Ground {
+  double halfLength = 0.0;  ///< [m]
+  double halfWidth = 0.0;   ///< [m]
+  double halfMouth = 1.0;   ///< of the goals, between the posts [m]
+  std::vector<Disc> posts;  ///< what stands at its border: of goals, of corners
+
+  FloorPoint goal(double end) const { return {end * halfLength, 0.0}; }
+  /// The nearest place that is so far within the lines; a negative margin is outside.
+  FloorPoint within(const FloorPoint& at, double margin) const {
+    const double x = std::max(halfLength - margin, 0.0);
+    const double y = std::max(halfWidth - margin, 0.0);
+    return {std::clamp(at.x, -x, x), std::clamp(at.y, -y, y)};
+  }
+
+  /// Goals and lines of the field; what @p sizes give (lengths in m, 0: none) comes first.
+  /// @throws std::runtime_error for what nobody tells
+  static Ground of(const FieldModel& field, const Ground& sizes) {
+    Ground ground = sizes;
+    double length = 0.0;
+    double width = 0.0;
+    for (const Landmark& landmark : field.landmarks) {
+      if (landmark.kind == "goal") length = std::max(length, std::abs(landmark.x));
+      if (landmark.kind == "post") ground.posts.push_back({{landmark.x, landmark.y}, 0.1});
+    }
+    for (const FieldLine& line : field.lines)
+      if (line.shape == FieldLine::Shape::straight)
+        width = std::max({width, std::abs(line.y0), std::abs(line.y1)});
+    if (ground.halfLength <= 0.0) ground.halfLength = length;
+    if (ground.halfWidth <= 0.0) ground.halfWidth = width;
+    if (ground.halfLength <= 0.0 || ground.halfWidth <= 0.0)
+      throw std::runtime_error(
+          "nothing is known of the field's goals and lines: it needs the options length_m and "
+          "width_m, or tables (--tables)");
+    if (ground.halfMouth <= 0.0) ground.halfMouth = mouthOf(field);
+    // Goals: their posts and sides.
+    for (const double end : {-1.0, 1.0})
+      for (const double side : {-1.0, 1.0})
+        for (const double behind : {0.0, 0.25, 0.5})
+          ground.posts.push_back(
+              {{end * (ground.halfLength + behind), side * (ground.halfMouth + 0.08)}, 0.1});
+    return ground;
+  }
+
+ private:
+  static double mouthOf(const FieldModel& field) {
+    double mouth = 1e9;
+    for (const FieldWall& wall : field.walls)
+      if (wall.ofGoal) mouth = std::min({mouth, std::abs(wall.y0), std::abs(wall.y1)});
+    constexpr double kUsual = 1.0;
+    return mouth < 1e8 && mouth > 0.2 ? mouth : kUsual;
+  }
+};
+
+}  // namespace ortung

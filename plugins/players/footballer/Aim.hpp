@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "Moment.hpp"
+
+namespace ortung::football {
+
+constexpr double kBallRadius = 0.11;  ///< [m]
+
+/// What somebody wants to do with the ball.
+struct Aim {
+  enum class Kind { shot, pass, clearance, carry };
+  Kind kind = Kind::carry;
+  FloorPoint target;
+};
+
+/// The place in the other goal's mouth at which a ball from @p from passes everybody by most;
+/// nothing if there is none.
+inline std::optional<FloorPoint> openCorner(const Moment& m, const FloorPoint& from) {
+  constexpr int kPlaces = 9;
+  constexpr double kGap = 0.12;  // between ball and body [m]
+  const double reach = std::max(m.ground.halfMouth - 0.3, 0.1);
+  std::optional<FloorPoint> best;
+  double most = 0.0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const FloorPoint to{m.otherGoal().x, reach * (2.0 * i / (kPlaces - 1) - 1.0)};
+    double room = 0.6;
+    for (const Other& other : m.view.others)
+      if (dot(other.at - from, to - from) > 0.0)
+        room = std::min(room, distanceToWay(other.at, from, to) - other.radius - kBallRadius);
+    if (room > kGap && room - 0.1 * std::abs(to.y) > most) {
+      most = room - 0.1 * std::abs(to.y);  // where nobody is, the middle is safest
+      best = to;
+    }
+  }
+  return best;
+}
+
+/// The mate who is best placed for a pass from @p from: free, reached by a free lane, and forward.
+inline std::optional<FloorPoint> bestMate(const Moment& m, const FloorPoint& from,
+                                          double backward) {
+  constexpr double kNear = 1.5, kFar = 7.0;  // [m]
+  constexpr double kAlone = 0.9;             // from opponents [m]
+  constexpr double kAhead = 0.4;             // into his way [m]
+  std::optional<FloorPoint> best;
+  double most = -1e3;
+  for (const Other& mate : m.view.others) {
+    if (!mate.isMate || mate.isKeeper) continue;
+    const FloorPoint to = m.ground.within(mate.at + FloorPoint{m.forward * kAhead, 0.0}, 0.3);
+    const double way = lengthOf(to - from);
+    const double progress = m.forward * (to.x - from.x);
+    const double alone = m.view.opponentTo(to);
+    if (way < kNear || way > kFar || progress < -backward || alone < kAlone) continue;
+    View others = m.view;
+    std::erase_if(others.others,
+                  [&](const Other& one) { return one.isMate && lengthOf(one.at - mate.at) < 0.1; });
+    if (!isLaneFree(others, from, to, kBallRadius + 0.15)) continue;
+    const double worth = progress + 0.5 * std::min(alone, 3.0);
+    if (worth > most) most = worth, best = to;
+  }
+  return best;
+}
+
+}  // namespace ortung::football

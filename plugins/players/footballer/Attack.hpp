@@ -1,0 +1,187 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "Aim.hpp"
+#include "Go.hpp"
+#include "Intercept.hpp"
+#include "ortung/base/Random.hpp"
+
+namespace ortung::football {
+
+/// How well somebody plays.
+struct Skill {
+  double ballAhead = 0.28;  ///< the ball's middle before its own, when it has it [m]
+  double shotRange = 4.5;   ///< from where it shoots [m]
+  double carrySpeed = 1.0;  ///< with the ball [m/s]
+  double carryTurn = 0.8;   ///< [rad/s]
+  double carryTime = 5.0;   ///< after which it must part with the ball [s]
+  double aimNoise = 0.04;   ///< sigma of the direction of its kicks [rad]
+};
+
+/// Takes the ball, dribbles it around others, passes or shoots at the goal.
+class Attack {
+ public:
+  explicit Attack(const Skill& skill) : skill_(skill) {}
+
+  /// Who takes a restart must not score by himself: he passes.
+  void oweAPass() { owesPass_ = true; }
+  /// Somebody else goes for the ball.
+  void forget() {
+    owesPass_ = false;
+    aim_.reset();
+    since_.reset();
+  }
+
+  /// @pre m.view.ball
+  void act(const Moment& m, Random& random) {
+    const FloorPoint ball = m.view.ballInRobot();
+    const bool has = isHad(ball);
+    if (!has) lastWithout_ = m.view.now;
+    if (!since_ || !has) since_ = has ? since_ : std::optional<Timestamp>();
+    if (has && !since_) since_ = m.view.now;
+    choose(m, random);
+    // Once between the horns it may be turned about; a wobble does not end that.
+    if (has) return carry(m, ball);
+    m.hands.hold(false, m.robot);
+    fetch(m);
+  }
+
+  const std::optional<Aim>& aim() const { return aim_; }
+
+ private:
+  bool isHad(const FloorPoint& ball) const {
+    return ball.x > 0.1 && ball.x < skill_.ballAhead + 0.07 && std::abs(ball.y) < 0.1;
+  }
+  double had(Timestamp now) const { return since_ ? toSeconds(now - *since_) : 0.0; }
+
+  /// What to do with the ball. It keeps to what it has chosen for a moment.
+  void choose(const Moment& m, Random& random) {
+    if (aim_ && m.view.now - chosen_ < kKeeps && aim_->kind != Aim::Kind::carry) return;
+    const Aim::Kind before = aim_ ? aim_->kind : Aim::Kind::carry;
+    aim_ = best(m);
+    chosen_ = m.view.now;
+    if (aim_->kind != before) error_ = skill_.aimNoise * random.gaussian();
+  }
+  Aim best(const Moment& m) const {
+    const FloorPoint ball = m.view.ball->at;
+    if (owesPass_) {
+      if (const auto mate = bestMate(m, ball, m.hands.canHold() ? 4.0 : 0.5))
+        return {Aim::Kind::pass, *mate};
+      return {Aim::Kind::clearance, wing(m)};
+    }
+    const double toGoal = lengthOf(m.otherGoal() - ball);
+    const auto corner = openCorner(m, ball);
+    if (toGoal < skill_.shotRange && corner) return {Aim::Kind::shot, *corner};
+    const bool isLate = had(m.view.now) > skill_.carryTime;
+    const bool isPressed = m.view.opponentTo(ball) < kPressed;
+    if (isPressed || isLate)
+      if (const auto mate = bestMate(m, ball, isLate ? 3.0 : 0.5)) return {Aim::Kind::pass, *mate};
+    if (toGoal < 0.6 * skill_.shotRange || (isLate && toGoal < 1.6 * skill_.shotRange))
+      return {Aim::Kind::shot, corner.value_or(m.otherGoal())};
+    const bool isAtHome = lengthOf(m.ownGoal() - ball) < 0.6 * m.ground.halfLength;
+    if (isLate || (isPressed && isAtHome)) return {Aim::Kind::clearance, wing(m)};
+    return {Aim::Kind::carry, m.otherGoal()};
+  }
+  /// Up the field, on the side where the ball is.
+  static FloorPoint wing(const Moment& m) {
+    const double side = m.view.ball->at.y < 0.0 ? -1.0 : 1.0;
+    const double x = m.view.ball->at.x + 0.6 * m.forward * m.ground.halfLength;
+    return m.ground.within({x, 0.6 * side * m.ground.halfWidth}, 0.8);
+  }
+
+  /// Comes to the ball from the side away from where it is to go.
+  void fetch(const Moment& m) {
+    const RollingBall& ball = *m.view.ball;
+    const FloorPoint from = m.view.place();
+    const Meeting meeting = meet(ball, m.view.pose, m.chassis.limits());
+    const bool isRolling = ball.speed() > kRolling;
+    const FloorPoint at = m.ground.within(isRolling ? meeting.at : ball.at, -0.3);
+    if (isRolling && meeting.after > 0.3) {
+      // Into its way, facing it.
+      const FloorPoint place = at - skill_.ballAhead * unit(ball.at - at);
+      return go_.to(m, place, angleOf(ball.at - from), m.chassis.limits().speed);
+    }
+    const FloorPoint aim = unit(aim_->target - at);
+    const double toBall = angleOf(at - from);
+    const double off = std::abs(wrapAngle(angleOf(aim) - toBall));
+    const double away = lengthOf(at - from);
+    // With flaps it may take the ball from any side and turn with it.
+    const bool isContested = m.view.opponentTo(at) < kPressed;
+    const double cone = m.hands.canHold() ? 2.2 : isContested ? 1.1 : away < 0.6 ? 0.5 : 0.3;
+    if (off > cone) {
+      const FloorPoint behind = at - (skill_.ballAhead + kBehind) * aim;
+      return go_.to(m, behind, angleOf(aim), m.chassis.limits().speed, {{ball.at, kBallRadius}});
+    }
+    const double error = wrapAngle(toBall - m.view.pose.theta);
+    const double gap = std::max(away - skill_.ballAhead, 0.0);
+    const double speed = std::min(m.chassis.limits().speed, 0.35 + 1.5 * gap);
+    if (away > 1.0) return go_.to(m, at, toBall, speed);
+    m.chassis.move(m.view.pose, (std::abs(error) < 0.4 ? speed : 0.1) * towards(toBall), toBall,
+                   m.robot);
+  }
+
+  /// Whether to kick now: the heading is what is wanted, or as good.
+  bool isAimed(const Moment& m, double error) const {
+    constexpr double kAimed = 0.06, kAnywhere = 0.4;  // [rad]
+    constexpr double kPost = 0.2;                     // from the middle of the way to a post [m]
+    if (aim_->kind == Aim::Kind::carry) return false;
+    if (aim_->kind == Aim::Kind::clearance) return std::abs(error) < kAnywhere;
+    if (std::abs(error) < kAimed) return true;
+    if (aim_->kind != Aim::Kind::shot) return false;
+    const FloorPoint way = towards(m.view.pose.theta);
+    const FloorPoint from = m.view.place();
+    if (way.x * m.forward < 0.3) return false;
+    const FloorPoint hit = from + ((m.otherGoal().x - from.x) / way.x) * way;
+    return std::abs(hit.y) < m.ground.halfMouth - kPost &&
+           isLaneFree(m.view, from, hit, kBallRadius);
+  }
+
+  void carry(const Moment& m, const FloorPoint& ball) {
+    if (ball.x < skill_.ballAhead + 0.02 && std::abs(ball.y) < 0.05) m.hands.hold(true, m.robot);
+    const Pose2& pose = m.view.pose;
+    const FloorPoint from = m.view.place();
+    const double wanted = angleOf(aim_->target - from) + error_;
+    const double error = wrapAngle(wanted - pose.theta);
+    if (isAimed(m, error) && m.view.now - lastWithout_ > kSettles) {
+      if (m.hands.kick(aim_->kind == Aim::Kind::pass, m.robot)) {
+        owesPass_ = false;
+        aim_.reset();
+        since_.reset();
+      }
+      return m.chassis.drive(0.3, 0.0, m.robot);
+    }
+    double way = wanted;
+    if (aim_->kind == Aim::Kind::carry) {
+      std::vector<Disc> discs;
+      for (const Other& other : m.view.others) discs.push_back({other.at, other.radius + 0.1});
+      way = go_.direction(from, aim_->target, m.view.radius, discs).value_or(wanted);
+    }
+    const double off = wrapAngle(way - pose.theta);
+    const double most = m.hands.canHold() ? 2.0 * skill_.carryTurn : skill_.carryTurn;
+    const double turn = std::clamp(2.5 * off, -most, most);
+    const bool isTurning = std::abs(off) > 0.6;
+    const double speed = isTurning && m.hands.canHold() ? 0.3 : isTurning ? 0.5 : 1.0;
+    m.chassis.drive(speed * skill_.carrySpeed, turn, m.robot);
+  }
+
+  static constexpr Timestamp kKeeps = 600'000;    ///< an aim [us]
+  static constexpr Timestamp kSettles = 100'000;  ///< a ball that it has got [us]
+  static constexpr double kPressed = 0.9;         ///< opponent to ball [m]
+  static constexpr double kRolling = 0.5;         ///< slower it counts as lying [m/s]
+  static constexpr double kBehind = 0.28;         ///< the ball [m]
+
+  Skill skill_;
+  Go go_;
+  std::optional<Aim> aim_;
+  Timestamp chosen_ = 0;
+  std::optional<Timestamp> since_;  ///< it has the ball
+  Timestamp lastWithout_ = 0;
+  double error_ = 0.0;  ///< of its kicks [rad]
+  bool owesPass_ = false;
+};
+
+}  // namespace ortung::football

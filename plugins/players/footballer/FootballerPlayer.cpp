@@ -1,0 +1,198 @@
+// Plays football in the field: who has the ball soonest attacks, the others cover and support, by
+// what they tell each other (docs/matches.md).
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Attack.hpp"
+#include "Eyes.hpp"
+#include "Places.hpp"
+#include "Roles.hpp"
+#include "Steering.hpp"
+#include "TeamTalk.hpp"
+#include "Unjam.hpp"
+#include "ortung/base/Angles.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/formats/PoseData.hpp"
+
+namespace ortung::football {
+namespace {
+
+struct Settings {
+  std::string sees;
+  std::optional<double> speed;  ///< [m/s]
+  double period;                ///< [s]
+  double braking;               ///< of a rolling ball [m/s^2]
+  Skill skill;
+  Ground sizes;
+  WheelPlaces wheels;
+
+  explicit Settings(const Parameters& p) {
+    sees = p.choiceOr("sees", "truth", {"truth", "features"});
+    speed = speedOption(p);
+    period = p.numberOr("period_s", 0.04, {0.01, 1.0});
+    braking = p.numberOr("braking_m_s2", 0.2943, {0.0, 10.0});
+    skill.aimNoise = radians(p.numberOr("aim_noise_deg", 2.5, {0.0, 90.0}));
+    skill.shotRange = p.numberOr("shot_range_m", 0.0, {0.0, 50.0});
+    skill.carryTime = p.numberOr("carry_s", skill.carryTime, {0.5, 1e6});
+    skill.ballAhead = p.numberOr("ball_ahead_m", skill.ballAhead, {0.05, 2.0});
+    sizes.halfLength = p.numberOr("length_m", 0.0, {0.0, 1000.0}) / 2.0;
+    sizes.halfWidth = p.numberOr("width_m", 0.0, {0.0, 1000.0}) / 2.0;
+    sizes.halfMouth = p.numberOr("goal_width_m", 0.0, {0.0, 100.0}) / 2.0;
+    const auto angles = p.numbersOr("wheel_angles_deg", {60.0, 180.0, 300.0}, 3, {-360.0, 360.0});
+    for (std::size_t i = 0; i < angles.size(); ++i) wheels.angles.at(i) = radians(angles[i]);
+    wheels.radius = p.numberOr("wheel_distance_m", wheels.radius, {0.01, 10.0});
+  }
+};
+
+std::optional<Pose2> groundTruth(PlayerSeat& seat) {
+  return seat.container().get<PoseData>({.type = "groundTruth"});
+}
+
+/// Whether it is commanded by the speeds of three wheels.
+bool hasThreeWheels(const RobotAbilities& abilities) {
+  return abilities.motionHelp.starts_with("[wheel 1, wheel 2, wheel 3]");
+}
+
+class FootballerPlayer : public Player {
+ public:
+  explicit FootballerPlayer(const Parameters& p) : settings_(p), mates_(settings_.braking) {}
+
+  std::filesystem::path robotFile() const override { return "f2000_player.toml"; }
+  double period() const override { return settings_.period; }
+  bool needsStage() const override { return settings_.sees == "truth"; }
+
+  void begin(PlayerSeat& seat) override {
+    ground_ = Ground::of(seat.field(), settings_.sizes);
+    Skill skill = settings_.skill;
+    if (skill.shotRange <= 0.0) skill.shotRange = 0.7 * ground_.halfLength;
+    const RobotAbilities& able = seat.abilities();
+    std::optional<WheelPlaces> wheels;
+    if (hasThreeWheels(able)) wheels = settings_.wheels;
+    chassis_.emplace(limitsOf(seat, settings_.speed), wheels);
+    hands_.emplace(able);
+    attack_.emplace(skill);
+    eyes_.emplace(settings_.sees == "truth" ? Eyes::Pose() : groundTruth, settings_.braking);
+  }
+
+  bool senseAndAct(PlayerSeat& seat) override {
+    mates_.hear(seat.heard(), seat.now());
+    const std::optional<View> view = eyes_->look(seat, mates_);
+    if (!view) return true;  // it does not know where it is yet
+    const double forward = seat.game().directionOf(seat.team());
+    const Moment moment{*view, ground_, *chassis_, *hands_, seat.robot(), forward};
+    const double cost = costOf(moment);
+    talk(seat, *view, cost);
+    if (!seat.game().mayPlay(seat.team())) {
+      role_ = Role::cover;
+      attack_->forget();
+      hands_->hold(false, seat.robot());
+      unjam_.act(moment, false, seat.random());
+      chassis_->stand(seat.robot());
+      return true;
+    }
+    play(seat, moment, cost);
+    return true;
+  }
+
+ private:
+  /// How long until it has the ball, and has it on the right side; who attacks keeps at it.
+  double costOf(const Moment& m) const {
+    constexpr double kNever = 1000.0;
+    constexpr double kLoyalty = 0.5;    // [s]
+    constexpr double kWrongSide = 0.8;  // [s]
+    if (!m.view.ball) return kNever;
+    const Meeting meeting = meet(*m.view.ball, m.view.pose, m.chassis.limits());
+    const FloorPoint way = unit(meeting.at - m.view.place());
+    const FloorPoint wanted = unit(m.otherGoal() - meeting.at);
+    const double wrong = 0.5 * (1.0 - dot(way, wanted));
+    return meeting.after + kWrongSide * wrong - (role_ == Role::attack ? kLoyalty : 0.0);
+  }
+
+  void talk(PlayerSeat& seat, const View& view, double cost) {
+    constexpr Timestamp kPeriod = 100'000;  // [us]
+    if (view.now < nextWord_) return;
+    nextWord_ = view.now + kPeriod;
+    seat.say(Word{cost, view.place(), eyes_->ownBall()}.text());
+  }
+
+  void play(PlayerSeat& seat, const Moment& m, double cost) {
+    const FloorPoint ball = m.view.ball ? m.view.ball->at : FloorPoint{};
+    std::vector<Candidate> all = {{seat.name(), cost, m.view.place()}};
+    for (const auto& [name, told] : mates_.told())
+      all.push_back({name, told.word.cost, told.word.at});
+    role_ =
+        shareRoles(std::move(all), seat.name(), coverPlace(ground_, m.forward, ball), m.forward);
+    if (role_ != Role::attack || !m.view.ball) {
+      attack_->forget();
+      if (unjam_.act(m, isOnTheWay_, seat.random())) return;
+      return takePlace(m, ball);
+    }
+    if (unjam_.act(m, true, seat.random())) return;
+    if (isToTake(seat)) attack_->oweAPass();
+    attack_->act(m, seat.random());
+  }
+
+  /// Whether its team has a restart from which the taker must not score.
+  static bool isToTake(PlayerSeat& seat) {
+    const Game& game = seat.game();
+    return game.phase == Game::Phase::kReady && game.restart != Game::Restart::kPenalty &&
+           game.restart != Game::Restart::kDroppedBall;
+  }
+
+  /// Goes to where its role wants it, and looks at the ball.
+  void takePlace(const Moment& m, const FloorPoint& ball) {
+    constexpr double kNear = 0.2, kFar = 0.6;  // [m]
+    constexpr double kClear = 0.4;             // from the ball [m]
+    m.hands.hold(false, m.robot);
+    const FloorPoint place = placeOf(role_, ground_, m.forward, ball);
+    const double away = lengthOf(place - m.view.place());
+    isOnTheWay_ = away > (isOnTheWay_ ? kNear : kFar);
+    const double heading = angleOf(ball - m.view.place());
+    if (!isOnTheWay_) return m.chassis.move(m.view.pose, {}, heading, m.robot);
+    go_.to(m, place, heading, m.chassis.limits().speed, {{ball, kClear}});
+  }
+
+  Settings settings_;
+  Ground ground_;
+  std::optional<Chassis> chassis_;
+  std::optional<Hands> hands_;
+  std::optional<Eyes> eyes_;
+  std::optional<Attack> attack_;
+  Mates mates_;
+  Go go_;
+  Unjam unjam_;
+  Role role_ = Role::cover;
+  bool isOnTheWay_ = false;
+  Timestamp nextWord_ = 0;
+};
+
+struct FootballerHelp : PlayerHelp {
+  explicit FootballerHelp(const Parameters&)
+      : PlayerHelp(
+            "plays football in the field, in a team that shares roles by talk",
+            {{"sees", "truth|features", "truth",
+              "where everything really is; or its pose by ground truth, ball and robots by its "
+              "camera"},
+             kSpeedOption,
+             {"aim_noise_deg", "deg", "2.5", "sigma of the direction of its kicks"},
+             {"shot_range_m", "m", "0.35 of the field's length",
+              "from where it shoots at the goal"},
+             {"carry_s", "s", "5", "for how long it keeps the ball at most"},
+             {"ball_ahead_m", "m", "0.28", "ball before the robot's middle when it has it"},
+             {"braking_m_s2", "m/s^2", "0.2943", "how the floor brakes a ball, as it believes"},
+             {"length_m", "m", "of the field", "between the goal lines"},
+             {"width_m", "m", "of the field", "between the touch lines"},
+             {"goal_width_m", "m", "of the field", "between the posts"},
+             {"wheel_angles_deg", "a,b,c in deg", "60,180,300", "of a robot on three wheels"},
+             {"wheel_distance_m", "m", "0.2", "of these wheels from its middle"},
+             {"period_s", "s", "0.04", "between two decisions"}}) {}
+};
+
+}  // namespace
+}  // namespace ortung::football
+
+ORTUNG_PLUGINS("footballer",
+               ortung::provide<ortung::Player, ortung::football::FootballerPlayer>("footballer"),
+               ortung::provide<ortung::PlayerHelp, ortung::football::FootballerHelp>("footballer"));

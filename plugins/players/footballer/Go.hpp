@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "Moment.hpp"
+#include "ortung/base/Angles.hpp"
+
+namespace ortung::football {
+
+/// Goes somewhere, around whatever is in the way.
+class Go {
+ public:
+  /// The direction nearest to the straight one in which nothing is in the way for the next while;
+  /// nothing if there is none. The side on which it goes round something stays the same as long as
+  /// that costs little. @param radius of who goes [m]
+  std::optional<double> direction(const FloorPoint& from, const FloorPoint& to, double radius,
+                                  const std::vector<Disc>& discs) {
+    const double straight = angleOf(to - from);
+    const double ahead = std::min(lengthOf(to - from), kLook);
+    const auto isOpen = [&](double angle) {
+      return isFree(from, from + ahead * towards(angle), radius, discs);
+    };
+    if (isOpen(straight)) {
+      side_ = 0.0;
+      return straight;
+    }
+    for (int i = 1; i <= kSteps + kLoyal; ++i) {
+      for (const double side : {1.0, -1.0}) {
+        const int steps = side * side_ < 0.0 ? i - kLoyal : i;
+        const double angle = straight + side * steps * kStep;
+        if (steps < 1 || steps > kSteps || !isOpen(angle)) continue;
+        side_ = side;
+        return wrapAngle(angle);
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// @param heading that it is to have there [rad] @param more what else it must not touch
+  void to(const Moment& m, const FloorPoint& target, double heading, double speed,
+          const std::vector<Disc>& more = {}) {
+    const FloorPoint from = m.view.place();
+    const double away = lengthOf(target - from);
+    constexpr double kThere = 0.06;  // [m]
+    if (away < kThere) return m.chassis.move(m.view.pose, {}, heading, m.robot);
+    std::vector<Disc> discs = more;
+    for (const Other& other : m.view.others) discs.push_back({foreseen(other, from), other.radius});
+    discs.insert(discs.end(), m.ground.posts.begin(), m.ground.posts.end());
+    const auto way = direction(from, target, m.view.radius, discs);
+    if (!way) return m.chassis.stand(m.robot);
+    const double fast = std::min(speed, m.chassis.speedFor(away));
+    m.chassis.move(m.view.pose, fast * towards(*way), heading, m.robot);
+  }
+
+ private:
+  static constexpr double kLook = 1.2;  ///< how far ahead the way must be free [m]
+  static constexpr double kStep = 10.0 * kDegree;
+  static constexpr int kSteps = 14;     ///< to either side
+  static constexpr int kLoyal = 3;      ///< so many steps must the other side be better
+  static constexpr double kGap = 0.06;  ///< between bodies [m]
+
+  static FloorPoint foreseen(const Other& other, const FloorPoint& from) {
+    constexpr double kFast = 2.0;  // [m/s]
+    const double time = std::min(lengthOf(other.at - from) / kFast, 0.5);
+    return other.at + time * other.velocity;
+  }
+  /// What it touches already does not keep it from going away.
+  static bool isFree(const FloorPoint& from, const FloorPoint& to, double radius,
+                     const std::vector<Disc>& discs) {
+    for (const Disc& disc : discs) {
+      const double room = radius + disc.radius + kGap;
+      const double now = lengthOf(disc.at - from);
+      if (distanceToWay(disc.at, from, to) >= std::min(room, now)) continue;
+      if (dot(disc.at - from, to - from) > 0.0) return false;
+    }
+    return true;
+  }
+
+  double side_ = 0.0;  ///< 1: to the left of what is in the way, -1: to the right, 0: no matter
+};
+
+}  // namespace ortung::football

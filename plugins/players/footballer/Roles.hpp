@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Plane.hpp"
+
+namespace ortung::football {
+
+enum class Role : std::uint8_t {
+  attack,   ///< goes for the ball
+  cover,    ///< stays between the ball and the own goal
+  support,  ///< is there for a pass, on one side
+  wing      ///< the same on the other side
+};
+
+/// One who has a part in the game.
+struct Candidate {
+  std::string name;
+  double cost = 0.0;  ///< until he has the ball [s]; who attacks already tells somewhat less
+  FloorPoint at;
+};
+
+/// Shares the roles out: all who know the same come to the same result. Who has the ball soonest
+/// attacks; of the others who is nearest to @p coverPlace covers; the rest supports, the foremost
+/// as `support`, the next as `wing`.
+/// @param forward 1 or -1: towards the other goal along x
+inline Role shareRoles(std::vector<Candidate> all, const std::string& own,
+                       const FloorPoint& coverPlace, double forward) {
+  const auto take = [&](auto&& key) {
+    const auto best = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+      return std::pair(key(a), a.name) < std::pair(key(b), b.name);
+    });
+    std::string name = best->name;
+    all.erase(best);
+    return name;
+  };
+  if (take([](const Candidate& one) { return one.cost; }) == own || all.empty())
+    return Role::attack;
+  if (take([&](const Candidate& one) { return lengthOf(one.at - coverPlace); }) == own)
+    return Role::cover;
+  if (take([&](const Candidate& one) { return -forward * one.at.x; }) == own) return Role::support;
+  return Role::wing;
+}
+
+}  // namespace ortung::football

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <numbers>
+
+#include "Moment.hpp"
+#include "ortung/base/Random.hpp"
+
+namespace ortung::football {
+
+/// Notices that a robot wants to move and does not, and frees it: back, to one side.
+class Unjam {
+ public:
+  /// Whether it acts instead of what was planned. @param wantsToMove in this moment
+  bool act(const Moment& m, bool wantsToMove, Random& random) {
+    if (m.view.now < until_) {
+      m.hands.hold(false, m.robot);
+      if (m.chassis.isOmni()) {
+        m.chassis.move(m.view.pose, 0.8 * towards(away_), m.view.pose.theta, m.robot);
+      } else {
+        m.chassis.drive(-0.5, away_ > 0.0 ? 1.2 : -1.2, m.robot);
+      }
+      return true;
+    }
+    const bool hasMoved = lengthOf(m.view.place() - anchor_) > kMoved;
+    if (!wantsToMove || hasMoved || m.view.now < since_) {
+      anchor_ = m.view.place();
+      since_ = m.view.now;
+      return false;
+    }
+    if (m.view.now - since_ < kPatience) return false;
+    until_ = m.view.now + kFreeing;
+    since_ = until_;
+    const double aside = random.uniform(0.5, 1.0) * std::numbers::pi;
+    away_ = wrapAngle((m.chassis.isOmni() ? m.view.pose.theta : 0.0) +
+                      (random.uniform() < 0.5 ? -aside : aside));
+    return true;
+  }
+
+ private:
+  static constexpr double kMoved = 0.15;             ///< [m]
+  static constexpr Timestamp kPatience = 1'600'000;  ///< [us]
+  static constexpr Timestamp kFreeing = 700'000;     ///< [us]
+  FloorPoint anchor_;
+  Timestamp since_ = 0;
+  Timestamp until_ = 0;
+  double away_ = 0.0;  ///< direction [rad]
+};
+
+}  // namespace ortung::football

@@ -1,0 +1,78 @@
+// Matches of the scenes that ship, cut short.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "ortung/sim/RunDigest.hpp"
+#include "ortung/sim/SceneRun.hpp"
+
+namespace ortung {
+namespace {
+
+/// Plays a match and looks at what must hold all the time.
+struct Match {
+  Match(const std::string& scene, std::uint64_t seed, double seconds)
+      : run(Scene::read(ORTUNG_SOURCE_DIR "/maps/scenes/" + scene), {.seed = seed}, factory,
+            {.budget = 0.0, .onProblem = [this](const std::string& what) { problems += what; }}) {
+    const auto robots = run.simulation().robots().size();
+    while (run.simulation().now() < fromSeconds(seconds)) {
+      run.step();
+      digest.add(run);
+      for (const RefereeEvent& event : run.referee()->takeEvents()) {
+        ++count[event.what];
+        if (event.what == "goal") ++count["goal of " + event.team];
+        log += std::to_string(toSeconds(event.stamp)) + " " + event.what + " " + event.team + "\n";
+      }
+      const auto& bounds = run.simulation().world().solids().bounds;
+      for (const auto& robot : run.simulation().robots()) check(robot->state().pose, bounds);
+      for (const auto& thing : run.simulation().things()) check(thing.pose, bounds);
+    }
+    EXPECT_EQ(problems, "");
+    EXPECT_EQ(run.simulation().robots().size(), robots);
+    EXPECT_EQ(count["problem"], 0) << log;
+  }
+  void check(const Pose2& pose, const Box2& bounds) {
+    isWithin = isWithin && isFinite(pose) && pose.x > bounds.xLow && pose.x < bounds.xHigh &&
+               pose.y > bounds.yLow && pose.y < bounds.yHigh;
+  }
+
+  std::string problems;
+  PluginFactory factory{PluginFactory::standardFolders()};
+  SceneRun run;
+  RunDigest digest;
+  std::map<std::string, int> count;
+  std::string log;
+  bool isWithin = true;
+};
+
+TEST(FootballMatch, OfFourAgainstFourHasGoalsAndGoesOn) {
+  Match match("f2000_match.toml", 1, 200.0);
+  EXPECT_GE(match.count["goal"], 1) << match.log;
+  EXPECT_EQ(match.count["kick-off"], 1 + match.count["goal"]);
+  EXPECT_EQ(match.count["set-piece-over"], 0) << match.log;
+  EXPECT_LE(match.count["ball-stuck"], 2) << match.log;
+  EXPECT_TRUE(match.isWithin);
+}
+
+TEST(FootballMatch, OfFiveAgainstFiveTakesAllRestarts) {
+  Match match("msl_match.toml", 1, 120.0);
+  const int given = match.count["kick-off"] + match.count["throw-in"] + match.count["goal-kick"] +
+                    match.count["corner"] + match.count["free-kick"];
+  EXPECT_GE(given, 5) << match.log;
+  EXPECT_EQ(match.count["set-piece-over"], 0) << match.log;
+  EXPECT_GE(match.count["play"], given - 1) << match.log;  // the last may be waited for
+  EXPECT_EQ(match.count["ball-stuck"], 0) << match.log;
+  EXPECT_TRUE(match.isWithin);
+}
+
+TEST(FootballMatch, IsTheSameAgain) {
+  const auto digest = [](std::uint64_t seed) {
+    return Match("f2000_match.toml", seed, 20.0).digest.value();
+  };
+  EXPECT_EQ(digest(7), digest(7));
+  EXPECT_NE(digest(7), digest(8));
+}
+
+}  // namespace
+}  // namespace ortung
