@@ -1,6 +1,7 @@
 // Plays football in the field: who has the ball soonest attacks, the others cover and support, by
 // what they tell each other (docs/matches.md).
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/mcl_player/SelfLocalization.hpp"
 
 namespace ortung::football {
 namespace {
@@ -29,7 +31,7 @@ struct Settings {
   WheelPlaces wheels;
 
   explicit Settings(const Parameters& p) {
-    sees = p.choiceOr("sees", "truth", {"truth", "features"});
+    sees = p.choiceOr("sees", "truth", {"truth", "features", "localized"});
     speed = speedOption(p);
     period = p.numberOr("period_s", 0.04, {0.01, 1.0});
     braking = p.numberOr("braking_m_s2", 0.2943, {0.0, 10.0});
@@ -62,6 +64,7 @@ class FootballerPlayer : public Player {
   std::filesystem::path robotFile() const override { return "f2000_player.toml"; }
   double period() const override { return settings_.period; }
   bool needsStage() const override { return settings_.sees == "truth"; }
+  bool needsTables() const override { return settings_.sees == "localized"; }
 
   void begin(PlayerSeat& seat) override {
     ground_ = Ground::of(seat.field(), settings_.sizes);
@@ -73,13 +76,17 @@ class FootballerPlayer : public Player {
     chassis_.emplace(limitsOf(seat, settings_.speed), wheels);
     hands_.emplace(able);
     attack_.emplace(skill);
-    eyes_.emplace(settings_.sees == "truth" ? Eyes::Pose() : groundTruth, settings_.braking);
+    eyes_.emplace(poseFor(seat), settings_.braking);
   }
 
   bool senseAndAct(PlayerSeat& seat) override {
     mates_.hear(seat.heard(), seat.now());
     const std::optional<View> view = eyes_->look(seat, mates_);
-    if (!view) return true;  // it does not know where it is yet
+    if (!view) {  // it does not know where it is: turning, it sees more
+      constexpr double kTurn = 0.8;  // [rad/s]
+      chassis_->drive(0.0, seat.game().mayPlay(seat.team()) ? kTurn : 0.0, seat.robot());
+      return true;
+    }
     const double forward = seat.game().directionOf(seat.team());
     const Moment moment{*view, ground_, *chassis_, *hands_, seat.robot(), forward};
     const double cost = costOf(moment);
@@ -97,6 +104,19 @@ class FootballerPlayer : public Player {
   }
 
  private:
+  /// How it knows where it is; empty: everything is taken from the stage.
+  Eyes::Pose poseFor(PlayerSeat& seat) {
+    if (settings_.sees == "truth") return {};
+    if (settings_.sees == "features") return groundTruth;
+    self_ = std::make_unique<SelfLocalization>(seat);
+    return [this](PlayerSeat& here) -> std::optional<Pose2> {
+      self_->update(here);
+      const auto estimate = self_->estimate(here.now());
+      if (!estimate || estimate->status == TrackStatus::kLost) return std::nullopt;
+      return estimate->pose;
+    };
+  }
+
   /// How long until it has the ball, and has it on the right side; who attacks keeps at it.
   double costOf(const Moment& m) const {
     constexpr double kNever = 1000.0;
@@ -158,6 +178,7 @@ class FootballerPlayer : public Player {
   Ground ground_;
   std::optional<Chassis> chassis_;
   std::optional<Hands> hands_;
+  std::unique_ptr<SelfLocalization> self_;
   std::optional<Eyes> eyes_;
   std::optional<Attack> attack_;
   Mates mates_;
@@ -172,9 +193,9 @@ struct FootballerHelp : PlayerHelp {
   explicit FootballerHelp(const Parameters&)
       : PlayerHelp(
             "plays football in the field, in a team that shares roles by talk",
-            {{"sees", "truth|features", "truth",
-              "where everything really is; or its pose by ground truth, ball and robots by its "
-              "camera"},
+            {{"sees", "truth|features|localized", "truth",
+              "where everything really is; or ball and robots by its camera, and its pose by ground "
+              "truth or by MCL"},
              kSpeedOption,
              {"aim_noise_deg", "deg", "2.5", "sigma of the direction of its kicks"},
              {"shot_range_m", "m", "0.35 of the field's length",

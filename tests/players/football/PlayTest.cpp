@@ -117,7 +117,7 @@ TEST(Footballer, SaysWhatIsWrong) {
       return error.what();
     }
   };
-  EXPECT_NE(why("sees=all").find("must be one of: truth, features"), std::string::npos);
+  EXPECT_NE(why("sees=all").find("must be one of: truth, features, localized"), std::string::npos);
   EXPECT_NE(why("aim_noise_deg=-1").find("aim_noise_deg"), std::string::npos);
   EXPECT_NE(why("stage=no").find("needs the world's state"), std::string::npos);
   EXPECT_NE(why("sees=features&robot=sonar_ring.toml").find("no sensor with a feature 'ball'"),
