@@ -73,7 +73,8 @@ class Trace {
  public:
   explicit Trace(const std::filesystem::path& file) : file_(file) {}
   void add(const Simulation& simulation) {
-    constexpr Timestamp kPeriod = 50'000;  // [us]
+    constexpr Timestamp kPeriod = 50'000;                              // [us]
+    if (simulation.now() + kPeriod < next_) next_ = simulation.now();  // it has started over
     if (simulation.now() < next_) return;
     next_ += kPeriod;
     for (const auto& robot : simulation.robots()) {
@@ -187,21 +188,27 @@ void print(const std::vector<RefereeEvent>& events) {
 /// A served simulation whose referee a box may lead; what happens in the game is printed.
 class RefereedSimulation : public ServedSimulation {
  public:
-  /// @param box as RefBoxLink has it; "": none
-  RefereedSimulation(Scene scene, const Simulation::Config& config,
-                     const PlayerControl::Config& players, const std::string& box)
-      : ServedSimulation(std::move(scene), config, players) {
-    if (!box.empty()) box_.emplace(box, [this]() -> SceneRun& { return run(); });
+  RefereedSimulation(const SimArguments& arguments, const Simulation::Config& config)
+      : ServedSimulation(sceneOf(arguments), config, playersOf(arguments, warn)) {
+    const Outputs outputs = outputsOf(arguments);
+    if (!arguments.trace.empty()) trace_.emplace(outputs.ready(arguments.trace));
+    if (!arguments.refBox.empty())
+      box_.emplace(arguments.refBox, [this]() -> SceneRun& { return run(); });
   }
   void step() override {
     if (box_) box_->poll(clock_.elapsed());
     ServedSimulation::step();
+    if (trace_) trace_->add(run().simulation());
     if (run().referee() != nullptr) print(run().referee()->takeEvents());
+  }
+  void commit() {
+    if (trace_) trace_->commit();
   }
 
  private:
   Pacing clock_{ServingArguments{}};
   std::optional<RefBoxLink> box_;
+  std::optional<Trace> trace_;
 };
 
 int play(const SimArguments& arguments) {
@@ -277,16 +284,16 @@ int runSim(const SimArguments& arguments) {
       throw UsageError("--lockstep, --allow-control and --token-file are for --listen");
     return play(arguments);
   }
-  if (!arguments.record.empty() || !arguments.trace.empty() || arguments.duration ||
-      arguments.digest)
+  if (!arguments.record.empty() || arguments.duration || arguments.digest)
     throw UsageError(
-        "--record, --trace, --duration and --digest do not fit --listen: clients keep their own "
-        "records, and the server runs until it is stopped");
+        "--record, --duration and --digest do not fit --listen: clients keep their own records, "
+        "and "
+        "the server runs until it is stopped");
   Simulation::Config config = configOf(arguments);
   config.onProblem = warn;
-  RefereedSimulation simulation(sceneOf(arguments), config, playersOf(arguments, warn),
-                                arguments.refBox);
+  RefereedSimulation simulation(arguments, config);
   serve(simulation, arguments.serving, playerCommands(simulation));
+  simulation.commit();
   return 0;
 }
 

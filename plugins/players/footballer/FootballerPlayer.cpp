@@ -82,7 +82,7 @@ class FootballerPlayer : public Player {
   bool senseAndAct(PlayerSeat& seat) override {
     mates_.hear(seat.heard(), seat.now());
     const std::optional<View> view = eyes_->look(seat, mates_);
-    if (!view) {  // it does not know where it is: turning, it sees more
+    if (!view) {                     // it does not know where it is: turning, it sees more
       constexpr double kTurn = 0.8;  // [rad/s]
       chassis_->drive(0.0, seat.game().mayPlay(seat.team()) ? kTurn : 0.0, seat.robot());
       return true;
@@ -194,7 +194,8 @@ struct FootballerHelp : PlayerHelp {
       : PlayerHelp(
             "plays football in the field, in a team that shares roles by talk",
             {{"sees", "truth|features|localized", "truth",
-              "where everything really is; or ball and robots by its camera, and its pose by ground "
+              "where everything really is; or ball and robots by its camera, and its pose by "
+              "ground "
               "truth or by MCL"},
              kSpeedOption,
              {"aim_noise_deg", "deg", "2.5", "sigma of the direction of its kicks"},

@@ -41,8 +41,7 @@ std::string_view nameOf(GoalOutcome outcome) {
 bool GoalJudge::sees(const Simulation::Thing& ball, const SimRobot& keeper, double cycle) {
   const double towards = -ball.velocity.x;
   wasShot_ = wasShot_ || towards > kShot;
-  const double bump =
-      std::hypot(ball.velocity.x - velocity_.x, ball.velocity.y - velocity_.y);
+  const double bump = std::hypot(ball.velocity.x - velocity_.x, ball.velocity.y - velocity_.y);
   velocity_ = ball.velocity;
   wasTouched_ = wasTouched_ || (wasShot_ && bump > kBump && isAt(keeper, ball, cycle));
   if (ball.pose.x < GoalField::kGoalX - GoalField::kBall) {

@@ -307,6 +307,12 @@ std::vector<TeamWords> RemoteRobot::hearTeam() {
   return talk;
 }
 
+std::string RemoteRobot::game() {
+  std::string game;
+  parts_->perform([&] { game = parts_->session->game(); });
+  return game;
+}
+
 bool RemoteRobot::say(const std::string& text) {
   return parts_->attempt([&] { parts_->session->say(text); });
 }

@@ -267,6 +267,18 @@ std::vector<TeamWords> RobotSession::hearTeam() {
   return talk;
 }
 
+std::string RobotSession::game() {
+  constexpr std::string_view kHead = "OK GAME ";
+  try {
+    const std::string reply = ask("GAME");
+    if (!reply.starts_with(kHead)) failOn(reply);
+    return reply.substr(kHead.size());
+  } catch (const ServerRefused& refused) {
+    if (refused.code() != "unknown") throw;
+    return {};
+  }
+}
+
 RobotDescription RobotSession::describe() {
   std::vector<std::string> lines;
   ask("DESCRIBE robot", &lines);

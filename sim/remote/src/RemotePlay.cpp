@@ -135,6 +135,7 @@ struct RemotePlay::Parts {
       if (now < due) continue;
       due = std::max(due + period, now + 1);
       seat.listen();
+      seat.watchGame();
       call("senseAndAct", [&] { isOver = !player->senseAndAct(seat); });
       seat.forgetHeard();
     }
@@ -148,6 +149,7 @@ RemotePlay::~RemotePlay() = default;
 
 void RemotePlay::run() {
   Parts& parts = *parts_;
+  parts.seat.watchGame();
   parts.call("begin", [&] { parts.player->begin(parts.seat); });
   parts.play();
   parts.call("end", [&] { parts.player->end(parts.seat); });

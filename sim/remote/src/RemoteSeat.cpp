@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "GameText.hpp"
 #include "ortung/sim_api/PlayerGuard.hpp"
 
 namespace ortung::remote {
@@ -90,6 +91,13 @@ void RemoteSeat::say(std::string_view text) {
 void RemoteSeat::listen() {
   for (TeamWords& words : robot_.hearTeam())
     heard_.push_back({std::move(words.from), words.stamp, std::move(words.text)});
+}
+
+void RemoteSeat::watchGame() {
+  if (!hasGame_) return;
+  const std::string text = robot_.game();
+  hasGame_ = !text.empty();
+  if (hasGame_) game_ = parseGame(text);
 }
 
 void RemoteSeat::look() { now_ = robot_.newest(); }

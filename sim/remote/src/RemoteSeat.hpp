@@ -58,6 +58,9 @@ class RemoteSeat : public PlayerSeat {
   void look();
   /// What was said meanwhile. @throws ConnectionLost, ServerRefused
   void listen();
+  /// How the game stands; free where the server knows none. @throws as listen(), and
+  ///   std::runtime_error for what is no game
+  void watchGame();
   void forgetHeard() { heard_.clear(); }
   const Voice& voice() const { return voice_; }
 
@@ -71,6 +74,7 @@ class RemoteSeat : public PlayerSeat {
   Random random_;
   RobotAbilities abilities_;
   Game game_;
+  bool hasGame_ = true;  ///< the server knows the game
   Timestamp now_ = 0;
   std::vector<Heard> heard_;
 };

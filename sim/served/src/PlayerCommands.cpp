@@ -1,5 +1,7 @@
 #include "ortung/served/PlayerCommands.hpp"
 
+#include <charconv>
+
 #include "ortung/base/Time.hpp"
 #include "ortung/sim/PlayerWish.hpp"
 
@@ -30,12 +32,19 @@ PlayerWish wishOf(const BoardCommand::Call& call) {
   return parsePlayer(text + team);
 }
 
+/// The shortest digits that give the same number again.
+std::string shortest(double number) {
+  char digits[32];
+  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, number);
+  return std::string(digits, end.ptr);
+}
+
 /// "phase=ready restart=kick-off restart_of=blue half=1 clock_s=12.5 blue=0 yellow=1 left=blue".
 std::string textOf(const Game& game) {
   std::string text =
       "phase=" + std::string(nameOf(game.phase)) + " restart=" + std::string(nameOf(game.restart));
   if (game.restartOf) text += " restart_of=" + game.teams.at(*game.restartOf).name;
-  text += " half=" + std::to_string(game.half) + " clock_s=" + std::to_string(game.clock);
+  text += " half=" + std::to_string(game.half) + " clock_s=" + shortest(game.clock);
   for (const Game::Team& team : game.teams)
     text += " " + team.name + "=" + std::to_string(team.score);
   return text + " left=" + game.teams.at(game.teamOnTheLeft).name;

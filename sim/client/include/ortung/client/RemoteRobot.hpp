@@ -58,6 +58,8 @@ class ORTUNG_API RemoteRobot : public RobotCommands {
   /// To all other robots of the team, and what they told; errors as of commands.
   void tellTeam(const std::string& text);
   std::vector<TeamWords> hearTeam();
+  /// How the game stands, as RobotSession::game(); errors as of commands.
+  std::string game();
 
   // --- what follows returns whether it was done; if not, trouble() says why
   bool say(const std::string& text);

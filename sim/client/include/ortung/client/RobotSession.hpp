@@ -106,6 +106,8 @@ class ORTUNG_API RobotSession : public RobotCommands {
   void tellTeam(const std::string& text);
   /// What others of the team have told since the last call, in the order of time.
   std::vector<TeamWords> hearTeam();
+  /// How the game stands, as GAME tells it (docs/protocol.md); "" where the server knows no game.
+  std::string game();
 
   /// Readings that are new, oldest first, stamped by the server's clock.
   /// @param queries "model/type/feature", separated by blanks; "": all

@@ -1,0 +1,81 @@
+// Footballers of a team, some in the simulator and some as clients of it, in lockstep.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <memory>
+#include <vector>
+
+#include "Files.hpp"
+#include "Program.hpp"
+
+namespace ortung::test {
+namespace {
+
+const std::string kMaps = ORTUNG_SOURCE_DIR "/maps";
+
+/// Two against two with keepers; one footballer of each team comes as a client.
+std::string scene() {
+  std::string text = "[scene]\nworld = \"" + kMaps + "/fields/f2000.toml\"\n" +
+                     "[referee]\nplugin = \"soccer\"\noptions = { rules = \"f2000\" }\n";
+  const auto player = [&](const std::string& team, int number, const std::string& plugin,
+                          const std::string& robot, const std::string& start) {
+    text += "[[player]]\nplugin = \"" + plugin + "\"\nteam = \"" + team + "\"\nname = \"" + team +
+            std::to_string(number) + "\"\nrobot = \"" + kMaps + "/robots/" + robot +
+            ".toml\"\nstart = { " + start + " }\n";
+  };
+  player("blue", 1, "goalkeeper", "goalkeeper", "x_m = -5.5, y_m = 0, theta_deg = 90");
+  player("blue", 2, "footballer", "f2000_player", "x_m = -3, y_m = 1.6");
+  player("yellow", 1, "goalkeeper", "goalkeeper", "x_m = 5.5, y_m = 0, theta_deg = 90");
+  player("yellow", 2, "footballer", "f2000_player", "x_m = 3, y_m = 1.6, theta_deg = 180");
+  return text;
+}
+
+std::vector<std::string> client(const std::string& team, const std::string& start,
+                                const std::string& address) {
+  return {"play",
+          "footballer:sees=features&robot=f2000_player.toml&length_m=12&width_m=8&goal_width_m=2&"
+          "name=" +
+              team + "3&start=" + start + "@" + team,
+          "--server",
+          address,
+          "--lockstep",
+          "--duration",
+          "40"};
+}
+
+TEST(MixedMatch, IsPlayedByTheRules) {
+  const TemporaryFolder folder;
+  writeBytes(folder / "scene.toml", scene());
+  Program server({"sim", folder / "scene.toml", "--listen", "0", "--lockstep", "--trace",
+                  folder / "trace.csv"});
+  const std::string out = server.waitForOutput("\n");
+  const std::string address = "127.0.0.1:" + out.substr(out.find("port ") + 5, 5);
+  Program blue(client("blue", "-1.2,-1,0", address.substr(0, address.find('\n'))));
+  Program yellow(client("yellow", "1.2,-1,180", address.substr(0, address.find('\n'))));
+  const Outcome one = blue.finish();
+  const Outcome other = yellow.finish();
+  EXPECT_EQ(one.exitCode, 0) << one.err;
+  EXPECT_EQ(other.exitCode, 0) << other.err;
+  server.signal(SIGTERM);
+  const Outcome outcome = server.finish();
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("kick-off blue: a half begins"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("play blue: the ball is in play"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("set-piece-over"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.err.find("player"), std::string::npos) << outcome.err;
+  // Those who came as clients have played: they were all over the field.
+  const std::string trace = readBytes(folder / "trace.csv");
+  for (const char* name : {"blue3", "yellow3"}) {
+    double low = 1e9;
+    double high = -1e9;
+    for (std::size_t at = trace.find(name); at != trace.npos; at = trace.find(name, at + 1)) {
+      const double x = std::stod(trace.substr(trace.find(',', at) + 1, 10));
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    EXPECT_GT(high - low, 2.0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace ortung::test
