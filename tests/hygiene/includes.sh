@@ -39,6 +39,8 @@ deny 'sim/src sim/include' 'ortung/(server|served|client|refbox)/'
 deny 'sim/benchmark' 'ortung/(server|served|client|refbox|remote)/'
 deny 'sim/src sim/include sim/api sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/benchmark/'
 deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)|refbox/src/RefBoxClient\.cpp)'
+deny 'sim/environments' "ortung/(mcl|run|server|served|client|refbox|remote)/|toml|nlohmann|$foreign"
+deny 'container mcl sim/api sim/src sim/include sim/server sim/served sim/client sim/refbox sim/remote sim/benchmark plugins realsensors' 'ortung/learning/'
 deny 'plugins' 'ortung/(mcl|run|realsensors)/|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
 deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'

@@ -97,11 +97,6 @@ std::string strikerText(const std::string& name) {
   return isShort ? "striker:kind=" + name : name;
 }
 
-std::string_view nameOf(GoalOutcome outcome) {
-  constexpr std::array<std::string_view, 4> kNames = {"goal", "saved", "out", "time"};
-  return kNames[static_cast<std::size_t>(outcome)];
-}
-
 void GoalMatrixConfig::check() const {
   checkNames(keepers, "keepers");
   checkNames(strikers, "strikers");

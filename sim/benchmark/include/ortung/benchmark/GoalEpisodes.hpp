@@ -7,16 +7,9 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/benchmark/GoalJudge.hpp"
 
 namespace ortung {
-
-/// How a striker's one chance ended.
-enum class GoalOutcome : std::uint8_t {
-  goal,
-  saved,  ///< the keeper touched the ball, which then lay still, came back or left the field
-  out,    ///< the ball left the field, lay still or came back, and the keeper had no part in it
-  time    ///< nothing of that within 10 s
-};
 
 /// What became of one episode.
 struct GoalEpisode {

@@ -1,0 +1,132 @@
+#include "Agent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+namespace ortung::learning {
+namespace {
+
+constexpr Timestamp kTrueSights = 40'000;  ///< between two looks at the true ball [us]
+constexpr double kNearPosition = 0.2;      ///< how well it is told where it begins [m]
+constexpr double kNearHeading = 0.09;      ///< [rad]
+
+}  // namespace
+
+Agent::Agent(const Settings& settings, bool kicks, double speed, const SimRobot& robot)
+    : settings_(settings), kicks_(kicks), speed_(speed), robot_(robot) {}
+
+void Agent::begin(PlayerSeat& seat) {
+  seat_ = &seat;
+  if (settings_.sight != Sight::truth) {
+    const auto feature = [&](std::string_view name) {
+      return dynamic_cast<const ObjectsData*>(seat.container().find({.feature = name}));
+    };
+    ball_ = feature("ball");
+    others_ = feature("robots");
+    if (ball_ == nullptr) throw std::runtime_error("its robot has no feature 'ball'");
+  }
+  if (settings_.sight != Sight::localized) return;
+  self_.emplace(seat);
+  if (settings_.startsAnywhere) return;
+  self_->startNear(robot_.state().pose, kNearPosition, kNearHeading, seat.random());
+}
+
+void Agent::setAction(std::span<const float> action) {
+  for (std::size_t i = 0; i < action.size(); ++i) action_[i] = std::clamp(action[i], -1.0f, 1.0f);
+  hasNewAction_ = true;
+}
+
+bool Agent::senseAndAct(PlayerSeat& seat) {
+  if (!hasNewAction_) return true;
+  hasNewAction_ = false;
+  seat.robot().setTranslationalVelocity(speed_ * static_cast<double>(action_[0]));
+  seat.robot().setRotationalVelocity(kTurnSpeed * static_cast<double>(action_[1]));
+  if (kicks_ && action_[2] > 0.0f) seat.robot().setManipulator("kicker", "kick");
+  return true;
+}
+
+/// Where it is as far as it knows.
+Pose2 Agent::poseAt(Timestamp stamp) const {
+  if (!self_) return robot_.state().pose;
+  const auto estimate = self_->estimate(stamp);
+  return estimate ? estimate->pose : Pose2{};
+}
+
+void Agent::see(Timestamp stamp, double x, double y) {
+  std::move_backward(sights_.begin(), sights_.end() - 1, sights_.end());
+  sights_.front() = Seen{stamp, x - kGoalLine, y};
+}
+
+void Agent::look(Timestamp now) {
+  if (self_) self_->update(*seat_);
+  lookForBall(now);
+  lookForOther(now);
+}
+
+void Agent::lookForBall(Timestamp now) {
+  if (settings_.sight == Sight::truth) {
+    if (sights_.front() && now - sights_.front()->stamp < kTrueSights) return;
+    for (const StagedThing& thing : seat_->stage()->things())
+      if (thing.kind == "ball") return see(now, thing.pose.x, thing.pose.y);
+    return;
+  }
+  if (ball_->sequence() == ballSequence_) return;
+  ballSequence_ = ball_->sequence();
+  const auto& reading = ball_->reading();
+  if (reading.empty()) return;
+  const Pose2 eye = poseAt(ball_->stamp()) * ball_->mount();
+  const double angle = eye.theta + reading.front().bearing;
+  see(ball_->stamp(), eye.x + reading.front().range * std::cos(angle),
+      eye.y + reading.front().range * std::sin(angle));
+}
+
+void Agent::lookForOther(Timestamp now) {
+  if (settings_.sight == Sight::truth) {
+    for (const StagedRobot& robot : seat_->stage()->robots())
+      if (robot.name != seat_->name()) other_ = Seen{now, robot.pose.x - kGoalLine, robot.pose.y};
+    return;
+  }
+  if (others_ == nullptr || others_->sequence() == othersSequence_) return;
+  othersSequence_ = others_->sequence();
+  const auto& reading = others_->reading();
+  if (reading.empty()) return;
+  const Pose2 eye = poseAt(others_->stamp()) * others_->mount();
+  const double angle = eye.theta + reading.front().bearing;
+  other_ = Seen{others_->stamp(), eye.x + reading.front().range * std::cos(angle) - kGoalLine,
+                eye.y + reading.front().range * std::sin(angle)};
+}
+
+void Agent::write(const std::optional<Seen>& seen, Timestamp now, ObservationWriter& out) {
+  out.add(seen ? seen->x : 0.0, kFar);
+  out.add(seen ? seen->y : 0.0, kFar);
+  out.add(seen ? toSeconds(now - seen->stamp) : static_cast<double>(kOld), kOld);
+}
+
+void Agent::observe(Timestamp now, double timeLeft, std::span<float> out) {
+  ObservationWriter writer(out);
+  const auto estimate = self_ ? self_->estimate(now) : std::nullopt;
+  const Pose2 pose = estimate ? estimate->pose : self_ ? Pose2{} : robot_.state().pose;
+  const RobotState& state = robot_.state();
+  writer.add(pose.x - kGoalLine, kFar);
+  writer.add(pose.y, kFar);
+  writer.add(std::cos(pose.theta), 1.0f);
+  writer.add(std::sin(pose.theta), 1.0f);
+  writer.add(state.translationalVelocity, kFast);
+  writer.add(state.lateralVelocity, kFast);
+  writer.add(state.rotationalVelocity, kFast);
+  writer.add(std::max(timeLeft, 0.0), 120.0f);
+  for (const auto& sight : sights_) write(sight, now, writer);
+  write(other_, now, writer);
+  if (writer.size() == out.size()) return;
+  const bool isThere = estimate.has_value();
+  const auto sigma = [&](std::size_t i) {
+    return std::sqrt(std::max(estimate->covariance[i], 0.0));
+  };
+  writer.add(isThere ? std::hypot(sigma(0), sigma(4)) : kFar, kFar);
+  writer.add(isThere ? sigma(8) : kFar, kFar);
+  writer.add(isThere && estimate->status == TrackStatus::kTracking ? 1.0 : 0.0, 1.0f);
+}
+
+}  // namespace ortung::learning

@@ -1,0 +1,214 @@
+#include "Episode.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "ortung/core/ShippedFiles.hpp"
+#include "ortung/robot/RobotFile.hpp"
+
+namespace ortung::learning {
+namespace {
+
+// Streams of an episode's seed: those of the benchmark, so that a striker which does not look at
+// the keeper makes the same situations for the same seed and number.
+enum Stream : std::uint64_t { kSimulation, kPlacing, kOfKeeper, kOfStriker };
+
+constexpr const char* kBlue = "blue";      ///< the keeper's team, and the name of its robot
+constexpr const char* kYellow = "yellow";  ///< the striker's
+constexpr double kKeeperLine = 0.5;        ///< before the goal line [m]
+constexpr double kKeeperReach = 0.7;       ///< it begins within so far of the middle [m]
+constexpr Pose2 kStrikerWaits{3.0, 0.0, std::numbers::pi};  ///< until it makes its situation
+constexpr double kBallAhead = 0.285;  ///< of the striker's middle, when it lies at the kicker [m]
+constexpr int kTries = 50;
+
+Simulation::Config configOf(const Settings& settings, Random seeds) {
+  Simulation::Config config;
+  config.seed = (std::uint64_t{seeds.next()} << 32) | seeds.next();
+  config.cycle = settings.cycle;
+  return config;
+}
+
+PlayerControl::Config supervise(std::string& problem, std::shared_ptr<TableStore> tables) {
+  PlayerControl::Config config;
+  config.budget = 0.0;  // a clock would make episodes differ
+  config.onProblem = [&problem](const std::string& what) { problem = what; };
+  config.tables = std::move(tables);
+  return config;
+}
+
+}  // namespace
+
+Field::Field()
+    : file(shippedFile("fields", "f2000.toml")),
+      world(readWorld(file)),
+      tables(std::make_shared<TableStore>(file)) {}
+
+Stand::Stand(const Field& shared)
+    : field(shared), factory(PluginFactory::standardFolders()), plans(*shared.world) {}
+
+Stand::Entrant& Stand::entrant(const std::string& text, const char* name) {
+  const std::string key = name + (" " + text);
+  const auto known = entrants_.find(key);
+  if (known != entrants_.end()) return known->second;
+  Entrant entrant;
+  entrant.wish = parsePlayer(text);
+  PlayerWish& wish = entrant.wish;
+  if (!wish.team.empty() || !wish.name.empty() || wish.start)
+    throw ConfigError("player '" + text +
+                      "': an environment gives team, name and start, so it can't say them");
+  const auto player = factory.make<Player>(wish.plugin, wish.options);
+  const auto file = wish.robot.empty() ? player->robotFile() : wish.robot;
+  if (file.empty())
+    throw ConfigError("player '" + text +
+                      "' names no robot file, so one must be given (robot=FILE)");
+  entrant.robot = readRobot(shippedFile("robots", file));
+  wish.team = wish.name = entrant.robot.name = name;
+  return entrants_.emplace(key, std::move(entrant)).first->second;
+}
+
+Stand::Entrant& Stand::agent(const std::filesystem::path& robot, const char* name) {
+  const std::string key = name + (" agent " + robot.string());
+  const auto known = entrants_.find(key);
+  if (known != entrants_.end()) return known->second;
+  Entrant entrant;
+  entrant.robot = readRobot(shippedFile("robots", robot));
+  entrant.wish.plugin = "agent";
+  entrant.wish.team = entrant.wish.name = entrant.robot.name = name;
+  return entrants_.emplace(key, std::move(entrant)).first->second;
+}
+
+Stand::Entrant& Stand::keeperOf(const Settings& s) {
+  return s.keeperIsAgent() ? agent(s.keeperRobot, kBlue) : entrant(s.keeper, kBlue);
+}
+
+Stand::Entrant& Stand::strikerOf(const Settings& s) {
+  return s.strikerIsAgent() ? agent(s.strikerRobot, kYellow) : entrant(s.striker, kYellow);
+}
+
+void Stand::check(const Settings& settings) {
+  keeperOf(settings);
+  strikerOf(settings);
+}
+
+Episode::Episode(Stand& stand, std::shared_ptr<const Settings> settings, std::uint64_t seed,
+                 std::uint64_t number)
+    : stand_(stand),
+      settings_(std::move(settings)),
+      seed_(seed),
+      number_(number),
+      simulation_(stand.field.world->another(), configOf(*settings_, stream(kSimulation))),
+      control_(simulation_, stand.plans, stand.factory, supervise(problem_, stand.field.tables)) {
+  const Settings& s = *settings_;
+  Random placing = stream(kPlacing);
+  Stand::Entrant& keeps = stand.keeperOf(s);
+  Stand::Entrant& strikes = stand.strikerOf(s);
+  keeper_ =
+      &simulation_.addRobot(keeps.robot, stand.factory,
+                            {kGoalLine + kKeeperLine, placing.uniform(-kKeeperReach, kKeeperReach),
+                             std::numbers::pi / 2.0});
+  striker_ = &simulation_.addRobot(strikes.robot, stand.factory, kStrikerWaits);
+  if (s.strikerIsAgent()) placeStriker();
+  seat(keeps, *keeper_, s.keeperIsAgent(), false);
+  seat(strikes, *striker_, s.strikerIsAgent(), true);
+  checkPlayers();
+  sense();
+}
+
+Episode::~Episode() = default;
+
+/// The ball lies at its kicker. Where it has to find out where it is, that may be farther away, and
+/// it looks less towards the goal.
+void Episode::placeStriker() {
+  Random random = stream(kOfStriker);
+  const bool isLost = settings_->task == Task::localize;
+  for (int i = 0; i < kTries; ++i) {
+    Pose2 pose{kGoalLine + random.uniform(3.0, isLost ? 6.0 : 4.5),
+               random.uniform(-1.0, 1.0) * (isLost ? 2.5 : 1.5), 0.0};
+    const double turned = random.uniform(-1.0, 1.0) * (isLost ? 1.0 : 0.2);
+    pose.theta = wrapAngle(std::atan2(-pose.y, kGoalLine - pose.x) + turned);
+    const Pose2 ball = pose * Pose2{kBallAhead, 0.0, 0.0};
+    try {
+      simulation_.place(*striker_, pose);
+      simulation_.placeThing(0, {ball.x, ball.y, 0.0});
+      return;
+    } catch (const std::invalid_argument&) {  // there is no room
+    }
+  }
+  throw std::runtime_error("found no room for striker and ball");
+}
+
+void Episode::seat(Stand::Entrant& entrant, SimRobot& robot, bool isAgent, bool isStriker) {
+  // What an agent's place was drawn from is no more its chance.
+  const Random random = stream(isStriker ? kOfStriker : kOfKeeper).fork(isAgent ? 1 : 0);
+  if (!isAgent)
+    return control_.own(robot, control_.make(entrant.wish), entrant.wish,
+                        stream(isStriker ? kOfStriker : kOfKeeper));
+  const double speed = isStriker ? settings_->strikerSpeed : settings_->keeperSpeed;
+  auto agent = std::make_unique<Agent>(*settings_, isStriker, speed, robot);
+  agents_.push_back(agent.get());
+  control_.own(robot, std::move(agent), entrant.wish, random);
+}
+
+void Episode::checkPlayers() const {
+  if (problem_.empty()) return;
+  throw std::runtime_error("episode " + std::to_string(number_) + " of seed " +
+                           std::to_string(seed_) + ": " + problem_);
+}
+
+void Episode::sense() {
+  simulation_.sense();
+  for (Agent* agent : agents_) agent->look(simulation_.now());
+}
+
+void Episode::step(std::span<const float> actions, std::size_t width) {
+  for (std::size_t i = 0; i < agents_.size(); ++i)
+    agents_[i]->setAction(actions.subspan(i * width, width));
+  const Game game;
+  for (int i = 0; i < settings_->cycles && !isOver(); ++i) {
+    control_.act(game);
+    checkPlayers();
+    simulation_.move();
+    if (judge_.sees(simulation_.things().front(), *keeper_, simulation_.cycle()))
+      ending_ = static_cast<Ending>(static_cast<int>(judge_.outcome()) + 1);
+    sense();
+  }
+  if (++steps_ >= settings_->steps && !isOver()) ending_ = Ending::time;
+}
+
+void Episode::observe(std::span<float> out) {
+  const std::size_t size = out.size() / agents_.size();
+  const double left = settings_->step() * (settings_->steps - steps_);
+  for (std::size_t i = 0; i < agents_.size(); ++i)
+    agents_[i]->observe(simulation_.now(), left, out.subspan(i * size, size));
+}
+
+/// What the striker wins the keeper loses.
+void Episode::reward(std::span<double> out) const {
+  const double scored = ending_ == Ending::goal ? 1.0 : ending_ == Ending::saved ? -1.0 : 0.0;
+  std::size_t agent = 0;
+  if (settings_->keeperIsAgent()) out[agent++] = scored == 0.0 ? 0.0 : -scored;
+  if (settings_->strikerIsAgent()) out[agent] = scored;
+}
+
+void Episode::state(std::span<float> out) const {
+  const Simulation::Thing& ball = simulation_.things().front();
+  const Pose2& keeper = keeper_->state().pose;
+  const Pose2& striker = striker_->state().pose;
+  const std::array<double, kState> all = {toSeconds(simulation_.now()),
+                                          ball.pose.x,
+                                          ball.pose.y,
+                                          ball.velocity.x,
+                                          ball.velocity.y,
+                                          keeper.x,
+                                          keeper.y,
+                                          keeper.theta,
+                                          striker.x,
+                                          striker.y,
+                                          striker.theta,
+                                          judge_.wasShot() ? 1.0 : 0.0};
+  for (std::size_t i = 0; i < kState; ++i) out[i] = static_cast<float>(all[i]);
+}
+
+}  // namespace ortung::learning

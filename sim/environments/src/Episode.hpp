@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "Agent.hpp"
+#include "Settings.hpp"
+#include "ortung/benchmark/GoalJudge.hpp"
+#include "ortung/learning/Batch.hpp"
+#include "ortung/sim/PlayerControl.hpp"
+#include "ortung/sim/Simulation.hpp"
+
+namespace ortung::learning {
+
+/// What all episodes of a batch share: the ground, and what robots learn on it. Thread-safe.
+struct Field {
+  std::filesystem::path file;
+  std::unique_ptr<const SimWorld> world;
+  std::shared_ptr<TableStore> tables;
+
+  /// @throws ConfigError
+  Field();
+};
+
+/// What episodes that are stepped by one thread share: plugins, files and plans, which remember who
+/// asked. Not thread-safe.
+class Stand {
+ public:
+  struct Entrant {
+    PlayerWish wish;
+    RobotConfig robot;
+  };
+  explicit Stand(const Field& field);
+
+  Entrant& keeperOf(const Settings& settings);
+  Entrant& strikerOf(const Settings& settings);
+  /// Reads all that an episode needs. @throws ConfigError, PluginError
+  void check(const Settings& settings);
+
+  const Field& field;
+  PluginFactory factory;
+  FloorPlans plans;
+
+ private:
+  /// A player's, read once.
+  Entrant& entrant(const std::string& text, const char* name);
+  Entrant& agent(const std::filesystem::path& robot, const char* name);
+
+  std::map<std::string, Entrant> entrants_;
+};
+
+/// One episode, from its beginning to its end: a function of settings, seed, number and actions.
+class Episode {
+ public:
+  /// @param stand borrowed
+  /// @throws ConfigError, PluginError, std::runtime_error for players that can't play
+  Episode(Stand& stand, std::shared_ptr<const Settings> settings, std::uint64_t seed,
+          std::uint64_t number);
+  ~Episode();
+  Episode(const Episode&) = delete;
+  Episode& operator=(const Episode&) = delete;
+
+  /// @param actions (agents, width) @throws std::runtime_error for a player that was stopped
+  void step(std::span<const float> actions, std::size_t width);
+  bool isOver() const { return ending_ != Ending::none; }
+  Ending ending() const { return ending_; }
+  /// @param out (agents, observation)
+  void observe(std::span<float> out);
+  /// @param out (agents)
+  void reward(std::span<double> out) const;
+  /// @param out as Batch::states()
+  void state(std::span<float> out) const;
+
+  static constexpr std::size_t kState = 12;
+
+ private:
+  void placeStriker();
+  void seat(Stand::Entrant& entrant, SimRobot& robot, bool isAgent, bool isStriker);
+  void sense();
+  void checkPlayers() const;
+  Random stream(std::uint64_t which) const { return Random(seed_, 4 * number_ + which); }
+
+  Stand& stand_;
+  std::shared_ptr<const Settings> settings_;
+  std::uint64_t seed_;
+  std::uint64_t number_;
+  Simulation simulation_;
+  std::string problem_;
+  PlayerControl control_;
+  SimRobot* keeper_ = nullptr;
+  SimRobot* striker_ = nullptr;
+  std::vector<Agent*> agents_;  ///< whose owner is control_
+  GoalJudge judge_;
+  Ending ending_ = Ending::none;
+  int steps_ = 0;
+};
+
+}  // namespace ortung::learning
