@@ -46,16 +46,19 @@ struct Ground {
           "nothing is known of the field's goals and lines: it needs the options length_m and "
           "width_m, or tables (--tables)");
     if (ground.halfMouth <= 0.0) ground.halfMouth = mouthOf(field);
-    // Goals: their posts and sides.
     for (const double end : {-1.0, 1.0})
-      for (const double side : {-1.0, 1.0})
-        for (const double behind : {0.0, 0.25, 0.5})
-          ground.posts.push_back(
-              {{end * (ground.halfLength + behind), side * (ground.halfMouth + 0.08)}, 0.1});
+      for (const double side : {-1.0, 1.0}) ground.addGoal(end, side);
     return ground;
   }
 
  private:
+  /// Half a goal: its side with the post, and what is within, where nobody has to go.
+  void addGoal(double end, double side) {
+    for (const double behind : {0.0, 0.25, 0.5})
+      posts.push_back({{end * (halfLength + behind), side * (halfMouth + 0.08)}, 0.1});
+    for (const double share : {0.2, 0.65})
+      posts.push_back({{end * (halfLength + 0.35), side * share * halfMouth}, 0.25 * halfMouth});
+  }
   static double mouthOf(const FieldModel& field) {
     double mouth = 1e9;
     for (const FieldWall& wall : field.walls)

@@ -60,7 +60,8 @@ class Attack {
 
   /// What to do with the ball. It keeps to what it has chosen for a moment.
   void choose(const Moment& m, Random& random) {
-    if (aim_ && m.view.now - chosen_ < kKeeps && aim_->kind != Aim::Kind::carry) return;
+    const Timestamp keeps = owesPass_ ? 3 * kKeeps : kKeeps;
+    if (aim_ && m.view.now - chosen_ < keeps && aim_->kind != Aim::Kind::carry) return;
     const Aim::Kind before = aim_ ? aim_->kind : Aim::Kind::carry;
     aim_ = best(m);
     chosen_ = m.view.now;
@@ -69,9 +70,9 @@ class Attack {
   Aim best(const Moment& m) const {
     const FloorPoint ball = m.view.ball->at;
     if (owesPass_) {
-      if (const auto mate = bestMate(m, ball, m.hands.canHold() ? 4.0 : 0.5))
-        return {Aim::Kind::pass, *mate};
-      return {Aim::Kind::clearance, wing(m)};
+      const auto mate = bestMate(m, ball, m.hands.canHold() ? 4.0 : 0.5);
+      if (mate && hasRoomBehind(m, *mate)) return {Aim::Kind::pass, *mate};
+      return {Aim::Kind::clearance, clearance(m)};
     }
     const double toGoal = lengthOf(m.otherGoal() - ball);
     const auto corner = openCorner(m, ball);
@@ -83,14 +84,38 @@ class Attack {
     if (toGoal < 0.6 * skill_.shotRange || (isLate && toGoal < 1.6 * skill_.shotRange))
       return {Aim::Kind::shot, corner.value_or(m.otherGoal())};
     const bool isAtHome = lengthOf(m.ownGoal() - ball) < 0.6 * m.ground.halfLength;
-    if (isLate || (isPressed && isAtHome)) return {Aim::Kind::clearance, wing(m)};
+    if (isLate || (isPressed && isAtHome)) return {Aim::Kind::clearance, clearance(m)};
     return {Aim::Kind::carry, m.otherGoal()};
   }
-  /// Up the field, on the side where the ball is.
-  static FloorPoint wing(const Moment& m) {
-    const double side = m.view.ball->at.y < 0.0 ? -1.0 : 1.0;
-    const double x = m.view.ball->at.x + 0.6 * m.forward * m.ground.halfLength;
-    return m.ground.within({x, 0.6 * side * m.ground.halfWidth}, 0.8);
+  /// Away with it: up the field on the side where the ball is, else straight on, else out to that
+  /// side; where there is room to come to the ball from.
+  FloorPoint clearance(const Moment& m) const {
+    const FloorPoint ball = m.view.ball->at;
+    const double side = ball.y < 0.0 ? -1.0 : 1.0;
+    const double ahead = m.forward * m.ground.halfLength;
+    const FloorPoint places[] = {
+        m.ground.within({ball.x + 0.6 * ahead, 0.6 * side * m.ground.halfWidth}, 0.8),
+        m.ground.within({ball.x + 0.6 * ahead, ball.y}, 0.8),
+        {ball.x + 0.3 * ahead, side * m.ground.halfWidth},
+        {ball.x + 0.6 * ahead, -side * 0.3 * m.ground.halfWidth}};
+    for (const FloorPoint& place : places)
+      if (hasRoomBehind(m, place)) return place;
+    return places[0];
+  }
+  FloorPoint behind(const FloorPoint& ball, const FloorPoint& target) const {
+    return ball - (skill_.ballAhead + kBehind) * unit(target - ball);
+  }
+  /// Whether it can come to the ball from the side away from a target.
+  bool hasRoomBehind(const Moment& m, const FloorPoint& target) const {
+    if (m.hands.canHold()) return true;  // from any side
+    const FloorPoint place = behind(m.view.ball->at, target);
+    const auto isFree = [&](const FloorPoint& at, double radius) {
+      return lengthOf(at - place) > m.view.radius + radius;
+    };
+    return std::all_of(m.view.others.begin(), m.view.others.end(),
+                       [&](const Other& one) { return isFree(one.at, one.radius); }) &&
+           std::all_of(m.ground.posts.begin(), m.ground.posts.end(),
+                       [&](const Disc& one) { return isFree(one.at, one.radius); });
   }
 
   /// Comes to the ball from the side away from where it is to go.
@@ -113,8 +138,8 @@ class Attack {
     const bool isContested = m.view.opponentTo(at) < kPressed;
     const double cone = m.hands.canHold() ? 2.2 : isContested ? 1.1 : away < 0.6 ? 0.5 : 0.3;
     if (off > cone) {
-      const FloorPoint behind = at - (skill_.ballAhead + kBehind) * aim;
-      return go_.to(m, behind, angleOf(aim), m.chassis.limits().speed, {{ball.at, kBallRadius}});
+      return go_.to(m, behind(at, aim_->target), angleOf(aim), m.chassis.limits().speed,
+                    {{ball.at, kBallRadius}});
     }
     const double error = wrapAngle(toBall - m.view.pose.theta);
     const double gap = std::max(away - skill_.ballAhead, 0.0);

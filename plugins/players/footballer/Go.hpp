@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -47,7 +49,8 @@ class Go {
     if (away < kThere) return m.chassis.move(m.view.pose, {}, heading, m.robot);
     std::vector<Disc> discs = more;
     for (const Other& other : m.view.others) discs.push_back({foreseen(other, from), other.radius});
-    discs.insert(discs.end(), m.ground.posts.begin(), m.ground.posts.end());
+    std::copy_if(m.ground.posts.begin(), m.ground.posts.end(), std::back_inserter(discs),
+                 [&](const Disc& post) { return lengthOf(post.at - from) < 2.0 * kLook; });
     const auto way = direction(from, target, m.view.radius, discs);
     if (!way) return m.chassis.stand(m.robot);
     const double fast = std::min(speed, m.chassis.speedFor(away));

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -28,19 +30,21 @@ struct Word {
   }
   /// Nothing if it is something else, or nonsense.
   static std::optional<Word> parse(const std::string& text, double braking) {
-    Word word;
-    RollingBall ball{{}, 0.0, 0.0, braking};
-    int hasBall = 0;
-    int end = 0;
-    const int read =
-        std::sscanf(text.c_str(), "fb %lf %lf %lf %d %lf %lf %lf %lf%n", &word.cost, &word.at.x,
-                    &word.at.y, &hasBall, &ball.at.x, &ball.at.y, &ball.speedX, &ball.speedY, &end);
-    if (read != 8 || text.size() != static_cast<std::size_t>(end)) return std::nullopt;
-    constexpr double kMost = 1e4;  // NaN is not below
-    for (const double number :
-         {word.cost, word.at.x, word.at.y, ball.at.x, ball.at.y, ball.speedX, ball.speedY})
-      if (!(std::abs(number) < kMost)) return std::nullopt;
-    if (hasBall == 1) word.ball = ball;
+    if (!text.starts_with("fb")) return std::nullopt;
+    std::array<double, 8> numbers{};
+    const char* at = text.data() + 2;
+    const char* const end = text.data() + text.size();
+    for (double& number : numbers) {
+      if (at == end || *at++ != ' ') return std::nullopt;
+      const auto [stop, error] = std::from_chars(at, end, number);
+      constexpr double kMost = 1e4;  // NaN is not below
+      if (error != std::errc() || !(std::abs(number) < kMost)) return std::nullopt;
+      at = stop;
+    }
+    if (at != end) return std::nullopt;
+    Word word{numbers[0], {numbers[1], numbers[2]}, std::nullopt};
+    if (numbers[3] == 1.0)
+      word.ball = RollingBall{{numbers[4], numbers[5]}, numbers[6], numbers[7], braking};
     return word;
   }
 };

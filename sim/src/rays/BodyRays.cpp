@@ -61,7 +61,7 @@ BodyRays::Piece BodyRays::pieceOf(const Primitive& primitive) {
 }
 
 void BodyRays::add(std::span<const Primitive> pieces, RobotNumber number, const Pose2& pose) {
-  bodies_.push_back({number, pose, {}, {}});
+  bodies_.push_back({number, pose, {}, {}, 0.0});
   reshape(bodies_.size() - 1, pieces);
 }
 
@@ -87,7 +87,11 @@ void BodyRays::move(std::size_t place, const Pose2& pose) {
 void BodyRays::reshape(std::size_t place, std::span<const Primitive> pieces) {
   Body& changed = bodies_[place];
   changed.shape.clear();
-  for (const Primitive& piece : pieces) changed.shape.push_back(pieceOf(piece));
+  changed.reach = 0.0;
+  for (const Primitive& piece : pieces) {
+    const Piece& made = changed.shape.emplace_back(pieceOf(piece));
+    changed.reach = std::max(changed.reach, std::hypot(made.middle.x, made.middle.y) + made.reach);
+  }
   changed.pieces = changed.shape;
   move(place, changed.pose);
 }
@@ -131,43 +135,39 @@ std::optional<double> BodyRays::hit(const Piece& piece, const Ray& ray) {
 }
 
 void BodyRays::castFan(const RayFan& fan, RobotNumber ignore, std::span<float> ranges) const {
+  const FanTurn turn{std::cos(fan.elevation), std::sin(fan.elevation), std::cos(fan.angleStep),
+                     std::sin(fan.angleStep)};
   for (const Body& body : bodies_) {
     if (body.number == ignore) continue;
     for (const Piece& piece : body.pieces) {
       if (fan.elevation == 0.0 && (fan.z < piece.zLow || fan.z > piece.zHigh)) continue;
-      castAt(piece, fan, ranges);
+      castAt(piece, fan, turn, ranges);
     }
   }
 }
 
 /// Casts the beams that point at the circle around a piece.
-void BodyRays::castAt(const Piece& piece, const RayFan& fan, std::span<float> ranges) const {
+void BodyRays::castAt(const Piece& piece, const RayFan& fan, const FanTurn& turn,
+                      std::span<float> ranges) {
   const double dx = piece.middle.x - fan.x;
   const double dy = piece.middle.y - fan.y;
   const double farthest = fan.maxRange + piece.reach;
   const double square = dx * dx + dy * dy;
   if (square > farthest * farthest) return;
-  const double level = std::cos(fan.elevation);
-  const double stepCos = std::cos(fan.angleStep);
-  const double stepSin = std::sin(fan.angleStep);
   const auto castBeams = [&](std::size_t from, std::size_t to) {
     const double angle = fan.firstAngle + static_cast<double>(from) * fan.angleStep;
-    Ray ray{fan.x,
-            fan.y,
-            fan.z,
-            level * std::cos(angle),
-            level * std::sin(angle),
-            std::sin(fan.elevation)};
+    Ray ray{fan.x,    fan.y, fan.z, turn.level * std::cos(angle), turn.level * std::sin(angle),
+            turn.rise};
     for (std::size_t i = from; i < to; ++i) {
       const auto t = hit(piece, ray);
       if (t && *t < static_cast<double>(ranges[i])) ranges[i] = static_cast<float>(*t);
-      const double turned = ray.dx * stepCos - ray.dy * stepSin;
-      ray.dy = ray.dy * stepCos + ray.dx * stepSin;
+      const double turned = ray.dx * turn.cos - ray.dy * turn.sin;
+      ray.dy = ray.dy * turn.cos + ray.dx * turn.sin;
       ray.dx = turned;
     }
   };
   const std::size_t n = ranges.size();
-  if (square <= piece.reach * piece.reach * 1.000001 || fan.angleStep == 0.0 || level <= 0.0)
+  if (square <= piece.reach * piece.reach * 1.000001 || fan.angleStep == 0.0 || turn.level <= 0.0)
     return castBeams(0, n);
   // A beam i points at the circle if first + i step is within `half` of `middle`, up to whole
   // turns.
@@ -190,16 +190,19 @@ bool BodyRays::isBlocked(const std::array<double, 3>& from, const std::array<dou
   constexpr double kHair = 1.0 + 1e-9;  // for rounding
   const Ray ray{from[0], from[1], from[2], direction[0], direction[1], direction[2]};
   const double level2 = ray.dx * ray.dx + ray.dy * ray.dy;
+  // Most are too far off, or beside the ray.
+  const auto isAway = [&](double toX, double toY, double size) {
+    const double reach = kHair * size;
+    const double x = toX - ray.x;
+    const double y = toY - ray.y;
+    const double aside = x * ray.dy - y * ray.dx;
+    return x * x + y * y > (stop + reach) * (stop + reach) ||
+           aside * aside > reach * reach * level2;
+  };
   for (const Body& body : bodies_) {
-    if (body.number == ignore) continue;
+    if (body.number == ignore || isAway(body.pose.x, body.pose.y, body.reach)) continue;
     for (const Piece& piece : body.pieces) {
-      // Most are too far off, or beside the ray.
-      const double reach = kHair * piece.reach;
-      const double x = piece.middle.x - ray.x;
-      const double y = piece.middle.y - ray.y;
-      const double aside = x * ray.dy - y * ray.dx;
-      if (x * x + y * y > (stop + reach) * (stop + reach)) continue;
-      if (aside * aside > reach * reach * level2) continue;
+      if (isAway(piece.middle.x, piece.middle.y, piece.reach)) continue;
       const auto t = hit(piece, ray);
       if (t && *t < stop) return true;
     }

@@ -55,6 +55,7 @@ class BodyRays {
     Pose2 pose;
     std::vector<Piece> shape;   ///< in its own frame
     std::vector<Piece> pieces;  ///< in the field
+    double reach = 0.0;         ///< of all of it from its own origin [m]
   };
   struct Ray {
     double x, y, z;     ///< [m]
@@ -63,7 +64,13 @@ class BodyRays {
 
   static Piece pieceOf(const Primitive& primitive);
   static std::optional<double> hit(const Piece& piece, const Ray& ray);
-  void castAt(const Piece& piece, const RayFan& fan, std::span<float> ranges) const;
+  /// What all beams of a fan have in common.
+  struct FanTurn {
+    double level, rise;  ///< cosine and sine of the elevation
+    double cos, sin;     ///< of the step from beam to beam
+  };
+  static void castAt(const Piece& piece, const RayFan& fan, const FanTurn& turn,
+                     std::span<float> ranges);
   static std::size_t outlineOf(const Piece& piece, const Point2& middle, std::span<Point2> outline);
   static void castConesAt(const Piece& piece, const ConeFan& fan, std::span<float> ranges);
 

@@ -15,8 +15,12 @@ struct Match {
   Match(const std::string& scene, std::uint64_t seed, double seconds)
       : run(Scene::read(ORTUNG_SOURCE_DIR "/maps/scenes/" + scene), {.seed = seed}, factory,
             {.budget = 0.0, .onProblem = [this](const std::string& what) { problems += what; }}) {
+    play(seconds);
+  }
+  void play(double seconds) {
     const auto robots = run.simulation().robots().size();
-    while (run.simulation().now() < fromSeconds(seconds)) {
+    const Timestamp end = run.simulation().now() + fromSeconds(seconds);
+    while (run.simulation().now() < end) {
       run.step();
       digest.add(run);
       for (const RefereeEvent& event : run.referee()->takeEvents()) {
@@ -64,6 +68,35 @@ TEST(FootballMatch, OfFiveAgainstFiveTakesAllRestarts) {
   EXPECT_GE(match.count["play"], given - 1) << match.log;  // the last may be waited for
   EXPECT_EQ(match.count["ball-stuck"], 0) << match.log;
   EXPECT_TRUE(match.isWithin);
+}
+
+// Whatever the referee gives, its team takes it before it may not any more, and play goes on.
+TEST(FootballMatch, TakesRestartsOfEachKind) {
+  for (const char* scene : {"f2000_match.toml", "msl_match.toml"}) {
+    Match match(scene, 3, 15.0);
+    for (const std::string kind :
+         {"kick-off", "throw-in", "goal-kick", "corner", "free-kick", "penalty"})
+      for (const std::string team : {"blue", "yellow"}) {
+        match.count.clear();
+        match.log.clear();
+        match.run.referee()->order(kind + " " + team);
+        match.play(0.1);
+        EXPECT_EQ(match.count[kind], 1) << match.log;
+        const auto isOver = [&] { return match.count["play"] + match.count["set-piece-over"] > 0; };
+        for (int i = 0; i < 15 && !isOver(); ++i) match.play(1.0);
+        EXPECT_TRUE(isOver()) << scene << " " << kind << " " << team << match.log;
+        // For a corner out of the blue they may have to come from the other end of the field.
+        if (kind != "corner") {
+          EXPECT_EQ(match.count["set-piece-over"], 0) << scene << " " << kind << " " << team;
+        }
+        match.play(2.0);
+      }
+    match.count.clear();
+    match.run.referee()->order("dropped-ball");
+    match.play(1.2);
+    EXPECT_EQ(match.run.game().phase, Game::Phase::kPlaying);
+    EXPECT_EQ(match.count["dropped-ball"], 1);
+  }
 }
 
 TEST(FootballMatch, IsTheSameAgain) {
