@@ -149,7 +149,7 @@ bool Intake::isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdome
 /// without noise may well repeat themselves.
 bool Intake::isFrozen(const SensorData& data) {
   const std::span<const std::uint32_t> words = data.getData();
-  if (data.sequence() == 0 || words.size() < kManyWords) return false;
+  if (!data.localizes() || data.sequence() == 0 || words.size() < kManyWords) return false;
   // Where nothing is seen, nothing changes.
   if (std::adjacent_find(words.begin(), words.end(), std::not_equal_to<>()) == words.end())
     return false;

@@ -1,6 +1,7 @@
 #include "ortung/sim/PlayerControl.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <tuple>
@@ -67,6 +68,7 @@ struct PlayerControl::Parts {
   std::shared_ptr<const FieldRegion> teach(SimRobot& robot, const PlayerWish& wish, bool needs);
   void say(std::string_view robot, std::string_view text);
   void deliver();
+  void tell(SimRobot& robot, const std::vector<Heard>& messages) const;
   template <class Call>
   void call(Seating& one, const char* what, const Call& call);
   void act(Seating& one, const Game& game);
@@ -143,7 +145,6 @@ void PlayerControl::Parts::say(std::string_view robot, std::string_view text) {
   said.push_back({std::string(robot), simulation.now(), std::string(text)});
 }
 
-/// What was said in the last cycle comes to all others of the team.
 void PlayerControl::Parts::deliver() {
   if (said.empty()) return;
   std::vector<Heard> messages = std::exchange(said, {});
@@ -159,6 +160,18 @@ void PlayerControl::Parts::deliver() {
       if (name != message.from && teamOf(name) == team) keepHeard(heard, message);
     }
   }
+  for (const auto& robot : simulation.robots())
+    if (robot->hasEars()) tell(*robot, messages);
+}
+
+/// Its features are for all of its team, whoever leads it.
+void PlayerControl::Parts::tell(SimRobot& robot, const std::vector<Heard>& messages) const {
+  const std::string& name = robot.config().name;
+  const std::string team = teamOf(name);
+  std::vector<Heard> told;
+  std::copy_if(messages.begin(), messages.end(), std::back_inserter(told),
+               [&](const Heard& one) { return one.from != name && teamOf(one.from) == team; });
+  robot.hear(simulation.now(), told);
 }
 
 void PlayerControl::Parts::act(Seating& one, const Game& game) {
@@ -223,10 +236,12 @@ bool PlayerControl::stop(std::string_view robot) {
   return false;
 }
 
+void PlayerControl::deliver() { parts_->deliver(); }
+
 void PlayerControl::act(const Game& game) {
   parts_->stage.forget();
   parts_->drop();
-  parts_->deliver();
+  parts_->deliver();  // if nobody has
   for (std::size_t i = 0; i < parts_->seatings.size(); ++i) parts_->act(*parts_->seatings[i], game);
 }
 

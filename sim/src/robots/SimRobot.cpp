@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "CheckedDrive.hpp"
 #include "CheckedSensor.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/TalkData.hpp"
 
 namespace ortung {
 namespace {
@@ -71,6 +74,8 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
     const Device& device = devices[i];
     hasTruth = hasTruth || std::any_of(device.data.begin(), device.data.end(),
                                        [](SensorData* data) { return isGroundTruth(*data); });
+    std::copy_if(device.data.begin(), device.data.end(), std::back_inserter(ears_),
+                 [](SensorData* data) { return dynamic_cast<TalkData*>(data) != nullptr; });
     auto sensor = makeSensor(device, factory, config_.name);
     const Timestamp period = sensor ? fromSeconds(sensor->period()) : 0;
     sensors_.push_back({std::move(sensor), device.data,
@@ -103,7 +108,7 @@ double SimRobot::raysAtOnce() const {
 
 std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
   inFrame_ = 0;
-  if (now < nextDue_) return {};
+  if (now < nextDue_ && !hasHeard_) return {};
   nextDue_ = std::numeric_limits<Timestamp>::max();
   for (Mounted& mounted : sensors_) {
     if (!mounted.sensor) continue;
@@ -119,6 +124,8 @@ std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
       report(now, std::string(failure.what()) + "; it is switched off");
     }
   }
+  if (std::exchange(hasHeard_, false))
+    for (Mounted& mounted : sensors_) collect(mounted, now);
   extract(now);
   if (inFrame_ > 0) addGroundTruth(now);
   return {frame_.data(), inFrame_};
@@ -133,6 +140,16 @@ void SimRobot::generate(Mounted& mounted, const World& world, Timestamp now) {
   mounted.sensor->generateData(world, state_, noise_ ? &mounted.random : nullptr, now,
                                mounted.data);
   collect(mounted, now);
+}
+
+void SimRobot::hear(Timestamp now, std::span<const Heard> said) {
+  if (ears_.empty() || said.empty()) return;
+  TalkData::Reading reading{config_.name, {}};
+  for (const Heard& one : said.last(std::min(said.size(), TalkData::kMostMessages)))
+    reading.messages.push_back({toSeconds(now - one.stamp), one.from, one.text});
+  const std::vector<std::uint32_t> words = TalkData::encode(reading);
+  for (SensorData* ear : ears_) ear->setData(now, words);
+  hasHeard_ = true;
 }
 
 /// Features that are made of others: after all sensors, whichever order they have.

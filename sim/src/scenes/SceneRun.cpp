@@ -216,6 +216,7 @@ void SceneRun::act() {
   while (nextCommand_ < scene_.commands.size() && scene_.commands[nextCommand_].at <= now)
     obey(scene_.commands[nextCommand_++]);
   for (Kidnapped& kidnapped : kidnapped_) kidnap(kidnapped);
+  players_->deliver();
   simulation_->sense();
   watch();
   players_->act(game_);

@@ -64,6 +64,9 @@ class ORTUNG_API PlayerControl {
 
   /// Ends the player on a robot. @returns whether there was one
   bool stop(std::string_view robot);
+  /// What was said in the last cycle comes to all others of the team, and to the robots' features
+  /// of the format TalkData. To be called before Simulation::sense().
+  void deliver();
   /// Lets all players act whose time has come. @pre Simulation::sense()
   void act(const Game& game);
   /// Takes robots off the field whose players have ended; those must not be used any more.

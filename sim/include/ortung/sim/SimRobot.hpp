@@ -16,6 +16,7 @@
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/RobotShape.hpp"
 #include "ortung/sim_api/Drive.hpp"
+#include "ortung/sim_api/Player.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 namespace ortung {
@@ -50,6 +51,12 @@ class ORTUNG_API SimRobot : public RobotCommands {
   /// Whether it stands where it is, whatever it is told.
   void hold(bool isHeld) { isHeld_ = isHeld; }
   bool isHeld() const { return isHeld_; }
+
+  /// What its team has told it: its features of the format TalkData have it with the readings that
+  /// are sensed next. @param said all that is new, in the order of time
+  void hear(Timestamp now, std::span<const Heard> said);
+  /// Whether it has such a feature.
+  bool hasEars() const { return !ears_.empty(); }
 
   /// Places of a manipulator and of one of its states, in shape().
   struct WantedState {
@@ -127,7 +134,9 @@ class ORTUNG_API SimRobot : public RobotCommands {
   RobotShape shape_;
   SensorContainer container_;
   std::vector<Mounted> sensors_;
-  SensorData* truth_ = nullptr;  ///< ground truth that no sensor gives, or null
+  std::vector<SensorData*> ears_;  ///< TalkData
+  bool hasHeard_ = false;          ///< what no message tells of yet
+  SensorData* truth_ = nullptr;    ///< ground truth that no sensor gives, or null
   std::unique_ptr<Drive> drive_;
   bool driveWorks_ = true;
   bool extracts_ = false;  ///< whether it has extractors, and none has failed

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+
+namespace ortung {
+
+/// Something at a place in the field frame, as somebody says.
+struct Place {
+  enum class Kind : std::uint8_t { robot, ball };
+  static constexpr double kNoHeading = 100.0;  ///< sigma of a heading that nobody knows [rad]
+
+  Kind kind = Kind::robot;
+  std::string name;      ///< of what is there: 1 to 64 of [A-Za-z0-9_.-]
+  PoseFixData::Fix fix;  ///< sigma of the heading kNoHeading: only the position is known
+  bool hasHeading() const { return fix.covariance[8] < 0.25 * kNoHeading * kNoHeading; }
+};
+
+/// Where others say that robots and balls are. They move, so it neither learns nor localizes.
+/// Words: of each place 0 for a robot or 1 for a ball, its name as a text (see TalkData), how old
+/// it is [us], and the nine words of a fix (see PoseFixData). Not thread-safe, see SensorData.
+class ORTUNG_API PlacesData : public SensorData {
+ public:
+  static constexpr std::size_t kMostPlaces = 256;
+  struct Told {
+    Place place;
+    double age = 0.0;  ///< when the reading was taken [s]
+    std::string from;  ///< who said it
+  };
+  using Reading = std::vector<Told>;
+
+  explicit PlacesData(SensorId id);
+  ~PlacesData() override;
+
+  const Reading& reading() const { return reading_; }
+  /// @throws std::invalid_argument for more places than a reading can hold, and for bad names
+  static std::vector<std::uint32_t> encode(const Reading& reading);
+  std::string wordsHelp() const override;
+
+ private:
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  Reading reading_;
+};
+
+/// What a robot tells its team of a place: "robot NAME X Y DEG SX SY SDEG CXY CXT CYT", positions
+/// and their sigmas in metres, headings in degrees, correlations between -1 and 1; DEG and SDEG are
+/// "-" where the heading is not known. @throws std::invalid_argument for a bad name, and for
+/// numbers that are not finite
+ORTUNG_API std::string toText(const Place& place);
+/// The place that a text tells of; nothing if it is about something else, or not right.
+ORTUNG_API std::optional<Place> placeIn(std::string_view text);
+
+}  // namespace ortung

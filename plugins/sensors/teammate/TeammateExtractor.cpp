@@ -1,0 +1,98 @@
+#include "TeammateExtractor.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "FusedFixes.hpp"
+
+namespace ortung {
+namespace {
+
+// Where features lie among those of the device.
+constexpr std::size_t kPosition = 0;
+constexpr std::size_t kRobots = 1;
+constexpr std::size_t kBalls = 2;
+
+constexpr std::size_t kMostMates = 256;  ///< remembered; who has more is not told the truth
+
+}  // namespace
+
+std::vector<std::string> TeammateExtractor::inputs() const {
+  return {toText({settings_.id.model, settings_.id.type, TeammateSettings::kTalk})};
+}
+
+void TeammateExtractor::take(std::span<const SensorData* const> inputs) {
+  const auto* talk = dynamic_cast<const TalkData*>(inputs[0]);
+  if (talk == nullptr)
+    throw std::invalid_argument(toText(inputs[0]->id()) + " is no talk, expected some");
+  talk_ = talk->reading();
+  if (talk->stamp() < now_) {  // time has begun anew
+    robots_.clear();
+    balls_.clear();
+    used_.clear();
+  }
+  now_ = talk->stamp();
+}
+
+/// What a robot says of itself is better than what others see of it.
+void TeammateExtractor::remember(Memory& memory, Known known, const std::string& source) {
+  const std::string& name = known.told.place.name;
+  const auto found = memory.find({name, source});
+  if (found == memory.end()) {
+    if (memory.size() < kMostMates) memory.emplace(std::pair(name, source), std::move(known));
+    return;
+  }
+  const bool isOwn = known.told.from == name;
+  const bool wasOwn = found->second.told.from == name;
+  const bool isStale = now_ - found->second.said > fromSeconds(settings_.keep);
+  if (isOwn || !wasOwn || isStale) found->second = std::move(known);
+}
+
+PlacesData::Reading TeammateExtractor::recall(Memory& memory) const {
+  std::erase_if(memory, [&](const auto& entry) {
+    return now_ - entry.second.said > fromSeconds(settings_.keep);
+  });
+  PlacesData::Reading reading;
+  for (auto& [key, known] : memory) {
+    known.told.age = toSeconds(now_ - known.said);
+    reading.push_back(known.told);
+  }
+  return reading;
+}
+
+std::optional<TeammateExtractor::Words> TeammateExtractor::position(const Sightings& sightings) {
+  std::vector<PoseFixData::Fix> fixes;
+  std::erase_if(used_, [&](const auto& entry) {
+    return now_ - entry.second >= fromSeconds(settings_.spacing);
+  });
+  for (const auto& [mate, fix] : sightings)
+    if (used_.size() < kMostMates && used_.emplace(mate, now_).second) fixes.push_back(fix);
+  if (fixes.empty()) return std::nullopt;
+  return PoseFixData::encode(fused(fixes, settings_.fix));
+}
+
+void TeammateExtractor::extract(const FieldModel&, std::span<std::optional<Words>> words) {
+  Sightings sightings;
+  bool isOfRobots = false;
+  bool isOfBalls = false;
+  for (const TalkData::Message& message : talk_.messages) {
+    std::optional<Place> place = placeIn(message.text);
+    if (!place) continue;
+    const std::string name = place->name;
+    Known known{{std::move(*place), message.age, message.from}, now_ - fromSeconds(message.age)};
+    if (known.told.place.kind == Place::Kind::ball) {
+      remember(balls_, std::move(known), message.from);
+      isOfBalls = true;
+    } else if (name == talk_.listener) {
+      sightings[message.from] = known.told.place.fix;
+    } else {
+      remember(robots_, std::move(known), "");
+      isOfRobots = true;
+    }
+  }
+  words[kPosition] = position(sightings);
+  if (isOfRobots) words[kRobots] = PlacesData::encode(recall(robots_));
+  if (isOfBalls) words[kBalls] = PlacesData::encode(recall(balls_));
+}
+
+}  // namespace ortung
