@@ -17,6 +17,7 @@
 #include "Serving.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Record.hpp"
+#include "ortung/formats/TalkData.hpp"
 #include "ortung/served/PlayerCommands.hpp"
 #include "ortung/served/ServedSimulation.hpp"
 #include "ortung/sim/RunDigest.hpp"
@@ -144,6 +145,15 @@ Outputs outputsOf(const SimArguments& arguments) {
   return outputs;
 }
 
+/// What a referee has seen and decided, as a reading for whoever looks at the record.
+Message messageOf(const std::vector<RefereeEvent>& events) {
+  const Timestamp now = events.back().stamp;
+  TalkData::Reading told;
+  for (const RefereeEvent& event : events)
+    told.messages.push_back({toSeconds(now - event.stamp), "referee", toText(event)});
+  return {now, {"referee", "referee", "events"}, TalkData::encode(told)};
+}
+
 /// What a run leaves behind. It can't be had again where a robot's plugin has a will of its own,
 /// and a signal is how most runs end, so all of it is written as it comes.
 struct Recording {
@@ -167,9 +177,10 @@ struct Recording {
     record.emplace(outputs.ready(arguments.record), run.simulation().world().fingerprint(),
                    RecordWriter::Pace::kLive);
   }
-  void add(const Simulation& simulation) {
+  void add(const Simulation& simulation, const std::vector<RefereeEvent>& events) {
     if (!record) return;
     for (const Message& message : simulation.readingsOf(robot)) record->write(message);
+    if (!events.empty()) record->write(messageOf(events));
     record->endMoment();
   }
   void commit() {
@@ -180,8 +191,7 @@ struct Recording {
 
 void print(const std::vector<RefereeEvent>& events) {
   for (const RefereeEvent& event : events)
-    fmt::print("{:9.2f} s  {}{}: {}\n", toSeconds(event.stamp), printable(event.what),
-               event.team.empty() ? "" : " " + printable(event.team), printable(event.text));
+    fmt::print("{:9.2f} s  {}\n", toSeconds(event.stamp), toText(event));
   if (!events.empty()) flushOutput();
 }
 
@@ -251,7 +261,7 @@ int play(const SimArguments& arguments) {
       ++cycles;
       {
         const auto held = rescue.hold();
-        recording.add(simulation);
+        recording.add(simulation, events);
       }
       if (duration && cycles % 100 == 0) progress.update(toSeconds(simulation.now()) / *duration);
       pacing.waitFor(toSeconds(simulation.now()));

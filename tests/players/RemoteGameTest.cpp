@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "GameText.hpp"
 #include "RunningBoard.hpp"
 #include "ortung/remote/RemotePlay.hpp"
 #include "ortung/served/PlayerCommands.hpp"
@@ -11,36 +10,6 @@
 
 namespace ortung::test {
 namespace {
-
-TEST(RemoteGame, TheServersTextIsRead) {
-  const Game game = remote::parseGame(
-      "phase=ready restart=corner restart_of=reds half=2 clock_s=12.25 reds=3 whites=1 "
-      "left=whites");
-  EXPECT_EQ(game.phase, Game::Phase::kReady);
-  EXPECT_EQ(game.restart, Game::Restart::kCorner);
-  EXPECT_EQ(game.restartOf, 0u);
-  EXPECT_EQ(game.half, 2);
-  EXPECT_EQ(game.clock, 12.25);
-  EXPECT_EQ(game.teams[0].name, "reds");
-  EXPECT_EQ(game.teams[0].score, 3);
-  EXPECT_EQ(game.teams[1].name, "whites");
-  EXPECT_EQ(game.teamOnTheLeft, 1u);
-}
-
-TEST(RemoteGame, NonsenseOfAServerIsToldAsIt) {
-  const std::string good = "phase=free restart=none half=0 clock_s=0 blue=0 yellow=0 left=blue";
-  EXPECT_NO_THROW(remote::parseGame(good));
-  for (const char* text :
-       {"", "phase=free", "phase=lost restart=none half=0 clock_s=0 blue=0 yellow=0 left=blue",
-        "phase=free restart=none half=x clock_s=0 blue=0 yellow=0 left=blue",
-        "phase=free restart=none half=0 clock_s=nan blue=0 yellow=0 left=blue",
-        "phase=free restart=none half=0 clock_s=0 blue=0 yellow=0 left=green",
-        "phase=free restart=none half=0 clock_s=0 blue=0 left=blue",
-        "phase=free restart=none restart_of=green half=0 clock_s=0 blue=0 yellow=0 left=blue",
-        "phase=free restart=none half=0 clock_s=0 =0 yellow=0 left=yellow",
-        "phase=free restart=none half=99999999999 clock_s=0 blue=0 yellow=0 left=blue"})
-    EXPECT_THROW(remote::parseGame(text), std::runtime_error) << text;
-}
 
 /// Notes how the game stands each time it acts.
 class Watcher : public Player {

@@ -95,6 +95,18 @@ TEST(ServedPlayers, AReferee) {
   EXPECT_EQ(client.ask("REFEREE stop"), "OK REFEREE");
   EXPECT_TRUE(client.ask("NEXT none/none/none").starts_with("OK NEXT"));
   EXPECT_TRUE(client.ask("GAME").starts_with("OK GAME phase=stopped"));
+  // Who comes later asks what has happened.
+  TestClient later(board.port());
+  later.ask("HELLO ortung/1 name=bert");
+  const std::string events = later.ask("EVENTS");
+  EXPECT_TRUE(events.starts_with("OK EVENTS next=")) << events;
+  const int lines = std::stoi(valueOf(events, "lines"));
+  EXPECT_EQ(std::to_string(lines), valueOf(events, "next"));
+  ASSERT_GE(lines, 1);
+  for (int i = 0; i < lines; ++i) EXPECT_TRUE(later.line().starts_with(std::to_string(i) + " "));
+  EXPECT_EQ(later.ask("EVENTS since=" + std::to_string(lines)),
+            "OK EVENTS next=" + std::to_string(lines));
+  EXPECT_TRUE(later.ask("EVENTS since=x").starts_with("ERR argument"));
 }
 
 TEST(ServedPlayers, WithoutARefereeOrdersAreRefused) {

@@ -10,7 +10,6 @@ FloorPlan::~FloorPlan() = default;
 Stage::~Stage() = default;
 PlayerSeat::~PlayerSeat() = default;
 Player::~Player() = default;
-Referee::~Referee() = default;
 
 const Taught& PlayerSeat::taught() const {
   static const Taught kNothing;

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "GameText.hpp"
 #include "ortung/sim_api/PlayerGuard.hpp"
 
 namespace ortung::remote {
@@ -97,7 +96,12 @@ void RemoteSeat::watchGame() {
   if (!hasGame_) return;
   const std::string text = robot_.game();
   hasGame_ = !text.empty();
-  if (hasGame_) game_ = parseGame(text);
+  if (!hasGame_) return;
+  try {
+    game_ = gameIn(text);
+  } catch (const std::invalid_argument& error) {
+    throw ConnectionLost(std::string("the server: ") + error.what());
+  }
 }
 
 void RemoteSeat::look() { now_ = robot_.newest(); }

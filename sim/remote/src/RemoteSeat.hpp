@@ -58,8 +58,7 @@ class RemoteSeat : public PlayerSeat {
   void look();
   /// What was said meanwhile. @throws ConnectionLost, ServerRefused
   void listen();
-  /// How the game stands; free where the server knows none. @throws as listen(), and
-  ///   std::runtime_error for what is no game
+  /// How the game stands; free where the server knows none. @throws as listen()
   void watchGame();
   void forgetHeard() { heard_.clear(); }
   const Voice& voice() const { return voice_; }

@@ -32,28 +32,31 @@ PlayerWish wishOf(const BoardCommand::Call& call) {
   return parsePlayer(text + team);
 }
 
-/// The shortest digits that give the same number again.
-std::string shortest(double number) {
-  char digits[32];
-  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, number);
-  return std::string(digits, end.ptr);
+std::uint64_t sinceOf(const BoardCommand::Call& call) {
+  std::uint64_t since = 0;
+  for (const auto& [key, value] : call.keys) {
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), since);
+    if (key != "since" || error != std::errc() || end != value.data() + value.size())
+      throw ServeError("argument", "EVENTS has '" + key + "=" + value +
+                                       "', expected since=N, a number that it gave before");
+  }
+  return since;
 }
 
-/// "phase=ready restart=kick-off restart_of=blue half=1 clock_s=12.5 blue=0 yellow=1 left=blue".
-std::string textOf(const Game& game) {
-  std::string text =
-      "phase=" + std::string(nameOf(game.phase)) + " restart=" + std::string(nameOf(game.restart));
-  if (game.restartOf) text += " restart_of=" + game.teams.at(*game.restartOf).name;
-  text += " half=" + std::to_string(game.half) + " clock_s=" + shortest(game.clock);
-  for (const Game::Team& team : game.teams)
-    text += " " + team.name + "=" + std::to_string(team.score);
-  return text + " left=" + game.teams.at(game.teamOnTheLeft).name;
+BoardCommand::Reply eventsSince(const ServedSimulation& simulation, std::uint64_t since) {
+  BoardCommand::Reply reply;
+  for (const ServedSimulation::Event& event : simulation.events())
+    if (event.number >= since)
+      reply.lines.push_back(std::to_string(event.number) + " " + std::to_string(event.event.stamp) +
+                            " " + toText(event.event));
+  reply.words = "next=" + std::to_string(simulation.eventsSoFar());
+  return reply;
 }
 
 }  // namespace
 
 std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
-  std::vector<BoardCommand> commands(5);
+  std::vector<BoardCommand> commands(6);
   commands[0] = {"PLAY",
                  "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
                  true, [&simulation](const BoardCommand::Call& call) {
@@ -83,7 +86,11 @@ std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
                    return BoardCommand::Reply{};
                  }};
   commands[4] = {"GAME", "how the game stands", false, [&simulation](const BoardCommand::Call&) {
-                   return BoardCommand::Reply{textOf(simulation.game()), {}};
+                   return BoardCommand::Reply{toText(simulation.game()), {}};
+                 }};
+  commands[5] = {"EVENTS", "[since=N]: what the referee has seen and decided", false,
+                 [&simulation](const BoardCommand::Call& call) {
+                   return eventsSince(simulation, sinceOf(call));
                  }};
   return commands;
 }

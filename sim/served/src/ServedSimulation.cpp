@@ -124,7 +124,17 @@ Timestamp ServedSimulation::now() const {
 void ServedSimulation::step() {
   finishCycle();
   run_->act();
+  noteEvents();
   isMovePending_ = true;
+}
+
+void ServedSimulation::noteEvents() {
+  if (run_->referee() == nullptr) return;
+  constexpr std::size_t kMost = 1000;
+  for (RefereeEvent& event : run_->referee()->takeEvents()) {
+    if (events_.size() == kMost) events_.pop_front();
+    events_.push_back({eventsSoFar_++, std::move(event)});
+  }
 }
 
 void ServedSimulation::finishCycle() {
@@ -326,6 +336,8 @@ void ServedSimulation::reset(std::optional<std::uint64_t> seed) {
   auto fresh = std::make_unique<SceneRun>(scene_, config, factory_, playerConfig_);
   run_ = std::move(fresh);
   isMovePending_ = false;
+  events_.clear();
+  eventsSoFar_ = 0;
   planned_.clear();
   config_ = config;
   entered_ = run_->entrants();

@@ -61,6 +61,10 @@ inline bool operator==(const Game::Team& a, const Game::Team& b) {
 /// "playing", "kick-off": words of messages, files and the protocol.
 ORTUNG_API std::string_view nameOf(Game::Phase phase);
 ORTUNG_API std::string_view nameOf(Game::Restart restart);
+/// "phase=ready restart=kick-off restart_of=blue half=1 clock_s=12.5 blue=0 yellow=1 left=blue".
+ORTUNG_API std::string toText(const Game& game);
+/// What toText() has written. @throws std::invalid_argument for what is no such text
+ORTUNG_API Game gameIn(std::string_view text);
 /// Nothing if there is none of this name.
 ORTUNG_API std::optional<Game::Phase> phaseOf(std::string_view name);
 ORTUNG_API std::optional<Game::Restart> restartOf(std::string_view name);

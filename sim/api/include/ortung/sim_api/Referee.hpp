@@ -21,6 +21,9 @@ struct RefereeEvent {
   std::string text;  ///< one line for people
 };
 
+/// "goal blue: 1 : 0": printable ASCII, at most 400 characters.
+ORTUNG_API std::string toText(const RefereeEvent& event);
+
 /// Restricts what robots do by a set of rules (paper, section 2). Its constructor takes its
 /// options, `rules` among them, a file. Not thread-safe.
 class ORTUNG_API Referee {

@@ -108,7 +108,6 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::vector<TeamWords> hearTeam();
   /// How the game stands, as GAME tells it (docs/protocol.md); "" where the server knows no game.
   std::string game();
-
   /// Readings that are new, oldest first, stamped by the server's clock.
   /// @param queries "model/type/feature", separated by blanks; "": all
   std::vector<Message> update(const std::string& queries = "");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -52,6 +53,15 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   const Game& game() const { return run_->game(); }
   /// What is under way; after a reset it is another one.
   SceneRun& run() { return *run_; }
+  /// Something that the referee has seen or decided since the last reset.
+  struct Event {
+    std::uint64_t number = 0;
+    RefereeEvent event;
+  };
+  /// The newest, at most 1000, in the order of time.
+  const std::deque<Event>& events() const { return events_; }
+  /// The number of the event that comes next.
+  std::uint64_t eventsSoFar() const { return eventsSoFar_; }
   std::vector<PlayerControl::Seated> players() const { return run_->players().players(); }
 
  private:
@@ -60,6 +70,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   SimRobot& find(RobotId robot) const;
   Simulation& simulation() const { return run_->simulation(); }
   void finishCycle();
+  void noteEvents();
   void enter(RobotId robot, Guest& guest);
   void takeOff(Guest& guest);
   void nameObjects();
@@ -81,6 +92,8 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   std::vector<RobotSize> planned_;  ///< for robots of clients, the plan last asked for at the end
   std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
   RobotId lastId_ = 0;
+  std::deque<Event> events_;
+  std::uint64_t eventsSoFar_ = 0;
   std::uint64_t version_ = 0;  ///< of residents
   std::uint64_t entered_;      ///< robots since the last reset: each has chances of its own
 };
