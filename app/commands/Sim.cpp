@@ -209,13 +209,23 @@ class RefereedSimulation : public ServedSimulation {
     if (box_) box_->poll(clock_.elapsed());
     ServedSimulation::step();
     if (trace_) trace_->add(run().simulation());
-    if (run().referee() != nullptr) print(run().referee()->takeEvents());
+    printEvents();
   }
   void commit() {
     if (trace_) trace_->commit();
   }
 
  private:
+  void printEvents() {
+    if (eventsSoFar() < printed_) printed_ = 0;  // after a reset
+    std::vector<RefereeEvent> unsaid;
+    for (const Event& event : events())
+      if (event.number >= printed_) unsaid.push_back(event.event);
+    printed_ = eventsSoFar();
+    print(unsaid);
+  }
+
+  std::uint64_t printed_ = 0;
   Pacing clock_{ServingArguments{}};
   std::optional<RefBoxLink> box_;
   std::optional<Trace> trace_;

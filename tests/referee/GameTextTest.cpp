@@ -46,7 +46,8 @@ TEST(GameText, RefusesWhatIsNone) {
         "phase=ready blue=0 yellow=0 red=1 left=blue", "phase=ready blue=x yellow=0 left=blue",
         "phase=ready clock_s=nan blue=0 yellow=0 left=blue", "blue=0 yellow=0 left=blue",
         "phase=ready restart_of=red blue=0 yellow=0 left=blue",
-        "phase=free =0 yellow=0 left=yellow", "phase=free half=99999999999 blue=0 yellow=0 left=blue",
+        "phase=free =0 yellow=0 left=yellow",
+        "phase=free half=99999999999 blue=0 yellow=0 left=blue",
         "phase=ready restart=never blue=0 yellow=0 left=blue"})
     EXPECT_THROW(gameIn(text), std::invalid_argument) << text;
   EXPECT_NO_THROW(gameIn("phase=ready blue=0 yellow=0 left=blue"));
