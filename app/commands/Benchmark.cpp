@@ -10,6 +10,7 @@
 #include "Progress.hpp"
 #include "ortung/base/InputFile.hpp"
 #include "ortung/benchmark/GoalMatrix.hpp"
+#include "ortung/benchmark/MatrixPage.hpp"
 
 namespace ortung::app {
 namespace {
@@ -48,6 +49,25 @@ std::string toText(const GoalEpisode& episode) {
                      toSeconds(episode.end), episode.digest);
 }
 
+/// Each keeper with each way to see.
+std::vector<std::string> keepersOf(const GoalkeeperBenchmarkArguments& a) {
+  std::vector<std::string> names = a.keepers;
+  if (names.empty())
+    for (const auto policy : goalkeeperPolicies()) names.emplace_back(policy);
+  std::vector<std::string> keepers;
+  for (const std::string& name : names) {
+    if (a.sees.empty()) keepers.push_back(keeperText(name));
+    for (const std::string& sees : a.sees) keepers.push_back(withSight(keeperText(name), sees));
+  }
+  return keepers;
+}
+
+void writeResults(const GoalMatrix& matrix, const std::filesystem::path& json,
+                  const std::filesystem::path& html, Outputs& outputs) {
+  if (!json.empty()) outputs.write(json, toJson(matrix, ORTUNG_VERSION));
+  if (!html.empty()) outputs.write(html, toHtml(matrix, ORTUNG_VERSION));
+}
+
 }  // namespace
 
 int runGoalkeeperBenchmark(const GoalkeeperBenchmarkArguments& a) {
@@ -55,11 +75,8 @@ int runGoalkeeperBenchmark(const GoalkeeperBenchmarkArguments& a) {
   config.episodes = a.episodes;
   config.seed = a.seed;
   readShard(a.shard, config);
-  for (const std::string& name : a.keepers) config.keepers.push_back(keeperText(name));
   for (const std::string& name : a.strikers) config.strikers.push_back(strikerText(name));
-  if (a.keepers.empty())
-    for (const auto policy : goalkeeperPolicies())
-      config.keepers.push_back(keeperText(std::string(policy)));
+  config.keepers = keepersOf(a);
   if (a.strikers.empty())
     for (const auto kind : strikerKinds())
       config.strikers.push_back(strikerText(std::string(kind)));
@@ -70,12 +87,13 @@ int runGoalkeeperBenchmark(const GoalkeeperBenchmarkArguments& a) {
   }
   Outputs outputs(a.force);
   outputs.writes("--json", a.json, OutputKind::kBenchmark);
+  outputs.writes("--html", a.html, OutputKind::kPage);
   GoalMatrix matrix;
   {
     Progress progress("playing", a.progress);
     matrix = playMatrix(config, runOf(a.threads, progress));
   }
-  if (!a.json.empty()) outputs.write(a.json, toJson(matrix, ORTUNG_VERSION));
+  writeResults(matrix, a.json, a.html, outputs);
   fmt::print("{}", toText(matrix));
   return 0;
 }
@@ -106,10 +124,11 @@ int runBenchmarkMerge(const BenchmarkMergeArguments& a) {
   Outputs outputs(a.force);
   for (const auto& file : a.files) outputs.reads(file);
   outputs.writes("--json", a.json, OutputKind::kBenchmark);
+  outputs.writes("--html", a.html, OutputKind::kPage);
   std::vector<GoalMatrix> shards;
   for (const auto& file : a.files) shards.push_back(readMatrix(file));
   const GoalMatrix matrix = mergeShards(shards);
-  if (!a.json.empty()) outputs.write(a.json, toJson(matrix, ORTUNG_VERSION));
+  writeResults(matrix, a.json, a.html, outputs);
   fmt::print("{}", toText(matrix));
   return 0;
 }

@@ -17,11 +17,17 @@ void addGoalkeeper(Builder& build, CLI::App& app) {
               "players PLUGIN[:key=value&...]; default: all policies")
       ->delimiter(',');
   build
-      .option(
-          "--strikers", a->strikers,
-          "Strikers: kinds (roll, shot, dribble, yardstick-v1) or players PLUGIN[:key=value&...]; "
-          "default: all kinds")
+      .option("--strikers", a->strikers,
+              "Strikers: kinds (roll, shot, dribble, feint, seeker, yardstick-v1) or players "
+              "PLUGIN[:key=value&...]; default: all kinds")
       ->delimiter(',');
+  build
+      .option("--sees", a->sees,
+              "How keepers know where they and the ball are; each plays in each way: truth, "
+              "features (the ball by its camera), scan (itself by single scans, too), localized "
+              "(by MCL)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"truth", "features", "scan", "localized"}));
   build.option("--episodes", a->episodes, "Episodes of each pair")
       ->check(within(1, 1e7))
       ->capture_default_str();
@@ -34,6 +40,7 @@ void addGoalkeeper(Builder& build, CLI::App& app) {
               "I/N: play the I-th of N parts only; `ortung benchmark merge` joins them")
       ->capture_default_str();
   build.option("--json", a->json, "Also write all figures and episodes");
+  build.option("--html", a->html, "Also write a page with all figures and pictures of episodes");
   build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }
@@ -61,6 +68,7 @@ void addMerge(Builder& build, CLI::App& app) {
       "ortung benchmark merge part1.json part2.json --json matrix.json", runBenchmarkMerge);
   build.option("files", a->files, "JSON of all shards")->required();
   build.option("--json", a->json, "File to write");
+  build.option("--html", a->html, "Also write a page with all figures and pictures of episodes");
   build.flag("--force", a->force, kForce);
 }
 

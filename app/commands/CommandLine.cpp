@@ -330,7 +330,10 @@ int printError(const CLI::App& app, const CLI::ParseError& error, const std::str
   constexpr int kWrongUsage = 2;
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   std::string name = "ortung";
-  for (const CLI::App* sub : app.get_subcommands()) name += " " + sub->get_name();
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    name += " " + at->get_name();
+  }
   setCommandName(name);
   const bool unknown = app.get_subcommands().empty() && !first.empty() && first[0] != '-';
   const std::string what = unknown ? "there is no subcommand '" + first + "'" : error.what();

@@ -199,11 +199,13 @@ int runPlay(const PlayArguments& arguments);
 struct GoalkeeperBenchmarkArguments {
   std::vector<std::string> keepers;   ///< policies, or players as parsePlayer() reads them
   std::vector<std::string> strikers;  ///< kinds, or players
+  std::vector<std::string> sees;      ///< ways to see that each keeper plays with; none: its own
   std::uint64_t episodes = 1000;      ///< of each pair
   std::uint64_t seed = 1;
   unsigned threads = 1;
   std::string shard = "1/1";   ///< "I/N"
   std::filesystem::path json;  ///< "" for none
+  std::filesystem::path html;  ///< "" for none
   bool force = false;          ///< overwrite files of other kinds
   bool progress = false;
 };
@@ -221,6 +223,7 @@ int runBenchmarkVerify(const BenchmarkVerifyArguments& arguments);
 struct BenchmarkMergeArguments {
   std::vector<std::filesystem::path> files;
   std::filesystem::path json;  ///< "" for none
+  std::filesystem::path html;  ///< "" for none
   bool force = false;          ///< overwrite files of other kinds
 };
 int runBenchmarkMerge(const BenchmarkMergeArguments& arguments);

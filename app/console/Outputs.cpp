@@ -61,6 +61,8 @@ Signature signatureOf(OutputKind kind) {
       return {"a motion network", "{", "\"ortung motion network"};
     case OutputKind::kBenchmark:
       return {"a result of `ortung benchmark`", "{", "\"ortung goalkeeper benchmark"};
+    case OutputKind::kPage:
+      return {"a page of `ortung benchmark`", "<!doctype html>", "<title>Goalkeeper benchmark"};
     case OutputKind::kSettings:
       break;
   }

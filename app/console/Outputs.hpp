@@ -24,6 +24,7 @@ enum class OutputKind : std::uint8_t {
   kMotion,      ///< TOML of learn-motion
   kNetwork,     ///< JSON of train-motion
   kBenchmark,   ///< JSON of benchmark
+  kPage,        ///< HTML of benchmark
   kSettings,  ///< worlds, their maps, and robots: people work on them, so none is replaced unasked
 };
 

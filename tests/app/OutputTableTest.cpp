@@ -17,12 +17,21 @@ class EveryOutput : public Workspace {
   EveryOutput() {
     learnTables();
     recordRun();
+    EXPECT_EQ(ortung({"benchmark", "goalkeeper", "--keepers", "still", "--strikers", "roll",
+                      "--episodes", "2", "--json", path("goals.json")})
+                  .exitCode,
+              0);
   }
 
   struct Output {
     std::string option;
     std::string input;  ///< a file that the command reads
     std::vector<std::string> command;
+
+    /// As errors call it.
+    std::string name() const {
+      return "ortung " + command[0] + (command[0] == "benchmark" ? " " + command[1] : "");
+    }
   };
 
   std::vector<Output> outputs() const {
@@ -62,6 +71,8 @@ class EveryOutput : public Workspace {
          {"show", path("hall.ortung"), "--robot", robot, "--feature", "LMS200/LRF/*"}},
         {"--record", "hall.toml", sim},
         {"--trace", "robot.toml", sim},
+        {"--json", "goals.json", {"benchmark", "merge", path("goals.json")}},
+        {"--html", "goals.json", {"benchmark", "merge", path("goals.json")}},
     };
   }
 
@@ -85,15 +96,13 @@ TEST_F(EveryOutput, IsRefusedWhereItWouldReplaceAnInputOrAFileOfAnotherKind) {
     fs::create_symlink(path(output.input), path("soft"));
     for (const std::string name : {"hard", "soft"})
       expectRefused(run(output, path(name), true), 2,
-                    "ortung " + output.command[0] + ": " + path(name) + ": is read by this run",
-                    {output.option});
+                    output.name() + ": " + path(name) + ": is read by this run", {output.option});
     EXPECT_EQ(read(output.input), input);
     write("mine", "my own work");
     expectRefused(run(output, path("mine")), 1,
-                  "ortung " + output.command[0] + ": " + path("mine") + ": exists and",
-                  {"--force"});
+                  output.name() + ": " + path("mine") + ": exists and", {"--force"});
     EXPECT_EQ(read("mine"), "my own work");
-    expectRefused(run(output, path("none/x")), 1, "ortung " + output.command[0] + ": ",
+    expectRefused(run(output, path("none/x")), 1, output.name() + ": ",
                   {path("none/x"), "there is no folder"});
   }
 }

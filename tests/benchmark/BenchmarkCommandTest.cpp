@@ -52,6 +52,18 @@ TEST(BenchmarkCommand, PlaysWritesMergesAndVerifies) {
   expectError({"benchmark", "merge", file("1.json")}, 1, "expected all 2");
 }
 
+TEST(BenchmarkCommand, ComparesWaysToSeeAndWritesAPage) {
+  const TemporaryFolder folder;
+  const std::string page = (folder.path() / "page.html").string();
+  const Outcome played =
+      ortung({"benchmark", "goalkeeper", "--keepers", "intercepting", "--sees", "truth,localized",
+              "--strikers", "roll", "--episodes", "3", "--html", page});
+  ASSERT_EQ(played.exitCode, 0) << played.err;
+  EXPECT_NE(played.out.find("intercepting:sees=localized"), std::string::npos);
+  EXPECT_NE(played.out.find("error of where the keeper believes to be"), std::string::npos);
+  EXPECT_NE(readBytes(page).find("<svg"), std::string::npos);
+}
+
 TEST(BenchmarkCommand, BadOptionsAreRefused) {
   const auto play = [](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"benchmark", "goalkeeper", "--episodes", "2"};
@@ -66,6 +78,9 @@ TEST(BenchmarkCommand, BadOptionsAreRefused) {
   expectError(play({"--shard", "2/1"}), 2, "the shard is 2/1");
   expectError(play({"--shard", "1/3"}), 2, "the shard is 1/3");
   expectError(play({"--threads", "0"}), 2, "--threads");
+  expectError(play({"--sees", "little"}), 2, "see `ortung benchmark goalkeeper --help`");
+  expectError(play({"--strikers", "shot:sees=scan"}), 1, "sees must be truth for the kind 'shot'");
+  expectError(play({"--nothing"}), 2, "see `ortung benchmark goalkeeper --help`");
   expectError({"benchmark"}, 2, "subcommand");
   expectError({"benchmark", "verify", "/nothing/there"}, 1, "/nothing/there");
 }

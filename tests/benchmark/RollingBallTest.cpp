@@ -61,8 +61,8 @@ FloorPoint placeOf(double v, double direction, double t) {
 }
 
 TEST(BallTrack, FindsTheVelocityOfABallThatIsBraked) {
-  BallTrack track(kBraking, 0.0);
-  for (int i = 0; i <= 10; ++i) track.see(i * 40'000, placeOf(2.5, 2.8, 0.04 * i));
+  BallTrack track(kBraking);
+  for (int i = 0; i <= 10; ++i) track.see(i * 40'000, placeOf(2.5, 2.8, 0.04 * i), 0.0);
   ASSERT_TRUE(track.ball());
   EXPECT_NEAR(track.ball()->speed(), 2.5 - kBraking * 0.4, 1e-4);
   EXPECT_NEAR(std::atan2(track.ball()->speedY, track.ball()->speedX), 2.8, 1e-6);
@@ -76,7 +76,7 @@ TEST(BallTrack, ManyPlacesMakeNoiseLess) {
   constexpr int kBalls = 200;
   for (int b = 0; b < kBalls; ++b) {
     Random random(7, static_cast<std::uint64_t>(b));
-    BallTrack track(kBraking, 0.02);
+    BallTrack track(kBraking, 0.02, BallTrack::kMostNoisy);
     double last = 0.0;
     double before = 0.0;
     for (int i = 0; i <= 10; ++i) {
@@ -85,23 +85,44 @@ TEST(BallTrack, ManyPlacesMakeNoiseLess) {
       at.y += 0.02 * random.gaussian();
       before = last;
       last = at.x;
-      track.see(i * 40'000, at);
+      track.see(i * 40'000, at, 0.02);
     }
     const double truth = 2.5 - kBraking * 0.4;
     squares += std::pow(track.ball()->speedX - truth, 2) / kBalls;
     bare += std::pow((last - before) / 0.04 - truth, 2) / kBalls;
   }
-  // A line through eight places dt apart has sigma / (dt sqrt(42)).
-  EXPECT_NEAR(std::sqrt(squares), 0.02 / (0.04 * std::sqrt(42.0)), 0.02);
+  // A line through eleven places dt apart has sigma / (dt sqrt(110)).
+  EXPECT_NEAR(std::sqrt(squares), 0.02 / (0.04 * std::sqrt(110.0)), 0.01);
   EXPECT_GT(bare, 20.0 * squares);
 }
 
+// What is seen from far away is less exact, and counts less.
+TEST(BallTrack, ExactPlacesCountMore) {
+  double even = 0.0;
+  double weighed = 0.0;
+  for (int b = 0; b < 200; ++b) {
+    Random random(9, static_cast<std::uint64_t>(b));
+    BallTrack one(kBraking, 0.0, BallTrack::kMostNoisy);
+    BallTrack other(kBraking, 0.0, BallTrack::kMostNoisy);
+    for (int i = 0; i < 12; ++i) {
+      const double sigma = i < 6 ? 0.1 : 0.01;
+      FloorPoint at = placeOf(2.5, 0.0, 0.04 * i);
+      at.y += sigma * random.gaussian();
+      one.see(i * 40'000, at, 0.1);
+      other.see(i * 40'000, at, sigma);
+    }
+    even += std::pow(one.ball()->at.y + 1.0, 2);
+    weighed += std::pow(other.ball()->at.y + 1.0, 2);
+  }
+  EXPECT_LT(weighed, 0.2 * even);
+}
+
 TEST(BallTrack, AKickBeginsAnew) {
-  BallTrack track(kBraking, 0.0);
+  BallTrack track(kBraking);
   int i = 0;
-  for (; i < 10; ++i) track.see(i * 40'000, {2.0, 1.0});
+  for (; i < 10; ++i) track.see(i * 40'000, {2.0, 1.0}, 0.0);
   EXPECT_NEAR(track.ball()->speed(), 0.0, 1e-9);
-  for (int k = 1; k <= 4; ++k, ++i) track.see(i * 40'000, {2.0 - 0.16 * k, 1.0});
+  for (int k = 1; k <= 4; ++k, ++i) track.see(i * 40'000, {2.0 - 0.16 * k, 1.0}, 0.0);
   EXPECT_NEAR(track.ball()->speedX, -4.0, 0.1);
 }
 

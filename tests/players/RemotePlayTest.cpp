@@ -7,13 +7,18 @@
 #include <optional>
 #include <thread>
 
+#include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScanData.hpp"
+#include "ortung/mcl_player/SelfLocalization.hpp"
 #include "ortung/remote/RemotePlay.hpp"
+#include "ortung/robot/TableInfo.hpp"
 #include "ortung/served/ServedSimulation.hpp"
+#include "ortung/sim/Learner.hpp"
+#include "ortung/sim/RobotShape.hpp"
 
 namespace ortung::test {
 namespace {
@@ -104,6 +109,78 @@ TEST(RemotePlay, APlayerSeesAndDoesTheSameAsInTheSimulator) {
   // It has met a wall and turned away.
   EXPECT_NE(inside.back().odometry.theta, inside.front().odometry.theta);
   EXPECT_GT(std::abs(inside.back().odometry.x - inside.front().odometry.x), 0.1);
+}
+
+/// Drives a curve and notes where it believes to be.
+class Localizer : public Player {
+ public:
+  explicit Localizer(std::vector<std::optional<PoseEstimate>>& poses) : poses_(poses) {}
+  bool needsTables() const override { return true; }
+  double period() const override { return 0.05; }
+  void begin(PlayerSeat& seat) override {
+    self_ = std::make_unique<SelfLocalization>(seat);
+    self_->startNear(kStart, 0.2, 0.1, seat.random());
+  }
+  bool senseAndAct(PlayerSeat& seat) override {
+    self_->update(seat);
+    poses_.push_back(self_->estimate(seat.now()));
+    seat.robot().setTranslationalVelocity(0.3);
+    seat.robot().setRotationalVelocity(0.6);
+    return poses_.size() < 60;
+  }
+
+ private:
+  std::vector<std::optional<PoseEstimate>>& poses_;
+  std::unique_ptr<SelfLocalization> self_;
+};
+
+/// Tables of the robot for the world.
+void writeTablesOf(const std::filesystem::path& file) {
+  const auto world = readWorld(kWorld);
+  const RobotConfig robot = readRobot(kRobot);
+  SensorContainer container;
+  const auto devices = fillContainer(container, robot, factory());
+  TableInfo info;
+  info.region = learnArea(*world, 0.1, sizeOf(robot)).region;
+  learn(*world, info.region, devices, factory(), {}, {});
+  info.worldFingerprint = world->fingerprint();
+  info.headingStep = LearnOptions{}.headingStep;
+  info.field = fieldModelOf(*world);
+  writeTables(file, container, info);
+}
+
+TEST(RemotePlay, APlayerLocalizesItselfToTheSameBitsAsInTheSimulator) {
+  const TemporaryFolder folder;
+  const auto tables = folder / "arena.tables";
+  writeTablesOf(tables);
+  std::vector<std::optional<PoseEstimate>> inside;
+  {
+    SceneRun run(Scene::open(kWorld), {.noise = false}, factory());
+    PlayerWish wish;
+    wish.plugin = "localizer";
+    wish.tables = tables;
+    run.players().own(run.addRobot(readRobot(kRobot), factory(), kStart, 0),
+                      std::make_unique<Localizer>(inside), wish, Random(1, 1));
+    while (!run.players().isEmpty()) run.step();
+  }
+  std::vector<std::optional<PoseEstimate>> outside;
+  ServedSimulation world(kWorld, {.noise = false});
+  const RunningBoard board(world, lockstepConfig());
+  RemotePlayConfig config = on(board, "localizer");
+  const auto play = [&] { RemotePlay(std::make_unique<Localizer>(outside), config).run(); };
+  EXPECT_THROW(play(), std::invalid_argument) << "it has no tables";
+  config.tables = tables;
+  play();
+  ASSERT_EQ(inside.size(), 60u);
+  ASSERT_EQ(outside.size(), inside.size());
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    ASSERT_EQ(inside[i].has_value(), outside[i].has_value()) << i;
+    if (!inside[i]) continue;
+    EXPECT_EQ(inside[i]->pose.x, outside[i]->pose.x) << i;
+    EXPECT_EQ(inside[i]->pose.theta, outside[i]->pose.theta) << i;
+    EXPECT_EQ(inside[i]->covariance, outside[i]->covariance) << i;
+  }
+  EXPECT_GT(inside.back()->quality, 0.9);
 }
 
 /// Does as it is told when it acts for the third time.

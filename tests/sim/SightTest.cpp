@@ -161,6 +161,22 @@ TEST(Sight, SharesFallAsABodyMovesBehindAnother) {
   EXPECT_EQ(visibleShare(room, eye, ball), 1.0);
 }
 
+// Seen steeply from above, a body's own top is nearer than its side.
+TEST(Sight, NoBodyHidesItself) {
+  FakeWorld room(20, 20);
+  const Eye eye{.pose = {0, 0, 0}, .z = 0.7};
+  WorldObject ball;
+  ball.radius = ball.halfX = ball.halfY = 0.11;
+  ball.zHigh = 0.22;
+  ball.isRound = true;
+  for (double away = 0.15; away < 3.0; away += 0.05) {
+    ball.pose = {away, 0.0, 0.0};
+    FakeWorld with(20, 20);
+    with.addPost({away, 0.0, 0.11});
+    EXPECT_EQ(visibleShare(with, eye, ball), 1.0) << away;
+  }
+}
+
 TEST(Sight, ItsOwnRobotHidesNothing) {
   FakeWorld room(20, 20);
   const RobotNumber robot = room.addRound(0.25, 0.5, 0.0);

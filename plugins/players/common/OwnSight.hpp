@@ -49,8 +49,13 @@ class OwnSight {
 
   bool isTruth() const { return mode_ == SightMode::truth; }
   bool needsTables() const { return mode_ == SightMode::localized; }
-  /// Whether its robot has to have a scanner.
-  bool needsScanner() const { return mode_ >= SightMode::scan; }
+  /// The file of a robot that has the sensors: "NAME.toml", "NAME_scan.toml" or "NAME_lrf.toml".
+  std::string robotFile(const std::string& name) const {
+    const char* scanner = mode_ == SightMode::scan        ? "_scan"
+                          : mode_ == SightMode::localized ? "_lrf"
+                                                          : "";
+    return name + scanner + ".toml";
+  }
 
   /// Its robot was put somewhere, and it was told where, as well as those sigmas [m], [rad] say.
   void begin(PlayerSeat& seat, const Pose2& told, double sigma, double sigmaHeading) {

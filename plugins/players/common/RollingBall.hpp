@@ -50,20 +50,29 @@ struct RollingBall {
 /// least squares over the newest ones. A kick or a bounce begins anew.
 class BallTrack {
  public:
-  /// @param braking of the floor [m/s^2] @param noise of seeing [m]
-  BallTrack(double braking, double noise) : braking_(braking), noise_(noise) {}
+  /// How many places are enough where they are exact: the newest ones know best; and how many
+  /// average out what noise there is.
+  static constexpr std::size_t kMostExact = 8;
+  static constexpr std::size_t kMostNoisy = 16;
 
-  void see(Timestamp stamp, const FloorPoint& at) {
+  /// @param braking of the floor [m/s^2] @param sigma of where it is seen, as a rule [m]
+  /// @param most newest places that are looked at
+  explicit BallTrack(double braking, double sigma = 0.0, std::size_t most = kMostExact)
+      : braking_(braking), sigma_(sigma), most_(most) {}
+
+  void see(Timestamp stamp, const FloorPoint& at) { see(stamp, at, sigma_); }
+  /// @param sigma of a coordinate of where it is seen, 0 if that is exact [m]
+  void see(Timestamp stamp, const FloorPoint& at, double sigma) {
     if (!seen_.empty() && stamp <= seen_.back().stamp) return;
     if (seen_.size() >= 3) {
       const FloorPoint expected = ball_->later(toSeconds(stamp - seen_.back().stamp));
       const double off = std::hypot(at.x - expected.x, at.y - expected.y);
-      surprises_ = off > kSurprise + 3.0 * noise_ ? surprises_ + 1 : 0;
+      surprises_ = off > kSurprise + 3.0 * sigma ? surprises_ + 1 : 0;
       // One alone may be an error of seeing.
       if (surprises_ >= 2) seen_.erase(seen_.begin(), seen_.end() - 1);
     }
-    if (seen_.size() == kMostSeen) seen_.pop_front();
-    seen_.push_back({stamp, at});
+    while (seen_.size() >= most_) seen_.pop_front();
+    seen_.push_back({stamp, at, sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0});
     fit();
   }
   /// As it was when it was last seen; nothing before that.
@@ -73,12 +82,12 @@ class BallTrack {
   bool hasVelocity() const { return seen_.size() >= 2; }
 
  private:
-  static constexpr std::size_t kMostSeen = 8;
   static constexpr double kSurprise = 0.05;  ///< farther from what was expected is elsewhere [m]
 
   struct Sight {
     Timestamp stamp = 0;
     FloorPoint at;
+    double weight = 1.0;
   };
 
   /// A straight line through the places, once what the floor brakes is put back to them: before the
@@ -98,7 +107,9 @@ class BallTrack {
       const double t = toSeconds(sight.stamp - seen_.back().stamp);
       const double x = sight.at.x + 0.5 * brakingX * t * t;
       const double y = sight.at.y + 0.5 * brakingY * t * t;
-      n += 1.0, t1 += t, t2 += t * t, x0 += x, x1 += x * t, y0 += y, y1 += y * t;
+      const double w = sight.weight;
+      n += w, t1 += w * t, t2 += w * t * t, x0 += w * x, x1 += w * x * t, y0 += w * y;
+      y1 += w * y * t;
     }
     const double determinant = n * t2 - t1 * t1;
     if (determinant <= 0.0) return;
@@ -108,7 +119,8 @@ class BallTrack {
   }
 
   double braking_;
-  double noise_;
+  double sigma_;
+  std::size_t most_;
   int surprises_ = 0;
   std::deque<Sight> seen_;
   std::optional<RollingBall> ball_;

@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "GoalSide.hpp"
+#include "OwnSight.hpp"
 #include "Policy.hpp"
 #include "Steering.hpp"
 #include "ortung/core/Plugin.hpp"
-#include "ortung/formats/ObjectsData.hpp"
-#include "ortung/formats/PoseData.hpp"
 
 namespace ortung {
 namespace {
@@ -23,7 +22,7 @@ const std::vector<std::string> kPolicies = {"still",    "random",       "pattern
 
 struct Settings {
   KeeperPolicy policy = KeeperPolicy::intercepting;
-  bool seesStage = true;
+  SightMode sees = SightMode::truth;
   double speed = 1.5;       ///< [m/s]
   double delay = 0.0;       ///< of seeing [s]
   double noise = 0.0;       ///< of seeing, sigma of both coordinates [m]
@@ -36,7 +35,7 @@ struct Settings {
     const std::string name = p.choiceOr("policy", "intercepting", kPolicies);
     policy = static_cast<KeeperPolicy>(std::find(kPolicies.begin(), kPolicies.end(), name) -
                                        kPolicies.begin());
-    seesStage = p.choiceOr("sees", "truth", {"truth", "features"}) == "truth";
+    sees = OwnSight::read(p);
     speed = p.numberOr("speed_m_s", speed, {0.0, 10.0});
     delay = p.numberOr("delay_s", delay, {0.0, 5.0});
     noise = p.numberOr("noise_m", noise, {0.0, 5.0});
@@ -50,21 +49,28 @@ struct Settings {
 class GoalkeeperPlayer : public Player {
  public:
   explicit GoalkeeperPlayer(const Parameters& p)
-      : settings_(p), track_(settings_.braking, settings_.noise) {}
+      : settings_(p),
+        own_(settings_.sees),
+        track_(settings_.braking, 0.0, isExact() ? BallTrack::kMostExact : BallTrack::kMostNoisy) {}
 
-  std::filesystem::path robotFile() const override { return "goalkeeper.toml"; }
+  std::filesystem::path robotFile() const override { return own_.robotFile("goalkeeper"); }
   double period() const override { return settings_.period; }
-  bool needsStage() const override { return settings_.seesStage; }
+  bool needsStage() const override { return own_.isTruth(); }
+  bool needsTables() const override { return own_.needsTables(); }
+  std::optional<BelievedPose> believedPose() const override { return own_.believed(); }
 
   void begin(PlayerSeat& seat) override {
     goal_ = GoalSide::at(seat.field(), -seat.game().directionOf(seat.team()));
     line_ = {goal_.middle, goal_.before(settings_.lineOut, 0.0).x, settings_.reach};
     mind_.emplace(settings_.policy, line_);
     limits_ = limitsOf(seat, settings_.speed);
+    own_.begin(seat, {line_.x, goal_.middle.y, std::numbers::pi / 2.0}, kPlacedWithin,
+               kPlacedTurned);
   }
 
   bool senseAndAct(PlayerSeat& seat) override {
-    const std::optional<Pose2> pose = ownPose(seat);
+    own_.update(seat);
+    const std::optional<Pose2>& pose = own_.pose();
     if (!pose) return true;  // its sensors have said nothing yet
     look(seat, *pose);
     if (!seat.game().mayPlay(seat.team())) {
@@ -85,41 +91,33 @@ class GoalkeeperPlayer : public Player {
 
  private:
   static constexpr double kAway = 0.4;  ///< from its line [m]
+  /// It takes for granted that it was put on its line: sigmas.
+  static constexpr double kPlacedWithin = 0.4;  ///< [m]
+  static constexpr double kPlacedTurned = 0.1;  ///< [rad]
 
   struct Sight {
     Timestamp stamp = 0;
     FloorPoint at;
+    double sigma = 0.0;  ///< of a coordinate [m]
   };
 
+  bool isExact() const { return own_.isTruth() && settings_.noise == 0.0; }
   bool isAway(const Pose2& pose) const {
     return std::abs(pose.x - line_.x) > kAway ||
            std::abs(pose.y - line_.goal.y) > line_.reach + kAway;
   }
 
-  std::optional<Pose2> ownPose(PlayerSeat& seat) const {
-    if (settings_.seesStage) return poseOf(seat);
-    return seat.container().get<PoseData>({.type = "groundTruth"});
-  }
-
-  /// The ball where it is now, in the field frame.
+  /// The ball where it was seen, in the field frame as this keeper knows it.
   std::optional<Sight> sight(PlayerSeat& seat, const Pose2& pose) const {
-    if (settings_.seesStage) {
+    if (own_.isTruth()) {
       for (const StagedThing& thing : seat.stage()->things())
         if (thing.kind == "ball") return Sight{seat.now(), {thing.pose.x, thing.pose.y}};
       return std::nullopt;
     }
-    const SensorContainer::ReadLock lock = seat.container().read();
-    const auto* seen = dynamic_cast<const ObjectsData*>(seat.container().find({.feature = "ball"}));
-    if (seen == nullptr)
-      throw std::runtime_error(
-          "its robot has no sensor with a feature 'ball', which sees=features "
-          "needs");
-    if (seen->sequence() == 0 || seen->reading().empty()) return std::nullopt;
-    const ObjectsData::Object& ball = seen->reading().front();  // what is imagined comes last
-    const Pose2 eye = pose * seen->mount();
-    const double angle = eye.theta + ball.bearing;
-    return Sight{seen->stamp(),
-                 {eye.x + ball.range * std::cos(angle), eye.y + ball.range * std::sin(angle)}};
+    const auto ball = own_.ball(seat);
+    if (!ball || ball->stamp <= newest_) return std::nullopt;
+    const Pose2 at = pose * ball->inRobot;
+    return Sight{ball->stamp, {at.x, at.y}, ball->sigma};
   }
 
   /// What it sees now it knows after its delay.
@@ -129,12 +127,13 @@ class GoalkeeperPlayer : public Player {
       if (settings_.noise > 0.0) {
         seen->at.x += settings_.noise * seat.random().gaussian();
         seen->at.y += settings_.noise * seat.random().gaussian();
+        seen->sigma = std::hypot(seen->sigma, settings_.noise);
       }
       coming_.push_back(*seen);
     }
     const Timestamp known = seat.now() - fromSeconds(settings_.delay);
     for (; !coming_.empty() && coming_.front().stamp <= known; coming_.pop_front())
-      track_.see(coming_.front().stamp, coming_.front().at);
+      track_.see(coming_.front().stamp, coming_.front().at, coming_.front().sigma);
   }
 
   /// Carried on from when it was seen to now.
@@ -170,6 +169,7 @@ class GoalkeeperPlayer : public Player {
   }
 
   Settings settings_;
+  OwnSight own_;
   GoalSide goal_;
   KeeperLine line_;
   std::optional<KeeperMind> mind_;
@@ -185,9 +185,7 @@ struct GoalkeeperHelp : PlayerHelp {
             "keeps a goal by one of six policies",
             {{"policy", "still|random|pattern|blocking|intercepting|mixed", "intercepting",
               "how it moves along its line"},
-             {"sees", "truth|features", "truth",
-              "where robot and ball really are; or its pose by ground truth and the ball by its "
-              "camera"},
+             kSeesOption,
              {"speed_m_s", "m/s", "1.5", "how fast it drives at most"},
              {"delay_s", "s", "0", "how late it knows what it sees"},
              {"noise_m", "m", "0", "sigma of where it sees the ball"},

@@ -10,7 +10,7 @@
 
 namespace ortung {
 
-/// What all kinds of strikers know: the goal that they play at, and what stands where.
+/// What all kinds of strikers know: the goal that they play at, and what really stands where.
 struct Attack {
   GoalSide goal;
   double halfMouth = 1.0;    ///< half the goal's width [m]
@@ -42,9 +42,9 @@ struct Attack {
   }
   /// The corner of the goal that is farther from the keeper, a little within the post; without a
   /// keeper the left one.
-  FloorPoint freeCorner(PlayerSeat& seat) const {
+  FloorPoint freeCorner(PlayerSeat& seat) const { return freeCorner(keeper(seat)); }
+  FloorPoint freeCorner(const std::optional<FloorPoint>& stands) const {
     constexpr double kWithin = 0.25;  // [m]
-    const auto stands = keeper(seat);
     const double side = stands && stands->y > goal.middle.y ? -1.0 : 1.0;
     return {goal.middle.x, goal.middle.y + side * (halfMouth - kWithin)};
   }
@@ -71,6 +71,7 @@ class Strike {
   /// @returns false: there is no room for what was drawn, another one may be drawn
   virtual bool setUp(PlayerSeat& seat) = 0;
   virtual void act(PlayerSeat& seat) = 0;
+  virtual std::optional<BelievedPose> believedPose() const { return std::nullopt; }
 };
 
 inline double angleTo(const FloorPoint& from, const FloorPoint& to) {

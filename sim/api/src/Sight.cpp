@@ -44,11 +44,16 @@ double visibleShare(const World& world, const Eye& eye, const WorldObject& objec
   if (way <= object.radius) return 1.0;  // the eye is within it or above it
   const double half = halfWidthAcross(object, std::atan2(dy, dx));
   const double z = (object.zLow + object.zHigh) / 2.0;
+  // Seen from above, the line enters it through its top: how far before its middle.
+  const double drop = std::abs(eye.z - z);
+  const double line = std::hypot(way, drop);
+  const double side = object.radius * line / way;
+  const double own = drop > 0.0 ? std::min(side, (object.zHigh - z) * line / drop) : side;
   int seen = 0;
   for (const double place : kSeen) {
     const double x = object.pose.x - dy / way * place * half;
     const double y = object.pose.y + dx / way * place * half;
-    seen += isVisible(world, eye, x, y, z, object.radius + kOwn) ? 1 : 0;
+    seen += isVisible(world, eye, x, y, z, own + kOwn) ? 1 : 0;
   }
   return static_cast<double>(seen) / static_cast<double>(std::size(kSeen));
 }

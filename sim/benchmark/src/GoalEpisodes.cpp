@@ -1,5 +1,6 @@
 #include "ortung/benchmark/GoalEpisodes.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -16,21 +17,9 @@
 namespace ortung {
 namespace {
 
-// The F2000 field: the goal at negative x, 2 m wide, and what lies round the field.
-constexpr double kGoalX = -6.0;
-constexpr double kHalfMouth = 1.0;
-constexpr double kHalfLength = 6.0;
-constexpr double kHalfWidth = 4.0;
-constexpr double kBall = 0.11;  ///< radius [m]
-
 constexpr double kKeeperLine = 0.5;   ///< before the goal line [m]
 constexpr double kKeeperReach = 0.7;  ///< it begins within so far of the middle [m]
 constexpr Pose2 kStrikerWaits{3.0, 0.0, std::numbers::pi};  ///< until it makes its situation
-
-constexpr double kShot = 1.0;    ///< faster towards the goal the ball was shot [m/s]
-constexpr double kBack = 0.2;    ///< away from the goal it comes back [m/s]
-constexpr double kRest = 0.05;   ///< [m/s]
-constexpr double kTouch = 0.02;  ///< nearer than this to the keeper the ball touches it [m]
 
 // Streams of an episode's seed.
 enum Stream : std::uint64_t { kSimulation, kPlacing, kOfKeeper, kOfStriker };
@@ -55,45 +44,37 @@ class Digest {
   std::uint64_t hash_ = 14695981039346656037U;
 };
 
-/// By the circle around the keeper; nothing else that deflects a ball is as near.
-bool touches(const SimRobot& keeper, const Simulation::Thing& ball) {
-  return distance(keeper.state().pose, ball.pose) < keeper.config().radius + kBall + kTouch;
-}
-
-/// Follows one ball until its chance is over.
-class Judge {
+/// Compares what a player believes with the truth, whenever it acts.
+class Errors {
  public:
-  /// Whether it is over, and how.
-  bool sees(const Simulation::Thing& ball, const SimRobot& keeper) {
-    const double towards = -ball.velocity.x;
-    wasShot_ = wasShot_ || towards > kShot;
-    wasTouched_ = wasTouched_ || (wasShot_ && touches(keeper, ball));
-    if (ball.pose.x < kGoalX - kBall) {
-      outcome = std::abs(ball.pose.y) < kHalfMouth ? GoalOutcome::goal : missed();
-      return true;
-    }
-    const bool isOff =
-        ball.pose.x > kHalfLength + kBall || std::abs(ball.pose.y) > kHalfWidth + kBall;
-    const bool isBack =
-        wasShot_ && (towards < -kBack || std::hypot(ball.velocity.x, ball.velocity.y) < kRest);
-    if (isOff || isBack) outcome = missed();
-    return isOff || isBack;
+  void add(const std::optional<BelievedPose>& believed, const Pose2& truth, Timestamp now) {
+    if (!believed || believed->stamp != now) return;
+    ++count_;
+    position_ += distance(believed->pose, truth);
+    heading_ += std::abs(wrapAngle(believed->pose.theta - truth.theta));
   }
-  GoalOutcome outcome = GoalOutcome::time;
+  PoseError mean() const {
+    if (count_ == 0) return {};
+    return {micro(position_), micro(heading_)};
+  }
 
  private:
-  GoalOutcome missed() const { return wasTouched_ ? GoalOutcome::saved : GoalOutcome::out; }
-  bool wasShot_ = false;
-  bool wasTouched_ = false;
+  std::int32_t micro(double sum) const {
+    return static_cast<std::int32_t>(std::lround(std::min(1e6 * sum / count_, 2e9)));
+  }
+  double count_ = 0.0;
+  double position_ = 0.0;
+  double heading_ = 0.0;
 };
 
 }  // namespace
 
 struct GoalEpisodes::Parts {
-  std::unique_ptr<SimWorld> world = readWorld(shippedFile("fields", "f2000.toml"));
+  std::unique_ptr<SimWorld> world = readWorld(GoalEpisodes::world());
   std::string fingerprint = world->fingerprint();
   PluginFactory factory{PluginFactory::standardFolders()};
   std::map<std::string, Entrant> entrants;  ///< by text and side
+  std::shared_ptr<TableStore> tables;
 
   Entrant& entrant(const std::string& text, const char* team) {
     const std::string key = team + (" " + text);
@@ -115,8 +96,12 @@ struct GoalEpisodes::Parts {
   }
 };
 
-GoalEpisodes::GoalEpisodes() : parts_(std::make_unique<Parts>()) {}
+GoalEpisodes::GoalEpisodes(std::shared_ptr<TableStore> tables) : parts_(std::make_unique<Parts>()) {
+  parts_->tables = tables ? std::move(tables) : std::make_shared<TableStore>(world());
+}
 GoalEpisodes::~GoalEpisodes() = default;
+
+std::filesystem::path GoalEpisodes::world() { return shippedFile("fields", "f2000.toml"); }
 
 const std::string& GoalEpisodes::fingerprint() const { return parts_->fingerprint; }
 
@@ -126,7 +111,8 @@ void GoalEpisodes::check(const std::string& keeper, const std::string& striker) 
 }
 
 GoalEpisode GoalEpisodes::play(const std::string& keeper, const std::string& striker,
-                               std::uint64_t seed, std::uint64_t number) {
+                               std::uint64_t seed, std::uint64_t number,
+                               const std::function<void(const GoalMoment&)>& watch) {
   Entrant& keeps = parts_->entrant(keeper, "blue");
   Entrant& strikes = parts_->entrant(striker, "yellow");
   const auto stream = [&](Stream which) { return Random(seed, 4 * number + which); };
@@ -139,35 +125,49 @@ GoalEpisode GoalEpisodes::play(const std::string& keeper, const std::string& str
   PlayerControl::Config players;
   players.budget = 0.0;  // a clock would make episodes differ
   players.onProblem = [&](const std::string& what) { problem = what; };
+  players.tables = parts_->tables;
   PlayerControl control(simulation, plans, parts_->factory, players);
 
   Random placing = stream(kPlacing);
-  const Pose2 stands{kGoalX + kKeeperLine, placing.uniform(-kKeeperReach, kKeeperReach),
+  const Pose2 stands{GoalField::kGoalX + kKeeperLine, placing.uniform(-kKeeperReach, kKeeperReach),
                      std::numbers::pi / 2.0};
   SimRobot& goalkeeper = simulation.addRobot(keeps.robot, parts_->factory, stands);
   SimRobot& attacker = simulation.addRobot(strikes.robot, parts_->factory, kStrikerWaits);
   control.own(goalkeeper, control.make(keeps.wish), keeps.wish, stream(kOfKeeper));
   control.own(attacker, control.make(strikes.wish), strikes.wish, stream(kOfStriker));
 
-  Judge judge;
+  GoalJudge judge;
+  Errors keeperErrors;
+  Errors strikerErrors;
   const Game game;
+  const auto look = [&] {
+    const GoalMoment moment{
+        simulation.now(),      simulation.things().front().pose, goalkeeper.state().pose,
+        attacker.state().pose, control.believedPose(goalkeeper), control.believedPose(attacker)};
+    keeperErrors.add(moment.keeperBelieves, moment.keeper, moment.stamp);
+    strikerErrors.add(moment.strikerBelieves, moment.striker, moment.stamp);
+    if (watch) watch(moment);
+  };
   while (problem.empty() && simulation.now() < kLongest) {
     simulation.sense();
     control.act(game);
+    look();
     if (!problem.empty()) break;
     simulation.move();
-    if (judge.sees(simulation.things().front(), goalkeeper)) break;
+    if (judge.sees(simulation.things().front(), goalkeeper, simulation.cycle())) break;
   }
   if (!problem.empty())
     throw std::runtime_error("episode " + std::to_string(number) + " of seed " +
                              std::to_string(seed) + ", '" + striker + "' against '" + keeper +
                              "': " + problem);
+  if (watch) look();
   Digest digest;
   digest.add(simulation.things().front().pose);
   digest.add(simulation.things().front().velocity);
   digest.add(goalkeeper.state().pose);
   digest.add(attacker.state().pose);
-  return {judge.outcome, simulation.now(), digest.value()};
+  return {judge.outcome(), simulation.now(), digest.value(), keeperErrors.mean(),
+          strikerErrors.mean()};
 }
 
 }  // namespace ortung

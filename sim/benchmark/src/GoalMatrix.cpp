@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kPolicies = {"still",    "random",       "pattern",
                                                        "blocking", "intercepting", "mixed"};
-constexpr std::array<std::string_view, 4> kKinds = {"roll", "shot", "dribble", "yardstick-v1"};
+constexpr std::array<std::string_view, 6> kKinds = {"roll",  "shot",   "dribble",
+                                                    "feint", "seeker", "yardstick-v1"};
 constexpr std::uint64_t kMostEpisodes = 10'000'000;
 
 /// One episode to be played.
@@ -34,9 +35,10 @@ void play(const std::vector<Job>& jobs, std::uint64_t seed, const GoalMatrixRun&
   std::atomic<bool> isOver = false;
   std::mutex mutex;
   std::exception_ptr failure;
+  const auto tables = run.tables ? run.tables : std::make_shared<TableStore>(GoalEpisodes::world());
   const auto work = [&](bool tells) {
     try {
-      GoalEpisodes episodes;
+      GoalEpisodes episodes(tables);
       for (std::size_t i = next++; i < jobs.size() && !isOver; i = next++) {
         *jobs[i].result = episodes.play(*jobs[i].keeper, *jobs[i].striker, seed, jobs[i].number);
         if (tells && run.goesOn &&
@@ -75,6 +77,61 @@ void checkNames(const std::vector<std::string>& names, const char* what) {
       throw std::invalid_argument("'" + name + "' is twice among the " + what);
 }
 
+constexpr std::string_view kKeeper = "goalkeeper:policy=";
+constexpr std::string_view kStriker = "striker:kind=";
+
+/// "blocking:delay_s=1" with the beginning that makes it a player's text; else as it is.
+template <std::size_t N>
+std::string expanded(const std::string& name, const std::array<std::string_view, N>& names,
+                     std::string_view begin) {
+  const std::size_t colon = std::min(name.find(':'), name.size());
+  if (std::find(names.begin(), names.end(), name.substr(0, colon)) == names.end()) return name;
+  std::string text = std::string(begin) + name;
+  if (colon < name.size()) text[begin.size() + colon] = '&';
+  return text;
+}
+
+/// A player's text without its option `sees`.
+std::string withoutSight(std::string text) {
+  for (const char mark : {'&', ':'}) {
+    const std::size_t at = text.find(mark + std::string("sees="));
+    if (at == std::string::npos) continue;
+    const std::size_t end = std::min(text.find_first_of("&@", at + 1), text.size());
+    const bool hasMore = mark == ':' && end < text.size() && text[end] == '&';
+    text.erase(hasMore ? at + 1 : at, hasMore ? end - at : end - at);
+  }
+  return text;
+}
+
+double middle(std::vector<double>& values) {
+  const std::size_t half = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half),
+                   values.end());
+  return values[half];
+}
+
+std::optional<ErrorSummary> summaryOf(const std::vector<GoalEpisode>& episodes,
+                                      PoseError GoalEpisode::* whose) {
+  std::vector<double> positions;
+  std::vector<double> headings;
+  ErrorSummary summary;
+  for (const GoalEpisode& episode : episodes) {
+    const PoseError& error = episode.*whose;
+    if (error.position == PoseError::kNone) continue;
+    positions.push_back(1e-6 * error.position);
+    headings.push_back(1e-6 * error.heading);
+    summary.mean += positions.back();
+    summary.meanHeading += headings.back();
+  }
+  if (positions.empty()) return std::nullopt;
+  summary.episodes = positions.size();
+  summary.mean /= static_cast<double>(positions.size());
+  summary.meanHeading /= static_cast<double>(positions.size());
+  summary.median = middle(positions);
+  summary.medianHeading = middle(headings);
+  return summary;
+}
+
 std::uint64_t mixed(std::uint64_t word) {  // splitmix64 (Steele et al., 2014)
   word += 0x9e3779b97f4a7c15U;
   word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -87,14 +144,23 @@ std::uint64_t mixed(std::uint64_t word) {  // splitmix64 (Steele et al., 2014)
 std::span<const std::string_view> goalkeeperPolicies() { return kPolicies; }
 std::span<const std::string_view> strikerKinds() { return kKinds; }
 
-std::string keeperText(const std::string& name) {
-  const bool isShort = std::find(kPolicies.begin(), kPolicies.end(), name) != kPolicies.end();
-  return isShort ? "goalkeeper:policy=" + name : name;
+std::string keeperText(const std::string& name) { return expanded(name, kPolicies, kKeeper); }
+std::string strikerText(const std::string& name) { return expanded(name, kKinds, kStriker); }
+
+std::string shortName(const std::string& text) {
+  for (const std::string_view begin : {kKeeper, kStriker}) {
+    if (!text.starts_with(begin)) continue;
+    std::string name = text.substr(begin.size());
+    const std::size_t more = name.find('&');
+    if (more != std::string::npos) name[more] = ':';
+    return name;
+  }
+  return text;
 }
 
-std::string strikerText(const std::string& name) {
-  const bool isShort = std::find(kKinds.begin(), kKinds.end(), name) != kKinds.end();
-  return isShort ? "striker:kind=" + name : name;
+std::string withSight(const std::string& keeper, const std::string& sees) {
+  const std::string bare = withoutSight(keeper);
+  return bare + (bare.find(':') == std::string::npos ? ":" : "&") + "sees=" + sees;
 }
 
 void GoalMatrixConfig::check() const {
@@ -130,9 +196,27 @@ std::uint64_t GoalCell::hash(const GoalMatrixConfig& config) const {
     std::uint64_t word = mixed(numberOf(config, i));
     word = mixed(word ^ static_cast<std::uint64_t>(episodes[i].outcome));
     word = mixed(word ^ static_cast<std::uint64_t>(episodes[i].end));
+    for (const PoseError& error : {episodes[i].keeper, episodes[i].striker})
+      if (error.position != PoseError::kNone)
+        word = mixed(word ^ (static_cast<std::uint64_t>(error.position) << 32) ^
+                     static_cast<std::uint64_t>(error.heading));
     sum += mixed(word ^ episodes[i].digest);
   }
   return sum;
+}
+
+std::optional<ErrorSummary> GoalCell::keeperError() const {
+  return summaryOf(episodes, &GoalEpisode::keeper);
+}
+std::optional<ErrorSummary> GoalCell::strikerError() const {
+  return summaryOf(episodes, &GoalEpisode::striker);
+}
+
+std::size_t GoalMatrix::baselineOf(std::size_t keeper) const {
+  const std::string bare = withoutSight(config.keepers[keeper]);
+  for (std::size_t k = 0; k < keeper; ++k)
+    if (withoutSight(config.keepers[k]) == bare) return k;
+  return 0;
 }
 
 Interval GoalMatrix::difference(std::size_t keeper, std::size_t other, std::size_t striker) const {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "ortung/benchmark/GoalMatrix.hpp"
+#include "ortung/benchmark/Ratings.hpp"
 
 namespace ortung {
 namespace {
@@ -23,6 +24,60 @@ Json toJson(const Interval& interval) {
   return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
 }
 
+Json toJson(const ErrorSummary& error) {
+  return {{"episodes", error.episodes},
+          {"mean_m", error.mean},
+          {"median_m", error.median},
+          {"mean_heading_rad", error.meanHeading},
+          {"median_heading_rad", error.medianHeading}};
+}
+
+/// What one of the two has believed, if it has said so.
+void addErrors(Json& json, const std::string& who, const std::optional<ErrorSummary>& summary,
+               const std::vector<GoalEpisode>& episodes, PoseError GoalEpisode::* whose) {
+  if (!summary) return;
+  json[who + "_pose_error"] = toJson(*summary);
+  Json positions = Json::array();
+  Json headings = Json::array();
+  for (const GoalEpisode& episode : episodes) {
+    positions.push_back((episode.*whose).position);
+    headings.push_back((episode.*whose).heading);
+  }
+  json[who + "_errors_um"] = positions;
+  json[who + "_errors_urad"] = headings;
+}
+
+/// @throws std::runtime_error
+void readErrors(const Json& json, const std::string& who, std::vector<GoalEpisode>& episodes,
+                PoseError GoalEpisode::* whose) {
+  if (!json.contains(who + "_errors_um")) return;
+  const auto positions = json.at(who + "_errors_um").get<std::vector<std::int32_t>>();
+  const auto headings = json.at(who + "_errors_urad").get<std::vector<std::int32_t>>();
+  if (positions.size() != episodes.size() || headings.size() != episodes.size())
+    throw std::runtime_error(who + "_errors: there are " + std::to_string(positions.size()) +
+                             " and " + std::to_string(headings.size()) + ", expected " +
+                             std::to_string(episodes.size()));
+  for (std::size_t i = 0; i < episodes.size(); ++i)
+    episodes[i].*whose = {positions[i], headings[i]};
+}
+
+Json toJson(const Rating& rating) {
+  return {{"points", toJson(rating.points)}, {"mean_scoring", toJson(rating.scoring)}};
+}
+
+Json ratingsJson(const GoalMatrix& matrix) {
+  const GoalRatings ratings = rate(matrix);
+  Json json;
+  for (std::size_t k = 0; k < ratings.keepers.size(); ++k)
+    json["keepers"][matrix.config.keepers[k]] = toJson(ratings.keepers[k]);
+  for (std::size_t s = 0; s < ratings.strikers.size(); ++s)
+    json["strikers"][matrix.config.strikers[s]] = toJson(ratings.strikers[s]);
+  json["worst_miss"] = {{"keeper", matrix.config.keepers[ratings.worstKeeper]},
+                        {"striker", matrix.config.strikers[ratings.worstStriker]},
+                        {"share", ratings.worstMiss}};
+  return json;
+}
+
 Json cellJson(const GoalMatrix& matrix, std::size_t k, std::size_t s) {
   const GoalCell& cell = matrix.cell(k, s);
   Json json = {{"keeper", cell.keeper}, {"striker", cell.striker}};
@@ -32,7 +87,10 @@ Json cellJson(const GoalMatrix& matrix, std::size_t k, std::size_t s) {
   json["scoring"] = toJson(cell.scoring());
   const auto time = cell.meanTimeToScore();
   json["time_to_score_s"] = time ? Json(*time) : Json(nullptr);
-  if (k > 0) json["more_than_first_keeper"] = toJson(matrix.difference(k, 0, s));
+  if (const std::size_t base = matrix.baselineOf(k); base != k) {
+    json["compared_with"] = matrix.config.keepers[base];
+    json["more_than_that"] = toJson(matrix.difference(k, base, s));
+  }
   json["hash"] = hexadecimal(cell.hash(matrix.config), 16);
   std::string outcomes;
   std::string digests;
@@ -45,6 +103,8 @@ Json cellJson(const GoalMatrix& matrix, std::size_t k, std::size_t s) {
   json["outcomes"] = outcomes;
   json["digests"] = digests;
   json["ends_us"] = ends;
+  addErrors(json, "keeper", cell.keeperError(), cell.episodes, &GoalEpisode::keeper);
+  addErrors(json, "striker", cell.strikerError(), cell.episodes, &GoalEpisode::striker);
   return json;
 }
 
@@ -75,6 +135,8 @@ GoalCell readCell(const Json& json, const GoalMatrixConfig& config) {
     episode.end = ends[i];
     cell.episodes.push_back(episode);
   }
+  readErrors(json, "keeper", cell.episodes, &GoalEpisode::keeper);
+  readErrors(json, "striker", cell.episodes, &GoalEpisode::striker);
   const std::string hash = json.at("hash");
   if (hash != hexadecimal(cell.hash(config), 16))
     throw std::runtime_error(what + "its hash is " + hash + ", but its episodes have " +
@@ -86,9 +148,11 @@ GoalCell readCell(const Json& json, const GoalMatrixConfig& config) {
 
 std::string toJson(const GoalMatrix& matrix, std::string_view version) {
   const GoalMatrixConfig& c = matrix.config;
-  Json json = {{"format", kFormat},     {"version", version},     {"world", matrix.world},
-               {"seed", c.seed},        {"episodes", c.episodes}, {"shard", c.shard},
-               {"shards", c.shards},    {"keepers", c.keepers},   {"strikers", c.strikers},
+  Json json = {{"format", kFormat},      {"version", version},
+               {"world", matrix.world},  {"seed", c.seed},
+               {"episodes", c.episodes}, {"shard", c.shard},
+               {"shards", c.shards},     {"keepers", c.keepers},
+               {"strikers", c.strikers}, {"ratings", ratingsJson(matrix)},
                {"cells", Json::array()}};
   for (std::size_t k = 0; k < c.keepers.size(); ++k)
     for (std::size_t s = 0; s < c.strikers.size(); ++s)

@@ -2,16 +2,10 @@
 #include <cstdio>
 
 #include "ortung/benchmark/GoalMatrix.hpp"
+#include "ortung/benchmark/Ratings.hpp"
 
 namespace ortung {
 namespace {
-
-/// The policy or kind of our own players, else the whole text.
-std::string shortName(const std::string& text) {
-  for (const std::string begin : {"goalkeeper:policy=", "striker:kind="})
-    if (text.starts_with(begin) && text.find('&') == text.npos) return text.substr(begin.size());
-  return text;
-}
 
 std::string percent(const Interval& share, bool isSigned) {
   char text[64];
@@ -50,6 +44,51 @@ std::string table(const GoalMatrix& matrix, const std::string& title, const Entr
   return text;
 }
 
+std::string errors(const std::optional<ErrorSummary>& error) {
+  if (!error) return "-";
+  constexpr double kDegrees = 57.29577951308232;
+  char text[80];
+  std::snprintf(text, sizeof text, "%.3f / %.3f, %.2f / %.2f", error->mean, error->median,
+                kDegrees * error->meanHeading, kDegrees * error->medianHeading);
+  return text;
+}
+
+/// With whom the keepers are compared.
+std::string baseline(const GoalMatrix& matrix) {
+  for (std::size_t k = 1; k < matrix.config.keepers.size(); ++k)
+    if (matrix.baselineOf(k) != 0) return "the same keeper's first way to see, or the first keeper";
+  return shortName(matrix.config.keepers.front());
+}
+
+bool hasErrors(const GoalMatrix& matrix, bool ofKeepers) {
+  return std::any_of(matrix.cells.begin(), matrix.cells.end(), [&](const GoalCell& cell) {
+    const auto error = ofKeepers ? cell.keeperError() : cell.strikerError();
+    return error && error->mean > 0.0;
+  });
+}
+
+std::string ratingLines(const GoalMatrix& matrix) {
+  const GoalRatings ratings = rate(matrix);
+  std::string text =
+      "\nratings, points of Bradley and Terry [95 %], and goals of 100 episodes on average\n";
+  const auto add = [&](const std::string& name, const Rating& rating) {
+    char points[80];
+    std::snprintf(points, sizeof points, "%+.0f [%+.0f, %+.0f]", rating.points.value,
+                  rating.points.low, rating.points.high);
+    text += "  " + padded(shortName(name), 24) + padded(points, 24) +
+            percent(rating.scoring, false) + "\n";
+  };
+  for (std::size_t k = 0; k < ratings.keepers.size(); ++k)
+    add(matrix.config.keepers[k], ratings.keepers[k]);
+  for (std::size_t s = 0; s < ratings.strikers.size(); ++s)
+    add(matrix.config.strikers[s], ratings.strikers[s]);
+  char miss[32];
+  std::snprintf(miss, sizeof miss, "%+.1f", 100.0 * ratings.worstMiss);
+  return text + "  they miss most: " + shortName(matrix.config.strikers[ratings.worstStriker]) +
+         " against " + shortName(matrix.config.keepers[ratings.worstKeeper]) + ", " + miss +
+         " goals of 100\n";
+}
+
 }  // namespace
 
 std::string toText(const GoalMatrix& matrix) {
@@ -68,13 +107,23 @@ std::string toText(const GoalMatrix& matrix) {
     return time ? std::string(figure) : std::string("-");
   });
   if (c.keepers.size() > 1)
-    text += table(matrix,
-                  "\nmore goals than against " + shortName(c.keepers.front()) +
-                      ", of 100 in the same situations [95 %]",
-                  [&](std::size_t k, std::size_t s) {
-                    return k == 0 ? std::string("-") : percent(matrix.difference(k, 0, s), true);
-                  });
-  return text;
+    text += table(
+        matrix,
+        "\nmore goals of 100 than against " + baseline(matrix) + ", in the same situations [95 %]",
+        [&](std::size_t k, std::size_t s) {
+          const std::size_t base = matrix.baselineOf(k);
+          return k == base ? std::string("-") : percent(matrix.difference(k, base, s), true);
+        });
+  for (const bool ofKeepers : {true, false})
+    if (hasErrors(matrix, ofKeepers))
+      text += table(matrix,
+                    std::string("\nerror of where the ") + (ofKeepers ? "keeper" : "striker") +
+                        " believes to be: mean / median [m], [deg]",
+                    [&](std::size_t k, std::size_t s) {
+                      const GoalCell& cell = matrix.cell(k, s);
+                      return errors(ofKeepers ? cell.keeperError() : cell.strikerError());
+                    });
+  return text + ratingLines(matrix);
 }
 
 }  // namespace ortung

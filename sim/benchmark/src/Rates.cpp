@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "ortung/base/Random.hpp"
@@ -34,11 +35,17 @@ Interval pairedBootstrap(std::span<const int> differences, std::uint64_t seed,
     for (std::size_t k = 0; k < n; ++k) drawn += differences[random.below(n)];
     means.push_back(static_cast<double>(drawn) / static_cast<double>(n));
   }
-  std::sort(means.begin(), means.end());
+  return percentiles(static_cast<double>(sum) / static_cast<double>(n), std::move(means));
+}
+
+Interval percentiles(double value, std::vector<double> drawn) {
+  if (drawn.empty()) return {value, value, value};
+  std::sort(drawn.begin(), drawn.end());
   const auto at = [&](double share) {
-    return means[static_cast<std::size_t>(std::lround(share * static_cast<double>(resamples - 1)))];
+    return drawn[static_cast<std::size_t>(
+        std::lround(share * static_cast<double>(drawn.size() - 1)))];
   };
-  return {static_cast<double>(sum) / static_cast<double>(n), at(0.025), at(0.975)};
+  return {value, at(0.025), at(0.975)};
 }
 
 }  // namespace ortung

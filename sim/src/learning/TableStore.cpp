@@ -56,7 +56,7 @@ std::shared_ptr<const RobotTables> TableStore::of(const SimRobot& robot, PluginF
 std::shared_ptr<const RobotTables> TableStore::learnFor(const RobotConfig& robot,
                                                         PluginFactory& factory) const {
   const std::unique_ptr<SimWorld> world = readWorld(world_);
-  const LearnOptions options;
+  const LearnOptions options{.cell = kCell};
   LearnArea area = learnArea(*world, options.cell, sizeOf(robot));
   const auto open = static_cast<std::size_t>(
       std::count(area.region.open.begin(), area.region.open.end(), std::uint8_t{1}));

@@ -292,6 +292,14 @@ std::vector<PlayerControl::Seated> PlayerControl::players() const {
   return players;
 }
 
+std::optional<BelievedPose> PlayerControl::believedPose(const SimRobot& robot) {
+  std::optional<BelievedPose> pose;
+  for (const auto& one : parts_->seatings)
+    if (!one->isOver && one->number == robot.state().number)
+      parts_->call(*one, "believedPose", [&] { pose = one->player->believedPose(); });
+  return pose;
+}
+
 bool PlayerControl::isEmpty() const { return parts_->seatings.empty(); }
 
 }  // namespace ortung

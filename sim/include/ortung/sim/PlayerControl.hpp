@@ -87,6 +87,8 @@ class ORTUNG_API PlayerControl {
   std::vector<Heard> takeHeard(std::string_view robot);
 
   std::vector<Seated> players() const;
+  /// Where the player of a robot believed it to be when it acted last.
+  std::optional<BelievedPose> believedPose(const SimRobot& robot);
   bool isEmpty() const;
 
  private:

@@ -18,13 +18,15 @@ namespace ortung {
 /// while others learn waits.
 class ORTUNG_API TableStore {
  public:
-  /// More open cells of 0.1 m are not learned on the way.
-  static constexpr std::size_t kMostCells = 250'000;
+  /// Edge of a cell [m]: half of what `ortung learn` takes, since MCL's error goes with it.
+  static constexpr double kCell = 0.05;
+  /// More open cells are not learned on the way.
+  static constexpr std::size_t kMostCells = 500'000;
 
   /// @param world its file
   explicit TableStore(std::filesystem::path world) : world_(std::move(world)) {}
 
-  /// As `ortung learn` without options learns them.
+  /// As `ortung learn --cell 0.05` learns them.
   /// @throws std::runtime_error for a world that is too large; ConfigError, PluginError, TableError
   std::shared_ptr<const RobotTables> of(const SimRobot& robot, PluginFactory& factory);
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Parameters.hpp"
+#include "ortung/base/Pose2.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/RobotCommands.hpp"
@@ -40,6 +42,12 @@ struct Taught {
   Parameters motion;  ///< [motion]
   /// Where it can stand, by its tables; null: its features have none.
   std::shared_ptr<const FieldRegion> region;
+};
+
+/// In the field frame.
+struct BelievedPose {
+  Timestamp stamp = 0;  ///< by the clock of the readings
+  Pose2 pose;
 };
 
 /// What somebody has said to all of his team.
@@ -114,6 +122,9 @@ class ORTUNG_API Player {
   virtual bool needsStage() const { return false; }
   /// Whether it does nothing without tables of its robot for this world, see PlayerSeat::taught().
   virtual bool needsTables() const { return false; }
+  /// Where it believed its robot to be when it acted last; nothing if it does not know or does not
+  /// say. For whoever shows that or compares it with the truth.
+  virtual std::optional<BelievedPose> believedPose() const { return std::nullopt; }
   /// It has taken its seat; its robot stands on the field and has sensed nothing yet.
   virtual void begin(PlayerSeat&) {}
   /// Retrieves what the sensors say, and commands. @returns whether it goes on; else it has

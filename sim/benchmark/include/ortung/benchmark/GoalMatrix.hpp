@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,17 @@ struct GoalMatrixRun {
   unsigned threads = 1;
   /// Told the share that is done, by the calling thread; false ends the run. May be empty.
   std::function<bool(double)> goesOn = {};
+  /// Of the field, for several runs; null: each learns its own.
+  std::shared_ptr<TableStore> tables = nullptr;
+};
+
+/// How far from the truth a player has believed to be, over the episodes in which it said so.
+struct ErrorSummary {
+  std::uint64_t episodes = 0;
+  double mean = 0.0;           ///< over episodes of an episode's mean [m]
+  double median = 0.0;         ///< [m]
+  double meanHeading = 0.0;    ///< [rad]
+  double medianHeading = 0.0;  ///< [rad]
 };
 
 /// All episodes of one keeper against one striker.
@@ -44,6 +56,9 @@ struct ORTUNG_API GoalCell {
   std::uint64_t count(GoalOutcome outcome) const;
   Interval scoring() const { return wilson(count(GoalOutcome::goal), episodes.size()); }
   std::optional<double> meanTimeToScore() const;  ///< [s]; nothing: no goal
+  /// Nothing: no episode in which that player said where it believed to be.
+  std::optional<ErrorSummary> keeperError() const;
+  std::optional<ErrorSummary> strikerError() const;
   /// Of the bits of all its episodes: sums, so that those of shards add up to that of all.
   std::uint64_t hash(const GoalMatrixConfig& config) const;
 };
@@ -60,14 +75,22 @@ struct ORTUNG_API GoalMatrix {
   /// How much more the striker scores against one keeper than against another, in the same
   /// situations.
   Interval difference(std::size_t keeper, std::size_t other, std::size_t striker) const;
+  /// With whom a keeper is compared: the one before it that differs in the option `sees` alone,
+  /// else the first one.
+  std::size_t baselineOf(std::size_t keeper) const;
 };
 
 /// The short names of the goalkeeper's policies and of the strikers' kinds, in their order.
 ORTUNG_API std::span<const std::string_view> goalkeeperPolicies();
 ORTUNG_API std::span<const std::string_view> strikerKinds();
-/// What parsePlayer() reads: "blocking" is "goalkeeper:policy=blocking"; others stay as they are.
+/// What parsePlayer() reads: "blocking:delay_s=0.1" is "goalkeeper:policy=blocking&delay_s=0.1";
+/// others stay as they are.
 ORTUNG_API std::string keeperText(const std::string& name);
 ORTUNG_API std::string strikerText(const std::string& name);
+/// The other way round, for people.
+ORTUNG_API std::string shortName(const std::string& text);
+/// The same keeper with another option `sees`.
+ORTUNG_API std::string withSight(const std::string& keeper, const std::string& sees);
 
 /// @throws std::invalid_argument for a bad config; what GoalEpisodes::play() throws;
 ///   std::runtime_error if goesOn() ended it
@@ -96,6 +119,5 @@ ORTUNG_API std::string toJson(const GoalMatrix& matrix, std::string_view version
 ORTUNG_API GoalMatrix readGoalMatrix(std::string_view json, const std::string& name);
 /// Tables for people: scoring rates with intervals, time to score, paired differences.
 ORTUNG_API std::string toText(const GoalMatrix& matrix);
-ORTUNG_API std::string_view nameOf(GoalOutcome outcome);
 
 }  // namespace ortung

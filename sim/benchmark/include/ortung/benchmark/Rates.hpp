@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "ortung/base/Export.hpp"
 
@@ -23,5 +24,9 @@ ORTUNG_API Interval wilson(std::uint64_t hits, std::uint64_t n);
 /// @param differences of -1, 0 or 1 @param seed the same gives the same interval
 ORTUNG_API Interval pairedBootstrap(std::span<const int> differences, std::uint64_t seed,
                                     std::size_t resamples = 1000);
+
+/// A figure with the interval between the 2.5 % and 97.5 % of what was drawn for it; without any it
+/// is the figure itself.
+ORTUNG_API Interval percentiles(double value, std::vector<double> drawn);
 
 }  // namespace ortung

@@ -1,0 +1,205 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "Attack.hpp"
+#include "AttackView.hpp"
+#include "Steering.hpp"
+
+namespace ortung {
+
+/// Drives with the ball between its horns towards the goal, and kicks as soon as the keeper leaves
+/// the way open that it looks along, or when it is near.
+class Dribble : public Strike {
+ public:
+  Dribble(const Attack& attack, SightMode sees) : attack_(attack), view_(attack, sees) {}
+
+  bool setUp(PlayerSeat& seat) override {
+    Random& random = seat.random();
+    const FloorPoint at = attack_.goal.before(random.uniform(3.5, 5.0), random.uniform(-1.5, 1.5));
+    shootsFrom_ = random.uniform(1.8, 2.8);
+    kicked_ = false;
+    const double off = random.uniform(-0.2, 0.2);
+    const Pose2 pose{at.x, at.y, wrapAngle(angleTo(at, attack_.goal.middle) + off)};
+    if (!attack_.putWithBall(seat, pose)) return false;
+    view_.begin(seat, pose);
+    return true;
+  }
+
+  void act(PlayerSeat& seat) override {
+    const bool knows = view_.update(seat);
+    if (knows && kicked_ && failed(seat)) kicked_ = false;
+    if (kicked_ || !knows) return Steering::stand(seat.robot());
+    play(seat);
+  }
+  std::optional<BelievedPose> believedPose() const override { return view_.own().believed(); }
+
+ protected:
+  void play(PlayerSeat& seat) {
+    if (!carry(seat)) return;
+    const Pose2& pose = view_.pose();
+    const double depth = attack_.goal.depthOf(pose.x);
+    const bool wants = depth < kNearest || (depth < shootsFrom_ && isOpen(pose));
+    if (wants && view_.isAtKicker()) return kick(seat);
+    BallCarrier::drive(pose, view_.freeCorner(), seat.robot());
+  }
+  /// Whether it has the ball; else it goes to get it.
+  bool carry(PlayerSeat& seat) {
+    if (view_.hasBall()) return hasCarried_ = true;
+    BallCarrier::fetch(view_.ballInRobot(),
+                       hasCarried_ ? BallCarrier::kSpeed : BallCarrier::kGently, seat.robot());
+    return false;
+  }
+  void kick(PlayerSeat& seat) {
+    seat.robot().setManipulator("kicker", "kick");
+    kicked_ = true;
+    kickedAt_ = seat.now();
+  }
+  /// Whether it has kicked and the ball is still there.
+  bool failed(PlayerSeat& seat) const {
+    constexpr Timestamp kPatience = 400'000;  // [us]
+    const Pose2 ball = view_.ballInRobot();
+    return seat.now() > kickedAt_ + kPatience && std::hypot(ball.x, ball.y) < 0.8;
+  }
+
+  Attack attack_;
+  AttackView view_;
+  double shootsFrom_ = 2.0;  ///< [m]
+  bool kicked_ = false;
+  bool hasCarried_ = false;
+  Timestamp kickedAt_ = 0;
+  static constexpr double kNearest = 1.3;  ///< here it kicks in any case [m]
+  static constexpr double kGap = 0.4;      ///< of the keeper's middle from the ball's way [m]
+
+  /// Whether the way ahead leads into the goal, and past the keeper.
+  bool isOpen(const Pose2& pose) const {
+    const double ahead = std::cos(pose.theta) * -attack_.goal.inwards;
+    if (ahead <= 0.2) return false;
+    const auto placeAt = [&](double x) { return pose.y + (x - pose.x) * std::tan(pose.theta); };
+    constexpr double kWithin = 0.12;  // half a ball [m]
+    if (std::abs(placeAt(attack_.goal.middle.x) - attack_.goal.middle.y) >
+        attack_.halfMouth - kWithin)
+      return false;
+    const auto& keeper = view_.keeper();
+    return !keeper || std::abs(placeAt(keeper->x) - keeper->y) > kGap;
+  }
+};
+
+/// Finds a ball that lies somewhere, drives around it and up to it, and dribbles.
+class Seek : public Dribble {
+ public:
+  using Dribble::Dribble;
+
+  bool setUp(PlayerSeat& seat) override {
+    Random& random = seat.random();
+    const FloorPoint at = attack_.goal.before(random.uniform(4.5, 6.5), random.uniform(-2.5, 2.5));
+    const FloorPoint ball =
+        attack_.goal.before(random.uniform(2.5, 3.8), random.uniform(-2.0, 2.0));
+    shootsFrom_ = random.uniform(2.0, 4.0);
+    kicked_ = hasCarried_ = isUpToIt_ = false;
+    const Pose2 pose{at.x, at.y, random.uniform(-std::numbers::pi, std::numbers::pi)};
+    if (!Attack::put(seat, pose, {ball.x, ball.y, 0.0}, {})) return false;
+    view_.begin(seat, pose);
+    return true;
+  }
+  void act(PlayerSeat& seat) override {
+    const bool knows = view_.update(seat);
+    if (knows && kicked_ && failed(seat)) kicked_ = false;
+    if (kicked_ || !knows) return Steering::stand(seat.robot());
+    isUpToIt_ = isUpToIt_ ? isBefore() : isBehind();
+    if (isUpToIt_) return play(seat);
+    Steering({.speed = kSpeed, .turn = 3.0, .acceleration = 2.0, .turnAcceleration = 8.0})
+        .steer(view_.pose(), wayPoint(), seat.robot());
+  }
+
+ private:
+  static constexpr double kSpeed = 1.6;   ///< without the ball [m/s]
+  static constexpr double kBehind = 0.7;  ///< it drives up to the ball from there [m]
+  bool isUpToIt_ = false;                 ///< it drives up to the ball
+
+  /// Whether the ball is still before it, though maybe not towards the goal.
+  bool isBefore() const {
+    const Pose2 ball = view_.ballInRobot();
+    return ball.x > 0.0 && std::abs(std::atan2(ball.y, ball.x)) < 1.0 && ball.x < 2.0;
+  }
+  /// Unit vector to the ball from the corner that it is to be kicked into.
+  FloorPoint away() const {
+    const FloorPoint goal = view_.freeCorner();
+    const double dx = view_.ball().x - goal.x;
+    const double dy = view_.ball().y - goal.y;
+    const double d = std::max(std::hypot(dx, dy), 1e-3);
+    return {dx / d, dy / d};
+  }
+  /// Whether that corner lies behind the ball, as it sees it.
+  bool isBehind() const {
+    constexpr double kWithin = 0.2;  // [rad]
+    const Pose2& pose = view_.pose();
+    const FloorPoint& ball = view_.ball();
+    const double toBall = angleTo({pose.x, pose.y}, ball);
+    const double toGoal = angleTo(ball, view_.freeCorner());
+    return std::abs(wrapAngle(toBall - toGoal)) < kWithin &&
+           std::hypot(ball.x - pose.x, ball.y - pose.y) < 2.0 * kBehind;
+  }
+  /// Behind the ball; past its side first, if the ball would be in the way.
+  FloorPoint wayPoint() const {
+    const FloorPoint back = away();
+    const FloorPoint& ball = view_.ball();
+    const Pose2& pose = view_.pose();
+    const double along = (pose.x - ball.x) * back.x + (pose.y - ball.y) * back.y;
+    const double aside = (pose.y - ball.y) * back.x - (pose.x - ball.x) * back.y;
+    if (along > 0.3) return {ball.x + kBehind * back.x, ball.y + kBehind * back.y};
+    const double side = aside < 0.0 ? -kBehind : kBehind;
+    return {ball.x + 0.5 * back.x - side * back.y, ball.y + 0.5 * back.y + side * back.x};
+  }
+};
+
+/// Carries the ball to one side, so that the keeper follows it there, turns as sharply as the ball
+/// stays between its horns, and kicks into the other corner.
+class Feint : public Dribble {
+ public:
+  using Dribble::Dribble;
+
+  bool setUp(PlayerSeat& seat) override {
+    Random& random = seat.random();
+    const FloorPoint at = attack_.goal.before(random.uniform(4.6, 5.2), random.uniform(-0.5, 0.5));
+    side_ = random.uniform() < 0.5 ? -1.0 : 1.0;
+    out_ = random.uniform(0.7, 1.2);
+    depth_ = random.uniform(3.2, 3.6);
+    isThere_ = kicked_ = hasCarried_ = false;
+    const Pose2 pose{at.x, at.y, angleTo(at, attack_.goal.middle)};
+    if (!attack_.putWithBall(seat, pose)) return false;
+    view_.begin(seat, pose);
+    return true;
+  }
+  void act(PlayerSeat& seat) override {
+    const bool knows = view_.update(seat);
+    if (knows && kicked_ && failed(seat)) kicked_ = false;
+    if (kicked_ || !knows) return Steering::stand(seat.robot());
+    if (!carry(seat)) return;
+    const Pose2& pose = view_.pose();
+    const FloorPoint lure = attack_.goal.before(depth_, side_ * out_);
+    isThere_ = isThere_ || attack_.goal.depthOf(view_.ball().x) < depth_ + 0.1;
+    if (!isThere_) return BallCarrier::drive(pose, lure, seat.robot());
+    constexpr double kWithin = 0.4;  // the post [m]
+    const FloorPoint corner = attack_.goal.before(0.0, -side_ * (attack_.halfMouth - kWithin));
+    constexpr double kAimed = 0.08;  // [rad]
+    constexpr double kLast = 0.9;    // here it kicks in any case [m]
+    const double error = wrapAngle(angleTo({pose.x, pose.y}, corner) - pose.theta);
+    const double depth = attack_.goal.depthOf(pose.x);
+    const bool wants =
+        std::abs(error) < kAimed || (depth < kNearest && isOpen(pose)) || depth < kLast;
+    if (wants && view_.isAtKicker()) return kick(seat);
+    BallCarrier::drive(pose, corner, seat.robot());
+  }
+
+ private:
+  double side_ = 1.0;   ///< 1: to the left of the field
+  double out_ = 1.0;    ///< how far aside it carries the ball [m]
+  double depth_ = 2.0;  ///< and how near to the goal line [m]
+  bool isThere_ = false;
+};
+
+}  // namespace ortung
