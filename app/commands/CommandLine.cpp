@@ -35,6 +35,9 @@ void addLearn(Builder& build, CLI::App& app) {
               "Part of the floor on which the robot is: 'auto' (the largest, but what walls leave "
               "outside), 'x,y' (where that point is [m]) or 'all'")
       ->capture_default_str();
+  build.option("--threads", a->threads, "Threads; what is learned does not depend on it")
+      ->check(within(1, 256))
+      ->capture_default_str();
   build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }

@@ -17,7 +17,8 @@ struct LearnArguments {
   double cell = 0.1;            ///< [m]
   double headingStepDeg = 2.0;  ///< [degrees]
   std::string area = "auto";    ///< "auto", "all" or "x,y" [m]: which part of the floor
-  bool force = false;           ///< overwrite files of other kinds
+  unsigned threads = 1;
+  bool force = false;  ///< overwrite files of other kinds
   bool progress = false;
 };
 int runLearn(const LearnArguments& arguments);

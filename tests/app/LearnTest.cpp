@@ -21,6 +21,26 @@ TEST_F(Learn, SaysHowMuchItLearnedAndRepeatsItBitForBit) {
   EXPECT_EQ(read("hall.ortung"), first);
 }
 
+TEST_F(Learn, IsAPlayerAndDoesNotDependOnThreads) {
+  const auto learn = [&](const std::string& out, const std::string& threads) {
+    const Outcome outcome = ortung({"learn", "--world", path("hall.toml"), "--robot",
+                                    path("robot.toml"), "--out", path(out), "--threads", threads});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("LMS200/LRF/180DegreeScan in "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" headings\n"), std::string::npos) << outcome.out;
+  };
+  learn("one.ortung", "1");
+  learn("two.ortung", "2");
+  EXPECT_EQ(read("one.ortung"), read("two.ortung"));
+  // It learns in any simulation, ends by itself, and does not see who drives about meanwhile.
+  const Outcome sim =
+      ortung({"sim", path("hall.toml"), "--player",
+              "learner:robot=" + path("robot.toml") + "&out=" + path("sim.ortung"), "--robot",
+              path("robot.toml"), "--duration", "5", "--free-run", "--player-budget-ms", "0"});
+  EXPECT_EQ(sim.exitCode, 0) << sim.err;
+  EXPECT_EQ(read("sim.ortung"), read("one.ortung"));
+}
+
 TEST_F(Learn, LeavesTheOldFileWholeWhenInterrupted) {
   write("hall.ortung", "PK\x03\x04 open.npy: the old file");
   Program program({"learn", "--world", path("hall.toml"), "--robot", path("robot.toml"), "--out",

@@ -176,7 +176,7 @@ void writeTablesOfAnotherWorld(const std::filesystem::path& file) {
   SensorContainer container;
   const auto devices = fillContainer(container, robot, factory);
   const LearnArea area = learnArea(*world, 0.5, sizeOf(robot));
-  learn(*world, area.region, devices, factory, {.cell = 0.5}, {});
+  learn(*world, area.region, devices, factory, {.cell = 0.5});
   TableInfo info;
   info.worldFingerprint = world->fingerprint();
   info.world = "arena";

@@ -61,6 +61,8 @@ TEST(ServedPlayers, ThatCantBeSayWhy) {
   EXPECT_TRUE(client.ask("PLAY wander robot=../robots/pioneer.toml").starts_with("ERR argument"));
   EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml tables=pioneer.tables")
                   .starts_with("ERR argument tables is"));
+  EXPECT_EQ(client.ask("PLAY learner robot=pioneer.toml out=tables.ortung"),
+            "ERR argument out is a file, which clients can't name");
   EXPECT_TRUE(
       client.ask("PLAY wander robot=pioneer.toml speed=2").starts_with("ERR configuration"));
   EXPECT_TRUE(

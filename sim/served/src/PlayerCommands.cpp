@@ -9,9 +9,13 @@ namespace ortung {
 namespace {
 
 /// What a client wants, as the text of a player. It names shipped robot files only, never a path.
-PlayerWish wishOf(const BoardCommand::Call& call) {
+PlayerWish wishOf(ServedSimulation& simulation, const BoardCommand::Call& call) {
   if (call.words.size() != 1)
     throw ServeError("argument", "PLAY names one plugin; HELP shows its arguments");
+  if (const auto help = simulation.helpOf(call.words.front()))
+    for (const PlayerOption& option : help->options())
+      if (option.unit == "file" && call.keys.contains(option.key))
+        throw ServeError("argument", option.key + " is a file, which clients can't name");
   std::string text = call.words.front();
   std::string team;
   char mark = ':';
@@ -57,11 +61,11 @@ BoardCommand::Reply eventsSince(const ServedSimulation& simulation, std::uint64_
 
 std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
   std::vector<BoardCommand> commands(6);
-  commands[0] = {"PLAY",
-                 "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
-                 true, [&simulation](const BoardCommand::Call& call) {
-                   return BoardCommand::Reply{"robot=" + simulation.startPlayer(wishOf(call)), {}};
-                 }};
+  commands[0] = {
+      "PLAY", "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player", true,
+      [&simulation](const BoardCommand::Call& call) {
+        return BoardCommand::Reply{"robot=" + simulation.startPlayer(wishOf(simulation, call)), {}};
+      }};
   commands[1] = {"STOP", "ROBOT: ends the player that plays it", true,
                  [&simulation](const BoardCommand::Call& call) {
                    if (call.words.size() != 1)

@@ -160,6 +160,10 @@ std::string ServedSimulation::startPlayer(const PlayerWish& wish) {
   }
 }
 
+std::unique_ptr<PlayerHelp> ServedSimulation::helpOf(const std::string& player) {
+  return factory_.makeIfThere<PlayerHelp>(player, Parameters());
+}
+
 void ServedSimulation::stopPlayer(const std::string& robot) {
   finishCycle();
   if (!run_->players().stop(robot))

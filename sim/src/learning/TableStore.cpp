@@ -67,7 +67,7 @@ std::shared_ptr<const RobotTables> TableStore::learnFor(const RobotConfig& robot
                              "; let `ortung learn` do it, and give tables=FILE");
   SensorContainer container;
   const std::vector<Device> devices = fillContainer(container, robot, factory);
-  learn(*world, area.region, devices, factory, options, {});
+  learn(*world, area.region, devices, factory, options);
   TableInfo info;
   info.world = world->name();
   info.worldFingerprint = world->fingerprint();

@@ -302,4 +302,9 @@ std::optional<BelievedPose> PlayerControl::believedPose(const SimRobot& robot) {
 
 bool PlayerControl::isEmpty() const { return parts_->seatings.empty(); }
 
+Simulation* simulationOf(Stage& stage) {
+  auto* simulated = dynamic_cast<SimStage*>(&stage);
+  return simulated == nullptr ? nullptr : &simulated->simulation();
+}
+
 }  // namespace ortung

@@ -33,6 +33,8 @@ class SimStage : public Stage {
     return plans_.of(size);
   }
 
+  Simulation& simulation() { return simulation_; }
+
   /// Robots have come or gone, or were moved, within a cycle.
   void forget() { seen_.reset(); }
 

@@ -96,4 +96,7 @@ class ORTUNG_API PlayerControl {
   std::unique_ptr<Parts> parts_;
 };
 
+/// The simulation that a player's or referee's stage shows; null if that is no simulation.
+ORTUNG_API Simulation* simulationOf(Stage& stage);
+
 }  // namespace ortung

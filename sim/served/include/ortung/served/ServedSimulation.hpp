@@ -46,6 +46,8 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   /// Starts a player on a robot of its own, until the next reset. @returns the robot's name
   /// @throws ServeError, ConfigError, PluginError
   std::string startPlayer(const PlayerWish& wish);
+  /// What a player says of itself; null if it says nothing. @throws PluginError
+  std::unique_ptr<PlayerHelp> helpOf(const std::string& player);
   /// Ends the player on a robot. @throws ServeError if there is none
   void stopPlayer(const std::string& robot);
   /// @throws ServeError if nobody referees; std::invalid_argument for an order that is none

@@ -1,0 +1,170 @@
+// The model learner (paper, section 5.2): moves its robot over all poses of the field, where all
+// features that localize learn what they read; writes the tables, and ends.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Angles.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/robot/TableInfo.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/sim/Learner.hpp"
+#include "ortung/sim/PlayerControl.hpp"
+#include "ortung/sim/RobotShape.hpp"
+
+namespace ortung {
+namespace {
+
+struct Settings {
+  std::filesystem::path out;
+  double cell = 0.1;          ///< [m]
+  double headingStep = 0.0;   ///< [rad]
+  std::string area = "auto";  ///< "auto", "all", or x and y with a colon between them [m]
+  int threads = 1;
+
+  explicit Settings(const Parameters& p) {
+    out = p.text("out");
+    cell = p.numberOr("cell_m", cell, {1e-3, 10.0});
+    const double steps = 360.0 / p.numberOr("heading_step_deg", 2.0, {1e-3, 360.0});
+    if (std::abs(steps - std::round(steps)) > 1e-6)
+      p.fail("heading_step_deg", "expected degrees that divide a turn, e.g. 1, 2 or 2.5");
+    headingStep = kTurn / std::round(steps);
+    area = p.textOr("area", area);
+    threads = static_cast<int>(p.integerOr("threads", 1, {1, 256}));
+  }
+};
+
+/// A point "x;y". @throws std::invalid_argument
+std::array<double, 2> pointIn(const std::string& text) {
+  std::array<double, 2> point{};
+  const char* const end = text.data() + text.size();
+  const auto x = std::from_chars(text.data(), end, point[0]);
+  const bool isParted = x.ec == std::errc() && x.ptr != end && *x.ptr == ';';
+  const auto y = isParted ? std::from_chars(x.ptr + 1, end, point[1]) : x;
+  if (!isParted || y.ec != std::errc() || y.ptr != end)
+    throw std::invalid_argument("area is '" + text + "', expected auto, all or x;y in metres");
+  return point;
+}
+
+class LearnerPlayer : public Player {
+ public:
+  explicit LearnerPlayer(const Parameters& p) : settings_(p) {}
+
+  bool needsStage() const override { return true; }
+
+  void begin(PlayerSeat& seat) override {
+    const Simulation* simulation = simulationOf(*seat.stage());
+    if (simulation == nullptr) throw std::runtime_error("learns in a simulation only");
+    const auto robots = simulation->robots();
+    const auto own = std::find_if(robots.begin(), robots.end(), [&](const auto& one) {
+      return one->config().name == seat.name();
+    });
+    if (own == robots.end()) throw std::runtime_error("its robot is not there");
+    robot_ = (*own)->config();
+    world_ = simulation->world().another();  // nothing moves in it, and nobody else is there
+    region_ = region(seat);
+    for (int i = 0; i < (settings_.threads > 1 ? settings_.threads + 1 : 1); ++i) {
+      containers_.emplace_back();
+      devices_.push_back(fillContainer(containers_.back(), robot_, factory_));
+    }
+    learner_ = std::make_unique<Learner>(*world_, region_, devices_.front(),
+                                         std::span(devices_).subspan(1), factory_,
+                                         LearnOptions{settings_.cell, settings_.headingStep});
+    for (const Learner::Need& need : learner_->needs())
+      seat.say("needs " + std::to_string(need.headings) + " headings for " + toText(need.feature));
+  }
+
+  bool senseAndAct(PlayerSeat& seat) override {
+    const bool goesOn = learner_->step();
+    tell(seat);
+    if (goesOn) {
+      show(seat);
+      return true;
+    }
+    save();
+    return false;
+  }
+
+ private:
+  FieldRegion region(PlayerSeat& seat) const {
+    const RobotSize size = sizeOf(robot_);
+    if (settings_.area == "all") {
+      FieldRegion all = world_->region(settings_.cell, size);
+      all.check();
+      return all;
+    }
+    std::optional<std::array<double, 2>> inside;
+    if (settings_.area != "auto") inside = pointIn(settings_.area);
+    LearnArea area = learnArea(*world_, settings_.cell, size, inside);
+    if (area.leftOut > 0.0) {
+      char text[32];
+      std::snprintf(text, sizeof text, "leaves out %.1f m^2", area.leftOut);
+      seat.say(text);
+    }
+    return std::move(area.region);
+  }
+
+  /// How far it is, for whoever listens.
+  void tell(PlayerSeat& seat) {
+    const auto part = static_cast<int>(1000.0 * learner_->share());
+    if (part == told_) return;
+    told_ = part;
+    char text[32];
+    std::snprintf(text, sizeof text, "learned %.1f %%", part / 10.0);
+    seat.say(text);
+  }
+
+  /// Its robot stands where it learns, if there is room.
+  void show(PlayerSeat& seat) const {
+    try {
+      seat.stage()->placeRobot(seat.name(), learner_->pose());
+    } catch (const std::invalid_argument&) {
+      // A sensor is where its robot can't be.
+    }
+  }
+
+  void save() {
+    TableInfo info;
+    info.world = world_->name();
+    info.worldFingerprint = world_->fingerprint();
+    info.robot = robot_.about.textOr("name", robot_.name);
+    info.headingStep = settings_.headingStep;
+    info.region = region_;
+    info.field = fieldModelOf(*world_);
+    info.robotToml = readTomlText(robot_.about.where());
+    writeTables(settings_.out, containers_.front(), info);
+  }
+
+  Settings settings_;
+  PluginFactory factory_{PluginFactory::standardFolders()};
+  RobotConfig robot_;
+  std::unique_ptr<SimWorld> world_;
+  FieldRegion region_;
+  std::list<SensorContainer> containers_;  ///< the first one learns
+  std::vector<std::vector<Device>> devices_;
+  std::unique_ptr<Learner> learner_;
+  int told_ = -1;
+};
+
+struct LearnerHelp : PlayerHelp {
+  explicit LearnerHelp(const Parameters&)
+      : PlayerHelp("learns what its robot's sensors read at all poses, and writes the tables",
+                   {{"out", "file", "", "the table file; must be given"},
+                    {"cell_m", "m", "0.1", "edge of a cell"},
+                    {"heading_step_deg", "deg", "2", "between headings; divides a turn"},
+                    {"area", "auto|all|x;y", "auto",
+                     "which part of the floor: where a robot is, all of it, or around a point"},
+                    {"threads", "", "1", "what it learns does not depend on it"}}) {}
+};
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("learner", ortung::provide<ortung::Player, ortung::LearnerPlayer>("learner"),
+               ortung::provide<ortung::PlayerHelp, ortung::LearnerHelp>("learner"));
