@@ -15,6 +15,8 @@ packages=(
   libcli11-dev libspdlog-dev libfmt-dev libstb-dev libjs-dygraphs
   # pictures of scenes, and the test that looks at them
   python3-pil
+  # the Python package
+  python3-dev pybind11-dev
   # training of motion networks
   libdlib-dev libblas-dev
   # tests and benchmarks

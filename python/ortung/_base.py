@@ -1,0 +1,190 @@
+"""What environments stand on: Gymnasium's and PettingZoo's own classes where they are installed, else
+small ones that keep the same rules."""
+import enum
+import os
+
+import numpy as np
+
+from . import _core
+
+try:
+    import gymnasium
+    from gymnasium.spaces import Box
+    from gymnasium.vector.utils import batch_space
+
+    GymEnv = gymnasium.Env
+    GymVectorEnv = gymnasium.vector.VectorEnv
+    try:
+        from gymnasium.vector import AutoresetMode
+    except ImportError:  # before 1.1
+        AutoresetMode = None
+except ImportError:
+    gymnasium = None
+    AutoresetMode = None
+
+    class Box:
+        """Numbers within bounds, of one shape."""
+
+        def __init__(self, low, high, shape=None, dtype=np.float32, seed=None):
+            self.dtype = np.dtype(dtype)
+            self._shape = tuple(shape) if shape is not None else np.shape(low)
+            self.low = np.broadcast_to(np.asarray(low, self.dtype), self._shape).copy()
+            self.high = np.broadcast_to(np.asarray(high, self.dtype), self._shape).copy()
+            self._random = np.random.default_rng(seed)
+
+        @property
+        def shape(self):
+            return self._shape
+
+        def seed(self, seed=None):
+            self._random = np.random.default_rng(seed)
+            return seed
+
+        def sample(self):
+            return self._random.uniform(self.low, self.high).astype(self.dtype)
+
+        def contains(self, x):
+            return (isinstance(x, np.ndarray) and x.shape == self._shape
+                    and np.can_cast(x.dtype, self.dtype)
+                    and bool(np.all(x >= self.low)) and bool(np.all(x <= self.high)))
+
+        __contains__ = contains
+
+        def __eq__(self, other):
+            return (isinstance(other, Box) and self._shape == other.shape
+                    and self.dtype == other.dtype and np.array_equal(self.low, other.low)
+                    and np.array_equal(self.high, other.high))
+
+        __hash__ = None
+
+        def __repr__(self):
+            return f"Box({self.low.min()}, {self.high.max()}, {self._shape}, {self.dtype})"
+
+    def batch_space(space, n=1):
+        repeats = (n,) + (1,) * len(space.shape)
+        return Box(np.tile(space.low, repeats), np.tile(space.high, repeats), dtype=space.dtype)
+
+    class _Seeded:
+        _np_random = None
+        _np_random_seed = None
+
+        @property
+        def np_random(self):
+            if self._np_random is None:
+                self._seed_random(None)
+            return self._np_random
+
+        @np_random.setter
+        def np_random(self, value):
+            self._np_random = value
+            self._np_random_seed = -1
+
+        @property
+        def np_random_seed(self):
+            if self._np_random_seed is None:
+                self._seed_random(None)
+            return self._np_random_seed
+
+        def _seed_random(self, seed):
+            if seed is None:
+                seed = int.from_bytes(os.urandom(8), "little")
+            self._np_random = np.random.default_rng(seed)
+            self._np_random_seed = seed
+
+        def reset(self, *, seed=None, options=None):
+            if seed is not None:
+                self._seed_random(seed)
+
+        @property
+        def unwrapped(self):
+            return self
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            self.close()
+            return False
+
+    class GymEnv(_Seeded):
+        metadata = {"render_modes": []}
+        render_mode = None
+        spec = None
+
+        def get_wrapper_attr(self, name):
+            return getattr(self, name)
+
+        def render(self):
+            raise NotImplementedError("there are no pictures of environments")
+
+    class GymVectorEnv(_Seeded):
+        metadata = {}
+        spec = None
+        render_mode = None
+        closed = False
+
+        def close(self, **kwargs):
+            if not self.closed:
+                self.closed = True
+                self.close_extras(**kwargs)
+
+try:
+    from pettingzoo import ParallelEnv as ZooParallelEnv
+except ImportError:
+
+    class ZooParallelEnv:
+        metadata = {}
+
+        @property
+        def num_agents(self):
+            return len(self.agents)
+
+        @property
+        def max_num_agents(self):
+            return len(self.possible_agents)
+
+        @property
+        def unwrapped(self):
+            return self
+
+
+if AutoresetMode is None:
+
+    class AutoresetMode(enum.Enum):
+        NEXT_STEP = "NextStep"
+        SAME_STEP = "SameStep"
+        DISABLED = "Disabled"
+
+
+def describe(env_id):
+    """What there is to know of an environment. ValueError for an id that is none."""
+    known = {one["id"]: one for one in _core.environments()}
+    if env_id not in known:
+        raise ValueError(f"there is no environment '{env_id}', expected {', '.join(known)}")
+    return known[env_id]
+
+
+def box_of(quantities):
+    return Box(np.array([q[2] for q in quantities], np.float32),
+               np.array([q[3] for q in quantities], np.float32), dtype=np.float32)
+
+
+def check_seed(env_id, seed):
+    """A whole number that C++ can hold, or None."""
+    if seed is None:
+        return None
+    if isinstance(seed, (bool, np.bool_)) or not isinstance(seed, (int, np.integer)):
+        raise TypeError(f"{env_id}: the seed is {seed!r}, expected a whole number or None")
+    if not 0 <= seed < 2**64:
+        raise ValueError(f"{env_id}: the seed is {seed}, expected 0 to 2**64 - 1")
+    return int(seed)
+
+
+def check_action(where, action, shape):
+    """The action as float32. TypeError, ValueError that name the environment for what is none."""
+    array = np.asarray(action)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{where}: the action is of {array.dtype}, expected real numbers")
+    if array.shape != shape:
+        raise ValueError(f"{where}: the action has the shape {array.shape}, expected {shape}")
+    return array.astype(np.float32, copy=False)

@@ -1,0 +1,100 @@
+"""Environments by the rules of PettingZoo's parallel API."""
+import numpy as np
+
+from . import _core
+from ._base import Box, ZooParallelEnv, box_of, check_action, check_seed, describe
+
+
+class ParallelEnv(ZooParallelEnv):
+    """All agents act at the same time, and leave together when the episode is over."""
+
+    metadata = {"render_modes": [], "name": "keeper-vs-striker-v0", "is_parallelizable": True}
+
+    def __init__(self, id="keeper-vs-striker-v0", *, render_mode=None, **options):
+        if render_mode is not None:
+            raise ValueError(f"{id}: render_mode is {render_mode!r}, but there are no pictures")
+        info = describe(id)
+        self.id = id
+        self.render_mode = None
+        self.metadata = {**type(self).metadata, "name": id}
+        self.possible_agents = list(info["agents"])
+        self.agents = []
+        self.observation_spaces = {a: box_of(info["observation"]) for a in self.possible_agents}
+        self.action_spaces = {a: box_of(info["actions"][a]) for a in self.possible_agents}
+        self.state_space = Box(-1000.0, 1000.0, (12,), np.float32)
+        self._batch = _core.Batch(id, options, autoreset=_core.Autoreset.DISABLED)
+        width = max(space.shape[0] for space in self.action_spaces.values())
+        self._actions = np.zeros((1, len(self.possible_agents), width), np.float32)
+        self._is_seeded = False
+
+    def observation_space(self, agent):
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent):
+        return self.action_spaces[agent]
+
+    def _need_open(self):
+        if self._batch is None:
+            raise RuntimeError(f"{self.id} is closed")
+
+    def _observations(self):
+        return {a: self._batch.observations[0, i].copy()
+                for i, a in enumerate(self.possible_agents)}
+
+    def _infos(self):
+        seed, number = int(self._batch.seeds[0]), int(self._batch.numbers[0])
+        return {a: {"seed": seed, "number": number} for a in self.possible_agents}
+
+    def reset(self, seed=None, options=None):
+        self._need_open()
+        seed = check_seed(self.id, seed)
+        if options is not None and not isinstance(options, dict):
+            raise TypeError(f"{self.id}: options are {options!r}, expected a dict or None")
+        if options:
+            self._batch.set_options(options)
+        if seed is None and not self._is_seeded:
+            seed = int(np.random.SeedSequence().generate_state(1, np.uint64)[0])
+        self._batch.reset_one(0, seed)
+        self._is_seeded = True
+        self.agents = self.possible_agents[:]
+        return self._observations(), self._infos()
+
+    def step(self, actions):
+        self._need_open()
+        if not self.agents:
+            raise RuntimeError(f"{self.id} must be reset before it is stepped"
+                               + (" again: its episode is over" if self._is_seeded else ""))
+        if not isinstance(actions, dict) or set(actions) != set(self.agents):
+            found = sorted(map(str, actions)) if isinstance(actions, dict) else type(actions).__name__
+            raise ValueError(f"{self.id}: actions of {found}, expected of {self.agents}")
+        for i, agent in enumerate(self.possible_agents):
+            shape = self.action_spaces[agent].shape
+            self._actions[0, i, :shape[0]] = check_action(f"{self.id}, {agent}", actions[agent], shape)
+        batch = self._batch
+        batch.step(self._actions)
+        infos = self._infos()
+        terminated, truncated = bool(batch.terminated[0]), bool(batch.truncated[0])
+        if terminated or truncated:
+            for info in infos.values():
+                info["ending"] = _core.ending_name(int(batch.endings[0]))
+            self.agents = []
+        rewards = {a: float(batch.rewards[0, i]) for i, a in enumerate(self.possible_agents)}
+        return (self._observations(), rewards, dict.fromkeys(self.possible_agents, terminated),
+                dict.fromkeys(self.possible_agents, truncated), infos)
+
+    def state(self):
+        """What a critic may know: time, ball, keeper and striker as they are, see Batch.states."""
+        self._need_open()
+        return self._batch.states[0].copy()
+
+    def render(self):
+        raise NotImplementedError("there are no pictures of environments")
+
+    def close(self):
+        self._batch = None
+        self.agents = []
+
+
+def parallel_env(id="keeper-vs-striker-v0", **options):
+    """A ParallelEnv, as PettingZoo's modules call it."""
+    return ParallelEnv(id, **options)

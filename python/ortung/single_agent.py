@@ -1,0 +1,235 @@
+"""Environments with one agent by Gymnasium's rules: alone (Env) and as many at a time (VectorEnv)."""
+import numpy as np
+
+from . import _core
+from ._base import (
+    AutoresetMode, GymEnv, GymVectorEnv, batch_space, box_of, check_action, check_seed, describe,
+    gymnasium,
+)
+
+
+def _single(env_id):
+    info = describe(env_id)
+    if len(info["agents"]) != 1:
+        raise ValueError(f"{env_id} has several agents: ortung.parallel_env('{env_id}')")
+    return info
+
+
+def _check_reset_options(env_id, options):
+    if options is not None and not isinstance(options, dict):
+        raise TypeError(f"{env_id}: options are {options!r}, expected a dict or None")
+    return dict(options or {})
+
+
+class Env(GymEnv):
+    """One episode after the other of an environment with one agent.
+
+    reset(seed=S) begins the episodes (S, 0), (S, 1), ...: each is a function of the id, its options,
+    seed and number alone. Without a seed the next one comes; the first seed of all is then chance.
+    reset(options={...}) lays options over those that the environment was made with, for all episodes
+    from then on.
+    """
+
+    metadata = {"render_modes": [], "render_fps": 10}
+
+    def __init__(self, id="goalkeeper-v0", *, render_mode=None, **options):
+        if render_mode is not None:
+            raise ValueError(f"{id}: render_mode is {render_mode!r}, but there are no pictures")
+        info = _single(id)
+        self.id = id
+        self.render_mode = None
+        self.metadata = {**type(self).metadata, "name": id}
+        self.observation_space = box_of(info["observation"])
+        self.action_space = box_of(info["actions"][info["agents"][0]])
+        self._shape = self.action_space.shape
+        self._batch = _core.Batch(id, options, autoreset=_core.Autoreset.DISABLED)
+        self._is_seeded = False
+        self._is_running = False
+
+    def _need_open(self):
+        if self._batch is None:
+            raise RuntimeError(f"{self.id} is closed")
+
+    def _info(self):
+        return {"seed": int(self._seeds[0]), "number": int(self._numbers[0])}
+
+    def reset(self, *, seed=None, options=None):
+        self._need_open()
+        seed = check_seed(self.id, seed)
+        options = _check_reset_options(self.id, options)
+        super().reset(seed=seed)
+        batch = self._batch
+        if options:
+            batch.set_options(options)
+        if seed is None and not self._is_seeded:
+            seed = int(self.np_random.integers(2**63))
+        batch.reset_one(0, seed)
+        self._is_seeded = self._is_running = True
+        self._observation = batch.observations[0, 0]  # views of what each step changes
+        self._rewards, self._endings = batch.rewards[0], batch.endings
+        self._terminated, self._truncated = batch.terminated, batch.truncated
+        self._seeds, self._numbers = batch.seeds, batch.numbers
+        return self._observation.copy(), self._info()
+
+    def step(self, action):
+        self._need_open()
+        if not self._is_running:
+            raise RuntimeError(f"{self.id} must be reset before it is stepped"
+                               + (" again: its episode is over" if self._is_seeded else ""))
+        action = check_action(self.id, action, self._shape)
+        self._batch.step(action.reshape(1, 1, -1))
+        terminated, truncated = bool(self._terminated[0]), bool(self._truncated[0])
+        info = self._info()
+        if terminated or truncated:
+            self._is_running = False
+            info["ending"] = _core.ending_name(int(self._endings[0]))
+        return self._observation.copy(), float(self._rewards[0]), terminated, truncated, info
+
+    def state(self):
+        """The whole state of the world, 12 numbers: see Batch.states."""
+        self._need_open()
+        return self._batch.states[0].copy()
+
+    def close(self):
+        self._batch = None
+        self._is_running = False
+
+
+class VectorEnv(GymVectorEnv):
+    """N environments of one id, which one call steps on all threads.
+
+    threads: 0 for as many as the machine has. autoreset: "NextStep", "SameStep" or "Disabled", see
+    Gymnasium's AutoresetMode. copy=False gives views of arrays that the next call changes.
+    """
+
+    metadata = {"render_modes": []}
+
+    def __init__(self, id="goalkeeper-v0", num_envs=1, *, threads=0, autoreset="NextStep",
+                 copy=True, render_mode=None, **options):
+        if render_mode is not None:
+            raise ValueError(f"{id}: render_mode is {render_mode!r}, but there are no pictures")
+        info = _single(id)
+        self._mode = autoreset if isinstance(autoreset, AutoresetMode) else AutoresetMode(autoreset)
+        self.id = id
+        self.num_envs = num_envs
+        self.metadata = {**type(self).metadata, "name": id, "autoreset_mode": self._mode}
+        self.single_observation_space = box_of(info["observation"])
+        self.single_action_space = box_of(info["actions"][info["agents"][0]])
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.render_mode = None
+        self.closed = False
+        self._copy = copy
+        self._batch = _core.Batch(id, options, episodes=num_envs, threads=threads,
+                                  autoreset=_core.Autoreset.__members__[self._mode.name])
+        self._is_seeded = False
+
+    def _out(self, array):
+        return array.copy() if self._copy else array
+
+    def _need_open(self):
+        if self._batch is None:
+            raise RuntimeError(f"{self.id} is closed")
+
+    def _mask(self, options):
+        mask = options.pop("reset_mask", None)
+        if mask is None:
+            return None
+        mask = np.asarray(mask)
+        if mask.dtype != bool or mask.shape != (self.num_envs,) or not mask.any():
+            raise ValueError(f"{self.id}: reset_mask must be {self.num_envs} flags, at least one set")
+        return mask
+
+    def _seeds(self, seed):
+        if seed is None and not self._is_seeded:
+            seed = int(self.np_random.integers(2**62))
+        if seed is None or isinstance(seed, (int, np.integer)):
+            first = check_seed(self.id, seed)
+            return [None if first is None else first + i for i in range(self.num_envs)]
+        seeds = [check_seed(self.id, one) for one in seed]
+        if len(seeds) != self.num_envs:
+            raise ValueError(f"{self.id}: {len(seeds)} seeds, expected {self.num_envs}")
+        return seeds
+
+    def reset(self, *, seed=None, options=None):
+        self._need_open()
+        options = _check_reset_options(self.id, options)
+        mask = self._mask(options)
+        if seed is None or isinstance(seed, (int, np.integer)):
+            super().reset(seed=check_seed(self.id, seed))
+        seeds = self._seeds(seed)
+        batch = self._batch
+        if options:
+            for i in range(self.num_envs):
+                if mask is None or mask[i]:
+                    batch.set_options(options, i)
+        if mask is None and all(one is not None for one in seeds):
+            batch.reset(seeds)
+        elif mask is None and all(one is None for one in seeds):
+            batch.reset()
+        else:
+            for i in range(self.num_envs):
+                if mask is None or mask[i]:
+                    batch.reset_one(i, seeds[i])
+        self._is_seeded = True
+        return self._out(batch.observations[:, 0]), self._infos(batch)
+
+    def _infos(self, batch):
+        everywhere = np.ones(self.num_envs, bool)
+        return {"seed": batch.seeds.copy(), "_seed": everywhere,
+                "number": batch.numbers.copy(), "_number": everywhere.copy()}
+
+    def step(self, actions):
+        self._need_open()
+        if not self._is_seeded:
+            raise RuntimeError(f"{self.id} must be reset before it is stepped")
+        actions = check_action(self.id, actions, self.action_space.shape)
+        batch = self._batch
+        batch.step(actions[:, None, :])
+        infos = self._infos(batch)
+        endings = batch.endings
+        if endings.any():
+            ended = endings != 0
+            infos["ending"], infos["_ending"] = endings.copy(), ended
+            if self._mode.name == "SAME_STEP":
+                final = np.full(self.num_envs, None, object)
+                for i in np.flatnonzero(ended):
+                    final[i] = batch.final_observations[i, 0].copy()
+                infos["final_obs"], infos["_final_obs"] = final, ended.copy()
+                infos["final_info"] = {"ending": endings.copy(), "_ending": ended.copy()}
+                infos["_final_info"] = ended.copy()
+        return (self._out(batch.observations[:, 0]), self._out(batch.rewards[:, 0]),
+                self._out(batch.terminated), self._out(batch.truncated), infos)
+
+    def states(self):
+        """The whole state of each world, (N, 12)."""
+        self._need_open()
+        return self._out(self._batch.states)
+
+    def close_extras(self, **kwargs):
+        self._batch = None
+
+
+def make(id, **options):
+    """An Env of one of our environments, e.g. make("striker-v0", keeper="intercepting")."""
+    return Env(id, **options)
+
+
+def make_vec(id, num_envs=1, **options):
+    """A VectorEnv of one of our environments."""
+    return VectorEnv(id, num_envs, **options)
+
+
+def register():
+    """Tells Gymnasium, if it is installed, our environments with one agent as "ortung/ID"."""
+    if gymnasium is None:
+        return
+    for info in _core.environments():
+        name = f"ortung/{info['id']}"
+        if len(info["agents"]) == 1 and name not in gymnasium.registry:
+            gymnasium.register(name, entry_point="ortung.single_agent:Env",
+                               vector_entry_point="ortung.single_agent:VectorEnv",
+                               kwargs={"id": info["id"]})
+
+
+register()

@@ -1,0 +1,202 @@
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "Bindings.hpp"
+#include "ortung/learning/Batch.hpp"
+
+namespace ortung::python {
+namespace {
+
+using learning::Autoreset;
+using learning::Batch;
+using learning::EnvironmentInfo;
+using learning::Options;
+
+Options toOptions(const std::string& id, const py::dict& values) {
+  Options options;
+  for (const auto& [key, value] : values) {
+    if (!py::isinstance<py::str>(key))
+      throw py::type_error("options of the environment " + id + ": a key is no text");
+    Parameters::Node node;
+    const std::string name = py::cast<std::string>(key);
+    if (py::isinstance<py::bool_>(value))
+      node.value = py::cast<bool>(value);
+    else if (py::isinstance<py::str>(value))
+      node.value = py::cast<std::string>(value);
+    else if (PyIndex_Check(value.ptr()) != 0)
+      node.value = py::cast<std::int64_t>(value);
+    else if (PyNumber_Check(value.ptr()) != 0)
+      node.value = py::cast<double>(py::float_(py::reinterpret_borrow<py::object>(value)));
+    else
+      throw py::type_error("options of the environment " + id + ": " + name +
+                           " is neither a number nor a text");
+    options.insert_or_assign(name, std::move(node));
+  }
+  return options;
+}
+
+py::list quantities(const std::vector<learning::Quantity>& all) {
+  py::list list;
+  for (const auto& one : all) list.append(py::make_tuple(one.name, one.unit, one.low, one.high));
+  return list;
+}
+
+py::dict describe(const EnvironmentInfo& info) {
+  py::dict actions;
+  for (std::size_t i = 0; i < info.agents.size(); ++i)
+    actions[py::str(info.agents[i])] = quantities(info.actions[i]);
+  py::list options;
+  for (const auto& one : info.options)
+    options.append(py::make_tuple(one.key, one.values, one.fallback, one.meaning));
+  py::dict all;
+  all["id"] = info.id;
+  all["what"] = info.what;
+  all["agents"] = info.agents;
+  all["observation"] = quantities(info.observation);
+  all["actions"] = actions;
+  all["options"] = options;
+  return all;
+}
+
+using Numbers = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+/// One action for each observation. @param observations (N, observation)
+py::array heuristicActions(const std::string& id, std::size_t agent, const Numbers& observations) {
+  const EnvironmentInfo& info = learning::environment(id);
+  if (agent >= info.agents.size())
+    throw py::value_error(id + " has no agent " + std::to_string(agent));
+  const auto seen = static_cast<py::ssize_t>(info.observation.size());
+  const auto width = static_cast<py::ssize_t>(info.actions[agent].size());
+  if (observations.ndim() != 2 || observations.shape(1) != seen)
+    throw py::value_error(id + ": observations must have the shape (N, " + std::to_string(seen) +
+                          ")");
+  py::array_t<float> actions({observations.shape(0), width});
+  for (py::ssize_t i = 0; i < observations.shape(0); ++i)
+    learning::heuristic(info, agent, {observations.data(i, 0), static_cast<std::size_t>(seen)},
+                        {actions.mutable_data(i, 0), static_cast<std::size_t>(width)});
+  return actions;
+}
+
+py::array blockingActions(const Numbers& observations) {
+  if (observations.ndim() != 2)
+    throw py::value_error("observations must have the shape (N, observation)");
+  py::array_t<float> actions({observations.shape(0), py::ssize_t{2}});
+  for (py::ssize_t i = 0; i < observations.shape(0); ++i)
+    learning::blocking({observations.data(i, 0), static_cast<std::size_t>(observations.shape(1))},
+                       {actions.mutable_data(i, 0), 2});
+  return actions;
+}
+
+/// Holds what Python gave until the batch has read it.
+void step(Batch& batch, const Numbers& actions) {
+  const EnvironmentInfo& info = batch.info();
+  const std::vector<py::ssize_t> expected = {static_cast<py::ssize_t>(batch.size()),
+                                             static_cast<py::ssize_t>(info.agents.size()),
+                                             static_cast<py::ssize_t>(info.actionSize())};
+  bool fits = actions.ndim() == 3;
+  for (py::ssize_t i = 0; fits && i < 3; ++i)
+    fits = actions.shape(i) == expected[static_cast<std::size_t>(i)];
+  if (!fits)
+    throw py::value_error(info.id + ": actions must have the shape (" +
+                          std::to_string(expected[0]) + ", " + std::to_string(expected[1]) + ", " +
+                          std::to_string(expected[2]) + ")");
+  const std::span<const float> numbers(actions.data(), static_cast<std::size_t>(actions.size()));
+  const py::gil_scoped_release others;
+  batch.step(numbers);
+}
+
+template <class T, class Get>
+auto array(const Get& get, bool hasAgents, std::size_t last) {
+  return [=](const py::object& self) {
+    const auto& batch = py::cast<const Batch&>(self);
+    std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(batch.size())};
+    if (hasAgents) shape.push_back(static_cast<py::ssize_t>(batch.info().agents.size()));
+    const std::size_t inner = last == 0 ? 0 : last == 1 ? batch.info().observation.size() : last;
+    if (inner > 0) shape.push_back(static_cast<py::ssize_t>(inner));
+    const auto numbers = (batch.*get)();
+    return py::array(py::dtype::of<T>(), shape, numbers.data(), self);
+  };
+}
+
+}  // namespace
+
+void bindLearning(py::module_& module) {
+  py::enum_<Autoreset>(module, "Autoreset")
+      .value("NEXT_STEP", Autoreset::nextStep)
+      .value("SAME_STEP", Autoreset::sameStep)
+      .value("DISABLED", Autoreset::disabled);
+  module.def(
+      "environments",
+      [] {
+        py::list all;
+        for (const EnvironmentInfo& info : learning::environments()) all.append(describe(info));
+        return all;
+      },
+      "What there is: id, agents, observation and actions (name, unit, low, high), options.");
+  module.def("heuristic", &heuristicActions, py::arg("id"), py::arg("agent"),
+             py::arg("observations"), "What the shipped heuristic does, (N, action).");
+  module.def("blocking", &blockingActions, py::arg("observations"),
+             "What a keeper does that stands between ball and middle of its goal, (N, 2).");
+  module.def("ending_name", [](int ending) {
+    if (ending < 0 || ending > 4) throw py::value_error("there is no ending of this number");
+    return std::string(learning::nameOf(static_cast<learning::Ending>(ending)));
+  });
+
+  py::class_<Batch>(
+      module, "Batch",
+      "N episodes of one environment, which one call steps on all threads. Arrays are "
+      "views of what the next call changes.")
+      .def(py::init([](const std::string& id, const py::dict& options, std::size_t episodes,
+                       unsigned threads, Autoreset autoreset, std::uint64_t seed) {
+             const Options values = toOptions(id, options);
+             const py::gil_scoped_release others;
+             return std::make_unique<Batch>(
+                 id, values, learning::BatchConfig{episodes, threads, autoreset, seed});
+           }),
+           py::arg("id"), py::arg("options") = py::dict(), py::arg("episodes") = 1,
+           py::arg("threads") = 1, py::arg("autoreset") = Autoreset::nextStep, py::arg("seed") = 1)
+      .def("step", &step, py::arg("actions"), "actions: (N, agents, action), float")
+      .def(
+          "reset",
+          [](Batch& batch, const std::optional<std::vector<std::uint64_t>>& seeds) {
+            const py::gil_scoped_release others;
+            if (seeds)
+              batch.reset(*seeds);
+            else
+              batch.reset();
+          },
+          py::arg("seeds") = py::none())
+      .def(
+          "reset_one",
+          [](Batch& batch, std::size_t episode, std::optional<std::uint64_t> seed) {
+            if (episode >= batch.size()) throw py::index_error("there is no such episode");
+            const py::gil_scoped_release others;
+            batch.reset(episode, seed);
+          },
+          py::arg("episode"), py::arg("seed") = py::none())
+      .def(
+          "set_options",
+          [](Batch& batch, const py::dict& options, std::optional<std::size_t> episode) {
+            const Options values = toOptions(batch.info().id, options);
+            for (std::size_t i = 0; i < batch.size(); ++i)
+              if (!episode || *episode == i) batch.setOptions(i, values);
+          },
+          py::arg("options"), py::arg("episode") = py::none(),
+          "Of episodes that begin from now on.")
+      .def("__len__", &Batch::size)
+      .def_property_readonly("id", [](const Batch& batch) { return batch.info().id; })
+      .def_property_readonly("autoreset", &Batch::autoreset)
+      .def_property_readonly("observations", array<float>(&Batch::observations, true, 1))
+      .def_property_readonly("final_observations", array<float>(&Batch::finalObservations, true, 1))
+      .def_property_readonly("rewards", array<double>(&Batch::rewards, true, 0))
+      .def_property_readonly("terminated", array<bool>(&Batch::terminated, false, 0))
+      .def_property_readonly("truncated", array<bool>(&Batch::truncated, false, 0))
+      .def_property_readonly("endings", array<std::uint8_t>(&Batch::endings, false, 0))
+      .def_property_readonly("seeds", array<std::uint64_t>(&Batch::seeds, false, 0))
+      .def_property_readonly("numbers", array<std::uint64_t>(&Batch::numbers, false, 0))
+      .def_property_readonly("states", array<float>(&Batch::states, false, 12));
+}
+
+}  // namespace ortung::python

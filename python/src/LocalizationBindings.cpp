@@ -1,0 +1,191 @@
+// MCL on a robot's readings, and maps of what they say.
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "Bindings.hpp"
+#include "Robots.hpp"
+#include "ortung/run/FieldMaps.hpp"
+#include "ortung/run/Localization.hpp"
+
+namespace ortung::python {
+namespace {
+
+using Shared = std::shared_ptr<Localization>;
+
+std::string reprOf(const PoseEstimate& e) {
+  char text[120];
+  std::snprintf(text, sizeof text, "PoseEstimate(x=%.3f, y=%.3f, theta=%.4f, status='%s')",
+                e.pose.x, e.pose.y, e.pose.theta, nameOf(e.status));
+  return text;
+}
+
+LocalizationStart startOf(const py::object& start) {
+  LocalizationStart result;
+  if (py::isinstance<py::str>(start)) {
+    const auto kind = py::cast<std::string>(start);
+    if (kind == "truth") result.kind = LocalizationStart::Kind::kTruth;
+    if (kind != "truth" && kind != "global")
+      throw py::value_error("start is '" + kind + "', expected 'global', 'truth' or (x, y, theta)");
+    return result;
+  }
+  const auto pose = py::cast<std::array<double, 3>>(start);
+  result.kind = LocalizationStart::Kind::kPose;
+  result.pose = {pose[0], pose[1], wrapAngle(pose[2])};
+  return result;
+}
+
+Shared open(const std::filesystem::path& robot, const std::filesystem::path& tables,
+            const std::string& source, std::uint64_t seed, std::optional<std::size_t> particles,
+            std::optional<unsigned> threads, const py::object& start) {
+  LocalizationConfig config;
+  config.robot = robot;
+  config.tables = tables;
+  config.source = source;
+  config.seed = seed;
+  config.particles = particles;
+  config.threads = threads;
+  config.start = startOf(start);
+  const py::gil_scoped_release others;
+  return std::make_shared<Localization>(config);
+}
+
+py::array particlesOf(const Localization& self) {
+  const SampleSet& samples = self.mcl().samples();
+  const auto n = static_cast<py::ssize_t>(samples.x.size());
+  py::array_t<float> all({n, py::ssize_t{4}});
+  auto out = all.mutable_unchecked<2>();
+  float most = -std::numeric_limits<float>::infinity();
+  for (const float one : samples.logWeight) most = std::max(most, one);
+  float sum = 0.0f;
+  for (const float one : samples.logWeight) sum += std::exp(one - most);
+  for (py::ssize_t i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out(i, 0) = samples.x[k], out(i, 1) = samples.y[k], out(i, 2) = samples.theta[k];
+    out(i, 3) = std::exp(samples.logWeight[k] - most) / sum;
+  }
+  return all;
+}
+
+py::array mapOf(const FieldGrid& grid, const std::vector<double>& values) {
+  return copyOf(values).reshape(
+      {static_cast<py::ssize_t>(grid.rows), static_cast<py::ssize_t>(grid.columns)});
+}
+
+py::array probability(Localization& self, const std::optional<std::vector<std::string>>& features,
+                      const std::optional<std::vector<double>>& headings) {
+  const TableInfo& tables = self.robot().tables;
+  std::vector<const SensorData*> chosen;
+  Weighers weighers;
+  std::vector<double> wanted;
+  {
+    const SensorContainer::ReadLock lock = self.container().read();
+    for (const auto& data : self.container().all()) {
+      bool isChosen = !features.has_value();
+      if (features)
+        for (const std::string& query : *features)
+          isChosen = isChosen || matches(parseSensorQuery(query), data->id());
+      if (isChosen && data->localizes()) chosen.push_back(data.get());
+    }
+    if (features && chosen.empty()) throw py::key_error("none of the features localizes");
+    weighers = weighersOf(chosen);
+    wanted = headings ? *headings : mapHeadings(tables.headingStep, chosen);
+  }
+  std::vector<double> values;
+  {
+    const py::gil_scoped_release others;
+    values = probabilityMap(tables.region, weighers, wanted);
+  }
+  return mapOf(tables.region.grid, values);
+}
+
+py::array expectation(Localization& self, const std::string& feature, std::size_t index,
+                      double heading) {
+  const SensorContainer::ReadLock lock = self.container().read();
+  const SensorData* data = self.container().find(parseSensorQuery(feature));
+  if (data == nullptr) throw py::key_error("there is no feature " + feature);
+  const FieldRegion& region = self.robot().tables.region;
+  return mapOf(region.grid, expectationMap(region, *data, index, heading).values);
+}
+
+py::tuple extentOf(const Localization& self) {
+  const FieldGrid& grid = self.robot().tables.region.grid;
+  return py::make_tuple(grid.originX, grid.originX + grid.columns * grid.cell, grid.originY,
+                        grid.originY + grid.rows * grid.cell);
+}
+
+void bindEstimate(py::module_& module) {
+  py::class_<PoseEstimate>(module, "PoseEstimate", "Where the robot is, in the field frame.")
+      .def_readonly("stamp", &PoseEstimate::stamp, "[us]")
+      .def_property_readonly("x", [](const PoseEstimate& e) { return e.pose.x; })
+      .def_property_readonly("y", [](const PoseEstimate& e) { return e.pose.y; })
+      .def_property_readonly("theta", [](const PoseEstimate& e) { return e.pose.theta; })
+      .def_property_readonly(
+          "covariance",
+          [](const PoseEstimate& e) {
+            return copyOf(std::vector<double>(e.covariance.begin(), e.covariance.end()))
+                .reshape({3, 3});
+          })
+      .def_property_readonly("status", [](const PoseEstimate& e) { return nameOf(e.status); })
+      .def_property_readonly("reason", [](const PoseEstimate& e) { return nameOf(e.reason); })
+      .def_readonly("quality", &PoseEstimate::quality,
+                    "probability that the position error is below 0.5 m")
+      .def("__repr__", &reprOf);
+}
+
+}  // namespace
+
+void bindLocalization(py::module_& module) {
+  bindEstimate(module);
+  py::class_<Localization, Shared>(
+      module, "Localization",
+      "Where one robot is, by MCL: go through its estimates if it has a source, or set readings of "
+      "its container and call update().")
+      .def(py::init(&open), py::arg("robot"), py::arg("tables"), py::arg("source") = "",
+           py::arg("seed") = 1, py::arg("particles") = py::none(), py::arg("threads") = py::none(),
+           py::arg("start") = "global")
+      .def_property_readonly("container",
+                             [](const Shared& self) { return Container{self, &self->container()}; })
+      .def("update", &Localization::update, py::call_guard<py::gil_scoped_release>(),
+           "The new estimate if readings have weighed the belief, or None.")
+      .def("estimate", &Localization::estimate, py::arg("stamp"),
+           "The belief carried on by odometry to a time [us], or None.")
+      .def(
+          "set_pose",
+          [](Localization& self, double x, double y, double theta, double sigmaPosition,
+             double sigmaHeading) {
+            const double p = sigmaPosition * sigmaPosition;
+            self.setPose({x, y, theta}, {p, 0, 0, 0, p, 0, 0, 0, sigmaHeading * sigmaHeading});
+          },
+          py::arg("x"), py::arg("y"), py::arg("theta"), py::arg("sigma_position") = 0.3,
+          py::arg("sigma_heading") = 0.17)
+      .def("relocalize", &Localization::relocalize)
+      .def_property_readonly("particles", &particlesOf, "(n, 4): x, y, heading, weight")
+      .def(
+          "probability_map", &probability, py::arg("features") = py::none(),
+          py::arg("headings") = py::none(),
+          "p(s|l) of the present readings, (rows, columns) from the lower left corner: the best of "
+          "the headings for each cell; NaN where a cell is not open.")
+      .def("expectation_map", &expectation, py::arg("feature"), py::arg("index") = 0,
+           py::arg("heading") = 0.0, "What a feature expects over the field, [m] or [rad].")
+      .def_property_readonly("extent", &extentOf, "x, x, y, y of the maps' edges [m]")
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__", [](Localization& self) {
+        std::optional<PoseEstimate> estimate;
+        {
+          const py::gil_scoped_release others;
+          estimate = self.next();
+        }
+        if (!estimate) throw py::stop_iteration();
+        return *estimate;
+      });
+}
+
+}  // namespace ortung::python

@@ -1,0 +1,158 @@
+import sys
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    print("test_environments.py: Skipped\nnumpy is not there (python3-numpy)")
+    sys.exit(77)
+
+import ortung
+import rules
+
+SINGLE = [one["id"] for one in ortung.environments() if len(one["agents"]) == 1]
+
+
+class Rules(unittest.TestCase):
+    def test_gymnasium(self):
+        for name in SINGLE:
+            with self.subTest(name):
+                rules.check_env(lambda: ortung.make(name))
+
+    def test_vectors(self):
+        for mode, text in (("NEXT_STEP", "NextStep"), ("SAME_STEP", "SameStep"),
+                           ("DISABLED", "Disabled")):
+            with self.subTest(mode):
+                rules.check_vector(
+                    lambda n: ortung.make_vec("goalkeeper-v0", n, autoreset=text, threads=2), mode)
+
+    def test_pettingzoo(self):
+        rules.check_parallel(ortung.parallel_env)
+        rules.check_parallel(lambda: ortung.parallel_env("goalkeeper-v0"))
+
+
+class Views(unittest.TestCase):
+    def test_a_batch_gives_views_and_the_same_as_one_environment(self):
+        batch = ortung.Batch("striker-v0", {"keeper": "random"}, episodes=3, seed=10, threads=2)
+        observations = batch.observations
+        self.assertTrue(np.shares_memory(observations, batch.observations))
+        env = ortung.make("striker-v0", keeper="random")
+        self.assertTrue(np.array_equal(env.reset(seed=11)[0], observations[1, 0]))
+        random = np.random.default_rng(1)
+        for _ in range(20):
+            actions = random.uniform(-1, 1, (3, 1, 3)).astype(np.float32)
+            batch.step(actions)
+            one = env.step(actions[1, 0])
+            self.assertTrue(np.array_equal(one[0], observations[1, 0]))
+            self.assertEqual(one[1], batch.rewards[1, 0])
+            if one[2] or one[3]:
+                break
+        del batch
+        observations.sum()  # what a view looks at lives on
+
+    def test_vectors_give_views_on_demand(self):
+        env = ortung.make_vec("goalkeeper-v0", 4, copy=False)
+        first, _ = env.reset(seed=1)
+        second = env.step(np.zeros((4, 2), np.float32))[0]
+        self.assertTrue(np.shares_memory(first, second))
+        env = ortung.make_vec("goalkeeper-v0", 4)
+        first, _ = env.reset(seed=1)
+        self.assertFalse(np.shares_memory(first, env.step(np.zeros((4, 2), np.float32))[0]))
+
+    def test_one_thread_or_several_make_no_difference(self):
+        def play(threads):
+            env = ortung.make_vec("goalkeeper-v0", 8, threads=threads)
+            observations = [env.reset(seed=3)[0]]
+            for _ in range(60):
+                actions = ortung.heuristic("goalkeeper-v0", 0, observations[-1])
+                observations.append(env.step(actions)[0])
+            return np.array(observations)
+        self.assertTrue(np.array_equal(play(1), play(3)))
+
+
+class BadInput(unittest.TestCase):
+    def fails(self, kind, words, call):
+        with self.assertRaises(kind) as caught:
+            call()
+        for word in words.split("|"):
+            self.assertIn(word, str(caught.exception))
+
+    def test_actions(self):
+        env = ortung.make("goalkeeper-v0")
+        env.reset(seed=1)
+        for action, kind, words in (
+                (np.zeros(3), ValueError, "goalkeeper-v0|shape (3,)|expected (2,)"),
+                (np.zeros((1, 2)), ValueError, "shape (1, 2)"),
+                (["left", "right"], TypeError, "goalkeeper-v0|real numbers"),
+                (np.array([True, False]), TypeError, "bool"),
+                (np.zeros(2, complex), TypeError, "complex"),
+                (None, TypeError, "object"),
+                (np.array([0, np.nan]), ValueError, "goalkeeper-v0|keeper|nan|turn"),
+                (np.array([np.inf, 0]), ValueError, "inf|forward")):
+            self.fails(kind, words, lambda action=action: env.step(action))
+        env.step([1, 0])  # whole numbers will do
+        zoo = ortung.parallel_env()
+        zoo.reset(seed=1)
+        self.fails(ValueError, "keeper|striker", lambda: zoo.step({"keeper": np.zeros(2)}))
+        self.fails(ValueError, "striker|(2,)|(3,)",
+                   lambda: zoo.step({"keeper": np.zeros(2), "striker": np.zeros(2)}))
+        vector = ortung.make_vec("goalkeeper-v0", 3)
+        vector.reset(seed=1)
+        self.fails(ValueError, "(3, 3)|expected (3, 2)", lambda: vector.step(np.zeros((3, 3))))
+        actions = np.zeros((3, 2))
+        actions[2, 0] = np.nan
+        self.fails(ValueError, "episode 2|keeper|forward", lambda: vector.step(actions))
+        self.fails(ValueError, "shape (3, 1, 2)",
+                   lambda: ortung.Batch("goalkeeper-v0", episodes=3).step(np.zeros((3, 2))))
+
+    def test_stepped_after_the_end(self):
+        env = ortung.make("goalkeeper-v0", duration_s=1.0)
+        self.fails(RuntimeError, "goalkeeper-v0|reset before", lambda: env.step(np.zeros(2)))
+        env.reset(seed=1)
+        while not any(env.step(np.zeros(2))[2:4]):
+            pass
+        self.fails(RuntimeError, "goalkeeper-v0|over", lambda: env.step(np.zeros(2)))
+        zoo = ortung.parallel_env(duration_s=1.0)
+        self.fails(RuntimeError, "reset before", lambda: zoo.step({}))
+        env.close()
+        self.fails(RuntimeError, "closed", lambda: env.step(np.zeros(2)))
+        self.fails(RuntimeError, "closed", env.reset)
+
+    def test_ids_options_and_seeds(self):
+        self.fails(ValueError, "goalie-v0|goalkeeper-v0", lambda: ortung.make("goalie-v0"))
+        self.fails(ValueError, "parallel_env", lambda: ortung.make("keeper-vs-striker-v0"))
+        self.fails(ortung.ConfigError, "goalkeeper-v0|strikr",
+                   lambda: ortung.make("goalkeeper-v0", strikr="roll"))
+        self.fails(ortung.ConfigError, "striker:kind=lob|yardstick-v1",
+                   lambda: ortung.make("goalkeeper-v0", striker="striker:kind=lob"))
+        self.fails(ortung.PluginError, "nobody",
+                   lambda: ortung.make("goalkeeper-v0", striker="nobody"))
+        self.fails(ortung.ConfigError, "action_s|0.07", lambda: ortung.make("striker-v0", action_s=.07))
+        env = ortung.make("goalkeeper-v0")
+        self.fails(ValueError, "seed is -1", lambda: env.reset(seed=-1))
+        self.fails(ValueError, "2**64", lambda: env.reset(seed=2**64))
+        self.fails(TypeError, "seed is 'x'", lambda: env.reset(seed="x"))
+        self.fails(TypeError, "seed is 1.5", lambda: env.reset(seed=1.5))
+        self.fails(TypeError, "options are", lambda: env.reset(options=3))
+        self.fails(ortung.ConfigError, "wind", lambda: env.reset(options={"wind": 3}))
+        self.fails(ValueError, "3 seeds|expected 2",
+                   lambda: ortung.make_vec("goalkeeper-v0", 2).reset(seed=[1, 2, 3]))
+        self.fails(ValueError, "episodes is 0", lambda: ortung.make_vec("goalkeeper-v0", 0))
+        self.fails(ValueError, "pictures", lambda: ortung.make("goalkeeper-v0", render_mode="human"))
+
+    def test_options_of_reset_hold_from_then_on(self):
+        env = ortung.make("goalkeeper-v0")
+        env.reset(seed=4, options={"striker": "roll"})
+        roll = ortung.make("goalkeeper-v0", striker="roll")
+        self.assertTrue(np.array_equal(env.reset(seed=9)[0], roll.reset(seed=9)[0]))
+
+
+class Learner(unittest.TestCase):
+    def test_the_example_improves(self):
+        import cross_entropy
+        history = cross_entropy.train(generations=3, candidates=10, episodes=24, test=100, quiet=True)
+        self.assertGreater(history["score"][-1], history["score"][0])
+
+
+if __name__ == "__main__":
+    unittest.main()

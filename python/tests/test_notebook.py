@@ -1,0 +1,138 @@
+"""What notebooks use: robots, containers, tables, readings, MCL, maps."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    print("test_notebook.py: Skipped\nnumpy is not there (python3-numpy)")
+    sys.exit(77)
+
+import ortung
+
+MAPS = pathlib.Path(sys.argv.pop())
+PROGRAM = sys.argv.pop()
+ROBOT = MAPS / "robots" / "pioneer.toml"
+
+
+class Notebook(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="ortung-notebook-")
+        cls.tables = pathlib.Path(cls.folder.name) / "arena.tables"
+        cls.record = pathlib.Path(cls.folder.name) / "run.rec"
+        world = MAPS / "fields" / "arena.toml"
+        subprocess.run([PROGRAM, "learn", "--world", world, "--robot", ROBOT, "--out", cls.tables],
+                       check=True, capture_output=True)
+        subprocess.run([PROGRAM, "import", "sim", world, "--with-robot", ROBOT, "--option",
+                        "duration=8", "--out", cls.record], check=True, capture_output=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_readings_are_the_lines_of_the_record(self):
+        lines = [line.split() for line in self.record.read_text().splitlines()
+                 if not line.startswith("#")]
+        found = list(ortung.readings(f"record:{self.record}"))
+        self.assertEqual(len(found), len(lines))
+        for (stamp, feature, words), line in zip(found, lines):
+            self.assertEqual((str(stamp), feature), (line[0], line[1]))
+            self.assertEqual([str(word) for word in words], line[3:])
+
+    def test_tables_are_what_numpy_reads(self):
+        tables = ortung.Tables(self.tables)
+        stored = np.load(self.tables)
+        names = [name for name in stored.files if name != "meta.json"]
+        self.assertEqual(set(tables.arrays), set(names))
+        for name in names:
+            self.assertTrue(np.array_equal(tables.arrays[name], stored[name]))
+        view = next(iter(tables.arrays.values()))
+        self.assertFalse(view.flags.writeable or view.flags.owndata)
+        self.assertIn("world", str(tables.meta))
+        del tables
+        view.sum()  # the file stays mapped
+
+    def test_a_container_takes_and_gives_readings(self):
+        container = ortung.Robot(ROBOT).container
+        scan = next(name for name in container.features if "/LRF/" in name)
+        self.assertIsNone(container.get("*/LRF/*"))
+        for stamp, feature, words in ortung.readings(f"record:{self.record}"):
+            if feature == scan:
+                break
+        container.set(stamp, scan, words)
+        ranges = container.get("*/LRF/*")
+        self.assertEqual(container.stamp(scan), stamp)
+        self.assertTrue(np.array_equal(container.words(scan), words))
+        seen = (words > 0) & (ranges < 7.9)
+        self.assertTrue(np.allclose(ranges[seen], words[seen] / 1000.0, atol=1e-5))
+        with self.assertRaises(KeyError) as caught:
+            container.get("*/sonar9/*")
+        self.assertIn(scan, str(caught.exception))
+        with self.assertRaises(ValueError) as caught:
+            container.set(1, scan, words[:3])
+        self.assertIn(scan, str(caught.exception))
+
+    def test_mcl_finds_the_robot_by_own_readings(self):
+        own = ortung.Localization(ROBOT, self.tables, seed=3)
+        whole = ortung.Localization(ROBOT, self.tables, source=f"record:{self.record}", seed=3)
+        estimates = list(whole)
+        self.assertGreater(len(estimates), 10)
+        truth = None
+        moment = []
+        for stamp, feature, words in ortung.readings(f"record:{self.record}"):
+            if moment and stamp != moment[0][0]:
+                for one in moment:
+                    own.container.set(*one)
+                own.update()
+                moment = []
+            moment.append((stamp, feature, words))
+        truth = whole.container.get("*/groundTruth/*")
+        for one in (estimates[-1], own.estimate(stamp)):
+            self.assertLess(np.hypot(one.x - truth[0], one.y - truth[1]), 0.3)
+            self.assertEqual(one.status, "tracking")
+        particles = own.particles
+        self.assertEqual(particles.shape[1], 4)
+        self.assertAlmostEqual(float(particles[:, 3].sum()), 1.0, places=3)
+        self.assertLess(np.hypot(*(np.average(particles[:, :2], axis=0, weights=particles[:, 3])
+                                   - truth[:2])), 0.4)
+
+    def test_maps_have_their_peak_at_the_robot(self):
+        whole = ortung.Localization(ROBOT, self.tables, source=f"record:{self.record}")
+        for _ in whole:
+            pass
+        truth = whole.container.get("*/groundTruth/*")
+        chart = whole.probability_map(["*/LRF/*"])
+        left, right, low, high = whole.extent
+        rows, columns = chart.shape
+        row, column = np.unravel_index(np.nanargmax(chart), chart.shape)
+        x = left + (column + 0.5) * (right - left) / columns
+        y = low + (row + 0.5) * (high - low) / rows
+        self.assertLess(np.hypot(x - truth[0], y - truth[1]), 0.5)
+        expected = whole.expectation_map("*/LRF/*", 90, truth[2])
+        self.assertEqual(expected.shape, chart.shape)
+        here = whole.container.expectation("*/LRF/*", *truth)[90]
+        cell = expected[int((truth[1] - low) / (high - low) * rows),
+                        int((truth[0] - left) / (right - left) * columns)]
+        self.assertLess(abs(here - cell), 0.5)
+
+    def test_errors_keep_file_and_line(self):
+        bad = pathlib.Path(self.folder.name) / "bad.toml"
+        bad.write_text(ROBOT.read_text() + "\nnonsense = [\n")
+        with self.assertRaises(ortung.ConfigError) as caught:
+            ortung.Robot(bad)
+        self.assertRegex(str(caught.exception), r"bad\.toml.*\d+")
+        torn = pathlib.Path(self.folder.name) / "torn.tables"
+        torn.write_bytes(self.tables.read_bytes()[:1000])
+        with self.assertRaises(ortung.TableError) as caught:
+            ortung.Tables(torn)
+        self.assertIn("torn.tables", str(caught.exception))
+        with self.assertRaises(ValueError):
+            ortung.Localization(ROBOT, self.tables, start="nowhere")
+
+
+if __name__ == "__main__":
+    unittest.main()
