@@ -288,7 +288,7 @@ def palette_of(frame, entries):
 
 
 def robots_of(scene, folder):
-    """Robot files by the robots' names, those of players among them, and the colour of each."""
+    """Robot files by the robots' names, those of players among them; the colour of each; what a legend says."""
     entries = [(r["name"], r["file"], None) for r in scene.get("robot", [])]
     for player in scene.get("player", []):
         if "name" not in player or "robot" not in player:
@@ -296,7 +296,9 @@ def robots_of(scene, folder):
         entries.append((player["name"], player["robot"], player.get("team")))
     files = {name: tomllib.loads((folder / file).read_text()) for name, file, _ in entries}
     free = iter(ROBOTS * (1 + len(entries)))
-    return files, {name: TEAMS.get(team) or next(free) for name, _, team in entries}
+    colours = {name: TEAMS.get(team) or next(free) for name, _, team in entries}
+    legend = {team if team in TEAMS else name: colours[name] for name, _, team in entries}
+    return files, colours, [(text, "robot", colour) for text, colour in legend.items()]
 
 
 def play(ortung, scene, duration, seed):
@@ -326,7 +328,7 @@ def main():
     scene = tomllib.loads(args.scene.read_text())
     world_file = args.scene.parent / scene["scene"]["world"]
     world = tomllib.loads(world_file.read_text())
-    robots, colours = robots_of(scene, args.scene.parent)
+    robots, colours, entries = robots_of(scene, args.scene.parent)
     things = [Thing(shape, piece) for shape, piece in pieces_of(world) if is_movable(piece)]
     moments = play(args.ortung, args.scene, args.duration, args.seed)
     moments = {at: bodies for at, bodies in moments.items() if at >= args.begin}
@@ -337,7 +339,6 @@ def main():
     has_lines = any(piece.get("kind") == "line" for _, piece in pieces_of(world))
     field = Canvas(bounds, args.width, GRASS if has_lines else FLOOR)
     draw_world(field, world, world_file.parent)
-    entries = [(name, "robot", colour) for name, colour in colours.items()]
     for thing in things:
         if (thing.name, thing.kind, thing.colour) not in entries:
             entries.append((thing.name, thing.kind, thing.colour))

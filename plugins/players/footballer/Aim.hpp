@@ -58,7 +58,9 @@ inline std::optional<FloorPoint> bestMate(const Moment& m, const FloorPoint& fro
     std::erase_if(others.others,
                   [&](const Other& one) { return one.isMate && lengthOf(one.at - mate.at) < 0.1; });
     if (!isLaneFree(others, from, to, kBallRadius + 0.15)) continue;
-    const double worth = progress + 0.5 * std::min(alone, 3.0);
+    constexpr double kScores = 1.5;  // what it is worth that he may shoot [m]
+    const double worth =
+        progress + 0.5 * std::min(alone, 3.0) + (openCorner(m, to) ? kScores : 0.0);
     if (worth > most) most = worth, best = to;
   }
   return best;

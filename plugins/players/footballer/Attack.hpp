@@ -79,9 +79,11 @@ class Attack {
     if (toGoal < skill_.shotRange && corner) return {Aim::Kind::shot, *corner};
     const bool isLate = had(m.view.now) > skill_.carryTime;
     const bool isPressed = m.view.opponentTo(ball) < kPressed;
-    if (isPressed || isLate)
-      if (const auto mate = bestMate(m, ball, isLate ? 3.0 : 0.5)) return {Aim::Kind::pass, *mate};
-    if (toGoal < 0.6 * skill_.shotRange || (isLate && toGoal < 1.6 * skill_.shotRange))
+    const bool isShutOut = toGoal < skill_.shotRange;  // nothing is open, or it had shot
+    if (isPressed || isLate || isShutOut)
+      if (const auto mate = bestMate(m, ball, isLate || isShutOut ? 3.0 : 0.5))
+        return {Aim::Kind::pass, *mate};
+    if (toGoal < 0.4 * skill_.shotRange || (isLate && toGoal < 1.6 * skill_.shotRange))
       return {Aim::Kind::shot, corner.value_or(m.otherGoal())};
     const bool isAtHome = lengthOf(m.ownGoal() - ball) < 0.6 * m.ground.halfLength;
     if (isLate || (isPressed && isAtHome)) return {Aim::Kind::clearance, clearance(m)};

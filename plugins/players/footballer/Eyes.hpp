@@ -20,7 +20,7 @@ class Eyes {
 
   /// @param pose empty: everything is taken from the stage @param braking of a ball [m/s^2]
   Eyes(Pose pose, double braking)
-      : pose_(std::move(pose)), braking_(braking), track_(braking, 0.1) {}
+      : pose_(std::move(pose)), braking_(braking), track_(braking, 0.2) {}
 
   /// Nothing as long as its own pose is not known.
   std::optional<View> look(PlayerSeat& seat, const Mates& mates) {
@@ -47,6 +47,11 @@ class Eyes {
  private:
   static constexpr Timestamp kForgotten = 1'200'000;  ///< a ball that nobody sees [us]
   static constexpr double kSame = 0.7;  ///< a robot so near to where a mate says he is, is he [m]
+
+  static constexpr double kFar = 0.8;            ///< from where it was expected [m]
+  static constexpr double kFastest = 3.0;        ///< it is kicked meanwhile [m/s]
+  static constexpr double kSeems = 0.1;          ///< to move [m/s]
+  static constexpr double kSeemsPerMetre = 0.1;  ///< [1/s]
 
   static RollingBall later(const RollingBall& ball, double seconds) {
     RollingBall now = ball;
@@ -93,13 +98,27 @@ class Eyes {
     const ObjectsData* seen = find(seat, "ball");
     if (seen != nullptr && seen->stamp() > newest_ && !seen->reading().empty()) {
       newest_ = seen->stamp();
-      // What is imagined comes last.
-      track_.see(newest_, placeOfObject(view.pose * seen->mount(), seen->reading().front()));
+      // What is imagined comes last, but it may be all that there is.
+      const FloorPoint at = placeOfObject(view.pose * seen->mount(), seen->reading().front());
+      if (isLikely(at)) track_.see(newest_, at);
     }
     own_.reset();
-    if (track_.ball() && view.now - track_.lastSeen() < kForgotten)
+    if (track_.ball() && view.now - track_.lastSeen() < kForgotten) {
       own_ = later(*track_.ball(), toSeconds(view.now - track_.lastSeen()));
+      // From far it seems to move when it lies.
+      if (own_->speed() < kSeems + kSeemsPerMetre * lengthOf(own_->at - view.place()))
+        own_->speedX = own_->speedY = 0.0;
+    }
     view.ball = own_;
+  }
+  /// Whether it may be the ball that it has seen before; elsewhere only if it is there twice.
+  bool isLikely(const FloorPoint& at) {
+    const double passed = toSeconds(newest_ - track_.lastSeen());
+    const bool isNear =
+        !track_.ball() || lengthOf(track_.ball()->later(passed) - at) < kFar + kFastest * passed;
+    const bool isThereAgain = elsewhere_ && lengthOf(*elsewhere_ - at) < kFar;
+    elsewhere_ = at;
+    return isNear || isThereAgain;
   }
   /// Mates tell where they are, and the ball for who does not see it.
   static void hear(const Mates& mates, View& view) {
@@ -135,6 +154,7 @@ class Eyes {
   double braking_;
   BallTrack track_;
   Timestamp newest_ = -1;
+  std::optional<FloorPoint> elsewhere_;  ///< where it was seen last, likely or not
   std::optional<RollingBall> own_;
 };
 

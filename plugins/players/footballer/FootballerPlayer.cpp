@@ -81,7 +81,7 @@ class FootballerPlayer : public Player {
 
   bool senseAndAct(PlayerSeat& seat) override {
     mates_.hear(seat.heard(), seat.now());
-    const std::optional<View> view = eyes_->look(seat, mates_);
+    std::optional<View> view = eyes_->look(seat, mates_);
     if (!view) {                     // it does not know where it is: turning, it sees more
       constexpr double kTurn = 0.8;  // [rad/s]
       chassis_->drive(0.0, seat.game().mayPlay(seat.team()) ? kTurn : 0.0, seat.robot());
@@ -89,7 +89,12 @@ class FootballerPlayer : public Player {
     }
     const double forward = seat.game().directionOf(seat.team());
     const Moment moment{*view, ground_, *chassis_, *hands_, seat.robot(), forward};
-    const double cost = costOf(moment);
+    if (view->ball) {
+      lastBall_ = view->ball->at;
+      if (seat.game().phase == Game::Phase::kReady) view->ball->speedX = view->ball->speedY = 0.0;
+    }
+    const FloorPoint ball = view->ball ? view->ball->at : guess(seat.game(), forward);
+    const double cost = costOf(moment, ball);
     talk(seat, *view, cost);
     if (!seat.game().mayPlay(seat.team())) {
       role_ = Role::cover;
@@ -99,7 +104,7 @@ class FootballerPlayer : public Player {
       chassis_->stand(seat.robot());
       return true;
     }
-    play(seat, moment, cost);
+    play(seat, moment, ball, cost);
     return true;
   }
 
@@ -118,11 +123,11 @@ class FootballerPlayer : public Player {
   }
 
   /// How long until it has the ball, and has it on the right side; who attacks keeps at it.
-  double costOf(const Moment& m) const {
-    constexpr double kNever = 1000.0;
+  double costOf(const Moment& m, const FloorPoint& ball) const {
+    constexpr double kNever = 1000.0;   // or at last, where nobody sees it
     constexpr double kLoyalty = 0.5;    // [s]
     constexpr double kWrongSide = 0.8;  // [s]
-    if (!m.view.ball) return kNever;
+    if (!m.view.ball) return kNever + lengthOf(ball - m.view.place());
     const Meeting meeting = meet(*m.view.ball, m.view.pose, m.chassis.limits());
     const FloorPoint way = unit(meeting.at - m.view.place());
     const FloorPoint wanted = unit(m.otherGoal() - meeting.at);
@@ -137,21 +142,41 @@ class FootballerPlayer : public Player {
     seat.say(Word{cost, view.place(), eyes_->ownBall()}.text());
   }
 
-  void play(PlayerSeat& seat, const Moment& m, double cost) {
-    const FloorPoint ball = m.view.ball ? m.view.ball->at : FloorPoint{};
+  void play(PlayerSeat& seat, const Moment& m, const FloorPoint& ball, double cost) {
     std::vector<Candidate> all = {{seat.name(), cost, m.view.place()}};
     for (const auto& [name, told] : mates_.told())
       all.push_back({name, told.word.cost, told.word.at});
     role_ =
         shareRoles(std::move(all), seat.name(), coverPlace(ground_, m.forward, ball), m.forward);
-    if (role_ != Role::attack || !m.view.ball) {
+    if (role_ != Role::attack) {
       attack_->forget();
       if (unjam_.act(m, isOnTheWay_, seat.random())) return;
       return takePlace(m, ball);
     }
     if (unjam_.act(m, true, seat.random())) return;
+    if (!m.view.ball) {  // it looks for it
+      attack_->forget();
+      m.hands.hold(false, m.robot);
+      return go_.to(m, ball, angleOf(ball - m.view.place()), m.chassis.limits().speed);
+    }
     if (isToTake(seat)) attack_->oweAPass();
     attack_->act(m, seat.random());
+  }
+
+  /// Where a ball is that nobody sees: where a restart puts it, or where it was seen last.
+  FloorPoint guess(const Game& game, double forward) const {
+    const double side = lastBall_.y < 0.0 ? -1.0 : 1.0;
+    if (game.phase != Game::Phase::kReady && game.phase != Game::Phase::kStopped) return lastBall_;
+    switch (game.restart) {
+      case Game::Restart::kKickOff:
+        return {};
+      case Game::Restart::kCorner:
+        return {forward * ground_.halfLength, side * ground_.halfWidth};
+      case Game::Restart::kGoalKick:
+        return {-forward * 0.93 * ground_.halfLength, side * 1.6 * ground_.halfMouth};
+      default:
+        return lastBall_;
+    }
   }
 
   /// Whether its team has a restart from which the taker must not score.
@@ -186,6 +211,7 @@ class FootballerPlayer : public Player {
   Unjam unjam_;
   Role role_ = Role::cover;
   bool isOnTheWay_ = false;
+  FloorPoint lastBall_;  ///< where it was last seen
   Timestamp nextWord_ = 0;
 };
 
