@@ -142,7 +142,7 @@ void writeTablesOf(const std::filesystem::path& file) {
   const auto devices = fillContainer(container, robot, factory());
   TableInfo info;
   info.region = learnArea(*world, 0.1, sizeOf(robot)).region;
-  learn(*world, info.region, devices, factory(), {}, {});
+  learn(*world, info.region, devices, factory(), {});
   info.worldFingerprint = world->fingerprint();
   info.headingStep = LearnOptions{}.headingStep;
   info.field = fieldModelOf(*world);
