@@ -188,7 +188,7 @@ TEST(Contained, SensorsThatFailWhileTablesAreLearned) {
     const std::vector<Device> devices = fillContainer(container, config, factory);
     const auto world = test::world();
     const FieldRegion region = world->region(0.5, {0.2, 0.5});
-    expectIn(messageOf<PluginFailure>([&] { learn(*world, region, devices, factory, {}, {}); }),
+    expectIn(messageOf<PluginFailure>([&] { learn(*world, region, devices, factory, {}); }),
              {"the sensor plugin 'misbehaving_range' (bad/misbehaving/range)", "generateData"});
   }
 }
