@@ -95,6 +95,27 @@ TEST(Goalkeeper, IsNoFasterThanItsSkill) {
   }
 }
 
+TEST(Goalkeeper, SteersBackToItsLineUnlessItMayBeOffIt) {
+  const auto endsAt = [](const std::string& options) {
+    Keeping keeping("policy=pattern&start=-5.35,0,90" + options);
+    keeping.steps(600);
+    return keeping.pose().x;
+  };
+  EXPECT_NEAR(endsAt(""), -5.5, 0.05);
+  EXPECT_NEAR(endsAt("&slack_m=0.3"), -5.35, 0.05);
+}
+
+// It sees by itself, and plays as well where it was put.
+TEST(Goalkeeper, InterceptsByMclAndByScansOnItsOwnScanner) {
+  for (const char* sees : {"scan", "localized"}) {
+    Keeping keeping(std::string("policy=intercepting&stage=no&start=-5.5,0.3,90&sees=") + sees);
+    keeping.roll({-2.0, 0.0, 0.0}, -2.2, 0.35);
+    while (keeping.ball().x > -4.9 && keeping.run.simulation().now() < 5'000'000) keeping.steps(1);
+    EXPECT_NEAR(keeping.pose().y, 3.5 / 2.2 * 0.35, 0.15) << sees;
+    EXPECT_EQ(keeping.problem, "");
+  }
+}
+
 // What it does about a ball that is kicked, it does later by its delay.
 TEST(Goalkeeper, KnowsLateWhatItSees) {
   const auto movesAt = [](const std::string& delay) {

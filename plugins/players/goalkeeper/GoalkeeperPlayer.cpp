@@ -29,6 +29,7 @@ struct Settings {
   double period = 0.04;     ///< [s]
   double lineOut = 0.5;     ///< line before the goal [m]
   double reach = 0.75;      ///< [m]
+  double slack = 0.0;       ///< off its line it may be before it steers back [m]
   double braking = 0.2943;  ///< of a rolling ball [m/s^2]: 0.03 of gravity
 
   explicit Settings(const Parameters& p) {
@@ -42,6 +43,7 @@ struct Settings {
     period = p.numberOr("period_s", period, {0.01, 1.0});
     lineOut = p.numberOr("line_m", lineOut, {0.1, 5.0});
     reach = p.numberOr("reach_m", reach, {0.0, 10.0});
+    slack = p.numberOr("slack_m", slack, {0.0, 1.0});
     braking = p.numberOr("braking_m_s2", braking, {0.0, 10.0});
   }
 };
@@ -160,8 +162,9 @@ class GoalkeeperPlayer : public Player {
                   8.0 * std::abs(away)});
     const double speed = std::copysign(fast, away) * across;
     constexpr double kMoves = 0.1;  // slower it can't steer [m/s]
-    const double tilt =
-        std::abs(speed) > kMoves ? std::clamp(2.0 * (line_.x - pose.x) / speed, -0.3, 0.3) : 0.0;
+    const double off = line_.x - pose.x;
+    const bool steers = std::abs(speed) > kMoves && std::abs(off) > settings_.slack;
+    const double tilt = steers ? std::clamp(2.0 * off / speed, -0.3, 0.3) : 0.0;
     const double error = wrapAngle(across * (std::numbers::pi / 2.0 - tilt) - pose.theta);
     robot.setRotationalVelocity(std::clamp(5.0 * error, -limits_.turn, limits_.turn));
     constexpr double kAcross = 0.6;  // otherwise it turns first [rad]
@@ -192,6 +195,7 @@ struct GoalkeeperHelp : PlayerHelp {
              {"period_s", "s", "0.04", "between two decisions"},
              {"line_m", "m", "0.5", "how far its line is before the goal line"},
              {"reach_m", "m", "0.75", "how far it goes to either side of the goal's middle"},
+             {"slack_m", "m", "0", "how far off its line it may be before it steers back"},
              {"braking_m_s2", "m/s^2", "0.2943", "how the floor brakes a ball, as it believes"}}) {}
 };
 
