@@ -66,4 +66,38 @@ inline std::optional<FloorPoint> bestMate(const Moment& m, const FloorPoint& fro
   return best;
 }
 
+/// So far from the ball, on the side away from where it is to go.
+inline FloorPoint placeBehind(const FloorPoint& ball, const FloorPoint& target, double distance) {
+  return ball - distance * unit(target - ball);
+}
+
+/// Whether it can come to the ball from the side away from a target.
+inline bool hasRoomBehind(const Moment& m, const FloorPoint& target, double distance) {
+  if (m.hands.canHold()) return true;  // from any side
+  const FloorPoint place = placeBehind(m.view.ball->at, target, distance);
+  const auto isFree = [&](const FloorPoint& at, double radius) {
+    return lengthOf(at - place) > m.view.radius + radius;
+  };
+  return std::all_of(m.view.others.begin(), m.view.others.end(),
+                     [&](const Other& one) { return isFree(one.at, one.radius); }) &&
+         std::all_of(m.ground.posts.begin(), m.ground.posts.end(),
+                     [&](const Disc& one) { return isFree(one.at, one.radius); });
+}
+
+/// Away with it: up the field on the side where the ball is, else straight on, else out to that
+/// side; where there is room to come to the ball from.
+inline FloorPoint clearance(const Moment& m, double distance) {
+  const FloorPoint ball = m.view.ball->at;
+  const double side = ball.y < 0.0 ? -1.0 : 1.0;
+  const double ahead = m.forward * m.ground.halfLength;
+  const FloorPoint places[] = {
+      m.ground.within({ball.x + 0.6 * ahead, 0.6 * side * m.ground.halfWidth}, 0.8),
+      m.ground.within({ball.x + 0.6 * ahead, ball.y}, 0.8),
+      {ball.x + 0.3 * ahead, side * m.ground.halfWidth},
+      {ball.x + 0.6 * ahead, -side * 0.3 * m.ground.halfWidth}};
+  for (const FloorPoint& place : places)
+    if (hasRoomBehind(m, place, distance)) return place;
+  return places[0];
+}
+
 }  // namespace ortung::football

@@ -56,6 +56,8 @@ class Attack {
   bool isHad(const FloorPoint& ball) const {
     return ball.x > 0.1 && ball.x < skill_.ballAhead + 0.07 && std::abs(ball.y) < 0.1;
   }
+  /// How far before the ball it stands before it takes it [m].
+  double behind() const { return skill_.ballAhead + kBehind; }
   double had(Timestamp now) const { return since_ ? toSeconds(now - *since_) : 0.0; }
 
   /// What to do with the ball. It keeps to what it has chosen for a moment.
@@ -71,8 +73,8 @@ class Attack {
     const FloorPoint ball = m.view.ball->at;
     if (owesPass_) {
       const auto mate = bestMate(m, ball, m.hands.canHold() ? 4.0 : 0.5);
-      if (mate && hasRoomBehind(m, *mate)) return {Aim::Kind::pass, *mate};
-      return {Aim::Kind::clearance, clearance(m)};
+      if (mate && hasRoomBehind(m, *mate, behind())) return {Aim::Kind::pass, *mate};
+      return {Aim::Kind::clearance, clearance(m, behind())};
     }
     const double toGoal = lengthOf(m.otherGoal() - ball);
     const auto corner = openCorner(m, ball);
@@ -86,40 +88,9 @@ class Attack {
     if (toGoal < 0.4 * skill_.shotRange || (isLate && toGoal < 1.6 * skill_.shotRange))
       return {Aim::Kind::shot, corner.value_or(m.otherGoal())};
     const bool isAtHome = lengthOf(m.ownGoal() - ball) < 0.6 * m.ground.halfLength;
-    if (isLate || (isPressed && isAtHome)) return {Aim::Kind::clearance, clearance(m)};
+    if (isLate || (isPressed && isAtHome)) return {Aim::Kind::clearance, clearance(m, behind())};
     return {Aim::Kind::carry, m.otherGoal()};
   }
-  /// Away with it: up the field on the side where the ball is, else straight on, else out to that
-  /// side; where there is room to come to the ball from.
-  FloorPoint clearance(const Moment& m) const {
-    const FloorPoint ball = m.view.ball->at;
-    const double side = ball.y < 0.0 ? -1.0 : 1.0;
-    const double ahead = m.forward * m.ground.halfLength;
-    const FloorPoint places[] = {
-        m.ground.within({ball.x + 0.6 * ahead, 0.6 * side * m.ground.halfWidth}, 0.8),
-        m.ground.within({ball.x + 0.6 * ahead, ball.y}, 0.8),
-        {ball.x + 0.3 * ahead, side * m.ground.halfWidth},
-        {ball.x + 0.6 * ahead, -side * 0.3 * m.ground.halfWidth}};
-    for (const FloorPoint& place : places)
-      if (hasRoomBehind(m, place)) return place;
-    return places[0];
-  }
-  FloorPoint behind(const FloorPoint& ball, const FloorPoint& target) const {
-    return ball - (skill_.ballAhead + kBehind) * unit(target - ball);
-  }
-  /// Whether it can come to the ball from the side away from a target.
-  bool hasRoomBehind(const Moment& m, const FloorPoint& target) const {
-    if (m.hands.canHold()) return true;  // from any side
-    const FloorPoint place = behind(m.view.ball->at, target);
-    const auto isFree = [&](const FloorPoint& at, double radius) {
-      return lengthOf(at - place) > m.view.radius + radius;
-    };
-    return std::all_of(m.view.others.begin(), m.view.others.end(),
-                       [&](const Other& one) { return isFree(one.at, one.radius); }) &&
-           std::all_of(m.ground.posts.begin(), m.ground.posts.end(),
-                       [&](const Disc& one) { return isFree(one.at, one.radius); });
-  }
-
   /// Comes to the ball from the side away from where it is to go.
   void fetch(const Moment& m) {
     const RollingBall& ball = *m.view.ball;
@@ -140,8 +111,8 @@ class Attack {
     const bool isContested = m.view.opponentTo(at) < kPressed;
     const double cone = m.hands.canHold() ? 2.2 : isContested ? 1.1 : away < 0.6 ? 0.5 : 0.3;
     if (off > cone) {
-      return go_.to(m, behind(at, aim_->target), angleOf(aim), m.chassis.limits().speed,
-                    {{ball.at, kBallRadius}});
+      return go_.to(m, placeBehind(at, aim_->target, behind()), angleOf(aim),
+                    m.chassis.limits().speed, {{ball.at, kBallRadius}});
     }
     const double error = wrapAngle(toBall - m.view.pose.theta);
     const double gap = std::max(away - skill_.ballAhead, 0.0);
