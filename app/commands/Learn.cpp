@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,7 +12,7 @@
 #include "Numbers.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
-#include "ortung/robot/RobotTables.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
 namespace ortung::app {
@@ -63,7 +62,12 @@ class Listener {
         progress_.update(number / 100.0);
       } else if (std::sscanf(heard.text.c_str(), "needs %lf headings for %199s", &number, what) ==
                  2) {
-        needs_.push_back(fmt::format("{} in {:g} headings", what, number));
+        needs.push_back(fmt::format("{} in {:g} headings", what, number));
+      } else if (std::sscanf(
+                     heard.text.c_str(),
+                     "wrote %zu bytes: %zu features, %zu x %zu cells, %zu open, %zu standable",
+                     &bytes, &features, &columns, &rows, &open, &standable) == 6) {
+        continue;
       } else if (std::sscanf(heard.text.c_str(), "leaves out %lf", &number) == 1) {
         note(fmt::format(
             "{}: {:.1f} m^2 that walls part from where the robot is are left out (--area)",
@@ -71,19 +75,21 @@ class Listener {
       }
     }
   }
-  const std::vector<std::string>& needs() const { return needs_; }
+
+  std::vector<std::string> needs;  ///< in how many headings each feature was learned
+  /// What was written.
+  std::size_t bytes = 0, features = 0, columns = 0, rows = 0, open = 0, standable = 0;
 
  private:
   static constexpr const char* kName = "ortung-learn";
   const LearnArguments& arguments_;
   SceneRun& run_;
   Progress progress_;
-  std::vector<std::string> needs_;
 };
 
-/// Lets the player learn until it ends. @returns in how many headings features were learned
-std::vector<std::string> letLearn(const LearnArguments& arguments,
-                                  const std::filesystem::path& out) {
+/// Lets the player learn until it ends, and says what came of it.
+void letLearn(const LearnArguments& arguments, const std::filesystem::path& out) {
+  const auto begin = std::chrono::steady_clock::now();
   Scene scene;
   scene.world = arguments.world;
   PluginFactory factory(PluginFactory::standardFolders());
@@ -95,47 +101,39 @@ std::vector<std::string> letLearn(const LearnArguments& arguments,
   players.onProblem = [&problem](const std::string& what) { problem = what; };
   SceneRun run(scene, simulation, factory, players);
   Listener listener(arguments, run);
-  run.addPlayer(wishOf(arguments, out), 0);
+  const std::string robot = run.addPlayer(wishOf(arguments, out), 0).config().name;
   while (problem.empty() && interruptSignal() == 0 && !run.players().isEmpty()) {
     run.step();
+    run.players().deliver();
     listener.listen();
   }
   if (!problem.empty()) throw std::runtime_error(problem);
-  return listener.needs();
-}
-
-std::size_t countOf(const std::vector<std::uint8_t>& mask) {
-  return static_cast<std::size_t>(
-      std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
+  checkInterrupt();
+  if (listener.needs.empty())
+    warn(arguments.robot.string() +
+         ": has no feature that localizes, so there was nothing to learn");
+  for (const std::string& need : listener.needs) fmt::print("  {}\n", need);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const SimWorld& world = run.simulation().world();
+  fmt::print(
+      "{}: {} features of {} in {} ({}), {} x {} cells of {:g} m, {} open, {} standable, "
+      "{:.1f} MB, {:.2f} s\n",
+      arguments.out.string(), listener.features, robot, world.name(), world.fingerprint(),
+      listener.columns, listener.rows, arguments.cell, listener.open, listener.standable,
+      static_cast<double>(listener.bytes) / 1e6, seconds);
 }
 
 }  // namespace
 
 int runLearn(const LearnArguments& arguments) {
-  const auto begin = std::chrono::steady_clock::now();
   checkHeadingStep(arguments.headingStepDeg);
   Outputs outputs(arguments.force);
   outputs.reads(arguments.world);
   outputs.reads(arguments.robot);
   outputs.writes("--out", arguments.out, OutputKind::kTables);
   readRobot(arguments.robot);
-  const std::vector<std::string> needs = letLearn(arguments, outputs.ready(arguments.out));
-  checkInterrupt();
-  const RobotTables tables(arguments.out);
-  const TableInfo& info = tables.info();
-  if (info.features.empty())
-    warn(arguments.robot.string() +
-         ": has no feature that localizes, so there was nothing to learn");
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  for (const std::string& need : needs) fmt::print("  {}\n", need);
-  fmt::print(
-      "{}: {} features of {} in {} ({}), {} x {} cells of {:g} m, {} open, {} standable, "
-      "{:.1f} MB, {:.2f} s\n",
-      arguments.out.string(), info.features.size(), info.robot, info.world, info.worldFingerprint,
-      info.region.grid.columns, info.region.grid.rows, info.region.grid.cell,
-      countOf(info.region.open), countOf(info.region.standable),
-      static_cast<double>(std::filesystem::file_size(arguments.out)) / 1e6, seconds);
+  letLearn(arguments, outputs.ready(arguments.out));
   return 0;
 }
 

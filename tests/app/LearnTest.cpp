@@ -33,10 +33,9 @@ TEST_F(Learn, IsAPlayerAndDoesNotDependOnThreads) {
   learn("two.ortung", "2");
   EXPECT_EQ(read("one.ortung"), read("two.ortung"));
   // It learns in any simulation, ends by itself, and does not see who drives about meanwhile.
-  const Outcome sim =
-      ortung({"sim", path("hall.toml"), "--player",
-              "learner:robot=" + path("robot.toml") + "&out=" + path("sim.ortung"), "--robot",
-              path("robot.toml"), "--duration", "5", "--free-run", "--player-budget-ms", "0"});
+  const Outcome sim = ortung({"sim", path("hall.toml"), "--player",
+                              "learner:robot=" + path("robot.toml") + "&out=" + path("sim.ortung"),
+                              "--robot", path("robot.toml"), "--duration", "60", "--free-run"});
   EXPECT_EQ(sim.exitCode, 0) << sim.err;
   EXPECT_EQ(read("sim.ortung"), read("one.ortung"));
 }

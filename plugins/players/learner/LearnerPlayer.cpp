@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
+#include <exception>
 #include <list>
+#include <mutex>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "ortung/base/Angles.hpp"
@@ -80,18 +86,54 @@ class LearnerPlayer : public Player {
       seat.say("needs " + std::to_string(need.headings) + " headings for " + toText(need.feature));
   }
 
+  /// A thread of its own learns meanwhile, so that neither the others nor the clock wait for it,
+  /// and a sensor that hangs is seen as what it is.
   bool senseAndAct(PlayerSeat& seat) override {
-    const bool goesOn = learner_->step();
-    tell(seat);
-    if (goesOn) {
-      show(seat);
+    if (!work_.joinable())
+      work_ = std::jthread([this](const std::stop_token& stop) { learn(stop); });
+    constexpr std::chrono::milliseconds kPatience{5};
+    State state;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait_for(lock, kPatience, [&] { return state_.isOver; });
+      state = state_;
+    }
+    if (state.failure) std::rethrow_exception(state.failure);
+    tell(seat, state.share);
+    if (!state.isOver) {
+      show(seat, state.pose);
       return true;
     }
-    save();
+    save(seat);
     return false;
   }
 
  private:
+  /// How far the thread is.
+  struct State {
+    double share = 0.0;
+    Pose2 pose;
+    bool isOver = false;
+    std::exception_ptr failure;
+  };
+
+  void learn(const std::stop_token& stop) {
+    State state;
+    while (!stop.stop_requested() && !state.isOver) {
+      try {
+        state.isOver = !learner_->step();
+        state.share = learner_->share();
+        state.pose = learner_->pose();
+      } catch (...) {
+        state.failure = std::current_exception();
+        state.isOver = true;
+      }
+      const std::lock_guard lock(mutex_);
+      state_ = state;
+    }
+    changed_.notify_all();
+  }
+
   FieldRegion region(PlayerSeat& seat) const {
     const RobotSize size = sizeOf(robot_);
     if (settings_.area == "all") {
@@ -111,8 +153,8 @@ class LearnerPlayer : public Player {
   }
 
   /// How far it is, for whoever listens.
-  void tell(PlayerSeat& seat) {
-    const auto part = static_cast<int>(1000.0 * learner_->share());
+  void tell(PlayerSeat& seat, double share) {
+    const auto part = static_cast<int>(1000.0 * share);
     if (part == told_) return;
     told_ = part;
     char text[32];
@@ -121,15 +163,15 @@ class LearnerPlayer : public Player {
   }
 
   /// Its robot stands where it learns, if there is room.
-  void show(PlayerSeat& seat) const {
+  static void show(PlayerSeat& seat, const Pose2& pose) {
     try {
-      seat.stage()->placeRobot(seat.name(), learner_->pose());
+      seat.stage()->placeRobot(seat.name(), pose);
     } catch (const std::invalid_argument&) {
       // A sensor is where its robot can't be.
     }
   }
 
-  void save() {
+  void save(PlayerSeat& seat) {
     TableInfo info;
     info.world = world_->name();
     info.worldFingerprint = world_->fingerprint();
@@ -138,7 +180,15 @@ class LearnerPlayer : public Player {
     info.region = region_;
     info.field = fieldModelOf(*world_);
     info.robotToml = readTomlText(robot_.about.where());
-    writeTables(settings_.out, containers_.front(), info);
+    const std::uintmax_t bytes = writeTables(settings_.out, containers_.front(), info);
+    const auto count = [](const std::vector<std::uint8_t>& mask) {
+      return std::to_string(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
+    };
+    seat.say("wrote " + std::to_string(bytes) +
+             " bytes: " + std::to_string(learner_->needs().size()) + " features, " +
+             std::to_string(region_.grid.columns) + " x " + std::to_string(region_.grid.rows) +
+             " cells, " + count(region_.open) + " open, " + count(region_.standable) +
+             " standable");
   }
 
   Settings settings_;
@@ -150,6 +200,10 @@ class LearnerPlayer : public Player {
   std::vector<std::vector<Device>> devices_;
   std::unique_ptr<Learner> learner_;
   int told_ = -1;
+  std::mutex mutex_;  ///< of the state
+  std::condition_variable changed_;
+  State state_;
+  std::jthread work_;  ///< last: it uses the others
 };
 
 struct LearnerHelp : PlayerHelp {
