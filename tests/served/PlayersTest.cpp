@@ -1,6 +1,8 @@
 // Players of a served world: clients start, list and stop them, and see their robots come and go.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
@@ -77,6 +79,22 @@ TEST(ServedPlayers, ThatCantBeSayWhy) {
   TestClient other(board.port());
   other.ask("HELLO ortung/1 name=bert role=player");
   EXPECT_TRUE(other.ask("PLAY wander robot=pioneer.toml").starts_with("ERR role"));
+}
+
+TEST(ServedPlayers, SayWhatTheyCanDo) {
+  ServedSimulation world(kField, {.noise = false});
+  const RunningBoard board(world, withPlayers(world));
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1 name=anna");
+  const std::string reply = client.ask("DESCRIBE players");
+  std::set<std::string> lines;
+  for (int left = std::stoi(valueOf(reply, "lines")); left > 0; --left) lines.insert(client.line());
+  EXPECT_TRUE(lines.contains("player goalkeeper keeps a goal by one of six policies"));
+  EXPECT_TRUE(
+      lines.contains("option goalkeeper speed_m_s unit=m/s how fast it drives at most; "
+                     "default: 1.5"));
+  EXPECT_TRUE(lines.contains("option learner out unit=file the table file; must be given"));
+  EXPECT_EQ(client.ask("DESCRIBE player"), "ERR syntax DESCRIBE knows world, robot and players");
 }
 
 TEST(ServedPlayers, AReferee) {

@@ -75,7 +75,7 @@ std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
                  }};
   commands[2] = {"PLAYERS", "who plays", false, [&simulation](const BoardCommand::Call&) {
                    BoardCommand::Reply reply;
-                   for (const PlayerControl::Seated& one : simulation.players())
+                   for (const PlayerControl::Seated& one : simulation.seated())
                      reply.lines.push_back("robot=" + one.robot + " player=" + one.plugin +
                                            (one.team.empty() ? "" : " team=" + one.team) +
                                            " since=" + std::to_string(one.since));

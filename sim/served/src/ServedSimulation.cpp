@@ -25,6 +25,25 @@ std::string value(const char* key, double number) {
   return std::string(" ").append(key).append("=").append(digits, end.ptr);
 }
 
+/// "player NAME WHAT", and for each of its options "option NAME KEY [unit=U] TEXT; default: D".
+std::vector<std::string> helpOfPlayers(PluginFactory& factory) {
+  std::set<std::string> names;
+  for (const PluginFactory::Found& library : factory.list())
+    for (const PluginFactory::Found::Entry& entry : library.entries)
+      if (entry.interface == Player::kInterface) names.insert(entry.name);
+  std::vector<std::string> lines;
+  for (const std::string& name : names) {
+    const auto help = factory.makeIfThere<PlayerHelp>(name, Parameters());
+    lines.push_back("player " + name + (help ? " " + help->what() : ""));
+    if (!help) continue;
+    for (const PlayerOption& option : help->options())
+      lines.push_back("option " + name + " " + option.key +
+                      (option.unit.empty() ? "" : " unit=" + option.unit) + " " + option.meaning +
+                      (option.fallback.empty() ? "" : "; default: " + option.fallback));
+  }
+  return lines;
+}
+
 }  // namespace
 
 struct ServedSimulation::Guest {
@@ -46,6 +65,7 @@ ServedSimulation::ServedSimulation(Scene scene, const Simulation::Config& config
       playerConfig_(players),
       factory_(PluginFactory::standardFolders()),
       plugins_(robotPlugins(factory_, kInterfaces)),
+      playersHelp_(helpOfPlayers(factory_)),
       run_(std::make_unique<SceneRun>(scene_, config_, factory_, playerConfig_)),
       entered_(run_->entrants()) {
   nameObjects();

@@ -156,6 +156,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void list(Request& request);
   void describe(Request& request);
   void describeWorld(const std::string& tag);
+  void describePlayers(const std::string& tag);
   void say(Request& request);
   void tellTeam(Request& request);
   void hearTeam(Request& request);

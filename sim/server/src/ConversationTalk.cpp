@@ -182,13 +182,16 @@ void Conversation::list(Request& request) {
 }
 
 void Conversation::describe(Request& request) {
-  const std::string what = request.takeWord("world or robot");
-  if (what == "world") {
+  const std::string what = request.takeWord("world, robot or players");
+  if (what == "world" || what == "players") {
     request.refuseRest();
-    describeWorld(request.tag());
+    if (what == "world")
+      describeWorld(request.tag());
+    else
+      describePlayers(request.tag());
     return;
   }
-  if (what != "robot") throw ServeError("syntax", "DESCRIBE knows world and robot");
+  if (what != "robot") throw ServeError("syntax", "DESCRIBE knows world, robot and players");
   const RobotId robot = takeRobot(request);
   request.refuseRest();
   auto lines = std::make_shared<std::string>();
@@ -229,6 +232,16 @@ void Conversation::describeWorld(const std::string& tag) {
   answer(tag, [tag, lines, count](Conversation& self) {
     self.reply(tag, "OK DESCRIBE lines=" + std::to_string(count), lines);
   });
+}
+
+void Conversation::describePlayers(const std::string& tag) {
+  std::string lines;
+  std::size_t count = 0;
+  for (const std::string& line : host_.players)
+    addLine(lines, count, printable(line, kLongestHelp));
+  const std::string head =
+      count == 0 ? "OK DESCRIBE" : "OK DESCRIBE lines=" + std::to_string(count);
+  answer(tag, [tag, lines, head](Conversation& self) { self.reply(tag, head, lines); });
 }
 
 void Conversation::say(Request& request) {

@@ -19,6 +19,7 @@ Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worl
     : config(boardConfig),
       description(world.describe()),
       plugins(world.plugins()),
+      players(world.players()),
       liveRobot(liveRobotOf(world)),
       keeper(worldKeeper),
       door(config),

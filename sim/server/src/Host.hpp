@@ -62,6 +62,7 @@ class Host {
   const BoardConfig config;
   const WorldDescription description;
   const std::vector<std::string> plugins;
+  const std::vector<std::string> players;  ///< as DESCRIBE gives them
   const RobotId liveRobot;  ///< the robot of a live world; 0: it is not live
   WorldKeeper& keeper;
   Doorkeeper door;

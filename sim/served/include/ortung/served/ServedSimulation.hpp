@@ -28,6 +28,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
 
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return plugins_; }
+  std::vector<std::string> players() const override { return playersHelp_; }
   Timestamp now() const override;
   void step() override;
   std::vector<Resident> residents() const override;
@@ -64,7 +65,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   const std::deque<Event>& events() const { return events_; }
   /// The number of the event that comes next.
   std::uint64_t eventsSoFar() const { return eventsSoFar_; }
-  std::vector<PlayerControl::Seated> players() const { return run_->players().players(); }
+  std::vector<PlayerControl::Seated> seated() const { return run_->players().players(); }
 
  private:
   struct Guest;
@@ -88,6 +89,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   PlayerControl::Config playerConfig_;
   PluginFactory factory_;
   std::vector<std::string> plugins_;
+  std::vector<std::string> playersHelp_;
   std::vector<ServedObject> objects_;  ///< in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
   bool isMovePending_ = false;      ///< all have sensed, nothing has moved yet

@@ -102,6 +102,9 @@ class ORTUNG_API ServedWorld {
   virtual WorldDescription describe() const = 0;
   /// Names of the plugins that clients may use in the configurations of robots.
   virtual std::vector<std::string> plugins() const = 0;
+  /// Players that may be started here, a line each, and behind it one for each of their options
+  /// (docs/protocol.md).
+  virtual std::vector<std::string> players() const { return {}; }
   /// Stamp of the readings that the next step gives; if it is live, the time of its clock.
   virtual Timestamp now() const = 0;
   /// How long the board waits between two steps of a world whose time goes on whatever the board
