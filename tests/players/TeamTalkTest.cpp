@@ -160,5 +160,61 @@ TEST(TeamTalk, APlayerHearsTheSameAtTheSameTimeInsideAndOutside) {
   EXPECT_EQ(inside, outside);
 }
 
+/// Notes where its mates see it.
+class Seen : public Player {
+ public:
+  explicit Seen(std::vector<std::string>& notes) : notes_(notes) {}
+  bool senseAndAct(PlayerSeat& seat) override {
+    const SensorContainer::ReadLock lock = seat.container().read();
+    const SensorData* position = seat.container().find({.feature = "position"});
+    if (position->sequence() > 0 && position->stamp() > last_) {
+      last_ = position->stamp();
+      std::string note = std::to_string(seat.now()) + " " + std::to_string(last_);
+      for (const std::uint32_t word : position->getData()) note += " " + std::to_string(word);
+      notes_.push_back(note);
+    }
+    return seat.now() < fromSeconds(3.0);
+  }
+
+ private:
+  std::vector<std::string>& notes_;
+  Timestamp last_ = 0;
+};
+
+TEST(TeamTalk, IsAReadingInsideAndOutsideAlike) {
+  const std::string blind = ORTUNG_SOURCE_DIR "/maps/robots/pioneer_blind.toml";
+  const std::string lookout = "lookout:of=anna&start=-3,2,0@blue";
+  constexpr Pose2 kStart{0.5, -1.5, 0.0};
+  PluginFactory factory({ORTUNG_PLUGINS_DIR});
+  PlayerWish wish;
+  wish.plugin = "seen";
+  wish.team = "blue";
+  std::vector<std::string> inside;
+  {
+    SceneRun run(Scene::open(kWorld), {}, factory);
+    run.addPlayer(parsePlayer(lookout), 0);
+    RobotConfig robot = readRobot(blind);
+    robot.name = "anna";
+    run.players().own(run.addRobot(robot, factory, kStart, 1), std::make_unique<Seen>(inside), wish,
+                      Random(1));
+    while (run.players().players().size() == 2) run.step();
+  }
+  std::vector<std::string> outside;
+  ServedSimulation world(kWorld, {});
+  world.startPlayer(parsePlayer(lookout));
+  const RunningBoard board(world, lockstepConfig());
+  RemotePlayConfig config;
+  config.session.port = board.port();
+  config.session.name = "anna";
+  config.session.start = kStart;
+  config.plugin = wish.plugin;
+  config.team = wish.team;
+  config.robot = blind;
+  config.isLockstep = true;
+  RemotePlay(std::make_unique<Seen>(outside), config).run();
+  EXPECT_GE(inside.size(), 20u);  // 0.1 s apart
+  EXPECT_EQ(inside, outside);
+}
+
 }  // namespace
 }  // namespace ortung::test

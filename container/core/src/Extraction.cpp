@@ -142,14 +142,19 @@ bool Extraction::take(Step& step, Timestamp& stamp) {
   return true;
 }
 
-/// Whether somebody else made all of it of the same inputs, and sent or recorded it: who serves a
-/// robot may know more of the field.
+/// Whether somebody else made it of the same inputs, and sent or recorded it: who serves a robot
+/// may know more of the field, and what was said before.
+bool Extraction::Step::cameByMessage(std::size_t output, Timestamp stamp) const {
+  const SensorData& data = *outputs[output];
+  return makes(&data) && data.sequence() != made[output] && data.stamp() == stamp;
+}
+
+/// The same of all.
 bool Extraction::Step::cameByMessage(Timestamp stamp) const {
   bool any = false;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const SensorData& output = *outputs[i];
-    if (!makes(&output)) continue;
-    if (output.sequence() == made[i] || output.stamp() != stamp) return false;
+    if (!makes(outputs[i])) continue;
+    if (!cameByMessage(i, stamp)) return false;
     any = true;
   }
   return any;
@@ -157,7 +162,7 @@ bool Extraction::Step::cameByMessage(Timestamp stamp) const {
 
 void Extraction::put(Step& step, Timestamp stamp) {
   for (std::size_t i = 0; i < step.outputs.size(); ++i) {
-    if (!step.words[i]) continue;
+    if (!step.words[i] || step.cameByMessage(i, stamp)) continue;
     (*step.guard)("extract", [&] { step.outputs[i]->setData(stamp, *step.words[i]); });
     step.made[i] = step.outputs[i]->sequence();
   }

@@ -37,6 +37,7 @@ class Extraction {
  private:
   struct Step {
     bool makes(const SensorData* data) const;
+    bool cameByMessage(std::size_t output, Timestamp stamp) const;
     bool cameByMessage(Timestamp stamp) const;
     std::string name;
     std::unique_ptr<Extractor> extractor;

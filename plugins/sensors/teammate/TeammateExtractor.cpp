@@ -29,7 +29,6 @@ void TeammateExtractor::take(std::span<const SensorData* const> inputs) {
   if (talk->stamp() < now_) {  // time has begun anew
     robots_.clear();
     balls_.clear();
-    used_.clear();
   }
   now_ = talk->stamp();
 }
@@ -60,19 +59,8 @@ PlacesData::Reading TeammateExtractor::recall(Memory& memory) const {
   return reading;
 }
 
-std::optional<TeammateExtractor::Words> TeammateExtractor::position(const Sightings& sightings) {
-  std::vector<PoseFixData::Fix> fixes;
-  std::erase_if(used_, [&](const auto& entry) {
-    return now_ - entry.second >= fromSeconds(settings_.spacing);
-  });
-  for (const auto& [mate, fix] : sightings)
-    if (used_.size() < kMostMates && used_.emplace(mate, now_).second) fixes.push_back(fix);
-  if (fixes.empty()) return std::nullopt;
-  return PoseFixData::encode(fused(fixes, settings_.fix));
-}
-
 void TeammateExtractor::extract(const FieldModel&, std::span<std::optional<Words>> words) {
-  Sightings sightings;
+  std::map<std::string, PoseFixData::Fix> sightings;  ///< of this robot, by who saw it
   bool isOfRobots = false;
   bool isOfBalls = false;
   for (const TalkData::Message& message : talk_.messages) {
@@ -90,7 +78,9 @@ void TeammateExtractor::extract(const FieldModel&, std::span<std::optional<Words
       isOfRobots = true;
     }
   }
-  words[kPosition] = position(sightings);
+  std::vector<PoseFixData::Fix> fixes;
+  for (const auto& [mate, fix] : sightings) fixes.push_back(fix);
+  if (!fixes.empty()) words[kPosition] = PoseFixData::encode(fused(fixes, settings_.fix));
   if (isOfRobots) words[kRobots] = PlacesData::encode(recall(robots_));
   if (isOfBalls) words[kBalls] = PlacesData::encode(recall(balls_));
 }

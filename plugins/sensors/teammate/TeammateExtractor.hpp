@@ -35,16 +35,12 @@ class TeammateExtractor : public Extractor {
 
   void remember(Memory& memory, Known known, const std::string& source);
   PlacesData::Reading recall(Memory& memory) const;
-  /// Where mates saw this robot, who have not said so just now already; by name.
-  using Sightings = std::map<std::string, PoseFixData::Fix>;
-  std::optional<Words> position(const Sightings& sightings);
 
   TeammateSettings settings_;
   TalkData::Reading talk_;
   Timestamp now_ = 0;
   Memory robots_;
   Memory balls_;
-  std::map<std::string, Timestamp> used_;  ///< when a mate's fix was taken last
 };
 
 }  // namespace ortung

@@ -11,8 +11,7 @@ struct TeammateSettings {
 
   SensorId id;  ///< its feature is not used
   PoseFixData::Config fix;
-  double spacing = 0.2;  ///< between two fixes of the same mate, whose errors are alike [s]
-  double keep = 2.0;     ///< what was said is known for so long [s]
+  double keep = 2.0;  ///< what was said is known for so long [s]
 };
 
 /// Reads all settings of both halves. @throws ConfigError
@@ -25,7 +24,6 @@ inline TeammateSettings readTeammateSettings(const Parameters& p) {
   s.fix.addedHeadingSigma = radians(p.numberOr("sigma_deg", 2.0, {1e-3, 180.0}));
   s.fix.model.outliers = p.numberOr("outliers", 0.05, {1e-6, 1.0 - 1e-6});
   s.fix.model.exponent = p.numberOr("exponent", 1.0, {1e-3, 1.0});
-  s.spacing = p.numberOr("spacing_s", s.spacing, {0.0, 3600.0});
   s.keep = p.numberOr("keep_s", s.keep, {0.0, 3600.0});
   return s;
 }
