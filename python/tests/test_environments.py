@@ -19,6 +19,15 @@ class Rules(unittest.TestCase):
             with self.subTest(name):
                 rules.check_env(lambda: ortung.make(name))
 
+    def test_gymnasiums_own_checker(self):
+        try:
+            from gymnasium.utils.env_checker import check_env
+        except ImportError:
+            self.skipTest("gymnasium is not there")
+        for name in SINGLE:
+            with self.subTest(name):
+                check_env(ortung.make(name))
+
     def test_vectors(self):
         for mode, text in (("NEXT_STEP", "NextStep"), ("SAME_STEP", "SameStep"),
                            ("DISABLED", "Disabled")):
