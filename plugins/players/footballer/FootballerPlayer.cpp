@@ -15,6 +15,7 @@
 #include "Unjam.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/formats/PlacesData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/mcl_player/SelfLocalization.hpp"
 
@@ -140,6 +141,18 @@ class FootballerPlayer : public Player {
     if (view.now < nextWord_) return;
     nextWord_ = view.now + kPeriod;
     seat.say(Word{cost, view.place(), eyes_->ownBall()}.text());
+    // The same for mates that read it like a sensor (plugin `teammate`).
+    constexpr double kOwn = 0.05;   // sigma of where it is [m], [rad], about
+    constexpr double kBall = 0.15;  // and of where the ball is [m]
+    seat.say(toText(Place{Place::Kind::robot, seat.name(), fixOf(view.pose, kOwn, kOwn)}));
+    if (const auto& ball = eyes_->ownBall())
+      seat.say(toText(Place{Place::Kind::ball, "ball",
+                            fixOf({ball->at.x, ball->at.y, 0.0}, kBall, Place::kNoHeading)}));
+  }
+
+  static PoseFixData::Fix fixOf(const Pose2& pose, double sigma, double headingSigma) {
+    const double s = sigma * sigma;
+    return {pose, {s, 0.0, 0.0, 0.0, s, 0.0, 0.0, 0.0, headingSigma * headingSigma}};
   }
 
   void play(PlayerSeat& seat, const Moment& m, const FloorPoint& ball, double cost) {

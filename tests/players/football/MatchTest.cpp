@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "ortung/formats/PlacesData.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/RunDigest.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
@@ -57,6 +59,26 @@ TEST(FootballMatch, OfFourAgainstFourHasGoalsAndGoesOn) {
   EXPECT_EQ(match.count["set-piece-over"], 0) << match.log;
   EXPECT_LE(match.count["ball-stuck"], 2) << match.log;
   EXPECT_TRUE(match.isWithin);
+}
+
+TEST(FootballMatch, TellsARobotOfTheTeamWhereTheOthersAre) {
+  Match match("f2000_match.toml", 1, 0.1);
+  SceneRun& run = match.run;
+  RobotConfig listener = readRobot(ORTUNG_SOURCE_DIR "/maps/robots/pioneer_blind.toml");
+  SimRobot& robot = run.addRobot(listener, match.factory, Pose2{-5.0, 3.5, 0.0}, 100);
+  run.players().setTeam(robot.config().name, "blue");
+  for (int i = 0; i < 1000; ++i) run.step();
+  const auto robots = robot.container().get<PlacesData>({.feature = "robots"});
+  ASSERT_TRUE(robots);
+  EXPECT_EQ(robots->size(), 3u) << "the keeper says nothing";
+  for (const PlacesData::Told& told : *robots) {
+    const auto place = run.find(told.place.name);
+    ASSERT_TRUE(place) << told.place.name;
+    const Pose2& truth = run.simulation().robots()[*place]->state().pose;
+    EXPECT_LT(distance(told.place.fix.pose, truth), 0.5) << "a tenth of a second ago";
+    EXPECT_TRUE(told.place.name.starts_with("blue")) << told.place.name;
+  }
+  EXPECT_TRUE(robot.container().get<PlacesData>({.feature = "balls"}));
 }
 
 TEST(FootballMatch, OfFiveAgainstFiveTakesAllRestarts) {
