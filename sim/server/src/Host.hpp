@@ -63,7 +63,7 @@ class Host {
   const WorldDescription description;
   const std::vector<std::string> plugins;
   const std::vector<std::string> players;  ///< as DESCRIBE gives them
-  const RobotId liveRobot;  ///< the robot of a live world; 0: it is not live
+  const RobotId liveRobot;                 ///< the robot of a live world; 0: it is not live
   WorldKeeper& keeper;
   Doorkeeper door;
   TalkBudget talk;  ///< of all clients together
