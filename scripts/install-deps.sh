@@ -13,6 +13,8 @@ packages=(
   libmrpt-obs-dev libmrpt-maps-dev
   # the program: command line, messages, charts of the report
   libcli11-dev libspdlog-dev libfmt-dev libstb-dev libjs-dygraphs
+  # images: features, calibration, cameras
+  libopencv-dev libopencv-contrib-dev
   # pictures of scenes, and the test that looks at them
   python3-pil
   # the Python package

@@ -47,7 +47,7 @@ deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
 
 # Rooms of the container in the order of their dependencies: each sees those before it alone. Private
 # headers are included by their names.
-later='base tables core formats motion robot'
+later='base tables core formats motion camera robot'
 for room in $later; do
   later=${later#"$room"}
   later=${later# }

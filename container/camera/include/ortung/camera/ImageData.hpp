@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/camera/CameraView.hpp"
+#include "ortung/core/SensorData.hpp"
+
+namespace ortung {
+
+/// How a pixel is kept.
+enum class PixelFormat : std::uint32_t {
+  kGrey = 1,  ///< a byte
+  kRgb = 3,   ///< three bytes: red, green, blue
+};
+
+/// A picture whose pixels belong to somebody else.
+struct ImageView {
+  ImageSize size;
+  PixelFormat format = PixelFormat::kRgb;
+  const std::uint8_t* pixels = nullptr;  ///< row by row from the top, without gaps
+
+  int channels() const { return static_cast<int>(format); }
+  std::size_t bytes() const {
+    return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) *
+           static_cast<std::size_t>(channels());
+  }
+};
+
+/// Pictures of a camera, with its calibration. Words: width, height, bytes a pixel (1 grey, 3 red,
+/// green, blue), then the pixels row by row, four bytes a word, the first the lowest; the last word
+/// is filled with 0. So on most machines the words hold the picture as it lies in memory.
+/// It says nothing about the pose: extractors make features of it that do. Not thread-safe, see
+/// SensorData.
+class ORTUNG_API ImageData : public SensorData {
+ public:
+  static constexpr std::size_t kHeaderWords = 3;
+  static constexpr int kMostSide = 4096;  ///< [px]
+  using Reading = ImageView;
+
+  /// @param camera nothing: it is not calibrated, and any size is taken; else pictures of its size
+  ImageData(SensorId id, const Pose2& mount, std::optional<CameraView> camera = {});
+  ~ImageData() override;
+
+  /// Of the newest words; pixels live as long as those.
+  ImageView reading() const;
+  const std::optional<CameraView>& camera() const { return camera_; }
+
+  /// Words for a picture with room for its pixels, which pixelsOf() gives to be written.
+  static void start(ImageSize size, PixelFormat format, std::vector<std::uint32_t>& words);
+  static std::span<std::uint8_t> pixelsOf(std::vector<std::uint32_t>& words);
+  static std::vector<std::uint32_t> encode(const ImageView& image);
+
+  std::string wordsHelp() const override;
+
+ private:
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+
+  std::optional<CameraView> camera_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "Cameras.hpp"
+#include "ortung/base/Random.hpp"
+#include "ortung/camera/CameraModel.hpp"
+
+namespace ortung {
+namespace {
+
+/// A table that holds what a mirror sees whose floor points lie at 0.01 m a pixel and grow.
+std::string tableToml() {
+  std::string floor;
+  for (int row = 0; row < 17; ++row)
+    for (int column = 0; column < 21; ++column) {
+      const double x = -(row - 8) * 0.3;
+      const double y = -(column - 10) * 0.24;
+      const double grow = 1.0 + 0.08 * std::hypot(x, y);
+      floor +=
+          (floor.empty() ? "" : ", ") + std::to_string(x * grow) + ", " + std::to_string(y * grow);
+    }
+  return "model = \"table\"\nsize_px = [401, 321]\nheight_m = 0.8\ngrid = [21, 17]\nfloor_m = [" +
+         floor + "]\n";
+}
+
+class RoundTrip : public testing::TestWithParam<std::string> {};
+
+TEST_P(RoundTrip, UnprojectedPixelsProjectToThemselves) {
+  const auto camera = cameraOf(GetParam());
+  Random random(4);
+  int seen = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Pixel pixel{random.uniform() * (camera->size().width - 1),
+                      random.uniform() * (camera->size().height - 1)};
+    const auto ray = camera->unproject(pixel);
+    if (!ray) continue;
+    EXPECT_NEAR(std::hypot(ray->x, ray->y, ray->z), 1.0, 1e-12);
+    const auto back = camera->project({3.0 * ray->x, 3.0 * ray->y, 3.0 * ray->z});
+    ASSERT_TRUE(back) << pixel.u << " " << pixel.v;
+    EXPECT_NEAR(back->u, pixel.u, 1e-6);
+    EXPECT_NEAR(back->v, pixel.v, 1e-6);
+    ++seen;
+  }
+  EXPECT_GT(seen, 6000);
+}
+
+TEST_P(RoundTrip, ItsTextMakesItAgain) {
+  const auto camera = cameraOf(GetParam());
+  const auto again = cameraOf(camera->toml());
+  EXPECT_EQ(again->toml(), camera->toml());
+  const auto a = camera->unproject({100.25, 200.5});
+  const auto b = again->unproject({100.25, 200.5});
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->x, b->x);
+  EXPECT_EQ(a->y, b->y);
+  EXPECT_EQ(a->z, b->z);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, RoundTrip,
+                         testing::Values(kPerspective, kFisheye, kUnified, kOcam, kIsometric,
+                                         tableToml(),
+                                         "model = \"unified\"\nsize_px = [400, 400]\nxi = 1.4\n"
+                                         "focal_px = [300.0, 300.0]\n"),
+                         [](const auto& test) { return "m" + std::to_string(test.index); });
+
+TEST(CameraModel, MirrorsExchangeLeftAndRight) {
+  const auto plain = cameraOf(kFisheye);
+  const auto mirrored = cameraOf(std::string(kFisheye) + "mirrored = true\n");
+  const auto a = plain->project({0.3, 0.2, 1.0});
+  const auto b = mirrored->project({-0.3, 0.2, 1.0});
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->u, b->u);
+  EXPECT_EQ(a->v, b->v);
+}
+
+TEST(CameraModel, SeesNothingWithinItsMask) {
+  const auto camera = cameraOf(std::string(kIsometric) + "inner_px = 30.0\nouter_px = 200.0\n");
+  EXPECT_FALSE(camera->unproject({239.5 + 29.0, 239.5}));
+  EXPECT_TRUE(camera->unproject({239.5 + 31.0, 239.5}));
+  EXPECT_FALSE(camera->unproject({239.5, 239.5 + 201.0}));
+  EXPECT_FALSE(camera->project({0.001, 0.0, 1.0}));
+}
+
+TEST(CameraModel, TheIsometricMirrorShowsTheFloorToScale) {
+  const auto camera = cameraOf(kIsometric);
+  for (const double x : {-5.0, -1.0, 0.0, 2.5})
+    for (const double y : {-4.0, 0.5, 5.5}) {
+      const auto pixel = camera->project({x, y, 0.7});
+      ASSERT_TRUE(pixel);
+      EXPECT_NEAR(pixel->u, 239.5 + 40.0 * x, 1e-9);
+      EXPECT_NEAR(pixel->v, 239.5 + 40.0 * y, 1e-9);
+    }
+}
+
+TEST(CameraModel, ATableShowsItsFloorPointsAtItsPixels) {
+  const auto camera = cameraOf(tableToml());
+  // Column 15, row 4 of the grid: 20 pixels a step. x = 1.2, y = -1.2, both grown.
+  const double grow = 1.0 + 0.08 * std::hypot(1.2, 1.2);
+  const auto pixel = camera->project({1.2 * grow, -1.2 * grow, 0.8});
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(pixel->u, 300.0, 1e-3);  // the text has six digits
+  EXPECT_NEAR(pixel->v, 80.0, 1e-3);
+}
+
+TEST(CameraModel, DoesNotLookBehindItself) {
+  EXPECT_FALSE(cameraOf(kPerspective)->project({0.0, 0.0, -1.0}));
+  EXPECT_FALSE(cameraOf(kPerspective)->project({1.0, 0.0, 0.0}));
+  EXPECT_FALSE(cameraOf(kIsometric)->project({1.0, 0.0, -0.1}));
+  EXPECT_FALSE(cameraOf(kUnified)->project({0.01, 0.0, -1.0}));
+  EXPECT_FALSE(cameraOf(kFisheye)->project({0.0, 0.0, 0.0}));
+  EXPECT_FALSE(cameraOf(kFisheye)->project({NAN, 0.0, 1.0}));
+  EXPECT_FALSE(cameraOf(kFisheye)->unproject({INFINITY, 0.0}));
+}
+
+TEST(CameraModel, RefusesSettingsThatMakeNoCamera) {
+  const auto refusal = [](const std::string& toml) -> std::string {
+    try {
+      cameraOf(toml);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_NE(refusal("size_px = [640, 480]\n").find("focal_px"), std::string::npos);
+  EXPECT_NE(refusal("model = \"pinhole\"\nsize_px = [640, 480]\n").find("fisheye"),
+            std::string::npos);
+  EXPECT_NE(refusal("size_px = [640.5, 480]\nfocal_px = [1, 1]\n").find("whole"),
+            std::string::npos);
+  EXPECT_NE(refusal("size_px = [1e9, 480]\nfocal_px = [1, 1]\n").find("8192"), std::string::npos);
+  EXPECT_NE(refusal("model = \"ocam\"\nsize_px = [64, 48]\npolynomial = [-3.0]\n").find("positive"),
+            std::string::npos);
+  EXPECT_NE(refusal("model = \"table\"\nsize_px = [64, 48]\nheight_m = 1\ngrid = [2, 2]\n"
+                    "floor_m = [1, 1]\n")
+                .find("expected 8"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace ortung

@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include "Cameras.hpp"
+#include "ortung/camera/ImageData.hpp"
+
+namespace ortung {
+namespace {
+
+const SensorId kId{"cam", "camera", "image"};
+
+TEST(ImageData, KeepsPicturesAsTheyLieInMemory) {
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < 5 * 3 * 3; ++i) pixels.push_back(static_cast<std::uint8_t>(i * 7));
+  const auto words = ImageData::encode({{5, 3}, PixelFormat::kRgb, pixels.data()});
+  ASSERT_EQ(words.size(), 3U + 12U);
+  EXPECT_EQ(words[3], 0x150e0700U);  // 0, 7, 14, 21: the first byte is the lowest
+  ImageData data(kId, {});
+  EXPECT_EQ(data.reading().pixels, nullptr);
+  data.setData(100, words);
+  const ImageView view = data.reading();
+  EXPECT_EQ(view.size, (ImageSize{5, 3}));
+  EXPECT_EQ(view.bytes(), pixels.size());
+  EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), view.pixels));
+  EXPECT_FALSE(data.canWeigh());
+}
+
+TEST(ImageData, RefusesWordsThatAreNoPicture) {
+  ImageData data(kId, {});
+  const auto why = [&](std::vector<std::uint32_t> words) -> std::string {
+    try {
+      data.checkData(words);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(why({2, 2, 1, 0}), "taken");
+  EXPECT_NE(why({2, 2}).find("at least"), std::string::npos);
+  EXPECT_NE(why({0, 2, 1}).find("sides"), std::string::npos);
+  EXPECT_NE(why({4294967295U, 2, 1}).find("sides"), std::string::npos);
+  EXPECT_NE(why({2, 2, 4, 0, 0, 0, 0}).find("bytes a pixel"), std::string::npos);
+  EXPECT_NE(why({2, 2, 3, 0, 0}).find("expected 6"), std::string::npos);
+}
+
+TEST(ImageData, RefusesPicturesOfAnotherSizeThanItsCamera) {
+  ImageData data(kId, {}, CameraView(cameraOf(kPerspective), {.z = 0.5}));
+  EXPECT_THROW(data.checkData(std::vector<std::uint32_t>{2, 2, 1, 0}), std::invalid_argument);
+  std::vector<std::uint32_t> words;
+  ImageData::start({640, 480}, PixelFormat::kGrey, words);
+  EXPECT_NO_THROW(data.checkData(words));
+}
+
+TEST(ImageData, RoomForPixelsIsWrittenInPlace) {
+  std::vector<std::uint32_t> words;
+  ImageData::start({3, 1}, PixelFormat::kRgb, words);
+  const auto pixels = ImageData::pixelsOf(words);
+  ASSERT_EQ(pixels.size(), 9U);
+  pixels[8] = 200;
+  EXPECT_EQ(words[5], 200U);
+}
+
+}  // namespace
+}  // namespace ortung
