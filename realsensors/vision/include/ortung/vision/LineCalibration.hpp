@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/camera/CameraView.hpp"
+#include "ortung/vision/FieldLines.hpp"
+#include "ortung/vision/LineFinder.hpp"
+
+namespace ortung {
+
+/// What one picture tells of its camera.
+struct LinePicture {
+  std::vector<LinePoint> points;  ///< where lines are
+  double floorTop = 0.0;          ///< row at which the floor ends: a little below the horizon [px]
+};
+
+/// What is known of a camera before its pictures are looked at.
+struct LineCalibrationGuess {
+  double height = 0.7;        ///< above the floor [m]
+  double heightShare = 0.15;  ///< sigma of its logarithm
+  double rollSigma = 0.05;    ///< [rad]
+  double centreSigma = 0.02;  ///< of the principal point, as a share of the image's longer side
+  double pixelSigma = 1.0;    ///< of points [px]
+  /// Focal lengths to begin with, as shares of the image's longer side.
+  std::vector<double> focals = {0.3, 0.36, 0.43, 0.52, 0.65, 0.8};
+};
+
+/// How well one picture fits the field.
+struct LinePictureFit {
+  Pose2 pose;                 ///< of the camera's sensor frame, in the field frame
+  std::size_t points = 0;     ///< within 5 m of the camera
+  double median = 0.0;        ///< distance of those to the nearest line [m]
+  double matchedShare = 0.0;  ///< of all points: within 3 sigma of a line
+};
+
+struct LineCalibration {
+  CameraView view;
+  double cost = 0.0;  ///< mean of points, see LinePose
+  std::vector<LinePictureFit> pictures;
+};
+
+/// The camera, from the lines of pictures alone: focal length, radial distortion and principal
+/// point of a fisheye (Kannala-Brandt), height, tilt and roll, so that all pictures fit the field.
+/// Focal lengths and heights are tried one by one with a search of the whole field for each
+/// picture; the best are refined together with the pictures' poses.
+/// @param pictures of one camera that did not move on its robot; one with few points is used, too
+/// @param progress called with a share in [0, 1], and may throw to give up
+/// @return nothing if no picture has points
+ORTUNG_API std::optional<LineCalibration> calibrateByLines(
+    ImageSize size, std::span<const LinePicture> pictures, const LinePoseSearch& field,
+    const LineCalibrationGuess& guess, const std::function<void(double)>& progress = {});
+
+/// Row at which the floor ends in a picture: between what is floor and what is not, as the tenth
+/// highest of a hundred columns tells [px]; the image's middle if there is no floor.
+ORTUNG_API double floorTopOf(const ImageView& image, const ColourTable& colours);
+
+/// Sigma of the place on the floor that a pixel shows, across the direction in which it is worst,
+/// for an error of @p pixelSigma [px], and at least 0.02 m; nothing where it shows no floor.
+struct FloorSight {
+  double x = 0.0, y = 0.0;  ///< in the sensor's frame [m]
+  double sigma = 0.0;       ///< [m]
+};
+ORTUNG_API std::optional<FloorSight> floorSightOf(const CameraView& view, const Pixel& pixel,
+                                                  double pixelSigma);
+
+}  // namespace ortung

@@ -1,0 +1,148 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "ortung/base/Angles.hpp"
+#include "ortung/vision/FieldLines.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kMargin = 2.0;    ///< of the table beyond the lines [m]
+constexpr double kMostCost = 9.0;  ///< of one point
+
+}  // namespace
+
+LinePoseSearch::LinePoseSearch(const FieldLines& lines) : LinePoseSearch(lines, Config{}) {}
+
+LinePoseSearch::LinePoseSearch(const FieldLines& lines, const Config& config)
+    : lines_(lines), config_(config) {
+  xMin_ = lines.xMin() - kMargin;
+  yMin_ = lines.yMin() - kMargin;
+  columns_ = static_cast<int>(std::ceil((lines.xMax() + kMargin - xMin_) / config.cell)) + 1;
+  rows_ = static_cast<int>(std::ceil((lines.yMax() + kMargin - yMin_) / config.cell)) + 1;
+  distances_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column)
+      distances_.push_back(static_cast<float>(
+          lines.nearest(xMin_ + column * config.cell, yMin_ + row * config.cell).distance));
+}
+
+float LinePoseSearch::distanceAt(double x, double y) const {
+  const int column = static_cast<int>(std::lround((x - xMin_) / config_.cell));
+  const int row = static_cast<int>(std::lround((y - yMin_) / config_.cell));
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return 10.0F;
+  return distances_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(column)];
+}
+
+double LinePoseSearch::cost(std::span<const LinePlace> points, std::span<const double> sigmas,
+                            const Pose2& pose) const {
+  const double c = std::cos(pose.theta);
+  const double s = std::sin(pose.theta);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = pose.x + c * points[i].x - s * points[i].y;
+    const double y = pose.y + s * points[i].x + c * points[i].y;
+    const double r = lines_.nearest(x, y).distance / sigmas[i];
+    sum += std::min(r * r, kMostCost);
+  }
+  return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
+}
+
+std::vector<LinePose> LinePoseSearch::search(std::span<const LinePlace> points,
+                                             std::span<const double> sigmas,
+                                             std::size_t most) const {
+  std::vector<LinePlace> used;
+  std::vector<float> weights;  // 1 / sigma^2
+  const std::size_t count = std::min(points.size(), static_cast<std::size_t>(config_.usedPoints));
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = k * points.size() / count;
+    used.push_back(points[i]);
+    const double sigma = std::hypot(sigmas[i], config_.blur);
+    weights.push_back(static_cast<float>(1.0 / (sigma * sigma)));
+  }
+  if (used.empty()) return {};
+  std::vector<LinePose> found;
+  std::vector<LinePlace> turned(used.size());
+  const int turns = static_cast<int>(std::ceil(kTurn / config_.turn));
+  for (int t = 0; t < turns; ++t) {
+    const double theta = wrapAngle(t * kTurn / turns);
+    const double c = std::cos(theta);
+    const double s = std::sin(theta);
+    for (std::size_t i = 0; i < used.size(); ++i)
+      turned[i] = {c * used[i].x - s * used[i].y, s * used[i].x + c * used[i].y};
+    for (double y = lines_.yMin() - config_.beyond; y <= lines_.yMax() + config_.beyond;
+         y += config_.step)
+      for (double x = lines_.xMin() - config_.beyond; x <= lines_.xMax() + config_.beyond;
+           x += config_.step) {
+        float sum = 0.0F;
+        for (std::size_t i = 0; i < turned.size(); ++i) {
+          const float d = distanceAt(x + turned[i].x, y + turned[i].y);
+          sum += std::min(d * d * weights[i], static_cast<float>(kMostCost));
+        }
+        found.push_back({{x, y, theta}, sum / static_cast<double>(turned.size())});
+      }
+  }
+  const std::size_t tried = std::min<std::size_t>(found.size(), 20 * most);
+  const auto isBetter = [](const LinePose& a, const LinePose& b) { return a.cost < b.cost; };
+  std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(tried), found.end(),
+                    isBetter);
+  // One start for each hill, then the hills' tops, one for each place.
+  const auto isAt = [](const Pose2& a, const Pose2& b, double way, double turn) {
+    return distance(a, b) < way && std::abs(wrapAngle(a.theta - b.theta)) < turn;
+  };
+  std::vector<Pose2> starts;
+  for (std::size_t i = 0; i < tried && starts.size() < 3 * most; ++i)
+    if (std::none_of(starts.begin(), starts.end(),
+                     [&](const Pose2& p) { return isAt(p, found[i].pose, 0.7, 0.25); }))
+      starts.push_back(found[i].pose);
+  std::vector<LinePose> best;
+  for (const Pose2& start : starts) best.push_back(polish(points, sigmas, start));
+  std::sort(best.begin(), best.end(), isBetter);
+  std::vector<LinePose> out;
+  for (const LinePose& p : best)
+    if (out.size() < most && std::none_of(out.begin(), out.end(), [&](const LinePose& q) {
+          return isAt(p.pose, q.pose, 0.3, 0.1);
+        }))
+      out.push_back(p);
+  return out;
+}
+
+LinePose LinePoseSearch::polish(std::span<const LinePlace> points, std::span<const double> sigmas,
+                                const Pose2& start) const {
+  Pose2 pose = start;
+  for (int step = 0; step < 25; ++step) {
+    // Wide at first, so that it finds its way, then as narrow as the points are good.
+    const double widen = std::max(1.0, 4.0 * std::pow(0.7, step));
+    Eigen::Matrix3d information = Eigen::Matrix3d::Identity() * 1e-6;
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    const double c = std::cos(pose.theta);
+    const double s = std::sin(pose.theta);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double dx = c * points[i].x - s * points[i].y;
+      const double dy = s * points[i].x + c * points[i].y;
+      const FieldLines::Nearest n = lines_.nearest(pose.x + dx, pose.y + dy);
+      if (n.distance < 1e-9) continue;
+      const double nx = (pose.x + dx - n.x) / n.distance;
+      const double ny = (pose.y + dy - n.y) / n.distance;
+      const double r = n.distance / (sigmas[i] * widen);
+      // Geman and McClure's weight: what lies far off says nothing.
+      const double w = 1.0 / ((1.0 + r * r / 4.0) * (1.0 + r * r / 4.0)) / (sigmas[i] * sigmas[i]);
+      const Eigen::Vector3d slope(nx, ny, ny * dx - nx * dy);
+      information += w * slope * slope.transpose();
+      gradient += w * slope * n.distance;
+    }
+    const Eigen::Vector3d move = -information.ldlt().solve(gradient);
+    const double length = std::hypot(move.x(), move.y());
+    const double scale =
+        std::min({1.0, 0.5 / (length + 1e-12), 0.2 / (std::abs(move.z()) + 1e-12)});
+    pose = {pose.x + scale * move.x(), pose.y + scale * move.y(),
+            wrapAngle(pose.theta + scale * move.z())};
+    if (step > 10 && length < 1e-6 && std::abs(move.z()) < 1e-7) break;
+  }
+  return {pose, cost(points, sigmas, pose)};
+}
+
+}  // namespace ortung
