@@ -59,14 +59,15 @@ class Calibrator {
   }
 
   /// Settings to begin with. The horizon is a little above where the floor ends.
-  Settings start(double focalShare, double height) const {
+  /// @param far how far away the floor ends [m]
+  Settings start(double focalShare, double height, double far) const {
     const double side = std::max(size_.width, size_.height);
     const double focal = focalShare * side;
     Settings s = Settings::Zero();
     s[kFocal] = std::log(focal);
     s[kCentreU] = (size_.width - 1) / 2.0;
     s[kCentreV] = (size_.height - 1) / 2.0;
-    s[kTilt] = (s[kCentreV] - floorTop_) / focal + height / 10.0;  // the floor's end is 10 m away
+    s[kTilt] = (s[kCentreV] - floorTop_) / focal + height / far;
     s[kHeight] = std::log(height);
     return s;
   }
@@ -303,21 +304,25 @@ std::optional<LineCalibration> calibrateByLines(ImageSize size,
                                          guess.height * std::exp(guess.heightShare)};
   std::vector<std::pair<Solution, Settings>> tries;
   double done = 0.0;
-  const double all = static_cast<double>(guess.focals.size() * heights.size()) + 8.0;
+  constexpr std::array<double, 2> kFloorEnds = {8.0, 25.0};  // [m]
+  constexpr std::size_t kRefined = 10;
+  const double all =
+      static_cast<double>(guess.focals.size() * heights.size() * kFloorEnds.size() + kRefined);
   const auto tell = [&] {
     if (progress) progress(std::min(1.0, ++done / all));
   };
   for (const double focal : guess.focals)
-    for (const double height : heights) {
-      const Settings start = calibrator.start(focal, height);
-      Settings prior = start;
-      prior[kHeight] = std::log(guess.height);
-      tries.emplace_back(calibrator.search(start), prior);
-      tell();
-    }
+    for (const double height : heights)
+      for (const double far : kFloorEnds) {
+        const Settings start = calibrator.start(focal, height, far);
+        Settings prior = start;
+        prior[kHeight] = std::log(guess.height);
+        tries.emplace_back(calibrator.search(start), prior);
+        tell();
+      }
   std::sort(tries.begin(), tries.end(),
             [](const auto& a, const auto& b) { return a.first.cost < b.first.cost; });
-  tries.resize(std::min<std::size_t>(tries.size(), 8));
+  tries.resize(std::min(tries.size(), kRefined));
   std::optional<Solution> best;
   for (auto& [solution, prior] : tries) {
     calibrator.refine(solution, prior, 30);

@@ -52,12 +52,12 @@ struct LinePose {
 class ORTUNG_API LinePoseSearch {
  public:
   struct Config {
-    double step = 0.3;     ///< between places [m]
+    double step = 0.4;     ///< between places [m]
     double turn = 0.0873;  ///< between headings [rad]
     double beyond = 1.0;   ///< how far outside the lines the frame's origin may be [m]
     double cell = 0.05;    ///< of the table of distances [m]
-    double blur = 0.15;    ///< added to the points' sigmas while the grid is searched [m]
-    int usedPoints = 60;   ///< at most, evenly picked, while the grid is searched
+    double blur = 0.2;     ///< added to the points' sigmas while the grid is searched [m]
+    int usedPoints = 40;   ///< at most, evenly picked, while the grid is searched
   };
   explicit LinePoseSearch(const FieldLines& lines);
   LinePoseSearch(const FieldLines& lines, const Config& config);
