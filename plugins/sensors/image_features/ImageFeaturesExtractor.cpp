@@ -1,0 +1,145 @@
+#include "ImageFeaturesExtractor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "ortung/formats/ObjectsData.hpp"
+#include "ortung/vision/LineCalibration.hpp"
+
+namespace ortung {
+namespace {
+
+/// Light changes slowly: the floor's colour is looked for in every so many pictures.
+constexpr int kPicturesAColour = 10;
+
+}  // namespace
+
+ImageFeaturesExtractor::ImageFeaturesExtractor(const Parameters& p)
+    : settings_(readImageFeaturesSettings(p)), finder_(settings_.finder) {
+  if (!settings_.findsColours) colours_ = std::make_unique<ColourTable>(settings_.colours);
+  for (const ColourRange& range : settings_.goalColours)
+    goalColours_.push_back(std::make_unique<ColourTable>(Colours{.floor = {}, .ball = range}));
+}
+
+void ImageFeaturesExtractor::take(std::span<const SensorData* const> inputs) {
+  const auto* image = dynamic_cast<const ImageData*>(inputs[0]);
+  if (image == nullptr)
+    throw std::invalid_argument(toText(inputs[0]->id()) + " is no picture, expected one");
+  if (!image->camera())
+    throw std::invalid_argument(toText(image->id()) +
+                                " has no calibration: its sensor has no table `camera`");
+  const ImageView view = image->reading();
+  if (view.format != PixelFormat::kRgb)
+    throw std::invalid_argument(toText(image->id()) + " is grey, expected colours");
+  size_ = view.size;
+  format_ = view.format;
+  pixels_.assign(view.pixels, view.pixels + view.bytes());
+  view_ = image->camera();
+  mount_ = image->mount();
+}
+
+void ImageFeaturesExtractor::prepare() {
+  if (prepared_ == &view_->model()) return;
+  prepared_ = &view_->model();
+  if (settings_.sees("obstacles"))
+    floor_ = std::make_unique<FloorScan>(
+        *view_, FloorScan::Config{.maxRange = std::min(settings_.maxRange, 6.0)});
+}
+
+void ImageFeaturesExtractor::extract(const FieldModel&, std::span<std::optional<Words>> words) {
+  if (!view_) return;
+  prepare();
+  const ImageView image{size_, format_, pixels_.data()};
+  if (settings_.findsColours && untilColours_-- <= 0) {
+    colours_ = std::make_unique<ColourTable>(findColours({&image, 1}));
+    untilColours_ = kPicturesAColour - 1;
+  }
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& what = settings_.see[i];
+    if (what == "lines")
+      words[i] = lines(image);
+    else if (what == "ball")
+      words[i] = balls(image);
+    else if (what == "obstacles")
+      words[i] = obstacles(image);
+    else
+      words[i] = goals(image);
+  }
+}
+
+PointsData::Point ImageFeaturesExtractor::fromRobot(double x, double y) const {
+  const Pose2 place = mount_ * Pose2{x, y, 0.0};
+  return {std::hypot(place.x, place.y), std::atan2(place.y, place.x)};
+}
+
+/// One point in each square of the floor, so that what is near does not outnumber what is far.
+ImageFeaturesExtractor::Words ImageFeaturesExtractor::lines(const ImageView& image) {
+  const double reach = settings_.lines.maxRange;
+  const int side = static_cast<int>(2.0 * reach / settings_.spacing) + 2;
+  taken_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
+  std::vector<PointsData::Point> points;
+  for (const LinePoint& found : finder_.find(image, *colours_)) {
+    const auto sight = floorSightOf(*view_, found.pixel, settings_.pixelSigma);
+    if (!sight || std::hypot(sight->x, sight->y) > reach) continue;
+    const int column = static_cast<int>((sight->x + reach) / settings_.spacing);
+    const int row = static_cast<int>((sight->y + reach) / settings_.spacing);
+    std::uint8_t& square = taken_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
+                                  static_cast<std::size_t>(column)];
+    if (square != 0 || points.size() >= PointsData::kMostPoints) continue;
+    square = 1;
+    points.push_back(fromRobot(sight->x, sight->y));
+  }
+  return PointsData::encode(points);
+}
+
+ImageFeaturesExtractor::Words ImageFeaturesExtractor::balls(const ImageView& image) const {
+  std::vector<ObjectsData::Object> objects;
+  for (const SeenBall& ball :
+       findBalls(image, *colours_, *view_, settings_.ballRadius, settings_.maxRange)) {
+    const auto from =
+        fromRobot(ball.range * std::cos(ball.bearing), ball.range * std::sin(ball.bearing));
+    objects.push_back({0, ObjectsData::kNoColour, from.range, from.bearing, settings_.ballRadius});
+  }
+  return ObjectsData::encode(objects);
+}
+
+ImageFeaturesExtractor::Words ImageFeaturesExtractor::obstacles(const ImageView& image) const {
+  std::vector<ObjectsData::Object> objects;
+  for (const FloorBody& body : floor_->find(image, *colours_)) {
+    const double radius = 0.5 * body.width;
+    const double range = body.range + radius;  // of its middle
+    const auto from = fromRobot(range * std::cos(body.bearing), range * std::sin(body.bearing));
+    objects.push_back({0, ObjectsData::kNoColour, from.range, from.bearing, radius});
+  }
+  return ObjectsData::encode(objects);
+}
+
+/// The largest part of each goal's colour; where it stands on the floor is its lowest pixel.
+ImageFeaturesExtractor::Words ImageFeaturesExtractor::goals(const ImageView& image) const {
+  LandmarksData::Reading seen;
+  for (std::size_t i = 0; i < goalColours_.size(); ++i) {
+    constexpr double kLeastPixels = 60.0;
+    const auto blobs = findBlobs(image, *goalColours_[i], ColourClass::kBall, kLeastPixels);
+    if (blobs.empty()) continue;
+    // What looks away from the camera's feet is up: of the part's box the place nearest to them.
+    const Blob& blob = blobs.front();
+    std::optional<Point3> foot;
+    for (const double u : {blob.uMin, blob.middle.u, blob.uMax})
+      for (const double v : {blob.vMin, blob.middle.v, blob.vMax}) {
+        const auto floor = view_->floorAt({u, v});
+        if (floor && (!foot || std::hypot(floor->x, floor->y) < std::hypot(foot->x, foot->y)))
+          foot = floor;
+      }
+    const auto ray = view_->rayAt(blob.middle);
+    if (!foot || !ray) continue;
+    const double range = std::hypot(foot->x, foot->y);
+    const double bearing = std::atan2(ray->y, ray->x);
+    if (range > settings_.goals.maxRange) continue;
+    const auto from = fromRobot(range * std::cos(bearing), range * std::sin(bearing));
+    seen.push_back({settings_.goals.identities[i], from.range, from.bearing});
+  }
+  return LandmarksData::encode(seen);
+}
+
+}  // namespace ortung

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "../common/SensorSettings.hpp"
+#include "../iconic/IconicSettings.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/PointsData.hpp"
+#include "ortung/vision/Colours.hpp"
+#include "ortung/vision/LineFinder.hpp"
+
+namespace ortung {
+
+/// What can be found in pictures; each is a feature of this name.
+inline const std::vector<std::string> kImageFeatures = {"lines", "ball", "obstacles", "goals"};
+
+/// Settings of all halves of the sensor that finds things in pictures.
+struct ImageFeaturesSettings {
+  SensorId id;                   ///< its feature is not used
+  std::string reads;             ///< pictures: "model/type/feature"
+  std::vector<std::string> see;  ///< features, of kImageFeatures
+  bool findsColours = true;      ///< of each picture anew; else `colours`
+  Colours colours;
+  LineFinder::Config finder;
+  double pixelSigma = 1.0;   ///< of the places that pixels show [px]
+  double spacing = 0.1;      ///< of line points on the floor: one in a square so wide [m]
+  double ballRadius = 0.11;  ///< [m]
+  double maxRange = 8.0;     ///< of balls, obstacles and goals [m]
+  PointsData::Config lines;
+  LandmarksData::Config goals;
+  std::vector<ColourRange> goalColours;  ///< by identity
+  double period = 0.1;                   ///< of learning's forecast; pictures have their own [s]
+
+  bool sees(const std::string& feature) const {
+    return std::find(see.begin(), see.end(), feature) != see.end();
+  }
+};
+
+namespace image_features {
+
+inline std::vector<std::string> readSee(const Parameters& p) {
+  if (!p.has("see")) return {"lines"};
+  const std::vector<std::string> see = p.texts("see");
+  if (see.empty()) p.fail("see", "is empty, expected what to look for");
+  for (std::size_t i = 0; i < see.size(); ++i) {
+    if (std::find(kImageFeatures.begin(), kImageFeatures.end(), see[i]) == kImageFeatures.end())
+      p.fail("see", "has \"" + see[i] + "\", expected lines, ball, obstacles or goals");
+    if (std::find(see.begin(), see.begin() + static_cast<std::ptrdiff_t>(i), see[i]) !=
+        see.begin() + static_cast<std::ptrdiff_t>(i))
+      p.fail("see", "has \"" + see[i] + "\" twice");
+  }
+  return see;
+}
+
+inline void readLines(const Parameters& p, ImageFeaturesSettings& s) {
+  s.finder.spacing = static_cast<int>(p.integerOr("spacing_px", s.finder.spacing, {1, 100}));
+  s.finder.minContrast = p.numberOr("min_contrast", s.finder.minContrast, {0.0, 10.0});
+  s.finder.minStep = static_cast<int>(p.integerOr("min_step", s.finder.minStep, {1, 200}));
+  s.pixelSigma = p.numberOr("pixel_sigma_px", s.pixelSigma, {0.01, 100.0});
+  s.spacing = p.numberOr("spacing_m", s.spacing, {0.01, 2.0});
+  PointsData::Config& c = s.lines;
+  c.maxRange = p.numberOr("max_range_m", 6.0, {0.05, 1000.0});
+  c.cell = p.numberOr("cell_m", c.cell, {0.005, 1.0});
+  c.usedPoints = static_cast<int>(p.integerOr("used_points", 0, {0, 4096}));
+  c.model = SensorModel::read(p, "sigma_m", c.model);
+}
+
+/// Colours that tell goals apart: a table each, in the order of their identities.
+inline void readGoals(const Parameters& p, ImageFeaturesSettings& s) {
+  for (const Parameters& goal : p.tables("colour")) {
+    ColourRange range;
+    range.hue = goal.number("hue_deg", {0.0, 360.0});
+    range.hueTolerance = goal.numberOr("hue_tolerance_deg", 20.0, {0.0, 180.0});
+    range.minSaturation = goal.numberOr("min_saturation", 0.35, {0.0, 1.0});
+    range.minValue = goal.numberOr("min_value", 0.15, {0.0, 1.0});
+    range.maxValue = goal.numberOr("max_value", 1.0, {0.0, 1.0});
+    s.goals.identities.push_back(static_cast<std::uint32_t>(goal.integer("identity", {0, 1e6})));
+    s.goalColours.push_back(range);
+  }
+  if (s.goalColours.empty())
+    p.fail("colour",
+           "is missing: goals are told apart by their colours, a table "
+           "[[sensor.goals.colour]] with identity and hue_deg each");
+  s.goals.maxRange = s.maxRange;
+  s.goals.range = SensorModel::read(p, "range_sigma_m", {.sigma = 0.3, .sigmaPerMetre = 0.1});
+  s.goals.bearing = SensorModel::read(p, "bearing_sigma_deg", {.sigma = radians(4.0)});
+}
+
+}  // namespace image_features
+
+/// Reads all settings of all halves. @throws ConfigError
+inline ImageFeaturesSettings readImageFeaturesSettings(const Parameters& p) {
+  ImageFeaturesSettings s;
+  if (p.has("feature")) p.fail("feature", "is given, but the features' names come from see");
+  s.id = sensorIdOf(p, {"vision", "camera", "features"});
+  s.reads = p.textOr("reads", "*/camera/image");
+  if (p.has("reads")) checkQuery(p, "reads");
+  s.see = image_features::readSee(p);
+  s.findsColours = !p.has("colours");
+  s.colours = readColours(p.table("colours"));
+  s.maxRange = p.numberOr("max_range_m", s.maxRange, {0.05, 1000.0});
+  s.ballRadius = p.numberOr("ball_radius_m", s.ballRadius, {0.01, 1.0});
+  s.period = readPeriod(p, 0.1);
+  // Tables of what is not looked for stay unread, and are told as unknown keys.
+  if (s.sees("lines")) image_features::readLines(p.table("lines"), s);
+  if (s.sees("goals")) image_features::readGoals(p.table("goals"), s);
+  return s;
+}
+
+}  // namespace ortung
