@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "BenchmarkCommands.hpp"
+#include "CalibrateCommands.hpp"
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "LocalizationCommands.hpp"
@@ -385,6 +386,9 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
 #endif
   addServe(build, app);
   addBenchmark(build, app);
+#ifdef ORTUNG_HAS_VISION
+  addCalibrate(build, app);
+#endif
   addPlugins(build, app);
   try {
     app.parse(argc, argv);

@@ -11,7 +11,7 @@
 namespace ortung {
 
 /// A picture with its own pixels, red, green, blue.
-struct Picture {
+struct ORTUNG_API Picture {
   ImageSize size;
   std::vector<std::uint8_t> pixels;
 

@@ -1,0 +1,57 @@
+#include "CalibrateCommands.hpp"
+
+#include "Calibrate.hpp"
+#include "OptionBuilder.hpp"
+
+namespace ortung::app {
+namespace {
+
+void addLines(Builder& build, CLI::App& app) {
+  const auto a = build.command<CalibrateLinesArguments>(
+      app, "lines",
+      "A camera's focal length, distortion, height and tilt from the lines of a soccer field in "
+      "its pictures alone",
+      "ortung calibrate lines cam0/*.jpg --world maps/fields/msl.toml --draw drawn",
+      runCalibrateLines);
+  build.option("pictures", a->pictures, "Pictures of one camera on one robot: JPEG, PNG, ...")
+      ->required();
+  build
+      .option("--world", a->worlds,
+              "World with the field's lines; of several the one that fits best is taken")
+      ->required();
+  build.option("--height", a->height, "About how high the camera is above the floor [m]")
+      ->check(within(0.05, 10.0))
+      ->capture_default_str();
+  build.option("--height-share", a->heightShare, "How far off that may be, as a share (sigma)")
+      ->check(within(0.001, 1.0))
+      ->capture_default_str();
+  build.option("--out", a->out, "File to write: the table [sensor.camera] of a robot file");
+  build.option("--draw", a->draw,
+               "Folder for the pictures with the points that were found (red) and the field's "
+               "lines as the camera would see them (blue)");
+  build.flag("--force", a->force, kForce);
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addColours(Builder& build, CLI::App& app) {
+  const auto a = build.command<CalibrateColoursArguments>(
+      app, "colours", "The floor's colour in pictures of a field, in its light",
+      "ortung calibrate colours cam0/*.jpg --draw drawn", runCalibrateColours);
+  build.option("pictures", a->pictures, "Pictures of a field: JPEG, PNG, ...")->required();
+  build.option("--out", a->out, "File to write: the table [sensor.colours] of a robot file");
+  build.option("--draw", a->draw,
+               "Folder for the pictures with floor (green), ball (orange) and line points (red)");
+  build.flag("--force", a->force, kForce);
+}
+
+}  // namespace
+
+void addCalibrate(Builder& build, CLI::App& app) {
+  CLI::App* calibrate = app.add_subcommand("calibrate", "Find out how a camera sees");
+  calibrate->require_subcommand(1);
+  calibrate->footer("Example:\n  ortung calibrate lines cam0/*.jpg --world maps/fields/msl.toml");
+  addLines(build, *calibrate);
+  addColours(build, *calibrate);
+}
+
+}  // namespace ortung::app
