@@ -9,6 +9,8 @@ packages=(
   libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev
   # simulator: rays, rigid bodies, maps
   libembree-dev libbox2d-dev libyaml-cpp-dev libpng-dev libboost-dev libboost-iostreams-dev
+  # pictures: OpenGL without a window; both are opened at run time, and one is enough
+  libosmesa6-dev libegl-dev libgl-dev libegl-mesa0
   # readers of foreign logs
   libmrpt-obs-dev libmrpt-maps-dev
   # the program: command line, messages, charts of the report

@@ -163,7 +163,7 @@ struct Recording {
   std::optional<Trace> trace;
 
   Recording(const SimArguments& arguments, const Outputs& outputs, const Scene& scene,
-            const SceneRun& run) {
+            SceneRun& run) {
     if (!arguments.trace.empty()) trace.emplace(outputs.ready(arguments.trace));
     if (arguments.record.empty()) return;
     const auto robots = run.simulation().robots();
@@ -174,6 +174,7 @@ struct Recording {
     const auto found = run.find(name);
     if (!found) throw UsageError("--record: there is no robot '" + name + "' to record");
     robot = robots[*found]->state().number;
+    run.simulation().robots()[*found]->setWanted({}, true);  // whatever a record is read for
     record.emplace(outputs.ready(arguments.record), run.simulation().world().fingerprint(),
                    RecordWriter::Pace::kLive);
   }

@@ -17,7 +17,7 @@ deny() {
   done
 }
 
-foreign='mrpt|opencv|embree|GL/|box2d|boost|spdlog|fmt/|CLI/'
+foreign='mrpt|opencv|embree|GL/|EGL/|box2d|boost|spdlog|fmt/|CLI/'
 deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|served|client)|$foreign"
 deny 'container' 'toml\+\+|toml\.|nlohmann' 'container/robot/'
 deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign" 'mcl/player/.*sim_api/'
@@ -39,6 +39,9 @@ deny 'sim/src sim/include' 'ortung/(server|served|client|refbox)/'
 deny 'sim/benchmark' 'ortung/(server|served|client|refbox|remote)/'
 deny 'sim/src sim/include sim/api sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/benchmark/'
 deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)|refbox/src/RefBoxClient\.cpp)'
+# Pictures see the world through sim/api alone, as the plugins that take them do.
+deny 'sim/pictures' "ortung/(mcl|run|sim|server|served|client|refbox|remote|robot)/|toml|nlohmann|$foreign"
+deny 'container mcl sim/api sim/src sim/include sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/pictures/'
 deny 'sim/environments' "ortung/(mcl|run|server|served|client|refbox|remote)/|toml|nlohmann|$foreign"
 deny 'container mcl sim/api sim/src sim/include sim/server sim/served sim/client sim/refbox sim/remote sim/benchmark plugins realsensors' 'ortung/learning/'
 deny 'plugins' 'ortung/(mcl|run|realsensors)/|mrpt|opencv|embree|GL/|box2d'
@@ -61,12 +64,13 @@ done
 
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include mcl/player/include sim/include sim/api/include sim/server/include \
-              sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include; do
+              sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
+              sim/pictures/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 
 # A library that is large or strange is included from one folder only.
-for library in embree GL/ box2d; do
+for library in embree GL/ EGL/ box2d; do
   folders=$(grep -rlE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($library)" container mcl sim plugins realsensors app \
               --include=*.hpp --include=*.cpp 2>/dev/null | xargs -r -n1 dirname | sort -u)
   if [ "$(echo "$folders" | grep -c .)" -gt 1 ]; then

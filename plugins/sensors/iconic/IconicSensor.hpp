@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
-#include "Colours.hpp"
 #include "IconicSettings.hpp"
 #include "ortung/formats/LandmarksData.hpp"
+#include "ortung/sim_api/Colour.hpp"
 #include "ortung/sim_api/Noise.hpp"
 #include "ortung/sim_api/Rays2.hpp"
 #include "ortung/sim_api/Sensor.hpp"
@@ -147,8 +147,8 @@ class IconicSensor : public Sensor {
         if (share <= 0.0 || share < settings_.visibleShare) continue;
       }
       if (const auto seen = sensed(*truth))
-        objects_.push_back(
-            {0, colourWord(object.colour), seen->range, seen->bearing, object.radius});
+        objects_.push_back({0, rgbOf(object.colour).value_or(ObjectsData::kNoColour), seen->range,
+                            seen->bearing, object.radius});
     }
     if (const auto nothing = imagined(settings_.maxRange))
       objects_.push_back({0, ObjectsData::kNoColour, nothing->range, nothing->bearing, 0.0});

@@ -37,6 +37,7 @@ PlayerNeeds needsOf(const Player& player, const std::string& plugin) {
   guard("robotFile", [&] { needs.robotFile = player.robotFile(); });
   guard("needsStage", [&] { needs.stage = player.needsStage(); });
   guard("needsTables", [&] { needs.tables = player.needsTables(); });
+  guard("needsPictures", [&] { needs.pictures = player.needsPictures(); });
   guard("period", [&] { needs.period = player.period(); });
   if (!(needs.period >= 0.0 && needs.period <= kLongest))
     guard.fail("period", "is " + std::to_string(needs.period) + ", must be in [0, 1e6] s");

@@ -88,6 +88,7 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
     throw std::invalid_argument("robot " + name + ": the player '" + wish.plugin +
                                 "' needs the world's state, which it is not to see");
   std::shared_ptr<const FieldRegion> region = teach(robot, wish, needs.tables);
+  if (needs.pictures) robot.setWanted({}, true);
   auto seating = std::make_unique<Seating>();
   seating->plugin = wish.plugin;
   seating->guard = std::make_unique<PlayerGuard>(wish.plugin, name, config.budget);
@@ -102,7 +103,10 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
   seating->number = robot.state().number;
   seating->isGuest = isGuest;
   seating->seat->setTime(simulation.now());
-  if (!wish.team.empty()) teams[name] = wish.team;
+  if (!wish.team.empty()) {
+    teams[name] = wish.team;
+    simulation.setTeam(robot, wish.team);
+  }
   Seating& one = *seating;
   seatings.push_back(std::move(seating));
   call(one, "begin", [&] { one.player->begin(*one.seat); });
@@ -260,6 +264,8 @@ Stage& PlayerControl::stage() {
 
 void PlayerControl::setTeam(std::string_view robot, std::string_view team) {
   parts_->teams[std::string(robot)] = team;
+  for (const auto& one : parts_->simulation.robots())
+    if (one->config().name == robot) parts_->simulation.setTeam(*one, std::string(team));
 }
 
 std::string PlayerControl::teamOf(std::string_view robot) const { return parts_->teamOf(robot); }

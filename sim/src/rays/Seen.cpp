@@ -95,6 +95,7 @@ WorldObject objectOf(const Primitive& primitive) {
   object.pose = {primitive.centre.x, primitive.centre.y, wrapAngle(primitive.angle)};
   object.isRound = primitive.shape == Primitive::Shape::ellipse;
   object.isMovable = primitive.isMovable;
+  object.isNet = primitive.isNet;
   object.zLow = primitive.zLow;
   object.zHigh = primitive.zHigh;
   object.halfX = primitive.halfX;

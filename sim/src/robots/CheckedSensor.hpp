@@ -23,6 +23,9 @@ class CheckedSensor final : public Sensor {
   }
   double period() const override;
   double rays() const override;
+  bool isOnDemand() const override {
+    return guard_("isOnDemand", [&] { return sensor_->isOnDemand(); });
+  }
 
  private:
   std::unique_ptr<Sensor> sensor_;

@@ -50,6 +50,13 @@ struct SimRobot::Mounted {
   Random random;
   Timestamp period = 0;
   Timestamp due = 0;
+  bool isOnDemand = false;
+  bool isInput = false;      ///< another feature is made of its readings
+  std::vector<char> wanted;  ///< by data
+  bool senses() const {
+    return sensor && (!isOnDemand || isInput ||
+                      std::find(wanted.begin(), wanted.end(), char{1}) != wanted.end());
+  }
 };
 
 SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start,
@@ -78,10 +85,13 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
                  [](SensorData* data) { return dynamic_cast<TalkData*>(data) != nullptr; });
     auto sensor = makeSensor(device, factory, config_.name);
     const Timestamp period = sensor ? fromSeconds(sensor->period()) : 0;
+    const bool isOnDemand = sensor && sensor->isOnDemand();
     sensors_.push_back({std::move(sensor), device.data,
                         std::vector<std::uint64_t>(device.data.size(), 0),
-                        random.fork(kFirstSensor + i), period, 0});
+                        random.fork(kFirstSensor + i), period, 0, isOnDemand, false,
+                        std::vector<char>(device.data.size(), 0)});
   }
+  markInputs();
   if (!hasTruth) truth_ = container_.find(SensorQuery{.type = "groundTruth"});
 }
 
@@ -90,6 +100,21 @@ SimRobot::~SimRobot() = default;
 void SimRobot::report(Timestamp now, const std::string& what) {
   if (problems_.size() < kMostProblems)
     problems_.push_back("at " + std::to_string(toSeconds(now)) + " s: " + what);
+}
+
+/// Finds those whose readings are what others are made of.
+void SimRobot::markInputs() {
+  for (const auto& made : container_.all())
+    for (const SensorData* input : container_.inputsOf(*made))
+      for (Mounted& mounted : sensors_)
+        mounted.isInput = mounted.isInput || std::find(mounted.data.begin(), mounted.data.end(),
+                                                       input) != mounted.data.end();
+}
+
+void SimRobot::setWanted(const SensorQuery& query, bool wanted) {
+  for (Mounted& mounted : sensors_)
+    for (std::size_t i = 0; i < mounted.data.size(); ++i)
+      if (matches(query, mounted.data[i]->id())) mounted.wanted[i] = wanted ? 1 : 0;
 }
 
 double SimRobot::raysPerSecond(double cycle) const {
@@ -116,7 +141,7 @@ std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
     // Keeps the rhythm when a period is no multiple of the cycle; one reading a cycle at most.
     if (isDue) mounted.due = std::max(mounted.due + mounted.period, now + 1);
     nextDue_ = std::min(nextDue_, mounted.due);
-    if (!isDue) continue;
+    if (!isDue || !mounted.senses()) continue;
     try {
       generate(mounted, world, now);
     } catch (const PluginFailure& failure) {

@@ -242,6 +242,10 @@ void Simulation::place(SimRobot& robot, const Pose2& pose) {
   world_->moveBody(robot.state().number, pose);
 }
 
+void Simulation::setTeam(const SimRobot& robot, const std::string& team) {
+  world_->markBody(robot.state().number, team);
+}
+
 void Simulation::placeThing(std::size_t thing, const Pose2& pose, const Twist& velocity) {
   Thing& moved = things_.at(thing);
   for (const double v : {velocity.x, velocity.y, velocity.theta})

@@ -9,6 +9,7 @@
 #include "Cones.hpp"
 #include "FreeSpace.hpp"
 #include "MapWalls.hpp"
+#include "Painters.hpp"
 #include "RayCaster.hpp"
 #include "WorldModel.hpp"
 #include "ortung/base/Parameters.hpp"
@@ -16,6 +17,7 @@
 namespace ortung {
 
 SimWorld::~SimWorld() = default;
+void SimWorld::markBody(RobotNumber, const std::string&) {}
 
 namespace {
 
@@ -37,7 +39,8 @@ bool isSane(const ConeFan& fan) {
 
 constexpr RobotNumber kFixed = std::numeric_limits<RobotNumber>::max();  ///< nobody's number
 
-/// What stands in a world, for all worlds that stand on the same ground. Immutable, so thread-safe.
+/// What stands in a world, for all worlds that stand on the same ground. Thread-safe: immutable,
+/// but for the painters.
 struct Ground {
   explicit Ground(WorldModel read)
       : model(std::move(read)),
@@ -63,6 +66,7 @@ struct Ground {
   std::vector<FieldWall> mapWalls;
   std::vector<WorldObject> objects;
   BodyRays solids;  ///< what is no map, for cones
+  mutable Painters painters;
 };
 
 class ModelledWorld final : public SimWorld {
@@ -120,6 +124,10 @@ class ModelledWorld final : public SimWorld {
            !bodies_.isBlocked(from, direction, length - slack, ignore);
   }
 
+  void draw(const Drawing& drawing, const Sheet& sheet) const override {
+    ground_->painters.draw(ground_->model, objects_, ground_->objects.size(), drawing, sheet);
+  }
+
   RobotNumber addBody(const MovingBody& body, const Pose2& pose) override {
     checkPieces(body.pieces);
     if (!isFinite(pose)) throw std::invalid_argument("a body's pose that is not finite");
@@ -154,6 +162,10 @@ class ModelledWorld final : public SimWorld {
     checkPieces(pieces);
     bodies_.reshape(place, pieces);
     measure(pieces, objects_[ground_->objects.size() + place]);
+  }
+
+  void markBody(RobotNumber body, const std::string& team) override {
+    objects_[ground_->objects.size() + find(body)].team = team;
   }
 
   void removeBody(RobotNumber body) override {

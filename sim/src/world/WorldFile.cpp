@@ -62,6 +62,7 @@ void readCommon(const Parameters& table, Primitive& primitive) {
     return;
   }
   readHeights(table, primitive);
+  primitive.isNet = table.choiceOr("look", "solid", {"solid", "net"}) == "net";
   readMechanics(table, primitive);
 }
 

@@ -42,6 +42,8 @@ struct Primitive {
   std::string name;      ///< anything, or empty
   std::optional<std::uint32_t> identity;
 
+  bool isNet = false;  ///< cameras look through it; rays and bodies meet a wall
+
   bool isMovable = false;             ///< a body of its own, or part of the world
   double mass = 0.0;                  ///< of what is movable [kg]
   std::optional<double> friction;     ///< against other bodies; none: the world's

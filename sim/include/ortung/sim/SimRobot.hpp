@@ -74,6 +74,10 @@ class ORTUNG_API SimRobot : public RobotCommands {
   Drive& drive() { return *drive_; }
   const Drive& drive() const { return *drive_; }
 
+  /// Says whether somebody reads what matches: sensors that sense on demand do so only then, or
+  /// while another of the robot's features is made of theirs.
+  void setWanted(const SensorQuery& query, bool wanted);
+
   /// What its sensors cost [rays/s] in a world with cycles of a length [s], see Sensor::rays().
   double raysPerSecond(double cycle) const;
   /// The same for one reading of each sensor: about what they take of memory.
@@ -120,6 +124,7 @@ class ORTUNG_API SimRobot : public RobotCommands {
   };
 
   struct Mounted;
+  void markInputs();
   void generate(Mounted& mounted, const World& world, Timestamp now);
   void extract(Timestamp now);
   void collect(Mounted& mounted, Timestamp now);

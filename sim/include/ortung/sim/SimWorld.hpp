@@ -70,6 +70,8 @@ class ORTUNG_API SimWorld : public World {
   virtual void moveBody(RobotNumber body, const Pose2& pose, const Twist& velocity = {}) = 0;
   /// Gives a body other pieces, in its own frame. @throws std::invalid_argument
   virtual void reshapeBody(RobotNumber body, std::span<const Primitive> pieces) = 0;
+  /// Gives a robot the marker of a team, for cameras to see. @throws std::invalid_argument
+  virtual void markBody(RobotNumber body, const std::string& team);
   /// Takes a body off the field; its number is not used again. @throws std::invalid_argument
   virtual void removeBody(RobotNumber body) = 0;
 };

@@ -83,6 +83,9 @@ class ORTUNG_API Simulation {
   /// Carries a robot elsewhere (kidnaps it). @throws NoRoom if it does not fit there
   void place(SimRobot& robot, const Pose2& pose);
 
+  /// Shows cameras which team a robot is of; "": none.
+  void setTeam(const SimRobot& robot, const std::string& team);
+
   /// Everything movable that is no robot.
   std::span<const Thing> things() const { return things_; }
   /// Puts a thing somewhere, moving as given. @throws std::invalid_argument if it does not fit

@@ -122,6 +122,9 @@ class ORTUNG_API Player {
   virtual bool needsStage() const { return false; }
   /// Whether it does nothing without tables of its robot for this world, see PlayerSeat::taught().
   virtual bool needsTables() const { return false; }
+  /// Whether it looks at readings of sensors that sense on demand: pictures themselves, not what is
+  /// found in them.
+  virtual bool needsPictures() const { return false; }
   /// Where it believed its robot to be when it acted last; nothing if it does not know or does not
   /// say. For whoever shows that or compares it with the truth.
   virtual std::optional<BelievedPose> believedPose() const { return std::nullopt; }

@@ -49,6 +49,7 @@ struct PlayerNeeds {
   double period = 0.0;              ///< [s]
   bool stage = false;
   bool tables = false;
+  bool pictures = false;
 };
 /// Asks it. @throws PluginFailure that names it for what it throws and for a period that is none
 ORTUNG_API PlayerNeeds needsOf(const Player& player, const std::string& plugin);

@@ -42,6 +42,10 @@ class ORTUNG_API Sensor {
   /// Time between two readings [s]; 0: every cycle.
   virtual double period() const { return 0.0; }
 
+  /// Whether it senses only while somebody wants its readings, since they cost much: a camera whose
+  /// pictures are drawn.
+  virtual bool isOnDemand() const { return false; }
+
   /// About how many rays a reading takes, or computation as long as theirs: a server refuses robots
   /// whose sensors would hold up all others.
   virtual double rays() const { return 1.0; }

@@ -9,6 +9,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/sim_api/Drawing.hpp"
 #include "ortung/sim_api/Twist.hpp"
 #include "ortung/tables/FieldModel.hpp"
 
@@ -74,6 +75,8 @@ struct WorldObject {
   bool isRound = false;    ///< an ellipse; else what fits into a rectangle of the extent
   bool isMovable = false;  ///< false: it stands where it is
   RobotNumber robot = 0;   ///< which robot it is; 0: none
+  std::string team;        ///< of a robot, whose upper part shows it to cameras; "": none
+  bool isNet = false;      ///< a goal's net, which cameras look through and nothing else does
   /// What it is made of; at least one piece of all that a simulator's world has.
   std::vector<WorldPiece> pieces;
 };
@@ -125,6 +128,11 @@ class ORTUNG_API World {
   /// Whether something of this size that stands at a place touches nothing solid that is as high
   /// as it, and lies within the field: it fits under a crossbar if it is no higher.
   virtual bool isFree(double x, double y, const RobotSize& size) const = 0;
+
+  /// Draws what a camera sees of lines, bodies, walls and floor: bodies where rays meet them, but
+  /// balls are round.
+  /// @throws std::runtime_error where pictures can't be drawn, with what would have to be installed
+  virtual void draw(const Drawing& drawing, const Sheet& sheet) const;
 };
 
 /// What a robot may know of a world beforehand: all of it that does not move.

@@ -1,9 +1,7 @@
-#include "Colours.hpp"
+#include "ortung/sim_api/Colour.hpp"
 
 #include <charconv>
 #include <utility>
-
-#include "ortung/formats/ObjectsData.hpp"
 
 namespace ortung {
 namespace {
@@ -17,14 +15,15 @@ constexpr std::pair<const char*, std::uint32_t> kNamed[] = {
 
 }  // namespace
 
-std::uint32_t colourWord(const std::string& colour) {
+std::optional<std::uint32_t> rgbOf(std::string_view colour) {
   for (const auto& [name, word] : kNamed)
     if (colour == name) return word;
-  if (colour.size() != 7 || colour[0] != '#') return ObjectsData::kNoColour;
+  if (colour.size() != 7 || colour[0] != '#') return std::nullopt;
   std::uint32_t word = 0;
   const char* end = colour.data() + colour.size();
   const auto parsed = std::from_chars(colour.data() + 1, end, word, 16);
-  return parsed.ec == std::errc() && parsed.ptr == end ? word : ObjectsData::kNoColour;
+  if (parsed.ec != std::errc() || parsed.ptr != end) return std::nullopt;
+  return word;
 }
 
 }  // namespace ortung

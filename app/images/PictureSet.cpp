@@ -1,0 +1,71 @@
+#include "PictureSet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "PngFile.hpp"
+#include "ortung/base/NewFile.hpp"
+#include "ortung/sim_api/Drawing.hpp"
+
+namespace ortung::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the classes, in their order: background, field, line, goal, post, ball, robot, obstacle,
+/// wall.
+constexpr std::array<std::uint8_t, 27> kPalette{0,   0,   0, 30,  120, 40,  255, 255, 255,
+                                                255, 220, 0, 255, 0,   255, 255, 120, 0,
+                                                220, 0,   0, 140, 90,  50,  90,  90,  140};
+constexpr double kFarthest = 65.535;  ///< that 16 bits of millimetres hold [m]
+
+}  // namespace
+
+PictureSet::PictureSet(fs::path folder, bool force) : folder_(std::move(folder)) {
+  std::error_code error;
+  if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
+    throw std::runtime_error(folder_.string() + ": is a file, expected a folder");
+  if (!force && fs::exists(folder_, error) && !fs::is_empty(folder_, error))
+    throw std::runtime_error(folder_.string() +
+                             ": has something in it; name a folder that is empty or new, or use "
+                             "--force to write over pictures");
+  for (const char* part : {"images", "segmentations", "depth"}) {
+    fs::create_directories(folder_ / part, error);
+    if (error) throw std::runtime_error((folder_ / part).string() + ": " + error.message());
+  }
+}
+
+void PictureSet::add(PictureNotes notes, const ImageView& image,
+                     std::span<const std::uint32_t> things, std::span<const float> ranges) {
+  notes.file = fmt::format("{:06}.png", pictures_.size());
+  notes.size = image.size;
+  writePng(folder_ / "images" / notes.file, image);
+  if (!things.empty()) {
+    classes_.resize(things.size());
+    std::transform(things.begin(), things.end(), classes_.begin(),
+                   [](std::uint32_t thing) { return static_cast<std::uint8_t>(thing & 0xFFU); });
+    writePng(folder_ / "segmentations" / notes.file, image.size, classes_, kPalette);
+    depths_.resize(ranges.size());
+    std::transform(ranges.begin(), ranges.end(), depths_.begin(), [](float range) {
+      return range < kFarthest ? static_cast<std::uint16_t>(std::lround(1000.0 * range))
+                               : std::uint16_t{0};
+    });
+    writePng(folder_ / "depth" / notes.file, image.size, depths_);
+  }
+  if (notes.camera != nullptr &&
+      std::find(calibrated_.begin(), calibrated_.end(), notes.set) == calibrated_.end()) {
+    calibrated_.push_back(notes.set);
+    std::string file = notes.set + ".toml";
+    std::replace(file.begin(), file.end(), '/', '-');
+    writeFile(folder_ / file, toToml(*notes.camera));
+  }
+  pictures_.push_back(std::move(notes));
+}
+
+void PictureSet::finish() { writeFile(folder_ / "annotations.yaml", annotationsYaml(pictures_)); }
+
+}  // namespace ortung::app

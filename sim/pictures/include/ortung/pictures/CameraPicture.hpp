@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/camera/CameraView.hpp"
+#include "ortung/pictures/CameraSheet.hpp"
+#include "ortung/pictures/Variation.hpp"
+#include "ortung/sim_api/World.hpp"
+
+namespace ortung {
+
+/// Where a camera is that sits on a sensor's mount. @param sensor in the field frame
+ORTUNG_API CameraPose cameraPoseOf(const CameraView& camera, const Pose2& sensor);
+
+/// Makes the pictures of one camera in a simulated world. Not thread-safe: it keeps its memory.
+class ORTUNG_API CameraPicture {
+ public:
+  /// @throws std::invalid_argument for a camera that sees nothing or whose pictures have more than
+  ///   4096 pixels to a side
+  explicit CameraPicture(CameraView camera, const Variation& variation = {});
+  ~CameraPicture();
+
+  const CameraView& camera() const { return camera_; }
+  const CameraSheet& sheet() const { return sheet_; }
+  /// Another look from the next picture on.
+  void setVariation(const Variation& variation);
+
+  /// Numbers of the noise of one picture; the same ones give the same noise.
+  struct Noise {
+    std::uint64_t seed = 0;
+    std::uint64_t stream = 0;
+  };
+
+  /// Takes a picture, as words of ImageData.
+  /// @param sensor in the field frame @param self the robot that carries it, which is not drawn
+  /// @param noise nothing: without noise @throws std::runtime_error as World::draw()
+  void take(const World& world, const Pose2& sensor, RobotNumber self,
+            const std::optional<Noise>& noise, std::vector<std::uint32_t>& words);
+
+  /// What each pixel shows, as Sheet::things and Sheet::ranges, for the same picture; either may be
+  /// empty. @pre they have as many entries as the picture has pixels, or none
+  void annotate(const World& world, const Pose2& sensor, RobotNumber self,
+                std::span<std::uint32_t> things, std::span<float> ranges);
+
+ private:
+  struct Effects;
+  Drawing drawing(const Pose2& sensor, RobotNumber self) const;
+  void develop(const std::optional<Noise>& noise, std::span<std::uint8_t> rgb);
+
+  CameraView camera_;
+  CameraSheet sheet_;
+  Lighting lighting_;
+  std::unique_ptr<Effects> effects_;  ///< null: none
+  std::vector<std::uint32_t> colours_;
+  std::vector<std::uint32_t> pixels_;
+  std::vector<std::uint32_t> things_;
+  std::vector<float> ranges_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,88 @@
+#include "FloorPainter.hpp"
+
+#include <cstddef>
+
+namespace ortung {
+namespace {
+
+constexpr double kBeyond = 300.0;  ///< the floor goes on beside the field [m]
+
+const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
+
+GLuint arrayOf(const GlFunctions& gl, const void* data, std::size_t bytes) {
+  GLuint array = 0;
+  GLuint buffer = 0;
+  gl.GenVertexArrays(1, &array);
+  gl.BindVertexArray(array);
+  gl.GenBuffers(1, &buffer);
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
+  return array;
+}
+
+/// The field, and the floor around it: nothing is drawn twice.
+std::vector<std::array<float, 3>> floorOf(const Box2& field) {
+  std::vector<std::array<float, 3>> vertices;
+  const auto rectangle = [&](double x0, double x1, double y0, double y1, float isField) {
+    const auto corner = [&](double x, double y) {
+      vertices.push_back({static_cast<float>(x), static_cast<float>(y), isField});
+    };
+    corner(x0, y0), corner(x1, y0), corner(x1, y1);
+    corner(x0, y0), corner(x1, y1), corner(x0, y1);
+  };
+  const Box2& f = field;
+  rectangle(f.xLow, f.xHigh, f.yLow, f.yHigh, 1.0F);
+  rectangle(f.xLow - kBeyond, f.xLow, f.yLow, f.yHigh, 0.0F);
+  rectangle(f.xHigh, f.xHigh + kBeyond, f.yLow, f.yHigh, 0.0F);
+  rectangle(f.xLow - kBeyond, f.xHigh + kBeyond, f.yLow - kBeyond, f.yLow, 0.0F);
+  rectangle(f.xLow - kBeyond, f.xHigh + kBeyond, f.yHigh, f.yHigh + kBeyond, 0.0F);
+  return vertices;
+}
+
+}  // namespace
+
+FloorPainter::FloorPainter(const GlFunctions& gl, const StandingScene& scene)
+    : gl_(gl), scene_(scene) {
+  const auto floor = floorOf(scene.field);
+  floorVertices_ = static_cast<GLsizei>(floor.size());
+  floor_ = arrayOf(gl_, floor.data(), floor.size() * sizeof floor[0]);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, at(0));
+  gl_.EnableVertexAttribArray(0);
+  constexpr GLsizei kStride = sizeof(LineVertex);
+  lines_ = arrayOf(gl_, scene.lines.data(), scene.lines.size() * sizeof(LineVertex));
+  gl_.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(LineVertex, x)));
+  gl_.VertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(LineVertex, endX)));
+  gl_.VertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, kStride, at(offsetof(LineVertex, along)));
+  gl_.VertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
+                          at(offsetof(LineVertex, colour)));
+  for (const GLuint place : {0U, 1U, 2U, 3U}) gl_.EnableVertexAttribArray(place);
+}
+
+void FloorPainter::paintFloor() const {
+  gl_.BindVertexArray(floor_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, floorVertices_);
+}
+
+void FloorPainter::paintLines(const FaceView& face, const std::array<double, 3>& camera) {
+  const double x = scene_.middle.x - camera[0];
+  const double y = scene_.middle.y - camera[1];
+  firsts_.clear();
+  counts_.clear();
+  for (const Chunk& chunk : scene_.lineChunks) {
+    if (!face.sees(chunk.x + x, chunk.y + y, -camera[2], chunk.reach)) continue;
+    const auto first = static_cast<GLint>(chunk.first);
+    const auto count = static_cast<GLsizei>(chunk.count);
+    if (!firsts_.empty() && firsts_.back() + counts_.back() == first) {
+      counts_.back() += count;
+      continue;
+    }
+    firsts_.push_back(first);
+    counts_.push_back(count);
+  }
+  if (firsts_.empty()) return;
+  gl_.BindVertexArray(lines_);
+  gl_.MultiDrawArrays(GL_TRIANGLES, firsts_.data(), counts_.data(),
+                      static_cast<GLsizei>(firsts_.size()));
+}
+
+}  // namespace ortung
