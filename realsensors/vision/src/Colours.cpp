@@ -111,7 +111,7 @@ Colours findColours(std::span<const ImageView> images) {
   ColourRange& floor = colours.floor;
   floor.hue = quantile(hues, 0.5);
   floor.hueTolerance = std::clamp(2.0 * (quantile(hues, 0.9) - quantile(hues, 0.1)), 20.0, 40.0);
-  floor.minSaturation = std::clamp(0.55 * quantile(saturations, 0.3), 0.1, 0.5);
+  floor.minSaturation = std::clamp(0.5 * quantile(saturations, 0.1), 0.1, 0.5);
   floor.minValue = std::clamp(0.4 * quantile(values, 0.1), 0.03, 0.3);
   return colours;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "ortung/base/Angles.hpp"
 
@@ -53,6 +54,9 @@ FieldLines::FieldLines(std::span<const FieldLine> lines) : lines_(lines.begin(),
   // The border of something painted that has no width is no line.
   std::erase_if(lines_, [](const FieldLine& line) { return line.width <= 0.0; });
   if (lines_.empty()) throw std::invalid_argument("the world has no painted lines");
+  if (lines_.size() > 10000)
+    throw std::invalid_argument("the world has " + std::to_string(lines_.size()) +
+                                " painted lines, expected at most 10000");
   xMin_ = yMin_ = std::numeric_limits<double>::max();
   xMax_ = yMax_ = std::numeric_limits<double>::lowest();
   const auto hold = [this](double x, double y) {
@@ -73,11 +77,16 @@ FieldLines::FieldLines(std::span<const FieldLine> lines) : lines_(lines.begin(),
   }
 }
 
+FieldLines::Nearest FieldLines::nearestOn(std::size_t line, double x, double y) const {
+  const FieldLine& one = lines_[line];
+  return one.shape == FieldLine::Shape::straight ? nearestOnStraight(one, x, y)
+                                                 : nearestOnArc(one, x, y);
+}
+
 FieldLines::Nearest FieldLines::nearest(double x, double y) const {
   Nearest best{0.0, 0.0, std::numeric_limits<double>::max()};
-  for (const FieldLine& line : lines_) {
-    const Nearest n = line.shape == FieldLine::Shape::straight ? nearestOnStraight(line, x, y)
-                                                               : nearestOnArc(line, x, y);
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const Nearest n = nearestOn(i, x, y);
     if (n.distance < best.distance) best = n;
   }
   return best;

@@ -138,7 +138,7 @@ class Calibrator {
         const auto sight = floorSightOf(out.view, pixel, guess_.pixelSigma);
         if (!sight) continue;
         const Pose2 place = fit.pose * Pose2{sight->x, sight->y, 0.0};
-        const double d = field_.lines().nearest(place.x, place.y).distance;
+        const double d = field_.nearest(place.x, place.y).distance;
         if (d < 3.0 * std::max(sight->sigma, 0.03)) ++matched;
         if (std::hypot(sight->x, sight->y) <= kNear) near.push_back(d);
       }
@@ -181,7 +181,7 @@ class Calibrator {
       }
       const double x = pose.x + c * here->x - s * here->y;
       const double y = pose.y + s * here->x + c * here->y;
-      const FieldLines::Nearest n = field_.lines().nearest(x, y);
+      const FieldLines::Nearest n = field_.nearest(x, y);
       Match m{pixel, here->x, here->y, 1.0, 0.0, n.distance, 0.0};
       if (n.distance > 1e-9) {
         m.nx = (x - n.x) / n.distance;

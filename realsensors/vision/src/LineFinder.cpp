@@ -143,10 +143,7 @@ void LineFinder::scan(const std::uint8_t* first, std::size_t step, int count,
         std::clamp(static_cast<int>(kFloorBeside * length), kLeastBeside, kMostBeside);
     const int from = i - kEdge - beside;
     const int to = end + kEdge + beside;
-    if (length > longest_ || from < 0 || to > count) {
-      i = end;
-      continue;
-    }
+    if (length > longest_ || from < 0 || to > count) continue;
     const double right = whiteOfFloor(end, to);
     const bool hasFloor =
         floorIn(from, i) >= kFloorShare * beside && floorIn(end, to) >= kFloorShare * beside;

@@ -2,6 +2,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/vision/FieldLines.hpp"
@@ -10,6 +12,7 @@ namespace ortung {
 namespace {
 
 constexpr double kMargin = 2.0;    ///< of the table beyond the lines [m]
+constexpr float kOutside = 10.0F;  ///< of the table: so far from any line [m]
 constexpr double kMostCost = 9.0;  ///< of one point
 
 }  // namespace
@@ -22,19 +25,43 @@ LinePoseSearch::LinePoseSearch(const FieldLines& lines, const Config& config)
   yMin_ = lines.yMin() - kMargin;
   columns_ = static_cast<int>(std::ceil((lines.xMax() + kMargin - xMin_) / config.cell)) + 1;
   rows_ = static_cast<int>(std::ceil((lines.yMax() + kMargin - yMin_) / config.cell)) + 1;
-  distances_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column)
-      distances_.push_back(static_cast<float>(
-          lines.nearest(xMin_ + column * config.cell, yMin_ + row * config.cell).distance));
+    for (int column = 0; column < columns_; ++column) {
+      const double x = xMin_ + column * config.cell;
+      const double y = yMin_ + row * config.cell;
+      double best = std::numeric_limits<double>::max();
+      std::size_t line = 0;
+      for (std::size_t i = 0; i < lines_.lines().size(); ++i) {
+        const double d = lines_.nearestOn(i, x, y).distance;
+        if (d < best) best = d, line = i;
+      }
+      distances_.push_back(static_cast<float>(best));
+      nearest_.push_back(static_cast<std::uint16_t>(line));
+    }
 }
 
-float LinePoseSearch::distanceAt(double x, double y) const {
-  const int column = static_cast<int>(std::lround((x - xMin_) / config_.cell));
-  const int row = static_cast<int>(std::lround((y - yMin_) / config_.cell));
-  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return 10.0F;
-  return distances_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                    static_cast<std::size_t>(column)];
+std::ptrdiff_t LinePoseSearch::cellAt(double x, double y) const {
+  const int column = static_cast<int>(std::floor((x - xMin_) / config_.cell + 0.5));
+  const int row = static_cast<int>(std::floor((y - yMin_) / config_.cell + 0.5));
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return -1;
+  return static_cast<std::ptrdiff_t>(row) * columns_ + column;
+}
+
+/// The lines that are nearest to the cell and to its neighbours two cells away.
+FieldLines::Nearest LinePoseSearch::nearest(double x, double y) const {
+  const std::ptrdiff_t middle = cellAt(x, y);
+  if (middle < 0) return lines_.nearest(x, y);
+  std::uint16_t line = nearest_[static_cast<std::size_t>(middle)];
+  FieldLines::Nearest best = lines_.nearestOn(line, x, y);
+  const double away = 2.0 * config_.cell;
+  for (const auto& [dx, dy] : {std::pair{away, 0.0}, {-away, 0.0}, {0.0, away}, {0.0, -away}}) {
+    const std::ptrdiff_t cell = cellAt(x + dx, y + dy);
+    if (cell < 0 || nearest_[static_cast<std::size_t>(cell)] == line) continue;
+    line = nearest_[static_cast<std::size_t>(cell)];
+    const FieldLines::Nearest other = lines_.nearestOn(line, x, y);
+    if (other.distance < best.distance) best = other;
+  }
+  return best;
 }
 
 double LinePoseSearch::cost(std::span<const LinePlace> points, std::span<const double> sigmas,
@@ -45,7 +72,7 @@ double LinePoseSearch::cost(std::span<const LinePlace> points, std::span<const d
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = pose.x + c * points[i].x - s * points[i].y;
     const double y = pose.y + s * points[i].x + c * points[i].y;
-    const double r = lines_.nearest(x, y).distance / sigmas[i];
+    const double r = nearest(x, y).distance / sigmas[i];
     sum += std::min(r * r, kMostCost);
   }
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
@@ -79,7 +106,8 @@ std::vector<LinePose> LinePoseSearch::search(std::span<const LinePlace> points,
            x += config_.step) {
         float sum = 0.0F;
         for (std::size_t i = 0; i < turned.size(); ++i) {
-          const float d = distanceAt(x + turned[i].x, y + turned[i].y);
+          const std::ptrdiff_t cell = cellAt(x + turned[i].x, y + turned[i].y);
+          const float d = cell < 0 ? kOutside : distances_[static_cast<std::size_t>(cell)];
           sum += std::min(d * d * weights[i], static_cast<float>(kMostCost));
         }
         found.push_back({{x, y, theta}, sum / static_cast<double>(turned.size())});
@@ -123,7 +151,7 @@ LinePose LinePoseSearch::polish(std::span<const LinePlace> points, std::span<con
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double dx = c * points[i].x - s * points[i].y;
       const double dy = s * points[i].x + c * points[i].y;
-      const FieldLines::Nearest n = lines_.nearest(pose.x + dx, pose.y + dy);
+      const FieldLines::Nearest n = nearest(pose.x + dx, pose.y + dy);
       if (n.distance < 1e-9) continue;
       const double nx = (pose.x + dx - n.x) / n.distance;
       const double ny = (pose.y + dy - n.y) / n.distance;

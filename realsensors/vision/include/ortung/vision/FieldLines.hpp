@@ -28,6 +28,8 @@ class ORTUNG_API FieldLines {
     double distance = 0.0;    ///< [m]; of what lies on a filled spot 0
   };
   Nearest nearest(double x, double y) const;
+  /// The nearest point on the middle of one line. @param line index into lines()
+  Nearest nearestOn(std::size_t line, double x, double y) const;
 
   /// The smallest rectangle that holds all lines [m].
   double xMin() const { return xMin_; }
@@ -72,16 +74,20 @@ class ORTUNG_API LinePoseSearch {
   /// The cost of one pose.
   double cost(std::span<const LinePlace> points, std::span<const double> sigmas,
               const Pose2& pose) const;
+  /// As FieldLines::nearest(), but among the lines near a cell of the table only: exact but where
+  /// several lines are about equally far.
+  FieldLines::Nearest nearest(double x, double y) const;
   const FieldLines& lines() const { return lines_; }
 
  private:
-  float distanceAt(double x, double y) const;
+  std::ptrdiff_t cellAt(double x, double y) const;  ///< below 0: outside
 
   FieldLines lines_;
   Config config_;
   double xMin_ = 0.0, yMin_ = 0.0;
   int columns_ = 0, rows_ = 0;
-  std::vector<float> distances_;  ///< row by row [m]
+  std::vector<float> distances_;        ///< row by row [m]
+  std::vector<std::uint16_t> nearest_;  ///< line
 };
 
 }  // namespace ortung
