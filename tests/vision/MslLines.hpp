@@ -51,7 +51,7 @@ inline std::vector<FieldLine> mslLines(const MslSizes& m) {
   straight(0.0, -y, 0.0, y);
   arc(0.0, 0.0, 0.5 * m.circle - half, 0.0, 2.0 * std::numbers::pi, m.line);
   constexpr double kQuarter = 0.5 * std::numbers::pi;
-  for (int k = 0; k < 4; ++k)
+  for (int k = 0; k < 4 && m.corner > 0.0; ++k)
     arc(k == 0 || k == 3 ? -x : x, k < 2 ? -y : y, m.corner - half, k * kQuarter,
         (k + 1) * kQuarter, m.line);
   return lines;

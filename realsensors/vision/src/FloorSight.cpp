@@ -26,25 +26,24 @@ std::optional<FloorSight> floorSightOf(const CameraView& view, const Pixel& pixe
 double floorTopOf(const ImageView& image, const ColourTable& colours) {
   std::vector<int> tops;
   const auto pitch = static_cast<std::size_t>(image.size.width) * 3;
+  const int mostGap = image.size.height / 8;  // a robot's or a ball's
   for (int k = 0; k < 100 && image.format == PixelFormat::kRgb; ++k) {
     const int u = (2 * k + 1) * image.size.width / 200;
     int run = 0;
+    int top = image.size.height;
     for (int v = image.size.height - 1; v >= 0; --v) {
-      // From below: where the topmost long run of floor ends. Robots and lines are looked over.
       const bool isFloor = colours.isFloor(image.pixels + static_cast<std::size_t>(v) * pitch +
                                            static_cast<std::size_t>(u) * 3);
       run = isFloor ? run + 1 : 0;
-      if (run >= kFloorRun && (tops.size() <= static_cast<std::size_t>(k) || tops.back() > v)) {
-        tops.resize(static_cast<std::size_t>(k) + 1, image.size.height);
-        tops.back() = v;
-      }
+      if (run >= kFloorRun) top = v;
+      if (top < image.size.height && top - v > mostGap) break;  // walls may be green, too
     }
+    if (top < image.size.height) tops.push_back(top);
   }
-  std::erase(tops, image.size.height);
   if (tops.empty()) return 0.5 * image.size.height;
-  const auto tenth = tops.begin() + static_cast<std::ptrdiff_t>(tops.size() / 5);
-  std::nth_element(tops.begin(), tenth, tops.end());
-  return *tenth;
+  const auto fifth = tops.begin() + static_cast<std::ptrdiff_t>(tops.size() / 5);
+  std::nth_element(tops.begin(), fifth, tops.end());
+  return *fifth;
 }
 
 }  // namespace ortung

@@ -13,6 +13,7 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostPoints = 150;  ///< of a picture that are used
+constexpr double kAboveFloor = 0.02;      ///< what is so far above the floor's end is no line
 constexpr double kNear = 5.0;             ///< range within which a fit is told [m]
 constexpr double kFar = 15.0;             ///< range up to which points are used [m]
 constexpr double kMostCost = 9.0;
@@ -45,17 +46,20 @@ class Calibrator {
              const LineCalibrationGuess& guess)
       : size_(size), field_(field), guess_(guess) {
     for (const LinePicture& picture : pictures) {
+      std::vector<Pixel> onFloor;
+      for (const LinePoint& point : picture.points)
+        if (point.pixel.v >= picture.floorTop - kAboveFloor * size.height)
+          onFloor.push_back(point.pixel);
       std::vector<Pixel> used;
-      const std::size_t count = std::min(picture.points.size(), kMostPoints);
-      for (std::size_t k = 0; k < count; ++k)
-        used.push_back(picture.points[k * picture.points.size() / count].pixel);
+      const std::size_t count = std::min(onFloor.size(), kMostPoints);
+      for (std::size_t k = 0; k < count; ++k) used.push_back(onFloor[k * onFloor.size() / count]);
       pixels_.push_back(std::move(used));
       floorTop_ =
           pictures.data() == &picture ? picture.floorTop : std::min(floorTop_, picture.floorTop);
     }
     const double side = std::max(size.width, size.height);
-    sigmas_ << 1.0, 0.08, 0.05, guess.centreSigma * side, guess.centreSigma * side, 0.3,
-        guess.rollSigma, guess.heightShare;
+    sigmas_ << guess.focalShare, 0.08, 0.05, guess.centreSigma * side, guess.centreSigma * side,
+        guess.tiltSigma, guess.rollSigma, guess.heightShare;
   }
 
   /// Settings to begin with. The horizon is a little above where the floor ends.
@@ -65,9 +69,11 @@ class Calibrator {
     const double focal = focalShare * side;
     Settings s = Settings::Zero();
     s[kFocal] = std::log(focal);
+    s[kK1] = guess_.distortion[0];
+    s[kK2] = guess_.distortion[1];
     s[kCentreU] = (size_.width - 1) / 2.0;
     s[kCentreV] = (size_.height - 1) / 2.0;
-    s[kTilt] = (s[kCentreV] - floorTop_) / focal + height / far;
+    s[kTilt] = guess_.tilt.value_or((s[kCentreV] - floorTop_) / focal + height / far);
     s[kHeight] = std::log(height);
     return s;
   }

@@ -11,6 +11,8 @@ constexpr double kFloorBeside = 0.5;
 constexpr int kLeastBeside = 3;      ///< [px]
 constexpr int kMostBeside = 12;      ///< [px]
 constexpr double kFloorShare = 0.7;  ///< of them
+constexpr int kRough = 60;           ///< floor pixels before a crossing that tell how rough it is
+constexpr double kRougher = 4.0;     ///< a line is whiter than the floor by so many of its sigmas
 constexpr int kEdge = 2;             ///< pixels between floor and white that are neither
 
 constexpr double kReach = 4.0;  ///< how far a point's neighbours are, in spacings
@@ -94,13 +96,15 @@ void LineFinder::readProfile(const std::uint8_t* first, std::size_t step, int co
   white_.resize(n);
   floorSum_.resize(n + 1);
   whiteSum_.resize(n + 1);
-  floorSum_[0] = whiteSum_[0] = 0;
+  squareSum_.resize(n + 1);
+  floorSum_[0] = whiteSum_[0] = squareSum_[0] = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint8_t* p = first + i * step;
     white_[i] = std::min({p[0], p[1], p[2]});
     const bool isFloor = colours.isFloor(p);
     floorSum_[i + 1] = floorSum_[i] + (isFloor ? 1 : 0);
     whiteSum_[i + 1] = whiteSum_[i] + (isFloor ? white_[i] : 0);
+    squareSum_[i + 1] = squareSum_[i] + (isFloor ? white_[i] * white_[i] : 0);
   }
 }
 
@@ -122,14 +126,26 @@ void LineFinder::scan(const std::uint8_t* first, std::size_t step, int count,
   const auto white = [&](int i) {
     return static_cast<double>(white_[static_cast<std::size_t>(i)]);
   };
+  const auto roughness = [&](int from, int to) {
+    const int floor = floorIn(from, to);
+    if (floor < 2) return 0.0;
+    const double mean = whiteOfFloor(from, to);
+    const double squares = static_cast<double>(squareSum_[static_cast<std::size_t>(to)] -
+                                               squareSum_[static_cast<std::size_t>(from)]);
+    return std::sqrt(std::max(0.0, squares / floor - mean * mean));
+  };
+  double rough = 0.0;
   const auto threshold = [&](double floor) {
-    return floor + std::max<double>(config_.minStep, config_.minContrast * floor);
+    return floor +
+           std::max({rough, static_cast<double>(config_.minStep), config_.minContrast * floor});
   };
   for (int i = kLeastBeside + kEdge; i < count - 1; ++i) {
     // A rise from the floor just before.
     const int before = std::max(0, i - kMostBeside);
     if (floorIn(std::max(0, i - kLeastBeside - kEdge), i) < kLeastBeside) continue;
     const double left = whiteOfFloor(before, i);
+    if (!(white(i) > left + config_.minStep)) continue;
+    rough = kRougher * roughness(std::max(0, i - kRough), i - kEdge);
     const double level = threshold(left);
     if (!(white(i) > level)) continue;
     int end = i + 1;

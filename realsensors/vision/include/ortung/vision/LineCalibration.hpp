@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -21,11 +22,18 @@ struct LinePicture {
 
 /// What is known of a camera before its pictures are looked at.
 struct LineCalibrationGuess {
-  double height = 0.7;        ///< above the floor [m]
-  double heightShare = 0.15;  ///< sigma of its logarithm
-  double rollSigma = 0.05;    ///< [rad]
-  double centreSigma = 0.02;  ///< of the principal point, as a share of the image's longer side
-  double pixelSigma = 1.0;    ///< of points [px]
+  double height = 0.7;         ///< above the floor [m]
+  double heightShare = 0.15;   ///< sigma of its logarithm
+  std::optional<double> tilt;  ///< e.g. of an inertial sensor [rad]; nothing: from the horizon
+  double tiltSigma = 0.3;      ///< [rad]
+  double focalShare = 0.3;     ///< sigma of the focal length's logarithm
+  double rollSigma = 0.05;     ///< [rad]
+  double centreSigma = 0.02;   ///< of the principal point, as a share of the image's longer side
+  double pixelSigma = 1.0;     ///< of points [px]
+  /// Radial distortion k1, k2 of the lens: {0, 0} if equal angles are equally wide, as wide lenses
+  /// about have it; kPlainLens for one that keeps straight lines straight.
+  std::array<double, 2> distortion = {0.0, 0.0};
+  static constexpr std::array<double, 2> kPlainLens = {1.0 / 3.0, 2.0 / 15.0};
   /// Focal lengths to begin with, as shares of the image's longer side.
   std::vector<double> focals = {0.3, 0.36, 0.43, 0.52, 0.65, 0.8};
 };
@@ -55,8 +63,8 @@ ORTUNG_API std::optional<LineCalibration> calibrateByLines(
     ImageSize size, std::span<const LinePicture> pictures, const LinePoseSearch& field,
     const LineCalibrationGuess& guess, const std::function<void(double)>& progress = {});
 
-/// Row at which the floor ends in a picture: between what is floor and what is not, as the tenth
-/// highest of a hundred columns tells [px]; the image's middle if there is no floor.
+/// Row at which the floor ends in a picture: between what is floor and what is not, as the fifth
+/// highest share of a hundred columns tells [px]; the image's middle if there is no floor.
 ORTUNG_API double floorTopOf(const ImageView& image, const ColourTable& colours);
 
 /// Sigma of the place on the floor that a pixel shows, across the direction in which it is worst,

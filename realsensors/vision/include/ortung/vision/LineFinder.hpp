@@ -40,10 +40,11 @@ class ORTUNG_API LineFinder {
                    const ColourTable& colours);
 
   Config config_;
-  std::vector<std::uint8_t> white_;     ///< along the present scan line
-  std::vector<std::int32_t> floorSum_;  ///< floor pixels before each pixel
-  std::vector<std::int32_t> whiteSum_;  ///< their whiteness
-  int longest_ = 0;                     ///< crossing [px]
+  std::vector<std::uint8_t> white_;      ///< along the present scan line
+  std::vector<std::int32_t> floorSum_;   ///< floor pixels before each pixel
+  std::vector<std::int32_t> whiteSum_;   ///< their whiteness
+  std::vector<std::int32_t> squareSum_;  ///< squares of their whiteness
+  int longest_ = 0;                      ///< crossing [px]
   struct Crossing {
     double middle, width;
   };
