@@ -7,6 +7,8 @@ packages=(
   g++ cmake ninja-build ccache pkg-config binutils
   # container and mcl: Eigen, and headers that stay hidden behind the file readers
   libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev
+  # records
+  libzstd-dev zstd
   # simulator: rays, rigid bodies, maps
   libembree-dev libbox2d-dev libyaml-cpp-dev libpng-dev libboost-dev libboost-iostreams-dev
   # pictures: OpenGL without a window; both are opened at run time, and one is enough

@@ -13,8 +13,9 @@
 #include "Interrupt.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/InputFile.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/mcl/MclConfig.hpp"
+#include "ortung/records/RecordEnd.hpp"
+#include "ortung/records/RecordSource.hpp"
 #include "ortung/robot/TableInfo.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/run/Localization.hpp"
@@ -36,11 +37,11 @@ Kind kindOf(const fs::path& file) {
   std::string why;
   std::ifstream in = openInput(file, why);
   if (!in) throw std::runtime_error(file.string() + ": " + why);
-  char bytes[16] = {};
+  char bytes[24] = {};
   in.read(bytes, sizeof bytes);
   const std::string_view begin(bytes, static_cast<std::size_t>(in.gcount()));
   if (begin.starts_with("PK")) return Kind::kTables;
-  if (begin.starts_with("# ortung record")) return Kind::kRecord;
+  if (isRecord(begin)) return Kind::kRecord;
   const Parameters toml = readToml(file);
   if (toml.has("scene")) return Kind::kScene;
   return toml.has("sensor") ? Kind::kRobot : Kind::kWorld;
@@ -196,9 +197,10 @@ void checkRecord(const fs::path& file, const CheckArguments& arguments) {
   if (const std::string remark = source.remark(); !remark.empty())
     warn(remark + "; --mend cuts them off");
   const std::string world = source.worldFingerprint();
-  fmt::print("{}: record, world {}, {} readings, {} to {} us ({:.3f} s)\n",
-             printable(file.string()), world.empty() ? "not known" : printable(world), all, first,
-             last, toSeconds(last) - toSeconds(first));
+  fmt::print("{}: record{}, world {}, {} readings, {} to {} us ({:.3f} s)\n",
+             printable(file.string()), source.isCompressed() ? ", compressed" : "",
+             world.empty() ? "not known" : printable(world), all, first, last,
+             toSeconds(last) - toSeconds(first));
   for (const auto& [feature, count] : readings) {
     const bool lacks = robot && robot->container.findExactly(parseSensorId(feature)) == nullptr;
     fmt::print("  {:<40} {:>9} readings{}\n", feature, count,

@@ -18,6 +18,7 @@
 #include "RunResult.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/records/RecordWriter.hpp"
 
 namespace ortung::app {
 namespace {

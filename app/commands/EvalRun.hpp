@@ -9,8 +9,8 @@
 
 #include "Commands.hpp"
 #include "RunResult.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/mcl/Evaluation.hpp"
+#include "ortung/records/RecordWriter.hpp"
 #include "ortung/run/Fault.hpp"
 #include "ortung/run/Recording.hpp"
 

@@ -2,7 +2,7 @@
 #include "Console.hpp"
 #include "Serving.hpp"
 #include "SourceArguments.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/records/RecordSource.hpp"
 #include "ortung/server/ServedRecord.hpp"
 
 namespace ortung::app {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "ortung/core/PluginFactory.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/core/Source.hpp"
+#include "ortung/records/RecordWriter.hpp"
 #include "ortung/run/Feeder.hpp"
 
 namespace ortung::app {

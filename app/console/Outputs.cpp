@@ -11,6 +11,7 @@
 
 #include "Console.hpp"
 #include "ortung/base/InputFile.hpp"
+#include "ortung/records/RecordSource.hpp"
 
 namespace ortung::app {
 namespace {
@@ -36,7 +37,7 @@ Signature signatureOf(OutputKind kind) {
   using namespace std::string_view_literals;
   switch (kind) {
     case OutputKind::kRecord:
-      return {"a record", "# ortung record", ""};
+      return {"a record", "", ""};  // see isOfKind()
     case OutputKind::kTables:
       return {"tables", "PK\x03\x04", "open.npy"};
     case OutputKind::kFigures:
@@ -63,17 +64,21 @@ Signature signatureOf(OutputKind kind) {
       return {"a result of `ortung benchmark`", "{", "\"ortung goalkeeper benchmark"};
     case OutputKind::kPage:
       return {"a page of `ortung benchmark`", "<!doctype html>", "<title>Goalkeeper benchmark"};
+    case OutputKind::kRawlog:
+      return {"a file of MRPT", "\x1F\x8B", ""};
     case OutputKind::kSettings:
       break;
   }
   return {"a file", "", "\0 nothing is like it"sv};
 }
 
-bool isOfKind(const fs::path& file, const Signature& signature) {
+bool isOfKind(const fs::path& file, OutputKind kind) {
+  const Signature signature = signatureOf(kind);
   std::array<char, 8192> bytes;
   std::ifstream in(file, std::ios::binary);
   in.read(bytes.data(), bytes.size());
   const std::string_view begin(bytes.data(), static_cast<std::size_t>(in.gcount()));
+  if (kind == OutputKind::kRecord) return isRecord(begin);
   return begin.starts_with(signature.begin) && begin.find(signature.within) != begin.npos;
 }
 
@@ -118,12 +123,11 @@ void checkOld(const std::string& option, const fs::path& file, const struct stat
   if (!S_ISREG(status.st_mode) || isOwnOutput(status)) return;
   if (::access(file.c_str(), W_OK) != 0) refuseFor(file, errno);
   if (force || status.st_size == 0) return;
-  const Signature signature = signatureOf(kind);
-  if (isOfKind(file, signature)) return;
+  if (isOfKind(file, kind)) return;
   refuse(file, kind == OutputKind::kSettings
                    ? "exists and would be overwritten; use --force"
-                   : "exists and does not hold what " + option + " writes (" + signature.name +
-                         "); it would be overwritten; use --force");
+                   : "exists and does not hold what " + option + " writes (" +
+                         signatureOf(kind).name + "); it would be overwritten; use --force");
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ enum class OutputKind : std::uint8_t {
   kNetwork,     ///< JSON of train-motion
   kBenchmark,   ///< JSON of benchmark
   kPage,        ///< HTML of benchmark
+  kRawlog,      ///< of MRPT, like its grid maps
   kSettings,  ///< worlds, their maps, and robots: people work on them, so none is replaced unasked
 };
 

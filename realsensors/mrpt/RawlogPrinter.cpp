@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/formats/Words.hpp"

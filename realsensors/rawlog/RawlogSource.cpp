@@ -7,7 +7,7 @@
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/Plugin.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
 #include "ortung/core/SourceHelp.hpp"
 #include "ortung/core/SourceOptions.hpp"
 #include "ortung/formats/PoseData.hpp"

@@ -26,14 +26,14 @@ class EvalFaults : public Workspace {
 TEST_F(EvalFaults, AreRecordedNamedAndRepeatable) {
   const Outcome outcome = eval(
       "run.rec", {"--start", "truth", "--fault", "odometry=jump:0.5,0,30@5", "--fault",
-                  "readings=crowd@8-12", "--record", path("bad.rec"), "--json", path("a.json")});
+                  "readings=crowd@8-12", "--record", path("bad.txt"), "--json", path("a.json")});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("  with odometry=jump:0.5,0,30@5\n  with readings=crowd@8-12\n"),
             std::string::npos)
       << outcome.out;
-  EXPECT_NE(read("bad.rec"), read("run.rec"));
+  EXPECT_NE(read("bad.txt"), read("run.rec"));
   // The record holds the readings as MCL saw them.
-  ASSERT_EQ(eval("bad.rec", {"--start", "truth", "--json", path("b.json")}).exitCode, 0);
+  ASSERT_EQ(eval("bad.txt", {"--start", "truth", "--json", path("b.json")}).exitCode, 0);
   const auto a = nlohmann::json::parse(read("a.json"));
   const auto b = nlohmann::json::parse(read("b.json"));
   EXPECT_EQ(a["faults"].size(), 2u);

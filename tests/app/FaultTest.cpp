@@ -1,7 +1,9 @@
 #include <cerrno>
 
 #include "Workspace.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/records/RecordEnd.hpp"
+#include "ortung/records/RecordSource.hpp"
+#include "ortung/records/RecordWriter.hpp"
 
 namespace ortung::test {
 namespace {

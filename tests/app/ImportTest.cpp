@@ -12,6 +12,12 @@ TEST_F(Import, RecordOfASimulatedRunBearsTheFingerprintOfItsWorld) {
   learnTables();
   EXPECT_TRUE(read("run.rec").starts_with("# ortung record 1\n# world "))
       << read("run.rec").substr(0, 80);
+  // Compressed, it is the same.
+  ASSERT_EQ(ortung({"import", "record", path("run.rec"), "--out", path("small.rec")}).exitCode, 0);
+  EXPECT_LT(3 * std::filesystem::file_size(path("small.rec")),
+            std::filesystem::file_size(path("run.rec")));
+  ASSERT_EQ(ortung({"import", "record", path("small.rec"), "--out", path("back.txt")}).exitCode, 0);
+  EXPECT_TRUE(read("back.txt") == read("run.rec"));
   const Outcome outcome = ortung({"check", path("run.rec"), path("hall.ortung")});
   EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
 }

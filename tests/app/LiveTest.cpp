@@ -3,7 +3,9 @@
 #include <thread>
 
 #include "Workspace.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/records/RecordEnd.hpp"
+#include "ortung/records/RecordSource.hpp"
+#include "ortung/records/RecordWriter.hpp"
 
 namespace ortung::test {
 namespace {
@@ -270,10 +272,10 @@ TEST_F(FullOutput, ThatIsClosedDoesNotEndUpInAnotherFile) {
   recordRun();
   const Outcome outcome =
       ortung({"eval", "--source", "record:" + path("run.rec"), "--robot", path("robot.toml"),
-              "--tables", path("hall.ortung"), "--record", path("copy.rec")},
+              "--tables", path("hall.ortung"), "--record", path("copy.txt")},
              {}, "closed");
   EXPECT_EQ(outcome.exitCode, 1);
-  EXPECT_EQ(read("copy.rec"), read("run.rec"));
+  EXPECT_EQ(read("copy.txt"), read("run.rec"));
 }
 
 // "--out /dev/stdout > file": both what is written and what is printed is there.

@@ -27,7 +27,7 @@ class Localization : public Workspace {
 
 TEST_F(Localization, EvalTracksFromAKnownStartAndWritesAllItsFiles) {
   const Outcome outcome = run("eval", {"--start", "truth", "--json", path("o.json"), "--report",
-                                       path("o.html"), "--record", path("o.rec")});
+                                       path("o.html"), "--record", path("o.txt")});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   const auto json = nlohmann::json::parse(read("o.json"));
   EXPECT_GT(json["steps"].get<int>(), 30);
@@ -36,7 +36,7 @@ TEST_F(Localization, EvalTracksFromAKnownStartAndWritesAllItsFiles) {
   EXPECT_LT(json["heading_rmse_deg"].get<double>(), 5.0);
   EXPECT_NE(outcome.out.find("Position error, RMS"), std::string::npos);
   EXPECT_TRUE(read("o.html").starts_with("<!DOCTYPE html>"));
-  EXPECT_EQ(read("o.rec"), read("run.rec"));
+  EXPECT_EQ(read("o.txt"), read("run.rec"));
 }
 
 // Scans every 3 s, and 5 s without any reading: between scans odometry alone says where the robot
@@ -168,8 +168,8 @@ TEST_F(Localization, TornRecordIsReadUpToItsLastWholeMomentAndSaidToBeTorn) {
   EXPECT_NE(outcome.err.find("warning: " + path("run.rec") + " is torn: its last "),
             std::string::npos)
       << outcome.err;
-  EXPECT_EQ(run("eval", {"--record", path("o.rec")}).exitCode, 0);
-  EXPECT_EQ(read("o.rec"), text.substr(0, text.find(moment) + 1));
+  EXPECT_EQ(run("eval", {"--record", path("o.txt")}).exitCode, 0);
+  EXPECT_EQ(read("o.txt"), text.substr(0, text.find(moment) + 1));
 }
 
 TEST_F(Localization, ForeignLineIsRefusedWithItsNumberAndOldResultsStay) {
@@ -177,10 +177,10 @@ TEST_F(Localization, ForeignLineIsRefusedWithItsNumberAndOldResultsStay) {
   write("o.json", old);
   std::string text = read("run.rec");
   write("run.rec", text.insert(text.rfind('\n', text.size() / 2) + 1, "FLASER 180 1.0 2.0\n"));
-  expectRefused(run("eval", {"--json", path("o.json"), "--record", path("o.rec")}), 1,
+  expectRefused(run("eval", {"--json", path("o.json"), "--record", path("o.txt")}), 1,
                 "ortung eval: " + path("run.rec") + ":", {"FLASER"});
   EXPECT_EQ(read("o.json"), old);
-  EXPECT_FALSE(std::filesystem::exists(path("o.rec")));
+  EXPECT_FALSE(std::filesystem::exists(path("o.txt")));
 }
 
 // The run begins at 0, 0 and 30 degrees, and so narrow a start can't be anywhere else at once.

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "Workspace.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/records/RecordSource.hpp"
 #include "ortung/tables/TableFile.hpp"
 
 namespace ortung::test {

@@ -3,8 +3,8 @@
 
 #include "Program.hpp"
 #include "Workspace.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/formats/TalkData.hpp"
+#include "ortung/records/RecordSource.hpp"
 
 namespace ortung::test {
 namespace {

@@ -9,8 +9,8 @@
 #include "DecodedPng.hpp"
 #include "Files.hpp"
 #include "Palette.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/records/RecordWriter.hpp"
 
 namespace ortung::app {
 namespace {

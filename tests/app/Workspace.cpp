@@ -102,10 +102,11 @@ void Workspace::learnTables() const {
 }
 
 void Workspace::recordRun() const {
-  const Outcome outcome = ortung({"import", "sim", path("hall.toml"), "--out", path("run.rec"),
+  const Outcome outcome = ortung({"import", "sim", path("hall.toml"), "--out", path("run.txt"),
                                   "--option", "duration=20", "--option", "seed=3", "--option",
                                   "start=0,0,30", "--with-robot", path("robot.toml")});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  std::filesystem::rename(path("run.txt"), path("run.rec"));
 }
 
 void expectRefused(const Outcome& outcome, int exitCode, const std::string& begin,

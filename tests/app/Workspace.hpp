@@ -25,7 +25,7 @@ class Workspace : public testing::Test {
 
   /// hall.ortung, learned for hall.toml and robot.toml.
   void learnTables() const;
-  /// run.rec, 20 s of a simulated drive.
+  /// run.rec, 20 s of a simulated drive, in lines of text.
   void recordRun() const;
 
   std::filesystem::path folder_;

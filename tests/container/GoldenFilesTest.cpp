@@ -6,10 +6,11 @@
 
 #include "Golden.hpp"
 #include "TableUser.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/motion/MotionNetwork.hpp"
+#include "ortung/records/RecordSource.hpp"
+#include "ortung/records/RecordWriter.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TableInfo.hpp"
@@ -34,21 +35,37 @@ const std::vector<Message> kMessages = {
 
 TEST(GoldenRecord, IsWrittenAsItWas) {
   const TemporaryFolder folder;
-  RecordWriter writer(folder / "x.rec", "00f315bae1fde647");
+  RecordWriter writer(folder / "x.txt", "00f315bae1fde647");
   for (const Message& message : kMessages) writer.write(message);
   writer.commit();
-  expectGolden("record1.rec", readBytes(folder / "x.rec"));
+  expectGolden("record1.rec", readBytes(folder / "x.txt"));
 }
 
-TEST(GoldenRecord, IsReadAsItWas) {
-  RecordSource source(goldenFile("record1.rec"));
+/// kMessages, and a reading that is too large for a line.
+std::vector<Message> withPicture() {
+  std::vector<Message> messages = kMessages;
+  Words pixels = {160, 120, 1};
+  for (std::uint32_t i = 0; i < 4800; ++i) pixels.push_back(0x01010101U * (i / 100) + i % 7);
+  messages.push_back({1700000000123457, {"camera", "image", "front"}, pixels});
+  return messages;
+}
+
+void expectRead(const std::string& name, const std::vector<Message>& messages) {
+  RecordSource source(goldenFile(name));
   EXPECT_EQ(source.worldFingerprint(), "00f315bae1fde647");
   Message message;
-  for (const Message& expected : kMessages) {
+  for (const Message& expected : messages) {
     ASSERT_TRUE(source.next(message));
     EXPECT_EQ(message, expected);
   }
   EXPECT_FALSE(source.next(message));
+  EXPECT_EQ(source.remark(), "");
+}
+
+// How zstd compresses may change with its versions, so that what is written is not compared.
+TEST(GoldenRecord, IsReadAsItWas) {
+  expectRead("record1.rec", kMessages);
+  expectRead("record2.rec", withPicture());
 }
 
 /// One command, one hidden layer of two neurons.

@@ -9,8 +9,8 @@
 #include "WorldModel.hpp"
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/PluginFactory.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/core/Source.hpp"
+#include "ortung/records/RecordSource.hpp"
 #include "ortung/robot/MotionNetworkFile.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TomlFile.hpp"
@@ -173,12 +173,14 @@ TEST(FlippedBits, OfAMotionNetwork) {
 
 TEST(FlippedBits, OfARecord) {
   const TemporaryFolder folder;
-  const std::string record = readBytes(goldenFile("record1.rec"));
-  expectBoth(flipBits<std::runtime_error>(record, [&](const std::string& bytes) {
-    writeBytes(folder / "a.rec", bytes);
-    RecordSource source(folder / "a.rec");
-    for (Message message; source.next(message);) EXPECT_FALSE(message.id.model.empty());
-  }));
+  for (const char* name : {"record1.rec", "record2.rec"}) {
+    const std::string record = readBytes(goldenFile(name));
+    expectBoth(flipBits<std::runtime_error>(record, [&](const std::string& bytes) {
+      writeBytes(folder / "a.rec", bytes);
+      RecordSource source(folder / "a.rec");
+      for (Message message; source.next(message);) EXPECT_FALSE(message.id.model.empty());
+    }));
+  }
 }
 
 // --- foreign logs ---

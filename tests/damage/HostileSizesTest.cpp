@@ -2,7 +2,7 @@
 // refused with a sentence before memory is taken for it.
 #include "FlippedBits.hpp"
 #include "ortung/core/BinaryReading.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/records/RecordSource.hpp"
 #include "ortung/robot/TableInfo.hpp"
 
 namespace ortung {

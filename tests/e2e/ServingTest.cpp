@@ -17,7 +17,6 @@
 #include "Serving.hpp"
 #include "TestClient.hpp"
 #include "ortung/client/RemoteRobot.hpp"
-#include "ortung/core/Record.hpp"
 
 namespace ortung::test {
 namespace {
@@ -144,7 +143,7 @@ TEST(Serving, AServerThatIsKilledIsToldByTheClient) {
 
 TEST(Serving, ARecordIsServedLikeASimulation) {
   const TemporaryFolder folder;
-  const std::string record = folder / "run.rec";
+  const std::string record = folder / "run.txt";
   const Outcome imported = ortung({"import", "sim", kMaps + "/fields/arena.toml", "--out", record,
                                    "--with-robot", kRobot, "--option", "duration=1"});
   ASSERT_EQ(imported.exitCode, 0) << imported.err;

@@ -9,6 +9,8 @@
 #include "Commands.hpp"
 #include "Files.hpp"
 #include "ortung/client/RemoteRobot.hpp"
+#include "ortung/core/ReadingLine.hpp"
+#include "ortung/records/RecordWriter.hpp"
 #include "ortung/run/Localization.hpp"
 #include "ortung/served/ServedSimulation.hpp"
 #include "ortung/server/ServedRecord.hpp"

@@ -2,6 +2,7 @@
 // and read again.
 #include <sys/mman.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +12,8 @@
 #include <string_view>
 
 #include "ortung/core/BinaryReading.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
+#include "ortung/records/RecordSource.hpp"
 
 namespace {
 
@@ -53,13 +55,58 @@ void readBinary(std::string_view bytes) {
   }
 }
 
-void readFile(std::string_view text) {
+void append(std::string& out, std::uint64_t number, int bytes) {
+  for (int i = 0; i < bytes; ++i) out += static_cast<char>(number >> 8 * i & 0xFF);
+}
+
+std::string frame(std::string_view bytes) {
+  std::string out(ZSTD_compressBound(bytes.size()), 0);
+  out.resize(ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1));
+  return out;
+}
+
+std::string skippable(unsigned variant, const std::string& bytes) {
+  std::string out;
+  append(out, 0x184D2A50U + variant, 4);
+  append(out, bytes.size(), 4);
+  return out + bytes;
+}
+
+/// A compressed record whose checksums are right, so that what is behind them is reached: the
+/// input's first bytes change the head, the next are lines, those behind a 0 a reading; an index
+/// of the input's, too.
+std::string chunked(std::string_view bytes) {
+  constexpr std::size_t kHead = 48;
+  if (bytes.size() < 2 * kHead) return "";
+  const std::string_view changes = bytes.substr(0, kHead);
+  const std::string_view places = bytes.substr(kHead, kHead);
+  const std::string_view rest = bytes.substr(2 * kHead);
+  const std::string_view lines = rest.substr(0, rest.find('\0'));
+  const std::string packed = frame(lines);
+  const std::string apart = skippable(14, frame(rest.substr(lines.size())));
+  std::string head;
+  append(head, 0, 8);
+  append(head, 1000, 8);
+  append(head, static_cast<std::uint64_t>(std::count(lines.begin(), lines.end(), '\n')), 4);
+  append(head, lines.find("# binary ") == lines.npos ? 0 : 1, 4);
+  append(head, lines.size(), 8);
+  append(head, packed.size(), 8);
+  append(head, apart.size(), 8);
+  for (std::size_t i = 0; i < kHead; ++i) head[i] = static_cast<char>(head[i] ^ changes[i]);
+  std::string record = skippable(13, "ortung record 2\n");
+  for (int i = 0; i < 2; ++i) record += skippable(13, "CHNK" + frame(head)) + packed + apart;
+  std::string end;
+  append(end, record.size(), 8);
+  return record + skippable(13, "INDX" + frame(places) + end + "ORTINDEX");
+}
+
+void readFile(std::string_view text, const RecordPart& part = {}) {
   static const int file = ::memfd_create("record", MFD_CLOEXEC);
   if (::ftruncate(file, 0) != 0 ||
       ::pwrite(file, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
     std::abort();
   try {
-    RecordSource source("/proc/self/fd/" + std::to_string(file));
+    RecordSource source("/proc/self/fd/" + std::to_string(file), part);
     FrameReader reader(source);
     std::vector<Message> frame;
     Timestamp last = INT64_MIN;
@@ -78,5 +125,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   readLines(text);
   readBinary(text);
   readFile(text);
+  const std::string record = chunked(text);
+  readFile(record);
+  readFile(record, {0.0005, 0.0009});
   return 0;
 }

@@ -11,7 +11,7 @@ package_of() {
     GTest) echo libgtest-dev ;; OpenCV) echo libopencv-dev ;; PNG) echo libpng-dev ;; Python3) echo python3 ;; Python) echo python3-dev ;; pybind11) echo pybind11-dev ;; benchmark) echo libbenchmark-dev ;;
     box2d) echo libbox2d-dev ;; embree) echo libembree-dev ;; fmt) echo libfmt-dev ;; mrpt-maps) echo libmrpt-maps-dev ;;
     mrpt-obs) echo libmrpt-obs-dev ;; nlohmann_json) echo nlohmann-json3-dev ;; rapidcheck) echo librapidcheck-dev ;;
-    spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;;
+    spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;; zstd) echo libzstd-dev ;; zstdcat) echo zstd ;;
     iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; ccache) echo ccache ;;
     clang-19 | clang-format-19 | python3 | cmake | pkg-config) echo "$1" ;; clang++-19) echo clang-19 ;;
     Ninja | ninja) echo ninja-build ;; readelf) echo binutils ;; javascript/dygraphs) echo libjs-dygraphs ;;
@@ -26,7 +26,7 @@ names=$({
            s/^ *find_path\([A-Z_]+ ([^ ]+).*/\1/p; s/.*COMPONENTS (iostreams).*/\1/p; s|.*/usr/share/(javascript/dygraphs).*|\1|p' \
     $cmake_files
   sed -nE 's/.*"CXX?": "([^"]+)".*/\1/p; s/.*"generator": "([^"]+)".*/\1/p' CMakePresets.json
-  grep -ohE 'clang-format-[0-9]+|\b(ninja|ccache|python3|cmake|pkg-config|readelf)\b' scripts/*.sh tests/hygiene/*.sh
+  grep -ohE 'clang-format-[0-9]+|\b(ninja|ccache|python3|cmake|pkg-config|readelf|zstdcat)\b' scripts/*.sh tests/hygiene/*.sh
   grep -ohE '^ *(import|from) (PIL|numpy)' scripts/*.py examples/*.py tests/*/*.py 2> /dev/null | sed 's/.* //'
 } | sort -u)
 [ "$(echo "$names" | wc -l)" -gt 20 ] || { echo "too little was found to look for: $names"; exit 1; }

@@ -20,6 +20,7 @@ deny() {
 foreign='mrpt|opencv|embree|GL/|EGL/|box2d|boost|spdlog|fmt/|CLI/'
 deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|served|client)|$foreign"
 deny 'container' 'toml\+\+|toml\.|nlohmann' 'container/robot/'
+deny 'container mcl sim plugins realsensors app' 'zstd\.h' 'container/records/src/Zstd\.cpp'
 deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign" 'mcl/player/.*sim_api/'
 deny 'container mcl/include mcl/src mcl/run sim/api sim/src sim/include sim/remote realsensors' 'ortung/mcl_player/'
 deny 'plugins/sensors plugins/motion plugins/sources plugins/referees' 'ortung/mcl_player/'
@@ -50,7 +51,7 @@ deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
 
 # Rooms of the container in the order of their dependencies: each sees those before it alone. Private
 # headers are included by their names.
-later='base tables core formats motion camera robot'
+later='base tables core formats motion camera robot records'
 for room in $later; do
   later=${later#"$room"}
   later=${later# }

@@ -75,6 +75,7 @@ grep -q '1 robots' played.txt || fail "$(cat played.txt)"
 
 "$ortung" learn --world world.toml --robot robot.toml --out tables.ortung
 "$ortung" import sim world.toml --with-robot robot.toml --option duration=10 --option seed=3 --out run.rec
+zstdcat run.rec > run.txt
 "$ortung" localize --source record:run.rec --robot robot.toml --tables tables.ortung |
   awk '!/^#/ { printf "%.3f s: x %.3f m, y %.3f m\n", $1 / 1e6, $2, $3 }' > expected.txt
 [ "$(wc -l < expected.txt)" -gt 30 ] || fail "ortung localize gave too few poses"
@@ -101,8 +102,8 @@ awk '$2 ~ /^odometry/ { at[$1] = $4 " " $5 " " $6 }
               (p[3] - 18000) / 18000 * 3.14159265
        for (i = 4; i <= NF; ++i) printf " %.3f", $i / 1e3
        print ""
-     }' run.rec > readings.txt
-{ head -2 run.rec; cat bare; } > bare.rec
+     }' run.txt > readings.txt
+{ head -2 run.txt; cat bare; } > bare.rec
 "$work/build/localize" robot.toml tables.ortung record:bare.rec | awk '{ print $4, $7, $10 }' > expected.txt
 "$work/build/own_readings" robot.toml tables.ortung < readings.txt > poses.txt
 [ "$(wc -l < poses.txt)" -gt 30 ] || fail "own_readings gave too few poses"

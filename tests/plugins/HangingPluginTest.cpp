@@ -4,7 +4,7 @@
 
 #include "Files.hpp"
 #include "Program.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/records/RecordSource.hpp"
 
 /// Plugins that do not come back from a call: the program says which one, saves what it has, and
 /// ends.

@@ -1,4 +1,6 @@
 #include "RoomRun.hpp"
+#include "ortung/records/RecordSource.hpp"
+#include "ortung/records/RecordWriter.hpp"
 #include "ortung/run/Feeder.hpp"
 
 namespace ortung::test {

@@ -2,6 +2,7 @@
 #include <thread>
 
 #include "RoomRun.hpp"
+#include "ortung/records/RecordSource.hpp"
 #include "ortung/run/Localization.hpp"
 #include "ortung/run/TrackData.hpp"
 

@@ -13,7 +13,7 @@ TEST_F(Opening, TheTextsOwnMistakesAreATypeOfTheirOwn) {
   };
   EXPECT_TRUE(complaint("run.rec").starts_with("source 'run.rec': expected KIND:PATH"));
   EXPECT_EQ(complaint("record:run.rec?speed=2"),
-            "record:run.rec: a record knows no option 'speed'");
+            "record:run.rec: a record knows no option 'speed', but from_s and to_s");
   EXPECT_EQ(complaint("scanlog:x?path=y"), "scanlog:x: 'path' is no option of a source");
   EXPECT_THROW(openSource("telepathy:x", "", factory), PluginError);
 }

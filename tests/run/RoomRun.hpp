@@ -7,9 +7,9 @@
 
 #include "FakeRoom.hpp"
 #include "Files.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/records/RecordWriter.hpp"
 #include "ortung/run/Localization.hpp"
 
 namespace ortung::test {

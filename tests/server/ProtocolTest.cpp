@@ -5,7 +5,7 @@
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
 
 namespace ortung::test {
 namespace {

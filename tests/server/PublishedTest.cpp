@@ -4,6 +4,7 @@
 #include "../run/RoomRun.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
+#include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/run/TrackData.hpp"
 #include "ortung/server/ServedContainer.hpp"

@@ -8,7 +8,7 @@
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/server/ServedContainer.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
 
 namespace ortung {
 namespace {

@@ -2,7 +2,8 @@
 
 #include <set>
 
-#include "ortung/core/Record.hpp"
+#include "ortung/core/SourceOptions.hpp"
+#include "ortung/records/RecordSource.hpp"
 
 namespace ortung {
 namespace {
@@ -16,11 +17,22 @@ SourceText parse(const std::string& text) {
 }
 
 std::unique_ptr<Source> openRecord(const SourceText& text) {
-  if (!text.options.empty()) {
-    throw SourceTextError("record:" + text.path + ": a record knows no option '" +
-                          text.options.begin()->first + "'");
+  constexpr double kLongest = 1e9;  // [s]
+  Parameters options("record:" + text.path);
+  for (const auto& [key, value] : text.options) {
+    if (key != "from_s" && key != "to_s")
+      throw SourceTextError(options.where() + ": a record knows no option '" + key +
+                            "', but from_s and to_s");
+    options.set(key, value);
   }
-  return std::make_unique<RecordSource>(text.path);
+  RecordPart part;
+  try {
+    part.from = optionNumber(options, "from_s", part.from, {0.0, kLongest});
+    part.to = optionNumber(options, "to_s", {part.from, kLongest}).value_or(part.to);
+  } catch (const ConfigError& error) {
+    throw SourceTextError(error.what());
+  }
+  return std::make_unique<RecordSource>(text.path, part);
 }
 
 /// What sources there are, and why some libraries, which may have more, could not be loaded.

@@ -7,7 +7,7 @@
 #include "LineSocket.hpp"
 #include "Replies.hpp"
 #include "ortung/core/BinaryReading.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
 
 namespace ortung {
 namespace {

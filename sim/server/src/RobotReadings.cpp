@@ -4,7 +4,7 @@
 
 #include "Request.hpp"
 #include "ortung/core/BinaryReading.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
 
 namespace ortung::server {
 

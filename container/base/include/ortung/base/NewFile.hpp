@@ -37,6 +37,8 @@ class ORTUNG_API NewFile {
   void publish();  ///< flushes and puts the file in its place, to grow there
   void commit();   ///< flushes, puts the file in its place once it is on the disk, and closes it
 
+  /// Whether it is no regular file, or one that this process has open as an output.
+  bool isStream() const { return state_ == State::kStream; }
   std::uintmax_t size() const { return size_ + buffer_.size(); }  ///< written so far [bytes]
 
  private:

@@ -8,9 +8,9 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
-#include "ortung/core/Record.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/core/Source.hpp"
+#include "ortung/records/RecordWriter.hpp"
 
 namespace ortung {
 

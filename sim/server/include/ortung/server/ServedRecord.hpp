@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ortung/core/PluginFactory.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/records/RecordSource.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung {

@@ -1,3 +1,5 @@
+#include "ortung/records/RecordEnd.hpp"
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -7,11 +9,13 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "Chunk.hpp"
 #include "ortung/base/InputFile.hpp"
-#include "ortung/core/Record.hpp"
+#include "ortung/core/ReadingLine.hpp"
 
-// The writer gives a moment to the system in one piece, so what a killed one leaves is torn within
-// a moment. Its lines that are whole are left out, too: nobody can know how many are missing.
+// The writer of lines gives a moment to the system in one piece, so what a killed one leaves is
+// torn within a moment. Its lines that are whole are left out, too: nobody can know how many are
+// missing.
 
 namespace ortung {
 namespace {
@@ -69,9 +73,14 @@ std::string stampOf(const std::string& line) {
   return line.substr(0, blank == std::string::npos ? blank : blank + 1);
 }
 
-}  // namespace
+std::optional<TornRecord> tornChunk(const std::filesystem::path& path, std::ifstream in) {
+  chunk::Frames frames(path, std::move(in));
+  while (const auto head = frames.head())
+    if (!frames.skip(head->packedBytes + head->apartBytes)) break;
+  return frames.torn();
+}
 
-std::optional<TornRecord> tornEnd(const std::filesystem::path& path) {
+std::optional<TornRecord> tornLine(const std::filesystem::path& path) {
   Backwards file(path);
   const std::uintmax_t size = file.size();
   if (size == 0 || file.bytes(size - 1, 1) == "\n") return std::nullopt;
@@ -89,6 +98,15 @@ std::optional<TornRecord> tornEnd(const std::filesystem::path& path) {
     begin = lineBegin;
   }
   return TornRecord{begin, size - begin};
+}
+
+}  // namespace
+
+std::optional<TornRecord> tornEnd(const std::filesystem::path& path) {
+  std::string why;
+  std::ifstream in = openInput(path, why);
+  if (!in) throw std::runtime_error(path.string() + ": " + why);
+  return chunk::begins(path, in) ? tornChunk(path, std::move(in)) : tornLine(path);
 }
 
 std::optional<TornRecord> mendRecord(const std::filesystem::path& file) {
