@@ -15,6 +15,8 @@ packages=(
   libosmesa6-dev libegl-dev libgl-dev libegl-mesa0
   # readers of foreign logs
   libmrpt-obs-dev libmrpt-maps-dev
+  # tests of files for MRPT: its own tools
+  mrpt-apps
   # the program: command line, messages, charts of the report
   libcli11-dev libspdlog-dev libfmt-dev libstb-dev libjs-dygraphs
   # images: features, calibration, cameras

@@ -8,6 +8,7 @@
 #include "CalibrateCommands.hpp"
 #include "Commands.hpp"
 #include "Console.hpp"
+#include "ExportCommands.hpp"
 #include "LocalizationCommands.hpp"
 #include "OptionBuilder.hpp"
 
@@ -378,6 +379,7 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   addCompare(build, app);
   addLocalize(build, app);
   addImport(build, app);
+  addExport(build, app);
   addShow(build, app);
   addCheck(build, app);
   addSim(build, app);

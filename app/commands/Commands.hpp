@@ -134,6 +134,25 @@ int runImport(const ImportArguments& arguments);
 /// What the help of import says of a kind of source, or which kinds there are if it is "".
 std::string importHelp(const std::string& kind);
 
+struct ExportRawlogArguments {
+  std::string source;
+  std::filesystem::path robot;
+  std::filesystem::path out;
+  std::filesystem::path truth;  ///< "" for none
+  bool force = false;
+  bool progress = false;
+};
+int runExportRawlog(const ExportRawlogArguments& arguments);
+
+struct ExportMapArguments {
+  std::filesystem::path world;
+  std::filesystem::path out;
+  double cell = 0.05;   ///< [m]
+  double height = 0.3;  ///< of the plane that is drawn [m]
+  bool force = false;
+};
+int runExportMap(const ExportMapArguments& arguments);
+
 struct ShowArguments {
   std::filesystem::path tables;
   std::filesystem::path robot;

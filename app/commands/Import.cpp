@@ -1,12 +1,8 @@
 #include <fmt/format.h>
-#include <stdlib.h>
 
-#include <cerrno>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 
 #include "Commands.hpp"
 #include "Console.hpp"
@@ -14,7 +10,7 @@
 #include "Outputs.hpp"
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
-#include "ortung/base/InputFile.hpp"
+#include "Workshop.hpp"
 #include "ortung/core/SourceHelp.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SimWorld.hpp"
@@ -23,73 +19,6 @@ namespace ortung::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A temporary folder in which a file, and what it names beside it, is made before all of it is put
-/// in place.
-class Workshop {
- public:
-  Workshop(const char* option, const fs::path& target) : option_(option), target_(target) {
-    std::string name = (fs::temp_directory_path() / "ortung-import-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw std::runtime_error(name + ": " + std::generic_category().message(errno));
-    folder_ = name;
-  }
-  ~Workshop() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-
-  /// The target's place within the folder.
-  fs::path file() const { return folder_ / target_.filename(); }
-
-  /// Declares what was made beside the target, which is declared already.
-  void declare(Outputs& outputs) const {
-    const fs::path target = behindLinks(target_);
-    const bool hasFolder = !fs::exists(target) || fs::is_regular_file(target);
-    for (const fs::path& made : files()) {
-      if (made == file()) continue;
-      if (!hasFolder)
-        throw std::runtime_error(target_.string() + ": " + made.filename().string() +
-                                 " has to lie beside it, so it must be a file in a folder");
-      outputs.writes(option_, placeOf(made), OutputKind::kSettings);
-    }
-  }
-
-  /// Puts all files into place, the target last: it names the others.
-  void deliver(const Outputs& outputs) const {
-    for (const fs::path& made : files()) {
-      if (made != file()) copy(made, outputs.ready(placeOf(made)));
-    }
-    copy(file(), outputs.ready(target_));
-  }
-
- private:
-  static void copy(const fs::path& made, const fs::path& place) {
-    NewFile out(place);
-    std::ifstream in(made, std::ios::binary);
-    std::vector<char> bytes(1u << 20);
-    while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || in.gcount() > 0)
-      out.write(std::string_view(bytes.data(), static_cast<std::size_t>(in.gcount())));
-    if (in.bad()) throw std::runtime_error(made.string() + ": " + cantBeRead(errno));
-    out.commit();
-  }
-  std::vector<fs::path> files() const {
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
-      if (!entry.is_directory()) found.push_back(entry.path());
-    }
-    return found;
-  }
-  fs::path placeOf(const fs::path& made) const {
-    return target_.parent_path() / fs::relative(made, folder_);
-  }
-
-  const char* option_;
-  fs::path target_;
-  fs::path folder_;
-};
 
 /// "KIND SOURCE", or "KIND:SOURCE?key=value" like everywhere.
 SourceText namedSource(const ImportArguments& arguments) {

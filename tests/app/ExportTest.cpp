@@ -1,0 +1,177 @@
+// What `ortung export` writes, opened by MRPT's own tools.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <sstream>
+
+#include "Workspace.hpp"
+#include "ortung/records/RecordSource.hpp"
+
+namespace ortung::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isThere(const char* program) {
+  return std::system((std::string("command -v ") + program + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+class Export : public Workspace {
+ protected:
+  void exportRun() const {
+    recordRun();
+    const Outcome outcome =
+        ortung({"export", "rawlog", "record:" + path("run.rec"), "--robot", path("robot.toml"),
+                "--out", path("run.rawlog"), "--truth", path("truth.txt")});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  }
+  std::vector<Message> readingsOf(const std::string& name, const SensorId& feature) const {
+    RecordSource source(path(name));
+    std::vector<Message> found;
+    for (Message message; source.next(message);)
+      if (message.id == feature) found.push_back(message);
+    return found;
+  }
+  std::string run(const std::string& command) const {
+    const std::string line = "cd " + folder_.string() + " && " + command + " 2>&1 < /dev/null";
+    std::FILE* pipe = ::popen(line.c_str(), "r");
+    std::string text;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+    ::pclose(pipe);
+    return text;
+  }
+};
+
+const SensorId kScan{"LMS200", "LRF", "180DegreeScan"};
+const SensorId kOdometry{"odometry", "odometry", "pose"};
+
+TEST_F(Export, RawlogComesBackAsTheSameRangesAndOdometry) {
+  exportRun();
+  ASSERT_EQ(ortung({"import", "rawlog", path("run.rawlog"), "--out", path("back.rec"),
+                    "--robot-file", path("back.toml"), "--option", "gt=" + path("truth.txt")})
+                .exitCode,
+            0);
+  const auto scans = readingsOf("run.rec", kScan);
+  const auto back = readingsOf("back.rec", {"laser", "LRF", "scan"});
+  ASSERT_EQ(scans.size(), back.size());
+  ASSERT_GT(scans.size(), 100u);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    EXPECT_EQ(scans[i].stamp, back[i].stamp);
+    EXPECT_EQ(scans[i].words, back[i].words);
+  }
+  const auto odometry = readingsOf("run.rec", kOdometry);
+  const auto odometryBack = readingsOf("back.rec", kOdometry);
+  ASSERT_EQ(odometry.size(), odometryBack.size());
+  for (std::size_t i = 0; i < odometry.size(); ++i) {
+    EXPECT_EQ(odometry[i].stamp, odometryBack[i].stamp);
+    for (std::size_t k = 0; k < 3; ++k)  // the pose; a rawlog's reader makes velocities of it
+      EXPECT_EQ(odometry[i].words[k], odometryBack[i].words[k]);
+  }
+  // The scanner is where it was, and looks where it did.
+  EXPECT_EQ(ortung({"check", path("back.rec"), "--robot", path("back.toml")}).exitCode, 0);
+}
+
+TEST_F(Export, RawlogHasWhatRawlogEditCounts) {
+  if (!isThere("rawlog-edit")) GTEST_SKIP() << "rawlog-edit of MRPT is not here";
+  exportRun();
+  const std::string info = run("rawlog-edit --info -i run.rawlog");
+  const auto expected = [&](const SensorId& id) {
+    std::ostringstream line;
+    line << toText(id) << " / "
+         << std::string(6 - std::to_string(readingsOf("run.rec", id).size()).size(), ' ')
+         << readingsOf("run.rec", id).size() << " /";
+    return line.str();
+  };
+  EXPECT_NE(info.find(expected(kScan)), info.npos) << info << expected(kScan);
+  EXPECT_NE(info.find(expected(kOdometry)), info.npos) << info << expected(kOdometry);
+  const std::size_t all =
+      readingsOf("run.rec", kScan).size() + readingsOf("run.rec", kOdometry).size();
+  EXPECT_NE(info.find("Overall number of objects         : " + std::to_string(all) + "\n"),
+            info.npos)
+      << info;
+}
+
+/// Settings of pf-localization that matter; it starts anywhere in the half of the hall where the
+/// robot does, heading anywhere.
+std::string settings(const std::string& folder) {
+  return "[KLD_options]\nKLD_binSize_PHI_deg=10\nKLD_binSize_XY=0.10\nKLD_delta=0.01\n"
+         "KLD_epsilon=0.01\nKLD_maxSampleSize=20000\nKLD_minSampleSize=300\nKLD_minSamplesPerBin="
+         "0\n"
+         "[PF_options]\nPF_algorithm=0\nresamplingMethod=0\nadaptiveSampleSize=1\nBETA=0.5\n"
+         "sampleSize=1\n"
+         "[DummyOdometryParams]\nminStdXY=0.02\nminStdPHI=1.0\n"
+         "[LocalizationExperiment]\nuse_3D_poses=false\nmap_file=" +
+         folder +
+         "/hall.gridmap\n"
+         "rawlog_file=" +
+         folder + "/run.rawlog\nlogOutput_dir=" + folder +
+         "/LOG\n"
+         "3DSceneFrequency=100000\nexperimentRepetitions=1\nparticles_count=5000\n"
+         "ground_truth_path_file=" +
+         folder +
+         "/truth.txt\ninit_PDF_mode=0\n"
+         "init_PDF_min_x=-1\ninit_PDF_max_x=1\ninit_PDF_min_y=-1\ninit_PDF_max_y=1\n"
+         "SHOW_PROGRESS_3D_REAL_TIME=false\nSAVE_STATS_ONLY=1\n"
+         "[MetricMap]\noccupancyGrid_count=1\nlikelihoodMapSelection=-1\n"
+         "[MetricMap_occupancyGrid_00_creationOpts]\nresolution=0.05\n"
+         "[MetricMap_occupancyGrid_00_likelihoodOpts]\nlikelihoodMethod=4\nLF_decimation=2\n"
+         "LF_stdHit=0.10\nLF_maxCorrsDistance=0.30\nLF_zHit=0.999\nLF_zRandom=0.001\n"
+         "LF_maxRange=80\n";
+}
+
+TEST_F(Export, RunAndMapLetPfLocalizationFindTheRobot) {
+  if (!isThere("pf-localization")) GTEST_SKIP() << "pf-localization of MRPT is not here";
+  exportRun();
+  const Outcome map = ortung({"export", "map", path("hall.toml"), "--out", path("hall.gridmap")});
+  ASSERT_EQ(map.exitCode, 0) << map.err;
+  write("pf.ini", settings(folder_.string()));
+  const std::string said = run("timeout 300 pf-localization pf.ini");
+  std::istringstream errors(read("LOG_000_0005000/GT_error.txt"));
+  std::vector<double> metres;
+  for (double error = 0.0; errors >> error;) metres.push_back(error);
+  ASSERT_GT(metres.size(), 100u) << said;
+  for (std::size_t i = metres.size() / 2; i < metres.size(); ++i)
+    EXPECT_LT(metres[i], 0.2) << "a second method, on cells of 0.05 m, at step " << i;
+}
+
+TEST_F(Export, MapOfAWorldIsReadBackAsTheSameWorld) {
+  ASSERT_EQ(ortung({"export", "map", path("hall.toml"), "--out", path("hall.yaml")}).exitCode, 0);
+  EXPECT_TRUE(read("hall.pgm").starts_with("P5\n"));
+  write("drawn.toml", "[world]\nname = \"drawn\"\n\n[[grid]]\nmap = \"hall.yaml\"\n");
+  const Outcome drawn = ortung({"check", path("drawn.toml")});
+  EXPECT_EQ(drawn.exitCode, 0) << drawn.err;
+  // Learned of one, a run in the other is localized.
+  recordRun();
+  ASSERT_EQ(ortung({"learn", "--world", path("drawn.toml"), "--robot", path("robot.toml"), "--out",
+                    path("drawn.ortung")})
+                .exitCode,
+            0);
+  const Outcome eval = ortung({"eval", "--source", "record:" + path("run.rec"), "--robot",
+                               path("robot.toml"), "--tables", path("drawn.ortung"), "--start",
+                               "truth", "--any-world", "--json", path("o.json")});
+  ASSERT_EQ(eval.exitCode, 0) << eval.err;
+  const std::string json = read("o.json");
+  const std::size_t at = json.find("\"position_rmse_m\": ");
+  ASSERT_NE(at, json.npos);
+  EXPECT_LT(std::stod(json.substr(at + 19)), 0.15);
+}
+
+TEST_F(Export, SaysWhatIsWrong) {
+  recordRun();
+  expectRefused(ortung({"export", "map", path("hall.toml"), "--out", path("hall.png")}), 2,
+                "ortung export map: --out is", {"NAME.yaml or NAME.gridmap"});
+  write("deaf.toml", "[robot]\nradius_m = 0.2\n\n[[sensor]]\nplugin = \"compass\"\n");
+  const Outcome deaf = ortung({"export", "rawlog", "record:" + path("run.rec"), "--robot",
+                               path("deaf.toml"), "--out", path("run.rawlog")});
+  EXPECT_EQ(deaf.exitCode, 1);
+  EXPECT_NE(deaf.err.find("holds no reading that a rawlog can hold"), deaf.err.npos) << deaf.err;
+  EXPECT_FALSE(fs::exists(path("run.rawlog")));
+  write("mine.rawlog", "my own");
+  expectRefused(ortung({"export", "rawlog", "record:" + path("run.rec"), "--robot",
+                        path("robot.toml"), "--out", path("mine.rawlog")}),
+                1, "ortung export rawlog: " + path("mine.rawlog"), {"--force"});
+}
+
+}  // namespace
+}  // namespace ortung::test
