@@ -12,7 +12,7 @@ constexpr int kLeastBeside = 3;      ///< [px]
 constexpr int kMostBeside = 12;      ///< [px]
 constexpr double kFloorShare = 0.7;  ///< of them
 constexpr int kRough = 60;           ///< floor pixels before a crossing that tell how rough it is
-constexpr double kRougher = 4.0;     ///< a line is whiter than the floor by so many of its sigmas
+constexpr double kRougher = 3.0;     ///< a line is whiter than the floor by so many of its sigmas
 constexpr int kEdge = 2;             ///< pixels between floor and white that are neither
 
 constexpr double kReach = 4.0;  ///< how far a point's neighbours are, in spacings
@@ -24,7 +24,9 @@ bool isInChain(std::span<const Pixel> around, double spacing) {
     const double length = std::hypot(end.u, end.v);
     int aligned = 0;
     for (const Pixel& other : around)
-      aligned += std::abs(end.u * other.v - end.v * other.u) <= 0.25 * spacing * length ? 1 : 0;
+      aligned +=
+          std::abs(end.u * other.v - end.v * other.u) <= std::max(1.2, 0.25 * spacing) * length ? 1
+                                                                                                : 0;
     if (aligned >= kNeighbours) return true;
   }
   return false;
