@@ -96,6 +96,9 @@ Best calibrate(const CalibrateLinesArguments& arguments, const std::vector<Look>
   std::vector<LinePicture> pictures;
   for (const Look& look : looks) pictures.push_back(look.lines);
   Progress progress("calibrating", arguments.progress);
+  LineCalibrationGuess guess;
+  guess.height = arguments.height;
+  guess.heightShare = arguments.heightShare;
   std::optional<Best> best;
   for (std::size_t i = 0; i < arguments.worlds.size(); ++i) {
     const auto world = readWorld(arguments.worlds[i]);
@@ -103,7 +106,7 @@ Best calibrate(const CalibrateLinesArguments& arguments, const std::vector<Look>
     const FieldLines lines(model.lines);
     const auto found = calibrateByLines(
         looks.front().picture.size, pictures, LinePoseSearch(lines),
-        {.height = arguments.height, .heightShare = arguments.heightShare}, [&](double share) {
+        guess, [&](double share) {
           checkInterrupt();
           progress.update((static_cast<double>(i) + share) /
                           static_cast<double>(arguments.worlds.size()));
