@@ -8,6 +8,8 @@
 #include "Commands.hpp"
 #include "Files.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/ObjectsData.hpp"
 #include "ortung/formats/PointsData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/run/Localization.hpp"
@@ -124,6 +126,70 @@ TEST(RenderedLines, AreFoundAndNothingElseIs) {
     EXPECT_GE(score.precision(), 0.98);
     EXPECT_GE(score.recall(), 0.95);
   }
+}
+
+/// First reading of each feature that a robot in a scene or world has.
+template <typename Format, typename... Settings>
+typename Format::Reading firstOf(const std::string& source, const std::filesystem::path& robot,
+                                 const std::string& feature, Settings... settings) {
+  const std::unique_ptr<Robot> opened = openRobot(robot);
+  const auto readings = openSource(source, robot, opened->factory);
+  Message message;
+  while (readings->next(message))
+    if (message.id.feature == feature) {
+      Format data(message.id, settings...);
+      data.setData(message.stamp, message.words);
+      return data.reading();
+    }
+  return {};
+}
+
+TEST(RenderedThings, BallAndRobotsAreSeenWhereTheyAre) {
+  const TemporaryFolder folder;
+  writeBytes(folder / "scene.toml", "[scene]\nworld = \"" + kWorld +
+                                        "\"\nduration_s = 1\n"
+                                        "[[robot]]\nfile = \"" +
+                                        kRobot +
+                                        "\"\nname = \"me\"\n"
+                                        "start = { x_m = 2.0, y_m = -2.0, theta_deg = 30 }\n"
+                                        "[[robot]]\nfile = \"" ORTUNG_SOURCE_DIR
+                                        "/maps/robots/msl_omni.toml\"\nname = \"a\"\n"
+                                        "start = { x_m = 4.0, y_m = -3.0, theta_deg = 180 }\n"
+                                        "[[robot]]\nfile = \"" ORTUNG_SOURCE_DIR
+                                        "/maps/robots/pioneer.toml\"\nname = \"b\"\n"
+                                        "start = { x_m = 1.0, y_m = -5.1, theta_deg = 0 }\n");
+  const std::string source = "sim:" + (folder / "scene.toml").string() + "?robot=me";
+  const auto balls = firstOf<ObjectsData>(source, kRobot, "ball");
+  ASSERT_EQ(balls.size(), 1U);  // on the middle of the field
+  EXPECT_NEAR(balls[0].range, std::sqrt(8.0), 0.05);
+  EXPECT_NEAR(balls[0].bearing, radians(105.0), radians(1.0));
+  const auto robots = firstOf<ObjectsData>(source, kRobot, "obstacles");
+  ASSERT_EQ(robots.size(), 2U);
+  EXPECT_NEAR(robots[0].range, std::hypot(2.0, 1.0), 0.15);
+  EXPECT_NEAR(robots[0].bearing, std::atan2(-1.0, 2.0) - radians(30.0), radians(3.0));
+  EXPECT_NEAR(robots[1].range, std::hypot(1.0, 3.1), 0.15);
+  EXPECT_NEAR(robots[1].bearing, std::atan2(-3.1, -1.0) - radians(30.0), radians(3.0));
+}
+
+TEST(RenderedThings, GoalsAreToldApartByTheirColours) {
+  const TemporaryFolder folder;
+  std::string text = readBytes(kRobot);
+  text.replace(text.find("see = [\"lines\", \"ball\", \"obstacles\"]"), 36,
+               "see = [\"goals\"]\nmax_range_m = 12\n[sensor.goals]\ndepth_m = 0.5\n"
+               "[[sensor.goals.colour]]\nidentity = 1\nhue_deg = 240\n"
+               "[[sensor.goals.colour]]\nidentity = 2\nhue_deg = 60\n");
+  writeBytes(folder / "robot.toml", text);
+  const auto goals = firstOf<LandmarksData>(
+      std::string("sim:" ORTUNG_SOURCE_DIR "/maps/fields/f2000.toml?start=2,-1,30&speed=0"),
+      folder / "robot.toml", "goals", Pose2{}, LandmarksData::Config{.identities = {1, 2}});
+  ASSERT_EQ(goals.size(), 2U);
+  EXPECT_EQ(goals[0].identity, 1U);
+  EXPECT_NEAR(goals[0].range, std::hypot(8.0, 1.0), 0.8);  // a pixel there is 0.4 m
+  EXPECT_NEAR(wrapAngle(goals[0].bearing - std::atan2(1.0, -8.0) + radians(30.0)), 0.0,
+              radians(3.0));
+  EXPECT_EQ(goals[1].identity, 2U);
+  EXPECT_NEAR(goals[1].range, std::hypot(4.0, 1.0), 0.3);
+  EXPECT_NEAR(goals[1].bearing, std::atan2(1.0, 4.0) - radians(30.0), radians(3.0));
 }
 
 /// The whole field is searched, and the compass tells its halves apart.

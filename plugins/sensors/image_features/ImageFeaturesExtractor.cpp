@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/formats/ObjectsData.hpp"
 #include "ortung/vision/LineCalibration.hpp"
 
@@ -115,27 +116,49 @@ ImageFeaturesExtractor::Words ImageFeaturesExtractor::obstacles(const ImageView&
   return ObjectsData::encode(objects);
 }
 
-/// The largest part of each goal's colour; where it stands on the floor is its lowest pixel.
+/// Where a part of an image meets the floor: of its pixels in about the direction of its middle the
+/// one that shows the nearest floor. In the sensor's frame; nothing if none shows any.
+std::optional<Point3> ImageFeaturesExtractor::footOf(const ImageView& image,
+                                                     const ColourTable& colours,
+                                                     const Blob& blob) const {
+  const auto middle = view_->rayAt(blob.middle);
+  if (!middle) return std::nullopt;
+  const double bearing = std::atan2(middle->y, middle->x);
+  constexpr double kAside = 0.06;  // [rad]
+  std::optional<Point3> foot;
+  double nearest = settings_.goals.maxRange;
+  const int step = std::max(1, static_cast<int>(std::sqrt(blob.pixels) / 40.0));
+  for (int v = static_cast<int>(blob.vMin); v < static_cast<int>(blob.vMax); v += step)
+    for (int u = static_cast<int>(blob.uMin); u < static_cast<int>(blob.uMax); u += step) {
+      const std::size_t at =
+          static_cast<std::size_t>(v) * static_cast<std::size_t>(image.size.width) +
+          static_cast<std::size_t>(u);
+      if (!colours.isBall(image.pixels + 3 * at)) continue;
+      const auto floor = view_->floorAt({static_cast<double>(u), static_cast<double>(v)});
+      if (!floor || std::abs(wrapAngle(std::atan2(floor->y, floor->x) - bearing)) > kAside)
+        continue;
+      const double range = std::hypot(floor->x, floor->y);
+      if (range >= nearest) continue;
+      nearest = range;
+      foot = floor;
+    }
+  return foot;
+}
+
+/// The largest part of each goal's colour, and where it stands on the floor.
 ImageFeaturesExtractor::Words ImageFeaturesExtractor::goals(const ImageView& image) const {
   LandmarksData::Reading seen;
   for (std::size_t i = 0; i < goalColours_.size(); ++i) {
     constexpr double kLeastPixels = 60.0;
     const auto blobs = findBlobs(image, *goalColours_[i], ColourClass::kBall, kLeastPixels);
     if (blobs.empty()) continue;
-    // What looks away from the camera's feet is up: of the part's box the place nearest to them.
-    const Blob& blob = blobs.front();
-    std::optional<Point3> foot;
-    for (const double u : {blob.uMin, blob.middle.u, blob.uMax})
-      for (const double v : {blob.vMin, blob.middle.v, blob.vMax}) {
-        const auto floor = view_->floorAt({u, v});
-        if (floor && (!foot || std::hypot(floor->x, floor->y) < std::hypot(foot->x, foot->y)))
-          foot = floor;
-      }
-    const auto ray = view_->rayAt(blob.middle);
-    if (!foot || !ray) continue;
-    const double range = std::hypot(foot->x, foot->y);
-    const double bearing = std::atan2(ray->y, ray->x);
-    if (range > settings_.goals.maxRange) continue;
+    const auto foot = footOf(image, *goalColours_[i], blobs.front());
+    if (!foot) continue;
+    // The direction of all of it, and the wall's distance less how far it is behind the goal's
+    // line.
+    const auto middle = view_->rayAt(blobs.front().middle);
+    const double bearing = std::atan2(middle->y, middle->x);
+    const double range = std::max(0.0, std::hypot(foot->x, foot->y) - settings_.goalDepth);
     const auto from = fromRobot(range * std::cos(bearing), range * std::sin(bearing));
     seen.push_back({settings_.goals.identities[i], from.range, from.bearing});
   }

@@ -31,6 +31,8 @@ class ImageFeaturesExtractor : public Extractor {
   Words balls(const ImageView& image) const;
   Words obstacles(const ImageView& image) const;
   Words goals(const ImageView& image) const;
+  std::optional<Point3> footOf(const ImageView& image, const ColourTable& colours,
+                               const Blob& blob) const;
   /// Range and bearing from the robot's origin of a place in the camera's sensor frame.
   PointsData::Point fromRobot(double x, double y) const;
 

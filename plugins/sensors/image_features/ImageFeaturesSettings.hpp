@@ -31,6 +31,7 @@ struct ImageFeaturesSettings {
   PointsData::Config lines;
   LandmarksData::Config goals;
   std::vector<ColourRange> goalColours;  ///< by identity
+  double goalDepth = 0.0;                ///< of the coloured wall behind the goal's place [m]
   double period = 0.1;                   ///< of learning's forecast; pictures have their own [s]
 
   bool sees(const std::string& feature) const {
@@ -83,6 +84,7 @@ inline void readGoals(const Parameters& p, ImageFeaturesSettings& s) {
     p.fail("colour",
            "is missing: goals are told apart by their colours, a table "
            "[[sensor.goals.colour]] with identity and hue_deg each");
+  s.goalDepth = p.numberOr("depth_m", 0.0, {0.0, 10.0});
   s.goals.maxRange = s.maxRange;
   s.goals.range = SensorModel::read(p, "range_sigma_m", {.sigma = 0.3, .sigmaPerMetre = 0.1});
   s.goals.bearing = SensorModel::read(p, "bearing_sigma_deg", {.sigma = radians(4.0)});
