@@ -218,6 +218,7 @@ class RefereedSimulation : public ServedSimulation {
 
  private:
   void printEvents() {
+    if (eventsSoFar() == printed_) return;
     if (eventsSoFar() < printed_) printed_ = 0;  // after a reset
     std::vector<RefereeEvent> unsaid;
     for (const Event& event : events())

@@ -31,7 +31,7 @@ struct Settings {
   std::filesystem::path out;
   double cell = 0.1;          ///< [m]
   double headingStep = 0.0;   ///< [rad]
-  std::string area = "auto";  ///< "auto", "all", or x and y with a colon between them [m]
+  std::string area = "auto";  ///< "auto", "all", or x and y with a semicolon between them [m]
   int threads = 1;
 
   explicit Settings(const Parameters& p) {

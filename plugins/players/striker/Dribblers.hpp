@@ -29,7 +29,7 @@ class Dribble : public Strike {
     return true;
   }
 
-  void act(PlayerSeat& seat) override {
+  void act(PlayerSeat& seat) final {
     const bool knows = view_.update(seat);
     if (knows && kicked_ && failed(seat)) kicked_ = false;
     if (kicked_ || !knows) return Steering::stand(seat.robot());
@@ -38,7 +38,8 @@ class Dribble : public Strike {
   std::optional<BelievedPose> believedPose() const override { return view_.own().believed(); }
 
  protected:
-  void play(PlayerSeat& seat) {
+  /// What it does as long as it knows where it is and has not kicked.
+  virtual void play(PlayerSeat& seat) {
     if (!carry(seat)) return;
     const Pose2& pose = view_.pose();
     const double depth = attack_.goal.depthOf(pose.x);
@@ -105,17 +106,15 @@ class Seek : public Dribble {
     view_.begin(seat, pose);
     return true;
   }
-  void act(PlayerSeat& seat) override {
-    const bool knows = view_.update(seat);
-    if (knows && kicked_ && failed(seat)) kicked_ = false;
-    if (kicked_ || !knows) return Steering::stand(seat.robot());
+
+ private:
+  void play(PlayerSeat& seat) override {
     isUpToIt_ = isUpToIt_ ? isBefore() : isBehind();
-    if (isUpToIt_) return play(seat);
+    if (isUpToIt_) return Dribble::play(seat);
     Steering({.speed = kSpeed, .turn = 3.0, .acceleration = 2.0, .turnAcceleration = 8.0})
         .steer(view_.pose(), wayPoint(), seat.robot());
   }
 
- private:
   static constexpr double kSpeed = 1.6;   ///< without the ball [m/s]
   static constexpr double kBehind = 0.7;  ///< it drives up to the ball from there [m]
   bool isUpToIt_ = false;                 ///< it drives up to the ball
@@ -174,10 +173,9 @@ class Feint : public Dribble {
     view_.begin(seat, pose);
     return true;
   }
-  void act(PlayerSeat& seat) override {
-    const bool knows = view_.update(seat);
-    if (knows && kicked_ && failed(seat)) kicked_ = false;
-    if (kicked_ || !knows) return Steering::stand(seat.robot());
+
+ private:
+  void play(PlayerSeat& seat) override {
     if (!carry(seat)) return;
     const Pose2& pose = view_.pose();
     const FloorPoint lure = attack_.goal.before(depth_, side_ * out_);
@@ -195,7 +193,6 @@ class Feint : public Dribble {
     BallCarrier::drive(pose, corner, seat.robot());
   }
 
- private:
   double side_ = 1.0;   ///< 1: to the left of the field
   double out_ = 1.0;    ///< how far aside it carries the ball [m]
   double depth_ = 2.0;  ///< and how near to the goal line [m]

@@ -154,7 +154,7 @@ void Learner::Parts::generateAll(Readings& readings) {
     std::vector<SensorData*> features;
     std::vector<char> isNew;
     for (const Stop& stop : readings.stops) {
-      if (&stop == &readings.stops[1])
+      if (&stop == readings.stops.data() + 1)
         readings.words.reserve(readings.words.size() * (readings.stops.size() + 1));
       standAt(stop, [&](const RobotState& state, const SweepGroup& group) {
         generate(world, state, group, *rig, stop.now, features, isNew);
