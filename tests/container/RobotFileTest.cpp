@@ -29,6 +29,20 @@ TEST(RobotFile, GivesSensorsAndSections) {
   EXPECT_EQ(robot.drive.number("speed_m_s"), 1.0);
 }
 
+TEST(RobotFile, KeepsDevicesApartForWhoeverOpensThem) {
+  const RobotConfig robot = read(
+      "[devices]\nwait_s = 0.2\n[[sensor]]\nplugin = 'odometry'\ndevice = { plugin = 'base', port "
+      "= "
+      "'/dev/ttyUSB0', whatever = 1 }\n[[sensor]]\nplugin = 'odometry'\n");
+  EXPECT_EQ(robot.deviceWait, 0.2);
+  EXPECT_EQ(robot.sensors[0].device.text("plugin"), "base");
+  EXPECT_TRUE(robot.sensors[1].device.keys().empty());
+  robot.sensors[0].parameters.text("plugin");
+  robot.sensors[0].parameters.refuseUnread();  // simulator and learner pass `device` over
+  EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[devices]\nwait = 1\n"); }),
+            "r.toml:4: wait is not known here; known are wait_s");
+}
+
 TEST(RobotFile, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([] { read("[robot]\nname = 'x'\n"); }),
             "r.toml: sensor is missing: a robot file has at least one [[sensor]]");
@@ -40,7 +54,7 @@ TEST(RobotFile, SaysWhatIsWrong) {
             "r.toml:4: radus_m is not known here; known are colour, mass_kg, name, radius_m");
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[sensr]\n"); }),
             "r.toml:3: sensr is not known here; sections of a robot file are [robot], [[sensor]], "
-            "[motion], [mcl], [drive], [[body]] and [[manipulator]]");
+            "[motion], [mcl], [drive], [devices], [[body]] and [[manipulator]]");
   EXPECT_EQ(complaint([] { read("[sensor]\nplugin = 'a'\n"); }),
             "r.toml:1: sensor is a table, expected tables [[sensor]]");
   std::string many;

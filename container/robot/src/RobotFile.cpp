@@ -24,7 +24,8 @@ RobotConfig readRobot(const Parameters& file) {
   robot.body = file.tables("body");
   robot.manipulators = file.tables("manipulator");
   for (Parameters& sensor : file.tables("sensor")) {
-    robot.sensors.push_back({sensor.text("plugin"), sensor});
+    const Parameters device = sensor.takeTable("device");
+    robot.sensors.push_back({sensor.text("plugin"), sensor, device});
   }
   if (robot.sensors.empty())
     file.fail("sensor", "is missing: a robot file has at least one [[sensor]]");
@@ -32,15 +33,18 @@ RobotConfig readRobot(const Parameters& file) {
   robot.motion = file.table("motion");
   robot.mcl = file.table("mcl");
   robot.drive = file.table("drive");
+  const Parameters devices = file.table("devices");
+  robot.deviceWait = devices.numberOr("wait_s", robot.deviceWait, {0.0, 5.0});
+  devices.refuseUnread();
   // What stands inside the sections is checked by whoever reads them; other sections are unknown.
   body.refuseUnread();
-  static const std::vector<std::string> kSections = {"robot", "sensor", "motion",     "mcl",
-                                                     "drive", "body",   "manipulator"};
+  static const std::vector<std::string> kSections = {"robot", "sensor", "motion",      "mcl",
+                                                     "drive", "body",   "manipulator", "devices"};
   for (const std::string& key : file.keys()) {
     if (std::find(kSections.begin(), kSections.end(), key) == kSections.end()) {
       file.fail(key,
                 "is not known here; sections of a robot file are [robot], [[sensor]], [motion], "
-                "[mcl], [drive], [[body]] and [[manipulator]]");
+                "[mcl], [drive], [devices], [[body]] and [[manipulator]]");
     }
   }
   return robot;

@@ -15,6 +15,9 @@ namespace ortung {
 struct SensorConfig {
   std::string plugin;     ///< "lrf", "landmarks", ...
   Parameters parameters;  ///< the whole [[sensor]] table
+  /// Its `device`: what fills its features on a real robot; empty if nothing is said. Whoever opens
+  /// devices checks it; nobody else looks into it.
+  Parameters device;
 };
 
 /// A robot file (the paper's Parameters module): geometry, sensors, motion.
@@ -30,6 +33,7 @@ struct RobotConfig {
   Parameters drive;                      ///< [drive]: limits of the simulated robot, may be empty
   std::vector<Parameters> body;          ///< [[body]]: shapes of the simulated robot, may be none
   std::vector<Parameters> manipulators;  ///< [[manipulator]] of the simulated robot, may be none
+  double deviceWait = 0.05;  ///< how long readings of one device wait for those of others [s]
 };
 
 /// @throws ConfigError
