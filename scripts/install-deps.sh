@@ -17,6 +17,8 @@ packages=(
   libmrpt-obs-dev libmrpt-maps-dev
   # tests of files for MRPT: its own tools
   mrpt-apps
+  # drivers of laser scanners
+  libmrpt-hwdrivers-dev
   # the program: command line, messages, charts of the report
   libcli11-dev libspdlog-dev libfmt-dev libstb-dev libjs-dygraphs
   # images: features, calibration, cameras

@@ -8,6 +8,7 @@
 #include "CalibrateCommands.hpp"
 #include "Commands.hpp"
 #include "Console.hpp"
+#include "DeviceCommands.hpp"
 #include "ExportCommands.hpp"
 #include "LocalizationCommands.hpp"
 #include "OptionBuilder.hpp"
@@ -387,6 +388,10 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   addPlay(build, app);
 #endif
   addServe(build, app);
+#ifdef ORTUNG_HAS_DEVICES
+  addRobot(build, app);
+  addEmulate(build, app);
+#endif
   addBenchmark(build, app);
 #ifdef ORTUNG_HAS_VISION
   addCalibrate(build, app);

@@ -82,7 +82,8 @@ struct LocalizationArguments {
   std::string startSigma = "0.3,10";
   std::string motion;  ///< file, "turn_per_turn,turn_per_m,way_per_m,way_per_turn" or ""
   bool anyWorld = false;
-  bool force = false;  ///< overwrite files of other kinds
+  bool publish = false;  ///< put estimates into the container, for whoever reads that
+  bool force = false;    ///< overwrite files of other kinds
   bool progress = false;
 };
 
@@ -219,6 +220,36 @@ struct SimArguments {
   ServingArguments serving;
 };
 int runSim(const SimArguments& arguments);
+
+struct RobotArguments {
+  LocalizationArguments localization;  ///< tables "": it does not localize; no source
+  std::filesystem::path dev;           ///< in place of /dev; "": the real one
+  std::filesystem::path record;        ///< "" for none
+  std::filesystem::path out;           ///< poses; "" for none
+  std::optional<double> duration;      ///< [s]; default: until a signal
+  ServingArguments serving;
+};
+int runRobot(const RobotArguments& arguments);
+
+struct EmulateArguments {
+  std::string kind = "all";  ///< "sick", "hokuyo", "base", "lines", or all of the robot file
+  std::filesystem::path robot;
+  std::filesystem::path world;      ///< "": a source is given
+  std::string source;               ///< "": a world is given
+  std::filesystem::path dev;        ///< folder for links named like the ports; "": none
+  std::filesystem::path link;       ///< of a single device; "": none
+  std::optional<unsigned> tcp;      ///< port of a single device
+  std::optional<unsigned> baud;     ///< of a single device
+  std::vector<std::string> faults;  ///< "[DEVICE=]KIND[:VALUE][@FROM-TO]"
+  double clockOffset = 1000.0;      ///< of the devices' clocks [s]
+  double clockDriftPpm = 0.0;
+  double speed = 1.0;
+  bool waits = false;  ///< time begins when all devices have been asked to measure
+  std::uint64_t seed = 1;
+};
+int runEmulate(const EmulateArguments& arguments);
+/// What goes wrong with emulated devices, for help.
+std::string emulateHelp();
 
 struct PlayArguments {
   std::string player;              ///< as parsePlayer() reads it

@@ -72,6 +72,7 @@ std::unique_ptr<Localization> openLocalization(
   config.seed = arguments.seed;
   config.particles = arguments.particles;
   config.threads = arguments.threads;
+  config.publish = arguments.publish;
   config.anyWorld = true;  // the message below names the option
   std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
   std::unique_ptr<Source> source =

@@ -92,7 +92,7 @@ void checkPace(const ServingArguments& arguments) {
 }
 
 void serve(ServedWorld& world, const ServingArguments& arguments,
-           std::vector<BoardCommand> commands) {
+           std::vector<BoardCommand> commands, const std::function<bool()>& goesOn) {
   BoardConfig config;
   readListen(arguments.listen, config);
   config.tokens = readTokens(arguments.tokens);
@@ -112,7 +112,7 @@ void serve(ServedWorld& world, const ServingArguments& arguments,
     flushOutput();
     const Deadline deadline(board);
     const Rescue rescue([&] { board.abandon("the server ends, a plugin of its world hangs"); });
-    board.run([] { return interruptSignal() == 0; });
+    board.run([&] { return interruptSignal() == 0 && (!goesOn || goesOn()); });
     const BoardStatistics statistics = board.statistics();
     note(fmt::format("{} cycles, {} missed", statistics.cycles, statistics.missedCycles));
   } catch (const std::invalid_argument& error) {

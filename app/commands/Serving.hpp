@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "Commands.hpp"
 #include "ortung/server/BoardCommand.hpp"
 #include "ortung/server/MessageBoard.hpp"
@@ -16,8 +19,9 @@ void checkPace(const ServingArguments& arguments);
 /// @param commands further ones that clients may give
 /// Serves @p world to clients until a signal comes. Says on stdout where it listens. If the world
 /// has not come to an end 2 s after the signal, the program ends with 128 + the signal's number.
+/// @param goesOn asked ten times a second; "no" ends it like a signal
 /// @throws UsageError, std::runtime_error
 void serve(ServedWorld& world, const ServingArguments& arguments,
-           std::vector<BoardCommand> commands = {});
+           std::vector<BoardCommand> commands = {}, const std::function<bool()>& goesOn = {});
 
 }  // namespace ortung::app

@@ -10,7 +10,7 @@ package_of() {
     BLAS) echo libblas-dev ;; Boost) echo libboost-dev ;; CLI11) echo libcli11-dev ;; Eigen3) echo libeigen3-dev ;;
     GTest) echo libgtest-dev ;; OpenCV) echo libopencv-dev ;; PNG) echo libpng-dev ;; Python3) echo python3 ;; Python) echo python3-dev ;; pybind11) echo pybind11-dev ;; benchmark) echo libbenchmark-dev ;;
     box2d) echo libbox2d-dev ;; embree) echo libembree-dev ;; fmt) echo libfmt-dev ;; mrpt-maps) echo libmrpt-maps-dev ;;
-    mrpt-obs) echo libmrpt-obs-dev ;; nlohmann_json) echo nlohmann-json3-dev ;; rapidcheck) echo librapidcheck-dev ;;
+    mrpt-hwdrivers) echo libmrpt-hwdrivers-dev ;; mrpt-obs) echo libmrpt-obs-dev ;; nlohmann_json) echo nlohmann-json3-dev ;; rapidcheck) echo librapidcheck-dev ;;
     spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;; zstd) echo libzstd-dev ;; zstdcat) echo zstd ;;
     iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; ccache) echo ccache ;;
     clang-19 | clang-format-19 | python3 | cmake | pkg-config) echo "$1" ;; clang++-19) echo clang-19 ;;

@@ -47,7 +47,12 @@ deny 'sim/environments' "ortung/(mcl|run|server|served|client|refbox|remote)/|to
 deny 'container mcl sim/api sim/src sim/include sim/server sim/served sim/client sim/refbox sim/remote sim/benchmark plugins realsensors' 'ortung/learning/'
 deny 'plugins' 'ortung/(mcl|run|realsensors)/|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
-deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt/'
+deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt'
+
+# What runs on a robot knows no emulator of its devices; neither knows who opens it.
+deny 'container mcl sim plugins realsensors/core realsensors/devices realsensors/mrpt_devices' 'ortung/emulators/'
+deny 'realsensors/devices realsensors/emulators realsensors/mrpt_devices' "ortung/(run|server|served|client)/|toml|nlohmann|opencv" 'realsensors/devices/plugins/CameraDevice'
+deny 'container mcl sim plugins' 'ortung/devices/'
 
 # Rooms of the container in the order of their dependencies: each sees those before it alone. Private
 # headers are included by their names.
@@ -66,7 +71,7 @@ done
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include mcl/player/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
-              sim/pictures/include; do
+              sim/pictures/include realsensors/devices/include realsensors/emulators/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

@@ -171,7 +171,7 @@ TEST_P(RobotFileTest, RunsInTheSimulator) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, RobotFileTest,
                          testing::Values("pioneer.toml", "pioneer_lrf.toml", "pioneer_posts.toml",
-                                         "sonar_ring.toml"));
+                                         "sonar_ring.toml", "laboratory.toml"));
 
 }  // namespace
 }  // namespace ortung

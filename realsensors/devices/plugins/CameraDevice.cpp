@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ortung/camera/ImageData.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/devices/DeviceDriver.hpp"
+#include "ortung/devices/Port.hpp"
+
+namespace ortung {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::string_view kVideo = "/dev/video";
+
+/// A camera that OpenCV reads ("/dev/video0"), or a video file, which is played at its own speed.
+/// Pictures that nobody has taken in time are passed over by the system, the newest one counts.
+class CameraDevice : public DeviceDriver {
+ public:
+  explicit CameraDevice(const Parameters& p)
+      : name_(p.text("port")),
+        width_(static_cast<int>(p.integerOr("width_px", 0, {0, ImageData::kMostSide}))),
+        height_(static_cast<int>(p.integerOr("height_px", 0, {0, ImageData::kMostSide}))),
+        rate_(p.numberOr("rate_hz", 0.0, {0.0, 1000.0})),
+        isGrey_(p.choiceOr("pixels", "rgb", {"rgb", "grey"}) == "grey"),
+        repeats_(p.flagOr("repeat", false)) {}
+
+  void serve(std::span<const SensorData* const> features) override {
+    if (features.size() != 1 || dynamic_cast<const ImageData*>(features.front()) == nullptr)
+      throw std::invalid_argument("a camera fills one feature of pictures and nothing else");
+    feature_ = features.front();
+  }
+
+  void open() override {
+    if (isAtEnd_) throw DeviceAbsent(name_ + ": has come to its end");
+    isFile_ = name_.find(kVideo) == std::string::npos;
+    // The back ends would print, and look for the file on the network or as numbered pictures.
+    const bool isOpen = video_.open(name_, isFile_ ? cv::CAP_FFMPEG : cv::CAP_V4L2);
+    if (!isOpen) throw DeviceAbsent(name_ + ": can't be opened as a camera or a video");
+    if (width_ > 0) video_.set(cv::CAP_PROP_FRAME_WIDTH, width_);
+    if (height_ > 0) video_.set(cv::CAP_PROP_FRAME_HEIGHT, height_);
+    if (rate_ > 0.0 && !isFile_) video_.set(cv::CAP_PROP_FPS, rate_);
+    played_ = Clock::now();
+    laps_ = 0.0;
+    last_ = -1.0;
+    isFirst_ = true;
+  }
+
+  void read(std::chrono::milliseconds patience, std::vector<DeviceReading>& readings) override {
+    if (isAtEnd_) {
+      std::this_thread::sleep_for(patience);
+      return;
+    }
+    if (!pending_ && !grab()) return;
+    if (isFile_ && !isDue(patience)) return;
+    pending_ = false;
+    cv::Mat picture;
+    if (!video_.retrieve(picture) || picture.empty()) {
+      ++refused_;
+      return;
+    }
+    DeviceReading reading;
+    reading.deviceTime = static_cast<Timestamp>(std::llround(1000.0 * (time_ + laps_)));
+    encode(picture, reading.words);
+    checkFits(reading.words, picture);
+    isFirst_ = false;
+    readings.push_back(std::move(reading));
+  }
+
+  void close() noexcept override {
+    try {
+      video_.release();
+    } catch (const std::exception&) {  // it is closed all the same
+    }
+    pending_ = false;
+  }
+  std::uint64_t refused() const override { return refused_; }
+
+ private:
+  /// Takes the next picture; of a file also its time. False at the end.
+  bool grab() {
+    if (!video_.grab()) {
+      if (!isFile_) throw DeviceAbsent(name_ + ": gives no picture any more");
+      if (isFirst_) throw DeviceMisfit(name_ + ": holds no picture");
+      if (!repeats_) {
+        isAtEnd_ = true;
+        return false;
+      }
+      laps_ += std::max(last_, 0.0) + 40.0;
+      video_.set(cv::CAP_PROP_POS_FRAMES, 0);
+      last_ = -1.0;
+      return false;
+    }
+    const double time = video_.get(cv::CAP_PROP_POS_MSEC);
+    const double step =
+        video_.get(cv::CAP_PROP_FPS) > 1.0 ? 1000.0 / video_.get(cv::CAP_PROP_FPS) : 40.0;
+    time_ = std::isfinite(time) && time > last_ ? time : last_ + step;  // some files tell none
+    last_ = time_;
+    pending_ = true;
+    return true;
+  }
+
+  /// Whether the time of a file's picture has come, having waited for it until patience is over.
+  bool isDue(std::chrono::milliseconds patience) const {
+    const auto due = played_ + std::chrono::microseconds(std::llround(1000.0 * (time_ + laps_)));
+    std::this_thread::sleep_until(std::min(due, Clock::now() + patience));
+    return Clock::now() >= due;
+  }
+
+  /// Straight into the words: one copy, which turns the colours round.
+  void encode(const cv::Mat& picture, std::vector<std::uint32_t>& words) const {
+    if (picture.depth() != CV_8U || picture.cols > ImageData::kMostSide ||
+        picture.rows > ImageData::kMostSide)
+      throw DeviceMisfit(name_ + ": gives pictures of " + std::to_string(picture.cols) + " x " +
+                         std::to_string(picture.rows) + " that are no bytes or too large");
+    const bool isColour = !isGrey_ && picture.channels() == 3;
+    ImageData::start({picture.cols, picture.rows},
+                     isColour ? PixelFormat::kRgb : PixelFormat::kGrey, words);
+    cv::Mat out(picture.rows, picture.cols, isColour ? CV_8UC3 : CV_8UC1,
+                ImageData::pixelsOf(words).data());
+    if (isColour)
+      cv::cvtColor(picture, out, cv::COLOR_BGR2RGB);
+    else if (picture.channels() == 3)
+      cv::cvtColor(picture, out, cv::COLOR_BGR2GRAY);
+    else
+      picture.copyTo(out);
+  }
+
+  /// A calibration belongs to one size.
+  void checkFits(const std::vector<std::uint32_t>& words, const cv::Mat& picture) const {
+    if (!isFirst_) return;
+    try {
+      feature_->checkData(words);
+    } catch (const std::invalid_argument& error) {
+      throw DeviceMisfit(name_ + ": gives pictures of " + std::to_string(picture.cols) + " x " +
+                         std::to_string(picture.rows) + ": " + error.what());
+    }
+  }
+
+  std::string name_;
+  int width_;
+  int height_;
+  double rate_;  ///< [1/s]; 0: as the camera likes
+  bool isGrey_;
+  bool repeats_;
+  const SensorData* feature_ = nullptr;
+  cv::VideoCapture video_;
+  bool isFile_ = false;
+  bool pending_ = false;  ///< a picture was taken and not yet given
+  bool isAtEnd_ = false;
+  bool isFirst_ = true;
+  Clock::time_point played_;
+  double time_ = 0.0;   ///< of the picture, by the camera's clock or in the file [ms]
+  double last_ = -1.0;  ///< the same of the one before
+  double laps_ = 0.0;   ///< of a file that is repeated [ms]
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace
+}  // namespace ortung
+
+ORTUNG_PLUGINS("camera_device",
+               ortung::provide<ortung::DeviceDriver, ortung::CameraDevice>("camera"));

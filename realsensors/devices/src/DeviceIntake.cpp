@@ -1,0 +1,97 @@
+#include "ortung/devices/DeviceIntake.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace ortung {
+namespace {
+
+constexpr Timestamp kSecond = 1'000'000;
+
+}  // namespace
+
+DeviceIntake::DeviceIntake(std::vector<const SensorData*> features, const Config& config)
+    : config_(config), clock_(config.clock), health_(config.health) {
+  for (const SensorData* data : features) {
+    features_.emplace_back();
+    features_.back().data = data;
+  }
+}
+
+std::optional<Message> DeviceIntake::take(DeviceReading reading, Timestamp arrival) {
+  if (reading.feature >= features_.size())
+    throw std::invalid_argument("feature " + std::to_string(reading.feature) + " of " +
+                                std::to_string(features_.size()));
+  Feature& feature = features_[reading.feature];
+  if (!isSense(feature, reading)) {
+    ++refused_;
+    return std::nullopt;
+  }
+  if (repeatsItsTime(feature, reading) || isFrozen(feature, reading)) {
+    ++repeated_;
+    health_.sawRepeat(arrival);
+    return std::nullopt;
+  }
+  if (isFlood(feature, arrival)) {
+    ++flooded_;
+    return std::nullopt;
+  }
+  hasClock_ = reading.deviceTime.has_value();
+  const Timestamp stamp =
+      hasClock_ ? clock_.toHost(*reading.deviceTime, arrival) : clock_.toHost(arrival);
+  feature.deviceTime = reading.deviceTime;
+  health_.tookReading(arrival);
+  return Message{stamp, feature.data->id(), std::move(reading.words)};
+}
+
+/// What the feature does not take must not get as far as a container, whose readers would end.
+bool DeviceIntake::isSense(const Feature& feature, const DeviceReading& reading) {
+  try {
+    feature.data->checkData(reading.words);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+/// Its clock stands still: it can't have measured since.
+bool DeviceIntake::repeatsItsTime(Feature& feature, const DeviceReading& reading) {
+  return reading.deviceTime && feature.deviceTime && *reading.deviceTime == *feature.deviceTime;
+}
+
+bool DeviceIntake::isFrozen(Feature& feature, const DeviceReading& reading) const {
+  if (config_.repeatsOfFrozen == 0) return false;
+  if (reading.words == feature.words) {
+    ++feature.equal;
+  } else {
+    feature.words = reading.words;
+    feature.equal = 1;
+  }
+  return feature.equal > config_.repeatsOfFrozen;
+}
+
+bool DeviceIntake::isFlood(Feature& feature, Timestamp arrival) const {
+  if (arrival - feature.second >= kSecond || arrival < feature.second) {
+    feature.second = arrival;
+    feature.inSecond = 0;
+  }
+  return static_cast<double>(++feature.inSecond) > config_.mostPerSecond;
+}
+
+void DeviceIntake::opened(Timestamp now) {
+  clock_.restart();
+  for (Feature& feature : features_) feature.deviceTime.reset();
+  health_.opened(now);
+}
+
+DeviceStatus DeviceIntake::status(Timestamp now) const {
+  DeviceStatus status = health_.status(now);
+  status.refused = refused_;
+  status.repeated = repeated_;
+  status.flooded = flooded_;
+  status.clockJumps = clock_.jumps();
+  if (hasClock_) status.driftPpm = clock_.driftPpm();
+  return status;
+}
+
+}  // namespace ortung

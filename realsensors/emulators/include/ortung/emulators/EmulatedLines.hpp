@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ortung/emulators/EmulatedDevice.hpp"
+
+namespace ortung {
+
+/// A device that sends its readings as lines of a record, as anything home-made may do, and asks
+/// for nothing. Stamps are its clock's. Not thread-safe.
+class ORTUNG_API EmulatedLines : public EmulatedDevice {
+ public:
+  explicit EmulatedLines(std::span<const SensorData* const> features,
+                         std::optional<int> baud = std::nullopt);
+  void receive(std::string_view, Timestamp) override {}
+  void sense(const Message& reading, Timestamp now) override;
+  bool isMeasuring() const override { return true; }
+  std::optional<int> baud() const override { return baud_; }
+
+ private:
+  std::vector<SensorId> features_;
+  std::optional<int> baud_;
+};
+
+}  // namespace ortung

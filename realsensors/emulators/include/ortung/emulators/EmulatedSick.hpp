@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+
+#include "ortung/emulators/EmulatedDevice.hpp"
+#include "ortung/formats/ScanData.hpp"
+
+namespace ortung {
+
+/// The checksum of SICK's telegrams.
+ORTUNG_API std::uint16_t sickChecksum(std::string_view bytes);
+/// STX, address, length, @p data, checksum. @param address 0 to the scanner, 0x80 from it
+ORTUNG_API std::string sickTelegram(unsigned char address, std::string_view data);
+
+/// A SICK LMS 200 on a serial line: status, modes (installation, monitoring on request and
+/// continuous), configuration, angles, speeds, and measured values with their checksum, as of
+/// SICK's list of telegrams for the LMS 2xx. It sends a scan when the line is free, so a slow line
+/// has fewer of them. Not thread-safe.
+class ORTUNG_API EmulatedSick : public EmulatedDevice {
+ public:
+  /// @param scan what it measures, borrowed until this returns
+  /// @param baud its speed after it was switched on: 9600, 38400, 500000
+  explicit EmulatedSick(const ScanData& scan, int baud = 9600);
+
+  void receive(std::string_view bytes, Timestamp now) override;
+  void sense(const Message& reading, Timestamp now) override;
+  bool isMeasuring() const override { return isContinuous_; }
+  std::optional<int> baud() const override { return baud_; }
+
+ private:
+  void execute(std::string_view command, Timestamp now);
+  void answer(std::string data, Timestamp now);
+  void changeMode(std::string_view command, Timestamp now);
+  std::size_t beams() const;
+
+  SensorId id_;
+  double maxRange_;  ///< of the simulated scanner [m]: beyond it nothing is seen
+  int baud_;
+  std::string bytes_;     ///< of a telegram that is not whole yet
+  std::string settings_;  ///< 34 bytes of configuration
+  bool isInstalling_ = false;
+  bool isContinuous_ = false;
+  int fieldOfView_ = 180;  ///< [degrees]
+  int resolution_ = 100;   ///< [1/100 degree]
+};
+
+}  // namespace ortung

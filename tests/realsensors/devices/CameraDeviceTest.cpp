@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <opencv2/videoio.hpp>
+
+#include "Files.hpp"
+#include "ortung/camera/ImageData.hpp"
+#include "ortung/devices/DevicesSource.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+constexpr std::array<std::array<int, 3>, 5> kColours{{{200, 30, 30},
+                                                      {30, 200, 30},
+                                                      {30, 30, 200},
+                                                      {200, 200, 30},
+                                                      {90, 90, 90}}};  // red, green, blue
+
+/// A video with one colour after the other, ten pictures a second.
+void writeVideo(const std::filesystem::path& file) {
+  cv::VideoWriter writer(file.string(), cv::CAP_OPENCV_MJPEG,
+                         cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0, {kWidth, kHeight});
+  ASSERT_TRUE(writer.isOpened());
+  for (const auto& [red, green, blue] : kColours)
+    writer.write(cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar(blue, green, red)));
+}
+
+std::string robot(const std::filesystem::path& video, const std::string& size) {
+  return "[[sensor]]\nplugin = 'camera'\n"
+         "camera = { model = 'perspective', size_px = " +
+         size +
+         ", focal_px = [60, 60] }\n"
+         "device = { plugin = 'camera', port = '" +
+         video.string() + "', repeat = true }\n";
+}
+
+TEST(CameraDevice, PlaysAVideoFileAtItsOwnSpeed) {
+  const test::TemporaryFolder folder;
+  writeVideo(folder / "clip.avi");
+  test::writeBytes(folder / "robot.toml", robot(folder / "clip.avi", "[64, 48]"));
+  DevicesSource devices({folder / "robot.toml"});
+  std::vector<Message> messages;
+  while (messages.size() < 2 * kColours.size()) {
+    Message message;
+    ASSERT_TRUE(devices.next(message));
+    messages.push_back(message);
+  }
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    ImageData image(messages[i].id, {});
+    image.setData(messages[i].stamp, messages[i].words);
+    const ImageView view = image.reading();
+    ASSERT_EQ(view.size.width, kWidth);
+    ASSERT_EQ(view.size.height, kHeight);
+    const std::uint8_t* const middle = view.pixels + 3 * (kWidth * kHeight / 2 + kWidth / 2);
+    for (std::size_t c = 0; c < 3; ++c)  // JPEG and its colour space round
+      EXPECT_NEAR(middle[c], kColours[i % kColours.size()][c], 6) << i << " " << c;
+    // By the file's clock, which is exact; ours is put onto it.
+    if (i > 0 && i % kColours.size() != 0)
+      EXPECT_NEAR(toSeconds(messages[i].stamp - messages[i - 1].stamp), 0.1, 0.05);
+  }
+}
+
+TEST(CameraDevice, OfAnotherSizeThanItsCalibrationIsAMisfit) {
+  const test::TemporaryFolder folder;
+  writeVideo(folder / "clip.avi");
+  test::writeBytes(folder / "robot.toml", robot(folder / "clip.avi", "[640, 480]"));
+  DevicesSource devices({folder / "robot.toml"});
+  while (devices.status()[0].state != DeviceState::kFailed)
+    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+  EXPECT_NE(devices.status()[0].reason.find("gives pictures of 64 x 48"), std::string::npos)
+      << devices.status()[0].reason;
+}
+
+TEST(CameraDevice, ThatIsNotThereIsAbsent) {
+  const test::TemporaryFolder folder;
+  test::writeBytes(folder / "robot.toml", robot(folder / "none.avi", "[64, 48]"));
+  DevicesSource devices({folder / "robot.toml"});
+  while (devices.status()[0].state != DeviceState::kAbsent)
+    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+  EXPECT_NE(devices.status()[0].reason.find("none.avi"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ortung

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "Files.hpp"
+#include "ortung/core/Source.hpp"
+#include "ortung/devices/DevicesSource.hpp"
+#include "ortung/emulators/EmulatorRun.hpp"
+
+namespace ortung::test {
+
+/// Readings that never repeat, ten times a second, without an end; remembers what it gave.
+class Rehearsed : public Source {
+ public:
+  /// @param make the words of a feature in its n-th reading
+  struct Part {
+    SensorId id;
+    std::function<std::vector<std::uint32_t>(std::size_t n)> make;
+  };
+  explicit Rehearsed(std::vector<Part> parts) : parts_(std::move(parts)) {}
+  bool next(Message& message) override {
+    const Part& part = parts_[next_ % parts_.size()];
+    const std::size_t n = next_++ / parts_.size();
+    message = {static_cast<Timestamp>(n) * 100'000, part.id, part.make(n)};
+    const std::lock_guard lock(mutex_);
+    given_[toText(part.id)].push_back(message.words);
+    return true;
+  }
+  std::vector<std::vector<std::uint32_t>> given(const SensorId& id) {
+    const std::lock_guard lock(mutex_);
+    return given_[toText(id)];
+  }
+
+ private:
+  std::vector<Part> parts_;
+  std::size_t next_ = 0;
+  std::mutex mutex_;
+  std::map<std::string, std::vector<std::vector<std::uint32_t>>> given_;
+};
+
+/// Emulated devices on one side of the table, the drivers of a robot file on the other.
+class Desk {
+ public:
+  explicit Desk(Source& source) : source_(source) {}
+  ~Desk() { isOver_ = true; }
+
+  std::filesystem::path dev() const { return folder_.path(); }
+  void add(std::unique_ptr<EmulatedDevice> device, std::unique_ptr<Endpoint> endpoint,
+           const std::vector<std::string>& faults = {}) {
+    EmulatorRun::Line line{std::move(device), std::move(endpoint)};
+    for (const std::string& fault : faults) line.faults.push_back(parseEmulatorFault(fault));
+    lines_.push_back(std::move(line));
+  }
+  /// Begins, and reads the devices of @p robot.
+  DevicesSource& start(const std::string& robot, bool waits = true) {
+    const std::filesystem::path file = folder_.path() / "robot.toml";
+    writeBytes(file, robot);
+    run_ = std::make_unique<EmulatorRun>(std::move(lines_), source_,
+                                         EmulatorRun::Config{1.0, waits, 1});
+    thread_ = std::jthread([this] { run_->run([this] { return !isOver_; }); });
+    devices_ = std::make_unique<DevicesSource>(DevicesSource::Config{file, folder_.path()});
+    return *devices_;
+  }
+  /// Readings of @p id, until there are so many.
+  std::vector<Message> read(const SensorId& id, std::size_t count) {
+    std::vector<Message> messages;
+    while (messages.size() < count) {
+      auto message = devices_->poll(std::chrono::milliseconds(100));
+      if (message && message->id == id) messages.push_back(std::move(*message));
+    }
+    return messages;
+  }
+  /// Reads on until @p isTrue of the status of device number @p device; how many readings came of
+  /// each feature meanwhile.
+  std::map<std::string, std::size_t> readUntil(
+      std::size_t device, const std::function<bool(const DeviceStatus&)>& isTrue) {
+    std::map<std::string, std::size_t> counts;
+    while (!isTrue(devices_->status()[device]))
+      if (const auto message = devices_->poll(std::chrono::milliseconds(50)))
+        ++counts[toText(message->id)];
+    return counts;
+  }
+
+ private:
+  TemporaryFolder folder_;
+  Source& source_;
+  std::vector<EmulatorRun::Line> lines_;
+  std::unique_ptr<EmulatorRun> run_;
+  std::atomic<bool> isOver_ = false;
+  std::jthread thread_;
+  std::unique_ptr<DevicesSource> devices_;
+};
+
+}  // namespace ortung::test

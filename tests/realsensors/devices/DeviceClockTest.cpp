@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ortung/base/Random.hpp"
+#include "ortung/devices/DeviceClock.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr Timestamp kMillisecond = 1000;
+constexpr Timestamp kSecond = 1'000'000;
+
+TEST(DeviceClock, FindsTheOffsetOfADeviceBelowItsDelays) {
+  DeviceClock clock;
+  Random random(1);
+  constexpr Timestamp kOffset = 5'000'000'000;
+  constexpr Timestamp kLeast = 2 * kMillisecond;
+  Timestamp error = 0;
+  for (Timestamp t = 0; t < 60 * kSecond; t += 50 * kMillisecond) {
+    // Exponential delays with a mean of 8 ms above the least, now and then a stall of 200 ms.
+    double delay = -8e3 * std::log(1.0 - random.uniform());
+    if (random.uniform() < 0.02) delay += 2e5;
+    const Timestamp truth = t + kOffset;
+    const Timestamp stamp = clock.toHost(t, truth + kLeast + static_cast<Timestamp>(delay));
+    if (t > 10 * kSecond) error = std::max(error, std::abs(stamp - (truth + kLeast)));
+  }
+  // Of 20 delays a second, the shortest in 10 s is below 8 ms / 200 = 40 us in the mean.
+  EXPECT_LT(error, kMillisecond);
+  EXPECT_EQ(clock.jumps(), 0U);
+}
+
+TEST(DeviceClock, FollowsAClockThatDrifts) {
+  for (const double ppm : {-80.0, 80.0}) {
+    DeviceClock clock;
+    Random random(2);
+    Timestamp error = 0;
+    for (Timestamp t = 0; t < 300 * kSecond; t += 100 * kMillisecond) {
+      const auto device = static_cast<Timestamp>(static_cast<double>(t) * (1.0 + ppm * 1e-6));
+      const auto delay = static_cast<Timestamp>(3000.0 * random.uniform());
+      const Timestamp stamp = clock.toHost(device, t + delay);
+      if (t > 60 * kSecond) error = std::max(error, std::abs(stamp - t));
+    }
+    EXPECT_LT(error, kMillisecond) << ppm;  // an offset alone would be off by 24 ms at the end
+    EXPECT_NEAR(clock.driftPpm(), ppm, 10.0);
+  }
+}
+
+TEST(DeviceClock, NeverRunsBackwardsAndNeverAhead) {
+  DeviceClock clock;
+  Random random(3);
+  Timestamp last = -1;
+  for (Timestamp t = 0; t < 100 * kSecond; t += 20 * kMillisecond) {
+    const auto device = t + static_cast<Timestamp>(random.uniform(-3000.0, 3000.0));
+    const Timestamp arrival = t + kSecond + static_cast<Timestamp>(random.uniform(0.0, 50'000.0));
+    const Timestamp stamp = clock.toHost(device, arrival);
+    EXPECT_GT(stamp, last);
+    EXPECT_LE(stamp, std::max(arrival, last + 1));
+    last = stamp;
+  }
+}
+
+TEST(DeviceClock, GivesReadingsOfOneDeviceTimeOneStamp) {
+  DeviceClock clock;
+  const Timestamp stamp = clock.toHost(70 * kSecond, kSecond);
+  EXPECT_EQ(clock.toHost(70 * kSecond, kSecond + 700), stamp);
+  EXPECT_GT(clock.toHost(70 * kSecond + 1, kSecond + 700), stamp);
+}
+
+/// A device that measures ten times a second, whose clock is set by @p jump after 20 s.
+/// Returns the largest error of stamps that are 3 s or more behind the jump [us].
+Timestamp errorAfter(Timestamp jump, std::uint64_t& jumps) {
+  DeviceClock clock;
+  Timestamp error = 0;
+  for (Timestamp t = 0; t < 40 * kSecond; t += 100 * kMillisecond) {
+    const Timestamp device = t + (t >= 20 * kSecond ? jump : 0);
+    const Timestamp stamp = clock.toHost(device, t + kMillisecond);
+    if (t >= 23 * kSecond) error = std::max(error, std::abs(stamp - (t + kMillisecond)));
+  }
+  jumps = clock.jumps();
+  return error;
+}
+
+TEST(DeviceClock, NoticesAClockThatWasSetAndStartsOver) {
+  for (const Timestamp jump : {3600 * kSecond, -3600 * kSecond, 2 * kSecond, -2 * kSecond}) {
+    std::uint64_t jumps = 0;
+    EXPECT_LT(errorAfter(jump, jumps), kMillisecond) << jump;
+    EXPECT_EQ(jumps, 1U) << jump;
+  }
+}
+
+TEST(DeviceClock, TakesAStallOfTheLineForNoJump) {
+  DeviceClock clock;
+  for (Timestamp t = 0; t < 30 * kSecond; t += 100 * kMillisecond) {
+    // From second 10 on nothing comes for 1.5 s, then all of it at once.
+    const bool isHeldUp = t >= 10 * kSecond && t < 10 * kSecond + 1500 * kMillisecond;
+    const Timestamp arrival = isHeldUp ? 10 * kSecond + 1500 * kMillisecond : t;
+    EXPECT_NEAR(static_cast<double>(clock.toHost(t, arrival) - t), 0.0, 10.0);
+  }
+  EXPECT_EQ(clock.jumps(), 0U);
+}
+
+TEST(DeviceClock, StampsADeviceWithoutAClockByItsArrivalLessTheLatency) {
+  DeviceClock clock({.latency = 0.04});
+  EXPECT_EQ(clock.toHost(kSecond), kSecond - 40 * kMillisecond);
+  EXPECT_EQ(clock.toHost(kSecond), kSecond - 40 * kMillisecond + 1);  // later than the last one
+}
+
+TEST(DeviceClock, LivesWithTheClocksOfHostileDevices) {
+  DeviceClock clock;
+  Timestamp last = -1;
+  Timestamp arrival = 0;
+  for (const Timestamp device : {INT64_MIN, INT64_MAX, Timestamp{0}, INT64_MAX, INT64_MIN + 1}) {
+    arrival += kSecond;
+    const Timestamp stamp = clock.toHost(device, arrival);
+    EXPECT_GT(stamp, last);
+    EXPECT_LE(stamp, arrival);
+    last = stamp;
+  }
+}
+
+}  // namespace
+}  // namespace ortung
