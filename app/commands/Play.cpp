@@ -55,6 +55,7 @@ int runPlay(const PlayArguments& arguments) {
   config.session.token = tokenFor(config.session.name, arguments.tokens);
   config.session.start = wish.start;
   config.session.isInterruptible = true;
+  config.session.isBinary = true;
   config.plugin = wish.plugin;
   config.team = wish.team;
   config.tables = arguments.tables;

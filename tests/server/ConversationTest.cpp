@@ -340,9 +340,9 @@ TEST(Readings, OfARobotWithOneFeatureOrInAnotherOrderAreThereToo) {
     for (const SensorId& id : frame) messages.push_back({7, id, {9}});
     readings.publish(messages);
     std::vector<std::uint64_t> sent;
-    std::string text;
-    readings.write({}, sent, text);
-    return text;
+    server::Output output;
+    readings.write({}, sent, output);
+    return output.text();
   };
   EXPECT_EQ(written({first}, {first}), "7 a/b/c 1 9\n");
   EXPECT_EQ(written({first}, {unknown, first, unknown}), "7 a/b/c 1 9\n");

@@ -37,7 +37,7 @@ class CountingWorld : public ServedWorld, private RobotCommands {
     return {{{counter_, "[cycle, commands]"}, {image_, "[pixels]"}}, raysPerSecond, raysAtOnce};
   }
   void removeRobot(RobotId robot) override { frames_.erase(robot); }
-  std::span<const Message> readings(RobotId robot) const override { return frames_.at(robot); }
+  std::span<Message> readings(RobotId robot) override { return frames_.at(robot); }
   RobotCommands& commands(RobotId) override { return *this; }
   std::vector<std::string> abilities(RobotId) const override {
     return {"drive nothing", "manipulator kicker rest kicking"};

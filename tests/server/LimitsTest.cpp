@@ -172,14 +172,14 @@ TEST(Limits, TooManyErrorsInARowEndTheConnection) {
 }
 
 TEST(Limits, WhoDoesNotReadIsToldAndDroppedWhileTheWorldGoesOn) {
-  CountingWorld world(100'000);  // 1.1 MB a reading
+  CountingWorld world(100'000);  // 0.4 MB a reading
   const RunningBoard board(world, {});
   TestClient slow(board.port());
   TestClient other(board.port());
   other.join(kAnyRobot, "other");
   slow.join(kAnyRobot, "slow");
   waitForReadings(slow);
-  for (int i = 0; i < 100; ++i) slow.send("READ\n");
+  for (int i = 0; i < 100; ++i) slow.send("READ form=binary\n");
   // Dropped: its robot leaves the field although it has not read a byte.
   std::string status;
   do {
@@ -192,17 +192,21 @@ TEST(Limits, WhoDoesNotReadIsToldAndDroppedWhileTheWorldGoesOn) {
 }
 
 TEST(Limits, ASlowReaderFindsTheReasonAtTheEndOfItsOutput) {
-  CountingWorld world(20'000);
-  BoardConfig config;
-  config.limits.output = 100'000;
-  const RunningBoard board(world, config);
-  TestClient slow(board.port());
-  slow.join(kAnyRobot);
-  waitForReadings(slow);
-  for (int i = 0; i < 200; ++i) slow.send("READ camera/*/*\n");
-  while (board.statistics().clients > 0) std::this_thread::yield();
-  const std::string all = slow.rest();
-  EXPECT_NE(all.find("* ERR slow more than 100000 bytes wait to be read"), std::string::npos);
+  for (const std::size_t words : {2'000, 20'000}) {  // lines, and readings too large for one
+    SCOPED_TRACE(words);
+    CountingWorld world(words);
+    BoardConfig config;
+    config.limits.output = config.limits.readings = 100'000;
+    const RunningBoard board(world, config);
+    TestClient slow(board.port());
+    slow.join(kAnyRobot);
+    waitForReadings(slow);
+    const std::string form = words > 8192 ? " form=binary" : "";
+    for (int i = 0; i < 2000; ++i) slow.send("READ camera/*/*" + form + "\n");
+    while (board.statistics().clients > 0) std::this_thread::yield();
+    const std::string all = slow.rest();
+    EXPECT_NE(all.find("* ERR slow more than 100000 bytes wait to be read"), std::string::npos);
+  }
 }
 
 TEST(Limits, OutputThatIsNeverReadEndsTheConnection) {
@@ -213,7 +217,7 @@ TEST(Limits, OutputThatIsNeverReadEndsTheConnection) {
   TestClient slow(board.port());
   slow.shrinkBuffer();
   slow.join(kAnyRobot);
-  slow.ask("SUBSCRIBE");
+  slow.ask("SUBSCRIBE form=binary");
   while (board.statistics().clients > 0) std::this_thread::yield();
 }
 

@@ -142,6 +142,28 @@ TEST(Protocol, TheBinaryFormHasTheSameWords) {
   EXPECT_EQ(words, text->words);
 }
 
+TEST(Protocol, ReadingsTooLargeForALineComeInBinaryFormAloneAndTheReplySaysSo) {
+  CountingWorld world(230'400);  // 640 x 480 in colour
+  const RunningBoard board(world, lockstepConfig());
+  TestClient client(board.port());
+  client.join(kAnyRobot);
+  client.ask("LOCKSTEP on");
+  EXPECT_EQ(client.ask("NEXT"), "OK NEXT robot=1 now=10000 lines=1 left_out=1");
+  EXPECT_EQ(client.line(), "0 counter/counter/cycle 2 0 0");
+  EXPECT_EQ(client.ask("UPDATE camera/*/*"), "OK UPDATE robot=1 now=10000 lines=0 left_out=1");
+  for (int i = 0; i < 30; ++i) {  // none of which ends the connection
+    const std::string head = std::to_string(10'000 * i) + " camera/camera/image 230400\n";
+    const std::string reply = client.ask("UPDATE camera/*/* form=binary");
+    ASSERT_EQ(reply, "OK UPDATE robot=1 now=" + std::to_string(10'000 * (i + 1)) +
+                         " bytes=" + std::to_string(head.size() + 4 * 230'400) + " readings=1");
+    const std::string body = client.bytes(head.size() + 4 * 230'400);
+    ASSERT_TRUE(body.starts_with(head));
+    for (std::size_t at = head.size(); at < body.size(); at += 4)
+      ASSERT_EQ(body.substr(at, 4), std::string("\x00\x28\x6B\xEE", 4));  // 4,000,000,000
+    client.ask("NEXT nothing/*/*");
+  }
+}
+
 TEST(Protocol, SubscribersGetWhatIsNewAfterEachPeriod) {
   CountingWorld world;
   const RunningBoard board(world, lockstepConfig());

@@ -1,6 +1,8 @@
 #include "ortung/core/BinaryReading.hpp"
 
+#include <bit>
 #include <charconv>
+#include <cstring>
 
 #include "ortung/core/ReadingLine.hpp"
 
@@ -21,9 +23,14 @@ void writeBinary(const Message& message, std::string& out) {
          std::to_string(message.words.size()) + '\n';
   std::size_t next = out.size();
   out.resize(next + kBytesAWord * message.words.size());
-  for (const std::uint32_t word : message.words)
-    for (int shift = 0; shift < 32; shift += 8)
-      out[next++] = static_cast<char>(word >> shift & 0xFF);
+  if constexpr (std::endian::native == std::endian::little) {
+    if (!message.words.empty())
+      std::memcpy(out.data() + next, message.words.data(), kBytesAWord * message.words.size());
+  } else {
+    for (const std::uint32_t word : message.words)
+      for (int shift = 0; shift < 32; shift += 8)
+        out[next++] = static_cast<char>(word >> shift & 0xFF);
+  }
 }
 
 std::optional<Message> parseBinary(std::string_view& bytes, std::string* why) {

@@ -31,7 +31,7 @@ SessionOptions readOptions(const Parameters& p) {
   options.name = p.textOr("name", options.name);
   options.start = optionPose(p, "start");
   options.wanders = p.choiceOr("drive", "none", {"none", "wander"}) == "wander";
-  options.isBinary = p.choiceOr("form", "text", {"text", "binary"}) == "binary";
+  options.isBinary = p.choiceOr("form", "binary", {"text", "binary"}) == "binary";
   options.patience = optionNumber(p, "timeout", options.patience, {0.1, 1e6});
   if (const char* token = std::getenv("ORTUNG_TOKEN")) options.token = token;
   options.isInterruptible = true;
@@ -148,7 +148,7 @@ class TcpHelp : public SourceHelp {
              {"lockstep", "", "auto",
               "on: an error where it is not permitted; off: asks every cycle_ms what is new"},
              {"cycle_ms", "ms", "100", "without lockstep: time between two updates"},
-             {"form", "", "text", "of readings on the wire; binary is better for large ones"},
+             {"form", "", "binary", "of readings on the wire; text has no pictures"},
              {"name", "", "robot", "of client and robot"},
              {"timeout", "s", "60", "how long the server may keep silent"}}) {}
 };

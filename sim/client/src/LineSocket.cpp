@@ -115,15 +115,12 @@ void LineSocket::send(std::string_view text) {
   }
 }
 
-void LineSocket::fill(double timeout) {
-  char piece[65536];
+/// Waits for some bytes. @returns how many
+std::size_t LineSocket::receive(std::span<char> out, double timeout) {
   while (true) {
     if (stop_.isRequested()) fail("stopped");  // who talks without end need not be waited for
-    const ssize_t count = ::recv(socket_, piece, sizeof piece, 0);
-    if (count > 0) {
-      input_.append(piece, static_cast<std::size_t>(count));
-      return;
-    }
+    const ssize_t count = ::recv(socket_, out.data(), out.size(), 0);
+    if (count > 0) return static_cast<std::size_t>(count);
     if (count == 0) fail("the server closed the connection");
     if (errno == EAGAIN || errno == EWOULDBLOCK)
       wait(POLLIN, timeout);
@@ -132,11 +129,17 @@ void LineSocket::fill(double timeout) {
   }
 }
 
-std::string_view LineSocket::bytes(std::size_t count, double timeout) {
+void LineSocket::fill(double timeout) {
+  char piece[65536];
+  input_.append(piece, receive(piece, timeout));
+}
+
+void LineSocket::read(std::span<char> out, double timeout) {
   forgetTaken();
-  while (input_.size() < count) fill(timeout);
-  taken_ = count;
-  return std::string_view(input_).substr(0, count);
+  const std::size_t have = std::min(out.size(), input_.size());
+  std::copy_n(input_.data(), have, out.data());
+  taken_ = have;
+  for (out = out.subspan(have); !out.empty();) out = out.subspan(receive(out, timeout));
 }
 
 void LineSocket::forgetTaken() {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -44,13 +45,14 @@ class LineSocket {
   /// The next line without its end; valid until the next call.
   /// @param timeout of silence [s]
   std::string_view line(double timeout);
-  /// The next bytes, whatever they are; valid as line() is.
-  std::string_view bytes(std::size_t count, double timeout);
+  /// Fills @p out with the next bytes, whatever they are.
+  void read(std::span<char> out, double timeout);
 
  private:
   void connect(const std::string& host, std::uint16_t port);
   void wait(short events, double timeout);
   void fill(double timeout);
+  std::size_t receive(std::span<char> out, double timeout);
   void forgetTaken();
   [[noreturn]] void fail(const std::string& what) const;
 

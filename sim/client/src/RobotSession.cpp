@@ -1,12 +1,12 @@
 #include "ortung/client/RobotSession.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <utility>
 
 #include "LineSocket.hpp"
 #include "Replies.hpp"
-#include "ortung/core/BinaryReading.hpp"
 #include "ortung/core/ReadingLine.hpp"
 
 namespace ortung {
@@ -163,21 +163,40 @@ std::string RobotSession::ask(const std::string& request, std::vector<std::strin
   return reply;
 }
 
+/// A reading in binary form; its words go where they stay. @param left bytes of the reply
+Message RobotSession::takeBinary(const std::string& reply, std::size_t& left) {
+  const auto refuse = [&] { failOn(reply + ", then other bytes"); };
+  const std::string_view head = socket_->line(options_.timeout);
+  const std::size_t blank = head.rfind(' ');
+  if (blank == head.npos || head.size() >= left) refuse();
+  const auto count = client::numberFrom<std::size_t>(head.substr(blank + 1));
+  std::optional<Message> reading = parseLine(std::string(head.substr(0, blank)) + " 0");
+  left -= head.size() + 1;
+  if (!count || !reading || *count > left / sizeof(std::uint32_t)) refuse();
+  const std::size_t size = *count * sizeof(std::uint32_t);
+  reading->words.resize(*count);
+  socket_->read({reinterpret_cast<char*>(reading->words.data()), size}, options_.timeout);
+  if constexpr (std::endian::native == std::endian::big)
+    for (std::uint32_t& word : reading->words) word = __builtin_bswap32(word);
+  left -= size;
+  return std::move(*reading);
+}
+
 std::vector<Message> RobotSession::takeReadings(const std::string& reply) {
   std::vector<Message> readings;
+  const std::string_view leftOut = valueOf(reply, "left_out");
+  if (!leftOut.empty() && leftOut != "0")
+    throw ServerRefused("limit", options_.server() + ": " + std::string(leftOut) +
+                                     " readings are too large for the form of text; ask for the "
+                                     "binary form (SessionOptions::isBinary)");
   for (std::size_t lines = countOf(reply, "lines", kMostLines); lines > 0; --lines) {
     const std::string_view line = socket_->line(options_.timeout);
     std::optional<Message> reading = parseLine(line);
     if (!reading) failOn(line);
     readings.push_back(std::move(*reading));
   }
-  const std::size_t size = countOf(reply, "bytes", kMostBytes);
-  std::string_view bytes = size > 0 ? socket_->bytes(size, options_.timeout) : std::string_view();
-  while (!bytes.empty()) {
-    std::optional<Message> reading = parseBinary(bytes);
-    if (!reading) failOn(reply + ", then other bytes");
-    readings.push_back(std::move(*reading));
-  }
+  for (std::size_t left = countOf(reply, "bytes", kMostBytes); left > 0;)
+    readings.push_back(takeBinary(reply, left));
   if (!readings.empty()) newest_ = readings.back().stamp;
   return readings;
 }

@@ -71,6 +71,7 @@ ortung_robot* ortung_connect(const char* host, uint16_t port, const char* robot_
     options.session.port = port;
     options.session.name = given(name, "name");
     if (token != nullptr) options.session.token = token;
+    options.session.isBinary = true;
     options.cycle = cycle_s;
     return new ortung_robot(given(robot_file, "robot_file"), options);
   } catch (const std::exception& exception) {

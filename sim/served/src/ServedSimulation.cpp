@@ -332,7 +332,7 @@ void ServedSimulation::removeRobot(RobotId robot) {
   guests_.erase(robot);
 }
 
-std::span<const Message> ServedSimulation::readings(RobotId robot) const {
+std::span<Message> ServedSimulation::readings(RobotId robot) {
   return simulation().readingsOf(guest(robot).robot);
 }
 

@@ -207,29 +207,58 @@ void Conversation::callAdded(const BoardCommand& command, Request& request) {
 
 // --- output
 
+/// Not to a client that does not read.
+bool Conversation::mayReply() {
+  if (isOver_) return false;
+  const BoardLimits& limits = host_.config.limits;
+  const std::size_t readings = outlet_->outstandingReadings();
+  const bool isReadings = readings > limits.readings;
+  if (!isReadings && outlet_->outstanding() - readings <= limits.output) return true;
+  dismiss("ERR slow more than " + std::to_string(isReadings ? limits.readings : limits.output) +
+          " bytes wait to be read");
+  return false;
+}
+
 void Conversation::reply(const std::string& tag, std::string_view text, std::string_view body) {
   if (isOver_) return;
   std::string out;
   out.reserve(tag.size() + text.size() + body.size() + 2);
   if (!tag.empty()) out.append(tag).append(" ");
   out.append(text).append("\n").append(body);
-  if (outlet_->outstanding() > host_.config.limits.output) {
-    dismiss("ERR slow more than " + std::to_string(host_.config.limits.output) +
-            " bytes wait to be read");
-    return;
-  }
+  if (!mayReply()) return;
   put(out);
   if (!text.starts_with("ERR")) errors_ = 0;
 }
 
-/// What is followed by more soon is not sent piece by piece.
+/// What follows the line is not copied.
+void Conversation::reply(const std::string& tag, std::string_view text, Output&& body) {
+  if (!mayReply()) return;
+  Output out;
+  if (!tag.empty()) out.text().append(tag).append(" ");
+  out.text().append(text).append("\n");
+  out.add(std::move(body));
+  outlet_->add(std::move(out));
+  flushSoon();
+  errors_ = 0;
+}
+
 void Conversation::put(std::string_view text) {
   if (!isReceiving_ && pending_ == 0) {
     outlet_->send(text);
     return;
   }
   outlet_->append(text);
-  if (isReceiving_ || std::exchange(isFlushPosted_, true)) return;
+  flushSoon();
+}
+
+/// What is followed by more soon is not sent piece by piece.
+void Conversation::flushSoon() {
+  if (isReceiving_) return;
+  if (pending_ == 0) {
+    outlet_->flush();
+    return;
+  }
+  if (std::exchange(isFlushPosted_, true)) return;
   host_.post([weak = weak_from_this()] {
     const auto self = weak.lock();
     if (!self) return;

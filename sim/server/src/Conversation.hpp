@@ -107,6 +107,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void takeLines();
   bool takeTurn();
   void put(std::string_view text);
+  void flushSoon();
   void goOn();
   void handleLine(std::string_view line);
   void handleConfigurationLine(std::string_view line);
@@ -114,6 +115,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void checkRole(const std::string& command, Role least) const;
   void callAdded(const BoardCommand& command, Request& request);
   void reply(const std::string& tag, std::string_view text, std::string_view body = {});
+  void reply(const std::string& tag, std::string_view text, Output&& body);
+  bool mayReply();
   void error(const std::string& tag, std::string_view text);
   void refuse(const std::string& tag, const std::string& text);
   void order(const std::string& tag, WorldKeeper::Order run, Then then = {},

@@ -218,14 +218,18 @@ void Conversation::sendReadings(const std::string& tag, const char* command, Rob
     error(tag, "ERR no-robot there is no robot " + std::to_string(robot) + " of this client");
     return;
   }
-  std::string body;
-  const std::size_t count = view->second.readings->write(choice, view->second.sent, body);
+  Output body;
+  const Written written = view->second.readings->write(choice, view->second.sent, body);
   std::string head = tag == "*" ? "" : "OK ";  // a push answers nothing
   head.append(command).append(" robot=").append(std::to_string(robot));
   head.append(" now=").append(std::to_string(host_.keeper.clock().at(wallTime())));
   if (choice.binary) head.append(" bytes=").append(std::to_string(body.size()));
-  head.append(choice.binary ? " readings=" : " lines=").append(std::to_string(count));
-  reply(tag, head, body);
+  head.append(choice.binary ? " readings=" : " lines=").append(std::to_string(written.readings));
+  if (written.leftOut > 0) head.append(" left_out=").append(std::to_string(written.leftOut));
+  if (body.readingBytes() > 0)
+    reply(tag, head, std::move(body));
+  else
+    reply(tag, head, body.isEmpty() ? "" : body.text());
 }
 
 /// Players play against each other; a live robot has no opponents.

@@ -15,6 +15,12 @@ RobotId liveRobotOf(const ServedWorld& world) {
 
 Outlet::~Outlet() = default;
 
+void Outlet::add(Output&& output) {
+  std::vector<std::string_view> pieces;
+  output.look(output.size(), pieces);
+  for (const std::string_view piece : pieces) append(piece);
+}
+
 Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worldKeeper)
     : config(boardConfig),
       description(world.describe()),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Doorkeeper.hpp"
+#include "Output.hpp"
 #include "TalkBudget.hpp"
 #include "WorldKeeper.hpp"
 #include "ortung/server/MessageBoard.hpp"
@@ -20,9 +21,13 @@ class Outlet {
   virtual void send(std::string_view text) = 0;
   /// The same, but more will come: waits for the next send() or flush().
   virtual void append(std::string_view text) = 0;
+  /// The same; by default as text.
+  virtual void add(Output&& output);
   virtual void flush() = 0;
   /// Bytes sent that the client has not read yet.
   virtual std::size_t outstanding() const = 0;
+  /// Those of them that are words of large readings, which others share.
+  virtual std::size_t outstandingReadings() const { return 0; }
   /// Ends the connection once everything is sent.
   virtual void finish() = 0;
   /// There is room for input again.

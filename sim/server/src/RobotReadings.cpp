@@ -8,6 +8,14 @@
 
 namespace ortung::server {
 
+namespace {
+
+/// What has more goes in binary form alone: a picture as text is four times as large, and slow.
+/// Scans have 8192 words at most.
+constexpr std::size_t kMostWordsOfALine = 8192;
+
+}  // namespace
+
 Query::Query(const std::string& text) {
   try {
     const SensorQuery query = parseSensorQuery(text);
@@ -39,10 +47,10 @@ RobotReadings::RobotReadings(RobotId robot, std::string name, std::vector<Served
   for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].newest.id = features_[i].id;
 }
 
-void RobotReadings::publish(std::span<const Message> frame) {
+void RobotReadings::publish(std::span<Message> frame) {
   const std::lock_guard lock(mutex_);
   std::size_t place = 0;  // a frame has features in their order, so one walk finds them all
-  for (const Message& message : frame) {
+  for (Message& message : frame) {
     std::size_t tried = 0;
     while (tried < entries_.size() && entries_[place].newest.id != message.id) {
       place = (place + 1) % entries_.size();
@@ -51,7 +59,14 @@ void RobotReadings::publish(std::span<const Message> frame) {
     if (tried == entries_.size()) continue;
     Entry& entry = entries_[place];
     entry.newest.stamp = message.stamp;
-    entry.newest.words = message.words;
+    if (message.words.size() > kMostWordsOfALine) {
+      entry.newest.words.clear();
+      entry.large = std::make_shared<const Message>(
+          Message{message.stamp, message.id, std::move(message.words)});
+    } else {
+      entry.newest.words = message.words;
+      entry.large.reset();
+    }
     entry.line.clear();
     ++entry.count;
     entry.isThere = true;
@@ -60,23 +75,27 @@ void RobotReadings::publish(std::span<const Message> frame) {
 
 void RobotReadings::forget() {
   const std::lock_guard lock(mutex_);
-  for (Entry& entry : entries_) entry.isThere = false;
+  for (Entry& entry : entries_) {
+    entry.isThere = false;
+    entry.large.reset();
+  }
 }
 
-void RobotReadings::append(Entry& entry, bool binary, std::string& out) const {
-  if (!binary) {
+void RobotReadings::append(Entry& entry, bool binary, Output& out) const {
+  if (entry.large) {
+    out.add(entry.large);
+  } else if (binary) {
+    writeBinary(entry.newest, out.text());
+  } else {
     if (entry.line.empty()) {
       writeLine(entry.newest, entry.line);
       entry.line += '\n';
     }
-    out += entry.line;
-    return;
+    out.text() += entry.line;
   }
-  writeBinary(entry.newest, out);
 }
 
-std::size_t RobotReadings::write(const Choice& choice, std::vector<std::uint64_t>& sent,
-                                 std::string& out) {
+Written RobotReadings::write(const Choice& choice, std::vector<std::uint64_t>& sent, Output& out) {
   chosen_.clear();
   for (std::size_t i = 0; i < features_.size(); ++i)  // without the lock: it may take a while
     if (choice.wants(features_[i].id)) chosen_.push_back(i);
@@ -88,11 +107,17 @@ std::size_t RobotReadings::write(const Choice& choice, std::vector<std::uint64_t
   std::stable_sort(chosen_.begin(), chosen_.end(), [&](std::size_t a, std::size_t b) {
     return entries_[a].newest.stamp < entries_[b].newest.stamp;
   });
+  Written written;
   for (const std::size_t i : chosen_) {
+    if (entries_[i].large && !choice.binary) {
+      ++written.leftOut;
+      continue;
+    }
     append(entries_[i], choice.binary, out);
     sent[i] = entries_[i].count;
+    ++written.readings;
   }
-  return chosen_.size();
+  return written;
 }
 
 }  // namespace ortung::server

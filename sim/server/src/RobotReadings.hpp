@@ -2,11 +2,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "Output.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/server/ServedWorld.hpp"
@@ -30,6 +32,12 @@ struct Choice {
   bool wants(const SensorId& id) const;
 };
 
+/// How many readings were written, and how many were not, since they are too large for a line.
+struct Written {
+  std::size_t readings = 0;
+  std::size_t leftOut = 0;
+};
+
 /// The newest reading of each feature of one robot: written by the thread that owns the world, read
 /// by the thread that talks to clients. Neither waits for the other longer than a copy takes.
 /// Thread-safe.
@@ -41,7 +49,8 @@ class RobotReadings {
   const std::string& name() const { return name_; }
   const std::vector<ServedFeature>& features() const { return features_; }
 
-  void publish(std::span<const Message> frame);
+  /// Takes the words of large readings out of @p frame.
+  void publish(std::span<Message> frame);
   /// The robot has left the field.
   void retire() { isRetired_ = true; }
   bool isRetired() const { return isRetired_; }
@@ -51,17 +60,18 @@ class RobotReadings {
   /// Appends the chosen readings, oldest first: lines of a record, or in binary form a line without
   /// words, then the words as 32 bits each, the least significant byte first.
   /// @param sent by feature: count of the last reading this client got; brought up to date
-  /// @returns how many readings. Called by one thread.
-  std::size_t write(const Choice& choice, std::vector<std::uint64_t>& sent, std::string& out);
+  /// Called by one thread.
+  Written write(const Choice& choice, std::vector<std::uint64_t>& sent, Output& out);
 
  private:
   struct Entry {
-    Message newest;
+    Message newest;  ///< without words if it is large
+    std::shared_ptr<const Message> large;
     std::string line;         ///< of the newest reading, or "" if nobody asked yet
     std::uint64_t count = 0;  ///< of readings
     bool isThere = false;
   };
-  void append(Entry& entry, bool binary, std::string& out) const;
+  void append(Entry& entry, bool binary, Output& out) const;
 
   const RobotId robot_;
   const std::string name_;

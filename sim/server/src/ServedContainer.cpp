@@ -67,7 +67,7 @@ std::vector<std::string> ServedContainer::abilities(RobotId robot) const {
   return config_.abilities;
 }
 
-std::span<const Message> ServedContainer::readings(RobotId robot) const {
+std::span<Message> ServedContainer::readings(RobotId robot) {
   check(robot);
   return frame_;
 }

@@ -93,7 +93,7 @@ RobotCommands& ServedRecord::commands(RobotId robot) {
   return deaf_;
 }
 
-std::span<const Message> ServedRecord::readings(RobotId robot) const {
+std::span<Message> ServedRecord::readings(RobotId robot) {
   check(robot);
   return guests_.at(robot)->frame;
 }

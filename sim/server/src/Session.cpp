@@ -1,7 +1,6 @@
 #include "Session.hpp"
 
 #include <algorithm>
-#include <boost/asio/buffer.hpp>
 
 #include "AddressKey.hpp"
 
@@ -25,12 +24,14 @@ class Session::SocketOutlet final : public Outlet {
   ~SocketOutlet() override = default;
   void send(std::string_view text) override { session_.send(text); }
   void append(std::string_view text) override {
-    if (!session_.isClosed_) session_.waiting_.append(text);
+    if (!session_.isClosed_) session_.output_.add(text);
+  }
+  void add(Output&& output) override {
+    if (!session_.isClosed_) session_.output_.add(std::move(output));
   }
   void flush() override { session_.flush(); }
-  std::size_t outstanding() const override {
-    return session_.waiting_.size() + session_.writing_.size() - session_.written_;
-  }
+  std::size_t outstanding() const override { return session_.output_.size(); }
+  std::size_t outstandingReadings() const override { return session_.output_.readingBytes(); }
   void finish() override { session_.finish(); }
   void resume() override { session_.read(); }
   const std::string& peer() const override { return session_.peer_; }
@@ -89,20 +90,21 @@ void Session::read() {
 
 void Session::send(std::string_view text) {
   if (isClosed_) return;
-  if (isWriting_ || !waiting_.empty()) {
-    waiting_.append(text);
+  if (isWriting_ || !output_.isEmpty()) {
+    output_.add(text);
     flush();
     return;
   }
-  waiting_.append(text.substr(writeNow(text)));
-  if (!waiting_.empty()) write();
+  text.remove_prefix(writeNow(text));
+  if (text.empty()) return;
+  output_.add(text);
+  write();
 }
 
 void Session::flush() {
-  if (isClosed_ || isWriting_ || waiting_.empty()) return;
-  const std::size_t sent = writeNow(waiting_);
-  waiting_.erase(0, sent);
-  if (waiting_.empty())
+  if (isClosed_ || isWriting_ || output_.isEmpty()) return;
+  writeNow();
+  if (output_.isEmpty())
     host_.listen(*conversation_);
   else
     write();
@@ -116,14 +118,25 @@ std::size_t Session::writeNow(std::string_view text) {
   return error ? 0 : sent;  // also when there is no room; the real trouble shows in write()
 }
 
+/// The same of what waits, as much as there is room for now.
+void Session::writeNow() {
+  progressed_ = wallTime();
+  boost::system::error_code error;
+  const std::size_t sent = socket_.write_some(nextBuffers(), error);
+  output_.take(error ? 0 : sent);
+}
+
+std::vector<boost::asio::const_buffer> Session::nextBuffers() {
+  pieces_.clear();
+  output_.look(kPiece, pieces_);
+  std::vector<boost::asio::const_buffer> buffers;
+  for (const std::string_view piece : pieces_) buffers.emplace_back(piece.data(), piece.size());
+  return buffers;
+}
+
 void Session::write() {
   if (isWriting_ || isClosed_) return;
-  if (written_ == writing_.size()) {
-    writing_.clear();
-    std::swap(writing_, waiting_);
-    written_ = 0;
-  }
-  if (writing_.empty()) {
+  if (output_.isEmpty()) {
     if (isFinishing_)
       listenToTheEnd();
     else
@@ -131,9 +144,8 @@ void Session::write() {
     return;
   }
   isWriting_ = true;
-  const std::size_t size = std::min(kPiece, writing_.size() - written_);
   socket_.async_write_some(
-      boost::asio::buffer(writing_.data() + written_, size),
+      nextBuffers(),
       [self = shared_from_this()](const boost::system::error_code& error, std::size_t count) {
         self->isWriting_ = false;
         if (error) {
@@ -141,7 +153,7 @@ void Session::write() {
           return;
         }
         self->progressed_ = wallTime();
-        self->written_ += count;
+        self->output_.take(count);
         self->write();
       });
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "Conversation.hpp"
 
@@ -34,6 +36,8 @@ class Session : public std::enable_shared_from_this<Session> {
   void send(std::string_view text);
   void flush();
   std::size_t writeNow(std::string_view text);
+  void writeNow();
+  std::vector<boost::asio::const_buffer> nextBuffers();
   void finish();
   void listenToTheEnd();
 
@@ -43,9 +47,8 @@ class Session : public std::enable_shared_from_this<Session> {
   const BoardLimits limits_;
   std::shared_ptr<Conversation> conversation_;
   std::array<char, 16384> buffer_;
-  std::string waiting_;  ///< to be written next
-  std::string writing_;
-  std::size_t written_ = 0;  ///< of writing_
+  Output output_;  ///< to be written
+  std::vector<std::string_view> pieces_;
   Timestamp started_;
   Timestamp heard_;
   Timestamp finished_ = 0;

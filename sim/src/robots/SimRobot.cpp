@@ -131,7 +131,7 @@ double SimRobot::raysAtOnce() const {
   return sum;
 }
 
-std::span<const Message> SimRobot::sense(const World& world, Timestamp now) {
+std::span<Message> SimRobot::sense(const World& world, Timestamp now) {
   inFrame_ = 0;
   if (now < nextDue_ && !hasHeard_) return {};
   nextDue_ = std::numeric_limits<Timestamp>::max();

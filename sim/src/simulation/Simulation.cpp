@@ -146,6 +146,12 @@ std::span<const Message> Simulation::readingsOf(RobotNumber robot) const {
   return {};
 }
 
+std::span<Message> Simulation::readingsOf(RobotNumber robot) {
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+    if (robots_[i]->state().number == robot) return readings_[i];
+  return {};
+}
+
 void Simulation::move() {
   moveManipulators();
   moveBodies();

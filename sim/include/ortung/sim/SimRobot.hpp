@@ -96,7 +96,7 @@ class ORTUNG_API SimRobot : public RobotCommands {
 
   /// Generates the readings that are due. If there are any, the true pose is one of them.
   /// @returns the readings of this moment, valid until the next call
-  std::span<const Message> sense(const World& world, Timestamp now);
+  std::span<Message> sense(const World& world, Timestamp now);
   /// The state that a manipulator is to enter, if that is not the one it is in.
   std::optional<std::size_t> nextState(std::size_t manipulator, Timestamp now);
   void enterState(std::size_t manipulator, std::size_t state, Timestamp now);

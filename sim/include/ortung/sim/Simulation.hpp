@@ -79,6 +79,8 @@ class ORTUNG_API Simulation {
   std::span<const Message> readings(std::size_t robot) const { return readings_[robot]; }
   /// The same of the robot with a number; none if it has left.
   std::span<const Message> readingsOf(RobotNumber robot) const;
+  /// For who takes words away, so that nobody else gets them.
+  std::span<Message> readingsOf(RobotNumber robot);
 
   /// Carries a robot elsewhere (kidnaps it). @throws NoRoom if it does not fit there
   void place(SimRobot& robot, const Pose2& pose);
@@ -115,7 +117,7 @@ class ORTUNG_API Simulation {
   std::unique_ptr<Physics> physics_;
   std::unique_ptr<Workers> workers_;
   std::vector<std::unique_ptr<SimRobot>> robots_;
-  std::vector<std::span<const Message>> readings_;
+  std::vector<std::span<Message>> readings_;
   std::vector<std::size_t> robotBodies_;  ///< of the physics, by robot
   std::vector<Thing> things_;
   std::vector<std::size_t> thingBodies_;   ///< of the physics, by thing

@@ -50,7 +50,7 @@ struct ORTUNG_API SessionOptions {
   std::string team;              ///< of the robot: as a name; "": none
   std::optional<Pose2> start;    ///< in the field frame; nothing: anywhere
   bool wanders = false;          ///< the server drives the robot about
-  bool isBinary = false;         ///< form of readings: better for large ones, such as images
+  bool isBinary = false;         ///< form of readings; without it there are no pictures
   double timeout = 5.0;          ///< for an answer [s], above 0
   double patience = 60.0;        ///< for the end of cycles in lockstep [s], above 0
   bool isInterruptible = false;  ///< whether a signal ends what is under way
@@ -137,6 +137,7 @@ class ORTUNG_API RobotSession : public RobotCommands {
  private:
   std::string exchange(const std::string& request, double timeout);
   void tell(const std::string& request);
+  Message takeBinary(const std::string& reply, std::size_t& left);
   std::vector<Message> takeReadings(const std::string& reply);
   std::string withForm(std::string request) const;
   std::size_t countOf(const std::string& reply, std::string_view key, std::size_t most) const;

@@ -36,7 +36,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
-  std::span<const Message> readings(RobotId robot) const override;
+  std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override;
   void tell(RobotId robot, std::string_view text) override;
   std::vector<ServedTalk> takeHeard(RobotId robot) override;

@@ -27,6 +27,7 @@ struct BoardLimits {
   std::size_t sessionsOfAddress = 128;    ///< of them from one computer
   std::size_t httpHead = 16u << 10;       ///< of a request of a web browser [bytes]
   std::size_t output = 1u << 20;          ///< waiting to be read by a client [bytes]; more: dropped
+  std::size_t readings = 16u << 20;       ///< the same of readings that are too large for a line
   std::size_t orders = 64;                ///< of a client, waiting for the world
   double talkLines = 1000.0;              ///< that others hear of a client [1/s], each counted
   double talkBytes = 256.0 * 1024.0;      ///< the same in bytes [1/s]

@@ -43,7 +43,7 @@ class ORTUNG_API ServedContainer : public ServedWorld {
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
-  std::span<const Message> readings(RobotId robot) const override;
+  std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override;
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;

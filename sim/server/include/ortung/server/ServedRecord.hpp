@@ -33,7 +33,7 @@ class ORTUNG_API ServedRecord : public ServedWorld {
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId) const override { return {}; }
   void removeRobot(RobotId robot) override;
-  std::span<const Message> readings(RobotId robot) const override;
+  std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override;
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;

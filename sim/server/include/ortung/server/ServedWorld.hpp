@@ -129,7 +129,8 @@ class ORTUNG_API ServedWorld {
   virtual std::vector<std::string> abilities(RobotId robot) const = 0;
   virtual void removeRobot(RobotId robot) = 0;
   /// What the robot's sensors gave in the last cycle; valid until the next call of anything.
-  virtual std::span<const Message> readings(RobotId robot) const = 0;
+  /// Called once a cycle, by who may take words away.
+  virtual std::span<Message> readings(RobotId robot) = 0;
 
   /// Through which a robot is commanded; valid until the next call of anything.
   virtual RobotCommands& commands(RobotId robot) = 0;
