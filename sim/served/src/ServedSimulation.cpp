@@ -332,6 +332,13 @@ void ServedSimulation::removeRobot(RobotId robot) {
   guests_.erase(robot);
 }
 
+void ServedSimulation::want(RobotId robot, std::span<const SensorId> features) {
+  SimRobot* found = simulation().find(guest(robot).robot);
+  if (found == nullptr) return;  // it found no room at a reset
+  found->setWanted({}, false);
+  for (const SensorId& id : features) found->setWanted({id.model, id.type, id.feature}, true);
+}
+
 std::span<Message> ServedSimulation::readings(RobotId robot) {
   return simulation().readingsOf(guest(robot).robot);
 }

@@ -43,12 +43,15 @@ RobotReadings::RobotReadings(RobotId robot, std::string name, std::vector<Served
     : robot_(robot),
       name_(std::move(name)),
       features_(std::move(features)),
-      entries_(features_.size()) {
+      entries_(features_.size()),
+      wantedUntil_(features_.size(), 0),
+      told_(features_.size(), 0) {
   for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].newest.id = features_[i].id;
 }
 
 void RobotReadings::publish(std::span<Message> frame) {
   const std::lock_guard lock(mutex_);
+  ++cycle_;
   std::size_t place = 0;  // a frame has features in their order, so one walk finds them all
   for (Message& message : frame) {
     std::size_t tried = 0;
@@ -73,12 +76,28 @@ void RobotReadings::publish(std::span<Message> frame) {
   }
 }
 
+std::optional<std::vector<SensorId>> RobotReadings::takeWanted() {
+  const std::lock_guard lock(mutex_);
+  bool isNew = false;
+  for (std::size_t i = 0; i < told_.size(); ++i) {
+    const char is = wantedUntil_[i] > cycle_ ? 1 : 0;
+    isNew = isNew || is != told_[i];
+    told_[i] = is;
+  }
+  if (!isNew) return std::nullopt;
+  std::vector<SensorId> wanted;
+  for (std::size_t i = 0; i < told_.size(); ++i)
+    if (told_[i] != 0) wanted.push_back(features_[i].id);
+  return wanted;
+}
+
 void RobotReadings::forget() {
   const std::lock_guard lock(mutex_);
   for (Entry& entry : entries_) {
     entry.isThere = false;
     entry.large.reset();
   }
+  std::fill(told_.begin(), told_.end(), char{0});  // the robots may be new ones
 }
 
 void RobotReadings::append(Entry& entry, bool binary, Output& out) const {
@@ -101,6 +120,8 @@ Written RobotReadings::write(const Choice& choice, std::vector<std::uint64_t>& s
     if (choice.wants(features_[i].id)) chosen_.push_back(i);
   const std::lock_guard lock(mutex_);
   sent.resize(entries_.size(), 0);
+  if (choice.binary || !choice.queries.empty())
+    for (const std::size_t i : chosen_) wantedUntil_[i] = cycle_ + kPatience;
   std::erase_if(chosen_, [&](std::size_t i) {
     return !entries_[i].isThere || (!choice.again && entries_[i].count == sent[i]);
   });

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,10 @@ class RobotReadings {
 
   /// Takes the words of large readings out of @p frame.
   void publish(std::span<Message> frame);
+  /// The features that clients have asked for in the last kPatience cycles, each by its name or for
+  /// binary readings; nothing if they are the same as when it was called last.
+  std::optional<std::vector<SensorId>> takeWanted();
+  static constexpr std::uint64_t kPatience = 500;
   /// The robot has left the field.
   void retire() { isRetired_ = true; }
   bool isRetired() const { return isRetired_; }
@@ -79,6 +84,9 @@ class RobotReadings {
   std::atomic<bool> isRetired_{false};
   std::mutex mutex_;
   std::vector<Entry> entries_;
+  std::uint64_t cycle_ = 0;
+  std::vector<std::uint64_t> wantedUntil_;  ///< cycle, by feature
+  std::vector<char> told_;                  ///< by feature: whether takeWanted() said so last
   std::vector<std::size_t> chosen_;  ///< by write(), which one thread calls
 };
 

@@ -207,7 +207,10 @@ void WorldKeeper::cycle(Timestamp due) {
   cycle_ = isLive() ? livePeriod_ : world_.now() - stamp;
   const double behind = static_cast<double>(begin - due) * speed_;
   if (!isFree_ && !isPaused_ && behind > static_cast<double>(cycle_)) ++missed_;
-  for (const auto& [id, robot] : robots_) robot.readings->publish(world_.readings(id));
+  for (const auto& [id, robot] : robots_) {
+    robot.readings->publish(world_.readings(id));
+    if (const auto wanted = robot.readings->takeWanted()) world_.want(id, *wanted);
+  }
   if (isLive())
     follow(begin);
   else if (isFree_ || isPaused_)

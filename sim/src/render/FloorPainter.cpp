@@ -5,7 +5,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kBeyond = 300.0;  ///< the floor goes on beside the field [m]
+constexpr double kBeyond = 2500.0;  ///< the floor goes on beside the field [m]
 
 const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
 
@@ -56,6 +56,8 @@ FloorPainter::FloorPainter(const GlFunctions& gl, const StandingScene& scene)
   gl_.VertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
                           at(offsetof(LineVertex, colour)));
   for (const GLuint place : {0U, 1U, 2U, 3U}) gl_.EnableVertexAttribArray(place);
+  gl_.GenBuffers(1, &indexBuffer_);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_);
 }
 
 void FloorPainter::paintFloor() const {
@@ -66,23 +68,17 @@ void FloorPainter::paintFloor() const {
 void FloorPainter::paintLines(const FaceView& face, const std::array<double, 3>& camera) {
   const double x = scene_.middle.x - camera[0];
   const double y = scene_.middle.y - camera[1];
-  firsts_.clear();
-  counts_.clear();
-  for (const Chunk& chunk : scene_.lineChunks) {
-    if (!face.sees(chunk.x + x, chunk.y + y, -camera[2], chunk.reach)) continue;
-    const auto first = static_cast<GLint>(chunk.first);
-    const auto count = static_cast<GLsizei>(chunk.count);
-    if (!firsts_.empty() && firsts_.back() + counts_.back() == first) {
-      counts_.back() += count;
-      continue;
-    }
-    firsts_.push_back(first);
-    counts_.push_back(count);
-  }
-  if (firsts_.empty()) return;
+  indices_.clear();
+  for (const Chunk& piece : scene_.lineChunks)
+    if (face.sees(piece.x + x, piece.y + y, -camera[2], piece.reach))
+      for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U})
+        indices_.push_back(piece.first + corner);
+  if (indices_.empty()) return;
   gl_.BindVertexArray(lines_);
-  gl_.MultiDrawArrays(GL_TRIANGLES, firsts_.data(), counts_.data(),
-                      static_cast<GLsizei>(firsts_.size()));
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(indices_.size() * sizeof indices_[0]), indices_.data(),
+                 GL_STREAM_DRAW);
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices_.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace ortung

@@ -25,8 +25,8 @@ class FloorPainter {
   GLuint floor_ = 0;  ///< vertex arrays
   GLuint lines_ = 0;
   GLsizei floorVertices_ = 0;
-  std::vector<GLint> firsts_;
-  std::vector<GLsizei> counts_;
+  GLuint indexBuffer_ = 0;
+  std::vector<std::uint32_t> indices_;  ///< of the lines that a face sees
 };
 
 }  // namespace ortung

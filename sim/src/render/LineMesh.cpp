@@ -8,8 +8,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kPiece = 1.0;     ///< longest piece of a straight line [m]
-constexpr double kArcStep = 0.04;  ///< of an arc's parameter [rad]: 0.4 mm off a circle of 2 m
+constexpr double kPiece = 2.0;     ///< longest piece of a straight line [m]
+constexpr double kArcStep = 0.05;  ///< of an arc's parameter [rad]: 0.6 mm off a circle of 2 m
 constexpr std::size_t kMostVertices = std::size_t{1} << 22;
 constexpr Rgba kWhite{255, 255, 255, 255};
 constexpr double kEndless = 2000.0;  ///< length of a line without ends [m]
@@ -97,12 +97,7 @@ void LineMesh::addSpot(double x, double y, double radius, Rgba colour) {
                       0.0F,
                       colour};
   };
-  for (const auto& [u, v] : {std::pair{-1.0F, -1.0F},
-                             {-1.0F, 1.0F},
-                             {1.0F, 1.0F},
-                             {-1.0F, -1.0F},
-                             {1.0F, 1.0F},
-                             {1.0F, -1.0F}})
+  for (const auto& [u, v] : {std::pair{-1.0F, -1.0F}, {-1.0F, 1.0F}, {1.0F, 1.0F}, {1.0F, -1.0F}})
     scene_.lines.push_back(corner(u, v));
   close(first);
 }
@@ -124,7 +119,7 @@ void LineMesh::piece(const Node& from, const Node& to, double half, double lengt
   };
   const LineVertex a = corner(from, -1.0F), b = corner(to, -1.0F);
   const LineVertex c = corner(to, 1.0F), d = corner(from, 1.0F);
-  scene_.lines.insert(scene_.lines.end(), {a, b, c, a, c, d});
+  scene_.lines.insert(scene_.lines.end(), {a, b, c, d});
   close(first);
 }
 

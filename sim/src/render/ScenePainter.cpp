@@ -15,7 +15,7 @@ namespace ortung {
 namespace {
 
 constexpr double kNear = 0.03;   ///< what is nearer is not drawn [m]
-constexpr double kFar = 2000.0;  ///< [m]
+constexpr double kFar = 4000.0;  ///< [m]
 
 /// A program of the floor or of lines or of solids, with the places of what all of them are told.
 struct Program : GlProgram {

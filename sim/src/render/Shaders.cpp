@@ -93,16 +93,21 @@ flat out vec3 tint;
 void main() {
   vec3 p = vec3(middle.xy, 0.0) + origin;
   float d = length(p);
-  float grown = min(1.5 * pixel * d * (1.0 + d / max(abs(p.z), 0.05)), 4.0);
+  // A pixel covers more of the floor the farther away it is, above all away from the camera.
+  float size = pixel * max((toClip * vec4(p, 1.0)).w, 0.25 * d);
+  float stretch = d / max(abs(p.z), 0.05);
+  vec2 away = p.xy / max(length(p.xy), 1e-3);
+  float grown = min(size * (1.0 + stretch * (edge.w < 0.0 ? 1.0 : abs(dot(middle.zw, away)))), 4.0);
+  float ends = min(size * (1.0 + stretch * abs(dot(edge.xy, away))), 4.0);
   if (edge.w < 0.0) {  // a spot
     vec2 corner = vec2(edge.z, edge.x) * (grown - edge.w);
     p.xy += corner;
     inLine = vec4(corner.x, edge.w, corner.y, 0.0);
   } else {
     float across = edge.z * (edge.w + grown);
-    p.xy += middle.zw * across + edge.xy * grown;
+    p.xy += middle.zw * across + edge.xy * ends;
     float out_ = dot(edge.xy, vec2(middle.w, -middle.z));
-    inLine = vec4(across, edge.w, way.x + grown * out_, way.y);
+    inLine = vec4(across, edge.w, way.x + ends * out_, way.y);
   }
   at = p;
   tint = paint.rgb;
@@ -195,7 +200,7 @@ void main() {
   n *= sign(-dot(n, at));  // sheets are seen from both sides
   float lit = ambient + (1.0 - ambient) * max(dot(n, light), 0.0);
   // Nothing is as black as a colour's name.
-  vec3 base = 0.09 + 0.91 * (height > 1.0 - upper.a ? upper.rgb : tint.rgb);
+  vec3 base = 0.09 + 0.91 * (upper.a > 0.0 && height > 1.0 - upper.a ? upper.rgb : tint.rgb);
   colour = vec4(base * lightColour * lit, tint.a);
 }
 #endif

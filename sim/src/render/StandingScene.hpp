@@ -60,8 +60,8 @@ struct StandingScene {
   Point2 middle;
   Box2 field;                     ///< relative to the middle
   bool isPitch = false;           ///< it has lines: it is a field to play on
-  std::vector<LineVertex> lines;  ///< triangles
-  std::vector<Chunk> lineChunks;
+  std::vector<LineVertex> lines;  ///< four to a piece, in order around it
+  std::vector<Chunk> lineChunks;  ///< the pieces
   std::vector<WallVertex> walls;  ///< triangles of maps
   std::vector<Chunk> wallChunks;
   std::vector<Instance> instances;

@@ -36,6 +36,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
+  void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override;
   void tell(RobotId robot, std::string_view text) override;

@@ -128,6 +128,9 @@ class ORTUNG_API ServedWorld {
   /// "limits v_m_s=V w_rad_s=W ...", "body radius_m=R ...", "manipulator NAME STATE ...".
   virtual std::vector<std::string> abilities(RobotId robot) const = 0;
   virtual void removeRobot(RobotId robot) = 0;
+  /// Which features clients ask for at present, whenever that changes: what costs much to sense
+  /// need not be sensed for nobody. None at first.
+  virtual void want(RobotId, std::span<const SensorId> /*features*/) {}
   /// What the robot's sensors gave in the last cycle; valid until the next call of anything.
   /// Called once a cycle, by who may take words away.
   virtual std::span<Message> readings(RobotId robot) = 0;
