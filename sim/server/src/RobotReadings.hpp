@@ -87,7 +87,7 @@ class RobotReadings {
   std::uint64_t cycle_ = 0;
   std::vector<std::uint64_t> wantedUntil_;  ///< cycle, by feature
   std::vector<char> told_;                  ///< by feature: whether takeWanted() said so last
-  std::vector<std::size_t> chosen_;  ///< by write(), which one thread calls
+  std::vector<std::size_t> chosen_;         ///< by write(), which one thread calls
 };
 
 }  // namespace ortung::server
