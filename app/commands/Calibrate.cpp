@@ -105,8 +105,7 @@ Best calibrate(const CalibrateLinesArguments& arguments, const std::vector<Look>
     const FieldModel model = fieldModelOf(*world);
     const FieldLines lines(model.lines);
     const auto found = calibrateByLines(
-        looks.front().picture.size, pictures, LinePoseSearch(lines),
-        guess, [&](double share) {
+        looks.front().picture.size, pictures, LinePoseSearch(lines), guess, [&](double share) {
           checkInterrupt();
           progress.update((static_cast<double>(i) + share) /
                           static_cast<double>(arguments.worlds.size()));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace ortung::app {
@@ -16,6 +17,16 @@ struct CalibrateLinesArguments {
   bool progress = false;
 };
 int runCalibrateLines(const CalibrateLinesArguments& arguments);
+
+struct CalibrateCameraArguments {
+  std::vector<std::filesystem::path> pictures;
+  std::string board = "9x6";  ///< inner corners
+  std::string model = "perspective";
+  std::filesystem::path out;  ///< "": stdout
+  bool force = false;
+  bool progress = false;
+};
+int runCalibrateCamera(const CalibrateCameraArguments& arguments);
 
 struct CalibrateColoursArguments {
   std::vector<std::filesystem::path> pictures;

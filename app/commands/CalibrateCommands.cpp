@@ -33,6 +33,24 @@ void addLines(Builder& build, CLI::App& app) {
   build.flag("--progress", a->progress, kProgress);
 }
 
+void addCamera(Builder& build, CLI::App& app) {
+  const auto a = build.command<CalibrateCameraArguments>(
+      app, "camera", "A camera's model from pictures of a chessboard",
+      "ortung calibrate camera board*.png --board 9x6 --model fisheye", runCalibrateCamera);
+  build.option("pictures", a->pictures, "Pictures of the board by one camera: JPEG, PNG, ...")
+      ->required();
+  build
+      .option("--board", a->board,
+              "Inner corners of the board, in a row and rows: where four squares meet")
+      ->capture_default_str();
+  build.option("--model", a->model, "What kind of camera it is")
+      ->check(CLI::IsMember({"perspective", "fisheye", "unified", "ocam"}))
+      ->capture_default_str();
+  build.option("--out", a->out, "File to write: the table [sensor.camera] of a robot file");
+  build.flag("--force", a->force, kForce);
+  build.flag("--progress", a->progress, kProgress);
+}
+
 void addColours(Builder& build, CLI::App& app) {
   const auto a = build.command<CalibrateColoursArguments>(
       app, "colours", "The floor's colour in pictures of a field, in its light",
@@ -50,6 +68,7 @@ void addCalibrate(Builder& build, CLI::App& app) {
   CLI::App* calibrate = app.add_subcommand("calibrate", "Find out how a camera sees");
   calibrate->require_subcommand(1);
   calibrate->footer("Example:\n  ortung calibrate lines cam0/*.jpg --world maps/fields/msl.toml");
+  addCamera(build, *calibrate);
   addLines(build, *calibrate);
   addColours(build, *calibrate);
 }

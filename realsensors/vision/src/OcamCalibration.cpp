@@ -1,0 +1,221 @@
+#include "OcamCalibration.hpp"
+
+#include <array>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <span>
+#include <stdexcept>
+
+namespace ortung {
+namespace {
+
+using Corners = std::vector<cv::Point2f>;
+using Board = std::vector<cv::Point3f>;
+
+constexpr std::array<int, 4> kPowers = {0, 2, 3, 4};  // a slope at the centre would be a kink
+constexpr int kLens = 6;                              // centre, and a number for each power
+constexpr int kPose = 6;
+
+/// A board's rotation and its place but for the third number, which the lens tells.
+struct Seen {
+  cv::Vec3d first, second;  ///< columns of the rotation
+  double x = 0.0, y = 0.0;
+};
+
+/// Corners as seen from the centre, in half diagonals of the image.
+std::vector<cv::Point2d> centred(const Corners& corners, const cv::Point2d& centre, double unit) {
+  std::vector<cv::Point2d> out;
+  for (const cv::Point2f& corner : corners)
+    out.emplace_back((corner.x - centre.x) / unit, (corner.y - centre.y) / unit);
+  return out;
+}
+
+/// Radial lines alone: a point is seen in the direction in which it lies from the axis.
+/// @returns up to the sign of what leads along the axis
+Seen radial(const Board& board, const std::vector<cv::Point2d>& seen) {
+  cv::Mat_<double> rows(static_cast<int>(board.size()), 6);
+  for (int i = 0; i < rows.rows; ++i) {
+    const cv::Point3f& p = board[static_cast<std::size_t>(i)];
+    const cv::Point2d& s = seen[static_cast<std::size_t>(i)];
+    const double row[] = {-s.y * p.x, -s.y * p.y, s.x * p.x, s.x * p.y, -s.y, s.x};
+    std::copy(row, row + 6, rows[i]);
+  }
+  cv::Mat h;
+  cv::SVD::solveZ(rows, h);
+  const auto at = [&](int i) { return h.at<double>(i); };
+  double towards = 0.0;
+  for (std::size_t i = 0; i < board.size(); ++i)
+    towards += seen[i].x * (at(0) * board[i].x + at(1) * board[i].y + at(4)) +
+               seen[i].y * (at(2) * board[i].x + at(3) * board[i].y + at(5));
+  const double c = -(at(0) * at(1) + at(2) * at(3));
+  const double d = at(0) * at(0) + at(2) * at(2) - at(1) * at(1) - at(3) * at(3);
+  const double second = std::sqrt(std::max(0.0, (d + std::hypot(d, 2.0 * c)) / 2.0));
+  const double first = second > 1e-9 ? c / second : std::sqrt(std::max(0.0, -d));
+  Seen out{{at(0), at(2), first}, {at(1), at(3), second}, at(4), at(5)};
+  const double scale = (towards < 0.0 ? -1.0 : 1.0) / cv::norm(out.first);
+  out.first *= scale;
+  out.second *= scale;
+  out.x *= scale;
+  out.y *= scale;
+  return out;
+}
+
+/// Numbers of the lens, of the given powers, and the third number of each board's place.
+cv::Mat solveLens(const Board& board, const std::vector<std::vector<cv::Point2d>>& corners,
+                  std::span<const Seen> seen, std::size_t powers) {
+  const int unknown = static_cast<int>(powers + corners.size());
+  cv::Mat_<double> rows(static_cast<int>(2 * board.size() * corners.size()), unknown, 0.0);
+  cv::Mat_<double> right(rows.rows, 1);
+  int at = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    for (std::size_t i = 0; i < board.size(); ++i) {
+      const Seen& s = seen[k];
+      const cv::Point2d& p = corners[k][i];
+      const double rho = std::hypot(p.x, p.y);
+      const double along = s.first[2] * board[i].x + s.second[2] * board[i].y;
+      const double sides[] = {s.first[1] * board[i].x + s.second[1] * board[i].y + s.y,
+                              s.first[0] * board[i].x + s.second[0] * board[i].y + s.x};
+      const double places[] = {p.y, p.x};
+      for (int e = 0; e < 2; ++e, ++at) {
+        for (std::size_t n = 0; n < powers; ++n)
+          rows(at, static_cast<int>(n)) = sides[e] * std::pow(rho, kPowers[n]);
+        rows(at, static_cast<int>(powers + k)) = -places[e];
+        right(at) = places[e] * along;
+      }
+    }
+  cv::Mat solution;
+  cv::solve(rows, right, solution, cv::DECOMP_SVD);
+  return solution;
+}
+
+/// The lens by which the board lies before the camera, not behind it.
+void chooseSide(const Board& board, const std::vector<cv::Point2d>& corners, Seen& seen) {
+  const cv::Mat lens = solveLens(board, {corners}, {&seen, 1}, 2);
+  if (lens.at<double>(0) >= 0.0) return;
+  seen.first[2] = -seen.first[2];
+  seen.second[2] = -seen.second[2];
+}
+
+/// Distances between corners and where they should be seen, of all parameters: centre and numbers
+/// of the lens, then rotation and place of each board.
+class Reprojection final : public cv::LMSolver::Callback {
+ public:
+  Reprojection(const Board& board, const std::vector<Corners>& corners, double unit)
+      : board_(board), corners_(corners), unit_(unit) {}
+
+  bool compute(cv::InputArray parameters, cv::OutputArray errors,
+               cv::OutputArray slopes) const override {
+    const cv::Mat_<double> all = parameters.getMat();
+    const int perBoard = static_cast<int>(2 * board_.size());
+    errors.create(perBoard * static_cast<int>(corners_.size()), 1, CV_64F);
+    cv::Mat_<double> e = errors.getMat();
+    for (std::size_t k = 0; k < corners_.size(); ++k)
+      add(all, k, e.ptr<double>() + index(k) * perBoard);
+    if (!slopes.needed()) return true;
+    slopes.create(e.rows, all.rows, CV_64F);
+    cv::Mat_<double> j = slopes.getMat();
+    j.setTo(0.0);
+    std::vector<double> moved(static_cast<std::size_t>(perBoard));
+    for (int p = 0; p < all.rows; ++p) {
+      cv::Mat_<double> other = all.clone();
+      const double step = 1e-6 * std::max(1.0, std::abs(all(p)));
+      other(p) += step;
+      for (std::size_t k = 0; k < corners_.size(); ++k) {
+        if (p >= kLens && (p - kLens) / kPose != index(k)) continue;
+        add(other, k, moved.data());
+        for (int i = 0; i < perBoard; ++i) {
+          const int row = index(k) * perBoard + i;
+          j(row, p) = (moved[static_cast<std::size_t>(i)] - e(row)) / step;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  static int index(std::size_t k) { return static_cast<int>(k); }
+
+  void add(const cv::Mat_<double>& all, std::size_t k, double* errors) const {
+    const int pose = kLens + kPose * index(k);
+    cv::Matx33d turn;
+    cv::Rodrigues(cv::Vec3d(all(pose), all(pose + 1), all(pose + 2)), turn);
+    const cv::Vec3d place(all(pose + 3), all(pose + 4), all(pose + 5));
+    for (std::size_t i = 0; i < board_.size(); ++i) {
+      const cv::Vec3d p = turn * cv::Vec3d(board_[i].x, board_[i].y, 0.0) + place;
+      const cv::Point2f& corner = corners_[k][i];
+      const double side = std::hypot(p[0], p[1]);
+      double rho = std::hypot(corner.x - all(0), corner.y - all(1)) / unit_;
+      for (int n = 0; n < 12; ++n) {
+        double f = 0.0;
+        double df = 0.0;
+        for (std::size_t m = 0; m < kPowers.size(); ++m) {
+          const double number = all(2 + static_cast<int>(m));
+          f += number * std::pow(rho, kPowers[m]);
+          if (kPowers[m] > 0) df += number * kPowers[m] * std::pow(rho, kPowers[m] - 1);
+        }
+        rho -= (f * side - rho * p[2]) / (df * side - p[2]);
+      }
+      const double scale = side > 0.0 ? unit_ * rho / side : 0.0;
+      *errors++ = all(0) + scale * p[0] - corner.x;
+      *errors++ = all(1) + scale * p[1] - corner.y;
+    }
+  }
+
+  const Board& board_;
+  const std::vector<Corners>& corners_;
+  double unit_;
+};
+
+}  // namespace
+
+OcamSolution solveOcam(const cv::Size& size, const Board& board,
+                       const std::vector<Corners>& corners) {
+  const double unit = 0.5 * std::hypot(size.width, size.height);
+  const cv::Point2d centre(0.5 * (size.width - 1), 0.5 * (size.height - 1));
+  std::vector<std::vector<cv::Point2d>> seenCorners;
+  std::vector<Seen> seen;
+  for (const Corners& one : corners) {
+    seenCorners.push_back(centred(one, centre, unit));
+    seen.push_back(radial(board, seenCorners.back()));
+    chooseSide(board, seenCorners.back(), seen.back());
+  }
+  const cv::Mat lens = solveLens(board, seenCorners, seen, kPowers.size());
+  cv::Mat_<double> all(kLens + kPose * static_cast<int>(corners.size()), 1);
+  all(0) = centre.x;
+  all(1) = centre.y;
+  for (int m = 0; m < 4; ++m) all(2 + m) = lens.at<double>(m);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    cv::Matx33d turn;
+    const cv::Vec3d third = seen[k].first.cross(seen[k].second);
+    for (int i = 0; i < 3; ++i) {
+      turn(i, 0) = seen[k].first[i];
+      turn(i, 1) = seen[k].second[i];
+      turn(i, 2) = third[i];
+    }
+    cv::Vec3d rotation;
+    cv::Rodrigues(turn, rotation);
+    const double place[] = {seen[k].x, seen[k].y, lens.at<double>(4 + static_cast<int>(k))};
+    for (int i = 0; i < 3; ++i) {
+      all(kLens + kPose * static_cast<int>(k) + i) = rotation[i];
+      all(kLens + kPose * static_cast<int>(k) + 3 + i) = place[i];
+    }
+  }
+  cv::LMSolver::create(cv::makePtr<Reprojection>(board, corners, unit), 200)->run(all);
+  OcamSolution found;
+  found.centre = {all(0), all(1)};
+  found.polynomial = {unit * all(2), 0.0, all(3) / unit, all(4) / (unit * unit),
+                      all(5) / (unit * unit * unit)};
+  for (const double number : found.polynomial)
+    if (!std::isfinite(number)) throw std::runtime_error("these boards do not determine the model");
+  if (!(found.polynomial[0] > 0.0))
+    throw std::runtime_error(
+        "these boards do not determine the model: none lies before the camera");
+  for (int k = 0; k < static_cast<int>(corners.size()); ++k) {
+    found.rotations.push_back(all.rowRange(kLens + kPose * k, kLens + kPose * k + 3).clone());
+    found.translations.push_back(
+        all.rowRange(kLens + kPose * k + 3, kLens + kPose * (k + 1)).clone());
+  }
+  return found;
+}
+
+}  // namespace ortung
