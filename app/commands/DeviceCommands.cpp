@@ -60,7 +60,7 @@ void addRobot(Builder& build, CLI::App& app) {
 
 void addEmulate(Builder& build, CLI::App& app) {
   const std::string example =
-      "ortung emulate sick --robot maps/robots/pioneer_lrf.toml --world maps/fields/f2000.toml "
+      "ortung emulate sick --robot maps/robots/laboratory.toml --world maps/fields/arena.toml "
       "--link /tmp/sick\n"
       "  ortung emulate --robot robot.toml --source record:run.rec --dev /tmp/dev";
   const auto a = build.command<EmulateArguments>(

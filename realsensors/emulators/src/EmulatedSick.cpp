@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace ortung {
 namespace {
@@ -69,7 +70,12 @@ std::string sickTelegram(unsigned char address, std::string_view data) {
 }
 
 EmulatedSick::EmulatedSick(const ScanData& scan, int baud)
-    : id_(scan.id()), maxRange_(scan.config().maxRange), baud_(baud), settings_(kSettings, '\0') {}
+    : id_(scan.id()), maxRange_(scan.config().maxRange), baud_(baud), settings_(kSettings, '\0') {
+  const int beams = scan.config().beams;
+  if (beams != 101 && beams != 181 && beams != 201 && beams != 361 && beams != 401)
+    throw std::invalid_argument(toText(id_) + " has " + std::to_string(beams) +
+                                " beams, a SICK 181 or 361 of 180 degrees, 101, 201 or 401 of 100");
+}
 
 std::size_t EmulatedSick::beams() const {
   return static_cast<std::size_t>(fieldOfView_ * 100 / resolution_) + 1;

@@ -20,6 +20,7 @@ class ORTUNG_API EmulatedSick : public EmulatedDevice {
  public:
   /// @param scan what it measures, borrowed until this returns
   /// @param baud its speed after it was switched on: 9600, 38400, 500000
+  /// @throws std::invalid_argument for a number of beams that no SICK has
   explicit EmulatedSick(const ScanData& scan, int baud = 9600);
 
   void receive(std::string_view bytes, Timestamp now) override;
