@@ -140,8 +140,9 @@ TEST(Limits, BeamsAndPeriodsCountAsRays) {
   const RunningBoard board(world, {});
   TestClient client(board.port());
   const std::string scanner = "[[sensor]]\nplugin = \"lrf\"\nbeams = 8000\nfov_deg = 180\n";
-  EXPECT_TRUE(client.join(scanner + "period_s = 0.01\n")
-                  .starts_with("ERR limit the robot's sensors need 800000 rays a second"));
+  const std::string quick = scanner + "period_s = 0.01\n";
+  EXPECT_TRUE(client.join(quick + "feature = \"a\"\n" + quick + "feature = \"b\"\n")
+                  .starts_with("ERR limit the robot's sensors need 1600000 rays a second"));
   client.send("CREATE slow\n" + scanner + "period_s = 0.1\n");
   EXPECT_TRUE(client.ask(".").starts_with("OK CREATE"));
 }

@@ -20,7 +20,7 @@ struct BoardLimits {
   std::size_t robots = 4;                 ///< a client
   std::size_t sensors = 16;               ///< a robot
   std::size_t features = 1024;            ///< a robot
-  double rays = 250'000.0;                ///< that a robot's sensors need [1/s], see Sensor::rays()
+  double rays = 1e6;                      ///< that a robot's sensors need [1/s], see Sensor::rays()
   double allRays = 2e7;                   ///< that the sensors of all robots need [1/s]
   double allRaysAtOnce = 2e6;             ///< in one reading of each sensor of all robots
   std::size_t sessions = 256;             ///< clients at a time
