@@ -23,7 +23,7 @@ class Notebook(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="ortung-notebook-")
         cls.tables = pathlib.Path(cls.folder.name) / "arena.tables"
-        cls.record = pathlib.Path(cls.folder.name) / "run.rec"
+        cls.record = pathlib.Path(cls.folder.name) / "run.txt"  # in lines
         world = MAPS / "fields" / "arena.toml"
         subprocess.run([PROGRAM, "learn", "--world", world, "--robot", ROBOT, "--out", cls.tables],
                        check=True, capture_output=True)
