@@ -129,11 +129,12 @@ TEST_P(RealCameras, FitTheFieldByItsLinesAlone) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Venues, RealCameras,
-    testing::Values(std::pair{"20240717_r6", MslSizes{}}, std::pair{"20220715_r7_cam0", MslSizes{}},
-                    std::pair{"20260514_r5", MslSizes{.length = 18.0, .width = 12.0}}),
-    [](const auto& test) { return std::string("Day") + test.param.first; });
+INSTANTIATE_TEST_SUITE_P(Venues, RealCameras,
+                         testing::Values(std::pair{"20240717_r7_cam1", MslSizes{}},
+                                         std::pair{"20220715_r7_cam2", MslSizes{}},
+                                         std::pair{"20260514_r4",
+                                                   MslSizes{.length = 18.0, .width = 12.0}}),
+                         [](const auto& test) { return std::string("Day") + test.param.first; });
 
 }  // namespace
 }  // namespace ortung
