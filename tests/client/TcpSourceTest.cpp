@@ -10,7 +10,9 @@
 #include "ortung/client/RobotSession.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
+#include "ortung/formats/ScalarData.hpp"
 #include "ortung/served/ServedSimulation.hpp"
+#include "ortung/server/ServedContainer.hpp"
 
 namespace ortung::test {
 namespace {
@@ -49,6 +51,28 @@ TEST(TcpSource, OptionsThatMakeNoSenseAreToldWhy) {
     const std::string message = messageOf<ConfigError>([&] { open(1, options); });
     EXPECT_NE(message.find(expected), std::string::npos) << message;
   }
+}
+
+TEST(TcpSource, FollowsARunningRobot) {
+  SensorContainer container;
+  const SensorId id{"sonar", "range", "near"};
+  container.add(std::make_unique<ScalarData>(id, Pose2{}, ScalarData::Config{}));
+  ASSERT_TRUE(container.set(Message{1000, id, {700}}));
+  ServedContainer::Config config;
+  config.robot = "rover";
+  config.period = 0.002;
+  ServedContainer world(container, [] { return Timestamp{2000}; }, config);
+  const RunningBoard board(world, {});
+  const auto source = open(board.port(), {{"cycle_ms", "1"}, {"wait_s", "0"}});
+  Message message;
+  ASSERT_TRUE(source->next(message));
+  EXPECT_EQ(toText(message.id), "sonar/range/near");
+  EXPECT_EQ(message.stamp, 1000);
+  EXPECT_EQ(message.words, std::vector<std::uint32_t>{700});
+  EXPECT_LT(source->progress(), 0.0) << "it has no end of its own";
+  ASSERT_TRUE(container.set(Message{1500, id, {800}}));
+  ASSERT_TRUE(source->next(message));
+  EXPECT_EQ(message.words, std::vector<std::uint32_t>{800});
 }
 
 TEST(TcpSource, NumbersHaveLimits) {

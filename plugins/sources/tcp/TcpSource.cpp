@@ -2,6 +2,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <thread>
 
@@ -58,6 +59,7 @@ class TcpSource : public Source {
         robotToml_(readRobotFile(p)),
         isLockstep_(p.choiceOr("lockstep", "auto", {"on", "off", "auto"}) != "off"),
         cycle_(optionNumber(p, "cycle_ms", 100.0, {1.0, 1e5}) / 1000.0),
+        wait_(fromSeconds(optionNumber(p, "wait_s", 0.3, {0.0, 60.0}))),
         duration_(optionNumber(p, "duration", {0.0, 1e9})),
         session_(options_, robotToml_) {
     if (!duration_ && session_.kind() == "simulation") duration_ = kDefaultDuration;
@@ -88,12 +90,13 @@ class TcpSource : public Source {
   std::string robotToml() const override { return robotToml_; }
 
  private:
-  /// A server that plays for all in real time refuses it: then the robot just follows.
+  /// A server that plays for all in real time refuses it, and so does a running robot: then the
+  /// source just follows.
   void enterLockstep(bool isOptional) {
     try {
       session_.setLockstep(true);
     } catch (const ServerRefused& refusal) {
-      if (!isOptional || refusal.code() != "role") throw;
+      if (!isOptional || (refusal.code() != "role" && refusal.code() != "live")) throw;
       isLockstep_ = false;
     }
   }
@@ -106,9 +109,15 @@ class TcpSource : public Source {
       if (readings) frame_ = std::move(*readings);
       return readings.has_value();
     }
-    frame_ = session_.update();
-    if (!frame_.empty()) {
+    std::vector<Message> news = session_.update();
+    const bool isSilent = news.empty();
+    if (session_.kind() == "robot")
+      takeInOrder(std::move(news));
+    else
+      frame_ = std::move(news);
+    if (!isSilent) {
       silence_ = 0.0;
+      if (frame_.empty()) std::this_thread::sleep_for(std::chrono::duration<double>(cycle_));
       return true;
     }
     const std::string status = session_.ask("STATUS");
@@ -121,12 +130,31 @@ class TcpSource : public Source {
     return true;
   }
 
+  /// A running robot's devices are late by different times: readings are held until those of the
+  /// same time have had time to come. What comes later still is left out.
+  void takeInOrder(std::vector<Message> news) {
+    std::move(news.begin(), news.end(), std::back_inserter(held_));
+    std::stable_sort(held_.begin(), held_.end(),
+                     [](const Message& a, const Message& b) { return a.stamp < b.stamp; });
+    if (held_.empty()) return;
+    const Timestamp ripe = held_.back().stamp - wait_;
+    std::erase_if(held_, [this](const Message& m) { return given_ && m.stamp < *given_; });
+    const auto end =
+        std::find_if(held_.begin(), held_.end(), [&](const Message& m) { return m.stamp > ripe; });
+    std::move(held_.begin(), end, std::back_inserter(frame_));
+    held_.erase(held_.begin(), end);
+    if (!frame_.empty()) given_ = frame_.back().stamp;
+  }
+
   SessionOptions options_;
   std::string robotToml_;
   bool isLockstep_;
   double cycle_;                    ///< [s]
+  Timestamp wait_;                  ///< for a running robot's late readings [us]
   std::optional<double> duration_;  ///< [s]
   RobotSession session_;
+  std::vector<Message> held_;       ///< of a running robot, in the order of time
+  std::optional<Timestamp> given_;  ///< stamp of the last of them that was given
   std::vector<Message> frame_;
   std::size_t sent_ = 0;
   std::optional<Timestamp> first_;
@@ -141,13 +169,14 @@ class TcpHelp : public SourceHelp {
       : SourceHelp(
             "HOST:PORT of a message board",
             {{"robot", "", "--with-robot", "robot file"},
-             {"duration", "s", "60 for a simulation, all of a record",
+             {"duration", "s", "60 for a simulation, else all there is",
               "time from the first to the last readings"},
              {"drive", "", "none", "wander: the server drives the robot about"},
              {"start", "m, m, deg", "anywhere", "x,y,theta"},
              {"lockstep", "", "auto",
               "on: an error where it is not permitted; off: asks every cycle_ms what is new"},
              {"cycle_ms", "ms", "100", "without lockstep: time between two updates"},
+             {"wait_s", "s", "0.3", "how long a running robot's readings wait for late ones"},
              {"form", "", "binary", "of readings on the wire; text has no pictures"},
              {"name", "", "robot", "of client and robot"},
              {"timeout", "s", "60", "how long the server may keep silent"}}) {}

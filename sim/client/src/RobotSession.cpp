@@ -88,6 +88,15 @@ RobotSession::RobotSession(const SessionOptions& options, std::string_view robot
   const std::string greeting = ask(hello);
   kind_ = valueOf(greeting, "kind");
   if (!valueOf(greeting, "now").empty()) newest_ = stampOf(greeting, "now");
+  if (kind_ != "robot") create(robotToml);
+  std::vector<std::string> world;
+  ask("DESCRIBE world", &world);
+  if (!world.empty()) fingerprint_ = valueOf(world.front(), "fingerprint");
+}
+
+RobotSession::~RobotSession() = default;
+
+void RobotSession::create(std::string_view robotToml) {
   std::string create = "CREATE " + options_.name;
   if (options_.start)
     create += " x_m=" + shown(options_.start->x) + " y_m=" + shown(options_.start->y) +
@@ -95,12 +104,7 @@ RobotSession::RobotSession(const SessionOptions& options, std::string_view robot
   if (!options_.team.empty()) create += " team=" + options_.team;
   if (options_.wanders) create += " drive=wander";
   exchange(create + "\n" + withDotsDoubled(robotToml) + ".", options_.timeout);
-  std::vector<std::string> world;
-  ask("DESCRIBE world", &world);
-  if (!world.empty()) fingerprint_ = valueOf(world.front(), "fingerprint");
 }
-
-RobotSession::~RobotSession() = default;
 
 void RobotSession::failOn(std::string_view what) const {
   throw ConnectionLost(options_.server() + ": found '" + std::string(what.substr(0, 80)) +
@@ -209,8 +213,18 @@ std::vector<Message> RobotSession::update(const std::string& queries) {
   if (queries.find_first_of("=\r\n") != queries.npos)  // would be a key, or another request
     throw std::invalid_argument("found the queries " + inQuotes(queries) +
                                 ", expected model/type/feature, separated by blanks");
-  return takeReadings(
+  std::vector<Message> readings = takeReadings(
       exchange(withForm(queries.empty() ? "UPDATE" : "UPDATE " + queries), options_.timeout));
+  // Of a robot that is nobody's own the server gives the newest, sent before or not.
+  if (kind_ == "robot") std::erase_if(readings, [this](const Message& m) { return !isNew(m); });
+  return readings;
+}
+
+bool RobotSession::isNew(const Message& reading) {
+  const auto [last, isFirst] = stamps_.try_emplace(toText(reading.id), reading.stamp);
+  if (!isFirst && reading.stamp <= last->second) return false;
+  last->second = reading.stamp;
+  return true;
 }
 
 void RobotSession::setLockstep(bool isOn) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -78,7 +79,8 @@ struct TeamWords {
 ///   and from commands where the server says that the robot does not take them
 class ORTUNG_API RobotSession : public RobotCommands {
  public:
-  /// Connects and creates the robot.
+  /// Connects and creates the robot; where a running robot is served, it is that one, and start,
+  /// team and drive of the options say nothing.
   /// @param robotToml text of the robot file
   RobotSession(const SessionOptions& options, std::string_view robotToml);
   ~RobotSession() override;
@@ -86,7 +88,7 @@ class ORTUNG_API RobotSession : public RobotCommands {
   RobotSession& operator=(const RobotSession&) = delete;
 
   const std::string& worldFingerprint() const { return fingerprint_; }
-  /// "simulation" or "record".
+  /// "simulation", "record" or "robot".
   const std::string& kind() const { return kind_; }
 
   /// By the server's clock: the cycle that next() gave, whether a sensor read in it or not; without
@@ -135,6 +137,8 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::vector<std::string> takeNews();
 
  private:
+  void create(std::string_view robotToml);
+  bool isNew(const Message& reading);
   std::string exchange(const std::string& request, double timeout);
   void tell(const std::string& request);
   Message takeBinary(const std::string& reply, std::size_t& left);
@@ -150,7 +154,8 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::string fingerprint_;
   std::string kind_;
   Timestamp newest_ = 0;
-  Timestamp clock_ = 0;  ///< in lockstep: when the next cycle is
+  std::map<std::string, Timestamp, std::less<>> stamps_;  ///< of a running robot's readings
+  Timestamp clock_ = 0;                                   ///< in lockstep: when the next cycle is
   std::vector<std::string> news_;
   std::uint64_t lastTag_ = 0;
 };
