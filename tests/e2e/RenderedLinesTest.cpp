@@ -192,6 +192,23 @@ TEST(RenderedThings, GoalsAreToldApartByTheirColours) {
   EXPECT_NEAR(goals[1].bearing, std::atan2(1.0, 4.0) - radians(30.0), radians(3.0));
 }
 
+TEST(RenderedThings, PostsAreSeenWhereTheyStand) {
+  const TemporaryFolder folder;
+  std::string text = readBytes(kRobot);
+  text.replace(text.find("see = [\"lines\", \"ball\", \"obstacles\"]"), 36,
+               "see = [\"posts\"]\nmax_range_m = 6\n[[sensor.posts.colour]]\nhue_deg = 240\n"
+               "[[sensor.posts.colour]]\nhue_deg = 60\nhue_tolerance_deg = 8\n");
+  writeBytes(folder / "robot.toml", text);
+  PointsData::Config config;
+  config.maxRange = 8.0;
+  const auto posts = firstOf<PointsData>(
+      std::string("sim:" ORTUNG_SOURCE_DIR "/maps/fields/f2000.toml?start=4,-2,30&speed=0"),
+      folder / "robot.toml", "posts", Pose2{}, config);
+  ASSERT_EQ(posts.size(), 1U) << "of the others one is too far, two are beyond the other goal";
+  EXPECT_NEAR(posts[0].range, std::hypot(2.5, 2.5), 0.3);
+  EXPECT_NEAR(posts[0].bearing, radians(-45.0 - 30.0), radians(3.0));
+}
+
 /// The whole field is searched, and the compass tells its halves apart.
 TEST(RenderedLines, TellWhereARobotIsFromAnUnknownStart) {
   const TemporaryFolder folder;

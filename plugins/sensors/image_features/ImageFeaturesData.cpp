@@ -15,6 +15,8 @@ DeviceData makeImageFeatures(const Parameters& p) {
     id.feature = feature;
     if (feature == "lines")
       data.push_back(std::make_unique<PointsData>(id, Pose2{}, s.lines));
+    else if (feature == "posts")
+      data.push_back(std::make_unique<PointsData>(id, Pose2{}, s.posts));
     else if (feature == "goals")
       data.push_back(std::make_unique<LandmarksData>(id, Pose2{}, s.goals));
     else

@@ -21,6 +21,8 @@ ImageFeaturesExtractor::ImageFeaturesExtractor(const Parameters& p)
   if (!settings_.findsColours) colours_ = std::make_unique<ColourTable>(settings_.colours);
   for (const ColourRange& range : settings_.goalColours)
     goalColours_.push_back(std::make_unique<ColourTable>(Colours{.floor = {}, .ball = range}));
+  for (const ColourRange& range : settings_.postColours)
+    postColours_.push_back(std::make_unique<ColourTable>(Colours{.floor = {}, .ball = range}));
 }
 
 void ImageFeaturesExtractor::take(std::span<const SensorData* const> inputs) {
@@ -64,8 +66,10 @@ void ImageFeaturesExtractor::extract(const FieldModel&, std::span<std::optional<
       words[i] = balls(image);
     else if (what == "obstacles")
       words[i] = obstacles(image);
-    else
+    else if (what == "goals")
       words[i] = goals(image);
+    else
+      words[i] = posts(image);
   }
 }
 
@@ -126,7 +130,7 @@ std::optional<Point3> ImageFeaturesExtractor::footOf(const ImageView& image,
   const double bearing = std::atan2(middle->y, middle->x);
   constexpr double kAside = 0.06;  // [rad]
   std::optional<Point3> foot;
-  double nearest = settings_.goals.maxRange;
+  double nearest = settings_.maxRange;
   const int step = std::max(1, static_cast<int>(std::sqrt(blob.pixels) / 40.0));
   for (int v = static_cast<int>(blob.vMin); v < static_cast<int>(blob.vMax); v += step)
     for (int u = static_cast<int>(blob.uMin); u < static_cast<int>(blob.uMax); u += step) {
@@ -163,6 +167,32 @@ ImageFeaturesExtractor::Words ImageFeaturesExtractor::goals(const ImageView& ima
     seen.push_back({settings_.goals.identities[i], from.range, from.bearing});
   }
   return LandmarksData::encode(seen);
+}
+
+/// Parts of the posts' colours that are as narrow as posts where they stand.
+ImageFeaturesExtractor::Words ImageFeaturesExtractor::posts(const ImageView& image) const {
+  std::vector<PointsData::Point> seen;
+  constexpr double kLeastPixels = 12.0;
+  for (const auto& colours : postColours_)
+    for (const Blob& blob : findBlobs(image, *colours, ColourClass::kBall, kLeastPixels)) {
+      const auto foot = footOf(image, *colours, blob);
+      const auto middle = view_->rayAt(blob.middle);
+      if (!foot || !middle || seen.size() >= PointsData::kMostPoints) continue;
+      const double range = std::hypot(foot->x, foot->y);
+      const double bearing = std::atan2(middle->y, middle->x);
+      // Across the direction in which it stands: how far aside a post of this width may reach.
+      const auto left =
+          view_->pixelOf({foot->x - 0.5 * settings_.mostPostWidth * std::sin(bearing),
+                          foot->y + 0.5 * settings_.mostPostWidth * std::cos(bearing), 0.0});
+      const auto at = view_->pixelOf({foot->x, foot->y, 0.0});
+      if (!left || !at) continue;
+      const double mostWidth = 2.0 * std::hypot(left->u - at->u, left->v - at->v);
+      // Posts lean any way in a mirror's picture: their mean width is pixels by length.
+      if (blob.pixels > mostWidth * std::hypot(blob.uMax - blob.uMin, blob.vMax - blob.vMin))
+        continue;
+      seen.push_back(fromRobot(range * std::cos(bearing), range * std::sin(bearing)));
+    }
+  return PointsData::encode(seen);
 }
 
 }  // namespace ortung

@@ -31,6 +31,7 @@ class ImageFeaturesExtractor : public Extractor {
   Words balls(const ImageView& image) const;
   Words obstacles(const ImageView& image) const;
   Words goals(const ImageView& image) const;
+  Words posts(const ImageView& image) const;
   std::optional<Point3> footOf(const ImageView& image, const ColourTable& colours,
                                const Blob& blob) const;
   /// Range and bearing from the robot's origin of a place in the camera's sensor frame.
@@ -48,6 +49,7 @@ class ImageFeaturesExtractor : public Extractor {
   std::unique_ptr<FloorScan> floor_;
   std::unique_ptr<ColourTable> colours_;
   std::vector<std::unique_ptr<ColourTable>> goalColours_;
+  std::vector<std::unique_ptr<ColourTable>> postColours_;
   int untilColours_ = 0;  ///< pictures until the floor's colour is looked for again
   LineFinder finder_;
   std::vector<std::uint8_t> taken_;  ///< squares of the floor that have a point

@@ -15,6 +15,7 @@ IconicSettings forecastOf(const ImageFeaturesSettings& s) {
   iconic.rays = 180;
   iconic.lines = s.lines;
   iconic.goals = {.kind = "goal", .areIdentified = true, .list = s.goals, .points = {}};
+  iconic.posts = {.kind = "post", .areIdentified = false, .list = {}, .points = s.posts};
   iconic.occlusion = false;
   return iconic;
 }

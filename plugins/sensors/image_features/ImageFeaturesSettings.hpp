@@ -14,7 +14,8 @@
 namespace ortung {
 
 /// What can be found in pictures; each is a feature of this name.
-inline const std::vector<std::string> kImageFeatures = {"lines", "ball", "obstacles", "goals"};
+inline const std::vector<std::string> kImageFeatures = {"lines", "ball", "obstacles", "goals",
+                                                        "posts"};
 
 /// Settings of all halves of the sensor that finds things in pictures.
 struct ImageFeaturesSettings {
@@ -32,7 +33,10 @@ struct ImageFeaturesSettings {
   LandmarksData::Config goals;
   std::vector<ColourRange> goalColours;  ///< by identity
   double goalDepth = 0.0;                ///< of the coloured wall behind the goal's place [m]
-  double period = 0.1;                   ///< of learning's forecast; pictures have their own [s]
+  PointsData::Config posts;
+  std::vector<ColourRange> postColours;
+  double mostPostWidth = 0.5;  ///< wider things of their colours are no posts [m]
+  double period = 0.1;         ///< of learning's forecast; pictures have their own [s]
 
   bool sees(const std::string& feature) const {
     return std::find(see.begin(), see.end(), feature) != see.end();
@@ -47,7 +51,7 @@ inline std::vector<std::string> readSee(const Parameters& p) {
   if (see.empty()) p.fail("see", "is empty, expected what to look for");
   for (std::size_t i = 0; i < see.size(); ++i) {
     if (std::find(kImageFeatures.begin(), kImageFeatures.end(), see[i]) == kImageFeatures.end())
-      p.fail("see", "has \"" + see[i] + "\", expected lines, ball, obstacles or goals");
+      p.fail("see", "has \"" + see[i] + "\", expected lines, ball, obstacles, goals or posts");
     if (std::find(see.begin(), see.begin() + static_cast<std::ptrdiff_t>(i), see[i]) !=
         see.begin() + static_cast<std::ptrdiff_t>(i))
       p.fail("see", "has \"" + see[i] + "\" twice");
@@ -68,17 +72,21 @@ inline void readLines(const Parameters& p, ImageFeaturesSettings& s) {
   c.model = SensorModel::read(p, "sigma_m", c.model);
 }
 
+inline ColourRange readColour(const Parameters& p) {
+  ColourRange range;
+  range.hue = p.number("hue_deg", {0.0, 360.0});
+  range.hueTolerance = p.numberOr("hue_tolerance_deg", 20.0, {0.0, 180.0});
+  range.minSaturation = p.numberOr("min_saturation", 0.35, {0.0, 1.0});
+  range.minValue = p.numberOr("min_value", 0.15, {0.0, 1.0});
+  range.maxValue = p.numberOr("max_value", 1.0, {0.0, 1.0});
+  return range;
+}
+
 /// Colours that tell goals apart: a table each, in the order of their identities.
 inline void readGoals(const Parameters& p, ImageFeaturesSettings& s) {
   for (const Parameters& goal : p.tables("colour")) {
-    ColourRange range;
-    range.hue = goal.number("hue_deg", {0.0, 360.0});
-    range.hueTolerance = goal.numberOr("hue_tolerance_deg", 20.0, {0.0, 180.0});
-    range.minSaturation = goal.numberOr("min_saturation", 0.35, {0.0, 1.0});
-    range.minValue = goal.numberOr("min_value", 0.15, {0.0, 1.0});
-    range.maxValue = goal.numberOr("max_value", 1.0, {0.0, 1.0});
     s.goals.identities.push_back(static_cast<std::uint32_t>(goal.integer("identity", {0, 1e6})));
-    s.goalColours.push_back(range);
+    s.goalColours.push_back(readColour(goal));
   }
   if (s.goalColours.empty())
     p.fail("colour",
@@ -88,6 +96,19 @@ inline void readGoals(const Parameters& p, ImageFeaturesSettings& s) {
   s.goals.maxRange = s.maxRange;
   s.goals.range = SensorModel::read(p, "range_sigma_m", {.sigma = 0.3, .sigmaPerMetre = 0.1});
   s.goals.bearing = SensorModel::read(p, "bearing_sigma_deg", {.sigma = radians(4.0)});
+}
+
+/// Posts look alike, whatever their colours.
+inline void readPosts(const Parameters& p, ImageFeaturesSettings& s) {
+  for (const Parameters& colour : p.tables("colour")) s.postColours.push_back(readColour(colour));
+  if (s.postColours.empty())
+    p.fail("colour",
+           "is missing: a table [[sensor.posts.colour]] with hue_deg for each colour of "
+           "posts");
+  s.mostPostWidth = p.numberOr("most_width_m", s.mostPostWidth, {0.01, 10.0});
+  s.posts.maxRange = s.maxRange;
+  s.posts.model =
+      SensorModel::read(p, "sigma_m", {.sigma = 0.2, .sigmaPerMetre = 0.1, .exponent = 1.0});
 }
 
 }  // namespace image_features
@@ -108,6 +129,7 @@ inline ImageFeaturesSettings readImageFeaturesSettings(const Parameters& p) {
   // Tables of what is not looked for stay unread, and are told as unknown keys.
   if (s.sees("lines")) image_features::readLines(p.table("lines"), s);
   if (s.sees("goals")) image_features::readGoals(p.table("goals"), s);
+  if (s.sees("posts")) image_features::readPosts(p.table("posts"), s);
   return s;
 }
 
