@@ -1,6 +1,8 @@
 // Commands that whoever hosts the board adds to the protocol.
 #include <gtest/gtest.h>
 
+#include <latch>
+
 #include "CountingWorld.hpp"
 #include "Files.hpp"
 #include "RunningBoard.hpp"
@@ -82,6 +84,91 @@ TEST(Commands, TheirErrorsAndStrangeTextsHarmNobody) {
   EXPECT_EQ(client.ask("THROW"), "ERR internal it threw no std::exception");
   EXPECT_EQ(client.ask("BELL"), "OK BELL a?b lines=1");
   EXPECT_EQ(client.line(), "?");
+}
+
+/// A slow command that does not come back before the test lets it.
+struct Blocking {
+  BoardCommand command() {
+    return {.name = "THINK",
+            .help = "",
+            .handle =
+                [this](const BoardCommand::Call&) {
+                  begun.count_down();
+                  let.wait();
+                  return BoardCommand::Reply{.words = "", .bytes = std::string("a\0\n", 3)};
+                },
+            .isSlow = true};
+  }
+  std::latch begun{1};
+  std::latch let{1};
+};
+
+TEST(Commands, ThatAreSlowHoldUpNeitherTheWorldNorOtherClients) {
+  CountingWorld world;
+  Blocking blocking;
+  BoardConfig config = controlledConfig();
+  config.commands = {blocking.command(), echo()};
+  const RunningBoard board(world, config);
+  TestClient anna(board.port());
+  TestClient bob(board.port());
+  anna.ask("HELLO ortung/1 name=anna");
+  bob.join(kAnyRobot, "bob");
+  anna.send("#0 TIME\n#1 THINK\n#2 ECHO later\n");
+  EXPECT_TRUE(anna.line().starts_with("#0 OK TIME"));
+  blocking.begun.wait();
+  bob.ask("LOCKSTEP on");
+  for (int cycles = 1; cycles <= 20; ++cycles)
+    EXPECT_EQ(valueOf(bob.ask("NEXT none/*/*"), "now"), std::to_string(10'000 * cycles));
+  EXPECT_EQ(bob.ask("ECHO x"), "OK ECHO from=bob lines=1");
+  EXPECT_EQ(bob.line(), "x");
+  blocking.let.count_down();
+  EXPECT_EQ(anna.line(), "#1 OK THINK bytes=3");
+  EXPECT_EQ(anna.bytes(3), std::string("a\0\n", 3));
+  EXPECT_EQ(anna.line(), "#2 OK ECHO from=anna lines=1");
+}
+
+TEST(Commands, ThatAreSlowSeeThatNobodyWaitsForThemAnyMore) {
+  CountingWorld world;
+  std::latch begun{1};
+  std::latch gone{1};
+  BoardConfig config;
+  config.commands = {{.name = "THINK",
+                      .help = "",
+                      .handle =
+                          [&](const BoardCommand::Call& call) {
+                            begun.count_down();
+                            while (call.isAwaited()) std::this_thread::yield();
+                            gone.count_down();
+                            return BoardCommand::Reply{};
+                          },
+                      .isSlow = true}};
+  const RunningBoard board(world, config);
+  {
+    TestClient client(board.port());
+    client.ask("HELLO ortung/1");
+    client.send("THINK\n");
+    begun.wait();
+    client.kill();
+  }
+  gone.wait();
+}
+
+TEST(Commands, KnowWhoMayDoWhat) {
+  CountingWorld world;
+  BoardConfig config;
+  config.control = {"olga"};
+  config.commands = {{"WHO", "", false, [](const BoardCommand::Call& call) {
+                        return BoardCommand::Reply{std::to_string(static_cast<int>(call.role))};
+                      }}};
+  const RunningBoard board(world, config);
+  const auto roleOf = [&](const std::string& greeting) {
+    TestClient client(board.port());
+    client.ask("HELLO ortung/1 " + greeting);
+    return client.ask("WHO");
+  };
+  EXPECT_EQ(roleOf("name=anna role=viewer"), "OK WHO 0");
+  EXPECT_EQ(roleOf("name=anna"), "OK WHO 1");
+  EXPECT_EQ(roleOf("name=olga"), "OK WHO 2");
 }
 
 TEST(Commands, ThatMakeNoSenseAreRefusedAtConstruction) {

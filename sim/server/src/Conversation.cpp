@@ -7,7 +7,6 @@ namespace ortung::server {
 
 namespace {
 
-constexpr std::size_t kLongestReply = 4096;  // line of a command of the host
 // What a client gets done before it is another one's turn.
 constexpr int kLinesOfTurn = 32;
 constexpr Timestamp kTimeOfTurn = 100;         // [us]
@@ -22,7 +21,7 @@ Conversation::Conversation(Host& host, ClientId id, std::unique_ptr<Outlet> outl
       outlet_(std::move(outlet)),
       talk_(host.config.limits.talkLines, host.config.limits.talkBytes, kTalkOfNewcomers) {}
 
-Conversation::~Conversation() = default;
+Conversation::~Conversation() { *isGone_ = true; }
 
 const std::vector<Conversation::Command>& Conversation::commands() {
   using C = Conversation;
@@ -170,39 +169,10 @@ void Conversation::checkRole(const std::string& command, Role least) const {
                                  toText(role_));
 }
 
-// --- commands of whoever hosts the board
-
 bool Conversation::knows(std::string_view command) {
   const auto& all = commands();
   return std::any_of(all.begin(), all.end(),
                      [&](const Command& known) { return known.name == command; });
-}
-
-const BoardCommand* Conversation::findAdded(const std::string& name) const {
-  const auto& added = host_.config.commands;
-  const auto found = std::find_if(added.begin(), added.end(), [&](const BoardCommand& command) {
-    return command.name == name;
-  });
-  return found == added.end() ? nullptr : &*found;
-}
-
-void Conversation::callAdded(const BoardCommand& command, Request& request) {
-  if (command.needsControl) checkRole(command.name, Role::kOperator);
-  const BoardCommand::Call call{name_, request.takeWords(), request.takeKeys()};
-  auto lines = std::make_shared<std::string>();
-  order(
-      request.tag(),
-      [&command, call, lines](WorldKeeper&, WorldKeeper::Done&) {
-        const BoardCommand::Reply reply = command.handle(call);
-        std::string text = "OK " + command.name;
-        if (!reply.words.empty()) text += " " + printable(reply.words, kLongestReply);
-        if (!reply.lines.empty()) text += " lines=" + std::to_string(reply.lines.size());
-        for (const std::string& line : reply.lines) *lines += printable(line, kLongestReply) + '\n';
-        return std::optional<std::string>(text);
-      },
-      [lines](Conversation& self, const std::string& tag, const std::string& text) {
-        self.reply(tag, text, *lines);
-      });
 }
 
 // --- output
@@ -366,6 +336,7 @@ void Conversation::dismiss(std::string_view text) {
 void Conversation::hangUp() {
   if (isOver_) return;
   isOver_ = true;
+  *isGone_ = true;
   endSubscription();
   if (!hasJoined_) return;
   host_.keeper.give(id_,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -67,7 +68,6 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
     const char* help;
   };
   static const std::vector<Command>& commands();
-  const BoardCommand* findAdded(const std::string& name) const;
   static const char* toText(Role role);
   static Role parseRole(const std::string& text);
 
@@ -113,7 +113,6 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void handleConfigurationLine(std::string_view line);
   void dispatch(Request& request);
   void checkRole(const std::string& command, Role least) const;
-  void callAdded(const BoardCommand& command, Request& request);
   void reply(const std::string& tag, std::string_view text, std::string_view body = {});
   void reply(const std::string& tag, std::string_view text, Output&& body);
   bool mayReply();
@@ -122,6 +121,11 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void order(const std::string& tag, WorldKeeper::Order run, Then then = {},
              bool holdsLines = false);
   void answer(const std::string& tag, std::function<void(Conversation&)> say);
+
+  // commands of whoever hosts the board (ConversationAdded.cpp)
+  const BoardCommand* findAdded(const std::string& name) const;
+  void callAdded(const BoardCommand& command, Request& request);
+  void callSlow(const BoardCommand& command, const std::string& tag, BoardCommand::Call call);
 
   // ConversationRobots.cpp
   void create(Request& request);
@@ -184,6 +188,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   Role role_ = Role::kViewer;
   bool hasJoined_ = false;
   bool isOver_ = false;
+  /// The same for other threads: nobody waits for an answer any more.
+  const std::shared_ptr<std::atomic<bool>> isGone_ = std::make_shared<std::atomic<bool>>(false);
   bool isReceiving_ = false;
   bool isTurnOver_ = false;     ///< others come first
   bool isFlushPosted_ = false;  ///< of the outlet

@@ -48,6 +48,8 @@ class Host {
   virtual void post(std::function<void()> task) = 0;
   /// Has @p task run where nobody waits for it but who asked; thread-safe.
   virtual void work(std::function<void()> task) = 0;
+  /// The same for what takes so long that others should not wait behind it; by default they do.
+  virtual void workLong(std::function<void()> task) { work(std::move(task)); }
   /// @p client has more lines than it gets done in a turn: calls its nextTurn() when those before
   /// it have had theirs. Such turns take a part of the time only, however many there are.
   virtual void queue(std::weak_ptr<Conversation> client) = 0;

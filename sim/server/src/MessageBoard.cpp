@@ -62,6 +62,8 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
 
   void work(std::function<void()> task) override { asio::post(workers_, std::move(task)); }
 
+  void workLong(std::function<void()> task) override { asio::post(slow_, std::move(task)); }
+
   void queue(std::weak_ptr<server::Conversation> client) override {
     backlog_.push_back(std::move(client));
     if (backlog_.size() == 1) awaitTurn();
@@ -274,7 +276,8 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   std::chrono::steady_clock::time_point nextTurn_;
   bool isTalkPosted_ = false;
   bool hasMoreTalk_ = false;
-  asio::thread_pool workers_{1};  ///< last, so that its thread ends before what it works on
+  asio::thread_pool workers_{1};  ///< last, so that threads end before what they work on
+  asio::thread_pool slow_{1};
 };
 
 MessageBoard::MessageBoard(ServedWorld& world, const BoardConfig& config) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -10,17 +11,24 @@ namespace ortung {
 /// A command that whoever hosts a message board adds to the protocol; HELP lists it. The board
 /// refuses one without name or handler, or whose name is another's or one of the protocol's.
 struct BoardCommand {
+  /// What a client may do.
+  enum class Role : std::uint8_t { kViewer, kPlayer, kOperator };
   /// What a client said: "NAME word ... key=value ...".
   struct Call {
     std::string client;  ///< its name
     std::vector<std::string> words;
     std::map<std::string, std::string> keys;  ///< the last one of each counts
+    Role role = Role::kViewer;
+    /// Whether somebody still waits for the answer; thread-safe, never empty.
+    std::function<bool()> isAwaited = [] { return true; };
   };
-  /// "OK NAME words" or, if there are lines, "OK NAME words lines=N" and the lines behind it. What
-  /// is not printable ASCII becomes '?'.
+  /// "OK NAME words" or, if there are lines, "OK NAME words lines=N" and the lines behind it, or,
+  /// if there are bytes, "OK NAME words bytes=N" and the bytes as they are; not both. What is not
+  /// printable ASCII in words and lines becomes '?'.
   struct Reply {
     std::string words;  ///< e.g. "angle_deg=30"; may be empty
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = {};
+    std::string bytes = {};
   };
 
   std::string name;           ///< capitals, digits and '_', beginning with a capital, at most 32
@@ -30,6 +38,10 @@ struct BoardCommand {
   /// the world, and whatever takes long holds it up.
   /// @throws ServeError to refuse it, answered as "ERR code text"; other errors as the board's own
   std::function<Reply(const Call&)> handle;
+  /// It takes long: handle() is called on a thread of the board that has nothing else to do, so it
+  /// holds up neither the world nor other clients, but must be thread-safe. The same client's lines
+  /// behind it wait for it; one after the other is executed, whoever asked.
+  bool isSlow = false;
 };
 
 }  // namespace ortung
