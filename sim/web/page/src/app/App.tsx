@@ -1,0 +1,89 @@
+import { useEffect } from "preact/hooks";
+import { FieldView } from "../field/FieldView";
+import { GamePanel } from "../panels/Game";
+import { Help } from "../panels/Help";
+import { LocalizationPanel } from "../panels/Localization";
+import { RobotsPanel } from "../panels/Robots";
+import { SaidBar } from "../panels/Said";
+import { SensorsPanel } from "../panels/Sensors";
+import { TimeLine } from "../panels/TimeLine";
+import { TopBar } from "../panels/TopBar";
+import { useBoard, usePage } from "./context";
+import { kPanels, type Panel } from "./Ui";
+
+const kTitles: Record<Panel, string> = {
+  robots: "Robots",
+  sensors: "Sensors",
+  localization: "Localization",
+  game: "Game",
+};
+
+export function App() {
+  const board = useBoard(250);
+  const { ui } = usePage();
+  useEffect(() => {
+    document.title = board.worldName ? `${board.worldName} – Ortung` : "Ortung";
+  }, [board.worldName]);
+  return (
+    <div class="page">
+      <TopBar />
+      <LinkNote />
+      <main class="work">
+        <section class="stage" aria-label="Field">
+          <FieldView />
+          {board.world && board.world.kind === "record" && <TimeLine />}
+        </section>
+        <aside class="side" aria-label="Panels">
+          <div class="tabs" role="tablist" aria-label="Panels" onKeyDown={turn}>
+            {kPanels.map((name) => (
+              <button
+                key={name}
+                role="tab"
+                id={`tab-${name}`}
+                aria-controls="panel"
+                aria-selected={ui.panel === name}
+                tabIndex={ui.panel === name ? 0 : -1}
+                onClick={() => ui.change({ panel: name })}
+              >
+                {kTitles[name]}
+              </button>
+            ))}
+          </div>
+          <div class="panel" role="tabpanel" id="panel" aria-labelledby={`tab-${ui.panel}`} tabIndex={0}>
+            {ui.panel === "robots" && <RobotsPanel />}
+            {ui.panel === "sensors" && <SensorsPanel />}
+            {ui.panel === "localization" && <LocalizationPanel />}
+            {ui.panel === "game" && <GamePanel />}
+          </div>
+        </aside>
+      </main>
+      <SaidBar />
+      {ui.isHelpOpen && <Help />}
+    </div>
+  );
+
+  /** Arrow keys go from tab to tab. */
+  function turn(event: KeyboardEvent) {
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!by) return;
+    event.preventDefault();
+    const next = kPanels[(kPanels.indexOf(ui.panel) + by + kPanels.length) % kPanels.length]!;
+    ui.change({ panel: next });
+    document.getElementById(`tab-${next}`)?.focus();
+  }
+}
+
+function LinkNote() {
+  const board = useBoard();
+  const isBad = board.link === "lost" || board.link === "refused";
+  const what = board.link === "refused" ? "the server refuses" : "connection lost, trying again";
+  return (
+    <div role="status" aria-live="polite" class={isBad ? "link-note bad" : "link-note"}>
+      {isBad && (
+        <>
+          <strong>{what}</strong> <span>{board.linkText}</span>
+        </>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,102 @@
+import type { Address } from "../link/address";
+import { toFragment } from "../link/address";
+import type { Heat } from "../field/Cloud";
+import { kLayers, kLayerNames, type Layers } from "../field/layers";
+import type { Expected } from "../field/rays";
+import type { Point } from "../model/geometry";
+
+export type Theme = "auto" | "light" | "dark";
+export const kPanels = ["robots", "sensors", "localization", "game"] as const;
+export type Panel = (typeof kPanels)[number];
+export type Tool = "look" | "measure";
+
+const kStore = "ortung.view";
+
+interface Kept {
+  theme: Theme;
+  panel: Panel;
+  layers: Layers;
+  isLogOpen: boolean;
+}
+
+/** How the user wants to see things. Kept in the browser; the address has what others can be sent. */
+export class Ui {
+  theme: Theme = "auto";
+  panel: Panel = "robots";
+  layers = Object.fromEntries(kLayerNames.map((name) => [name, kLayers[name].on])) as unknown as Layers;
+  isLogOpen = false;
+  isHelpOpen = false;
+  is3d = false;
+  follow = false;
+  tool: Tool = "look";
+  drivesByKeys = false;
+  heat: Heat | null = null;
+  expected: Expected | null = null;
+  /** Where the user asked why, on the field. */
+  asked: Point | null = null;
+  frame = 0;
+  private readonly listeners = new Set<() => void>();
+
+  constructor(readonly address: Address) {
+    this.load();
+    if (kPanels.includes(address.panel as Panel)) this.panel = address.panel as Panel;
+    this.follow = address.follow;
+    this.showTheme();
+  }
+
+  onChange(listener: () => void): () => void {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  }
+
+  change(what: Partial<Ui>): void {
+    Object.assign(this, what);
+    this.frame++;
+    this.showTheme();
+    this.keep();
+    for (const listener of this.listeners) listener();
+  }
+
+  /** Draws the field again without a change of what panels show. */
+  redraw(): void {
+    this.frame++;
+  }
+
+  showSelection(robot: number): void {
+    const next = toFragment({ ...this.address, robot: robot || null, follow: this.follow, panel: this.panel });
+    if (next !== location.hash) history.replaceState(null, "", next || location.pathname + location.search);
+  }
+
+  get isDark(): boolean {
+    if (this.theme !== "auto") return this.theme === "dark";
+    return matchMedia("(prefers-color-scheme: dark)").matches;
+  }
+
+  private showTheme(): void {
+    document.documentElement.dataset.theme = this.isDark ? "dark" : "light";
+  }
+
+  private load(): void {
+    try {
+      const kept = JSON.parse(localStorage.getItem(kStore) ?? "{}") as Partial<Kept>;
+      if (kept.theme === "light" || kept.theme === "dark") this.theme = kept.theme;
+      if (kept.panel && kPanels.includes(kept.panel)) this.panel = kept.panel;
+      this.isLogOpen = kept.isLogOpen === true;
+      for (const name of kLayerNames) {
+        const on: unknown = kept.layers?.[name];
+        if (typeof on === "boolean") this.layers[name] = on;
+      }
+    } catch {
+      // nothing is kept where the browser forbids it, or something else wrote there
+    }
+  }
+
+  private keep(): void {
+    const { theme, panel, layers, isLogOpen } = this;
+    try {
+      localStorage.setItem(kStore, JSON.stringify({ theme, panel, layers, isLogOpen } satisfies Kept));
+    } catch {
+      // as above
+    }
+  }
+}

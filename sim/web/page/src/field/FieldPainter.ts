@@ -1,0 +1,179 @@
+import type { Context } from "../app/context";
+import { degrees, type Point, type Pose } from "../model/geometry";
+import { Cloud } from "./Cloud";
+import { FieldHands } from "./FieldHands";
+import { Overlay } from "./Overlay";
+import { Rays, arrowsOf } from "./rays";
+import { Scene } from "./Scene";
+import { make } from "./svg";
+import { View } from "./View";
+
+const kFramesCounted = 30;
+const kMargin = 0.3;
+const kTools = 44;
+
+/** Draws the field when something on it is new, at most once a frame of the screen. */
+export class FieldPainter {
+  readonly view = new View();
+  /** Where the user holds something, by what names it in the protocol. */
+  readonly held = new Map<string, Pose>();
+  readonly overlay: Overlay;
+  readonly svg: SVGSVGElement;
+  problem = "";
+  private readonly floor: HTMLDivElement;
+  private readonly canvas: HTMLCanvasElement;
+  private readonly scene: Scene;
+  private readonly hands: FieldHands;
+  private readonly watcher: ResizeObserver;
+  private cloud: Cloud | null = null;
+  private request = 0;
+  private drawnBoard = -1;
+  private drawnUi = -1;
+  private drawnSamples: Uint32Array | null = null;
+  private drawnHeat: unknown = null;
+  private isDirty = true;
+  private times: number[] = [];
+
+  constructor(
+    private readonly place: HTMLElement,
+    readonly context: Context,
+  ) {
+    this.floor = document.createElement("div");
+    this.floor.className = "floor";
+    this.canvas = document.createElement("canvas");
+    this.canvas.setAttribute("aria-hidden", "true");
+    this.svg = make("svg", { class: "over", role: "group", "aria-label": "Field: robots, ball and lines", tabindex: 0 });
+    this.place.replaceChildren(this.floor, this.canvas, this.svg);
+    this.scene = new Scene(make("svg"), context.session.board);
+    // The scene's groups live in the one SVG, below what hands draw.
+    this.svg.append(...this.scene.svg.childNodes);
+    this.overlay = new Overlay(this.svg, this.place);
+    try {
+      this.cloud = new Cloud(this.canvas);
+    } catch (error) {
+      this.problem = (error as Error).message;
+    }
+    this.hands = new FieldHands(this);
+    this.watcher = new ResizeObserver(() => this.resize());
+    this.watcher.observe(place);
+    this.resize();
+    this.request = requestAnimationFrame(() => this.tick());
+  }
+
+  stop(): void {
+    cancelAnimationFrame(this.request);
+    this.watcher.disconnect();
+    this.hands.stop();
+    this.place.replaceChildren();
+  }
+
+  dirty(): void {
+    this.isDirty = true;
+  }
+
+  fit(): void {
+    const { world } = this.context.session.board;
+    const { ui } = this.context;
+    if (ui.follow) ui.change({ follow: false });
+    if (world) this.view.fit(world.min, world.max, kMargin, kTools);
+    this.dirty();
+  }
+
+  zoomBy(factor: number, at: Point = { x: this.view.width / 2, y: this.view.height / 2 }): void {
+    this.view.zoom(factor, at);
+    this.dirty();
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.place;
+    if (!clientWidth || !clientHeight) return;
+    this.view.width = clientWidth;
+    this.view.height = clientHeight;
+    this.svg.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
+    this.dirty();
+  }
+
+  private tick(): void {
+    this.request = requestAnimationFrame(() => this.tick());
+    const { session, ui } = this.context;
+    const { board } = session;
+    const isNew = board.frame !== this.drawnBoard || ui.frame !== this.drawnUi || this.isDirty;
+    if (!isNew || !board.world || ui.is3d) return;
+    this.drawnBoard = board.frame;
+    this.drawnUi = ui.frame;
+    this.isDirty = false;
+    this.draw();
+    this.count();
+  }
+
+  /** Frames a second, for tests and the curious: an attribute of the stage. */
+  private count(): void {
+    const time = performance.now();
+    this.times.push(time);
+    if (this.times.length < kFramesCounted) return;
+    const rate = ((this.times.length - 1) * 1000) / (time - this.times[0]!);
+    this.place.dataset.fps = rate.toFixed(1);
+    this.times = [];
+  }
+
+  private draw(): void {
+    const { view, overlay } = this;
+    const { session, ui } = this.context;
+    const { board } = session;
+    const world = board.world!;
+    const robot = board.robot;
+    if (ui.follow && robot?.pose) {
+      view.x = robot.pose.x;
+      view.y = robot.pose.y;
+      view.isFree = true;
+    } else if (!view.isFree) {
+      view.fit(world.min, world.max, kMargin, kTools);
+    }
+    this.drawFloor();
+    this.scene.draw(view, ui.layers, this.held);
+    this.drawCloud();
+    overlay.drawScale(view);
+    overlay.drawAsked(view, ui.asked);
+  }
+
+  private drawFloor(): void {
+    const world = this.context.session.board.world!;
+    const a = this.view.toPixel({ x: world.min.x, y: world.max.y });
+    const b = this.view.toPixel({ x: world.max.x, y: world.min.y });
+    const { style } = this.floor;
+    style.transform = `translate(${a.x}px, ${a.y}px)`;
+    style.width = `${b.x - a.x}px`;
+    style.height = `${b.y - a.y}px`;
+  }
+
+  private drawCloud(): void {
+    const { cloud } = this;
+    const { session, ui } = this.context;
+    const { robot } = session.board;
+    if (!cloud) return;
+    const rays = new Rays();
+    if (robot && (ui.layers.rays || ui.layers.sightings || ui.layers.expected)) rays.add(robot, ui.layers, ui.expected);
+    cloud.setLines(new Float32Array(rays.lines));
+    cloud.setDots(new Float32Array(rays.dots));
+    const samples = (ui.layers.samples && robot?.readings.get("mcl/LOCALIZATION/samples")?.words) || null;
+    if (samples !== this.drawnSamples) cloud.setArrows(samples ? arrowsOf(samples) : new Float32Array());
+    this.drawnSamples = samples;
+    if (ui.heat !== this.drawnHeat) cloud.setHeat(ui.heat);
+    this.drawnHeat = ui.heat;
+    cloud.draw(this.view, window.devicePixelRatio || 1, { light: [0.85, 0.45, 0.1], heavy: [1, 0.85, 0.3] });
+  }
+
+  /** The heading to ask for at a place: that of the map, or of the selected robot. */
+  get askedHeading(): number {
+    const { insight, session } = this.context;
+    return insight.wish.theta ?? session.board.robot?.pose?.theta ?? 0;
+  }
+
+  describe(at: Point): string {
+    const robot = this.context.session.board.robot?.pose;
+    const away = robot ? Math.hypot(at.x - robot.x, at.y - robot.y) : null;
+    const bearing = robot ? degrees(Math.atan2(at.y - robot.y, at.x - robot.x)) : 0;
+    const relative = away === null ? "" : `   ${away.toFixed(2)} m, ${bearing.toFixed(0)}° from the robot`;
+    return `x ${at.x.toFixed(2)}  y ${at.y.toFixed(2)} m${relative}`;
+  }
+}

@@ -1,0 +1,120 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import { lazyScene3d, type Scene3dHandle } from "../scene/lazy";
+import { Icon } from "../panels/Icon";
+import { usePage, useBoard } from "../app/context";
+import { FieldPainter } from "./FieldPainter";
+import { kLayerNames, kLayers } from "./layers";
+
+/** The field with its buttons; drawing itself is FieldPainter's, outside of Preact. */
+export function FieldView() {
+  const context = usePage();
+  const { ui, session } = context;
+  const board = useBoard(200);
+  const stage = useRef<HTMLDivElement>(null);
+  const painter = useRef<FieldPainter | null>(null);
+  const [problem, setProblem] = useState("");
+  useEffect(() => {
+    const made = new FieldPainter(stage.current!, context);
+    painter.current = made;
+    setProblem(made.problem);
+    return () => made.stop();
+  }, [context]);
+  const view = () => painter.current!;
+  return (
+    <div class="field">
+      <div class="stage2d" ref={stage} hidden={ui.is3d} />
+      {ui.is3d && <Scene3d />}
+      {problem && <p class="error on-field" role="alert">{problem}</p>}
+      <div class="tools left" role="toolbar" aria-label="View">
+        <button title="Larger (+)" aria-label="Larger" onClick={() => view().zoomBy(1.3)}><Icon name="plus" /></button>
+        <button title="Smaller (-)" aria-label="Smaller" onClick={() => view().zoomBy(1 / 1.3)}><Icon name="minus" /></button>
+        <button title="Whole field (0)" aria-label="Whole field" onClick={() => view().fit()}><Icon name="fit" /></button>
+        <button
+          title="Follow the selected robot (f)"
+          aria-label="Follow the selected robot"
+          aria-pressed={ui.follow}
+          onClick={() => ui.change({ follow: !ui.follow })}
+        >
+          <Icon name="follow" />
+        </button>
+        <button
+          title="Measure (m)"
+          aria-label="Measure"
+          aria-pressed={ui.tool === "measure"}
+          onClick={() => ui.change({ tool: ui.tool === "measure" ? "look" : "measure" })}
+        >
+          <Icon name="measure" />
+        </button>
+        <button
+          title="The same in three dimensions (v)"
+          aria-label="Three dimensions"
+          aria-pressed={ui.is3d}
+          class="word"
+          onClick={() => ui.change({ is3d: !ui.is3d })}
+        >
+          3D
+        </button>
+      </div>
+      <details class="tools right layers">
+        <summary>Layers</summary>
+        <div role="group" aria-label="Layers">
+          {kLayerNames.map((name) => (
+            <label key={name} title={kLayers[name].about}>
+              <input
+                type="checkbox"
+                checked={ui.layers[name]}
+                onChange={(event) => ui.change({ layers: { ...ui.layers, [name]: event.currentTarget.checked } })}
+              />
+              {kLayers[name].label}
+            </label>
+          ))}
+          {ui.layers.ghost && (
+            <button onClick={() => { board.robot?.joinOdometry(); ui.redraw(); }}>Odometry starts here</button>
+          )}
+          {ui.layers.expected && board.link === "open" && !board.can("WHY") && (
+            <p class="hint">This server does not tell what is expected.</p>
+          )}
+        </div>
+      </details>
+      {session.board.errors.get("field") && (
+        <p class="error on-field" role="alert">
+          {session.board.errors.get("field")}
+          <button
+            aria-label="Close"
+            onClick={() => {
+              board.errors.delete("field");
+              board.touch();
+            }}
+          >
+            ×
+          </button>
+        </p>
+      )}
+    </div>
+  );
+}
+
+function Scene3d() {
+  const context = usePage();
+  const place = useRef<HTMLDivElement>(null);
+  const [problem, setProblem] = useState("");
+  useEffect(() => {
+    let handle: Scene3dHandle | null = null;
+    let isGone = false;
+    lazyScene3d().then(
+      ({ startScene3d }) => {
+        if (!isGone && place.current) handle = startScene3d(place.current, context);
+      },
+      (error: unknown) => setProblem(`the 3-D view can't be shown: ${error instanceof Error ? error.message : error}`),
+    );
+    return () => {
+      isGone = true;
+      handle?.stop();
+    };
+  }, [context]);
+  return (
+    <div class="stage3d" ref={place}>
+      {problem && <p class="error on-field" role="alert">{problem}</p>}
+    </div>
+  );
+}

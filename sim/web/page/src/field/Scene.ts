@@ -1,0 +1,189 @@
+import type { Board, MovableState } from "../model/Board";
+import { placesOf } from "../model/features";
+import { degrees, ellipseOf, type Pose } from "../model/geometry";
+import type { Robot } from "../model/Robot";
+import type { MovableKind, Outline } from "../model/world";
+import { drawGround } from "./Ground";
+import type { Layers } from "./layers";
+import { paint, teamColour } from "./palette";
+import { fixed, make, set } from "./svg";
+import type { View } from "./View";
+
+const kSpokenPeriod = 500;
+
+interface Drawn {
+  group: SVGGElement;
+  parts: { element: SVGElement; outline: Outline }[];
+  label: SVGTextElement;
+  trail: SVGPolylineElement;
+  spokenAt: number;
+}
+
+/** Robots, ball, lines, estimates as SVG: what has a name, for eyes, hands and screen readers. */
+export class Scene {
+  private readonly ground: SVGGElement;
+  private readonly trails: SVGGElement;
+  private readonly beliefs: SVGGElement;
+  private readonly movers: SVGGElement;
+  private readonly labels: SVGGElement;
+  private readonly robots = new Map<number, Drawn>();
+  private readonly objects = new Map<string, Drawn>();
+  private scene = -1;
+
+  constructor(
+    readonly svg: SVGSVGElement,
+    private readonly board: Board,
+  ) {
+    svg.replaceChildren();
+    this.ground = make("g", { "aria-hidden": "true" }, svg);
+    this.trails = make("g", { "aria-hidden": "true" }, svg);
+    this.beliefs = make("g", { "aria-hidden": "true" }, svg);
+    this.movers = make("g", {}, svg);
+    this.labels = make("g", { "aria-hidden": "true", class: "labels" }, svg);
+  }
+
+  draw(view: View, layers: Layers, held: Map<string, Pose>): void {
+    const { board } = this;
+    if (this.scene !== board.scene) this.rebuild();
+    for (const group of [this.ground, this.trails, this.beliefs, this.movers]) set(group, "transform", view.matrix);
+    for (const robot of board.robots.values()) this.drawRobot(robot, view, layers, held.get(`robot=${robot.number}`));
+    for (const object of board.objects) this.drawObject(object, view, held.get(`object=${object.name}`));
+    this.drawBeliefs(view, layers);
+    set(this.labels, "visibility", layers.names ? "visible" : "hidden");
+    set(this.trails, "visibility", layers.trails ? "visible" : "hidden");
+  }
+
+  private rebuild(): void {
+    const { board } = this;
+    this.scene = board.scene;
+    if (board.world) drawGround(this.ground, board.world, board.drawing);
+    // Who has the focus keeps it: elements of robots that stay are not made anew.
+    for (const [number, drawn] of [...this.robots]) {
+      if (board.robots.has(number)) continue;
+      this.drop(drawn);
+      this.robots.delete(number);
+    }
+    for (const robot of board.robots.values()) this.buildRobot(robot);
+    for (const drawn of this.objects.values()) this.drop(drawn);
+    this.objects.clear();
+    for (const object of board.world?.objects ?? []) this.buildObject(object);
+  }
+
+  private drop({ group, label, trail }: Drawn): void {
+    group.remove();
+    label.remove();
+    trail.remove();
+  }
+
+  private start(name: string, attributes: Record<string, string>): Drawn {
+    const group = make("g", { role: "img", tabindex: "0", "aria-label": name, visibility: "hidden", ...attributes }, this.movers);
+    const label = make("text", { class: "name" }, this.labels);
+    label.textContent = name;
+    return { group, parts: [], label, trail: make("polyline", { class: "trail" }, this.trails), spokenAt: 0 };
+  }
+
+  private buildRobot(robot: Robot): void {
+    const { number } = robot;
+    let drawn = this.robots.get(number);
+    if (!drawn) {
+      drawn = this.start(robot.label, { class: "robot", "data-robot": String(number) });
+      this.robots.set(number, drawn);
+    }
+    const { group } = drawn;
+    const team = teamColour(robot.team);
+    const colour = (outline: Outline) => (robot.team || !outline.colour ? team : paint(outline.colour));
+    drawn.label.textContent = robot.label;
+    set(drawn.trail, "stroke", team);
+    group.replaceChildren();
+    drawn.parts = [];
+    const reach = Math.max(robot.radius, 0.12);
+    make("circle", { r: reach * 1.35, class: "halo" }, group);
+    for (const outline of robot.outlines) {
+      const points = outline.points.map(({ x, y }) => `${fixed(x)},${fixed(y)}`).join(" ");
+      const kind = outline.manipulator ? "body part" : "body";
+      drawn.parts.push({ element: make("polygon", { points, class: kind, fill: colour(outline) }, group), outline });
+    }
+    if (!robot.outlines.length) make("circle", { r: robot.radius, class: "body", fill: team }, group);
+    const tip = fixed(reach * 0.62);
+    const back = fixed(-reach * 0.3);
+    const side = fixed(reach * 0.34);
+    make("path", { d: `M${tip} 0L${back} ${side}L${fixed(-reach * 0.08)} 0L${back} -${side}Z`, class: "heading" }, group);
+  }
+
+  private buildObject(object: MovableKind): void {
+    const drawn = this.start(object.name, { class: "object", "data-object": object.name });
+    this.objects.set(object.name, drawn);
+    make("circle", { r: Math.max(object.radius * 2, 0.2), class: "halo" }, drawn.group);
+    make("circle", { r: object.radius, class: "body", fill: paint(object.colour) }, drawn.group);
+    drawn.label.textContent = "";
+  }
+
+  private move(drawn: Drawn, pose: Pose, name: string): void {
+    set(drawn.group, "transform", `translate(${fixed(pose.x)} ${fixed(pose.y)}) rotate(${fixed(degrees(pose.theta), 1)})`);
+    if (drawn.group.getAttribute("visibility") === "hidden") drawn.group.setAttribute("visibility", "visible");
+    const time = performance.now();
+    if (time - drawn.spokenAt < kSpokenPeriod) return;
+    drawn.spokenAt = time;
+    set(drawn.group, "aria-label", `${name} at ${pose.x.toFixed(1)}, ${pose.y.toFixed(1)}`);
+  }
+
+  private drawRobot(robot: Robot, view: View, layers: Layers, held: Pose | undefined): void {
+    const drawn = this.robots.get(robot.number);
+    const pose = held ?? robot.pose;
+    if (!drawn || !pose) return;
+    const isSelected = this.board.selected === robot.number;
+    this.move(drawn, pose, robot.label);
+    set(drawn.group, "class", isSelected ? "robot selected" : "robot");
+    for (const { element, outline } of drawn.parts) {
+      if (outline.manipulator) set(element, "visibility", robot.shows(outline) ? "inherit" : "hidden");
+    }
+    if (layers.names) {
+      const at = view.toPixel(pose);
+      set(drawn.label, "x", fixed(at.x, 0));
+      set(drawn.label, "y", fixed(at.y - robot.radius * view.scale - 7, 0));
+    }
+    if (layers.trails) {
+      const points = robot.trail.map(({ x, y }) => `${fixed(x, 2)},${fixed(y, 2)}`);
+      if (drawn.trail.dataset.count !== String(points.length) || points.length === 400) {
+        drawn.trail.dataset.count = String(points.length);
+        drawn.trail.setAttribute("points", points.join(" "));
+      }
+    }
+  }
+
+  private drawObject(object: MovableState, view: View, held: Pose | undefined): void {
+    const drawn = this.objects.get(object.name);
+    if (!drawn) return;
+    const pose = held ?? object;
+    this.move(drawn, pose, object.name);
+    // A ball in the air is larger, so one sees that it is above.
+    const radius = this.board.world?.objects.find(({ name }) => name === object.name)?.radius ?? 0.11;
+    const height = Math.max(0, object.z - radius);
+    const body = drawn.group.lastElementChild!;
+    set(body, "r", fixed(Math.max(radius * (1 + Math.min(1.5, height)), 3 / view.scale)));
+  }
+
+  private drawBeliefs(view: View, layers: Layers): void {
+    const { robot } = this.board;
+    this.beliefs.replaceChildren();
+    if (!robot) return;
+    if (layers.ghost && robot.ghost) this.outlineAt(robot, robot.ghost, "ghost");
+    if (layers.places) {
+      const held = robot.readings.get("mcl/LOCALIZATION/places");
+      for (const place of held ? placesOf(held.words).reverse() : []) {
+        const ellipse = ellipseOf(place.sigmaX ** 2, place.xy, place.sigmaY ** 2);
+        const at = `translate(${fixed(place.x)} ${fixed(place.y)}) rotate(${fixed(degrees(ellipse.angle), 1)})`;
+        const least = 2 / view.scale;
+        const size = { rx: fixed(Math.max(least, 2 * ellipse.major)), ry: fixed(Math.max(least, 2 * ellipse.minor)) };
+        make("ellipse", { ...size, transform: at, class: "place", opacity: fixed(0.35 + 0.65 * place.share, 2) }, this.beliefs);
+      }
+    }
+    if (layers.estimate && robot.truth && robot.estimate) this.outlineAt(robot, robot.estimate, "estimate");
+  }
+
+  private outlineAt(robot: Robot, pose: Pose, kind: string): void {
+    const at = `translate(${fixed(pose.x)} ${fixed(pose.y)}) rotate(${fixed(degrees(pose.theta), 1)})`;
+    const r = fixed(robot.radius);
+    make("path", { d: `M-${r} 0a${r} ${r} 0 1 0 ${fixed(2 * robot.radius)} 0a${r} ${r} 0 1 0 -${fixed(2 * robot.radius)} 0M0 0H${fixed(robot.radius * 1.5)}`, class: kind, transform: at }, this.beliefs);
+  }
+}

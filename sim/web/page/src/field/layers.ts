@@ -1,0 +1,26 @@
+/** What of the selected robot, and of all, is drawn on the field. */
+export interface Layers {
+  names: boolean;
+  trails: boolean;
+  rays: boolean;
+  sightings: boolean;
+  expected: boolean;
+  samples: boolean;
+  places: boolean;
+  estimate: boolean;
+  ghost: boolean;
+}
+
+export const kLayers: Record<keyof Layers, { label: string; about: string; on: boolean }> = {
+  names: { label: "names", about: "names of robots", on: true },
+  trails: { label: "trails", about: "where robots have been", on: false },
+  rays: { label: "rays", about: "scans and sonar cones of the selected robot", on: true },
+  sightings: { label: "sightings", about: "landmarks, objects and points that the selected robot sees", on: true },
+  expected: { label: "expected", about: "what the features should read where the robot is", on: false },
+  samples: { label: "samples", about: "samples of the filter, as arrows by their weight", on: true },
+  places: { label: "places", about: "clusters of samples, as ellipses of two sigmas", on: true },
+  estimate: { label: "estimate", about: "where the filter believes the robot to be", on: true },
+  ghost: { label: "odometry", about: "where it would be by odometry alone", on: false },
+};
+
+export const kLayerNames = Object.keys(kLayers) as (keyof Layers)[];

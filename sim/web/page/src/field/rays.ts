@@ -1,0 +1,127 @@
+import { headingOf, lengthOf, bearingOf, sightingsOf, type Feature } from "../model/features";
+import { compose, polar, type Point, type Pose } from "../model/geometry";
+import type { Held, Robot } from "../model/Robot";
+import type { Layers } from "./layers";
+
+type Rgba = readonly [number, number, number, number];
+const kRay: Rgba = [0.34, 0.71, 0.91, 0.28];
+const kHit: Rgba = [0.34, 0.71, 0.91, 1];
+const kFar: Rgba = [0.34, 0.71, 0.91, 0.1];
+const kSeen: Rgba = [0.8, 0.47, 0.65, 0.9];
+const kObject: Rgba = [1, 0.6, 0.15, 0.95];
+const kExpected: Rgba = [0.95, 0.85, 0.2, 1];
+const kConeHalf = 0.15;
+
+/** What a feature should read: values by their number, in metres or radians. */
+export type Expected = Map<string, Map<number, number>>;
+
+/** Lines and dots for the readings of a robot, as Cloud takes them. */
+export class Rays {
+  readonly lines: number[] = [];
+  readonly dots: number[] = [];
+
+  private dot({ x, y }: Point, colour: Rgba): void {
+    this.dots.push(x, y, ...colour);
+  }
+
+  private line(from: Point, to: Point, colour: Rgba, end: Rgba = colour): void {
+    this.lines.push(from.x, from.y, ...colour, to.x, to.y, ...end);
+  }
+
+  add(robot: Robot, layers: Layers, expected: Expected | null): void {
+    for (const feature of robot.features) {
+      const held = robot.readings.get(feature.name);
+      if (!held) continue;
+      const base = (robot.truth && robot.truthAt(held.stamp)) ?? robot.pose;
+      if (!base) continue;
+      const sensor = compose(base, feature.mount);
+      if (layers.rays) this.addRanges(feature, held, sensor);
+      if (layers.sightings) this.addSightings(feature, held, sensor, base);
+      const values = layers.expected ? expected?.get(feature.name) : undefined;
+      if (values) this.addExpected(feature, values, sensor);
+    }
+  }
+
+  private addRanges({ kind }: Feature, { words }: Held, sensor: Pose): void {
+    if (kind.name === "scan") {
+      for (let i = 0; i < words.length; ++i) {
+        const range = words[i]! / 1000;
+        if (range <= 0) continue;
+        const isFar = range >= kind.most;
+        const end = polar(sensor, Math.min(range, kind.most), kind.first + i * kind.step);
+        this.line(sensor, end, isFar ? kFar : kRay);
+        if (!isFar) this.dot(end, kHit);
+      }
+    } else if (kind.name === "cone" && words.length && words[0]! > 0) {
+      const range = Math.min(words[0]! / 1000, kind.most);
+      const colour = words[0]! / 1000 >= kind.most ? kFar : kHit;
+      let before: Point = sensor;
+      for (let i = -4; i <= 4; ++i) {
+        const next = polar(sensor, range, (i / 4) * kConeHalf);
+        this.line(before, next, colour);
+        before = next;
+      }
+      this.line(before, sensor, colour);
+    }
+  }
+
+  private addSightings({ kind }: Feature, { words }: Held, sensor: Pose, base: Pose): void {
+    if (kind.name === "bearing" && words.length) {
+      this.line(sensor, polar(sensor, 6, bearingOf(words[0]!)), kSeen, [kSeen[0], kSeen[1], kSeen[2], 0]);
+    } else if (kind.name === "range" && words.length) {
+      const range = words[0]! / 1000;
+      for (let i = 0; i < 48; ++i) {
+        this.line(polar(sensor, range, (i * Math.PI) / 24), polar(sensor, range, ((i + 0.5) * Math.PI) / 24), kSeen);
+      }
+    } else if (kind.name === "obstacles") {
+      this.addObstacles(words, base);
+    } else if (kind.name === "landmarks" || kind.name === "points" || kind.name === "objects") {
+      for (const seen of sightingsOf(kind.name, words)) {
+        const end = polar(sensor, seen.range, seen.bearing);
+        const colour = kind.name === "objects" ? kObject : kSeen;
+        if (kind.name !== "points") this.line(sensor, end, [colour[0], colour[1], colour[2], 0.25], colour);
+        this.dot(end, colour);
+      }
+    }
+  }
+
+  /** Circles and segments in the frame of the robot. */
+  private addObstacles(words: Uint32Array, base: Pose): void {
+    for (let i = 0; i + 5 <= words.length; i += 5) {
+      const at = (k: number) => lengthOf(words[i + k]!);
+      const first = compose(base, { x: at(1), y: at(2), theta: 0 });
+      if (words[i] === 0) this.dot(first, kObject);
+      else this.line(first, compose(base, { x: at(3), y: at(4), theta: 0 }), kObject);
+    }
+  }
+
+  private addExpected({ kind }: Feature, values: Map<number, number>, sensor: Pose): void {
+    for (const [index, value] of values) {
+      if (kind.name === "scan") {
+        if (value > 0 && value < kind.most) this.dot(polar(sensor, value, kind.first + index * kind.step), kExpected);
+      } else if (kind.name === "cone" && value < kind.most) {
+        const left = polar(sensor, value, -kConeHalf);
+        this.line(left, polar(sensor, value, kConeHalf), kExpected);
+      } else if (kind.name === "bearing") {
+        this.line(sensor, polar(sensor, 6, value), kExpected, [kExpected[0], kExpected[1], kExpected[2], 0]);
+      }
+    }
+    if (kind.name !== "landmarks") return;
+    for (let index = 0; values.has(index) && values.has(index + 1); index += 2) {
+      this.dot(polar(sensor, values.get(index)!, values.get(index + 1)!), kExpected);
+    }
+  }
+}
+
+/** Samples as Cloud takes them: x, y, heading, weight. */
+export function arrowsOf(words: Uint32Array): Float32Array {
+  const count = words.length >> 2;
+  const data = new Float32Array(4 * count);
+  for (let i = 0; i < 4 * count; i += 4) {
+    data[i] = lengthOf(words[i]!);
+    data[i + 1] = lengthOf(words[i + 1]!);
+    data[i + 2] = headingOf(words[i + 2]!);
+    data[i + 3] = Math.min(1, words[i + 3]! / 65535);
+  }
+  return data;
+}

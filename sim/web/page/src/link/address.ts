@@ -1,0 +1,35 @@
+/** What the page's address says behind `#`: a token, and where to look. */
+export interface Address {
+  token: string;
+  robot: number | null;
+  follow: boolean;
+  panel: string | null;
+}
+
+export function parseAddress(fragment: string): Address {
+  const keys = new URLSearchParams(fragment.replace(/^#/, ""));
+  const robot = Number(keys.get("robot") ?? "");
+  return {
+    token: /^[\x21-\x7e]{1,256}$/.test(keys.get("token") ?? "") ? keys.get("token")! : "",
+    robot: Number.isInteger(robot) && robot > 0 ? robot : null,
+    follow: keys.get("follow") === "1",
+    panel: keys.get("panel"),
+  };
+}
+
+/** The fragment that brings another one to the same view. */
+export function toFragment(address: Address): string {
+  const keys = new URLSearchParams();
+  if (address.token) keys.set("token", address.token);
+  if (address.robot) keys.set("robot", String(address.robot));
+  if (address.follow) keys.set("follow", "1");
+  if (address.panel) keys.set("panel", address.panel);
+  return keys.size ? `#${keys}` : "";
+}
+
+/** Where the message board is: beside the page. */
+export function boardAddress(location: { protocol: string; host: string; pathname: string }): string {
+  const scheme = location.protocol === "https:" ? "wss:" : "ws:";
+  const folder = location.pathname.replace(/[^/]*$/, "");
+  return `${scheme}//${location.host}${folder}board`;
+}

@@ -1,0 +1,50 @@
+import "uplot/dist/uPlot.min.css";
+import "./page.css";
+import { render } from "preact";
+import { App } from "./app/App";
+import { PageContext, type Context } from "./app/context";
+import { installKeys } from "./app/keys";
+import { Ui } from "./app/Ui";
+import { boardAddress, parseAddress } from "./link/address";
+import { Insight } from "./model/Insight";
+import { Session } from "./model/Session";
+
+const address = parseAddress(location.hash);
+const ui = new Ui(address);
+const session = new Session(boardAddress(location), address.token);
+if (address.robot) session.board.selected = address.robot;
+const insight = new Insight(session, () => {
+  ui.heat = insight.map?.heat ?? null;
+  ui.expected = insight.expected;
+  ui.redraw();
+  session.board.touch();
+});
+const context: Context = { session, ui, insight };
+
+let shown = -1;
+const settle = () => {
+  const { board } = session;
+  insight.wantsExpected = ui.layers.expected;
+  insight.wantsLocalize = board.robot !== null;
+  if (session.wishes.samples !== ui.layers.samples) {
+    session.wishes.samples = ui.layers.samples;
+    session.wish();
+  }
+  if (board.selected !== shown) {
+    shown = board.selected;
+    insight.clear();
+  }
+  if (board.robots.size) ui.showSelection(board.selected);
+};
+ui.onChange(settle);
+session.board.onTouch(settle);
+
+installKeys(context);
+session.start();
+insight.start();
+render(
+  <PageContext.Provider value={context}>
+    <App />
+  </PageContext.Provider>,
+  document.getElementById("page")!,
+);

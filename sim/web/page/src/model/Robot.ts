@@ -1,0 +1,153 @@
+import { numberOf, parseHead } from "../link/words";
+import { kindOf, poseOf, type Feature } from "./features";
+import { compose, inverse, type Point, type Pose } from "./geometry";
+import { parseOutline, type Outline } from "./world";
+
+/** The newest reading of a feature. */
+export interface Held {
+  stamp: number;
+  words: Uint32Array;
+}
+
+const kTrail = 400;
+const kPast = 50;
+const kTrailStep = 0.03;
+const kJump = 0.6;
+
+/** A robot as the page knows it. Mutable: the drawing loop reads what the connection writes. */
+export class Robot {
+  name = "";
+  team = "";
+  player = "";
+  client = 0;
+  truth: Pose | null = null;
+  /** States of its manipulators, four bits each. */
+  states = 0;
+  features: Feature[] = [];
+  isDescribed = false;
+  outlines: Outline[] = [];
+  radius = 0.25;
+  height = 0.4;
+  speed = 1;
+  turn = 2;
+  manipulators: { name: string; states: string[] }[] = [];
+  readonly readings = new Map<string, Held>();
+  trail: Point[] = [];
+  /** Where it was lately, to compare with estimates that come later. */
+  private past: (Pose & { stamp: number })[] = [];
+  /** Where odometry's origin was in the field when it was last joined to the truth. */
+  private odometryOrigin: Pose | null = null;
+
+  constructor(readonly number: number) {}
+
+  get label(): string {
+    return this.name || `robot ${this.number}`;
+  }
+
+  feature(name: string): Feature | undefined {
+    return this.features.find((feature) => feature.name === name);
+  }
+
+  /** Where it is drawn: where it is, or else where it believes to be. */
+  get pose(): Pose | null {
+    return this.truth ?? this.estimate ?? this.odometry;
+  }
+
+  get estimate(): Pose | null {
+    return this.poseOfReading("mcl/LOCALIZATION/pose");
+  }
+
+  get odometry(): Pose | null {
+    return this.poseOfReading("odometry/odometry/pose");
+  }
+
+  private poseOfReading(name: string): Pose | null {
+    const held = this.readings.get(name);
+    return held ? poseOf(held.words) : null;
+  }
+
+  /** Where it would be by odometry alone since `joinOdometry`. */
+  get ghost(): Pose | null {
+    const { odometry } = this;
+    if (!odometry) return null;
+    if (!this.odometryOrigin) this.joinOdometry();
+    return this.odometryOrigin && compose(this.odometryOrigin, odometry);
+  }
+
+  joinOdometry(): void {
+    const { odometry } = this;
+    const pose = this.truth ?? this.estimate;
+    this.odometryOrigin = odometry && pose ? compose(pose, inverse(odometry)) : null;
+  }
+
+  /** Where it was at @p stamp, or the moment next to it. */
+  truthAt(stamp: number): Pose | null {
+    let best: (Pose & { stamp: number }) | null = null;
+    for (const one of this.past) {
+      if (!best || Math.abs(one.stamp - stamp) < Math.abs(best.stamp - stamp)) best = one;
+    }
+    return best ?? this.truth;
+  }
+
+  setTruth(pose: Pose, stamp: number): void {
+    this.truth = pose;
+    this.past.push({ ...pose, stamp });
+    if (this.past.length > kPast) this.past.shift();
+    const last = this.trail.at(-1);
+    const moved = last ? Math.hypot(pose.x - last.x, pose.y - last.y) : Infinity;
+    if (last && moved > kJump) this.trail = [];
+    if (moved < kTrailStep) return;
+    this.trail.push({ x: pose.x, y: pose.y });
+    if (this.trail.length > kTrail) this.trail.splice(0, this.trail.length - kTrail);
+  }
+
+  startOver(): void {
+    this.trail = [];
+    this.past = [];
+    this.readings.clear();
+    this.odometryOrigin = null;
+  }
+
+  describe(lines: string[]): void {
+    this.features = [];
+    this.outlines = [];
+    this.manipulators = [];
+    this.isDescribed = true;
+    for (const line of lines) this.describeLine(line);
+  }
+
+  private describeLine(line: string): void {
+    const blank = line.indexOf(" ");
+    const first = blank < 0 ? line : line.slice(0, blank);
+    const rest = blank < 0 ? "" : line.slice(blank + 1);
+    if (/^[^/ ]+\/[^/ ]+\/[^/ ]+$/.test(first)) {
+      this.features.push({ name: first, text: rest, kind: kindOf(first, rest), mount: { x: 0, y: 0, theta: 0 } });
+      return;
+    }
+    const { words, keys } = parseHead(rest);
+    if (first === "mount") {
+      const feature = this.feature(words[0] ?? "");
+      if (!feature) return;
+      feature.mount = { x: numberOf(keys, "x_m", 0), y: numberOf(keys, "y_m", 0), theta: numberOf(keys, "theta_rad", 0) };
+    } else if (first === "limits") {
+      this.speed = numberOf(keys, "v_m_s", 1);
+      this.turn = numberOf(keys, "w_rad_s", 2);
+    } else if (first === "body") {
+      this.radius = numberOf(keys, "radius_m", 0.25);
+      this.height = numberOf(keys, "height_m", 0.4);
+    } else if (first === "manipulator") {
+      this.manipulators.push({ name: words[0] ?? "", states: words.slice(1) });
+    } else if (first === "outline") {
+      const outline = parseOutline(line);
+      if (outline) this.outlines.push(outline);
+    }
+  }
+
+  /** Whether a part of it counts in its present state. */
+  shows(outline: Outline): boolean {
+    if (!outline.manipulator) return true;
+    const index = this.manipulators.findIndex((one) => one.name === outline.manipulator);
+    if (index < 0 || index > 7) return false;
+    return this.manipulators[index]!.states[(this.states >>> (4 * index)) & 15] === outline.state;
+  }
+}

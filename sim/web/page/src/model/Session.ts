@@ -1,0 +1,392 @@
+import { BoardError, Connection, type Reply, type Unasked } from "../link/Connection";
+import { readingsOf, type Reading } from "../link/readingsIn";
+import { numberOf, parseHead, plain } from "../link/words";
+import { Board } from "./Board";
+import { headingOf, lengthOf, poseOf } from "./features";
+import { History } from "./History";
+import { Robot } from "./Robot";
+import { parseGame, parseHappenings, parsePlayerKinds, parsePlaying } from "./soccer";
+import { parseDrawing, parseWorld } from "./world";
+
+const kWorldPeriod = 0.02;
+const kFeaturePeriod = 0.05;
+const kMostQueries = 60;
+const kPoll = 1000;
+const kTruth = "reference/groundTruth/pose";
+
+/** What the page wants to see of the selected robot beside its usual features. */
+export interface Wishes {
+  samples: boolean;
+  pictures: Set<string>;
+}
+
+/** Keeps a Board like the world of a server, as long as there is one. */
+export class Session {
+  readonly board = new Board();
+  readonly history = new History();
+  readonly wishes: Wishes = { samples: true, pictures: new Set() };
+  readonly connection: Connection;
+  private polling: ReturnType<typeof setInterval> | undefined;
+  private truthPolling: ReturnType<typeof setInterval> | undefined;
+  private isPolling = false;
+  private isReadingTruth = false;
+  private subscribed = "";
+  private worldPeriod = 0;
+
+  constructor(
+    address: string,
+    private readonly token: string,
+  ) {
+    this.connection = new Connection(address, {
+      opened: () => void this.greet(),
+      closed: (why, againIn) => this.lost(why, againIn),
+      unasked: (unasked) => this.unasked(unasked),
+    });
+  }
+
+  start(): void {
+    this.connection.open();
+  }
+
+  ask(line: string): Promise<Reply> {
+    return this.connection.request(line);
+  }
+
+  /** Asks what an older server may not know: null if it refuses. */
+  async tryAsk(line: string): Promise<Reply | null> {
+    try {
+      return await this.ask(line);
+    } catch (error) {
+      if (error instanceof BoardError && error.code === "closed") throw error;
+      return null;
+    }
+  }
+
+  /**
+   * Does what the user wants: says it, notes the line and what became of it; an error is shown at
+   * @p where.
+   */
+  async act(line: string, where: string): Promise<Reply | null> {
+    const { board } = this;
+    const said = board.say(line);
+    try {
+      const reply = await this.ask(line);
+      said.outcome = "OK";
+      board.errors.delete(where);
+      this.acted(line.split(" ")[0]!.toUpperCase());
+      return reply;
+    } catch (error) {
+      said.isError = true;
+      said.outcome = error instanceof BoardError ? `ERR ${error.code} ${error.message}` : String(error);
+      board.errors.set(where, error instanceof Error ? error.message : String(error));
+      return null;
+    } finally {
+      board.touch();
+    }
+  }
+
+  select(robot: number): void {
+    const { board } = this;
+    if (board.selected === robot) return;
+    board.selected = robot;
+    this.history.clear();
+    board.frame++;
+    board.touch();
+    if (board.link === "open") void this.follow();
+  }
+
+  /** To be called when `wishes` have changed. */
+  wish(): void {
+    if (this.board.link === "open") void this.follow();
+  }
+
+  private acted(verb: string): void {
+    if (verb === "PLAY" || verb === "STOP" || verb === "RESET") void this.poll();
+    if (verb === "RESET") this.startOver();
+    if (verb === "PAUSE" || verb === "RESUME" || verb === "SPEED" || verb === "REFEREE") void this.poll();
+    if ((verb === "PLACE" || verb === "STEP" || verb === "SEEK") && this.board.state !== "running") void this.readOnce();
+  }
+
+  /** What stands still is not sent again: asks for it. */
+  private async readOnce(): Promise<void> {
+    try {
+      if (this.board.hasWorldTruth) this.takeReadings(0, await this.ask("READ robot=0 form=binary"));
+      else await this.readTruth();
+    } catch {
+      // the connection is gone: all is read anew with the next one
+    }
+  }
+
+  private async greet(): Promise<void> {
+    const { board } = this;
+    try {
+      const secret = this.token ? ` role=operator token=${this.token}` : "";
+      const hello = await this.ask(`HELLO ortung/1 name=view${secret}`);
+      board.role = hello.keys.get("role") ?? "viewer";
+      board.kind = hello.keys.get("kind") ?? "";
+      board.worldName = hello.keys.get("world") ?? "";
+      board.state = hello.keys.get("state") ?? "";
+      board.setNow(numberOf(hello.keys, "now", 0));
+      board.link = "open";
+      this.connection.settled();
+      board.touch();
+      await this.learnAll();
+    } catch (error) {
+      if (error instanceof BoardError && error.code !== "closed") {
+        board.link = "refused";
+        this.connection.fail(error.message);
+      } else if (!(error instanceof BoardError)) {
+        throw error;
+      }
+    }
+  }
+
+  private async learnAll(): Promise<void> {
+    const { board } = this;
+    const help = await this.tryAsk("HELP");
+    // A line of HELP begins with the command, with square brackets around what may be left out.
+    board.commands = new Set(help?.lines.map((line) => /^[A-Z]+/.exec(line)?.[0] ?? "") ?? []);
+    this.subscribed = "";
+    this.worldPeriod = 0;
+    board.nextHappening = 0;
+    board.happenings = [];
+    const world = await this.tryAsk("DESCRIBE world");
+    if (world) board.world = parseWorld(world.lines);
+    const drawing = await this.tryAsk("DESCRIBE field");
+    if (drawing) board.drawing = parseDrawing(drawing.lines);
+    board.scene++;
+    board.frame++;
+    await this.listRobots();
+    await this.followWorld();
+    await this.follow();
+    const kinds = board.kind === "simulation" ? await this.tryAsk("DESCRIBE players") : null;
+    board.playerKinds = kinds ? parsePlayerKinds(kinds.lines) : [];
+    await this.poll();
+    clearInterval(this.polling);
+    this.polling = setInterval(() => void this.poll(), kPoll);
+  }
+
+  private lost(why: string, againIn: number): void {
+    const { board } = this;
+    clearInterval(this.polling);
+    clearInterval(this.truthPolling);
+    board.link = board.link === "refused" ? "refused" : "lost";
+    board.linkText = `${why}; trying again${againIn >= 1 ? ` in ${Math.round(againIn)} s` : ""}`;
+    board.touch();
+  }
+
+  private async poll(): Promise<void> {
+    if (this.isPolling || this.board.link !== "open") return;
+    this.isPolling = true;
+    try {
+      await this.pollOnce();
+    } catch (error) {
+      if (!(error instanceof BoardError)) throw error;
+    } finally {
+      this.isPolling = false;
+    }
+  }
+
+  private async pollOnce(): Promise<void> {
+    const { board } = this;
+    const status = await this.ask("STATUS");
+    board.status = status.keys;
+    board.state = status.keys.get("state") ?? board.state;
+    board.setNow(numberOf(status.keys, "now", board.now));
+    await this.listRobots();
+    await this.followWorld();
+    if (board.can("GAME")) {
+      const game = await this.tryAsk("GAME");
+      if (game) board.game = parseGame(game.keys);
+    } else {
+      const score = await this.tryAsk("SCORE");
+      if (score) board.game = score.keys;
+    }
+    if (board.can("PLAYERS")) {
+      const players = await this.tryAsk("PLAYERS");
+      if (players) board.playing = parsePlaying(players.lines);
+    }
+    if (board.can("EVENTS")) {
+      const events = await this.tryAsk(`EVENTS since=${board.nextHappening}`);
+      if (events) {
+        board.happenings = [...board.happenings, ...parseHappenings(events.lines)].slice(-1000);
+        board.nextHappening = numberOf(events.keys, "next", board.nextHappening);
+      }
+    }
+    board.touch();
+  }
+
+  private async listRobots(): Promise<void> {
+    const { board } = this;
+    const list = await this.ask("LIST robots");
+    const there = new Set<number>();
+    for (const line of list.lines) {
+      const { keys } = parseHead(line);
+      const number = numberOf(keys, "robot", 0);
+      if (!Number.isInteger(number) || number <= 0) continue;
+      there.add(number);
+      let robot = board.robots.get(number);
+      if (!robot || (robot.name && robot.name !== keys.get("name"))) {
+        robot = new Robot(number);
+        board.robots.set(number, robot);
+        board.scene++;
+      }
+      robot.name = keys.get("name") ?? "";
+      robot.team = keys.get("team") ?? teamInName(robot.name);
+      robot.player = keys.get("player") ?? "";
+      robot.client = numberOf(keys, "client", 0);
+    }
+    for (const number of [...board.robots.keys()]) {
+      if (there.has(number)) continue;
+      board.robots.delete(number);
+      board.scene++;
+      if (this.subscribed.includes(` robot=${number} `)) this.subscribed = "";
+    }
+    for (const robot of board.robots.values()) {
+      if (robot.isDescribed) continue;
+      const text = await this.tryAsk(`DESCRIBE robot robot=${robot.number}`);
+      robot.describe(text?.lines ?? []);
+      board.scene++;
+    }
+    board.frame++;
+    if (!board.robots.has(board.selected) && board.robots.size) {
+      board.selected = Math.min(...board.robots.keys());
+      this.history.clear();
+    }
+    if (this.board.link === "open" && this.subscribed === "") await this.follow();
+  }
+
+  /** How many seconds of the world pass in one: periods of subscriptions are the world's. */
+  private get hurry(): number {
+    const achieved = numberOf(this.board.status, "achieved", 1);
+    return 2 ** Math.max(0, Math.round(Math.log2(Math.max(1, achieved))));
+  }
+
+  private async followWorld(): Promise<void> {
+    const { board } = this;
+    const period = kWorldPeriod * this.hurry;
+    if (period === this.worldPeriod) return;
+    this.worldPeriod = period;
+    clearInterval(this.truthPolling);
+    const reply = await this.tryAsk(`SUBSCRIBE robot=0 period_s=${plain(period)} form=binary */truth/*`);
+    board.hasWorldTruth = reply !== null;
+    if (reply) return void this.readOnce();
+    this.truthPolling = setInterval(() => void this.readTruth(), 100);
+    await this.readTruth();
+  }
+
+  /** Of a server that does not show the world itself: each robot's own ground truth. */
+  private async readTruth(): Promise<void> {
+    if (this.isReadingTruth) return;
+    this.isReadingTruth = true;
+    try {
+      await Promise.all(
+        [...this.board.robots.values()].map(async (robot) => {
+          const reply = await this.tryAsk(`READ */groundTruth/* robot=${robot.number}`);
+          for (const reading of reply ? readingsOf(reply) : []) this.takeTruth(robot, reading);
+        }),
+      );
+    } catch (error) {
+      if (!(error instanceof BoardError)) throw error;
+    } finally {
+      this.isReadingTruth = false;
+    }
+  }
+
+  private takeTruth(robot: Robot, reading: Reading): void {
+    const pose = poseOf(reading.words);
+    if (!pose) return;
+    robot.setTruth(pose, reading.stamp);
+    this.board.frame++;
+  }
+
+  /** Subscribes to what is wanted of the selected robot. */
+  private async follow(): Promise<void> {
+    const { board, wishes } = this;
+    const robot = board.robot;
+    if (!robot) return;
+    const features = robot.features
+      .filter(({ kind, name }) => (kind.name !== "image" || wishes.pictures.has(name)) && (kind.name !== "samples" || wishes.samples))
+      .map(({ name }) => name)
+      .slice(0, kMostQueries);
+    const period = plain(kFeaturePeriod * this.hurry);
+    const line = `SUBSCRIBE robot=${robot.number} period_s=${period} form=binary ${features.join(" ")}`;
+    if (line === this.subscribed || !features.length) return;
+    const before = / robot=(\d+) /.exec(this.subscribed)?.[1];
+    this.subscribed = line;
+    try {
+      if (before && Number(before) !== robot.number && board.hasWorldTruth) await this.tryAsk(`UNSUBSCRIBE robot=${before}`);
+      await this.tryAsk(line);
+      const newest = await this.tryAsk(`READ robot=${robot.number} form=binary ${features.join(" ")}`);
+      if (newest) this.takeReadings(robot.number, newest);
+    } catch (error) {
+      if (!(error instanceof BoardError)) throw error;
+    }
+  }
+
+  private unasked({ word, keys, message }: Unasked): void {
+    const { board } = this;
+    const robot = numberOf(keys, "robot", -1);
+    if (word === "UPDATE") this.takeReadings(robot, { ...message, keys });
+    else if (word === "RESET") this.startOver();
+    else if (word === "REMOVE") void this.poll();
+    board.touch();
+  }
+
+  private startOver(): void {
+    const { board } = this;
+    for (const robot of board.robots.values()) robot.startOver();
+    this.history.clear();
+    board.happenings = [];
+    board.nextHappening = 0;
+    board.frame++;
+    this.subscribed = "";
+    void this.poll().then(() => this.readOnce());
+  }
+
+  private takeReadings(number: number, from: { keys: Map<string, string>; lines: string[]; bytes: Uint8Array | null }): void {
+    const { board } = this;
+    if (from.keys.has("now")) board.setNow(numberOf(from.keys, "now", board.now));
+    const readings = readingsOf(from);
+    if (number === 0) {
+      for (const reading of readings) this.takeWorld(reading);
+    } else {
+      const robot = board.robots.get(number);
+      if (!robot) return;
+      for (const reading of readings) {
+        robot.readings.set(reading.feature, reading);
+        if (!board.hasWorldTruth && reading.feature === kTruth) this.takeTruth(robot, reading);
+        if (number === board.selected) this.history.take(robot, reading);
+      }
+    }
+    board.frame++;
+    board.touch();
+  }
+
+  private takeWorld({ stamp, feature, words }: Reading): void {
+    const { board } = this;
+    if (feature === "world/truth/robots") {
+      for (let i = 0; i + 5 <= words.length; i += 5) {
+        const robot = board.robots.get(words[i]!);
+        if (!robot) continue;
+        const pose = { x: lengthOf(words[i + 1]!), y: lengthOf(words[i + 2]!), theta: headingOf(words[i + 3]!) };
+        robot.setTruth(pose, stamp);
+        robot.states = words[i + 4]!;
+      }
+    } else if (feature === "world/truth/objects") {
+      const names = board.world?.objects ?? [];
+      board.objects = names.slice(0, words.length >> 2).map(({ name }, n) => ({
+        name,
+        x: lengthOf(words[4 * n]!),
+        y: lengthOf(words[4 * n + 1]!),
+        z: lengthOf(words[4 * n + 2]!),
+        theta: headingOf(words[4 * n + 3]!),
+      }));
+    }
+  }
+}
+
+/** Older servers do not tell the team; a name such as blue2 does. */
+function teamInName(name: string): string {
+  return /^(blue|yellow|cyan|magenta|red|green)\d*$/i.exec(name)?.[1]?.toLowerCase() ?? "";
+}

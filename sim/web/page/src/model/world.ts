@@ -1,0 +1,125 @@
+import { numberOf, parseHead } from "../link/words";
+import type { Point } from "./geometry";
+
+/** What stands and lies on the field, as DESCRIBE world and DESCRIBE field tell. Lengths [m]. */
+export interface FieldLine { x0: number; y0: number; x1: number; y1: number; width: number; colour: string }
+export interface FieldArc {
+  x: number; y: number; rx: number; ry: number; angle: number; from: number; to: number; width: number; colour: string;
+}
+export interface Wall { x0: number; y0: number; x1: number; y1: number; z0: number; z1: number; goal: boolean }
+export interface Goal { name: string; x: number; y: number; theta: number; dx: number; dy: number; height: number; colour: string }
+export interface Landmark { kind: string; id: string; x: number; y: number; z: number }
+export interface Drawing { lines: FieldLine[]; arcs: FieldArc[]; walls: Wall[]; goals: Goal[]; landmarks: Landmark[] }
+
+export interface MovableKind { name: string; kind: string; radius: number; height: number; colour: string }
+export interface World {
+  name: string;
+  kind: string;
+  cycle: number;
+  min: Point;
+  max: Point;
+  objects: MovableKind[];
+  /** Of a record [us]; both 0 else. */
+  start: number;
+  end: number;
+}
+
+export interface Outline { manipulator: string; state: string; z0: number; z1: number; colour: string; points: Point[] }
+
+const kColour = /^(#[0-9a-f]{6}|[a-z]{3,20})$/i;
+
+/** A colour that is safe to use as one, or what is given instead. */
+export function colourOf(text: string | undefined, otherwise: string): string {
+  return text !== undefined && kColour.test(text) ? text : otherwise;
+}
+
+export const emptyDrawing = (): Drawing => ({ lines: [], arcs: [], walls: [], goals: [], landmarks: [] });
+
+export function parseWorld(lines: string[]): World {
+  const first = parseHead(lines[0] ?? "").keys;
+  const world: World = {
+    name: first.get("world") ?? "?",
+    kind: first.get("kind") ?? "?",
+    cycle: numberOf(first, "cycle_s", 0.01),
+    min: { x: numberOf(first, "x_min_m", -5), y: numberOf(first, "y_min_m", -5) },
+    max: { x: numberOf(first, "x_max_m", 5), y: numberOf(first, "y_max_m", 5) },
+    objects: [],
+    start: numberOf(first, "start_us", 0),
+    end: numberOf(first, "end_us", 0),
+  };
+  for (const line of lines.slice(1)) {
+    const { keys } = parseHead(line);
+    const name = keys.get("object");
+    if (name === undefined) continue;
+    const kind = keys.get("kind") ?? "object";
+    world.objects.push({
+      name,
+      kind,
+      radius: Math.abs(numberOf(keys, "radius_m", 0.11)),
+      height: Math.abs(numberOf(keys, "height_m", 0.22)),
+      colour: colourOf(keys.get("colour"), kind === "ball" ? "orange" : "grey"),
+    });
+  }
+  return world;
+}
+
+export function parseDrawing(lines: string[]): Drawing {
+  const drawing = emptyDrawing();
+  for (const line of lines) {
+    const { words, keys } = parseHead(line);
+    const get = (key: string, otherwise = 0) => numberOf(keys, key, otherwise);
+    switch (words[0]) {
+      case "line":
+        drawing.lines.push({
+          x0: get("x0_m"), y0: get("y0_m"), x1: get("x1_m"), y1: get("y1_m"), width: get("width_m", 0.05),
+          colour: colourOf(keys.get("colour"), "white"),
+        });
+        break;
+      case "arc":
+        drawing.arcs.push({
+          x: get("x_m"), y: get("y_m"), rx: get("rx_m"), ry: get("ry_m"), angle: get("angle_rad"),
+          from: get("from_rad"), to: get("to_rad", 2 * Math.PI), width: get("width_m", 0.05),
+          colour: colourOf(keys.get("colour"), "white"),
+        });
+        break;
+      case "wall":
+        drawing.walls.push({
+          x0: get("x0_m"), y0: get("y0_m"), x1: get("x1_m"), y1: get("y1_m"), z0: get("z0_m"), z1: get("z1_m", 0.5),
+          goal: keys.get("goal") === "1",
+        });
+        break;
+      case "goal":
+        drawing.goals.push({
+          name: keys.get("name") ?? words[1] ?? "goal", x: get("x_m"), y: get("y_m"), theta: get("theta_rad"),
+          dx: get("dx_m"), dy: get("dy_m"), height: get("height_m", 1), colour: colourOf(keys.get("colour"), "grey"),
+        });
+        break;
+      case "landmark":
+        drawing.landmarks.push({
+          kind: keys.get("kind") ?? "landmark", id: keys.get("id") ?? "", x: get("x_m"), y: get("y_m"), z: get("z_m"),
+        });
+        break;
+      default:
+        break; // kinds that are newer than this page
+    }
+  }
+  return drawing;
+}
+
+export function parseOutline(line: string): Outline | null {
+  const { words, keys } = parseHead(line);
+  const points: Point[] = [];
+  for (const word of words.slice(1)) {
+    const [x, y] = word.split(",").map(Number);
+    if (Number.isFinite(x) && Number.isFinite(y)) points.push({ x: x!, y: y! });
+  }
+  if (points.length < 3) return null;
+  return {
+    manipulator: keys.get("manipulator") ?? "",
+    state: keys.get("state") ?? "",
+    z0: numberOf(keys, "z0_m", 0),
+    z1: numberOf(keys, "z1_m", 0.3),
+    colour: colourOf(keys.get("colour"), ""),
+    points,
+  };
+}

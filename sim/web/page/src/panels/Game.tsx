@@ -1,0 +1,209 @@
+import { useState } from "preact/hooks";
+import { useBoard, usePage } from "../app/context";
+import type { PlayerKind } from "../model/Board";
+import { scoresOf } from "../model/soccer";
+import { ErrorNote, Say, Section, seconds } from "./parts";
+
+const kOrders = ["start", "stop", "half-time", "end", "reset", "dropped-ball"];
+const kTeamOrders = ["kick-off", "throw-in", "goal-kick", "corner", "free-kick", "penalty", "goal", "no-goal", "yellow-card", "red-card"];
+
+export function GamePanel() {
+  const board = useBoard(200);
+  const hasReferee = board.game.has("phase");
+  return (
+    <>
+      <Section title="Score">
+        <Score />
+      </Section>
+      {hasReferee && board.can("REFEREE") && (
+        <Section title="Referee">
+          <Orders />
+        </Section>
+      )}
+      {board.can("PLAY") && (
+        <Section title="Players">
+          <Playing />
+          <StartPlayer />
+        </Section>
+      )}
+      {board.can("EVENTS") && (
+        <Section title="What has happened">
+          <Events />
+        </Section>
+      )}
+    </>
+  );
+}
+
+function Score() {
+  const { session } = usePage();
+  const { game } = session.board;
+  const scores = scoresOf(game);
+  const clock = Number(game.get("clock_s") ?? NaN);
+  const sides = !game.has("phase") && scores.length === 2;
+  return (
+    <>
+      <p class="big-score">
+        {scores.map(({ team, score }, i) => (
+          <span key={team}>
+            {i > 0 && " : "}
+            <small>{team}</small> <b>{score}</b>
+          </span>
+        ))}
+        {!scores.length && <span class="hint">Nobody counts.</span>}
+      </p>
+      {game.has("phase") && (
+        <p class="hint">
+          {game.get("phase")}
+          {game.get("restart") && game.get("restart") !== "none" && `, ${game.get("restart")} ${game.get("restart_of") ?? ""}`}, half{" "}
+          {game.get("half")}
+          {Number.isFinite(clock) && `, ${seconds(clock * 1e6)}`}
+        </p>
+      )}
+      {sides && (
+        <div class="row">
+          <Say line={`SCORE left=${Number(scores[0]!.score) + 1} right=${scores[1]!.score}`} at="score">Left +1</Say>
+          <Say line={`SCORE left=${scores[0]!.score} right=${Number(scores[1]!.score) + 1}`} at="score">Right +1</Say>
+          <Say line="SCORE left=0 right=0" at="score">0 : 0</Say>
+        </div>
+      )}
+      <ErrorNote at="score" />
+    </>
+  );
+}
+
+function Orders() {
+  const { board } = usePage().session;
+  const teams = scoresOf(board.game).map(({ team }) => team);
+  return (
+    <>
+      <div class="row wrap" role="group" aria-label="Orders">
+        {kOrders.map((order) => (
+          <Say key={order} line={`REFEREE ${order}`} at="referee">{order}</Say>
+        ))}
+      </div>
+      {teams.map((team) => (
+        <div class="row wrap" role="group" aria-label={`Orders for ${team}`} key={team}>
+          <span class="key">{team}</span>
+          {kTeamOrders.map((order) => (
+            <Say key={order} line={`REFEREE ${order} ${team}`} at="referee" class="small">{order}</Say>
+          ))}
+        </div>
+      ))}
+      <ErrorNote at="referee" />
+    </>
+  );
+}
+
+function Playing() {
+  const { board } = usePage().session;
+  if (!board.playing.length) return <p class="hint">No player is on the field.</p>;
+  return (
+    <ul class="playing">
+      {board.playing.map(({ robot, player, team }) => (
+        <li key={robot}>
+          <span class="who">{robot}</span> <span class="what">{player}</span> <span class="what">{team}</span>
+          <Say line={`STOP ${robot}`} at="players" class="small" label={`Stop ${robot}`}>Stop</Say>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+/** A form made of what DESCRIBE players says. */
+function StartPlayer() {
+  const { session } = usePage();
+  const { board } = session;
+  const [name, setName] = useState("");
+  const [values, setValues] = useState<Record<string, string>>({});
+  const kind = board.playerKinds.find((one) => one.name === name) ?? board.playerKinds[0];
+  if (!kind) return <p class="hint">This server has no players.</p>;
+  const set = (key: string, value: string) => setValues({ ...values, [key]: value });
+  const general = [
+    { key: "team", unit: "name", text: "whom it plays for" },
+    { key: "name", unit: "name", text: "of its robot" },
+    { key: "robot", unit: "name", text: "the kind of robot: a file that ships with the program" },
+    { key: "start", unit: "x,y,deg", text: "where it begins" },
+  ];
+  const line = playLine(kind, general.map(({ key }) => key), values);
+  return (
+    <form
+      class="start-player"
+      aria-label="Start a player"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void session.act(line, "players");
+      }}
+    >
+      <label>
+        <span class="key">player</span>
+        <select value={kind.name} onChange={(event) => { setName(event.currentTarget.value); setValues({}); }}>
+          {board.playerKinds.map((one) => <option key={one.name} value={one.name}>{one.name}</option>)}
+        </select>
+      </label>
+      <p class="hint">{kind.text}</p>
+      <div class="grid">
+        {general.map((option) => <Option key={option.key} name={option.key} unit={option.unit} text={option.text} value={values[option.key] ?? ""} set={set} />)}
+      </div>
+      {kind.options.length > 0 && (
+        <details>
+          <summary>{kind.options.length} options</summary>
+          <div class="grid">
+            {kind.options.map((option) => (
+              <Option key={option.key} name={option.key} unit={option.unit} text={option.text} value={values[option.key] ?? ""} set={set} />
+            ))}
+          </div>
+        </details>
+      )}
+      <div class="row">
+        <button type="submit" disabled={!board.isOperator} class="primary">Start</button>
+        <code>{line}</code>
+      </div>
+      <ErrorNote at="players" />
+    </form>
+  );
+}
+
+export function playLine(kind: PlayerKind, general: string[], values: Record<string, string>): string {
+  const keys = [...general, ...kind.options.map(({ key }) => key)];
+  // The protocol has no quotes: a blank would begin another word.
+  const given = keys.filter((key) => values[key]?.trim()).map((key) => `${key}=${values[key]!.replace(/\s+/g, "")}`);
+  return ["PLAY", kind.name, ...given].join(" ");
+}
+
+function Option({ name, unit, text, value, set }: {
+  name: string; unit: string; text: string; value: string; set(key: string, value: string): void;
+}) {
+  const choices = unit.includes("|") ? unit.split("|") : null;
+  const otherwise = /default: (.*)$/.exec(text)?.[1] ?? "";
+  return (
+    <label title={text}>
+      <span class="key">
+        {name}
+        {!choices && unit && <small> {unit}</small>}
+      </span>
+      {choices ? (
+        <select value={value} onChange={(event) => set(name, event.currentTarget.value)}>
+          <option value="">{otherwise ? `default (${otherwise})` : "default"}</option>
+          {choices.map((one) => <option key={one} value={one}>{one}</option>)}
+        </select>
+      ) : (
+        <input value={value} placeholder={otherwise} onInput={(event) => set(name, event.currentTarget.value)} />
+      )}
+    </label>
+  );
+}
+
+function Events() {
+  const { happenings } = usePage().session.board;
+  if (!happenings.length) return <p class="hint">Nothing yet.</p>;
+  return (
+    <ol class="events" reversed>
+      {happenings.slice(-60).reverse().map(({ number, stamp, what, text }) => (
+        <li key={number}>
+          <time>{seconds(stamp)}</time> <b>{what}</b> {text}
+        </li>
+      ))}
+    </ol>
+  );
+}

@@ -1,0 +1,30 @@
+import { useEffect, useRef } from "preact/hooks";
+import { usePage } from "../app/context";
+import { kKeys } from "../app/keys";
+
+export function Help() {
+  const { ui } = usePage();
+  const dialog = useRef<HTMLDialogElement>(null);
+  useEffect(() => dialog.current!.showModal(), []);
+  return (
+    <dialog ref={dialog} class="help" aria-labelledby="help-title" onClose={() => ui.change({ isHelpOpen: false })}>
+      <h2 id="help-title">Keys and hands</h2>
+      <dl>
+        {kKeys.map(({ keys, about }) => (
+          <div key={keys}>
+            <dt><kbd>{keys}</kbd></dt>
+            <dd>{about}</dd>
+          </div>
+        ))}
+      </dl>
+      <h3>On the field</h3>
+      <ul>
+        <li>Wheel or two fingers: larger, smaller. Drag the floor, or arrow keys: move.</li>
+        <li>Click a robot to select it. Operators drag robots and balls; with <kbd>Alt</kbd> a robot turns.</li>
+        <li><kbd>Shift</kbd> and drag: the selected robot is about here, looking that way.</li>
+        <li>With a map shown: click to see why a place is as probable as it is.</li>
+      </ul>
+      <button class="primary" onClick={() => dialog.current!.close()}>Close</button>
+    </dialog>
+  );
+}

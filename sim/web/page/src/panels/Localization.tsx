@@ -1,0 +1,357 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import { useBoard, usePage } from "../app/context";
+import { heatPalette } from "../field/palette";
+import { fixOf, placesOf, statusOf } from "../model/features";
+import { degrees, radians, wrap } from "../model/geometry";
+import type { FeatureMap, Why } from "../model/Insight";
+import type { Robot } from "../model/Robot";
+import { Curves } from "./Curves";
+import { Icon } from "./Icon";
+import { ErrorNote, Say, Section, shortName } from "./parts";
+
+export function LocalizationPanel() {
+  const board = useBoard(100);
+  const { robot } = board;
+  if (!robot) return <p class="hint">No robot is selected.</p>;
+  const isLocalized = robot.feature("mcl/LOCALIZATION/pose") !== undefined;
+  return (
+    <>
+      <FilterSection robot={robot} />
+      {isLocalized && <BeliefSection robot={robot} />}
+      {isLocalized && <Curves only="error" />}
+      {board.can("HEATMAP") && <MapSection />}
+    </>
+  );
+}
+
+function FilterSection({ robot }: { robot: Robot }) {
+  const { session, insight } = usePage();
+  const { board } = session;
+  const held = robot.readings.get("mcl/LOCALIZATION/status");
+  const status = held && statusOf(held.words);
+  const { localize } = insight;
+  const isOn = localize !== null && /^(learning|searching|running)$/.test(localize.state);
+  return (
+    <Section title={`Where ${robot.label} believes to be`}>
+      {status ? (
+        <p class={`verdict ${status.status}`} role="status">
+          <strong>{status.status}</strong>: {status.reason}
+          <span class="meter">
+            <meter min={0} max={1} value={status.quality} aria-label="Probability that the error is below 0.5 m" />
+            {(status.quality * 100).toFixed(0)} % sure of 0.5 m
+          </span>
+        </p>
+      ) : (
+        <p class="hint">
+          {board.can("LOCALIZE") ? "It is not localized." : "This server does not localize robots: start it with --localize."}
+        </p>
+      )}
+      {board.can("LOCALIZE") && (
+        <div class="row" role="group" aria-label="Filter">
+          <Say line={`LOCALIZE robot=${robot.number} ${isOn ? "off" : "on"}`} at="localization" pressed={isOn}>
+            {isOn ? "Localize: on" : "Localize: off"}
+          </Say>
+          <Say line={`LOCALIZE robot=${robot.number} anywhere`} at="localization" disabled={!isOn}>Anywhere</Say>
+          {localize && localize.state !== "none" && <span class="state">{localize.state}</span>}
+        </div>
+      )}
+      {localize?.state === "learning" && (
+        <p class="row">
+          <progress max={1} value={localize.progress} aria-label="Learning tables" />
+          <span>{(localize.progress * 100).toFixed(0)} % learned</span>
+          <Say line={`LOCALIZE robot=${robot.number} off`} at="localization">Cancel</Say>
+        </p>
+      )}
+      {localize && (localize.state === "failed" || localize.state === "none") && localize.text && (
+        <p class="hint">{localize.text}</p>
+      )}
+      {isOn && <p class="hint">Shift and drag on the field: the robot is about here, looking that way.</p>}
+      <ErrorNote at="localization" />
+    </Section>
+  );
+}
+
+function BeliefSection({ robot }: { robot: Robot }) {
+  const pose = robot.readings.get("mcl/LOCALIZATION/pose");
+  const fix = pose && fixOf(pose.words);
+  const truth = pose && robot.truthAt(pose.stamp);
+  const work = robot.readings.get("mcl/LOCALIZATION/work")?.words;
+  const places = robot.readings.get("mcl/LOCALIZATION/places");
+  const { session, ui } = usePage();
+  const isFollowed = session.history.has("mcl/LOCALIZATION/work", "effective samples");
+  return (
+    <Section title="Belief">
+      <dl class="facts">
+        {fix && (
+          <>
+            <dt>estimate</dt>
+            <dd>
+              {fix.x.toFixed(2)}, {fix.y.toFixed(2)} m, {degrees(fix.theta).toFixed(1)}°
+            </dd>
+            <dt>sigmas</dt>
+            <dd>
+              {fix.sigmaX.toFixed(3)}, {fix.sigmaY.toFixed(3)} m, {degrees(fix.sigmaTheta).toFixed(1)}°
+            </dd>
+          </>
+        )}
+        {fix && truth && (
+          <>
+            <dt>error</dt>
+            <dd>
+              {Math.hypot(fix.x - truth.x, fix.y - truth.y).toFixed(3)} m,{" "}
+              {Math.abs(degrees(wrap(fix.theta - truth.theta))).toFixed(1)}°
+            </dd>
+          </>
+        )}
+        {work && work.length >= 4 && (
+          <>
+            <dt>samples</dt>
+            <dd>
+              {work[0]}, {work[1]} effective{" "}
+              <button
+                class="small"
+                aria-pressed={isFollowed}
+                aria-label="Curve of effective samples"
+                title="show over time (Sensors)"
+                onClick={() => {
+                  session.history.toggle("mcl/LOCALIZATION/work", "effective samples", "");
+                  ui.change({});
+                }}
+              >
+                      <Icon name="curve" />
+              </button>
+            </dd>
+            <dt>an update takes</dt>
+            <dd>{(work[2]! / 1000).toFixed(2)} ms</dd>
+          </>
+        )}
+      </dl>
+      {places && (
+        <ol class="places">
+          {placesOf(places.words).slice(0, 8).map((place, i) => (
+            <li key={i}>
+              <span class="share">{(place.share * 100).toFixed(0)} %</span>
+              {place.x.toFixed(2)}, {place.y.toFixed(2)}, {degrees(place.theta).toFixed(0)}°
+              <span class="hint"> ± {Math.hypot(place.sigmaX, place.sigmaY).toFixed(2)} m</span>
+            </li>
+          ))}
+        </ol>
+      )}
+    </Section>
+  );
+}
+
+function MapSection() {
+  const { insight, ui, session } = usePage();
+  const { wish } = insight;
+  const [headings, setHeadings] = useState<"best" | "robot" | "given">("best");
+  const [given, setGiven] = useState(0);
+  const robot = session.board.robot;
+  if (headings === "robot") wish.theta = robot?.truth?.theta ?? robot?.estimate?.theta ?? 0;
+  else wish.theta = headings === "best" ? null : radians(given);
+  const redraw = () => ui.change({});
+  const show = (isShown: boolean) => {
+    insight.wantsMap = isShown;
+    if (!isShown) {
+      insight.map = null;
+      insight.why = null;
+      ui.change({ heat: null, asked: null });
+    } else {
+      redraw();
+    }
+  };
+  return (
+    <Section title="Map of p(s given l)">
+      <div class="row">
+        <label>
+          <input type="checkbox" checked={insight.wantsMap} onChange={(event) => show(event.currentTarget.checked)} />
+          on the field
+        </label>
+        <label>
+          <input
+            type="checkbox"
+            checked={wish.each}
+            disabled={!insight.wantsMap}
+            onChange={(event) => { wish.each = event.currentTarget.checked; redraw(); }}
+          />
+          each feature
+        </label>
+        {insight.map && <span class="hint">{insight.rate.toFixed(1)} a second</span>}
+      </div>
+      {insight.wantsMap && (
+        <>
+          <div class="row">
+            <label>
+              <span class="key">heading</span>
+              <select value={headings} onChange={(event) => setHeadings(event.currentTarget.value as typeof headings)}>
+                <option value="best">the best of all</option>
+                <option value="robot">the robot's</option>
+                <option value="given">given</option>
+              </select>
+            </label>
+            {headings === "given" && (
+              <label class="grow">
+                <span class="key">{given}°</span>
+                <input
+                  type="range" min="-180" max="180" step="5" value={given} aria-label="Heading"
+                  onInput={(event) => setGiven(Number(event.currentTarget.value))}
+                />
+              </label>
+            )}
+            <label>
+              <span class="key">of</span>
+              <select
+                value={wish.of}
+                onChange={(event) => { wish.of = event.currentTarget.value as typeof wish.of; redraw(); }}
+              >
+                <option value="probability">probability</option>
+                <option value="expectation">expectation</option>
+              </select>
+            </label>
+            {wish.of === "expectation" && (
+              <label>
+                <span class="key">value</span>
+                <input
+                  type="number" min="0" max="8191" value={wish.index} class="short"
+                  onInput={(event) => { wish.index = Math.max(0, Math.floor(Number(event.currentTarget.value) || 0)); }}
+                />
+              </label>
+            )}
+          </div>
+          <Choice />
+          {insight.error && <p class="error" role="alert">{insight.error}</p>}
+          {insight.map && <Legend map={insight.map} />}
+          <div class="maps">
+            {insight.small.map((map) => <SmallMap key={map.feature} map={map} />)}
+          </div>
+          <p class="hint">Click on the field to see why a place is as probable as it is.</p>
+          <ErrorNote at="why" />
+          {insight.why && <WhyList why={insight.why} />}
+        </>
+      )}
+    </Section>
+  );
+}
+
+/** Which features the map is of. */
+function Choice() {
+  const { insight, ui } = usePage();
+  const { wish, features } = insight;
+  const choose = (without: Iterable<string>) => {
+    wish.without = new Set(without);
+    ui.change({});
+  };
+  return (
+    <details class="choice">
+      <summary>
+        {features.length - wish.without.size} of {features.length} features
+      </summary>
+      <div class="row">
+        <button onClick={() => choose([])}>All</button>
+        <button onClick={() => choose(features)}>None</button>
+      </div>
+      <div class="chosen">
+        {features.map((feature) => (
+          <label key={feature} title={feature}>
+            <input
+              type="checkbox"
+              checked={!wish.without.has(feature)}
+              onChange={(event) => {
+                const without = new Set(wish.without);
+                if (event.currentTarget.checked) without.delete(feature);
+                else without.add(feature);
+                choose(without);
+              }}
+            />
+            {shortName(feature)}
+          </label>
+        ))}
+      </div>
+    </details>
+  );
+}
+
+function Legend({ map }: { map: FeatureMap }) {
+  const { insight } = usePage();
+  const unit = insight.wish.of === "expectation" ? "expected" : "p";
+  return (
+    <div class="legend">
+      <span>{map.low.toPrecision(2)}</span>
+      <span class="ramp" role="img" aria-label={`colours from ${map.low.toPrecision(2)} to ${map.high.toPrecision(2)}`} />
+      <span>{map.high.toPrecision(2)}</span>
+      <span class="hint">{unit}</span>
+    </div>
+  );
+}
+
+function SmallMap({ map }: { map: FeatureMap }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    const { columns, rows, cells } = map.heat;
+    canvas.current!.width = columns;
+    canvas.current!.height = rows;
+    const palette = heatPalette(1);
+    const picture = new ImageData(columns, rows);
+    for (let row = 0; row < rows; ++row) {
+      for (let column = 0; column < columns; ++column) {
+        const colour = 4 * cells[row * columns + column]!;
+        picture.data.set(palette.subarray(colour, colour + 4), 4 * ((rows - 1 - row) * columns + column));
+      }
+    }
+    canvas.current!.getContext("2d")?.putImageData(picture, 0, 0);
+  }, [map]);
+  return (
+    <figure>
+      <canvas ref={canvas} role="img" aria-label={`map of ${map.feature}`} />
+      <figcaption title={map.feature}>{shortName(map.feature)}</figcaption>
+    </figure>
+  );
+}
+
+function WhyList({ why }: { why: Why }) {
+  const [open, setOpen] = useState("");
+  const { x, y, theta } = why.pose;
+  return (
+    <>
+      <h3>
+        Why {x.toFixed(2)}, {y.toFixed(2)}, {degrees(theta).toFixed(0)}°: p = {why.p.toPrecision(3)}
+      </h3>
+      <ul class="why">
+        {why.features.map(({ feature, p, values }) => (
+          <li key={feature}>
+            <button aria-expanded={open === feature} onClick={() => setOpen(open === feature ? "" : feature)}>
+              <span class="who">{shortName(feature)}</span>
+              <meter min={0} max={1} value={p} aria-label={`probability of ${feature}`} />
+              <span class="share">{p.toPrecision(2)}</span>
+            </button>
+            {open === feature && (
+              <table class="values">
+                <thead>
+                  <tr>
+                    <th scope="col">value</th>
+                    <th scope="col">measured</th>
+                    <th scope="col">expected</th>
+                  </tr>
+                </thead>
+                <tbody>
+                  {values.slice(0, 400).map(({ index, unit, measured, expected }) => (
+                    <tr key={index}>
+                      <th scope="row">{index}</th>
+                      <td>{amount(measured, unit)}</td>
+                      <td>{amount(expected, unit)}</td>
+                    </tr>
+                  ))}
+                </tbody>
+              </table>
+            )}
+          </li>
+        ))}
+      </ul>
+    </>
+  );
+}
+
+function amount(value: number | null, unit: string): string {
+  if (value === null) return "–";
+  return unit === "rad" ? `${degrees(value).toFixed(1)}°` : `${value.toFixed(2)} ${unit}`;
+}

@@ -1,0 +1,75 @@
+import { useBoard, usePage } from "../app/context";
+import { teamColour } from "../field/palette";
+import { degrees } from "../model/geometry";
+import { statusOf } from "../model/features";
+import { DriveControls } from "./Drive";
+import { ErrorNote, Say, Section } from "./parts";
+
+export function RobotsPanel() {
+  const board = useBoard(200);
+  const { session } = usePage();
+  const robots = [...board.robots.values()].sort((a, b) => a.number - b.number);
+  return (
+    <>
+      <Section title="On the field">
+        {!robots.length && <p class="hint">{board.link === "open" ? "No robot is there." : "Not connected."}</p>}
+        <ul class="robots">
+          {robots.map((robot) => {
+            const { pose } = robot;
+            const held = robot.readings.get("mcl/LOCALIZATION/status");
+            const status = held && statusOf(held.words);
+            return (
+              <li key={robot.number}>
+                <button aria-pressed={board.selected === robot.number} onClick={() => session.select(robot.number)}>
+                  <Swatch team={robot.team} />
+                  <span class="who">{robot.label}</span>
+                  <span class="what">{robot.player || (robot.client ? `client ${robot.client}` : "")}</span>
+                  {status && <span class={`badge ${status.status}`}>{status.status}</span>}
+                  <span class="where">
+                    {pose ? `${pose.x.toFixed(2)}, ${pose.y.toFixed(2)}, ${degrees(pose.theta).toFixed(0)}°` : "nowhere yet"}
+                  </span>
+                </button>
+              </li>
+            );
+          })}
+        </ul>
+      </Section>
+      {board.robot && <Selected />}
+    </>
+  );
+}
+
+function Swatch({ team }: { team: string }) {
+  return (
+    <svg class="swatch" viewBox="0 0 10 10" aria-hidden="true">
+      <circle cx="5" cy="5" r="4.5" fill={teamColour(team)} />
+    </svg>
+  );
+}
+
+function Selected() {
+  const { board } = usePage().session;
+  const robot = board.robot!;
+  return (
+    <Section title={robot.label}>
+      <dl class="facts">
+        <dt>features</dt>
+        <dd>{robot.features.length}</dd>
+        <dt>at most</dt>
+        <dd>
+          {robot.speed.toFixed(1)} m/s, {degrees(robot.turn).toFixed(0)}°/s
+        </dd>
+      </dl>
+      {board.kind !== "record" && <DriveControls robot={robot} />}
+      {robot.manipulators.map(({ name, states }) => (
+        <div class="row" role="group" aria-label={name} key={name}>
+          <span class="key">{name}</span>
+          {states.map((state) => (
+            <Say key={state} line={`MANIPULATOR ${name} ${state} robot=${robot.number}`} at="drive">{state}</Say>
+          ))}
+        </div>
+      ))}
+      <ErrorNote at="drive" />
+    </Section>
+  );
+}

@@ -1,0 +1,57 @@
+import { useRef, useState } from "preact/hooks";
+import { useBoard, usePage } from "../app/context";
+import { plain } from "../link/words";
+import { seconds } from "./parts";
+
+/** A record from its beginning to its end, with marks for what has happened. */
+export function TimeLine() {
+  const board = useBoard(100);
+  const { session } = usePage();
+  const world = board.world!;
+  const length = Math.max(0, world.end - world.start);
+  const [held, setHeld] = useState<number | null>(null);
+  const isSending = useRef(false);
+  const wanted = useRef<number | null>(null);
+  const at = held ?? Math.min(length, Math.max(0, board.now - world.start));
+  const seek = async (to: number) => {
+    wanted.current = to;
+    if (isSending.current) return;
+    isSending.current = true;
+    while (wanted.current !== null) {
+      const next = wanted.current;
+      wanted.current = null;
+      await session.act(`SEEK time_s=${plain(next / 1e6)}`, "time");
+    }
+    isSending.current = false;
+  };
+  if (!board.can("SEEK") || length === 0) return null;
+  return (
+    <div class="time-line">
+      <span>{seconds(at)}</span>
+      <div class="bar">
+        <input
+          type="range"
+          min={0}
+          max={length}
+          step={10000}
+          value={at}
+          disabled={!board.isOperator}
+          aria-label="Time of the record"
+          aria-valuetext={seconds(at)}
+          onInput={(event) => {
+            const to = Number(event.currentTarget.value);
+            setHeld(to);
+            void seek(to);
+          }}
+          onChange={() => setHeld(null)}
+        />
+        <svg class="marks" viewBox="0 0 1000 10" preserveAspectRatio="none" aria-hidden="true">
+          {board.happenings.map(({ number, stamp, what }) => (
+            <rect key={number} x={(1000 * (stamp - world.start)) / length - 1} y="0" width="2" height="10" class={`mark ${/^[a-z-]+/.exec(what)?.[0] ?? ""}`} />
+          ))}
+        </svg>
+      </div>
+      <span>{seconds(length)}</span>
+    </div>
+  );
+}

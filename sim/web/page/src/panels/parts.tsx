@@ -1,0 +1,67 @@
+import type { ComponentChildren } from "preact";
+import { usePage } from "../app/context";
+
+/** The newest error of what was asked at a place of the page. */
+export function ErrorNote({ at }: { at: string }) {
+  const { board } = usePage().session;
+  const text = board.errors.get(at);
+  if (!text) return null;
+  return (
+    <p class="error" role="alert">
+      {text}
+      <button
+        aria-label="Close"
+        onClick={() => {
+          board.errors.delete(at);
+          board.touch();
+        }}
+      >
+        ×
+      </button>
+    </p>
+  );
+}
+
+/** A button that says a line of the protocol; the line is its tooltip. */
+export function Say(props: {
+  line: string;
+  at: string;
+  children: ComponentChildren;
+  disabled?: boolean;
+  label?: string;
+  pressed?: boolean;
+  class?: string;
+}) {
+  const { session } = usePage();
+  const { board } = session;
+  const forbids = board.link === "open" && !board.isOperator;
+  return (
+    <button
+      class={props.class}
+      disabled={props.disabled || !board.isOperator}
+      title={forbids ? `${props.line} – needs the role operator` : props.line}
+      aria-label={props.label}
+      aria-pressed={props.pressed}
+      onClick={() => void session.act(props.line, props.at)}
+    >
+      {props.children}
+    </button>
+  );
+}
+
+export function Section({ title, children }: { title: string; children: ComponentChildren }) {
+  return (
+    <section class="block">
+      <h2>{title}</h2>
+      {children}
+    </section>
+  );
+}
+
+export const seconds = (stamp: number): string => {
+  const s = stamp / 1e6;
+  const minutes = Math.floor(s / 60);
+  return `${minutes}:${(s - 60 * minutes).toFixed(1).padStart(4, "0")}`;
+};
+
+export const shortName = (feature: string): string => feature.split("/").slice(1).join("/");
