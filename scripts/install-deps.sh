@@ -17,6 +17,8 @@ packages=(
   libmrpt-obs-dev libmrpt-maps-dev
   # tests of files for MRPT: its own tools
   mrpt-apps
+  # MCAP files of ROS 2
+  liblz4-dev
   # drivers of laser scanners
   libmrpt-hwdrivers-dev
   # the program: command line, messages, charts of the report

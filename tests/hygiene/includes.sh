@@ -20,7 +20,7 @@ deny() {
 foreign='mrpt|opencv|embree|GL/|EGL/|box2d|boost|spdlog|fmt/|CLI/'
 deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|served|client)|$foreign"
 deny 'container' 'toml\+\+|toml\.|nlohmann' 'container/robot/'
-deny 'container mcl sim plugins realsensors app' 'zstd\.h' 'container/records/src/Zstd\.cpp'
+deny 'container mcl sim plugins realsensors app' 'zstd\.h|lz4' '(container/records/src/Zstd|realsensors/ros2/src/Compression)\.cpp'
 deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign" 'mcl/player/.*sim_api/'
 deny 'container mcl/include mcl/src mcl/run sim/api sim/src sim/include sim/remote realsensors' 'ortung/mcl_player/'
 deny 'plugins/sensors plugins/motion plugins/sources plugins/referees' 'ortung/mcl_player/'
@@ -53,6 +53,9 @@ deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt'
 deny 'container mcl sim plugins realsensors/core realsensors/devices realsensors/mrpt_devices' 'ortung/emulators/'
 deny 'realsensors/devices realsensors/emulators realsensors/mrpt_devices' "ortung/(run|server|served|client)/|toml|nlohmann|opencv" 'realsensors/devices/plugins/CameraDevice'
 deny 'container mcl sim plugins' 'ortung/devices/'
+# Messages of ROS 2 are for the program and the plugin that reads them.
+deny 'container mcl sim plugins realsensors/core realsensors/devices' 'ortung/ros2/'
+deny 'realsensors/ros2' "ortung/(run|robot|records|server|served|client)/|toml|nlohmann|opencv"
 
 # Rooms of the container in the order of their dependencies: each sees those before it alone. Private
 # headers are included by their names.
@@ -71,7 +74,7 @@ done
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include mcl/player/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
-              sim/pictures/include realsensors/devices/include realsensors/emulators/include; do
+              sim/pictures/include realsensors/ros2/include realsensors/devices/include realsensors/emulators/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

@@ -75,11 +75,12 @@ std::string robotHead(const std::string& path) {
          "too\n\n[[sensor]]\nplugin = \"odometry\"\n";
 }
 
-std::string scannerToml(const Scanner& scanner, double period) {
+std::string scannerToml(const Scanner& scanner, double period, const SensorId& id) {
   const double step = std::min(shortDegrees(scanner.angleStep), 360.0 / scanner.beams);
-  return "\n[[sensor]]\nplugin = \"lrf\"\nmodel = \"laser\"\ntype = \"LRF\"\nfeature = \"scan\"\n"
-         "pose = { x_m = " +
-         tomlNumber(scanner.mount.x) + ", y_m = " + tomlNumber(scanner.mount.y) +
+  return "\n[[sensor]]\nplugin = \"lrf\"\nmodel = " + tomlText(id.model) +
+         "\ntype = " + tomlText(id.type) + "\nfeature = " + tomlText(id.feature) +
+         "\npose = { x_m = " + tomlNumber(scanner.mount.x) +
+         ", y_m = " + tomlNumber(scanner.mount.y) +
          ", theta_deg = " + tomlNumber(shortDegrees(scanner.mount.theta)) +
          " }\nbeams = " + std::to_string(scanner.beams) +
          "\nfirst_angle_deg = " + tomlNumber(shortDegrees(scanner.firstAngle)) +

@@ -8,6 +8,7 @@
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
+#include "ortung/core/SensorData.hpp"
 #include "ortung/core/SourceHelp.hpp"
 
 namespace ortung {
@@ -45,6 +46,7 @@ ORTUNG_API double medianPeriod(const std::vector<Timestamp>& stamps);
 /// Robot file up to its first sensor, named after the log at @p path; with odometry.
 ORTUNG_API std::string robotHead(const std::string& path);
 /// [[sensor]] of the scanner, @p period [s] between scans.
-ORTUNG_API std::string scannerToml(const Scanner& scanner, double period);
+ORTUNG_API std::string scannerToml(const Scanner& scanner, double period,
+                                   const SensorId& id = {"laser", "LRF", "scan"});
 
 }  // namespace ortung

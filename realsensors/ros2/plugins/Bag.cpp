@@ -1,0 +1,365 @@
+#include "Bag.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "ortung/base/InputFile.hpp"
+#include "ortung/camera/ImageData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/realsensors/LogFile.hpp"
+#include "ortung/ros2/RobotTopics.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostKept = 1U << 30;  // bytes of readings
+constexpr std::size_t kMostTopics = 1024;
+constexpr std::size_t kMostRemarks = 32;
+constexpr const char* kRobotFile = "robot.toml";
+
+std::optional<std::vector<std::string>> listOption(const Parameters& options, const char* key) {
+  if (!options.has(key)) return std::nullopt;
+  std::vector<std::string> list;
+  std::istringstream words(options.text(key));
+  for (std::string word; std::getline(words, word, ',');)
+    if (!word.empty() && word != "none") list.push_back(word);
+  return list;
+}
+
+/// The files of a bag in their order: bag_2.mcap comes before bag_10.mcap.
+std::vector<fs::path> filesOf(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return {path};
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(path, error))
+    if (entry.path().extension() == ".mcap") files.push_back(entry.path());
+  if (files.empty())
+    throw std::runtime_error(path.string() +
+                             ": found no file *.mcap in this folder, expected those of a bag");
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    const auto key = [](const fs::path& p) { return std::pair(p.string().size(), p.string()); };
+    return key(a) < key(b);
+  });
+  return files;
+}
+
+bool isWanted(const std::optional<std::vector<std::string>>& list, const std::string& topic) {
+  return !list || std::find(list->begin(), list->end(), topic) != list->end();
+}
+
+std::string featureOf(const McapChannel& channel) {
+  const auto found = channel.metadata.find("ortung_feature");
+  return found == channel.metadata.end() ? "" : found->second;
+}
+
+template <class List>
+auto& ofTopic(List& list, const McapChannel& channel, const std::string& where) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const auto& one) { return one.topic == channel.topic; });
+  if (found != list.end()) return *found;
+  if (list.size() >= kMostTopics)
+    throw std::runtime_error(where + ": found more than " + std::to_string(kMostTopics) +
+                             " topics of one type, expected fewer");
+  auto& one = list.emplace_back();
+  one.topic = channel.topic;
+  one.feature = featureOf(channel);
+  return one;
+}
+
+}  // namespace
+
+BagChoice BagChoice::read(const Parameters& options) {
+  BagChoice choice;
+  choice.scans = listOption(options, "scans");
+  choice.ranges = listOption(options, "ranges");
+  choice.images = listOption(options, "images");
+  choice.odometry = options.textOr("odometry", "");
+  choice.truth = options.textOr("truth", "");
+  choice.map = options.textOr("map", "");
+  choice.base = options.textOr("base", "");
+  choice.usesLogTime = options.choiceOr("stamps", "header", {"header", "log"}) == "log";
+  return choice;
+}
+
+Bag::Bag(const fs::path& path, const BagChoice& choice) : choice_(choice) {
+  for (const fs::path& file : filesOf(path)) readFile(file);
+  choose();
+  for (const auto& [what, count] : unfit_)
+    remarks.push_back(std::to_string(count) + " messages of " + what);
+}
+
+void Bag::readFile(const fs::path& file) {
+  file_ = file.string();
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) throw std::runtime_error(file_ + ": " + why);
+  McapReader reader(in, file_);
+  for (McapMessage message; reader.next(message);) take(message, message.channel->schema.name);
+  if (reader.isUnfinished() && remarks.size() < kMostRemarks)
+    remarks.push_back(file_ + " was never finished; it was read up to its end");
+  const auto robot = reader.attachments().find(kRobotFile);
+  if (robot != reader.attachments().end()) robotToml = robot->second;
+}
+
+void Bag::take(const McapMessage& message, const std::string& type) {
+  const std::string& topic = message.channel->topic;
+  const bool isOurs = !featureOf(*message.channel).empty();
+  if (type == LaserScan::kType) {
+    if (isWanted(choice_.scans, topic)) takeScan(message);
+  } else if (type == Range::kType) {
+    if (isWanted(choice_.ranges, topic)) takeRange(message);
+  } else if (type == Image::kType) {
+    if (choice_.images ? isWanted(choice_.images, topic) : isOurs) takeImage(message);
+  } else if (type == Odometry::kType) {
+    takeOdometry(message);
+  } else if (type == TfMessage::kType) {
+    takeTransforms(message);
+  } else if (type == PoseStamped::kType || type == PoseWithCovarianceStamped::kType) {
+    takePose(message);
+  } else if (type == Words::kType) {
+    if (isOurs) takeWords(message);
+  } else if (type == OccupancyGrid::kType) {
+    if (choice_.map.empty() ? !map : topic == choice_.map) takeMap(message);
+  }
+}
+
+template <class M>
+std::optional<M> Bag::decode(const McapMessage& message) const {
+  if (message.channel->encoding != "cdr")
+    refuse(message, "found messages in '" + message.channel->encoding.substr(0, 16) +
+                        "', expected cdr, as ROS 2 has them");
+  std::string why;
+  auto decoded = fromCdr<M>(message.data, why);
+  if (!decoded) refuse(message, why + ", expected a " + std::string(M::kType));
+  return decoded;
+}
+
+void Bag::refuse(const McapMessage& message, const std::string& what) const {
+  throw std::runtime_error(file_ + ": topic " + message.channel->topic.substr(0, 80) + ": " + what);
+}
+
+Timestamp Bag::stampOf(const Header& header, const McapMessage& message) const {
+  if (choice_.usesLogTime) return logTime(message);
+  return header.stamp / 1000 - (header.stamp % 1000 < 0 ? 1 : 0);
+}
+
+Timestamp Bag::logTime(const McapMessage& message) const {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
+  if (message.logTime > kMost)
+    refuse(message,
+           "found a time of " + std::to_string(message.logTime) + " ns, expected 2^62 at most");
+  return static_cast<Timestamp>(message.logTime / 1000);
+}
+
+void Bag::keep(std::size_t bytes) {
+  kept_ += bytes;
+  if (kept_ > kMostKept)
+    throw std::runtime_error(file_ +
+                             ": holds more than 1 GiB of readings; the options scans, "
+                             "ranges and images choose some of them");
+}
+
+void Bag::takeScan(const McapMessage& message) {
+  const auto scan = *decode<LaserScan>(message);
+  Scans& scans_ = ofTopic(scans, *message.channel, file_);
+  try {
+    if (!scans_.shape) scans_.shape.emplace(scan);
+  } catch (const std::invalid_argument& error) {
+    refuse(message, error.what());
+  }
+  std::vector<float> fitted = scans_.shape->fit(scan);
+  if (fitted.empty()) {
+    ++unfit_[message.channel->topic + " reach where its first one does not, and were left out"];
+    return;
+  }
+  keep(fitted.size() * sizeof(float));
+  if (!scans_.shape->isSame(scan))
+    ++unfit_[message.channel->topic +
+             " have other beams than its first one, and were fitted to it"];
+  scans_.list.push_back({stampOf(scan.header, message), std::move(fitted)});
+}
+
+void Bag::takeRange(const McapMessage& message) {
+  const auto range = *decode<Range>(message);
+  Ranges& list = ofTopic(ranges, *message.channel, file_);
+  if (list.list.empty()) {
+    list.frame = range.header.frame;
+    list.openingAngle = static_cast<double>(range.fieldOfView);
+    list.maxRange = static_cast<double>(range.maxRange);
+    if (!(list.openingAngle > 0.0 && list.openingAngle < 3.0) ||
+        !(list.maxRange > 0.0 && list.maxRange <= 100.0))
+      refuse(message, "found a field of view of " + std::to_string(list.openingAngle) +
+                          " rad and a range of " + std::to_string(list.maxRange) +
+                          " m, expected up to 3 rad and 100 m");
+  }
+  keep(sizeof(Reading));
+  list.list.push_back({stampOf(range.header, message), range.range});
+}
+
+void Bag::takeImage(const McapMessage& message) {
+  const auto image = *decode<Image>(message);
+  const bool isGrey = image.encoding == "mono8";
+  const bool isBgr = image.encoding == "bgr8";
+  const std::size_t channels = isGrey ? 1 : 3;
+  if (!isGrey && !isBgr && image.encoding != "rgb8")
+    refuse(message, "found pictures in " + inQuotes(image.encoding) +
+                        ", expected rgb8, bgr8 or mono8; the option images leaves them out");
+  constexpr std::uint32_t kMost = ImageData::kMostSide;
+  const std::size_t row = image.width * channels;
+  if (image.width < 1 || image.height < 1 || image.width > kMost || image.height > kMost ||
+      image.step < row || image.data.size() / image.height < image.step)
+    refuse(message, "found a picture of " + std::to_string(image.width) + " x " +
+                        std::to_string(image.height) + " in " + std::to_string(image.data.size()) +
+                        " bytes, expected as many as it has, and 4096 x 4096 at most");
+  Pictures& list = ofTopic(pictures, *message.channel, file_);
+  list.frame = image.header.frame;
+  Picture& picture = list.list.emplace_back();
+  picture.stamp = stampOf(image.header, message);
+  ImageData::start({static_cast<int>(image.width), static_cast<int>(image.height)},
+                   isGrey ? PixelFormat::kGrey : PixelFormat::kRgb, picture.words);
+  keep(picture.words.size() * sizeof(std::uint32_t));
+  std::uint8_t* to = ImageData::pixelsOf(picture.words).data();
+  for (std::size_t y = 0; y < image.height; ++y, to += row)
+    std::copy_n(image.data.data() + y * image.step, row, to);
+  if (!isBgr) return;
+  for (std::uint8_t* pixel = to - row * image.height; pixel < to; pixel += channels)
+    std::swap(pixel[0], pixel[2]);
+}
+
+bool Bag::isTruth(const McapMessage& message) const {
+  const std::string& topic = message.channel->topic;
+  if (!choice_.truth.empty()) return topic == choice_.truth;
+  return topic.find("ground_truth") != topic.npos || topic.find("groundtruth") != topic.npos;
+}
+
+void Bag::addTruth(const McapMessage& message, const Header& header, const Pose& pose) {
+  if (truth.topic.empty()) {
+    truth.topic = message.channel->topic;
+    truth.feature = featureOf(*message.channel);
+  }
+  if (message.channel->topic != truth.topic) return;
+  const Pose2 planar = toPose2(pose);
+  if (!isFinite(planar)) return;
+  keep(sizeof(Moving));
+  truth.list.push_back({stampOf(header, message), planar});
+}
+
+void Bag::takeOdometry(const McapMessage& message) {
+  const auto odom = *decode<Odometry>(message);
+  if (isTruth(message)) return addTruth(message, odom.header, odom.pose);
+  const Pose2 pose = toPose2(odom.pose);
+  const double sum = odom.linear.x + odom.linear.y + odom.angular.z;
+  if (!isFinite(pose) || !std::isfinite(sum)) {
+    ++unfit_[message.channel->topic + " hold numbers that are none, and were left out"];
+    return;
+  }
+  Track& track = ofTopic(odometries_, *message.channel, file_);
+  if (odometryFrames_.size() < odometries_.size()) odometryFrames_.push_back(odom.childFrame);
+  keep(sizeof(Moving));
+  track.list.push_back(
+      {stampOf(odom.header, message), pose, odom.linear.x, odom.linear.y, odom.angular.z});
+}
+
+void Bag::takeTransforms(const McapMessage& message) {
+  const bool isStatic = message.channel->topic.ends_with("tf_static");
+  const auto transforms = *decode<TfMessage>(message);
+  for (const TransformStamped& one : transforms.transforms) {
+    frames.add(one, isStatic);
+    const Pose2 pose = toPose2(one.transform);
+    if (isStatic || !isFinite(pose)) continue;
+    keep(sizeof(TimedTransform));
+    moving_.push_back({stampOf(one.header, message), one.header.frame, one.childFrame, pose});
+  }
+}
+
+void Bag::takePose(const McapMessage& message) {
+  constexpr std::size_t kPlanar[3] = {0, 1, 5};  // of six dimensions
+  if (message.channel->schema.name == PoseStamped::kType) {
+    if (!isTruth(message)) return;
+    const auto pose = *decode<PoseStamped>(message);
+    return addTruth(message, pose.header, pose.pose);
+  }
+  const bool isEstimate = featureOf(*message.channel) == "mcl/LOCALIZATION/pose";
+  if (!isTruth(message) && !isEstimate) return;
+  const auto pose = *decode<PoseWithCovarianceStamped>(message);
+  if (!isEstimate) return addTruth(message, pose.header, pose.pose);
+  PoseFixData::Fix fix{toPose2(pose.pose), {}};
+  bool isNumber = isFinite(fix.pose);
+  for (std::size_t i = 0; i < 9; ++i) {
+    fix.covariance[i] = pose.covariance[kPlanar[i / 3] * 6 + kPlanar[i % 3]];
+    isNumber =
+        isNumber && std::isfinite(fix.covariance[i]) && (i % 4 != 0 || fix.covariance[i] >= 0);
+  }
+  if (!isNumber) return;
+  addOwn(message, stampOf(pose.header, message), PoseFixData::encode({&fix, 1}));
+}
+
+void Bag::addOwn(const McapMessage& message, Timestamp stamp, std::vector<std::uint32_t> words) {
+  keep(sizeof(Picture) + words.size() * sizeof(std::uint32_t));
+  if (own.size() >= kMostTopics && !own.contains(message.channel->topic))
+    refuse(message, "found one more topic of Ortung's own, expected 1024 at most");
+  OwnWords& topic = own[message.channel->topic];
+  topic.feature = featureOf(*message.channel);
+  topic.list.push_back({stamp, std::move(words)});
+}
+
+/// Words of Ortung's own features, which have no stamp but that of the message itself.
+void Bag::takeWords(const McapMessage& message) {
+  addOwn(message, logTime(message), decode<Words>(message)->data);
+}
+
+void Bag::takeMap(const McapMessage& message) {
+  map = *decode<OccupancyGrid>(message);
+  const Pose2 origin = toPose2(map->origin);
+  constexpr double kLevel = 1e-6;  // [rad]
+  if (!(map->resolution > 0.0F) || !std::isfinite(map->resolution) || !isFinite(origin) ||
+      std::abs(origin.theta) > kLevel || map->width == 0 || map->height == 0 ||
+      map->data.size() / map->width != map->height || map->data.size() % map->width != 0)
+    refuse(message, "found a map of " + std::to_string(map->width) + " x " +
+                        std::to_string(map->height) + " cells of " +
+                        std::to_string(map->resolution) + " m with " +
+                        std::to_string(map->data.size()) + " values, turned by " +
+                        std::to_string(origin.theta) + " rad, expected a value a cell, not turned");
+}
+
+/// Which odometry and truth count, and which frame is the robot's, once all is known.
+void Bag::choose() {
+  const std::string& wanted = choice_.odometry;
+  std::size_t at = 0;
+  while (at < odometries_.size() && !wanted.empty() && odometries_[at].topic != wanted) ++at;
+  if (at < odometries_.size()) {
+    odometry = std::move(odometries_[at]);
+    base = odometryFrames_[at];
+  } else if (!wanted.empty() && wanted != "tf") {
+    throw std::runtime_error(file_ + ": found no topic " + inQuotes(wanted) +
+                             " with nav_msgs/msg/Odometry, which the option odometry names");
+  }
+  if (!choice_.base.empty()) base = choice_.base;
+  if (base.empty()) base = frames.hasFrame("base_footprint") ? "base_footprint" : "base_link";
+  std::string inOdometry;  // the frame that the robot moves in
+  std::optional<Pose2> odometryInMap;
+  for (const TimedTransform& one : moving_) {
+    if (one.child == base) {
+      inOdometry = one.parent;
+      if (odometry.topic.empty() || odometry.topic == "/tf") {
+        odometry.topic = "/tf";
+        odometry.list.push_back({one.stamp, one.pose});
+      }
+      if (choice_.truth == "tf" && odometryInMap)
+        truth.list.push_back({one.stamp, *odometryInMap * one.pose});
+    } else if (one.child == inOdometry) {
+      odometryInMap = one.pose;
+    }
+  }
+  if (choice_.truth == "tf") truth.topic = "/tf";
+  if (!choice_.truth.empty() && choice_.truth != "none" && truth.list.empty())
+    throw std::runtime_error(file_ + ": found no pose at " + inQuotes(choice_.truth) +
+                             ", which the option truth names");
+}
+
+}  // namespace ortung::ros2

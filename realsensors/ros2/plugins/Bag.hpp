@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "FrameTree.hpp"
+#include "ScanShape.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Time.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/ros2/McapReader.hpp"
+
+namespace ortung::ros2 {
+
+/// What to take from a bag. A list of topics that is not given: all of that type.
+struct BagChoice {
+  std::optional<std::vector<std::string>> scans, ranges, images;
+  std::string odometry;  ///< a topic, "tf", or "": the first one, or else tf
+  std::string truth;     ///< a topic, "tf", "none", or "": one that is called ground truth
+  std::string map;       ///< a topic, or "": the first one
+  std::string base;      ///< frame of the robot; "": that of odometry
+  bool usesLogTime = false;
+  static BagChoice read(const Parameters& options);
+};
+
+/// A robot's messages as they were in a bag of ROS 2 that was recorded as MCAP: one file, or the
+/// folder of a bag with its files. Not thread-safe.
+class Bag {
+ public:
+  struct Scan {
+    Timestamp stamp;
+    std::vector<float> ranges;
+  };
+  struct Scans {
+    std::string topic, feature;  ///< feature: as Ortung's own files name it, or ""
+    std::optional<ScanShape> shape;
+    std::vector<Scan> list;
+    std::size_t others = 0;  ///< that did not fit, and were left out
+  };
+  struct Reading {
+    Timestamp stamp;
+    float range;
+  };
+  struct Ranges {
+    std::string topic, feature, frame;
+    double openingAngle = 0.0, maxRange = 0.0;  ///< [rad], [m]
+    std::vector<Reading> list;
+  };
+  struct Moving {
+    Timestamp stamp;
+    Pose2 pose;
+    double forward = 0.0, left = 0.0, turn = 0.0;  ///< [m/s], [rad/s]
+  };
+  struct Track {
+    std::string topic, feature;
+    std::vector<Moving> list;
+  };
+  struct Picture {
+    Timestamp stamp;
+    std::vector<std::uint32_t> words;
+  };
+  struct Pictures {
+    std::string topic, feature, frame;
+    std::vector<Picture> list;
+  };
+  struct OwnWords {
+    std::string feature;
+    std::vector<Picture> list;
+  };
+
+  /// @throws std::runtime_error
+  Bag(const std::filesystem::path& path, const BagChoice& choice);
+
+  std::vector<Scans> scans;
+  std::vector<Ranges> ranges;
+  std::vector<Pictures> pictures;
+  Track odometry, truth;
+  std::map<std::string, OwnWords> own;  ///< what Ortung's own files hold as words, by topic
+  FrameTree frames;
+  std::string base;  ///< frame of the robot
+  std::optional<OccupancyGrid> map;
+  std::string robotToml;             ///< that Ortung put into its file, or ""
+  std::vector<std::string> remarks;  ///< what whoever reads it should know
+
+ private:
+  void readFile(const std::filesystem::path& file);
+  void take(const McapMessage& message, const std::string& name);
+  template <class M>
+  std::optional<M> decode(const McapMessage& message) const;
+  Timestamp stampOf(const Header& header, const McapMessage& message) const;
+  void takeScan(const McapMessage& message);
+  void takeRange(const McapMessage& message);
+  void takeImage(const McapMessage& message);
+  void takeOdometry(const McapMessage& message);
+  void takeTransforms(const McapMessage& message);
+  void takePose(const McapMessage& message);
+  void takeMap(const McapMessage& message);
+  void takeWords(const McapMessage& message);
+  void addOwn(const McapMessage& message, Timestamp stamp, std::vector<std::uint32_t> words);
+  Timestamp logTime(const McapMessage& message) const;
+  bool isTruth(const McapMessage& message) const;
+  void addTruth(const McapMessage& message, const Header& header, const Pose& pose);
+  void refuse(const McapMessage& message, const std::string& what) const;
+  void keep(std::size_t bytes);
+  void choose();
+
+  struct TimedTransform {
+    Timestamp stamp;
+    std::string parent, child;
+    Pose2 pose;
+  };
+  BagChoice choice_;
+  std::string file_;
+  std::vector<Track> odometries_;
+  std::vector<std::string> odometryFrames_;  ///< the robot's, by odometries_
+  std::vector<TimedTransform> moving_;
+  std::size_t kept_ = 0;  ///< bytes
+  std::map<std::string, std::size_t> unfit_;
+};
+
+}  // namespace ortung::ros2

@@ -1,0 +1,55 @@
+#include "FrameTree.hpp"
+
+#include <cmath>
+
+namespace ortung::ros2 {
+namespace {
+
+constexpr std::size_t kMostFrames = 4096;
+constexpr double kFarthest = 1e6;  // [m]
+
+}  // namespace
+
+void FrameTree::add(const TransformStamped& transform, bool isStatic) {
+  const auto& [position, q] = transform.transform;
+  const Eigen::Vector3d place(position.x, position.y, position.z);
+  const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
+  constexpr double kLeast = 1e-3;  // of a quaternion's length, which should be 1
+  if (!place.allFinite() || place.norm() > kFarthest || !(turn.norm() > kLeast) ||
+      !std::isfinite(turn.norm()))
+    return;
+  const auto known = links_.find(transform.childFrame);
+  if (known == links_.end() ? links_.size() >= kMostFrames : known->second.isStatic && !isStatic)
+    return;
+  Link link{transform.header.frame, Eigen::Isometry3d::Identity(), isStatic};
+  link.pose = Eigen::Translation3d(place) * turn.normalized();
+  links_.insert_or_assign(transform.childFrame, std::move(link));
+}
+
+bool FrameTree::hasFrame(const std::string& frame) const { return links_.contains(frame); }
+
+std::pair<std::string, Eigen::Isometry3d> FrameTree::climb(std::string frame,
+                                                           const std::string& base,
+                                                           bool staticAlone) const {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (std::size_t steps = 0; steps < kMostFrames; ++steps) {  // a circle ends, too
+    const auto link = links_.find(frame);
+    if (link == links_.end() || (!link->second.isStatic && (staticAlone || frame == base))) break;
+    pose = link->second.pose * pose;
+    frame = link->second.parent;
+  }
+  return {std::move(frame), pose};
+}
+
+std::optional<Eigen::Isometry3d> FrameTree::find(const std::string& frame,
+                                                 const std::string& base) const {
+  if (frame == base) return Eigen::Isometry3d::Identity();
+  for (const bool staticAlone : {true, false}) {
+    const auto [root, inRoot] = climb(frame, base, staticAlone);
+    const auto [baseRoot, baseInRoot] = climb(base, base, staticAlone);
+    if (root == baseRoot) return baseInRoot.inverse() * inRoot;
+  }
+  return std::nullopt;
+}
+
+}  // namespace ortung::ros2

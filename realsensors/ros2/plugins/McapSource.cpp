@@ -1,0 +1,292 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "Bag.hpp"
+#include "ortung/base/Angles.hpp"
+#include "ortung/base/NewFile.hpp"
+#include "ortung/core/Plugin.hpp"
+#include "ortung/core/SourceHelp.hpp"
+#include "ortung/core/SourceOptions.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/ScanData.hpp"
+#include "ortung/realsensors/LogFile.hpp"
+#include "ortung/realsensors/LogSource.hpp"
+#include "ortung/realsensors/Scanner.hpp"
+#include "ortung/ros2/RobotTopics.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+constexpr double kUsefulRange = 30.0;  // [m], of scanners that do not tell theirs
+
+/// A float of a message as the decimal that it was made of.
+double plain(double number) { return std::round(number * 1e6) / 1e6; }
+
+std::string cleaned(const std::string& topic) {
+  std::string name;
+  for (const char c : topic) {
+    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (isPlain)
+      name += c;
+    else if (!name.empty())
+      name += '_';
+  }
+  constexpr std::size_t kLongest = 48;
+  return name.empty() ? "topic" : name.substr(0, kLongest);
+}
+
+/// A bag of ROS 2 that was recorded as MCAP: laser scans, odometry, ranges, poses, and where the
+/// sensors sit.
+class McapSource : public LogSource {
+ public:
+  explicit McapSource(const Parameters& options)
+      : path_(options.text("path")), maxRange_(optionNumber(options, "max_range_m", {0.1, 1000})) {
+    options.textOr("robot_file", "");
+    const BagChoice choice = BagChoice::read(options);
+    readMounts(options);
+    Bag bag(path_, choice);
+    if (!bag.odometry.list.empty()) addOdometry(bag);
+    for (const Bag::Scans& scans : bag.scans) addScans(bag, scans);
+    for (const Bag::Ranges& ranges : bag.ranges) addRanges(bag, ranges);
+    for (const Bag::Pictures& pictures : bag.pictures) addPictures(pictures);
+    if (!bag.truth.list.empty()) addTruth(bag.truth);
+    for (const auto& [topic, own] : bag.own) addOwn(topic, own);
+    map_ = std::move(bag.map);
+    if (!bag.robotToml.empty()) toml_ = bag.robotToml;
+    remarks_.insert(remarks_.end(), bag.remarks.begin(), bag.remarks.end());
+    finish(path_);
+  }
+
+  std::string remark() const override {
+    std::string text;
+    for (const std::string& one : remarks_) text += (text.empty() ? "" : "; ") + one;
+    return text;
+  }
+  std::string robotToml() const override {
+    return toml_.empty() ? robotHead(path_) + sensors_ : toml_;
+  }
+  void writeWorld(const std::filesystem::path& file) const override;
+
+ private:
+  void readMounts(const Parameters& options);
+  void addOdometry(const Bag& bag);
+  void addScans(const Bag& bag, const Bag::Scans& scans);
+  void addRanges(const Bag& bag, const Bag::Ranges& ranges);
+  void addPictures(const Bag::Pictures& pictures);
+  void addTruth(const Bag::Track& truth);
+  void addOwn(const std::string& topic, const Bag::OwnWords& own);
+  /// The name that Ortung's own files give, if it is one; else @p fallback; no name twice.
+  SensorId idFor(const std::string& feature, SensorId fallback);
+  /// Where a sensor sits, and whether it hangs upside down.
+  std::pair<Pose2, bool> mountOf(const Bag& bag, const std::string& frame, const std::string& topic,
+                                 bool isScanner);
+
+  std::string path_;
+  std::optional<double> maxRange_;
+  std::map<std::string, Pose2> mounts_;  ///< by frame, as options say
+  std::set<std::string> names_;
+  std::map<std::string, std::uint32_t> numbers_;  ///< of features, by name
+  std::string sensors_;                           ///< TOML
+  std::string toml_;                              ///< whole, of Ortung's own files
+  std::vector<std::string> remarks_;
+  std::optional<OccupancyGrid> map_;
+};
+
+void McapSource::readMounts(const Parameters& options) {
+  std::string rest = options.textOr("mounts", "");
+  while (!rest.empty()) {
+    const std::string one = rest.substr(0, rest.find(';'));
+    rest.erase(0, one.size() + 1);
+    const std::size_t colon = one.rfind(':');
+    const auto numbers =
+        colon == one.npos ? std::nullopt : parseNumbers(std::string_view(one).substr(colon + 1));
+    if (!numbers || numbers->size() != 3)
+      options.fail("mounts", "has '" + one +
+                                 "', must be FRAME:x,y,theta in m and degrees, and ';' "
+                                 "between two");
+    mounts_[one.substr(0, colon)] = {(*numbers)[0], (*numbers)[1],
+                                     wrapAngle(radians((*numbers)[2]))};
+  }
+}
+
+SensorId McapSource::idFor(const std::string& feature, SensorId fallback) {
+  SensorId id = std::move(fallback);
+  try {
+    if (!feature.empty()) id = parseSensorId(feature);
+  } catch (const std::invalid_argument&) {
+    remarks_.push_back("a channel calls its feature " + inQuotes(feature) + ", which is no name");
+  }
+  const std::string wanted = id.feature;
+  for (int i = 2; !names_.insert(toText(id)).second; ++i) id.feature = wanted + std::to_string(i);
+  return id;
+}
+
+std::pair<Pose2, bool> McapSource::mountOf(const Bag& bag, const std::string& frame,
+                                           const std::string& topic, bool isScanner) {
+  if (const auto told = mounts_.find(frame); told != mounts_.end()) return {told->second, false};
+  const auto found = bag.frames.find(frame, bag.base);
+  if (!found) {
+    remarks_.push_back("where the frame " + inQuotes(frame) + " of " + topic + " sits in " +
+                       inQuotes(bag.base) +
+                       " is not told: it was put there; the option mounts tells it");
+    return {Pose2(), false};
+  }
+  const Eigen::Matrix3d turn = found->linear();
+  constexpr double kUpright = 0.98;  // cosine of some 11 degrees
+  if (isScanner && std::abs(turn(2, 2)) < kUpright)
+    throw std::runtime_error(path_ + ": the scanner of " + topic + " is tilted by " +
+                             std::to_string(static_cast<int>(degrees(std::acos(turn(2, 2))))) +
+                             " degrees, expected one that looks level; the option scans leaves it "
+                             "out");
+  const Eigen::Vector3d place = found->translation();
+  return {{plain(place.x()), plain(place.y()), std::atan2(turn(1, 0), turn(0, 0))},
+          isScanner && turn(2, 2) < 0.0};
+}
+
+void McapSource::addOdometry(const Bag& bag) {
+  const SensorId id = idFor(bag.odometry.feature, {"odometry", "odometry", "pose"});
+  const auto feature = addFeature(id);
+  numbers_[toText(id)] = feature;
+  if (bag.odometry.topic != "/tf") {
+    for (const Bag::Moving& one : bag.odometry.list)
+      add(feature, one.stamp,
+          OdometryData::encode({one.pose, one.forward, one.turn, {}, one.left}));
+    return;
+  }
+  auto list = bag.odometry.list;
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  PoseOdometry odometry;
+  for (const Bag::Moving& one : list) add(feature, one.stamp, odometry.words(one.stamp, one.pose));
+}
+
+void McapSource::addScans(const Bag& bag, const Bag::Scans& scans) {
+  const bool isOnly = bag.scans.size() == 1;
+  const SensorId id =
+      idFor(scans.feature, {isOnly ? "laser" : cleaned(scans.topic), "LRF", "scan"});
+  const auto feature = addFeature(id);
+  const auto [mount, isUpsideDown] = mountOf(bag, scans.shape->frame(), scans.topic, true);
+  Scanner scanner = scans.shape->scanner(isUpsideDown);
+  scanner.mount = mount;
+  const double told = scans.shape->maxRange() > 0.0 ? plain(scans.shape->maxRange()) : kUsefulRange;
+  scanner.maxRange = maxRange_.value_or(told);
+  const bool isReversed = scans.shape->isClockwise() != isUpsideDown;
+  std::vector<Timestamp> stamps;
+  std::vector<std::uint32_t> words;
+  for (const Bag::Scan& scan : scans.list) {
+    ScanData::encode(scan.ranges, *scanner.maxRange, words);
+    if (isReversed) std::reverse(words.begin(), words.end());
+    add(feature, scan.stamp, words);
+    stamps.push_back(scan.stamp);
+  }
+  sensors_ += scannerToml(scanner, std::clamp(medianPeriod(stamps), 0.001, 3600.0), id);
+}
+
+void McapSource::addRanges(const Bag& bag, const Bag::Ranges& ranges) {
+  SensorId id = idFor(ranges.feature, {"sonar", "ultrasonic", cleaned(ranges.topic) + "_0"});
+  const auto feature = addFeature(id);
+  const Pose2 mount = mountOf(bag, ranges.frame, ranges.topic, false).first;
+  const double maxRange = plain(ranges.maxRange);
+  for (const Bag::Reading& one : ranges.list) {
+    const float range = one.range > 0.0F ? one.range : std::numeric_limits<float>::quiet_NaN();
+    const std::uint32_t word = ConeData::encode(static_cast<double>(range), maxRange);
+    add(feature, one.stamp, {&word, 1});
+  }
+  if (id.feature.ends_with("0")) id.feature.pop_back();  // the plugin numbers its sonars
+  sensors_ +=
+      "\n[[sensor]]\nplugin = \"sonar\"\nmodel = " + tomlText(id.model) +
+      "\ntype = " + tomlText(id.type) + "\nfeature = " + tomlText(id.feature) +
+      "\npose = { x_m = " + tomlNumber(mount.x) + ", y_m = " + tomlNumber(mount.y) +
+      ", theta_deg = " + tomlNumber(plain(degrees(mount.theta))) +
+      " }\nring_radius_m = 0.0\nopening_deg = " + tomlNumber(plain(degrees(ranges.openingAngle))) +
+      "\nmax_range_m = " + tomlNumber(maxRange) + "\n";
+}
+
+void McapSource::addPictures(const Bag::Pictures& pictures) {
+  const auto feature =
+      addFeature(idFor(pictures.feature, {cleaned(pictures.topic), "camera", "image"}));
+  for (const Bag::Picture& one : pictures.list) add(feature, one.stamp, one.words);
+}
+
+void McapSource::addTruth(const Bag::Track& truth) {
+  const auto feature = addFeature(idFor(truth.feature, {"reference", "groundTruth", "pose"}));
+  for (const Bag::Moving& one : truth.list) add(feature, one.stamp, PoseData::encode(one.pose));
+}
+
+/// Words stand for whatever a message says of the same feature at the same time.
+void McapSource::addOwn(const std::string& topic, const Bag::OwnWords& own) {
+  const auto known = numbers_.find(own.feature);
+  const auto feature = known != numbers_.end()
+                           ? known->second
+                           : addFeature(idFor(own.feature, {"ros", "words", cleaned(topic)}));
+  for (const Bag::Picture& one : own.list) add(feature, one.stamp, one.words);
+}
+
+/// The map as map_server has it, and a world that consists of it.
+void McapSource::writeWorld(const std::filesystem::path& file) const {
+  if (!map_)
+    throw std::runtime_error(path_ +
+                             ": found no nav_msgs/msg/OccupancyGrid, expected one to make "
+                             "a world of");
+  constexpr int kOccupiedFrom = 65;  // as map_server's own map_saver has it
+  constexpr int kFreeTo = 25;
+  constexpr char kOccupied = 0;
+  constexpr char kUnknown = static_cast<char>(205);
+  constexpr char kFree = static_cast<char>(254);
+  std::string picture =
+      "P5\n" + std::to_string(map_->width) + " " + std::to_string(map_->height) + "\n255\n";
+  for (std::size_t row = map_->height; row-- > 0;) {
+    for (std::size_t column = 0; column < map_->width; ++column) {
+      const int value = map_->data[row * map_->width + column];
+      picture += value >= kOccupiedFrom           ? kOccupied
+                 : value >= 0 && value <= kFreeTo ? kFree
+                                                  : kUnknown;
+    }
+  }
+  std::filesystem::path image = file;
+  image.replace_extension(".pgm");
+  std::filesystem::path yaml = file;
+  yaml.replace_extension(".yaml");
+  writeFile(image, picture);
+  writeFile(yaml, "image: " + image.filename().string() +
+                      "\nresolution: " + tomlNumber(plain(static_cast<double>(map_->resolution))) +
+                      "\norigin: [" + tomlNumber(map_->origin.position.x) + ", " +
+                      tomlNumber(map_->origin.position.y) +
+                      ", 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  writeFile(file, "[world]\nname = " + tomlText(file.stem().string()) + "\n\n[[grid]]\nmap = " +
+                      tomlText(yaml.filename().string()) + "\nsurface_depth_cells = 0.5\n");
+}
+
+/// What `ortung import mcap --help` tells.
+class McapHelp : public SourceHelp {
+ public:
+  explicit McapHelp(const Parameters&)
+      : SourceHelp(
+            "MCAP file of ROS 2, or folder of a bag with such files",
+            {{"scans", "", "all", "topics of sensor_msgs/LaserScan, with commas between them"},
+             {"ranges", "", "all", "topics of sensor_msgs/Range"},
+             {"images", "", "none", "topics of sensor_msgs/Image (rgb8, bgr8, mono8)"},
+             {"odometry", "", "the first",
+              "topic of nav_msgs/Odometry, or tf: the frame of the robot as /tf moves it"},
+             {"truth", "", "a topic called ground truth",
+              "topic of poses or odometry that is the reference; tf: the robot in the map as /tf "
+              "tells; none"},
+             {"map", "", "the first", "topic of nav_msgs/OccupancyGrid, for --world"},
+             {"base", "", "that of odometry", "frame of the robot"},
+             {"mounts", "x,y,theta in m and degrees", "as /tf_static tells",
+              "where sensors sit: FRAME:x,y,theta, and ';' between two"},
+             {"max_range_m", "m", "the scan's, or 30",
+              "ranges from here on mean that nothing was seen"},
+             {"stamps", "", "header", "header: times of measurement; log: of recording"}}) {}
+};
+
+}  // namespace
+}  // namespace ortung::ros2
+
+ORTUNG_PLUGINS("mcap_source", ortung::provide<ortung::Source, ortung::ros2::McapSource>("mcap"),
+               ortung::provide<ortung::SourceHelp, ortung::ros2::McapHelp>("mcap"));

@@ -1,0 +1,81 @@
+#include "ScanShape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "ortung/base/Angles.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+constexpr std::size_t kMostBeams = 8192;
+constexpr double kMostMetres = 1000.0;
+
+/// What a range means (REP 117): below the least or no number: not valid; beyond the greatest:
+/// nothing seen.
+float meaning(float range) {
+  return range > 0.0F ? range : std::numeric_limits<float>::quiet_NaN();
+}
+
+}  // namespace
+
+ScanShape::ScanShape(const LaserScan& first)
+    : frame_(first.header.frame),
+      first_(static_cast<double>(first.angleMin)),
+      step_(static_cast<double>(first.angleIncrement)),
+      told_(first.ranges.size()),
+      beams_(first.ranges.size()) {
+  if (!std::isfinite(first_) || !std::isfinite(step_) || step_ == 0.0 ||
+      std::abs(first_) > 2 * kTurn || beams_ == 0)
+    throw std::invalid_argument("found " + std::to_string(beams_) + " beams from " +
+                                std::to_string(first_) + " rad on, " + std::to_string(step_) +
+                                " rad apart, expected at least one, within a turn");
+  // Scanners that see all around tell the first beam again at the end.
+  constexpr double kRounded = 0.01;  // beams
+  beams_ = std::min(beams_, static_cast<std::size_t>(
+                                std::max(1.0, std::floor(kTurn / std::abs(step_) + kRounded))));
+  if (beams_ > kMostBeams)
+    throw std::invalid_argument("found " + std::to_string(beams_) + " beams, expected at most " +
+                                std::to_string(kMostBeams));
+  const auto most = static_cast<double>(first.rangeMax);
+  if (std::isfinite(most) && most > 0.0 && most <= kMostMetres) maxRange_ = most;
+}
+
+bool ScanShape::isSame(const LaserScan& scan) const {
+  return scan.ranges.size() == told_ && static_cast<double>(scan.angleMin) == first_ &&
+         static_cast<double>(scan.angleIncrement) == step_;
+}
+
+std::vector<float> ScanShape::fit(const LaserScan& scan) const {
+  std::vector<float> ranges(beams_, std::numeric_limits<float>::quiet_NaN());
+  if (isSame(scan)) {
+    std::transform(scan.ranges.begin(), scan.ranges.begin() + static_cast<std::ptrdiff_t>(beams_),
+                   ranges.begin(), meaning);
+    return ranges;
+  }
+  const auto first = static_cast<double>(scan.angleMin);
+  const auto step = static_cast<double>(scan.angleIncrement);
+  if (!std::isfinite(first) || !std::isfinite(step) || step * step_ <= 0.0) return {};
+  bool isAny = false;
+  for (std::size_t i = 0; i < beams_; ++i) {
+    const double at = std::round((first_ + step_ * static_cast<double>(i) - first) / step);
+    if (!(at >= 0.0 && at < static_cast<double>(scan.ranges.size()))) continue;
+    ranges[i] = meaning(scan.ranges[static_cast<std::size_t>(at)]);
+    isAny = true;
+  }
+  return isAny ? ranges : std::vector<float>();
+}
+
+Scanner ScanShape::scanner(bool isUpsideDown) const {
+  Scanner scanner;
+  scanner.beams = static_cast<int>(beams_);
+  scanner.angleStep = std::min(std::abs(step_), kTurn / static_cast<double>(beams_));
+  const double last = first_ + step_ * static_cast<double>(beams_ - 1);
+  const double lowest = isUpsideDown ? -std::max(first_, last) : std::min(first_, last);
+  scanner.firstAngle = std::abs(lowest) <= kTurn ? lowest : wrapAngle(lowest);
+  return scanner;
+}
+
+}  // namespace ortung::ros2

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "ortung/ros2/Messages.hpp"
+
+// The fields of each message in their order, for writers and readers alike.
+namespace ortung::ros2 {
+
+/// M, perhaps const.
+template <class T, class M>
+concept Is = std::same_as<std::remove_const_t<T>, M>;
+
+template <class A>
+void fields(A& a, Is<Header> auto& m) {
+  a.time(m.stamp);
+  a(m.frame);
+}
+template <class A>
+void fields(A& a, Is<Vector3> auto& m) {
+  a(m.x);
+  a(m.y);
+  a(m.z);
+}
+template <class A>
+void fields(A& a, Is<Quaternion> auto& m) {
+  a(m.x);
+  a(m.y);
+  a(m.z);
+  a(m.w);
+}
+template <class A>
+void fields(A& a, Is<Pose> auto& m) {
+  a(m.position);
+  a(m.orientation);
+}
+template <class A>
+void fields(A& a, Is<LaserScan> auto& m) {
+  a(m.header);
+  a(m.angleMin);
+  a(m.angleMax);
+  a(m.angleIncrement);
+  a(m.timeIncrement);
+  a(m.scanTime);
+  a(m.rangeMin);
+  a(m.rangeMax);
+  a(m.ranges);
+  a(m.intensities);
+}
+template <class A>
+void fields(A& a, Is<Odometry> auto& m) {
+  a(m.header);
+  a(m.childFrame);
+  a(m.pose);
+  a(m.poseCovariance);
+  a(m.linear);
+  a(m.angular);
+  a(m.twistCovariance);
+}
+template <class A>
+void fields(A& a, Is<TransformStamped> auto& m) {
+  a(m.header);
+  a(m.childFrame);
+  a(m.transform);
+}
+template <class A>
+void fields(A& a, Is<TfMessage> auto& m) {
+  a(m.transforms);
+}
+template <class A>
+void fields(A& a, Is<PoseStamped> auto& m) {
+  a(m.header);
+  a(m.pose);
+}
+template <class A>
+void fields(A& a, Is<PoseWithCovarianceStamped> auto& m) {
+  a(m.header);
+  a(m.pose);
+  a(m.covariance);
+}
+template <class A>
+void fields(A& a, Is<PoseArray> auto& m) {
+  a(m.header);
+  a(m.poses);
+}
+template <class A>
+void fields(A& a, Is<OccupancyGrid> auto& m) {
+  a(m.header);
+  a.time(m.mapLoadTime);
+  a(m.resolution);
+  a(m.width);
+  a(m.height);
+  a(m.origin);
+  a(m.data);
+}
+template <class A>
+void fields(A& a, Is<Range> auto& m) {
+  a(m.header);
+  a(m.radiationType);
+  a(m.fieldOfView);
+  a(m.minRange);
+  a(m.maxRange);
+  a(m.range);
+}
+template <class A>
+void fields(A& a, Is<Image> auto& m) {
+  a(m.header);
+  a(m.height);
+  a(m.width);
+  a(m.encoding);
+  a(m.isBigEndian);
+  a(m.step);
+  a(m.data);
+}
+
+template <class A>
+void fields(A& a, Is<Words::Dimension> auto& m) {
+  a(m.label);
+  a(m.size);
+  a(m.stride);
+}
+template <class A>
+void fields(A& a, Is<Words> auto& m) {
+  a(m.dimensions);
+  a(m.offset);
+  a(m.data);
+}
+
+}  // namespace ortung::ros2

@@ -1,0 +1,39 @@
+#include "ortung/ros2/Messages.hpp"
+
+#include "Cdr.hpp"
+
+namespace ortung::ros2 {
+
+template <class M>
+std::string toCdr(const M& message) {
+  CdrWriter writer;
+  writer(message);
+  return writer.take();
+}
+
+template <class M>
+std::optional<M> fromCdr(std::string_view bytes, std::string& why) {
+  CdrReader reader(bytes);
+  std::optional<M> message(std::in_place);
+  reader(*message);
+  why = reader.why();
+  if (!why.empty()) message.reset();
+  return message;
+}
+
+#define ORTUNG_ROS2_MESSAGE(M)                     \
+  template ORTUNG_API std::string toCdr(const M&); \
+  template ORTUNG_API std::optional<M> fromCdr(std::string_view, std::string&);
+ORTUNG_ROS2_MESSAGE(LaserScan)
+ORTUNG_ROS2_MESSAGE(Odometry)
+ORTUNG_ROS2_MESSAGE(TfMessage)
+ORTUNG_ROS2_MESSAGE(PoseStamped)
+ORTUNG_ROS2_MESSAGE(PoseWithCovarianceStamped)
+ORTUNG_ROS2_MESSAGE(PoseArray)
+ORTUNG_ROS2_MESSAGE(OccupancyGrid)
+ORTUNG_ROS2_MESSAGE(Range)
+ORTUNG_ROS2_MESSAGE(Image)
+ORTUNG_ROS2_MESSAGE(Words)
+#undef ORTUNG_ROS2_MESSAGE
+
+}  // namespace ortung::ros2

@@ -1,0 +1,131 @@
+#include "ReadingMessages.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "ortung/camera/ImageData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/Words.hpp"
+#include "ortung/ros2/RobotTopics.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+/// Places in a covariance of six dimensions of those of x, y and heading.
+constexpr std::size_t kPlanar[3] = {0, 1, 5};
+
+float rangeOf(std::uint32_t word, double maxRange) {
+  const double range = words::toMetres(word);
+  if (word == 0) return std::numeric_limits<float>::quiet_NaN();
+  return range >= maxRange ? std::numeric_limits<float>::infinity() : static_cast<float>(range);
+}
+
+}  // namespace
+
+Pose fromPose2(const Pose2& pose) {
+  return {{pose.x, pose.y, 0.0}, {0.0, 0.0, std::sin(pose.theta / 2), std::cos(pose.theta / 2)}};
+}
+
+Pose2 toPose2(const Pose& pose) {
+  const Quaternion& q = pose.orientation;
+  const double sine = 2.0 * (q.w * q.z + q.x * q.y);
+  const double cosine = q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z;
+  const double length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  const double theta =
+      length > 0.0 ? std::atan2(sine, cosine) : std::numeric_limits<double>::quiet_NaN();
+  return {pose.position.x, pose.position.y, theta};
+}
+
+std::int64_t rosTime(Timestamp stamp) {
+  constexpr Timestamp kEnd = Timestamp{1} << 31;  // [s]
+  if (stamp < 0 || stamp / 1'000'000 >= kEnd)
+    throw std::invalid_argument("a stamp of " + std::to_string(stamp) +
+                                " us, expected one that ROS has: from 0 on, below 2^31 s");
+  return stamp * 1000;
+}
+
+Odometry odometryMessage(const Message& reading, Header header, const char* child) {
+  OdometryData data(reading.id);
+  data.setData(reading.stamp, reading.words);
+  const OdometryData::Reading& state = data.reading();
+  Odometry out;
+  out.header = std::move(header);
+  out.childFrame = child;
+  out.pose = fromPose2(state.pose);
+  out.linear = {state.translationalVelocity, state.lateralVelocity, 0.0};
+  out.angular = {0.0, 0.0, state.rotationalVelocity};
+  return out;
+}
+
+bool hasMotionData(const Message& reading) {
+  OdometryData data(reading.id);
+  data.setData(reading.stamp, reading.words);
+  return !data.reading().motionData.empty();
+}
+
+LaserScan scanMessage(const Message& reading, const ScanData::Config& config, Header header) {
+  LaserScan out;
+  out.header = std::move(header);
+  out.angleMin = static_cast<float>(config.firstAngle);
+  out.angleMax = static_cast<float>(config.firstAngle + config.angleStep * (config.beams - 1));
+  out.angleIncrement = static_cast<float>(config.angleStep);
+  out.rangeMin = static_cast<float>(config.minRange);
+  out.rangeMax = static_cast<float>(config.maxRange);
+  out.ranges.reserve(reading.words.size());
+  for (const std::uint32_t word : reading.words)
+    out.ranges.push_back(rangeOf(word, config.maxRange));
+  return out;
+}
+
+Range rangeMessage(const Message& reading, const ConeData::Config& config, Header header) {
+  Range out;
+  out.header = std::move(header);
+  out.fieldOfView = static_cast<float>(config.openingAngle);
+  out.maxRange = static_cast<float>(config.maxRange);
+  out.range = rangeOf(reading.words.at(0), config.maxRange);
+  return out;
+}
+
+Image imageMessage(const Message& reading, Header header) {
+  ImageData data(reading.id, {});
+  data.setData(reading.stamp, reading.words);
+  const ImageView view = data.reading();
+  Image out;
+  out.header = std::move(header);
+  out.height = static_cast<std::uint32_t>(view.size.height);
+  out.width = static_cast<std::uint32_t>(view.size.width);
+  out.encoding = view.format == PixelFormat::kGrey ? "mono8" : "rgb8";
+  out.step = out.width * static_cast<std::uint32_t>(view.channels());
+  out.data.assign(view.pixels, view.pixels + view.bytes());
+  return out;
+}
+
+std::optional<PoseWithCovarianceStamped> poseMessage(const Message& reading, Header header) {
+  PoseFixData data(reading.id, {});
+  data.setData(reading.stamp, reading.words);
+  if (data.reading().empty()) return std::nullopt;
+  const PoseFixData::Fix& fix = data.reading().front();
+  PoseWithCovarianceStamped out{std::move(header), fromPose2(fix.pose), {}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      out.covariance[kPlanar[i] * 6 + kPlanar[j]] = fix.covariance[i * 3 + j];
+  return out;
+}
+
+PoseArray samplesMessage(const Message& reading, Header header) {
+  constexpr std::size_t kWords = 4;  // a sample: x, y, heading, weight
+  if (reading.words.size() % kWords != 0)
+    throw std::invalid_argument(toText(reading.id) + ": found " +
+                                std::to_string(reading.words.size()) +
+                                " words, expected four a sample");
+  PoseArray out{std::move(header), {}};
+  for (std::size_t i = 0; i < reading.words.size(); i += kWords)
+    out.poses.push_back(fromPose2({words::toSignedMetres(reading.words[i]),
+                                   words::toSignedMetres(reading.words[i + 1]),
+                                   words::toAngle(reading.words[i + 2] % words::kAngles)}));
+  return out;
+}
+
+}  // namespace ortung::ros2

@@ -1,0 +1,226 @@
+#include "ortung/ros2/RobotTopics.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "ReadingMessages.hpp"
+#include "ortung/camera/ImageData.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/ScanData.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+constexpr const char* kMap = "map";
+constexpr const char* kOdom = "odom";
+constexpr const char* kBase = "base_link";
+const SensorId kEstimate{"mcl", "LOCALIZATION", "pose"};
+const SensorId kSamples{"mcl", "LOCALIZATION", "samples"};
+
+/// Part of a name as ROS has them: letters, digits and '_', no digit first.
+std::string cleaned(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    text += isPlain ? c : '_';
+  }
+  return text[0] >= '0' && text[0] <= '9' ? "n" + text : text;
+}
+
+TransformStamped transform(const char* frame, std::string child, const Pose2& pose,
+                           std::int64_t stamp) {
+  return {{stamp, frame}, std::move(child), fromPose2(pose)};
+}
+
+}  // namespace
+
+struct RobotTopics::Parts {
+  /// A feature and where its readings go.
+  struct Route {
+    const SensorData* data = nullptr;
+    std::size_t topic = 0;
+    std::string frame;  ///< of the sensor
+  };
+  const SensorContainer& container;
+  MapFrame mapFrame;
+  std::vector<Topic> topics;
+  std::set<std::string> names;
+  std::map<std::string, Route> routes;  ///< by feature
+  std::size_t tf = 0, tfStatic = 0, map = 0, pose = 0, samples = 0, truth = 0;
+  std::string odometry;  ///< the feature that the frame of odometry is of; "": none
+  std::optional<Pose2> inOdometry, newTruth, newEstimate;
+  bool isEstimated = false;
+  std::map<std::string, std::size_t> words;  ///< topic by feature
+
+  std::size_t addTopic(std::string name, std::string_view type, bool isLatched = false,
+                       std::string feature = "") {
+    const std::string wanted = name;
+    for (int i = 2; !names.insert(name).second; ++i) name = wanted + "_" + std::to_string(i);
+    topics.push_back({std::move(name), type, isLatched, std::move(feature)});
+    return topics.size() - 1;
+  }
+  void addFeatures();
+  void take(const Message& message, const Sink& sink);
+  void sendWords(const Message& message, const Sink& sink);
+  bool takeOwn(const Message& message, std::int64_t stamp, const Sink& sink);
+  void sendTransforms(Timestamp stamp, const Sink& sink);
+};
+
+namespace {
+
+/// What a topic of a feature begins with, by its format; empty if ROS has no message for it.
+std::pair<std::string, std::string_view> kindOf(const SensorData& data) {
+  if (dynamic_cast<const OdometryData*>(&data) != nullptr) return {"/odom", Odometry::kType};
+  if (dynamic_cast<const ScanData*>(&data) != nullptr) return {"/scan", LaserScan::kType};
+  if (dynamic_cast<const ConeData*>(&data) != nullptr) return {"/range", Range::kType};
+  if (dynamic_cast<const ImageData*>(&data) != nullptr) return {"/image", Image::kType};
+  if (data.id().type == "groundTruth") return {};  // has a topic anyway
+  if (dynamic_cast<const PoseFixData*>(&data) != nullptr)
+    return {"/pose_fix", PoseWithCovarianceStamped::kType};
+  return {};
+}
+
+}  // namespace
+
+void RobotTopics::Parts::addFeatures() {
+  std::map<std::string, int> count;
+  for (const auto& data : container.all()) ++count[kindOf(*data).first];
+  for (const auto& data : container.all()) {
+    const auto [name, type] = kindOf(*data);
+    if (name.empty()) continue;
+    const SensorId& id = data->id();
+    const bool isOdometry = type == Odometry::kType;
+    const std::string feature = toText(id);
+    const std::string own = cleaned(id.model) + "/" + cleaned(id.feature);
+    const bool isFirstOdometry = isOdometry && odometry.empty();
+    if (isFirstOdometry) odometry = feature;
+    const bool isShort = isFirstOdometry || (count[name] == 1 && name != "/range");
+    const std::size_t topic = addTopic(isShort ? name : name + "/" + own, type, false, feature);
+    routes[feature] = {data.get(), topic, cleaned(id.model) + "_" + cleaned(id.feature)};
+  }
+}
+
+RobotTopics::RobotTopics(const SensorContainer& container, MapFrame mapFrame)
+    : parts_(
+          new Parts{container, mapFrame, {}, {}, {}, 0, 0, 0, 0, 0, 0, "", {}, {}, {}, false, {}}) {
+  Parts& p = *parts_;
+  p.tfStatic = p.addTopic("/tf_static", TfMessage::kType, true);
+  p.map = p.addTopic("/map", OccupancyGrid::kType, true);
+  p.tf = p.addTopic("/tf", TfMessage::kType);
+  p.addFeatures();
+  p.truth = p.addTopic("/ground_truth", PoseStamped::kType);
+  p.pose = p.addTopic("/pose", PoseWithCovarianceStamped::kType, false, toText(kEstimate));
+  p.samples = p.addTopic("/particle_cloud", PoseArray::kType);
+}
+
+RobotTopics::~RobotTopics() = default;
+
+const std::vector<Topic>& RobotTopics::topics() const { return parts_->topics; }
+
+void RobotTopics::start(Timestamp stamp, const Sink& sink) const {
+  TfMessage mounts;
+  for (const auto& [feature, route] : parts_->routes) {
+    if (feature == parts_->odometry) continue;
+    mounts.transforms.push_back(transform(kBase, route.frame, route.data->mount(), rosTime(stamp)));
+  }
+  sink(parts_->tfStatic, stamp, toCdr(mounts));
+}
+
+void RobotTopics::show(OccupancyGrid map, Timestamp stamp, const Sink& sink) const {
+  map.header = {rosTime(stamp), kMap};
+  map.mapLoadTime = map.header.stamp;
+  sink(parts_->map, stamp, toCdr(map));
+}
+
+/// What no feature of the container is: ground truth and what MCL says.
+bool RobotTopics::Parts::takeOwn(const Message& message, std::int64_t stamp, const Sink& sink) {
+  const Header inMap{stamp, kMap};
+  if (message.id.type == "groundTruth") {
+    PoseData data(message.id);
+    data.setData(message.stamp, message.words);
+    newTruth = data.reading();
+    topics[truth].feature = toText(message.id);
+    sink(truth, message.stamp, toCdr(PoseStamped{inMap, fromPose2(*newTruth)}));
+  } else if (message.id == kEstimate) {
+    const auto estimate = poseMessage(message, inMap);
+    if (!estimate) return true;
+    newEstimate = toPose2(estimate->pose);
+    sink(pose, message.stamp, toCdr(*estimate));
+  } else if (message.id == kSamples) {
+    sink(samples, message.stamp, toCdr(samplesMessage(message, inMap)));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void RobotTopics::Parts::take(const Message& message, const Sink& sink) {
+  const std::int64_t stamp = rosTime(message.stamp);
+  if (takeOwn(message, stamp, sink)) return;
+  const std::string feature = toText(message.id);
+  const auto found = routes.find(feature);
+  if (found == routes.end()) return sendWords(message, sink);
+  const Route& route = found->second;
+  route.data->checkData(message.words);
+  const Header here{stamp, route.frame};
+  const auto send = [&](const auto& out) { sink(route.topic, message.stamp, toCdr(out)); };
+  if (dynamic_cast<const OdometryData*>(route.data) != nullptr) {
+    const Odometry odom = odometryMessage(message, {stamp, kOdom}, kBase);
+    if (feature == odometry) inOdometry = toPose2(odom.pose);
+    send(odom);
+    if (hasMotionData(message)) sendWords(message, sink);
+  } else if (const auto* scan = dynamic_cast<const ScanData*>(route.data)) {
+    send(scanMessage(message, scan->config(), here));
+  } else if (const auto* cone = dynamic_cast<const ConeData*>(route.data)) {
+    send(rangeMessage(message, cone->config(), here));
+  } else if (dynamic_cast<const ImageData*>(route.data) != nullptr) {
+    send(imageMessage(message, here));
+  } else if (const auto fix = poseMessage(message, {stamp, kMap})) {
+    send(*fix);
+  }
+}
+
+void RobotTopics::Parts::sendWords(const Message& message, const Sink& sink) {
+  const SensorId& id = message.id;
+  auto topic = words.find(toText(id));
+  if (topic == words.end()) {
+    const std::string name =
+        "/ortung/" + cleaned(id.model) + "/" + cleaned(id.type) + "/" + cleaned(id.feature);
+    topic = words.emplace(toText(id), addTopic(name, Words::kType, false, toText(id))).first;
+  }
+  sink(topic->second, message.stamp, toCdr(Words{{}, 0, message.words}));
+}
+
+/// Where the robot is in the frame of odometry, and where that is in the map.
+void RobotTopics::Parts::sendTransforms(Timestamp stamp, const Sink& sink) {
+  TfMessage moved;
+  if (inOdometry) moved.transforms.push_back(transform(kOdom, kBase, *inOdometry, rosTime(stamp)));
+  isEstimated = isEstimated || newEstimate.has_value();
+  const std::optional<Pose2>& inMap =
+      mapFrame == MapFrame::kBest && isEstimated ? newEstimate : newTruth;
+  if (inMap && mapFrame != MapFrame::kNone) {
+    const bool hasOdometry = inOdometry.has_value();
+    if (hasOdometry || odometry.empty())
+      moved.transforms.push_back(transform(kMap, hasOdometry ? kOdom : kBase,
+                                           hasOdometry ? *inMap * inverse(*inOdometry) : *inMap,
+                                           rosTime(stamp)));
+  }
+  newTruth.reset();
+  newEstimate.reset();
+  if (!moved.transforms.empty()) sink(tf, stamp, toCdr(moved));
+}
+
+void RobotTopics::take(std::span<const Message> frame, const Sink& sink) {
+  for (const Message& message : frame) parts_->take(message, sink);
+  bool isMoved = parts_->newTruth || parts_->newEstimate;
+  for (const Message& message : frame) isMoved |= toText(message.id) == parts_->odometry;
+  if (isMoved) parts_->sendTransforms(frame.front().stamp, sink);
+}
+
+}  // namespace ortung::ros2

@@ -1,0 +1,231 @@
+// Bags as robots of others record them, as sources.
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "LogTesting.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/ros2/McapWriter.hpp"
+#include "ortung/ros2/Messages.hpp"
+
+namespace ortung {
+namespace {
+
+using namespace ortung::testing;
+using namespace ros2;
+using Texts = std::vector<std::string>;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Writes a bag topic by topic.
+class BagMaker {
+ public:
+  template <class M>
+  BagMaker& add(const std::string& topic, const M& message, const std::string& encoding = "cdr") {
+    auto channel = channels_.find(topic);
+    if (channel == channels_.end()) {
+      const auto schema = writer_.addSchema(M::kType, "ros2msg", schemaText(M::kType));
+      channel = channels_.emplace(topic, writer_.addChannel(schema, topic, encoding, {})).first;
+    }
+    writer_.write(channel->second, ++time_, toCdr(message));
+    return *this;
+  }
+  std::string bytes() {
+    writer_.finish();
+    return bytes_;
+  }
+
+ private:
+  std::string bytes_;
+  McapWriter writer_{[this](std::string_view piece) { bytes_ += piece; }, {}};
+  std::map<std::string, std::uint16_t> channels_;
+  std::uint64_t time_ = 0;
+};
+
+LaserScan scanOf(std::int64_t stamp, const std::string& frame, std::vector<float> ranges) {
+  LaserScan scan;
+  scan.header = {stamp, frame};
+  scan.angleMin = -0.5F;
+  scan.angleIncrement = 0.5F;
+  scan.angleMax = 0.5F;
+  scan.rangeMin = 0.1F;
+  scan.rangeMax = 8.1F;
+  scan.ranges = std::move(ranges);
+  return scan;
+}
+
+TfMessage frameAt(const std::string& parent, const std::string& child, ros2::Pose pose,
+                  std::int64_t stamp = 0) {
+  return {{{{stamp, parent}, child, pose}}};
+}
+
+ros2::Odometry odometryAt(std::int64_t stamp, double x, double speed) {
+  ros2::Odometry odometry;
+  odometry.header = {stamp, "odom"};
+  odometry.childFrame = "base_footprint";
+  odometry.pose.position.x = x;
+  odometry.linear.x = speed;
+  return odometry;
+}
+
+class BagSource : public ::testing::Test {
+ protected:
+  std::string write(BagMaker& maker, const std::string& name = "run.mcap") const {
+    return "mcap:" + folder_.write(name, maker.bytes()).string();
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(BagSource, GivesScansAndOdometryInMillimetresAtTheirOwnTimes) {
+  BagMaker maker;
+  maker.add("/odom", odometryAt(2 * kSecond, 1.25, 0.5))
+      .add("/scan", scanOf(kSecond + 1999, "base_footprint",
+                           {1.5F, 0.0F, kInfinity}));  // the nanoseconds are cut off
+  maker.add("/scan", scanOf(2 * kSecond, "base_footprint", {-kInfinity, std::nanf(""), 8.2F}));
+  EXPECT_EQ(asText(readAll(write(maker))),
+            (Texts{"1000001 laser/LRF/scan 1500 0 8101",
+                   "2000000 odometry/odometry/pose 2147484898 2147483648 18000 2147484148 "
+                   "2147483648",
+                   "2000000 laser/LRF/scan 0 0 8101"}));
+}
+
+TEST_F(BagSource, SeveralScannersSitWhereTheTreeOfFramesSaysEvenUpsideDown) {
+  // base_footprint -> base_link (0.1 m up) -> front: 0.2 m ahead; rear: looks back, hangs upside
+  // down: turned by 180 degrees about its x axis, then about z.
+  BagMaker maker;
+  maker.add("/odom", odometryAt(kSecond, 0.0, 0.0))
+      .add("/tf_static", frameAt("base_footprint", "base_link", {{0, 0, 0.1}, {}}))
+      .add("/tf_static", frameAt("base_link", "front", {{0.2, 0, 0.2}, {0, 0, 0, 1}}))
+      .add("/tf_static", frameAt("base_link", "rear", {{-0.3, 0.05, 0.2}, {0, 1, 0, 0}}))
+      .add("/tf", frameAt("odom", "base_footprint", {{5, 5, 0}, {}}, kSecond))
+      .add("/front/scan", scanOf(kSecond, "front", {1.0F, 2.0F, 3.0F}))
+      .add("/rear/scan", scanOf(kSecond, "rear", {1.0F, 2.0F, 3.0F}));
+  const std::string text = write(maker);
+  const auto source = makeSource(text);
+  const auto messages = readAll(*source);
+  EXPECT_EQ(asText(only(messages, "front_scan/LRF/scan")),
+            (Texts{"1000000 front_scan/LRF/scan 1000 2000 3000"}));
+  // Its beams run clockwise as seen from above, so the last one is the first.
+  EXPECT_EQ(asText(only(messages, "rear_scan/LRF/scan")),
+            (Texts{"1000000 rear_scan/LRF/scan 3000 2000 1000"}));
+  const std::string toml = source->robotToml();
+  EXPECT_NE(toml.find("pose = { x_m = 0.2, y_m = 0.0, theta_deg = 0.0 }\nbeams = 3\n"
+                      "first_angle_deg = -28.647"),
+            toml.npos)
+      << toml;
+  EXPECT_NE(toml.find("pose = { x_m = -0.3, y_m = 0.05, theta_deg = 180.0 }"), toml.npos) << toml;
+  EXPECT_NE(toml.find("max_range_m = 8.1\n"), toml.npos) << toml;
+  EXPECT_EQ(source->remark(), "");
+  EXPECT_EQ(only(readAll(text + "?scans=/rear/scan"), "laser/LRF/scan").size(), 1u);
+}
+
+TEST_F(BagSource, ATiltedScannerIsRefusedAndALonelyFrameIsTold) {
+  BagMaker tilted;
+  const double half = std::sqrt(0.5);
+  tilted.add("/odom", odometryAt(0, 0, 0))
+      .add("/tf_static", frameAt("base_footprint", "laser", {{0, 0, 0}, {0, half, 0, half}}))
+      .add("/scan", scanOf(0, "laser", {1.0F, 2.0F, 3.0F}));
+  EXPECT_NE(errorOf(write(tilted)).find("tilted by 90 degrees"), std::string::npos);
+  EXPECT_EQ(errorOf("mcap:" + (folder_.path() / "run.mcap").string() + "?mounts=laser:0.1,0,90"),
+            "");
+  BagMaker lonely;
+  lonely.add("/odom", odometryAt(0, 0, 0)).add("/scan", scanOf(0, "laser", {1.0F, 2.0F, 3.0F}));
+  const auto source = makeSource(write(lonely));
+  EXPECT_NE(source->remark().find("'laser' of /scan sits in 'base_footprint' is not told"),
+            std::string::npos)
+      << source->remark();
+}
+
+TEST_F(BagSource, ScansWithOtherBeamsAreFittedToTheFirst) {
+  LaserScan finer = scanOf(kSecond, "base_footprint", {1.0F, 1.5F, 2.0F, 2.5F, 3.0F});
+  finer.angleIncrement = 0.25F;
+  BagMaker maker;
+  maker.add("/scan", scanOf(0, "base_footprint", {1.0F, 2.0F, 3.0F})).add("/scan", finer);
+  LaserScan elsewhere = scanOf(2 * kSecond, "base_footprint", {1.0F});
+  elsewhere.angleMin = 3.0F;
+  maker.add("/scan", elsewhere).add("/odom", odometryAt(0, 0, 0));
+  const auto source = makeSource(write(maker));
+  EXPECT_EQ(asText(only(readAll(*source), "laser/LRF/scan")),
+            (Texts{"0 laser/LRF/scan 1000 2000 3000", "1000000 laser/LRF/scan 1000 2000 3000"}));
+  EXPECT_NE(source->remark().find("1 messages of /scan have other beams"), std::string::npos)
+      << source->remark();
+  EXPECT_NE(source->remark().find("1 messages of /scan reach where"), std::string::npos);
+}
+
+TEST_F(BagSource, OdometryAndTruthMayComeFromTheTreeOfFramesAlone) {
+  BagMaker maker;
+  maker.add("/scan", scanOf(0, "base_link", {1.0F, 2.0F, 3.0F}))
+      .add("/tf", frameAt("odom", "base_link", {{1, 0, 0}, {}}, kSecond))
+      .add("/tf", frameAt("map", "odom", {{10, 0, 0}, {}}, kSecond))
+      .add("/tf", frameAt("odom", "base_link", {{3, 0, 0}, {}}, 2 * kSecond));
+  const auto messages = readAll(write(maker) + "?truth=tf");
+  // 2 m in 1 s.
+  EXPECT_EQ(asText(only(messages, "odometry/odometry/pose")).at(1),
+            "2000000 odometry/odometry/pose 2147486648 2147483648 18000 2147485648 2147483648");
+  EXPECT_EQ(asText(only(messages, "reference/groundTruth/pose")),
+            (Texts{"2000000 reference/groundTruth/pose 2147496648 2147483648 18000"}));
+}
+
+TEST_F(BagSource, PosesThatAreCalledGroundTruthAreTheReference) {
+  PoseStamped pose;
+  pose.header.stamp = 5;
+  pose.pose.orientation = {0, 0, 1, 0};
+  BagMaker maker;
+  maker.add("/ground_truth", pose).add("/goal_pose", pose);
+  EXPECT_EQ(asText(readAll(write(maker))),
+            (Texts{"0 reference/groundTruth/pose 2147483648 2147483648 0"}));
+  EXPECT_NE(errorOf("mcap:" + (folder_.path() / "run.mcap").string() + "?truth=none")
+                .find("found no reading"),
+            std::string::npos);
+}
+
+TEST_F(BagSource, AFolderOfFilesIsOneBag) {
+  for (const int number : {2, 10}) {
+    BagMaker maker;
+    maker.add("/odom", odometryAt(number * kSecond, number, 0.0));
+    write(maker, "bag_" + std::to_string(number) + ".mcap");
+  }
+  EXPECT_EQ(readAll("mcap:" + folder_.path().string()).size(), 2u);
+}
+
+TEST_F(BagSource, MapsBecomeWorlds) {
+  OccupancyGrid map;
+  map.resolution = 0.05F;
+  map.width = 3;
+  map.height = 2;
+  map.origin.position = {-1.0, 2.0, 0.0};
+  map.data = {0, 100, -1, 10, 50, 90};
+  BagMaker maker;
+  maker.add("/map", map).add("/odom", odometryAt(0, 0, 0));
+  const auto source = makeSource(write(maker));
+  source->writeWorld(folder_.path() / "w.toml");
+  const std::string image = readBytes(folder_.path() / "w.pgm");
+  using namespace std::string_literals;
+  EXPECT_EQ(image, "P5\n3 2\n255\n\xFE\xCD\x00\xFE\x00\xCD"s);  // the top row first
+  const std::string yaml = readBytes(folder_.path() / "w.yaml");
+  EXPECT_NE(yaml.find("resolution: 0.05\norigin: [-1.0, 2.0, 0]\n"), yaml.npos) << yaml;
+  map.data.pop_back();
+  BagMaker torn;
+  torn.add("/map", map);
+  EXPECT_NE(errorOf(write(torn)).find("a map of 3 x 2 cells of 0.05"), std::string::npos);
+}
+
+TEST_F(BagSource, MessagesOfRos1AreRefused) {
+  BagMaker maker;
+  maker.add("/scan", scanOf(0, "laser", {1.0F}), "ros1");
+  EXPECT_NE(errorOf(write(maker)).find("/scan: found messages in 'ros1', expected cdr"),
+            std::string::npos);
+}
+
+TEST_F(BagSource, NumbersThatAreNoneNeverComeIn) {
+  BagMaker maker;
+  maker.add("/odom", odometryAt(0, std::nan(""), 0.0)).add("/odom", odometryAt(1000, 1.0, 0.0));
+  const auto source = makeSource(write(maker));
+  EXPECT_EQ(readAll(*source).size(), 1u);
+  EXPECT_NE(source->remark().find("1 messages of /odom hold numbers that are none"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace ortung
