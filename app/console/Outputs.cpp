@@ -66,6 +66,8 @@ Signature signatureOf(OutputKind kind) {
       return {"a page of `ortung benchmark`", "<!doctype html>", "<title>Goalkeeper benchmark"};
     case OutputKind::kRawlog:
       return {"a file of MRPT", "\x1F\x8B", ""};
+    case OutputKind::kMcap:
+      return {"an MCAP file", "\x89MCAP0\r\n", ""};
     case OutputKind::kSettings:
       break;
   }

@@ -26,6 +26,7 @@ enum class OutputKind : std::uint8_t {
   kBenchmark,   ///< JSON of benchmark
   kPage,        ///< HTML of benchmark
   kRawlog,      ///< of MRPT, like its grid maps
+  kMcap,        ///< messages of ROS 2
   kSettings,  ///< worlds, their maps, and robots: people work on them, so none is replaced unasked
 };
 

@@ -157,6 +157,49 @@ TEST_F(Export, MapOfAWorldIsReadBackAsTheSameWorld) {
   EXPECT_LT(std::stod(json.substr(at + 19)), 0.15);
 }
 
+TEST_F(Export, McapComesBackAsTheSameRecordAndTheSameRobot) {
+  recordRun();
+  const Outcome out =
+      ortung({"export", "mcap", "record:" + path("run.rec"), "--robot", path("robot.toml"),
+              "--world", path("hall.toml"), "--out", path("run.mcap")});
+  ASSERT_EQ(out.exitCode, 0) << out.err;
+  EXPECT_NE(out.out.find("/scan "), out.out.npos) << out.out;
+  const Outcome in = ortung({"import", "mcap", path("run.mcap"), "--out", path("back.rec"),
+                             "--robot-file", path("back.toml"), "--world", path("back_hall.toml")});
+  ASSERT_EQ(in.exitCode, 0) << in.err;
+  EXPECT_EQ(read("back.toml"), read("robot.toml"));
+  for (const SensorId& id : {kScan, kOdometry, SensorId{"reference", "groundTruth", "pose"}}) {
+    const auto there = readingsOf("run.rec", id);
+    ASSERT_GT(there.size(), 100u);
+    EXPECT_EQ(there, readingsOf("back.rec", id)) << toText(id);
+  }
+  // What is solid in the world's map is solid in the hall.
+  EXPECT_EQ(ortung({"learn", "--world", path("back_hall.toml"), "--robot", path("robot.toml"),
+                    "--out", path("back.ortung")})
+                .exitCode,
+            0);
+}
+
+TEST_F(Export, McapOfTablesHasTheirOpenCellsAsItsMap) {
+  recordRun();
+  learnTables();
+  const auto exported = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{
+        "export",           "mcap",     "record:" + path("run.rec"), "--robot",
+        path("robot.toml"), "--tables", path("hall.ortung"),         "--out",
+        path("run.mcap")};
+    words.insert(words.end(), more.begin(), more.end());
+    return ortung(words);
+  };
+  const Outcome out = exported({"--map-frame", "none"});
+  ASSERT_EQ(out.exitCode, 0) << out.err;
+  EXPECT_NE(out.out.find("/map "), out.out.npos) << out.out;
+  EXPECT_EQ(exported({"--world", path("hall.toml")}).exitCode, 2);
+  EXPECT_EQ(exported({"--map-frame", "moon"}).exitCode, 2);
+  write("run.mcap", "my own");
+  expectRefused(exported({}), 1, "ortung export mcap: " + path("run.mcap"), {"--force"});
+}
+
 TEST_F(Export, SaysWhatIsWrong) {
   recordRun();
   expectRefused(ortung({"export", "map", path("hall.toml"), "--out", path("hall.png")}), 2,
