@@ -13,6 +13,7 @@
 #include "LearnCommands.hpp"
 #include "LocalizationCommands.hpp"
 #include "OptionBuilder.hpp"
+#include "ServingOptions.hpp"
 
 namespace ortung::app {
 namespace {
@@ -99,38 +100,6 @@ void addCheck(Builder& build, CLI::App& app) {
   build.option("--robot", a->robot, "Robot that the tables must have been learned for");
   build.flag("--mend", a->mend,
              "Cut off what a killed recorder left of the last moment of a record");
-}
-
-void addServing(Builder& build, ServingArguments& a) {
-  build
-      .option("--listen", a.listen,
-              "[ADDRESS:]PORT for clients; 0: a free port; see docs/protocol.md")
-      ->each([&a](const std::string&) { a.isServing = true; });
-  build
-      .option("--allow-control", a.control,
-              "Name of a client that may pause, step, reset, ... the world; 'all' for all; may be "
-              "given again")
-      ->expected(1)
-      ->take_all();
-  build.option(
-      "--token-file", a.tokens,
-      "File with a line 'NAME TOKEN' for each client that may come in, * for any name without "
-      "a line of its own");
-  build.option("--idle", a.idle, "Clients that keep silent for so long are dropped [s]")
-      ->check(within(1.0, 1e6))
-      ->capture_default_str();
-  build.option("--clients", a.clients, "At a time")
-      ->check(within(1, 100000))
-      ->capture_default_str();
-  build.option("--clients-per-address", a.clientsOfAddress, "Of them from one computer")
-      ->check(within(1, 100000))
-      ->capture_default_str();
-  build.option("--speed", a.speed, "Times real time")
-      ->check(within(0.001, 1000.0))
-      ->capture_default_str();
-  build.flag("--free-run", a.freeRun, "As fast as possible instead of in real time");
-  build.flag("--lockstep", a.lockstep,
-             "The world goes on only when all lockstep clients ask for it");
 }
 
 void addSim(Builder& build, CLI::App& app) {

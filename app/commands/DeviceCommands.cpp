@@ -5,6 +5,7 @@
 
 #include "Commands.hpp"
 #include "OptionBuilder.hpp"
+#include "ServingOptions.hpp"
 
 namespace ortung::app {
 namespace {
@@ -25,20 +26,6 @@ void addLocalization(Builder& build, LocalizationArguments& a) {
   build.flag("--force", a.force, kForce);
 }
 
-void addListening(Builder& build, ServingArguments& a) {
-  build
-      .option("--listen", a.listen,
-              "[ADDRESS:]PORT on which clients find the robot's container; ADDRESS: 127.0.0.1, "
-              "others need --token-file")
-      ->each([&a](const std::string&) { a.isServing = true; });
-  build
-      .option("--allow-control", a.control,
-              "Name of a client that may command the robot, or all; may be given again")
-      ->expected(1)
-      ->take_all();
-  build.option("--token-file", a.tokens, "Lines 'NAME TOKEN': clients that are let in");
-}
-
 }  // namespace
 
 void addRobot(Builder& build, CLI::App& app) {
@@ -55,7 +42,7 @@ void addRobot(Builder& build, CLI::App& app) {
   build.option("--duration", a->duration, "How long to run [s]; default: until a signal")
       ->check(within(0.0, 1e9));
   addLocalization(build, a->localization);
-  addListening(build, a->serving);
+  addDoor(build, a->serving);
 }
 
 void addEmulate(Builder& build, CLI::App& app) {

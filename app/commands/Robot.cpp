@@ -238,8 +238,8 @@ void serveRobot(RunningRobot& robot, const ServingArguments& arguments,
 
 int runRobot(const RobotArguments& arguments) {
   const ServingArguments& serving = arguments.serving;
-  if (!serving.isServing && (!serving.control.empty() || !serving.tokens.empty()))
-    throw UsageError("--allow-control and --token-file are for --listen");
+  if (!serving.isServing() && (!serving.control.empty() || !serving.tokens.empty()))
+    throw UsageError("--allow-control and --token-file are for --listen and --view");
   if (arguments.localization.tables.empty() && !arguments.out.empty())
     throw UsageError("--out needs --tables: without them there are no poses");
   RunningRobot robot(arguments);
@@ -256,7 +256,7 @@ int runRobot(const RobotArguments& arguments) {
       isDone = true;
     });
     try {
-      if (serving.isServing) serveRobot(robot, serving, isDone);
+      if (serving.isServing()) serveRobot(robot, serving, isDone);
     } catch (...) {
       robot.stop();
       throw;

@@ -8,7 +8,8 @@
 namespace ortung::app {
 
 int runServe(const ServeArguments& arguments) {
-  if (!arguments.serving.isServing) throw UsageError("--listen [ADDRESS:]PORT is missing");
+  if (!arguments.serving.isServing())
+    throw UsageError("--listen [ADDRESS:]PORT or --view is missing");
   checkPace(arguments.serving);
   warnOf(RecordSource(arguments.record));
   ServedRecord record(arguments.record, arguments.repeats);

@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <stop_token>
 #include <thread>
@@ -16,6 +18,7 @@
 #include "HostPort.hpp"
 #include "Interrupt.hpp"
 #include "Rescue.hpp"
+#include "Viewing.hpp"
 #include "ortung/base/InputFile.hpp"
 #include "ortung/server/MessageBoard.hpp"
 
@@ -60,6 +63,18 @@ class Deadline {
   std::jthread thread_;  ///< last, so that it ends before what it uses
 };
 
+/// Nobody asked for the usual port, so another one will do where that is taken.
+std::unique_ptr<MessageBoard> openBoard(ServedWorld& world, BoardConfig& config,
+                                        const ServingArguments& arguments) {
+  try {
+    return std::make_unique<MessageBoard>(world, config);
+  } catch (const std::runtime_error&) {
+    if (!arguments.listen.empty()) throw;
+    config.port = 0;
+    return std::make_unique<MessageBoard>(world, config);
+  }
+}
+
 }  // namespace
 
 std::vector<BoardToken> readTokens(const std::filesystem::path& file) {
@@ -94,7 +109,7 @@ void checkPace(const ServingArguments& arguments) {
 void serve(ServedWorld& world, const ServingArguments& arguments,
            std::vector<BoardCommand> commands, const std::function<bool()>& goesOn) {
   BoardConfig config;
-  readListen(arguments.listen, config);
+  readListen(arguments.listen.empty() ? Viewing::kPort : arguments.listen, config);
   config.tokens = readTokens(arguments.tokens);
   for (const std::string& name : arguments.control)
     config.control.push_back(name == "all" ? "*" : name);
@@ -106,9 +121,13 @@ void serve(ServedWorld& world, const ServingArguments& arguments,
   config.limits.sessionsOfAddress = arguments.clientsOfAddress;
   config.log = warn;
   config.commands = std::move(commands);
+  std::optional<Viewing> viewing;
+  if (arguments.isViewing) viewing.emplace(arguments, config);
   try {
-    MessageBoard board(world, config);
+    const std::unique_ptr<MessageBoard> opened = openBoard(world, config, arguments);
+    MessageBoard& board = *opened;
     fmt::print("listening on {} port {}\n", config.address, board.port());
+    if (viewing) viewing->open(board);
     flushOutput();
     const Deadline deadline(board);
     const Rescue rescue([&] { board.abandon("the server ends, a plugin of its world hangs"); });

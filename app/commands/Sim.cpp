@@ -301,9 +301,9 @@ int play(const SimArguments& arguments) {
 int runSim(const SimArguments& arguments) {
   const ServingArguments& serving = arguments.serving;
   checkPace(serving);
-  if (!serving.isServing) {
+  if (!serving.isServing()) {
     if (serving.lockstep || !serving.control.empty() || !serving.tokens.empty())
-      throw UsageError("--lockstep, --allow-control and --token-file are for --listen");
+      throw UsageError("--lockstep, --allow-control and --token-file are for --listen and --view");
     return play(arguments);
   }
   if (!arguments.record.empty() || arguments.duration || arguments.digest)

@@ -36,10 +36,11 @@ deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nloh
 deny 'sim/remote' "ortung/(mcl|sim|realsensors|server|served)/|toml|nlohmann|$foreign"
 deny 'sim/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
 deny 'sim/refbox' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|mrpt|opencv|embree|GL/|box2d"
-deny 'sim/src sim/include' 'ortung/(server|served|client|refbox)/'
+deny 'sim/web' "ortung/(mcl|run|sim|sim_api|realsensors|robot|server|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
+deny 'sim/src sim/include' 'ortung/(server|served|client|refbox|web)/'
 deny 'sim/benchmark' 'ortung/(server|served|client|refbox|remote)/'
 deny 'sim/src sim/include sim/api sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/benchmark/'
-deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)|refbox/src/RefBoxClient\.cpp)'
+deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)|refbox/src/RefBoxClient\.cpp|web/src/)'
 # Pictures see the world through sim/api alone, as the plugins that take them do.
 deny 'sim/pictures' "ortung/(mcl|run|sim|server|served|client|refbox|remote|robot)/|toml|nlohmann|$foreign"
 deny 'container mcl sim/api sim/src sim/include sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/pictures/'
@@ -74,7 +75,11 @@ done
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include mcl/player/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
+<<<<<<< HEAD
               sim/pictures/include realsensors/ros2/include realsensors/devices/include realsensors/emulators/include; do
+=======
+              sim/pictures/include sim/web/include realsensors/devices/include realsensors/emulators/include; do
+>>>>>>> bdda26e (web: browsers at the message board's port)
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

@@ -40,7 +40,7 @@ void checkTokens(const BoardConfig& config) {
   for (const BoardToken& token : tokens)
     if (token.token.size() < 8)
       refuse("the token of '" + token.name + "' has less than 8 characters");
-  if (tokens.empty()) return;
+  if (tokens.empty() || config.guests) return;
   for (const std::string& name : config.control)
     if (std::none_of(tokens.begin(), tokens.end(),
                      [&](const BoardToken& token) { return token.name == name; }) &&

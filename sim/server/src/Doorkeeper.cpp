@@ -33,7 +33,9 @@ bool Doorkeeper::isReserved(std::string_view name) const {
 
 bool Doorkeeper::isRight(std::string_view name, std::string_view token) const {
   const bool isOpenToAll = !isReserved(name);
-  bool isRight = config_.tokens.empty();
+  const bool hasOwn = std::any_of(config_.tokens.begin(), config_.tokens.end(),
+                                  [&](const BoardToken& known) { return known.name == name; });
+  bool isRight = config_.tokens.empty() || (config_.guests && !hasOwn);
   for (const BoardToken& known : config_.tokens) {
     const bool isSame = isSameInConstantTime(known.token, token);
     const bool isMeant = known.name == name || (known.name == "*" && isOpenToAll);

@@ -43,7 +43,7 @@ void checkAddress(const BoardConfig& config) {
   if (error)
     refuse("the address to listen on is '" + config.address +
            "', expected numbers, e.g. 127.0.0.1 or ::1");
-  if (!address.is_loopback() && config.tokens.empty())
+  if (!address.is_loopback() && (config.tokens.empty() || config.guests))
     refuse(config.address + " can be reached from other computers: that needs a token");
 }
 

@@ -68,6 +68,9 @@ struct BoardConfig {
   std::string address = "127.0.0.1";  ///< to listen on; others than loopback need tokens
   std::uint16_t port = 0;             ///< 0: the system chooses
   std::vector<BoardToken> tokens;     ///< none: everybody may come in
+  /// Tokens are for their own names alone: clients of other names come in without. Only where
+  /// nobody but programs of this computer can connect.
+  bool guests = false;
   /// Clients who may control the simulation; "*": all. Where there are tokens, each of these names
   /// needs one of its own.
   std::vector<std::string> control;

@@ -1,0 +1,52 @@
+#include "ServingOptions.hpp"
+
+#include "OptionBuilder.hpp"
+
+namespace ortung::app {
+
+void addDoor(Builder& build, ServingArguments& a) {
+  build.option("--listen", a.listen,
+               "[ADDRESS:]PORT for clients; 0: a free port; see docs/protocol.md. ADDRESS: "
+               "127.0.0.1, others need --token-file");
+  build
+      .option("--allow-control", a.control,
+              "Name of a client that may control what is served: pause, step, reset, drive a real "
+              "robot, ...; 'all' for all; may be given again")
+      ->expected(1)
+      ->take_all();
+  build.option(
+      "--token-file", a.tokens,
+      "File with a line 'NAME TOKEN' for each client that may come in, * for any name without "
+      "a line of its own");
+  build.flag(
+      "--view", a.isViewing,
+      "Show it in a web browser: the address is printed, and opened where there is a desktop");
+  build
+      .option("--view-host", a.hosts,
+              "Name by which browsers know this computer, beside localhost and its addresses; may "
+              "be given again")
+      ->expected(1)
+      ->take_all();
+  build.flag("--no-browser{false}", a.opensBrowser, "Print the address for browsers only");
+}
+
+void addServing(Builder& build, ServingArguments& a) {
+  addDoor(build, a);
+  build.option("--idle", a.idle, "Clients that keep silent for so long are dropped [s]")
+      ->check(within(1.0, 1e6))
+      ->capture_default_str();
+  build.option("--clients", a.clients, "At a time")
+      ->check(within(1, 100000))
+      ->capture_default_str();
+  build.option("--clients-per-address", a.clientsOfAddress, "Of them from one computer")
+      ->check(within(1, 100000))
+      ->capture_default_str();
+  build.option("--speed", a.speed, "Times real time")
+      ->check(within(0.001, 1000.0))
+      ->capture_default_str();
+  build.flag("--free-run", a.freeRun, "As fast as possible instead of in real time");
+  build.flag("--lockstep", a.lockstep,
+             "The world goes on only when all lockstep clients ask for it");
+}
+
+}  // namespace ortung::app

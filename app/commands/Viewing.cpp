@@ -1,0 +1,108 @@
+#include "Viewing.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include "Console.hpp"
+
+extern char** environ;
+
+namespace ortung::app {
+namespace {
+
+constexpr const char* kClient = "view";
+
+/// The built page: where the program was installed or built, unless $ORTUNG_VIEW_PATH says where.
+std::filesystem::path pageFolder() {
+  if (const char* given = std::getenv("ORTUNG_VIEW_PATH")) return given;
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  for (const char* way : {ORTUNG_VIEW_FROM_BIN, "../share/ortung/view"}) {
+    const std::filesystem::path folder = (program.parent_path() / way).lexically_normal();
+    if (std::filesystem::is_directory(folder, error)) return folder;
+  }
+  return {};
+}
+
+/// 128 bits that nobody guesses.
+std::string newToken() {
+  std::random_device chance;
+  std::string token;
+  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", static_cast<std::uint32_t>(chance()));
+  return token;
+}
+
+WebConfig webConfigOf(const ServingArguments& arguments) {
+  WebConfig config;
+  config.page = pageFolder();
+  config.hosts = arguments.hosts;
+  config.log = warn;
+  return config;
+}
+
+/// Where a browser finds what listens on all addresses.
+std::string reachable(const std::string& address) {
+  if (address == "0.0.0.0" || address == "::") return "localhost";
+  return address.find(':') == address.npos ? address : "[" + address + "]";
+}
+
+bool hasDesktop() {
+  return ::isatty(STDOUT_FILENO) == 1 &&
+         (std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr);
+}
+
+/// Whatever the desktop's browser says is not for our terminal.
+void showInBrowser(const std::string& url) {
+  posix_spawn_file_actions_t files;
+  ::posix_spawn_file_actions_init(&files);
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    ::posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_RDWR, 0);
+  std::string program = "xdg-open";
+  std::string address = url;
+  const std::array<char*, 3> words = {program.data(), address.data(), nullptr};
+  pid_t child = 0;
+  if (::posix_spawnp(&child, "xdg-open", &files, nullptr, words.data(), environ) == 0)
+    std::thread([child] { ::waitpid(child, nullptr, 0); }).detach();
+  ::posix_spawn_file_actions_destroy(&files);
+}
+
+}  // namespace
+
+Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config)
+    : arguments_(arguments), address_(config.address), door_(webConfigOf(arguments)) {
+  auto& tokens = config.tokens;
+  const auto isOurs = [](const BoardToken& token) { return token.name == kClient; };
+  if (std::none_of(tokens.begin(), tokens.end(), isOurs)) {
+    token_ = newToken();
+    config.guests = tokens.empty();
+    tokens.push_back({kClient, token_});
+  }
+  config.control.emplace_back(kClient);
+  config.http = [this](int socket, const std::string& head) { return door_.take(socket, head); };
+}
+
+void Viewing::open(const MessageBoard& board) {
+  door_.open(address_, board.port());
+  const std::string url = fmt::format("http://{}:{}/", reachable(address_), board.port());
+  const std::string key = token_.empty() ? "" : "#token=" + token_;
+  if (!door_.hasPage())
+    warn("this program has no viewer's page (sim/web/page was not built): clients only");
+  fmt::print("look and steer: {}{}\n", url, key);
+  if (token_.empty())
+    note("with #token=... behind it, the token of 'view' in the token file");
+  else if (arguments_.tokens.empty())
+    fmt::print("look only:      {}\n", url);
+  if (arguments_.opensBrowser && hasDesktop() && door_.hasPage()) showInBrowser(url + key);
+}
+
+}  // namespace ortung::app

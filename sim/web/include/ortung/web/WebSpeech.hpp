@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+
+namespace ortung {
+
+/// What is spoken over one WebSocket, and what of it becomes words of the message board: a function
+/// of the bytes of both sides, without sockets or clocks. Calls come from one thread. What it wants
+/// to be said it leaves in its two members, from which the door takes it; while one side does not
+/// read, the other is not listened to, so neither grows.
+class ORTUNG_API WebSpeech {
+ public:
+  struct Frame {
+    std::string bytes;
+    bool isBinary = true;
+  };
+
+  virtual ~WebSpeech();
+  /// A whole message of the client, which is hostile.
+  virtual void fromClient(std::string_view message, bool isBinary) = 0;
+  /// The next bytes that the board says, cut anywhere.
+  virtual void fromBoard(std::string_view bytes) = 0;
+
+  std::string toBoard;          ///< not said yet
+  std::vector<Frame> toClient;  ///< not said yet, in this order
+  bool isOver = false;          ///< the connection is closed when all is said
+};
+
+/// A subprotocol of WebSockets that the door lets in.
+struct WebProtocol {
+  std::vector<std::string> names;  ///< of Sec-WebSocket-Protocol; the client's first one of them
+  std::string path;                ///< at which it is spoken, "/board"; "": any
+  std::function<std::unique_ptr<WebSpeech>()> make;  ///< for each connection; may be called often
+};
+
+/// The board's own words: a client's messages are bytes of its lines, and binary messages to it the
+/// bytes that the board says, cut anywhere. At /board, "ortung.board.1".
+ORTUNG_API WebProtocol boardProtocol();
+
+}  // namespace ortung

@@ -1,0 +1,241 @@
+// A message board with a door for browsers, as they see it: Boost.Beast's client.
+#include <gtest/gtest.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <fstream>
+
+#include "CountingWorld.hpp"
+#include "Files.hpp"
+#include "RunningBoard.hpp"
+#include "ortung/web/WebDoor.hpp"
+
+namespace ortung {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+
+/// A board with a page whose index says "the page".
+class WebDoorTest : public testing::Test {
+ protected:
+  WebDoorTest() {
+    std::ofstream(folder_.path() / "index.html") << "the page";
+    webConfig_.page = folder_.path();
+    boardConfig_ = test::controlledConfig();
+  }
+  void start() {
+    door_.emplace(webConfig_);
+    boardConfig_.http = [this](int socket, const std::string& head) {
+      return door_->take(socket, head);
+    };
+    board_.emplace(world_, boardConfig_);
+    door_->open("127.0.0.1", board_->port());
+    host_ = "127.0.0.1:" + std::to_string(board_->port());
+  }
+  tcp::endpoint endpoint() const { return {asio::ip::make_address("127.0.0.1"), board_->port()}; }
+
+  http::response<http::string_body> get(const std::string& target, const std::string& host = "",
+                                        http::verb verb = http::verb::get) {
+    tcp::socket socket(io_);
+    socket.connect(endpoint());
+    http::request<http::empty_body> request(verb, target, 11);
+    request.set(http::field::host, host.empty() ? host_ : host);
+    http::write(socket, request);
+    beast::flat_buffer buffer;
+    http::response_parser<http::string_body> parser;
+    parser.skip(verb == http::verb::head);
+    http::read(socket, buffer, parser);
+    return parser.release();
+  }
+
+  using WebSocket = websocket::stream<tcp::socket>;
+  void speak(WebSocket& client, const std::string& origin = "") {
+    client.next_layer().connect(endpoint());
+    client.set_option(websocket::stream_base::decorator([=](websocket::request_type& request) {
+      request.set(http::field::sec_websocket_protocol, "ortung.board.1");
+      if (!origin.empty()) request.set(http::field::origin, origin);
+    }));
+    client.binary(true);
+    websocket::response_type response;
+    client.handshake(response, host_, "/board");
+    EXPECT_EQ(response[http::field::sec_websocket_protocol], "ortung.board.1");
+  }
+  /// The answer to somebody who asks for a WebSocket.
+  unsigned statusOf(const std::string& origin, const std::string& protocol,
+                    const std::string& path) {
+    tcp::socket socket(io_);
+    socket.connect(endpoint());
+    http::request<http::empty_body> request(http::verb::get, path, 11);
+    request.set(http::field::host, host_);
+    request.set(http::field::connection, "Upgrade");
+    request.set(http::field::upgrade, "websocket");
+    request.set(http::field::sec_websocket_version, "13");
+    request.set(http::field::sec_websocket_key, "dGhlIHNhbXBsZSBub25jZQ==");
+    if (!protocol.empty()) request.set(http::field::sec_websocket_protocol, protocol);
+    if (!origin.empty()) request.set(http::field::origin, origin);
+    http::write(socket, request);
+    beast::flat_buffer buffer;
+    http::response<http::string_body> response;
+    http::read(socket, buffer, response);
+    return response.result_int();
+  }
+  /// Reads until a line contains @p text.
+  std::string lineWith(WebSocket& client, const std::string& text) {
+    while (true) {
+      const std::size_t found = heard_.find(text);
+      const std::size_t end = found == heard_.npos ? found : heard_.find('\n', found);
+      if (end != heard_.npos) {
+        const std::size_t begin = heard_.rfind('\n', found);
+        const std::string line =
+            heard_.substr(begin == heard_.npos ? 0 : begin + 1, end - (begin + 1));
+        heard_.erase(0, end + 1);
+        return line;
+      }
+      beast::flat_buffer buffer;
+      beast::error_code error;
+      client.read(buffer, error);
+      if (error) return "(closed)";
+      heard_ += beast::buffers_to_string(buffer.data());
+    }
+  }
+  void say(WebSocket& client, const std::string& text) { client.write(asio::buffer(text)); }
+
+  test::TemporaryFolder folder_;
+  WebConfig webConfig_;
+  BoardConfig boardConfig_;
+  test::CountingWorld world_{10'000};
+  std::optional<WebDoor> door_;
+  std::optional<test::RunningBoard> board_;
+  std::string host_;
+  std::string heard_;
+  asio::io_context io_;
+};
+
+TEST_F(WebDoorTest, GivesThePageToBrowsersAndTheBoardToClients) {
+  start();
+  const auto response = get("/");
+  EXPECT_EQ(response.result(), http::status::ok);
+  EXPECT_EQ(response.body(), "the page");
+  EXPECT_EQ(response["X-Content-Type-Options"], "nosniff");
+  EXPECT_NE(response["Content-Security-Policy"].find("default-src 'none'"), std::string::npos);
+  EXPECT_EQ(get("/index.html", "", http::verb::head)[http::field::content_length], "8");
+  EXPECT_EQ(get("/none").result(), http::status::not_found);
+  EXPECT_EQ(get("/", "", http::verb::delete_).result(), http::status::method_not_allowed);
+  EXPECT_EQ(get("/", "evil.example").result(), http::status::misdirected_request);
+}
+
+TEST_F(WebDoorTest, CarriesTheBoardsOwnWordsOverAWebSocket) {
+  start();
+  WebSocket client(io_);
+  speak(client, "http://" + host_);
+  say(client, "HELLO ortung/1 name=view\n#7 CREATE scout\n" + test::kAnyRobot + ".\n");
+  EXPECT_EQ(lineWith(client, "HELLO").substr(0, 40), "OK HELLO ortung/1 client=2 role=operator");
+  EXPECT_EQ(lineWith(client, "CREATE"), "#7 OK CREATE robot=1 features=2");
+  say(client, "LOCKSTEP on\n#8 NEXT form=binary\n");
+  const std::string reply = lineWith(client, "#8 OK NEXT");
+  const std::size_t bytes = std::stoul(reply.substr(reply.find("bytes=") + 6));
+  EXPECT_GT(bytes, 40'000u);  // an image of 10,000 words
+  while (heard_.size() < bytes) {
+    beast::flat_buffer buffer;
+    client.read(buffer);
+    heard_ += beast::buffers_to_string(buffer.data());
+  }
+  EXPECT_EQ(heard_.size(), bytes);
+}
+
+TEST_F(WebDoorTest, RefusesWebSocketsOfStrangePagesPathsAndProtocols) {
+  webConfig_.origins = {"https://friend.example"};
+  start();
+  EXPECT_EQ(statusOf("http://evil.example", "ortung.board.1", "/board"), 403u);
+  EXPECT_EQ(statusOf("null", "ortung.board.1", "/board"), 403u);
+  EXPECT_EQ(statusOf("", "ortung.board.1", "/"), 400u);
+  EXPECT_EQ(statusOf("", "chat", "/board"), 400u);
+  EXPECT_EQ(statusOf("", "", "/board"), 400u);
+  EXPECT_EQ(statusOf("https://friend.example", "chat, ortung.board.1", "/board"), 101u);
+}
+
+TEST_F(WebDoorTest, LimitsOfTheBoardHoldForBrowsers) {
+  start();
+  WebSocket client(io_);
+  speak(client);
+  say(client, "HELLO ortung/1\n" + std::string(100u << 10, 'x'));
+  EXPECT_EQ(lineWith(client, "* ERR"), "* ERR line a line is longer than 65536 bytes");
+  EXPECT_EQ(lineWith(client, "anything"), "(closed)");
+  WebSocket bomb(io_);
+  speak(bomb);
+  beast::error_code error;
+  bomb.write(asio::buffer(std::string(1u << 20, '\n')), error);
+  EXPECT_EQ(lineWith(bomb, "anything"), "(closed)");
+}
+
+TEST_F(WebDoorTest, ClientsWithoutTheTokenMayLookButNotControl) {
+  boardConfig_ = BoardConfig();
+  boardConfig_.tokens = {{"view", "12345678"}};
+  boardConfig_.control = {"view"};
+  boardConfig_.guests = true;
+  boardConfig_.limits.refusal = 0.01;
+  start();
+  WebSocket owner(io_);
+  speak(owner);
+  say(owner, "HELLO ortung/1 name=view token=12345678\nPAUSE\n");
+  EXPECT_NE(lineWith(owner, "HELLO").find("role=operator"), std::string::npos);
+  EXPECT_EQ(lineWith(owner, "PAUSE").substr(0, 8), "OK PAUSE");
+  heard_.clear();
+  WebSocket guest(io_);
+  speak(guest);
+  say(guest, "HELLO ortung/1 name=guest\nRESUME\n");
+  EXPECT_NE(lineWith(guest, "HELLO").find("role=player"), std::string::npos);
+  EXPECT_EQ(lineWith(guest, "RESUME").substr(0, 8), "ERR role");
+  heard_.clear();
+  WebSocket thief(io_);
+  speak(thief);
+  say(thief, "HELLO ortung/1 name=view token=87654321\n");
+  EXPECT_EQ(lineWith(thief, "ERR"), "* ERR token it is missing or wrong");
+}
+
+TEST_F(WebDoorTest, ViewersThatNeverReadCostNoMemoryAndOthersGoOn) {
+  boardConfig_ = BoardConfig();
+  boardConfig_.pace = Pace::kFree;
+  start();
+  WebSocket driver(io_);
+  speak(driver);
+  say(driver, "HELLO ortung/1 name=driver\nCREATE scout\n" + test::kAnyRobot + ".\n");
+  lineWith(driver, "CREATE");
+  std::vector<std::unique_ptr<WebSocket>> silent;
+  for (int i = 0; i < 20; ++i) {
+    silent.push_back(std::make_unique<WebSocket>(io_));
+    speak(*silent.back());
+    say(*silent.back(), "HELLO ortung/1 role=viewer\nSUBSCRIBE robot=1 form=binary\n");
+  }
+  // They are sent 40 kB a cycle: far more than there is room for in any socket.
+  for (int i = 0; i < 50; ++i) {
+    say(driver, "NEXT\n");  // refused, as it is not in lockstep: an exchange
+    lineWith(driver, "ERR state");
+  }
+  say(driver, "STATUS\n");
+  EXPECT_NE(lineWith(driver, "STATUS").find("state=running"), std::string::npos);
+  EXPECT_EQ(door_->connections(), 21u);
+}
+
+TEST_F(WebDoorTest, EndsWithItsConnections) {
+  start();
+  WebSocket client(io_);
+  speak(client);
+  say(client, "HELLO ortung/1 name=view\n");
+  lineWith(client, "HELLO");
+  board_.reset();
+  EXPECT_EQ(lineWith(client, "BYE"), "* BYE the server ends");
+  EXPECT_EQ(lineWith(client, "anything"), "(closed)");
+  door_.reset();
+}
+
+}  // namespace
+}  // namespace ortung
