@@ -69,7 +69,7 @@ std::unique_ptr<MessageBoard> openBoard(ServedWorld& world, BoardConfig& config,
   try {
     return std::make_unique<MessageBoard>(world, config);
   } catch (const std::runtime_error&) {
-    if (!arguments.listen.empty()) throw;
+    if (arguments.listen) throw;
     config.port = 0;
     return std::make_unique<MessageBoard>(world, config);
   }
@@ -109,7 +109,7 @@ void checkPace(const ServingArguments& arguments) {
 void serve(ServedWorld& world, const ServingArguments& arguments,
            std::vector<BoardCommand> commands, const std::function<bool()>& goesOn) {
   BoardConfig config;
-  readListen(arguments.listen.empty() ? Viewing::kPort : arguments.listen, config);
+  readListen(arguments.listen.value_or(Viewing::kPort), config);
   config.tokens = readTokens(arguments.tokens);
   for (const std::string& name : arguments.control)
     config.control.push_back(name == "all" ? "*" : name);
