@@ -75,11 +75,7 @@ done
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include mcl/player/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
-<<<<<<< HEAD
-              sim/pictures/include realsensors/ros2/include realsensors/devices/include realsensors/emulators/include; do
-=======
-              sim/pictures/include sim/web/include realsensors/devices/include realsensors/emulators/include; do
->>>>>>> bdda26e (web: browsers at the message board's port)
+              sim/pictures/include sim/web/include realsensors/ros2/include realsensors/devices/include realsensors/emulators/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 
