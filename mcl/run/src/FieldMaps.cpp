@@ -71,20 +71,28 @@ Weighers weighersOf(std::span<const SensorData* const> features) {
   return weighers;
 }
 
-std::vector<double> probabilityMap(const FieldRegion& region, const Weighers& readings,
-                                   std::span<const double> headings,
-                                   const std::function<bool(double)>& goOn) {
-  std::vector<double> map(region.grid.size(), kNoValue);
+std::vector<double> logProbabilityMap(const FieldRegion& region, const Weighers& readings,
+                                      std::span<const double> headings,
+                                      const std::function<bool(double)>& goOn) {
   OpenCells cells(region);
+  std::vector<float> best(cells.index.size(), -std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(headings.size());
     if (goOn && !goOn(share)) return {};
     cells.weigh(readings, headings[i]);
-    for (std::size_t k = 0; k < cells.index.size(); ++k) {
-      double& best = map[cells.index[k]];
-      best = std::fmax(best, std::exp(static_cast<double>(cells.logProbability[k])));
-    }
+    for (std::size_t k = 0; k < best.size(); ++k)
+      best[k] = std::max(best[k], cells.logProbability[k]);
   }
+  std::vector<double> map(region.grid.size(), kNoValue);
+  for (std::size_t k = 0; k < best.size(); ++k) map[cells.index[k]] = static_cast<double>(best[k]);
+  return map;
+}
+
+std::vector<double> probabilityMap(const FieldRegion& region, const Weighers& readings,
+                                   std::span<const double> headings,
+                                   const std::function<bool(double)>& goOn) {
+  std::vector<double> map = logProbabilityMap(region, readings, headings, goOn);
+  for (double& value : map) value = std::exp(value);  // not of each heading: the best stays so
   return map;
 }
 

@@ -13,8 +13,11 @@
 #include "ortung/base/Random.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/run/ClustersData.hpp"
 #include "ortung/run/OpenSource.hpp"
+#include "ortung/run/SamplesData.hpp"
 #include "ortung/run/TrackData.hpp"
+#include "ortung/run/WorkData.hpp"
 #include "ortung/tables/FieldParts.hpp"
 
 namespace ortung {
@@ -74,6 +77,20 @@ void checkSigmas(const char* of, double position, double heading) {
                               " m and " + std::to_string(heading) + " rad, expected numbers >= 0");
 }
 
+/// 1 / sum w^2: how many samples of equal weight they are worth.
+double worthOf(const SampleSet& samples) {
+  if (samples.size() == 0) return 0.0;
+  const float best = *std::max_element(samples.logWeight.begin(), samples.logWeight.end());
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const float logWeight : samples.logWeight) {
+    const double weight = std::exp(static_cast<double>(logWeight - best));
+    sum += weight;
+    squares += weight * weight;
+  }
+  return std::isfinite(sum) ? sum * sum / squares : static_cast<double>(samples.size());
+}
+
 /// Moves each sample by normal noise.
 void widen(double sigmaPosition, double sigmaHeading, std::uint64_t seed, SampleSet& samples) {
   constexpr std::uint64_t kStream = 0x62656c696566;  // no other stream of that seed
@@ -89,6 +106,14 @@ void widen(double sigmaPosition, double sigmaHeading, std::uint64_t seed, Sample
 }  // namespace
 
 WorldMismatch::~WorldMismatch() = default;
+
+void addPublishedFeatures(SensorContainer& container) {
+  container.add(std::make_unique<EstimateData>());
+  container.add(std::make_unique<TrackData>());
+  container.add(std::make_unique<ClustersData>());
+  container.add(std::make_unique<WorkData>());
+  container.add(std::make_unique<SamplesData>());
+}
 
 Localization::Opened Localization::open(const LocalizationConfig& config) {
   Opened opened{openRobot(config.robot, config.tables), nullptr};
@@ -112,10 +137,7 @@ Localization::Localization(Opened opened, const LocalizationConfig& config)
       publishes_(config.publish) {
   for (const auto& data : robot_->container.all())
     if (odometry_ == nullptr) odometry_ = dynamic_cast<const OdometryData*>(data.get());
-  if (publishes_) {
-    robot_->container.add(std::make_unique<EstimateData>());
-    robot_->container.add(std::make_unique<TrackData>());
-  }
+  if (publishes_) addPublishedFeatures(robot_->container);
   if (source_) feeder_ = std::make_unique<Feeder>(sourceName_, *source_, robot_->container);
   checkWorld(config);
   start(config.start);
@@ -149,6 +171,10 @@ void Localization::startAt(const Pose2& pose) {
   waitsForTruth_ = false;
 }
 
+void Localization::checkPose(const Pose2& pose, double sigmaPosition) const {
+  checkPlace(robot_->tables.region, pose, sigmaPosition, "the pose");
+}
+
 void Localization::setPose(const Pose2& pose, const std::array<double, 9>& covariance) {
   const double variance = covariance[0] + covariance[4];
   const bool isNumber = variance >= 0.0 && std::isfinite(variance);  // else MCL says what it is
@@ -179,8 +205,14 @@ void Localization::restoreBelief(const std::filesystem::path& file, double sigma
 
 void Localization::publish(const PoseEstimate& estimate) {
   if (!publishes_) return;
-  const std::array both{EstimateData::message(estimate), TrackData::message(estimate)};
-  robot_->container.set(both);
+  const Timestamp stamp = estimate.stamp;
+  const SampleSet& samples = mcl_->samples();
+  std::vector<Message> all{
+      EstimateData::message(estimate), TrackData::message(estimate),
+      ClustersData::message(stamp, mcl_->places()),
+      WorkData::message(stamp, {samples.size(), worthOf(samples), newest_ * 1e-3, ++estimates_})};
+  if (wantsSamples_) all.push_back(SamplesData::message(stamp, samples));
+  robot_->container.set(all);
   published_ = {estimate.status, estimate.reason};
 }
 
@@ -253,6 +285,7 @@ void Localization::searchMeanwhile(Timestamp since, Timestamp until) {
 
 /// Of an update.
 void Localization::count(double milliseconds) {
+  newest_ = milliseconds;
   longestSince_ = std::max(longestSince_, milliseconds);
   spentSince_ += milliseconds;
 }

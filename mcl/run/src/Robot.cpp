@@ -19,6 +19,14 @@ std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
   return robot;
 }
 
+std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
+                                 const RobotTables& tables) {
+  std::unique_ptr<Robot> robot = openRobot(robotFile);
+  tables.giveTo(robot->container);
+  robot->tables = tables.info();
+  return robot;
+}
+
 std::unique_ptr<Robot> openLearnedRobot(const std::filesystem::path& tablesFile) {
   const auto tables = std::make_shared<const TableFile>(tablesFile);
   const TableInfo info = readTableInfo(*tables);

@@ -46,5 +46,10 @@ ORTUNG_API Weighers weighersOf(std::span<const SensorData* const> features);
 ORTUNG_API std::vector<double> probabilityMap(const FieldRegion& region, const Weighers& readings,
                                               std::span<const double> headings,
                                               const std::function<bool(double)>& goOn = {});
+/// The same as ln p, for who compares what is too small for a number.
+ORTUNG_API std::vector<double> logProbabilityMap(const FieldRegion& region,
+                                                 const Weighers& readings,
+                                                 std::span<const double> headings,
+                                                 const std::function<bool(double)>& goOn = {});
 
 }  // namespace ortung

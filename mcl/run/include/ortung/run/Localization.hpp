@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -47,12 +48,16 @@ struct LocalizationConfig {
   LocalizationStart start = {};
   std::optional<Parameters> motion = {};  ///< in place of the robot file's [motion]
   bool anyWorld = false;  ///< take readings of another world than that of the tables
-  /// Adds the features mcl/LOCALIZATION/pose (words as of PoseFixData) and mcl/LOCALIZATION/status
-  /// (TrackData) to the container and sets them to each new estimate, for whoever reads, records or
-  /// serves the container. Status is also set when it or its reason changes between two of them, as
-  /// of the newest odometry: no reading comes any more.
+  /// Adds the features mcl/LOCALIZATION/pose (words as of PoseFixData), status (TrackData), places
+  /// (ClustersData), work (WorkData) and samples (SamplesData, see wantSamples()) to the container
+  /// and sets them to each new estimate, for whoever reads, records or serves the container. Status
+  /// is also set when it or its reason changes between two of them, as of the newest odometry: no
+  /// reading comes any more.
   bool publish = false;
 };
+
+/// Adds the features that `publish` adds: to another container, for who tells others of them.
+ORTUNG_API void addPublishedFeatures(SensorContainer& container);
 
 /// Readings come from another world than the one that the tables were learned in.
 class ORTUNG_API WorldMismatch : public std::runtime_error {
@@ -116,6 +121,12 @@ class ORTUNG_API Localization {
   /// goes on meanwhile.
   void relocalize();
 
+  /// Whether somebody looks at the published samples: only then are they set. Thread-safe.
+  void wantSamples(bool wanted) { wantsSamples_ = wanted; }
+  /// What start() and setPose() check of a pose. Thread-safe.
+  /// @param sigmaPosition [m] @throws std::invalid_argument as they do
+  void checkPose(const Pose2& pose, double sigmaPosition) const;
+
   /// Writes the belief, moved to the newest odometry, into a file that appears whole or not at all.
   /// @throws std::logic_error before there is a belief, TableError if it can't be written
   void saveBelief(const std::filesystem::path& file) const;
@@ -168,10 +179,13 @@ class ORTUNG_API Localization {
   LocalizationStart start_;
   bool waitsForTruth_ = false;
   bool publishes_ = false;
+  std::atomic<bool> wantsSamples_ = false;
+  std::uint64_t estimates_ = 0;
   const SensorData* odometry_ = nullptr;  ///< if there is any
   std::optional<std::pair<TrackStatus, TrackReason>> published_;
   std::string worldMismatch_;
   std::optional<Timestamp> knownSince_;  ///< a search ended then, between two moments
+  double newest_ = 0.0;                  ///< of the newest update [ms]
   double longest_ = 0.0;
   double spent_ = 0.0;
   // Since the newest estimate.

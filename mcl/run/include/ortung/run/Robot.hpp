@@ -9,6 +9,7 @@
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/motion/MotionModel.hpp"
 #include "ortung/robot/RobotFile.hpp"
+#include "ortung/robot/RobotTables.hpp"
 #include "ortung/robot/TableInfo.hpp"
 
 namespace ortung {
@@ -30,6 +31,10 @@ ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFi
 /// @throws ConfigError, PluginError, TableError
 ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
                                             const std::filesystem::path& tablesFile);
+
+/// The same with tables that others have opened. @throws ConfigError, PluginError, TableError
+ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
+                                            const RobotTables& tables);
 
 /// The robot that tables were learned for, by the text of its file that they hold; null if they
 /// hold none. @throws ConfigError, PluginError, TableError

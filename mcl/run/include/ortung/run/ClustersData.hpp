@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/mcl/PoseEstimate.hpp"
+
+namespace ortung {
+
+/// The places that a localization's belief is spread over, heaviest first: the feature
+/// mcl/LOCALIZATION/places (LocalizationConfig::publish), as Mcl::places() tells them.
+/// Ten words a place: its share of the belief [1/10000], then the nine words of PoseFixData. It
+/// says nothing about the pose, so it weighs no samples. Not thread-safe, see SensorData.
+class ORTUNG_API ClustersData : public SensorData {
+ public:
+  struct Cluster {
+    double share = 0.0;  ///< of the belief, in [0, 1]
+    PoseFixData::Fix fix;
+  };
+  using Reading = std::vector<Cluster>;
+  static constexpr std::size_t kMostClusters = PoseFixData::kMostFixes;
+
+  ClustersData();
+  ~ClustersData() override;
+  const Reading& reading() const { return reading_; }
+  /// The first kMostClusters of them.
+  static std::vector<std::uint32_t> encode(std::span<const PoseEstimate> places);
+  static Message message(Timestamp stamp, std::span<const PoseEstimate> places);
+  std::string wordsHelp() const override;
+
+ private:
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t> words) override;
+  PoseFixData fixes_;  ///< without the shares
+  Reading reading_;
+};
+
+}  // namespace ortung

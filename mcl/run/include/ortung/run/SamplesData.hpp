@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/core/SensorData.hpp"
+#include "ortung/mcl/SampleSet.hpp"
+
+namespace ortung {
+
+/// The samples of a localization, for others to look at: the feature mcl/LOCALIZATION/samples
+/// (LocalizationConfig::publish), which is set only while somebody wants it.
+/// Four words a sample: x, y [mm + 2^31], heading [1/100 degree, 0 to 35999], weight relative to
+/// the heaviest [1/65535]. Of more than kMostSamples every n-th is told. It says nothing about the
+/// pose, so it weighs no samples. Not thread-safe, see SensorData.
+class ORTUNG_API SamplesData : public SensorData {
+ public:
+  struct Sample {
+    Pose2 pose;           ///< in the field frame
+    double weight = 0.0;  ///< of the heaviest one's, in [0, 1]
+  };
+  using Reading = std::vector<Sample>;
+  static constexpr std::size_t kMostSamples = 10'000;
+
+  SamplesData();
+  ~SamplesData() override;
+  /// Made of the words when it is asked for: nobody in the localization's own program does.
+  Reading reading() const;
+  static std::vector<std::uint32_t> encode(const SampleSet& samples);
+  static Message message(Timestamp stamp, const SampleSet& samples);
+  std::string wordsHelp() const override;
+
+ private:
+  void check(std::span<const std::uint32_t> words) const override;
+  void decode(std::span<const std::uint32_t>) override {}
+};
+
+}  // namespace ortung

@@ -1,0 +1,90 @@
+#include "ortung/run/SamplesData.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "ortung/base/Angles.hpp"
+#include "ortung/formats/Words.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kWords = 4;  // a sample
+constexpr std::uint32_t kHeaviest = 65'535;
+constexpr double kHundredths = 36'000.0 / kTurn;  // of a degree, per radian
+
+SensorId ownId() { return {"mcl", "LOCALIZATION", "samples"}; }
+
+std::uint32_t headingWord(double theta) {
+  const double whole = std::nearbyint(wrapAngle(theta) * kHundredths);
+  return static_cast<std::uint32_t>(whole < 0.0 ? whole + words::kAngles : whole) % words::kAngles;
+}
+
+/// What all are compared with; of samples that are all lost, none has any.
+float heaviest(const SampleSet& samples) {
+  const auto best = std::max_element(samples.logWeight.begin(), samples.logWeight.end());
+  return best == samples.logWeight.end() || !std::isfinite(*best) ? 0.0F : *best;
+}
+
+std::uint32_t weightWord(float logWeight, float best) {
+  const double share = std::exp(static_cast<double>(logWeight - best));
+  if (std::isnan(share)) return 0;
+  return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kHeaviest));
+}
+
+}  // namespace
+
+SamplesData::SamplesData() : SensorData(ownId()) {}
+SamplesData::~SamplesData() = default;
+
+std::vector<std::uint32_t> SamplesData::encode(const SampleSet& samples) {
+  const std::size_t count = std::min(samples.size(), kMostSamples);
+  const float best = heaviest(samples);
+  std::vector<std::uint32_t> words;
+  words.reserve(kWords * count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = k * samples.size() / count;
+    words.insert(words.end(), {words::fromSignedMetres(static_cast<double>(samples.x[i])),
+                               words::fromSignedMetres(static_cast<double>(samples.y[i])),
+                               headingWord(static_cast<double>(samples.theta[i])),
+                               weightWord(samples.logWeight[i], best)});
+  }
+  return words;
+}
+
+Message SamplesData::message(Timestamp stamp, const SampleSet& samples) {
+  return {stamp, ownId(), encode(samples)};
+}
+
+SamplesData::Reading SamplesData::reading() const {
+  Reading reading;
+  const std::span<const std::uint32_t> words = getData();
+  for (std::size_t i = 0; i + kWords <= words.size(); i += kWords)
+    reading.push_back({{words::toSignedMetres(words[i]), words::toSignedMetres(words[i + 1]),
+                        wrapAngle(words[i + 2] / kHundredths)},
+                       static_cast<double>(words[i + 3]) / kHeaviest});
+  return reading;
+}
+
+std::string SamplesData::wordsHelp() const {
+  return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree, weight of the heaviest's 1/65535] a "
+         "sample of mcl/LOCALIZATION/pose; only while a client asks for it by its name";
+}
+
+void SamplesData::check(std::span<const std::uint32_t> words) const {
+  if (words.size() % kWords != 0 || words.size() > kWords * kMostSamples)
+    throw std::invalid_argument("found " + std::to_string(words.size()) +
+                                " words, expected four a sample and at most " +
+                                std::to_string(kMostSamples) + " samples");
+  for (std::size_t i = 0; i < words.size(); i += kWords) {
+    if (words[i + 2] >= words::kAngles)
+      throw std::invalid_argument("found the heading " + std::to_string(words[i + 2]) +
+                                  ", expected below 36000");
+    if (words[i + 3] > kHeaviest)
+      throw std::invalid_argument("found the weight " + std::to_string(words[i + 3]) +
+                                  ", expected 0 to 65535");
+  }
+}
+
+}  // namespace ortung

@@ -1,0 +1,147 @@
+// What a localization publishes beside its pose: samples, places, work.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "Files.hpp"
+#include "RoomRun.hpp"
+#include "ortung/run/ClustersData.hpp"
+#include "ortung/run/SamplesData.hpp"
+#include "ortung/run/WorkData.hpp"
+
+namespace ortung::test {
+namespace {
+
+template <class Data>
+std::string toldOf(std::vector<std::uint32_t> words) {
+  Data data;
+  return messageOf<std::invalid_argument>([&] { data.setData(1, words); });
+}
+
+template <class Data>
+void expectRefused(const std::vector<std::uint32_t>& words, const char* text) {
+  EXPECT_NE(toldOf<Data>(words).find(text), std::string::npos) << toldOf<Data>(words);
+}
+
+TEST(SamplesData, HasTheWordsThatTheProtocolStates) {
+  constexpr float kLn5 = 1.609437912F;
+  const SampleSet samples{
+      {1.5F, -0.25F}, {0.0F, 2.0F}, {0.0F, -1.570796327F}, {-3.0F, -3.0F - kLn5}};
+  const Message message = SamplesData::message(7, samples);
+  EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/samples");
+  constexpr std::uint32_t kZero = 1u << 31;
+  EXPECT_EQ(message.words, (std::vector<std::uint32_t>{kZero + 1500, kZero, 0, 65535, kZero - 250,
+                                                       kZero + 2000, 27000, 13107}));
+  SamplesData data;
+  data.setData(message.stamp, message.words);
+  const SamplesData::Reading reading = data.reading();
+  ASSERT_EQ(reading.size(), 2U);
+  EXPECT_NEAR(reading[1].pose.x, -0.25, 1e-9);
+  EXPECT_NEAR(reading[1].pose.theta, -kPi / 2, 1e-9);
+  EXPECT_NEAR(reading[1].weight, 0.2, 1e-4);
+  EXPECT_FALSE(data.localizes());
+}
+
+TEST(SamplesData, OfManyTellsThoseThatAreEvenlySpread) {
+  SampleSet samples;
+  samples.resize(25'000);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples.x[i] = 1e-3F * static_cast<float>(i);
+  const std::vector<std::uint32_t> words = SamplesData::encode(samples);
+  ASSERT_EQ(words.size(), 4 * SamplesData::kMostSamples);
+  for (std::size_t k = 0; k < SamplesData::kMostSamples; ++k)
+    ASSERT_EQ(words[4 * k] - (1u << 31), 5 * k / 2) << "every second or third";
+  EXPECT_TRUE(SamplesData::encode({}).empty());
+}
+
+TEST(SamplesData, WhereAllAreLostNoneOutweighsAnother) {
+  constexpr float kLost = -std::numeric_limits<float>::infinity();
+  const auto words = SamplesData::encode({{0, 0}, {0, 0}, {7.0F, -9.0F}, {kLost, kLost}});
+  EXPECT_EQ(words[3], words[7]);
+  EXPECT_LT(words[2], 36'000U);
+  EXPECT_LT(words[6], 36'000U);
+}
+
+TEST(ClustersData, HasTheWordsThatTheProtocolStates) {
+  PoseEstimate place;
+  place.pose = {1.0, -2.0, 0.0};
+  place.covariance = {0.01, 0, 0, 0, 0.04, 0, 0, 0, 0.0001};
+  place.share = 0.75;
+  const Message message = ClustersData::message(9, std::span(&place, 1));
+  EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/places");
+  ASSERT_EQ(message.words.size(), 10U);
+  EXPECT_EQ(message.words[0], 7500U);
+  EXPECT_EQ(message.words[4], 100'000U) << "um";
+  ClustersData data;
+  data.setData(9, message.words);
+  ASSERT_EQ(data.reading().size(), 1U);
+  EXPECT_DOUBLE_EQ(data.reading()[0].share, 0.75);
+  EXPECT_NEAR(data.reading()[0].fix.pose.y, -2.0, 1e-9);
+  EXPECT_NEAR(data.reading()[0].fix.covariance[4], 0.04, 1e-6);
+  EXPECT_FALSE(data.localizes());
+}
+
+TEST(WorkData, HasTheWordsThatTheProtocolStates) {
+  const Message message = WorkData::message(9, {1000, 612.4, 0.00125, 17});
+  EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/work");
+  EXPECT_EQ(message.words, (std::vector<std::uint32_t>{1000, 612, 1250, 17}));
+  EXPECT_EQ(WorkData::encode({0, std::nan(""), 1e30, 0})[2], 4'294'967'295U);
+}
+
+TEST(PublishedFormats, RefuseWhatCannotBe) {
+  expectRefused<SamplesData>({1, 2, 3}, "found 3 words, expected four a sample");
+  expectRefused<SamplesData>(std::vector<std::uint32_t>(40'004, 0), "at most 10000 samples");
+  expectRefused<SamplesData>({0, 0, 36'000, 0}, "found the heading 36000, expected below 36000");
+  expectRefused<SamplesData>({0, 0, 0, 65'536}, "found the weight 65536, expected 0 to 65535");
+  expectRefused<ClustersData>({1, 2, 3}, "found 3 words, expected ten a place");
+  expectRefused<ClustersData>(std::vector<std::uint32_t>(650, 1), "at most 64 places");
+  expectRefused<ClustersData>({10'001, 0, 0, 0, 1, 1, 1, 0, 0, 0}, "found the share 10001");
+  expectRefused<ClustersData>({5, 0, 0, 36'000, 1, 1, 1, 0, 0, 0}, "found the angle word 36000");
+  expectRefused<ClustersData>({5, 0, 0, 0, 0, 1, 1, 0, 0, 0}, "found a sigma of 0");
+  expectRefused<WorkData>({1, 1, 1}, "found 3 words, expected 4");
+  expectRefused<WorkData>({5, 6, 0, 0}, "found 5 samples worth 6");
+}
+
+using Publishing = RoomRun;
+
+TEST_F(Publishing, SamplesAreSetOnlyWhileSomebodyWantsThem) {
+  LocalizationConfig config = fromRecord();
+  config.publish = true;
+  Localization localization(config);
+  const auto count = [&](const char* feature) {
+    return localization.container().findExactly({"mcl", "LOCALIZATION", feature})->sequence();
+  };
+  ASSERT_TRUE(localization.next());
+  EXPECT_EQ(count("samples"), 0U);
+  EXPECT_EQ(count("places"), 1U);
+  EXPECT_EQ(count("work"), 1U);
+  localization.wantSamples(true);
+  const auto estimate = localization.next();
+  ASSERT_TRUE(estimate);
+  const auto* samples = dynamic_cast<const SamplesData*>(
+      localization.container().findExactly({"mcl", "LOCALIZATION", "samples"}));
+  ASSERT_NE(samples, nullptr);
+  EXPECT_EQ(samples->stamp(), estimate->stamp);
+  EXPECT_EQ(samples->reading().size(), localization.mcl().samples().size());
+  const auto work = localization.container().get<WorkData>({.feature = "work"});
+  EXPECT_EQ(work->samples, localization.mcl().samples().size());
+  EXPECT_EQ(work->estimates, 2U);
+  EXPECT_GE(work->effectiveSamples, 1.0);
+  const auto places = localization.container().get<ClustersData>({.feature = "places"});
+  ASSERT_FALSE(places->empty());
+  EXPECT_NEAR(places->front().fix.pose.x, estimate->pose.x, 0.02)
+      << "of the samples after resampling, the estimate of those before";
+  localization.wantSamples(false);
+  ASSERT_TRUE(localization.next());
+  EXPECT_EQ(count("samples"), 1U);
+}
+
+TEST_F(Publishing, APoseOffTheMapIsRefusedBeforeItIsSet) {
+  const Localization localization(config());
+  localization.checkPose({1.0, 0.5, 0.0}, 0.3);
+  EXPECT_THROW(localization.checkPose({100.0, 0.0, 0.0}, 0.3), std::invalid_argument);
+  EXPECT_THROW(localization.checkPose({std::nan(""), 0.0, 0.0}, 0.3), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ortung::test
