@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <stdexcept>
 #include <system_error>
 
@@ -35,10 +37,10 @@ class OwnFolder {
 };
 
 /// All that decides what a robot learns in a world.
-std::string keyOf(const SimRobot& robot) {
-  const RobotSize size = sizeOf(robot.config());
+std::string keyOf(const RobotConfig& robot, const SensorContainer& container) {
+  const RobotSize size = sizeOf(robot);
   std::string key = std::to_string(size.radius) + " " + std::to_string(size.height);
-  for (const auto& data : robot.container().all())
+  for (const auto& data : container.all())
     if (data->localizes()) key += "\n" + toText(data->id()) + " " + data->learningKey();
   return key;
 }
@@ -46,28 +48,65 @@ std::string keyOf(const SimRobot& robot) {
 }  // namespace
 
 std::shared_ptr<const RobotTables> TableStore::of(const SimRobot& robot, PluginFactory& factory) {
-  const std::string key = keyOf(robot);
-  const std::lock_guard lock(mutex_);
-  std::shared_ptr<const RobotTables>& tables = known_[key];
-  if (!tables) tables = learnFor(robot.config(), factory);
+  return of(robot.config(), robot.container(), factory);
+}
+
+std::shared_ptr<const RobotTables> TableStore::of(const RobotConfig& robot,
+                                                  const SensorContainer& container,
+                                                  PluginFactory& factory,
+                                                  const std::function<bool(double)>& goOn) {
+  constexpr std::chrono::milliseconds kLook{20};
+  const std::string key = keyOf(robot, container);
+  std::unique_lock lock(mutex_);
+  while (!known_.contains(key) && isLearning_) {
+    const double share = share_;
+    lock.unlock();
+    if (goOn && !goOn(share)) return nullptr;
+    lock.lock();
+    done_.wait_for(lock, kLook, [this] { return !isLearning_; });
+  }
+  if (const auto found = known_.find(key); found != known_.end()) return found->second;
+  isLearning_ = true;
+  share_ = 0.0;
+  lock.unlock();
+  std::shared_ptr<const RobotTables> tables;
+  std::exception_ptr failure;
+  try {
+    tables = learnFor(robot, factory, goOn);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  lock.lock();
+  isLearning_ = false;
+  if (tables) known_[key] = tables;
+  done_.notify_all();
+  if (failure) std::rethrow_exception(failure);
   return tables;
 }
 
 std::shared_ptr<const RobotTables> TableStore::learnFor(const RobotConfig& robot,
-                                                        PluginFactory& factory) const {
+                                                        PluginFactory& factory,
+                                                        const std::function<bool(double)>& goOn) {
   const std::unique_ptr<SimWorld> world = readWorld(world_);
-  const LearnOptions options{.cell = kCell};
+  const LearnOptions options{.cell = cell_};
   LearnArea area = learnArea(*world, options.cell, sizeOf(robot));
   const auto open = static_cast<std::size_t>(
       std::count(area.region.open.begin(), area.region.open.end(), std::uint8_t{1}));
   if (open > kMostCells)
-    throw std::runtime_error(world_.string() + ": is too large to be learned on the way, with " +
-                             std::to_string(open) + " cells, expected at most " +
-                             std::to_string(kMostCells) +
-                             "; let `ortung learn` do it, and give tables=FILE");
+    throw std::runtime_error(
+        world_.string() + ": is too large to be learned on the way, with " + std::to_string(open) +
+        " cells, expected at most " + std::to_string(kMostCells) +
+        "; let `ortung learn` do it, and give its file (tables=FILE, --tables FILE)");
   SensorContainer container;
   const std::vector<Device> devices = fillContainer(container, robot, factory);
-  learn(*world, area.region, devices, factory, options);
+  Learner learner(*world, area.region, devices, {}, factory, options);
+  while (learner.step()) {
+    {
+      const std::lock_guard lock(mutex_);
+      share_ = learner.share();
+    }
+    if (goOn && !goOn(learner.share())) return nullptr;
+  }
   TableInfo info;
   info.world = world->name();
   info.worldFingerprint = world->fingerprint();
