@@ -151,6 +151,14 @@ void addSim(Builder& build, CLI::App& app) {
       ->check(within(0.1, 1000.0));
   build.flag("--no-noise", a->noNoise, "Sensors and odometry without noise");
   build.flag("--force", a->force, kForce);
+  build
+      .option("--localize", a->localize,
+              "With --listen: names of robots (NAME,NAME,... or all) that are localized from the "
+              "beginning, for clients to see; these may begin and end it (LOCALIZE)")
+      ->delimiter(',');
+  build.option(
+      "--tables", a->tables,
+      "Table file for that, of `ortung learn`; default: learned when the first one begins");
   addServing(build, a->serving);
 }
 

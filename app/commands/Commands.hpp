@@ -233,7 +233,9 @@ struct SimArguments {
   std::uint64_t seed = 1;
   std::optional<double> cycleMs;  ///< default: the world's
   bool noNoise = false;
-  bool force = false;  ///< overwrite files of other kinds
+  bool force = false;                 ///< overwrite files of other kinds
+  std::vector<std::string> localize;  ///< names of robots to localize for clients; "all"
+  std::filesystem::path tables;       ///< for that; "": they are learned
   ServingArguments serving;
 };
 int runSim(const SimArguments& arguments);

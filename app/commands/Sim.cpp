@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <thread>
+#include <utility>
 
 #include "Commands.hpp"
 #include "Console.hpp"
@@ -17,6 +18,9 @@
 #include "Serving.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/formats/TalkData.hpp"
+#include "ortung/mcl_served/LocalizationCommands.hpp"
+#include "ortung/mcl_served/LocalizedWorld.hpp"
+#include "ortung/mcl_served/WorldTables.hpp"
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/served/PlayerCommands.hpp"
 #include "ortung/served/ServedSimulation.hpp"
@@ -233,6 +237,28 @@ class RefereedSimulation : public ServedSimulation {
   std::optional<Trace> trace_;
 };
 
+/// With filters for those of its robots that can localize.
+LocalizedWorld localized(ServedSimulation& simulation, const SimArguments& arguments) {
+  LocalizedWorld::Config config;
+  config.robotFile = [&simulation](RobotId id) -> std::filesystem::path {
+    const SimRobot& robot = simulation.simRobot(id);
+    const auto all = robot.container().all();
+    const bool localizes = std::any_of(all.begin(), all.end(),
+                                       [](const auto& feature) { return feature->localizes(); });
+    return localizes ? robot.config().about.where() : "";
+  };
+  config.tables = arguments.tables.empty()
+                      ? learnedTables(simulation.worldFile())
+                      : givenTables(arguments.tables, simulation.describe().fingerprint);
+  config.names = arguments.localize;
+  config.seed = arguments.seed;
+  try {
+    return {simulation, config};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--localize: ") + error.what());
+  }
+}
+
 int play(const SimArguments& arguments) {
   const Outputs outputs = outputsOf(arguments);
   const Scene scene = sceneOf(arguments);
@@ -304,6 +330,8 @@ int runSim(const SimArguments& arguments) {
   if (!serving.isServing()) {
     if (serving.lockstep || !serving.control.empty() || !serving.tokens.empty())
       throw UsageError("--lockstep, --allow-control and --token-file are for --listen and --view");
+    if (!arguments.localize.empty() || !arguments.tables.empty())
+      throw UsageError("--localize and --tables are for --listen and --view");
     return play(arguments);
   }
   if (!arguments.record.empty() || arguments.duration || arguments.digest)
@@ -314,7 +342,10 @@ int runSim(const SimArguments& arguments) {
   Simulation::Config config = configOf(arguments);
   config.onProblem = warn;
   RefereedSimulation simulation(arguments, config);
-  serve(simulation, arguments.serving, playerCommands(simulation));
+  LocalizedWorld world = localized(simulation, arguments);
+  std::vector<BoardCommand> commands = playerCommands(simulation);
+  for (BoardCommand& command : localizationCommands(world)) commands.push_back(std::move(command));
+  serve(world, arguments.serving, std::move(commands));
   simulation.commit();
   return 0;
 }

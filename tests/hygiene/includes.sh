@@ -21,9 +21,12 @@ foreign='mrpt|opencv|embree|GL/|EGL/|box2d|boost|spdlog|fmt/|CLI/'
 deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|served|client)|$foreign"
 deny 'container' 'toml\+\+|toml\.|nlohmann' 'container/robot/'
 deny 'container mcl sim plugins realsensors app' 'zstd\.h|lz4' '(container/records/src/Zstd|realsensors/ros2/src/Compression)\.cpp'
-deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign" 'mcl/player/.*sim_api/'
+deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign" 'mcl/(player/.*sim_api/|served/.*(server|sim)/)'
 deny 'container mcl/include mcl/src mcl/run sim/api sim/src sim/include sim/remote realsensors' 'ortung/mcl_player/'
 deny 'plugins/sensors plugins/motion plugins/sources plugins/referees' 'ortung/mcl_player/'
+# Filters for clients of a server: only who serves sees them; of the simulator they know the learner's tables alone.
+deny 'container mcl/include mcl/src mcl/run mcl/player sim plugins realsensors' 'ortung/mcl_served/'
+deny 'mcl/served' 'ortung/(served|sim_api|realsensors|client|remote)/|ortung/sim/[^T]'
 deny 'mcl/include mcl/src' 'ortung/(robot|run)/'
 # The main job as a library: whoever uses it prints by himself and has his own command line.
 headers_of_app=$(ls app/*/*.hpp | xargs -n1 basename | sed 's/\.hpp$//' | paste -sd '|')
@@ -73,7 +76,7 @@ for room in $later; do
 done
 
 # Public headers name no library but the standard one and Eigen.
-for folder in container/*/include mcl/include mcl/run/include mcl/player/include sim/include sim/api/include sim/server/include \
+for folder in container/*/include mcl/include mcl/run/include mcl/player/include mcl/served/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
               sim/pictures/include sim/web/include realsensors/ros2/include realsensors/devices/include realsensors/emulators/include; do
   deny "$folder" "toml|nlohmann|$foreign"

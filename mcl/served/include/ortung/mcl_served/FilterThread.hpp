@@ -1,0 +1,111 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/core/Message.hpp"
+#include "ortung/mcl_served/LocalizedRobots.hpp"
+#include "ortung/robot/RobotTables.hpp"
+#include "ortung/run/Localization.hpp"
+#include "ortung/run/Robot.hpp"
+
+namespace ortung {
+
+/// Gives a robot its tables, learned or read; null if @p goOn, told the share that is done, has
+/// said no. Called on the threads of filters. @throws std::exception, whose text clients are told
+using TableGiver = std::function<std::shared_ptr<const RobotTables>(
+    const Robot& robot, const std::function<bool(double)>& goOn)>;
+
+/// Localizes one robot by readings that somebody else takes, on a thread of its own, which also
+/// waits for the tables. Whoever gives readings never waits: where the filter lags behind, it sets
+/// one moment after the other and updates once; where it lags far behind, moments are lost.
+/// Thread-safe.
+class ORTUNG_API FilterThread {
+ public:
+  struct Config {
+    std::filesystem::path robot;  ///< its file
+    TableGiver tables;
+    std::uint64_t seed = 1;
+  };
+  static constexpr std::size_t kMostMoments = 256;  ///< that wait
+
+  /// Off at first.
+  explicit FilterThread(Config config);
+  ~FilterThread();  ///< waits for an update, or a step of learning
+  FilterThread(const FilterThread&) = delete;
+  FilterThread& operator=(const FilterThread&) = delete;
+
+  /// Readings of one moment; those that no filter looks at are left out.
+  void take(std::span<const Message> moment);
+  /// @throws ServeError for a place where the robot can't stand, if the field is known already
+  void order(const LocalizationOrder& order);
+  /// Time and odometry have begun anew: so does the filter, if it is on, with the tables it has.
+  void restart();
+  void wantSamples(bool wanted);
+
+  LocalizationState state() const;
+  /// Null unless it is searching or running.
+  std::shared_ptr<const Robot> perceiver() const;
+  /// What the filter looks at, directly or through extractors; none while that is not known.
+  std::vector<SensorId> needs() const;
+  /// Appends what is published and was not taken yet: the newest of each feature.
+  void takePublished(std::vector<Message>& out);
+
+  /// Begins to end; isOver() says when the destructor will not wait.
+  void requestStop();
+  bool isOver() const { return isOver_; }
+
+ private:
+  using Order = LocalizationOrder;
+  struct Inbox {
+    std::deque<std::vector<Message>> moments;
+    std::vector<Order> orders;
+    bool isRestarted = false;
+  };
+  void run(const std::stop_token& stop);
+  std::optional<Inbox> await(const std::stop_token& stop);
+  void obey(const Order& order, const std::stop_token& stop);
+  void start(const Order& order, const std::stop_token& stop);
+  void open(const LocalizationStart& start);
+  void close(LocalizationState state);
+  void localize(const std::deque<std::vector<Message>>& moments);
+  void publish();
+  void set(LocalizationState state);
+
+  const Config config_;
+  // For the thread alone.
+  std::shared_ptr<const RobotTables> tables_;
+  std::shared_ptr<Localization> localization_;  ///< null: off
+  struct Output {
+    const SensorData* data;
+    std::uint64_t seen;  ///< sequence number of the reading last published
+  };
+  std::vector<Output> outputs_;
+
+  mutable std::mutex mutex_;  ///< of what follows
+  std::condition_variable_any news_;
+  Inbox inbox_;
+  LocalizationState state_;
+  std::shared_ptr<Localization> perceiver_;
+  std::vector<SensorId> needs_;
+  std::vector<Message> published_;  ///< and not yet taken: the newest of each feature
+  bool wantsSamples_ = false;
+
+  std::atomic<bool> isWanted_ = false;  ///< on, as who ordered last wants it
+  std::atomic<bool> isOver_ = false;
+  std::jthread thread_;  ///< last, so that it ends before what it uses
+};
+
+}  // namespace ortung

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/run/Robot.hpp"
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung {
+
+/// How far the localization of a robot is.
+struct LocalizationState {
+  enum class Kind : std::uint8_t { kOff, kLearning, kSearching, kRunning, kFailed };
+  Kind kind = Kind::kOff;
+  double progress = 0.0;  ///< of learning, in [0, 1]; 1 once that is done
+  std::string text = {};  ///< of kRunning how it is ("tracking: readings fit"), of kFailed why
+};
+
+/// "off", "learning", "searching", "running", "failed".
+ORTUNG_API const char* nameOf(LocalizationState::Kind kind);
+
+/// What somebody tells a localization.
+struct LocalizationOrder {
+  enum class Kind : std::uint8_t {
+    kOn,        ///< goes on if it is on already
+    kOff,       ///< ends learning, too
+    kAnywhere,  ///< on, and the robot may be anywhere
+    kPlace      ///< on, and the robot is about at `pose`
+  };
+  Kind kind = Kind::kOn;
+  Pose2 pose = {};               ///< field frame
+  double sigmaPosition = 0.3;    ///< standard deviation [m], positive
+  double sigmaHeading = 0.1745;  ///< standard deviation [rad], positive
+};
+
+/// Who localizes robots, for the commands of clients: filters beside a simulation, or the program
+/// on a robot. Refusals are ServeErrors. Not thread-safe, but for what says so: one thread owns it.
+class ORTUNG_API LocalizedRobots {
+ public:
+  virtual ~LocalizedRobots();
+
+  /// Which robot is meant where none is named, if there is such a one. Thread-safe.
+  virtual std::optional<RobotId> usual() const = 0;
+  /// Whether there is but one side: then players, too, may know what any robot perceives.
+  /// Thread-safe.
+  virtual bool isForAll() const = 0;
+  virtual LocalizationState state(RobotId robot) = 0;
+  virtual void order(RobotId robot, const LocalizationOrder& order) = 0;
+  /// A robot whose features have tables, with its present readings. Its container takes further
+  /// ones meanwhile; all else of it stays as it is. Thread-safe. @throws ServeError
+  virtual std::shared_ptr<const Robot> perceiver(RobotId robot) const = 0;
+};
+
+}  // namespace ortung

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/mcl_served/FilterThread.hpp"
+#include "ortung/mcl_served/LocalizedRobots.hpp"
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung {
+
+/// A served world, with the features of LOCALIZATION for each robot of its own that has features to
+/// localize by: while its filter is on, their readings come with the robot's. Filters run on
+/// threads of their own, so when their readings come depends on the computer. One thread owns it,
+/// but for what says that it is thread-safe.
+class ORTUNG_API LocalizedWorld final : public ServedWorld, public LocalizedRobots {
+ public:
+  struct Config {
+    /// The file of a robot of the world's own; "" if it has no features to localize by.
+    std::function<std::filesystem::path(RobotId)> robotFile;
+    TableGiver tables;
+    std::vector<std::string> names;  ///< robots that are localized from the beginning; "all"
+    std::uint64_t seed = 1;
+  };
+
+  /// @param world borrowed
+  /// @throws std::invalid_argument for a name that no robot of the world's own has, or of one that
+  ///   can't localize
+  LocalizedWorld(ServedWorld& world, Config config);
+  ~LocalizedWorld() override;
+
+  // LocalizedRobots
+  std::optional<RobotId> usual() const override;
+  bool isForAll() const override { return false; }
+  LocalizationState state(RobotId robot) override;
+  void order(RobotId robot, const LocalizationOrder& order) override;
+  std::shared_ptr<const Robot> perceiver(RobotId robot) const override;
+
+  // ServedWorld: that of the world, and what filters add
+  WorldDescription describe() const override { return world_.describe(); }
+  std::vector<std::string> plugins() const override { return world_.plugins(); }
+  std::vector<std::string> players() const override { return world_.players(); }
+  Timestamp now() const override { return world_.now(); }
+  Timestamp livePeriod() const override { return world_.livePeriod(); }
+  bool isReady() const override { return world_.isReady(); }
+  bool isAtEnd() const override { return world_.isAtEnd(); }
+  void step() override;
+  std::vector<Resident> residents() const override;
+  std::uint64_t residentsVersion() const override { return world_.residentsVersion(); }
+  ServedRobot addRobot(RobotId robot, RobotWish wish) override;
+  std::vector<std::string> abilities(RobotId robot) const override;
+  void removeRobot(RobotId robot) override { world_.removeRobot(robot); }
+  void want(RobotId robot, std::span<const SensorId> features) override;
+  std::span<Message> readings(RobotId robot) override;
+  RobotCommands& commands(RobotId robot) override { return world_.commands(robot); }
+  void tell(RobotId robot, std::string_view text) override { world_.tell(robot, text); }
+  std::vector<ServedTalk> takeHeard(RobotId robot) override { return world_.takeHeard(robot); }
+  void reset(std::optional<std::uint64_t> seed) override;
+  void placeRobot(RobotId robot, const Pose2& pose) override { world_.placeRobot(robot, pose); }
+  void placeObject(const std::string& object, const Pose2& pose) override {
+    world_.placeObject(object, pose);
+  }
+
+ private:
+  struct Filter {
+    std::unique_ptr<FilterThread> thread;  ///< null: it was never on
+    std::vector<SensorId> wanted;          ///< by clients
+    std::vector<SensorId> needs;           ///< of the filter, as the world was told
+  };
+  void meetResidents();
+  void checkNames() const;
+  bool isNamed(const std::string& name) const;
+  void tellWanted(RobotId robot, const Filter& filter);
+  Filter& filter(RobotId robot);
+  FilterThread& threadOf(RobotId robot, Filter& filter);
+
+  ServedWorld& world_;
+  Config config_;
+  std::vector<ServedFeature> features_;  ///< that filters add
+  std::optional<std::uint64_t> version_;
+  mutable std::mutex mutex_;  ///< of the list of filters, for what is thread-safe
+  std::map<RobotId, Filter> filters_;
+  std::vector<std::unique_ptr<FilterThread>> leaving_;  ///< of robots that are gone
+  std::vector<Message> frame_;
+};
+
+}  // namespace ortung

@@ -1,0 +1,246 @@
+#include "ortung/mcl_served/FilterThread.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/run/TrackData.hpp"
+
+namespace ortung {
+namespace {
+
+using Kind = LocalizationState::Kind;
+
+constexpr const char* kModel = "mcl";
+constexpr const char* kType = "LOCALIZATION";
+
+void add(const SensorId& id, std::vector<SensorId>& ids) {
+  if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+}
+
+void addWithInputs(const SensorContainer& container, const SensorData& data,
+                   std::vector<SensorId>& ids) {
+  add(data.id(), ids);
+  for (const SensorData* input : container.inputsOf(data)) addWithInputs(container, *input, ids);
+}
+
+std::vector<SensorId> needsOf(const SensorContainer& container) {
+  std::vector<SensorId> ids;
+  for (const auto& data : container.all())
+    if (data->localizes() || dynamic_cast<const OdometryData*>(data.get()) != nullptr)
+      addWithInputs(container, *data, ids);
+  return ids;
+}
+
+LocalizationStart startOf(const LocalizationOrder& order) {
+  if (order.kind != LocalizationOrder::Kind::kPlace) return {};
+  return {LocalizationStart::Kind::kPose, order.pose, order.sigmaPosition, order.sigmaHeading};
+}
+
+std::array<double, 9> covarianceOf(const LocalizationOrder& order) {
+  const double place = order.sigmaPosition * order.sigmaPosition;
+  return {place, 0, 0, 0, place, 0, 0, 0, order.sigmaHeading * order.sigmaHeading};
+}
+
+}  // namespace
+
+FilterThread::FilterThread(Config config)
+    : config_(std::move(config)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+FilterThread::~FilterThread() = default;
+
+// --- for others
+
+void FilterThread::take(std::span<const Message> moment) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!perceiver_) return;
+    std::vector<Message> needed;
+    for (const Message& message : moment)
+      if (std::find(needs_.begin(), needs_.end(), message.id) != needs_.end())
+        needed.push_back(message);
+    if (needed.empty()) return;
+    if (inbox_.moments.size() == kMostMoments) inbox_.moments.pop_front();
+    inbox_.moments.push_back(std::move(needed));
+  }
+  news_.notify_one();
+}
+
+void FilterThread::order(const LocalizationOrder& order) {
+  std::shared_ptr<Localization> known;
+  {
+    const std::lock_guard lock(mutex_);
+    known = perceiver_;
+  }
+  if (known && order.kind == Order::Kind::kPlace) known->checkPose(order.pose, order.sigmaPosition);
+  {
+    const std::lock_guard lock(mutex_);
+    isWanted_ = order.kind != Order::Kind::kOff;
+    if (!isWanted_)
+      state_ = {};
+    else if (state_.kind == Kind::kOff || state_.kind == Kind::kFailed)
+      state_ = {Kind::kLearning};
+    inbox_.orders.push_back(order);
+  }
+  news_.notify_one();
+}
+
+void FilterThread::restart() {
+  {
+    const std::lock_guard lock(mutex_);
+    inbox_.moments.clear();
+    inbox_.isRestarted = true;
+    published_.clear();
+  }
+  news_.notify_one();
+}
+
+void FilterThread::wantSamples(bool wanted) {
+  const std::lock_guard lock(mutex_);
+  wantsSamples_ = wanted;
+  if (perceiver_) perceiver_->wantSamples(wanted);
+}
+
+LocalizationState FilterThread::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+std::shared_ptr<const Robot> FilterThread::perceiver() const {
+  const std::lock_guard lock(mutex_);
+  if (!perceiver_) return nullptr;
+  return {perceiver_, &perceiver_->robot()};
+}
+
+std::vector<SensorId> FilterThread::needs() const {
+  const std::lock_guard lock(mutex_);
+  return needs_;
+}
+
+void FilterThread::takePublished(std::vector<Message>& out) {
+  const std::lock_guard lock(mutex_);
+  for (Message& message : published_) out.push_back(std::move(message));
+  published_.clear();
+}
+
+void FilterThread::requestStop() { thread_.request_stop(); }
+
+// --- the thread
+
+void FilterThread::run(const std::stop_token& stop) {
+  while (auto inbox = await(stop)) {
+    try {
+      if (inbox->isRestarted && localization_) open({});
+      for (const Order& order : inbox->orders) obey(order, stop);
+      if (localization_) localize(inbox->moments);
+    } catch (const std::exception& error) {
+      close({Kind::kFailed, 0.0, error.what()});
+    } catch (...) {  // plugins may throw anything
+      close({Kind::kFailed, 0.0, "it threw no std::exception"});
+    }
+  }
+  isOver_ = true;
+}
+
+/// What there is to do; nothing at the end.
+std::optional<FilterThread::Inbox> FilterThread::await(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  const bool hasNews = news_.wait(lock, stop, [this] {
+    return inbox_.isRestarted || !inbox_.orders.empty() || !inbox_.moments.empty();
+  });
+  if (!hasNews || stop.stop_requested()) return std::nullopt;
+  return std::exchange(inbox_, {});
+}
+
+void FilterThread::obey(const Order& order, const std::stop_token& stop) {
+  if (order.kind == Order::Kind::kOff) return close({});
+  if (!localization_) return start(order, stop);
+  if (order.kind == Order::Kind::kPlace) localization_->setPose(order.pose, covarianceOf(order));
+  if (order.kind == Order::Kind::kAnywhere) localization_->relocalize();
+}
+
+void FilterThread::start(const Order& order, const std::stop_token& stop) {
+  if (!tables_) {
+    const auto goOn = [&](double share) {
+      set({Kind::kLearning, share});
+      return isWanted_ && !stop.stop_requested();
+    };
+    tables_ = config_.tables(*openRobot(config_.robot), goOn);
+  }
+  if (tables_)
+    open(startOf(order));
+  else
+    close({});
+}
+
+void FilterThread::open(const LocalizationStart& start) {
+  LocalizationConfig config;
+  config.robot = config_.robot;
+  config.seed = config_.seed;
+  config.threads = 1;
+  config.start = start;
+  config.publish = true;
+  localization_ =
+      std::make_shared<Localization>(openRobot(config_.robot, *tables_), nullptr, config);
+  const SensorContainer& container = localization_->container();
+  outputs_.clear();
+  for (const SensorData* data : container.findAll({kModel, kType, {}}))
+    outputs_.push_back({data, 0});
+  set({Kind::kSearching, 1.0});
+  const std::lock_guard lock(mutex_);
+  perceiver_ = localization_;
+  perceiver_->wantSamples(wantsSamples_);
+  needs_ = needsOf(container);
+  published_.clear();
+}
+
+void FilterThread::close(LocalizationState state) {
+  localization_.reset();
+  outputs_.clear();
+  const std::lock_guard lock(mutex_);
+  perceiver_.reset();
+  needs_.clear();
+  published_.clear();
+  inbox_.moments.clear();
+  state_ = std::move(state);
+}
+
+void FilterThread::localize(const std::deque<std::vector<Message>>& moments) {
+  if (moments.empty()) return;
+  for (const std::vector<Message>& moment : moments) localization_->container().set(moment);
+  localization_->update();
+  const auto track = localization_->container().get<TrackData>({kModel, kType, "status"});
+  if (!track || track->reason == TrackReason::kSearching)
+    set({Kind::kSearching, 1.0});
+  else
+    set({Kind::kRunning, 1.0, std::string(nameOf(track->status)) + ": " + nameOf(track->reason)});
+  publish();
+}
+
+void FilterThread::publish() {
+  std::vector<Message> fresh;
+  {
+    const SensorContainer::ReadLock lock = localization_->container().read();
+    for (Output& output : outputs_) {
+      if (output.data->sequence() == output.seen) continue;
+      output.seen = output.data->sequence();
+      const std::span<const std::uint32_t> words = output.data->getData();
+      fresh.push_back({output.data->stamp(), output.data->id(), {words.begin(), words.end()}});
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  std::erase_if(published_, [&](const Message& old) {
+    return std::any_of(fresh.begin(), fresh.end(),
+                       [&](const Message& one) { return one.id == old.id; });
+  });
+  for (Message& message : fresh) published_.push_back(std::move(message));
+}
+
+/// Unless it was switched off meanwhile.
+void FilterThread::set(LocalizationState state) {
+  const std::lock_guard lock(mutex_);
+  if (isWanted_) state_ = std::move(state);
+}
+
+}  // namespace ortung

@@ -1,0 +1,57 @@
+#include "Why.hpp"
+
+#include <cmath>
+
+#include "HeatMap.hpp"
+#include "NumberText.hpp"
+#include "ortung/run/ReadingValues.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMostValues = 2048;  // of a feature: beams of any scanner
+
+void addValues(const std::string& feature, const std::vector<ReadingValue>& values,
+               std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::string line = "value " + feature + " " + std::to_string(i) +
+                       (values[i].isAngle ? " unit=rad" : " unit=m");
+    if (values[i].measured) line += " measured=" + numberText(*values[i].measured);
+    if (values[i].expected) line += " expected=" + numberText(*values[i].expected);
+    lines.push_back(std::move(line));
+  }
+}
+
+}  // namespace
+
+Why whyAt(const Robot& robot, const std::vector<std::string>& queries, const Pose2& pose) {
+  const std::vector<const SensorData*> features = chosenFeatures(robot, queries);
+  const auto x = static_cast<float>(pose.x);
+  const auto y = static_cast<float>(pose.y);
+  const auto theta = static_cast<float>(pose.theta);
+  const SampleView one{{&x, 1}, {&y, 1}, {&theta, 1}};
+  Why why;
+  double sum = 0.0;
+  bool any = false;
+  const SensorContainer::ReadLock lock = robot.container.read();
+  for (const SensorData* feature : features) {
+    const std::shared_ptr<const Weigher> weigher = feature->weigher();
+    if (weigher) {
+      float logProbability = 0.0F;
+      weigher->getProbability(one, {&logProbability, 1});
+      sum += static_cast<double>(logProbability);
+      any = true;
+    }
+    const std::string name = toText(feature->id());
+    std::vector<ReadingValue> values = readingValues(*feature, pose);
+    if (values.size() > kMostValues) values.resize(kMostValues);
+    why.lines.push_back(
+        name + " p=" + numberText(weigher ? weigher->getProbability(pose) : kNoExpectation) +
+        " values=" + std::to_string(values.size()));
+    addValues(name, values, why.lines);
+  }
+  why.p = any ? std::exp(sum) : kNoExpectation;
+  return why;
+}
+
+}  // namespace ortung

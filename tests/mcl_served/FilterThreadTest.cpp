@@ -1,0 +1,104 @@
+// A filter on a thread of its own: it learns, can be stopped at that, and never holds others up.
+#include <gtest/gtest.h>
+
+#include <latch>
+#include <thread>
+
+#include "LocalizedArena.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+
+namespace ortung::test {
+namespace {
+
+using Kind = LocalizationState::Kind;
+using OrderKind = LocalizationOrder::Kind;
+
+/// Waits until the filter is in a state; what hangs is ended by the test's own time limit.
+LocalizationState await(const FilterThread& filter, Kind kind) {
+  while (filter.state().kind != kind) std::this_thread::yield();
+  return filter.state();
+}
+
+/// Learns for as long as it may.
+std::shared_ptr<const RobotTables> learnForEver(const Robot&,
+                                                const std::function<bool(double)>& goOn) {
+  while (goOn(0.25)) std::this_thread::yield();
+  return nullptr;
+}
+
+TEST(FilterThread, LearningIsCancelledBySwitchingItOff) {
+  const LocalizedArena arena;
+  FilterThread filter({arena.robotFile, learnForEver, 1});
+  EXPECT_EQ(filter.state().kind, Kind::kOff);
+  filter.order({OrderKind::kOn});
+  EXPECT_EQ(filter.state().kind, Kind::kLearning) << "from now on";
+  while (filter.state().progress == 0.0) std::this_thread::yield();
+  EXPECT_DOUBLE_EQ(filter.state().progress, 0.25);
+  EXPECT_EQ(filter.perceiver(), nullptr);
+  filter.order({OrderKind::kOff});
+  EXPECT_EQ(filter.state().kind, Kind::kOff);
+  filter.order({OrderKind::kOn});
+  while (filter.state().progress == 0.0) std::this_thread::yield();
+  // Its end cancels learning, too.
+}
+
+TEST(FilterThread, SaysWhyItHasFailedAndCanTryAgain) {
+  const LocalizedArena arena;
+  bool fails = true;
+  FilterThread filter({arena.robotFile,
+                       [&](const Robot& robot, const std::function<bool(double)>& goOn) {
+                         if (std::exchange(fails, false)) throw std::runtime_error("no such luck");
+                         return arena.config().tables(robot, goOn);
+                       },
+                       1});
+  filter.order({OrderKind::kOn});
+  EXPECT_EQ(await(filter, Kind::kFailed).text, "no such luck");
+  filter.order({OrderKind::kPlace, {0.5, -1.5, kTurn / 4}});
+  await(filter, Kind::kSearching);
+  EXPECT_NE(filter.perceiver(), nullptr);
+  EXPECT_FALSE(filter.needs().empty());
+  EXPECT_THROW(filter.order({OrderKind::kPlace, {50, 50, 0}}), std::invalid_argument);
+}
+
+TEST(LearnedTables, AreLearnedOnceAndWhoWaitsForThemMayGiveUp) {
+  const LocalizedArena arena;
+  const TableGiver tables = arena.config().tables;
+  const auto robot = openRobot(arena.robotFile);
+  std::latch begun{1};
+  std::latch let{1};
+  std::shared_ptr<const RobotTables> learned;
+  std::jthread first([&, isFirst = true](const std::stop_token&) mutable {
+    learned = tables(*openRobot(arena.robotFile), [&](double) {
+      if (std::exchange(isFirst, false)) {
+        begun.count_down();
+        let.wait();
+      }
+      return true;
+    });
+  });
+  begun.wait();
+  EXPECT_EQ(tables(*robot, [](double) { return false; }), nullptr) << "it waits for the first";
+  let.count_down();
+  first.join();
+  ASSERT_NE(learned, nullptr);
+  EXPECT_EQ(tables(*robot, [](double) { return false; }), learned) << "there already";
+  EXPECT_EQ(arena.config().tables(*robot, [](double) { return false; }), nullptr)
+      << "a new one gives up at its first step";
+}
+
+TEST(GivenTables, MustBeOfTheSameWorld) {
+  const LocalizedArena arena;
+  const auto robot = openRobot(arena.robotFile);
+  TableInfo info{"elsewhere", "fedcba", "scout", kTurn / 180, {}, {}};
+  info.region.grid = {0, 0, 0.1, 2, 2};
+  info.region.open = info.region.standable = {1, 1, 1, 1};
+  writeTables(arena.folder / "other.tables", robot->container, info);
+  EXPECT_NE(messageOf<std::invalid_argument>([&] {
+              givenTables(arena.folder / "other.tables", "abcdef");
+            }).find("was learned in the world fedcba ('elsewhere'), this one is abcdef"),
+            std::string::npos);
+  EXPECT_THROW(givenTables(arena.folder / "none.tables", ""), TableError);
+}
+
+}  // namespace
+}  // namespace ortung::test
