@@ -52,7 +52,7 @@ TEST(Describe, EveryMovableThingHasAWordByWhichItCanBePlaced) {
   const std::vector<std::string> names = {"the_red_ball", "the_red_ball-2", "ball",
                                           "the_red_ball-3", "ball-2"};
   for (std::size_t i = 0; i < names.size(); ++i)
-    EXPECT_EQ(lines[i + 1], "object=" + names[i] + " kind=ball");
+    EXPECT_EQ(lines[i + 1], "object=" + names[i] + " kind=ball radius_m=0.1 height_m=0.2");
   // Each one can be put where another one was, once that has left: they are five different ones.
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string place = " x_m=" + std::to_string(-2.0 + static_cast<double>(i)) + " y_m=1.5";

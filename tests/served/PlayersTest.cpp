@@ -35,12 +35,12 @@ TEST(ServedPlayers, AreStartedListedAndStopped) {
   EXPECT_TRUE(client.line().starts_with("robot=bert player=wander since="));
   EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=3");
   EXPECT_EQ(client.line(), "robot=1 name=guest client=1");
-  EXPECT_EQ(client.line(), "robot=2 name=pioneer client=0");
-  EXPECT_EQ(client.line(), "robot=3 name=bert client=0");
+  EXPECT_EQ(client.line(), "robot=2 name=pioneer client=0 team=blue player=wander");
+  EXPECT_EQ(client.line(), "robot=3 name=bert client=0 player=wander");
   // Robots of clients have numbers of their own.
   EXPECT_EQ(client.ask("CREATE late\n" + readBytes(kRobot) + "\n.").substr(0, 17),
             "OK CREATE robot=4");
-  EXPECT_EQ(client.ask("VELOCITY v_m_s=1 robot=2"), "ERR not-yours robot 2 belongs to the world");
+  EXPECT_EQ(client.ask("VELOCITY v_m_s=0 robot=2"), "OK VELOCITY");
   EXPECT_EQ(client.ask("STOP bert"), "OK STOP");
   EXPECT_EQ(client.ask("STOP bert"),
             "ERR no-player no player plays robot 'bert'; PLAYERS lists them");
@@ -94,7 +94,8 @@ TEST(ServedPlayers, SayWhatTheyCanDo) {
       lines.contains("option goalkeeper speed_m_s unit=m/s how fast it drives at most; "
                      "default: 1.5"));
   EXPECT_TRUE(lines.contains("option learner out unit=file the table file; must be given"));
-  EXPECT_EQ(client.ask("DESCRIBE player"), "ERR syntax DESCRIBE knows world, robot and players");
+  EXPECT_EQ(client.ask("DESCRIBE player"),
+            "ERR syntax DESCRIBE knows world, field, robot and players");
 }
 
 TEST(ServedPlayers, AReferee) {

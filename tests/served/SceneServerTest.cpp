@@ -27,7 +27,10 @@ TEST(SceneServer, ResidentsAreListedReadAndNobodys) {
   EXPECT_EQ(client.line(), "robot=1 name=striker client=0");
   for (int i = 0; i < 4; ++i) client.line();
   EXPECT_EQ(client.line(), "robot=6 name=guest client=1");
-  EXPECT_EQ(client.ask("VELOCITY v_m_s=1 robot=1"), "ERR not-yours robot 1 belongs to the world");
+  EXPECT_EQ(client.ask("VELOCITY v_m_s=0 robot=1"), "OK VELOCITY");  // an operator
+  TestClient player(board.port());
+  player.ask("HELLO ortung/1 role=player");
+  EXPECT_EQ(player.ask("VELOCITY v_m_s=1 robot=1"), "ERR not-yours robot 1 belongs to the world");
   EXPECT_EQ(client.ask("REMOVE robot=1"), "ERR not-yours robot 1 belongs to the world");
   EXPECT_EQ(client.ask("PLACE robot=2 x_m=9 y_m=0.5"), "OK PLACE");
 }

@@ -240,7 +240,7 @@ TEST(Turns, NobodyKeepsTheReadingsOfRobotsThatHaveLeft) {
   }
   const std::weak_ptr<server::RobotReadings> one = host.keeper.readings(1);
   const std::weak_ptr<server::RobotReadings> two = host.keeper.readings(2);
-  viewer.receive("SUBSCRIBE robot=1\nSUBSCRIBE robot=2\n");
+  viewer.receive("SUBSCRIBE robot=1\nUNSUBSCRIBE robot=1\nSUBSCRIBE robot=2\n");
   host.settle();
   anna.receive("REMOVE robot=1\n");
   host.settle();

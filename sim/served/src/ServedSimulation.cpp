@@ -1,12 +1,13 @@
 #include "ortung/served/ServedSimulation.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "FieldText.hpp"
+#include "Truth.hpp"
 #include "ortung/motion/MotionModel.hpp"
 #include "ortung/server/RobotPlugins.hpp"
 
@@ -17,13 +18,6 @@ namespace {
 constexpr std::string_view kInterfaces[] = {SensorData::kInterface, Sensor::kInterface,
                                             Drive::kInterface, MotionModel::kInterface};
 constexpr std::size_t kMostPlanners = 8;  // each keeps a plan of the floor for one size
-
-/// " key=number", the shortest that gives the same number again.
-std::string value(const char* key, double number) {
-  char digits[32];
-  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, number);
-  return std::string(" ").append(key).append("=").append(digits, end.ptr);
-}
 
 /// "player NAME WHAT", and for each of its options "option NAME KEY [unit=U] TEXT; default: D".
 std::vector<std::string> helpOfPlayers(PluginFactory& factory) {
@@ -67,6 +61,7 @@ ServedSimulation::ServedSimulation(Scene scene, const Simulation::Config& config
       plugins_(robotPlugins(factory_, kInterfaces)),
       playersHelp_(helpOfPlayers(factory_)),
       run_(std::make_unique<SceneRun>(scene_, config_, factory_, playerConfig_)),
+      truth_(std::make_unique<Truth>()),
       entered_(run_->entrants()) {
   nameObjects();
   enterResidents();
@@ -91,6 +86,14 @@ void ServedSimulation::nameObjects() {
     for (int number = 2; !taken.insert(name).second; ++number)
       name = word + "-" + std::to_string(number);
     objects_.push_back({name, thing.kind});
+  }
+  std::size_t place = 0;  // the world tells of them in the same order
+  for (const WorldObject& object : simulation().world().objects()) {
+    if (!object.isMovable || object.robot != 0 || place == objects_.size()) continue;
+    ServedObject& named = objects_[place++];
+    named.colour = object.colour;
+    named.radius = object.radius;
+    named.height = object.zHigh;
   }
 }
 
@@ -349,16 +352,39 @@ std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
   const RobotConfig& config = found.config();
   std::vector<std::string> lines = {
       "drive " + found.drive().commandHelp(),
-      "limits" + value("v_m_s", limits.speed) + value("w_rad_s", limits.turn) +
-          value("a_m_s2", limits.acceleration) + value("alpha_rad_s2", limits.turnAcceleration),
-      "body" + value("radius_m", config.radius) + value("height_m", found.shape().top()) +
-          value("mass_kg", config.mass)};
+      "limits" + keyValue("v_m_s", limits.speed) + keyValue("w_rad_s", limits.turn) +
+          keyValue("a_m_s2", limits.acceleration) +
+          keyValue("alpha_rad_s2", limits.turnAcceleration),
+      "body" + keyValue("radius_m", config.radius) + keyValue("height_m", found.shape().top()) +
+          keyValue("mass_kg", config.mass)};
   for (const Manipulator& manipulator : found.shape().manipulators) {
     std::string line = "manipulator " + manipulator.name;
     for (const ManipulatorState& state : manipulator.states) line += " " + state.name;
     lines.push_back(line);
   }
+  for (std::string& outline : outlineText(found.shape())) lines.push_back(std::move(outline));
   return lines;
+}
+
+std::vector<std::string> ServedSimulation::field() const { return fieldText(simulation().world()); }
+
+std::vector<ServedFeature> ServedSimulation::truthFeatures() const { return Truth::features(); }
+
+std::span<Message> ServedSimulation::truth() {
+  std::map<RobotNumber, RobotId> numbers;
+  for (const auto& [id, guest] : guests_)
+    if (guest->robot != 0) numbers[guest->robot] = id;
+  return truth_->look(simulation(), numbers);
+}
+
+std::string ServedSimulation::side(RobotId robot) const {
+  const auto found = guests_.find(robot);
+  if (found == guests_.end() || found->second->robot == 0) return {};
+  const std::string& name = find(robot).config().name;
+  for (const PlayerControl::Seated& seated : run_->players().players())
+    if (seated.robot == name)
+      return (seated.team.empty() ? "" : " team=" + seated.team) + " player=" + seated.plugin;
+  return found->second->wish.team.empty() ? "" : " team=" + found->second->wish.team;
 }
 
 void ServedSimulation::reset(std::optional<std::uint64_t> seed) {

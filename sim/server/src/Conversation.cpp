@@ -33,7 +33,7 @@ const std::vector<Conversation::Command>& Conversation::commands() {
       {"TIME", all, &C::time, "the clock of the stamps when this came and when the reply left"},
       {"STATUS", all, &C::status, "how the world is doing"},
       {"LIST", all, &C::list, "worlds|plugins|clients|robots"},
-      {"DESCRIBE", all, &C::describe, "world|robot|players [robot=N]"},
+      {"DESCRIBE", all, &C::describe, "world|field|robot|players [robot=N]"},
       {"CREATE", player, &C::create,
        "NAME [x_m=X y_m=Y theta_deg=T] [drive=wander], then a robot file, then a line with a dot"},
       {"REMOVE", player, &C::remove, "[robot=N]"},
@@ -43,8 +43,9 @@ const std::vector<Conversation::Command>& Conversation::commands() {
       {"UPDATE", all, &C::update, "[MODEL/TYPE/FEATURE ...] [robot=N] [form=binary], what is new"},
       {"READ", all, &C::read, "the same, also what was sent before"},
       {"SUBSCRIBE", all, &C::subscribe,
-       "[period_s=S] [MODEL/TYPE/FEATURE ...] [robot=N] [form=binary]"},
-      {"UNSUBSCRIBE", all, &C::unsubscribe, ""},
+       "[period_s=S] [ahead=N] [MODEL/TYPE/FEATURE ...] [robot=N] [form=binary]"},
+      {"UNSUBSCRIBE", all, &C::unsubscribe, "[robot=N]"},
+      {"GOT", all, &C::got, "[robot=N], an update was read: for SUBSCRIBE with ahead=N"},
       {"LOCKSTEP", player, &C::lockstep, "on|off, the world waits for every NEXT of this client"},
       {"NEXT", player, &C::next, "[cycles=N] and as UPDATE; answered when they are over"},
       {"TELL", player, &C::tellTeam, "[robot=N] TEXT to all others of the robot's team"},
@@ -337,7 +338,7 @@ void Conversation::hangUp() {
   if (isOver_) return;
   isOver_ = true;
   *isGone_ = true;
-  endSubscription();
+  endSubscriptions();
   if (!hasJoined_) return;
   host_.keeper.give(id_,
                     [id = id_](WorldKeeper& keeper, WorldKeeper::Done&) {

@@ -49,7 +49,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   bool hasJoined() const { return hasJoined_; }
   /// Whether others have said something that it was not told yet.
   bool hasTalk() const { return !heard_.empty() || unheard_ > 0; }
-  bool isSubscribed() const { return subscription_.has_value(); }
+  bool isSubscribed() const { return !subscriptions_.empty(); }
   bool isWaiting() const { return waiting_ > 0 || pending_ > 0; }
   /// Whether it asked for something that is not answered yet.
   bool hasOpenRequests() const {
@@ -77,10 +77,11 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
     std::vector<std::uint64_t> sent;
   };
   struct Subscription {
-    RobotId robot;
     Choice choice;
-    Timestamp period;
-    Timestamp due;
+    Timestamp period = 0;
+    Timestamp due = 0;
+    std::int64_t ahead = 0;   ///< updates that may be on their way; 0: any number
+    std::int64_t unread = 0;  ///< that the client has not said GOT to
   };
   struct Greeting {  ///< HELLO
     std::string tag;
@@ -140,10 +141,14 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void read(Request& request);
   void subscribe(Request& request);
   void unsubscribe(Request& request);
-  void endSubscription();
+  void got(Request& request);
+  void endSubscription(RobotId robot);
+  void endSubscriptions();
+  bool sendSubscribed(RobotId robot, Subscription& subscription);
   void lockstep(Request& request);
   void next(Request& request);
-  RobotId takeRobot(Request& request) const;
+  /// @param orWorld whether robot 0, the world itself, will do, too
+  RobotId takeRobot(Request& request, bool orWorld = false) const;
   void checkMayWatch(RobotId robot) const;
   Choice takeChoice(Request& request, bool again) const;
   void fetch(Request& request, bool again);
@@ -163,6 +168,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void list(Request& request);
   void describe(Request& request);
   void describeWorld(const std::string& tag);
+  void describeField(const std::string& tag);
   void describePlayers(const std::string& tag);
   void say(Request& request);
   void tellTeam(Request& request);
@@ -203,7 +209,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   std::optional<Configuration> configuration_;
   std::map<RobotId, View> views_;
   std::set<RobotId> owned_;
-  std::optional<Subscription> subscription_;
+  std::map<RobotId, Subscription> subscriptions_;
 };
 
 }  // namespace ortung::server

@@ -13,6 +13,8 @@ constexpr double kMostSpeed = 1e3;  ///< of any command [m/s, rad/s]; drives hav
 constexpr double kLongestPeriod = 3600.0;  // [s]
 constexpr std::int64_t kMostCycles = 1'000'000;
 constexpr std::int64_t kLastRobot = 0xFFFFFFFF;
+constexpr std::int64_t kMostAhead = 1000;
+constexpr std::size_t kMostSubscriptions = 64;
 
 using Reply = std::optional<std::string>;
 
@@ -29,8 +31,8 @@ void refusedAs(const char* code, const Command& command) {
 }  // namespace
 
 /// robot=N, or the client's first; the only one of a live world.
-RobotId Conversation::takeRobot(Request& request) const {
-  if (const auto robot = request.takeInteger("robot", 1, kLastRobot))
+RobotId Conversation::takeRobot(Request& request, bool orWorld) const {
+  if (const auto robot = request.takeInteger("robot", orWorld ? 0 : 1, kLastRobot))
     return static_cast<RobotId>(*robot);
   if (owned_.empty() && host_.liveRobot != 0) return host_.liveRobot;
   if (owned_.empty()) throw ServeError("no-robot", "this client has no robot; CREATE makes one");
@@ -144,7 +146,7 @@ void Conversation::remove(Request& request) {
       [robot](Conversation& self, const std::string& tag, const std::string&) {
         self.owned_.erase(robot);
         self.views_.erase(robot);
-        if (self.subscription_ && self.subscription_->robot == robot) self.endSubscription();
+        self.endSubscription(robot);
         self.reply(tag, "OK REMOVE");
       },
       true);
@@ -253,14 +255,14 @@ void Conversation::foreignReadings(const std::string& tag, const char* command, 
                                       const std::string&) {
         self.views_[robot].readings = *found;
         self.sendReadings(itsTag, command, robot, choice);
-        if (!self.subscription_ || self.subscription_->robot != robot)
+        if (!self.subscriptions_.contains(robot))
           self.views_.erase(robot);  // it may leave the field at any time
       });
 }
 
 void Conversation::fetch(Request& request, bool again) {
   const char* command = again ? "READ" : "UPDATE";
-  const RobotId robot = takeRobot(request);
+  const RobotId robot = takeRobot(request, true);
   const Choice choice = takeChoice(request, again);
   request.refuseRest();
   if (!owned_.contains(robot)) {
@@ -276,9 +278,11 @@ void Conversation::update(Request& request) { fetch(request, false); }
 void Conversation::read(Request& request) { fetch(request, true); }
 
 void Conversation::subscribe(Request& request) {
-  const double period = request.takeNumber("period_s", 0.0, kLongestPeriod).value_or(0.0);
-  const RobotId robot = takeRobot(request);
-  const Choice choice = takeChoice(request, false);
+  Subscription wanted;
+  wanted.period = fromSeconds(request.takeNumber("period_s", 0.0, kLongestPeriod).value_or(0.0));
+  wanted.ahead = request.takeInteger("ahead", 1, kMostAhead).value_or(0);
+  const RobotId robot = takeRobot(request, true);
+  wanted.choice = takeChoice(request, false);
   request.refuseRest();
   checkMayWatch(robot);
   auto found = std::make_shared<std::shared_ptr<RobotReadings>>();
@@ -288,51 +292,87 @@ void Conversation::subscribe(Request& request) {
         *found = keeper.readings(robot);
         return Reply("");
       },
-      [robot, found, choice, period](Conversation& self, const std::string& tag,
-                                     const std::string&) {
-        if (self.subscription_ && self.subscription_->robot != robot) self.endSubscription();
+      [robot, found, wanted](Conversation& self, const std::string& tag, const std::string&) {
+        if (self.subscriptions_.size() >= kMostSubscriptions &&
+            !self.subscriptions_.contains(robot)) {
+          self.error(tag, "ERR limit a client has at most " + std::to_string(kMostSubscriptions) +
+                              " subscriptions");
+          return;
+        }
         self.views_[robot].readings = *found;
-        if (!self.subscription_) self.host_.countSubscribers(1);
-        self.subscription_ = Subscription{robot, choice, fromSeconds(period), 0};
+        if (self.subscriptions_.empty()) self.host_.countSubscribers(1);
+        self.subscriptions_[robot] = wanted;
         self.reply(tag, "OK SUBSCRIBE robot=" + std::to_string(robot));
       });
 }
 
 void Conversation::unsubscribe(Request& request) {
+  const auto robot = request.takeInteger("robot", 0, kLastRobot);
   request.refuseRest();
-  answer(request.tag(), [tag = request.tag()](Conversation& self) {
-    self.endSubscription();
+  answer(request.tag(), [tag = request.tag(), robot](Conversation& self) {
+    if (robot)
+      self.endSubscription(static_cast<RobotId>(*robot));
+    else
+      self.endSubscriptions();
     self.reply(tag, "OK UNSUBSCRIBE");
   });
 }
 
+/// The client has read an update, so that another one may be sent to it.
+void Conversation::got(Request& request) {
+  const RobotId robot = takeRobot(request, true);
+  request.refuseRest();
+  answer(request.tag(), [tag = request.tag(), robot](Conversation& self) {
+    const auto found = self.subscriptions_.find(robot);
+    if (found != self.subscriptions_.end() && found->second.unread > 0) --found->second.unread;
+    self.reply(tag, "OK GOT");
+  });
+}
+
 /// The readings of another client's robot are not kept: that may leave the field at any time.
-void Conversation::endSubscription() {
-  if (!subscription_) return;
-  if (!owned_.contains(subscription_->robot)) views_.erase(subscription_->robot);
-  subscription_.reset();
-  host_.countSubscribers(-1);
+void Conversation::endSubscription(RobotId robot) {
+  if (subscriptions_.erase(robot) == 0) return;
+  if (!owned_.contains(robot)) views_.erase(robot);
+  if (subscriptions_.empty()) host_.countSubscribers(-1);
+}
+
+void Conversation::endSubscriptions() {
+  while (!subscriptions_.empty()) endSubscription(subscriptions_.begin()->first);
 }
 
 void Conversation::onCycle() {
+  if (isOver_) return;
+  for (auto next = subscriptions_.begin(); next != subscriptions_.end();) {
+    const auto [robot, subscription] = *next;
+    if (sendSubscribed(robot, next->second)) {
+      ++next;
+      continue;
+    }
+    ++next;
+    tell("REMOVE robot=" + std::to_string(robot));
+    views_.erase(robot);
+    endSubscription(robot);
+    if (isOver_) return;
+  }
+}
+
+/// @returns false if the robot has left the field
+bool Conversation::sendSubscribed(RobotId robot, Subscription& subscription) {
+  const auto view = views_.find(robot);
+  if (view != views_.end() && view->second.readings->isRetired()) return false;
   // A client that is behind gets less often what is newest.
   constexpr std::size_t kBehind = 64u << 10;
-  if (!subscription_ || isOver_ || outlet_->outstanding() > kBehind) return;
-  Subscription& subscription = *subscription_;
-  const auto view = views_.find(subscription.robot);
-  if (view != views_.end() && view->second.readings->isRetired()) {
-    tell("REMOVE robot=" + std::to_string(subscription.robot));
-    views_.erase(view);
-    endSubscription();
-    return;
-  }
+  const bool isBehind = subscription.ahead > 0 && subscription.unread >= subscription.ahead;
+  if (isBehind || outlet_->outstanding() > kBehind) return true;
   const Timestamp now = host_.keeper.clock().at(wallTime());
-  if (now < subscription.due && subscription.due - now <= subscription.period) return;
+  if (now < subscription.due && subscription.due - now <= subscription.period) return true;
   subscription.due += subscription.period;
   // It was the first, or the world has started over.
   if (subscription.due < now || subscription.due - now > subscription.period)
     subscription.due = now + subscription.period;
-  sendReadings("*", "UPDATE", subscription.robot, subscription.choice);
+  ++subscription.unread;
+  sendReadings("*", "UPDATE", robot, subscription.choice);
+  return true;
 }
 
 // --- lockstep

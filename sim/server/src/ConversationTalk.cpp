@@ -145,7 +145,7 @@ void Conversation::status(Request& request) {
                  " cycles=" + std::to_string(statistics.cycles) +
                  " missed=" + std::to_string(statistics.missedCycles) +
                  " clients=" + std::to_string(statistics.clients) +
-                 " robots=" + std::to_string(statistics.robots));
+                 " robots=" + std::to_string(statistics.robots) + keeper.paceText());
   });
 }
 
@@ -173,7 +173,7 @@ void Conversation::list(Request& request) {
           for (const auto& [id, robot] : keeper.robots())
             addLine(*lines, count,
                     "robot=" + std::to_string(id) + " name=" + robot.readings->name() +
-                        " client=" + std::to_string(robot.owner));
+                        " client=" + std::to_string(robot.owner) + keeper.world().side(id));
         return Reply("OK LIST lines=" + std::to_string(count));
       },
       [lines](Conversation& self, const std::string& tag, const std::string& text) {
@@ -182,17 +182,16 @@ void Conversation::list(Request& request) {
 }
 
 void Conversation::describe(Request& request) {
-  const std::string what = request.takeWord("world, robot or players");
-  if (what == "world" || what == "players") {
+  const std::string what = request.takeWord("world, field, robot or players");
+  if (what == "world" || what == "field" || what == "players") {
     request.refuseRest();
-    if (what == "world")
-      describeWorld(request.tag());
-    else
-      describePlayers(request.tag());
+    if (what == "world") describeWorld(request.tag());
+    if (what == "field") describeField(request.tag());
+    if (what == "players") describePlayers(request.tag());
     return;
   }
-  if (what != "robot") throw ServeError("syntax", "DESCRIBE knows world, robot and players");
-  const RobotId robot = takeRobot(request);
+  if (what != "robot") throw ServeError("syntax", "DESCRIBE knows world, field, robot and players");
+  const RobotId robot = takeRobot(request, true);
   request.refuseRest();
   auto lines = std::make_shared<std::string>();
   order(
@@ -208,6 +207,7 @@ void Conversation::describe(Request& request) {
                   "mount " + ortung::toText(feature.id) + " x_m=" + shown(feature.mount.x) +
                       " y_m=" + shown(feature.mount.y) +
                       " theta_rad=" + shown(feature.mount.theta));
+        if (robot == 0) return Reply("OK DESCRIBE lines=" + std::to_string(count));
         for (const std::string& ability : keeper.world().abilities(robot))
           addLine(*lines, count, printable(ability, kLongestHelp));
         return Reply("OK DESCRIBE lines=" + std::to_string(count));
@@ -228,10 +228,30 @@ void Conversation::describeWorld(const std::string& tag) {
   std::size_t count = 0;
   addLine(lines, count, line);
   for (const ServedObject& object : world.objects)
-    addLine(lines, count, "object=" + object.name + " kind=" + oneWord(object.kind));
+    addLine(lines, count,
+            "object=" + object.name + " kind=" + oneWord(object.kind) +
+                (object.radius > 0.0 ? " radius_m=" + shown(object.radius) : "") +
+                (object.height > 0.0 ? " height_m=" + shown(object.height) : "") +
+                (object.colour.empty() ? "" : " colour=" + oneWord(object.colour)));
   answer(tag, [tag, lines, count](Conversation& self) {
     self.reply(tag, "OK DESCRIBE lines=" + std::to_string(count), lines);
   });
+}
+
+/// Large maps have many walls: it is put together where it is known, and sent at once.
+void Conversation::describeField(const std::string& tag) {
+  auto lines = std::make_shared<std::string>();
+  order(
+      tag,
+      [lines](WorldKeeper& keeper, WorldKeeper::Done&) {
+        std::size_t count = 0;
+        for (const std::string& line : keeper.world().field())
+          addLine(*lines, count, printable(line, kLongestHelp));
+        return Reply("OK DESCRIBE lines=" + std::to_string(count));
+      },
+      [lines](Conversation& self, const std::string& itsTag, const std::string& text) {
+        self.reply(itsTag, text, *lines);
+      });
 }
 
 void Conversation::describePlayers(const std::string& tag) {

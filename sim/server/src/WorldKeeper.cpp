@@ -50,6 +50,10 @@ WorldKeeper::WorldKeeper(ServedWorld& world, const BoardConfig& config,
       speed_(config.speed),
       isFree_(config.pace != Pace::kRealTime) {
   meetResidents();
+  if (auto features = world_.truthFeatures(); !features.empty()) {
+    truth_ = std::make_shared<RobotReadings>(0, "world", std::move(features));
+    publishTruth();
+  }
   clock_.set(world_.now(), wallTime(), 0.0);
 }
 
@@ -191,6 +195,9 @@ void WorldKeeper::execute(Given& given) {
     text = currentErrorText();
   }
   meetResidents();
+  // In a world that stands, nothing else would tell that something was moved by hand.
+  if (wasBlocked_ || isPaused_)
+    if (publishTruth() && onCycle_) onCycle_();
   if (given.done) given.done(std::move(text));
 }
 
@@ -217,11 +224,44 @@ void WorldKeeper::cycle(Timestamp due) {
     clock_.set(world_.now(), begin, 0.0);
   else
     clock_.permit(latest());
+  publishTruth();
+  measure(begin);
   executed_ = 0;
   spent_ = 0;
   ++cycles_;
   finishCycle();
   if (onCycle_) onCycle_();
+}
+
+/// @returns whether the world is not as it was told last
+bool WorldKeeper::publishTruth() {
+  if (!truth_) return false;
+  const std::span<Message> truth = world_.truth();
+  const bool isSame = std::equal(truth.begin(), truth.end(), told_.begin(), told_.end(),
+                                 [](const Message& a, const Message& b) {
+                                   return a.stamp == b.stamp && a.id == b.id && a.words == b.words;
+                                 });
+  if (isSame) return false;
+  told_.assign(truth.begin(), truth.end());
+  truth_->publish(truth);
+  return true;
+}
+
+void WorldKeeper::measure(Timestamp wall) {
+  constexpr Timestamp kWindow = 1'000'000;  // [us]
+  const Timestamp stamp = world_.now();
+  if (wall - measuredWall_ < kWindow && stamp >= measuredStamp_) return;
+  if (measuredWall_ > 0 && stamp >= measuredStamp_)
+    achieved_ =
+        static_cast<double>(stamp - measuredStamp_) / static_cast<double>(wall - measuredWall_);
+  measuredWall_ = wall;
+  measuredStamp_ = stamp;
+}
+
+std::string WorldKeeper::paceText() const {
+  std::string text = " speed=" + shown(isFree_ ? 0.0 : speed_) + " achieved=" + shown(achieved_);
+  if (const auto seed = world_.seed()) text += " seed=" + std::to_string(*seed);
+  return text;
 }
 
 void WorldKeeper::finishCycle() {
@@ -294,6 +334,7 @@ void WorldKeeper::reset(std::optional<std::uint64_t> seed) {
   failure_.clear();
   score = {};
   for (const auto& [id, robot] : robots_) robot.readings->forget();
+  publishTruth();
   anchor(wallTime());
 }
 

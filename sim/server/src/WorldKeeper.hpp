@@ -66,6 +66,8 @@ class WorldKeeper {
   void step(std::uint64_t cycles, Done done);
   void setSpeed(double speed);
   void reset(std::optional<std::uint64_t> seed);
+  /// " speed=F achieved=F [seed=N]": asked, and of the last second; 0: as fast as possible.
+  std::string paceText() const;
   std::string stateText() const;  ///< "running", "paused", "waiting", "ended" or "failed"
 
   struct Score {
@@ -104,6 +106,8 @@ class WorldKeeper {
   void execute(Given& given);
   void cycle(Timestamp due);
   void finishCycle();
+  bool publishTruth();
+  void measure(Timestamp wall);
   void fail(const std::string& why);
   bool isLive() const { return livePeriod_ > 0; }
   void refuseIfLive(const char* what) const;
@@ -128,6 +132,8 @@ class WorldKeeper {
 
   std::map<ClientId, Client> clients_;
   std::map<RobotId, Robot> robots_;
+  std::vector<Message> told_;             ///< of the world, last
+  std::shared_ptr<RobotReadings> truth_;  ///< of robot 0; null if the world says nothing
   RobotId lastRobot_ = 0;
   std::optional<std::uint64_t> residentsVersion_;  ///< of those that it has met
   const Timestamp livePeriod_;                     ///< see ServedWorld [us]
@@ -141,10 +147,13 @@ class WorldKeeper {
   bool wasBlocked_ = true;
   Timestamp anchorStamp_ = 0;
   Timestamp anchorWall_ = 0;
-  Timestamp nextLook_ = 0;    ///< at a live world, on the computer's clock
-  Timestamp cycle_ = 0;       ///< length of the last one on the world's clock [us]
-  std::size_t executed_ = 0;  ///< orders since the last cycle
-  Timestamp spent_ = 0;       ///< with them [us]
+  Timestamp nextLook_ = 0;      ///< at a live world, on the computer's clock
+  Timestamp cycle_ = 0;         ///< length of the last one on the world's clock [us]
+  std::size_t executed_ = 0;    ///< orders since the last cycle
+  Timestamp spent_ = 0;         ///< with them [us]
+  Timestamp measuredWall_ = 0;  ///< since when the pace is measured, on the computer's clock
+  Timestamp measuredStamp_ = 0;
+  double achieved_ = 0.0;  ///< times real time, in the second before that
 
   std::atomic<std::uint64_t> cycles_{0};
   std::atomic<std::uint64_t> missed_{0};

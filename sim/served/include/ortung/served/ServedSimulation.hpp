@@ -11,6 +11,8 @@
 
 namespace ortung {
 
+class Truth;
+
 /// A simulated world for the message board, with the robots and the script of a scene if it is one;
 /// a script's end is not the world's. Robots of clients start and wander as those of the source
 /// `sim` do: the first robot of a server started with the same seed does the same, bit for bit.
@@ -31,16 +33,21 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   std::vector<std::string> players() const override { return playersHelp_; }
   Timestamp now() const override;
   void step() override;
+  std::vector<std::string> field() const override;
+  std::vector<ServedFeature> truthFeatures() const override;
+  std::span<Message> truth() override;
   std::vector<Resident> residents() const override;
   std::uint64_t residentsVersion() const override { return version_; }
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
+  std::string side(RobotId robot) const override;
   void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override;
   void tell(RobotId robot, std::string_view text) override;
   std::vector<ServedTalk> takeHeard(RobotId robot) override;
+  std::optional<std::uint64_t> seed() const override { return config_.seed; }
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;
@@ -97,6 +104,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   std::vector<std::string> playersHelp_;
   std::vector<ServedObject> objects_;  ///< in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
+  std::unique_ptr<Truth> truth_;
   bool isMovePending_ = false;      ///< all have sensed, nothing has moved yet
   std::vector<RobotSize> planned_;  ///< for robots of clients, the plan last asked for at the end
   std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming

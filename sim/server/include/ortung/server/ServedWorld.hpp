@@ -75,6 +75,9 @@ struct FieldBounds {
 struct ServedObject {
   std::string name;  ///< by which placeObject() knows it: one printable word, its own
   std::string kind;  ///< "ball", ...
+  std::string colour = {};
+  double radius = 0.0;  ///< of the circle that holds it [m]
+  double height = 0.0;  ///< [m]
 };
 
 struct WorldDescription {
@@ -118,6 +121,14 @@ class ORTUNG_API ServedWorld {
   /// One cycle. @throws std::runtime_error if the world can't go on
   virtual void step() = 0;
 
+  /// What stands and is painted on the field, one line each: a kind and keys (docs/protocol.md).
+  virtual std::vector<std::string> field() const { return {}; }
+  /// What the world says of itself to who looks on, in the order of its readings: clients know it
+  /// as robot 0. None: nothing.
+  virtual std::vector<ServedFeature> truthFeatures() const { return {}; }
+  /// How it is now; valid until the next call of anything.
+  virtual std::span<Message> truth() { return {}; }
+
   /// Robots of the world's own, numbered from 1. They may come and go: one that comes has a number
   /// that no robot had before.
   virtual std::vector<Resident> residents() const { return {}; }
@@ -128,6 +139,8 @@ class ORTUNG_API ServedWorld {
   /// "limits v_m_s=V w_rad_s=W ...", "body radius_m=R ...", "manipulator NAME STATE ...".
   virtual std::vector<std::string> abilities(RobotId robot) const = 0;
   virtual void removeRobot(RobotId robot) = 0;
+  /// Whose a robot is, " key=value ..." to be added to its line of LIST robots; "" if nobody's.
+  virtual std::string side(RobotId /*robot*/) const { return {}; }
   /// Which features clients ask for at present, whenever that changes: what costs much to sense
   /// need not be sensed for nobody. None at first.
   virtual void want(RobotId, std::span<const SensorId> /*features*/) {}
@@ -143,6 +156,8 @@ class ORTUNG_API ServedWorld {
   /// What a robot was told since it was last asked, in the order of time.
   virtual std::vector<ServedTalk> takeHeard(RobotId) { return {}; }
 
+  /// Of its chance; nothing: there is none.
+  virtual std::optional<std::uint64_t> seed() const { return std::nullopt; }
   /// Starts over: time, chance and robots as at their beginning.
   virtual void reset(std::optional<std::uint64_t> seed) = 0;
   virtual void placeRobot(RobotId robot, const Pose2& pose) = 0;

@@ -1,4 +1,4 @@
-import { useEffect } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { FieldView } from "../field/FieldView";
 import { GamePanel } from "../panels/Game";
 import { Help } from "../panels/Help";
@@ -28,6 +28,7 @@ export function App() {
     <div class="page">
       <TopBar />
       <LinkNote />
+      <TokenNote />
       <main class="work">
         <section class="stage" aria-label="Field">
           <FieldView />
@@ -71,6 +72,31 @@ export function App() {
     ui.change({ panel: next });
     document.getElementById(`tab-${next}`)?.focus();
   }
+}
+
+/** Asks for the token that the server has printed. */
+function TokenNote() {
+  const board = useBoard();
+  const { session, ui } = usePage();
+  const [token, setToken] = useState("");
+  if (!board.needsToken) return null;
+  const why = board.needsToken === "wrong" ? "The token of this address is not (or not any more) the server's" : "This server wants a token";
+  return (
+    <form
+      class="token-note"
+      onSubmit={(event) => {
+        event.preventDefault();
+        const given = token.trim();
+        if (!/^[\x21-\x7e]{1,256}$/.test(given)) return;
+        ui.useToken(given);
+        session.useToken(given);
+      }}
+    >
+      <span>{why}{board.link === "open" && ": looking only"}. It printed one when it was started.</span>
+      <input aria-label="Token" placeholder="token" value={token} onInput={(event) => setToken(event.currentTarget.value)} />
+      <button type="submit">Use it</button>
+    </form>
+  );
 }
 
 function LinkNote() {

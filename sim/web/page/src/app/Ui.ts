@@ -67,6 +67,10 @@ export class Ui {
     if (next !== location.hash) history.replaceState(null, "", next || location.pathname + location.search);
   }
 
+  useToken(token: string): void {
+    this.address.token = token;
+  }
+
   get isDark(): boolean {
     if (this.theme !== "auto") return this.theme === "dark";
     return matchMedia("(prefers-color-scheme: dark)").matches;

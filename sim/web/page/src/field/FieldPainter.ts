@@ -9,6 +9,7 @@ import { make } from "./svg";
 import { View } from "./View";
 
 const kFramesCounted = 30;
+const kSpokenPeriod = 500;
 const kMargin = 0.3;
 const kTools = 44;
 
@@ -27,6 +28,7 @@ export class FieldPainter {
   private readonly watcher: ResizeObserver;
   private cloud: Cloud | null = null;
   private request = 0;
+  private readonly speaking = setInterval(() => this.scene.speak(), kSpokenPeriod);
   private drawnBoard = -1;
   private drawnUi = -1;
   private drawnSamples: Uint32Array | null = null;
@@ -62,6 +64,7 @@ export class FieldPainter {
 
   stop(): void {
     cancelAnimationFrame(this.request);
+    clearInterval(this.speaking);
     this.watcher.disconnect();
     this.hands.stop();
     this.place.replaceChildren();

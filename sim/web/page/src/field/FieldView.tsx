@@ -47,7 +47,7 @@ export function FieldView() {
         </button>
         <button
           title="The same in three dimensions (v)"
-          aria-label="Three dimensions"
+          aria-label="3D view"
           aria-pressed={ui.is3d}
           class="word"
           onClick={() => ui.change({ is3d: !ui.is3d })}

@@ -9,14 +9,13 @@ import { paint, teamColour } from "./palette";
 import { fixed, make, set } from "./svg";
 import type { View } from "./View";
 
-const kSpokenPeriod = 500;
-
 interface Drawn {
   group: SVGGElement;
   parts: { element: SVGElement; outline: Outline }[];
   label: SVGTextElement;
   trail: SVGPolylineElement;
-  spokenAt: number;
+  /** What it is called for screen readers, newest. */
+  spoken: string;
 }
 
 /** Robots, ball, lines, estimates as SVG: what has a name, for eyes, hands and screen readers. */
@@ -79,7 +78,7 @@ export class Scene {
     const group = make("g", { role: "img", tabindex: "0", "aria-label": name, visibility: "hidden", ...attributes }, this.movers);
     const label = make("text", { class: "name" }, this.labels);
     label.textContent = name;
-    return { group, parts: [], label, trail: make("polyline", { class: "trail" }, this.trails), spokenAt: 0 };
+    return { group, parts: [], label, trail: make("polyline", { class: "trail" }, this.trails), spoken: name };
   }
 
   private buildRobot(robot: Robot): void {
@@ -121,10 +120,12 @@ export class Scene {
   private move(drawn: Drawn, pose: Pose, name: string): void {
     set(drawn.group, "transform", `translate(${fixed(pose.x)} ${fixed(pose.y)}) rotate(${fixed(degrees(pose.theta), 1)})`);
     if (drawn.group.getAttribute("visibility") === "hidden") drawn.group.setAttribute("visibility", "visible");
-    const time = performance.now();
-    if (time - drawn.spokenAt < kSpokenPeriod) return;
-    drawn.spokenAt = time;
-    set(drawn.group, "aria-label", `${name} at ${pose.x.toFixed(1)}, ${pose.y.toFixed(1)}`);
+    drawn.spoken = `${name} at ${pose.x.toFixed(1)}, ${pose.y.toFixed(1)}`;
+  }
+
+  /** Tells screen readers where everything is; not each frame, since that costs them time. */
+  speak(): void {
+    for (const { group, spoken } of [...this.robots.values(), ...this.objects.values()]) set(group, "aria-label", spoken);
   }
 
   private drawRobot(robot: Robot, view: View, layers: Layers, held: Pose | undefined): void {

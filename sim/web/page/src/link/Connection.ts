@@ -102,6 +102,15 @@ export class Connection {
     this.socket?.close();
   }
 
+  /** Ends this connection, if there is one, and begins the next one at once. */
+  comeAgain(): void {
+    const { socket } = this;
+    this.socket = null;
+    socket?.close();
+    this.lost("a new connection");
+    this.open();
+  }
+
   request(line: string): Promise<Reply> {
     return new Promise((resolve, reject) => {
       if (!this.isOpen) return reject(new BoardError("closed", "there is no connection", line));

@@ -27,6 +27,8 @@ const kMostSaid = 300;
 export class Board {
   link: "connecting" | "open" | "lost" | "refused" = "connecting";
   linkText = "";
+  /** Whether the server would let us steer with a token: why we have none. */
+  needsToken: "wrong" | "missing" | null = null;
   role = "";
   kind = "";
   worldName = "";

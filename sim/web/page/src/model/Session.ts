@@ -35,7 +35,7 @@ export class Session {
 
   constructor(
     address: string,
-    private readonly token: string,
+    private token: string,
   ) {
     this.connection = new Connection(address, {
       opened: () => void this.greet(),
@@ -120,8 +120,9 @@ export class Session {
   private async greet(): Promise<void> {
     const { board } = this;
     try {
-      const secret = this.token ? ` role=operator token=${this.token}` : "";
-      const hello = await this.ask(`HELLO ortung/1 name=view${secret}`);
+      // Who has the token steers; others look, under a name that needs none.
+      const who = this.token ? `name=view role=operator token=${this.token}` : "name=look role=viewer";
+      const hello = await this.ask(`HELLO ortung/1 ${who}`);
       board.role = hello.keys.get("role") ?? "viewer";
       board.kind = hello.keys.get("kind") ?? "";
       board.worldName = hello.keys.get("world") ?? "";
@@ -139,6 +140,19 @@ export class Session {
         throw error;
       }
     }
+  }
+
+  /** A server that was started anew has another token: then we look on until we get it. */
+  private withoutToken(): void {
+    this.board.needsToken = this.token ? "wrong" : "missing";
+    this.token = "";
+  }
+
+  /** Comes in again with a token. */
+  useToken(token: string): void {
+    this.token = token;
+    this.board.needsToken = null;
+    this.connection.comeAgain();
   }
 
   private async learnAll(): Promise<void> {
@@ -324,12 +338,13 @@ export class Session {
     }
   }
 
-  private unasked({ word, keys, message }: Unasked): void {
+  private unasked({ word, keys, text, message }: Unasked): void {
     const { board } = this;
     const robot = numberOf(keys, "robot", -1);
     if (word === "UPDATE") this.takeReadings(robot, { ...message, keys });
     else if (word === "RESET") this.startOver();
     else if (word === "REMOVE") void this.poll();
+    else if (word === "ERR" && text.startsWith("token ")) this.withoutToken();
     board.touch();
   }
 

@@ -175,6 +175,7 @@ function Option({ name, unit, text, value, set }: {
   name: string; unit: string; text: string; value: string; set(key: string, value: string): void;
 }) {
   const choices = unit.includes("|") ? unit.split("|") : null;
+  const example = name === "robot" ? "pioneer.toml" : "";
   const otherwise = /default: (.*)$/.exec(text)?.[1] ?? "";
   return (
     <label title={text}>
@@ -188,7 +189,7 @@ function Option({ name, unit, text, value, set }: {
           {choices.map((one) => <option key={one} value={one}>{one}</option>)}
         </select>
       ) : (
-        <input value={value} placeholder={otherwise} onInput={(event) => set(name, event.currentTarget.value)} />
+        <input value={value} placeholder={otherwise || example} onInput={(event) => set(name, event.currentTarget.value)} />
       )}
     </label>
   );

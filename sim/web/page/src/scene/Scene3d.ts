@@ -35,6 +35,7 @@ export function startScene3d(place: HTMLElement, context: Context): Scene3dHandl
   let drawnUi = -1;
   let hasPlace = false;
   let request = 0;
+  let count = 0;
   const tick = () => {
     request = requestAnimationFrame(tick);
     const { board } = session;
@@ -58,6 +59,7 @@ export function startScene3d(place: HTMLElement, context: Context): Scene3dHandl
       controls.update();
     }
     renderer.render(scene, camera);
+    canvas.dataset.drawn = String(++count);
   };
   controls.addEventListener("change", () => (isDirty = true));
   const watcher = new ResizeObserver(resize);

@@ -1,0 +1,192 @@
+// The page of the viewer in a real browser, with the real program: node --test e2e/
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { after, before, beforeEach, describe, it } from "node:test";
+import { onScreen, openPage, out, startBrowser, startClient, startProgram, until } from "./program.mjs";
+
+const kMatch = ["sim", "maps/scenes/f2000_match.toml"];
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+let browser;
+before(async () => (browser = await startBrowser()));
+after(() => browser.close());
+
+const robot = (page, name) => page.getByRole("img", { name: new RegExp(`^${name} at `) });
+const tab = (page, name) => page.getByRole("tab", { name });
+
+describe("the page of a match", () => {
+  let program;
+  let client;
+  before(async () => {
+    program = await startProgram(kMatch);
+    client = await startClient(program);
+  });
+  beforeEach(() => client.ask("RESUME"));
+  after(async () => {
+    client.close();
+    await program.stop();
+  });
+
+  it("shows all robots by name where they are, and says nothing wrong to its console", async () => {
+    const page = await openPage(browser, program.url);
+    await robot(page, "blue2").waitFor();
+    assert.equal(await page.getByRole("img", { name: /^(blue|yellow)\d at / }).count(), 8);
+    await client.ask("PAUSE");
+    const truth = await client.pose(2);
+    const shown = `blue2 at ${truth.x.toFixed(1)}, ${truth.y.toFixed(1)}`.replace("-0.0", "(-0.0|0.0)");
+    await until(shown, async () => new RegExp(shown).test(await robot(page, "blue2").getAttribute("aria-label")));
+    await client.ask("RESUME");
+    await page.getByText("operator").waitFor();
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
+  it("only looks without the token", async () => {
+    const page = await openPage(browser, program.url.origin);
+    await robot(page, "blue2").waitFor();
+    await page.locator(".link", { hasText: "viewer" }).waitFor();
+    assert.equal(await page.getByRole("button", { name: "Pause" }).isDisabled(), true);
+    await page.close();
+  });
+
+  it("moves a robot in the simulation when it is dragged", async () => {
+    await client.ask("PAUSE");
+    await client.ask("PLACE robot=3 x_m=-4 y_m=3.5 theta_deg=0");
+    await client.ask("STEP");
+    const page = await openPage(browser, program.url);
+    await until("the robot is shown at its place", async () => /at -4.0, 3.5/.test(await robot(page, "blue3").getAttribute("aria-label")));
+    const from = await onScreen(page, -4, 3.5);
+    const to = await onScreen(page, -5.2, -3.1);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2);
+    await page.mouse.move(to.x, to.y);
+    await page.mouse.up();
+    await until("the robot is there", async () => {
+      await client.ask("STEP");
+      const { x, y } = await client.pose(3);
+      return Math.hypot(x + 5.2, y + 3.1) < 0.05;
+    });
+    await page.getByText(/^PLACE robot=3 x_m=-5\./).first().waitFor();
+    await client.ask("RESUME");
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
+  it("starts a player from the menu and stops it again", async () => {
+    const page = await openPage(browser, program.url);
+    await tab(page, "Game").click();
+    const form = page.getByRole("form", { name: "Start a player" });
+    await form.getByLabel("player").selectOption("wander");
+    await form.getByLabel("name", { exact: false }).nth(1).waitFor();
+    await form.locator("label", { hasText: /^name/ }).locator("input").fill("guest");
+    await form.locator("label", { hasText: /^robot/ }).locator("input").fill("pioneer.toml");
+    await form.locator("label", { hasText: /^start/ }).locator("input").fill("0,-3.9,0");
+    await form.getByRole("button", { name: "Start" }).click();
+    await robot(page, "guest").waitFor();
+    await until("the player is told by the server", async () => (await client.ask("PLAYERS")).some((line) => /robot=guest player=wander/.test(line)));
+    await page.getByRole("button", { name: "Stop guest" }).click();
+    await robot(page, "guest").waitFor({ state: "detached" });
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
+  it("shows a player's goal in the score", async () => {
+    const page = await openPage(browser, program.url);
+    await tab(page, "Game").click();
+    const before = Number(await client.key("GAME", "blue"));
+    await page.getByRole("group", { name: "Orders for blue" }).getByRole("button", { name: "goal", exact: true }).click();
+    await until("the score is one more", async () => Number(await client.key("GAME", "blue")) > before);
+    await until("the page shows it", async () => Number(await page.locator(".top .score b").first().textContent()) > before);
+    await page.close();
+  });
+
+  it("shows an error of the server where the action is", async () => {
+    const page = await openPage(browser, program.url);
+    await tab(page, "Game").click();
+    const form = page.getByRole("form", { name: "Start a player" });
+    await form.locator("label", { hasText: /^robot/ }).locator("input").fill("nosuchrobot");
+    await form.getByRole("button", { name: "Start" }).click();
+    await form.getByRole("alert").filter({ hasText: "nosuchrobot" }).waitFor();
+    await page.close();
+  });
+
+  it("is one of two pages at once that show the same", async () => {
+    const pages = await Promise.all([openPage(browser, program.url), openPage(browser, program.url)]);
+    await pages[0].getByRole("button", { name: "Pause" }).click();
+    await pages[1].getByRole("button", { name: "Go on" }).click();
+    await pages[0].getByRole("button", { name: "Pause" }).waitFor();
+    assert.equal(await until("it runs", async () => (await client.key("STATUS", "state")) === "running"), true);
+    await Promise.all(pages.map((page) => page.close()));
+  });
+
+  it("never makes HTML of what clients say", async () => {
+    const guest = await startClient(program, "guest");
+    const page = await openPage(browser, program.url);
+    await robot(page, "blue2").waitFor();
+    await page.keyboard.press("l");
+    const evil = "<img src=x onerror=alert(1)>";
+    await page.getByLabel("Say a line of the protocol").fill(`SAY ${evil}`);
+    await page.getByRole("button", { name: "Say", exact: true }).click();
+    await page.getByRole("log").getByText(`SAY ${evil}`).waitFor();
+    assert.equal(await page.locator("img[src=x]").count(), 0);
+    assert.deepEqual(page.problems, []);
+    guest.close();
+    await page.close();
+  });
+
+  for (const scheme of ["light", "dark"]) {
+    for (const [name, width, height] of [["desktop", 1280, 720], ["tablet", 820, 1180]]) {
+      it(`has no findings of axe: ${scheme}, ${name}`, async () => {
+        const page = await openPage(browser, program.url, { viewport: { width, height }, colorScheme: scheme });
+        await robot(page, "blue2").waitFor();
+        await robot(page, "blue2").focus();
+        await page.keyboard.press("Enter");
+        for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
+          await tab(page, panel).click();
+          await page.waitForFunction(() => document.querySelector("#panel .block"));
+          // The policy of the page permits no script from elsewhere: it is put in by the debugger.
+          const found = await page.evaluate(`${axe}; axe.run()`);
+          const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
+          assert.deepEqual(texts, [], `${panel}`);
+          await page.screenshot({ path: join(out, `${scheme}-${name}-${panel}.png`) });
+        }
+        assert.deepEqual(page.problems, []);
+        await page.close();
+      });
+    }
+  }
+
+  it("shows the same in three dimensions", async () => {
+    const page = await openPage(browser, program.url);
+    await robot(page, "blue2").waitFor();
+    await page.keyboard.press("v");
+    await page.getByRole("img", { name: "Field in three dimensions" }).waitFor();
+    await page.waitForFunction(() => document.querySelector(".stage3d canvas").dataset.drawn > 2);
+    await page.screenshot({ path: join(out, "3d.png") });
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+});
+
+describe("the page of a server that is started again", () => {
+  it("says that the connection is lost, and comes back", async () => {
+    const first = await startProgram(["sim", "maps/scenes/kick.toml"]);
+    const page = await openPage(browser, first.url);
+    await page.getByRole("img", { name: /at / }).first().waitFor();
+    await first.stop();
+    await page.getByText("connection lost, trying again").waitFor();
+    await page.screenshot({ path: join(out, "lost.png") });
+    const second = await startProgram(["sim", "maps/scenes/kick.toml"], first.port);
+    await page.getByText("connection lost, trying again").waitFor({ state: "hidden" });
+    // It has another token now.
+    await page.getByLabel("Token").fill(second.token);
+    await page.getByRole("button", { name: "Use it" }).click();
+    await page.locator(".link", { hasText: "operator" }).waitFor();
+    assert.deepEqual(page.problems, []);
+    await page.close();
+    await second.stop();
+  });
+});
