@@ -2,8 +2,8 @@
 import { chromium } from "playwright-core";
 import { serveBuilt } from "../dev/serve.mjs";
 
-export const kFlags = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-  "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run", "--disable-background-networking",
+export const kFlags = ["--no-sandbox", "--enable-unsafe-swiftshader",
+  "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync"];
 const [port, out, fragment = ""] = process.argv.slice(2);
 const server = await serveBuilt(() => Number(port));

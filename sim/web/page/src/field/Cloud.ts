@@ -21,14 +21,15 @@ vec4 onView(vec2 p) { return vec4((p - view.xy) * view.zw, 0.0, 1.0); }
 `;
 
 const kArrowVertex = `${kHead}
-layout(location = 0) in vec2 corner;
-layout(location = 1) in vec4 arrow; // x, y [m], heading [rad], weight 0..1
+layout(location = 0) in vec4 arrow; // x, y [m], heading [rad], weight 0..1
 uniform float size; // of an arrow [m]
 uniform vec3 light;
 uniform vec3 heavy;
 out vec4 tint;
 void main() {
   float c = cos(arrow.z), s = sin(arrow.z);
+  int i = gl_VertexID % 3;
+  vec2 corner = i == 0 ? vec2(0.65, 0.0) : vec2(-0.35, i == 1 ? 0.27 : -0.27);
   vec2 p = corner * size * (0.75 + 0.5 * arrow.w);
   gl_Position = onView(arrow.xy + vec2(c * p.x - s * p.y, s * p.x + c * p.y));
   tint = vec4(mix(light, heavy, arrow.w), 0.35 + 0.6 * arrow.w);
@@ -118,14 +119,9 @@ export class Cloud {
   private build(): void {
     const { gl } = this;
     this.arrows = this.part(program(gl, kArrowVertex, kTintFragment));
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([0.6, 0, -0.4, 0.26, -0.22, 0, -0.4, -0.26]), gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.arrows.buffer);
-    gl.enableVertexAttribArray(1);
-    gl.vertexAttribPointer(1, 4, gl.FLOAT, false, 0, 0);
-    gl.vertexAttribDivisor(1, 1);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
     const flat = program(gl, kFlatVertex, kTintFragment);
     this.lines = this.flat(flat);
     this.dots = this.flat(flat);
@@ -173,9 +169,17 @@ export class Cloud {
     gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
   }
 
-  /** @param data x, y [m], heading [rad], weight 0..1 a sample */
+  /**
+   * Each sample is a triangle of its own: drawn in software, instances cost fifteen times as much.
+   * @param data x, y [m], heading [rad], weight 0..1 a sample
+   */
   setArrows(data: Float32Array): void {
-    this.fill(this.arrows, data, 4);
+    const corners = new Float32Array(3 * data.length);
+    for (let from = 0, to = 0; from < data.length; from += 4) {
+      const sample = data.subarray(from, from + 4);
+      for (let corner = 0; corner < 3; ++corner, to += 4) corners.set(sample, to);
+    }
+    this.fill(this.arrows, corners, 4);
   }
 
   setLines(data: Float32Array): void {
@@ -218,7 +222,7 @@ export class Cloud {
       gl.uniform1f(this.at(this.arrows, "size"), Math.max(0.09, 9 / view.scale));
       gl.uniform3fv(this.at(this.arrows, "light"), colours.light);
       gl.uniform3fv(this.at(this.arrows, "heavy"), colours.heavy);
-      gl.drawArraysInstanced(gl.TRIANGLE_FAN, 0, 4, this.arrows.count);
+      gl.drawArrays(gl.TRIANGLES, 0, this.arrows.count);
     }
     this.drawFlat(this.dots, gl.POINTS, view, 4 * ratio);
   }

@@ -33,6 +33,7 @@ export class FieldPainter {
   private drawnUi = -1;
   private drawnSamples: Uint32Array | null = null;
   private drawnHeat: unknown = null;
+  private drawnCloud = "";
   private isDirty = true;
   private times: number[] = [];
 
@@ -104,8 +105,9 @@ export class FieldPainter {
     if (!isNew || !board.world || ui.is3d) return;
     this.drawnBoard = board.frame;
     this.drawnUi = ui.frame;
+    const needsAll = this.isDirty;
     this.isDirty = false;
-    this.draw();
+    this.draw(needsAll);
     this.count();
   }
 
@@ -119,7 +121,7 @@ export class FieldPainter {
     this.times = [];
   }
 
-  private draw(): void {
+  private draw(needsAll: boolean): void {
     const { view, overlay } = this;
     const { session, ui } = this.context;
     const { board } = session;
@@ -134,7 +136,7 @@ export class FieldPainter {
     }
     this.drawFloor();
     this.scene.draw(view, ui.layers, this.held);
-    this.drawCloud();
+    this.drawCloud(needsAll);
     overlay.drawScale(view);
     overlay.drawAsked(view, ui.asked);
   }
@@ -149,11 +151,15 @@ export class FieldPainter {
     style.height = `${b.y - a.y}px`;
   }
 
-  private drawCloud(): void {
-    const { cloud } = this;
+  private drawCloud(needsAll: boolean): void {
+    const { cloud, view } = this;
     const { session, ui } = this.context;
     const { robot } = session.board;
     if (!cloud) return;
+    // The cloud changes with the readings of one robot, ten times a second; robots move far more often.
+    const inputs = [session.readings, ui.frame, view.matrix, view.width, view.height, robot?.number].join();
+    if (inputs === this.drawnCloud && !needsAll) return;
+    this.drawnCloud = inputs;
     const rays = new Rays();
     if (robot && (ui.layers.rays || ui.layers.sightings || ui.layers.expected)) rays.add(robot, ui.layers, ui.expected);
     cloud.setLines(new Float32Array(rays.lines));
@@ -163,7 +169,7 @@ export class FieldPainter {
     this.drawnSamples = samples;
     if (ui.heat !== this.drawnHeat) cloud.setHeat(ui.heat);
     this.drawnHeat = ui.heat;
-    cloud.draw(this.view, window.devicePixelRatio || 1, { light: [0.85, 0.45, 0.1], heavy: [1, 0.85, 0.3] });
+    cloud.draw(view, window.devicePixelRatio || 1, { light: [0.85, 0.45, 0.1], heavy: [1, 0.85, 0.3] });
   }
 
   /** The heading to ask for at a place: that of the map, or of the selected robot. */

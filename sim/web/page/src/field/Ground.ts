@@ -27,7 +27,8 @@ export function drawGround(group: SVGGElement, world: World, drawing: Drawing): 
     make("line", { ...shape, class: wall.goal ? "wall of-goal" : "wall" }, group);
   }
   for (const mark of drawing.landmarks) {
-    const element = make("circle", { cx: mark.x, cy: mark.y, r: 0.07, class: "landmark" }, group);
+    if (mark.kind === "goal") continue; // drawn as such
+    const element = make("circle", { cx: mark.x, cy: mark.y, r: 0.1, class: "landmark" }, group);
     element.append(title(`${mark.kind} ${mark.id}`));
   }
 }

@@ -159,7 +159,7 @@ export class Scene {
     this.move(drawn, pose, object.name);
     // A ball in the air is larger, so one sees that it is above.
     const radius = this.board.world?.objects.find(({ name }) => name === object.name)?.radius ?? 0.11;
-    const height = Math.max(0, object.z - radius);
+    const height = Math.max(0, object.z);
     const body = drawn.group.lastElementChild!;
     set(body, "r", fixed(Math.max(radius * (1 + Math.min(1.5, height)), 3 / view.scale)));
   }

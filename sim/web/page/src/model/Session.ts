@@ -26,6 +26,8 @@ export class Session {
   readonly history = new History();
   readonly wishes: Wishes = { samples: true, pictures: new Set() };
   readonly connection: Connection;
+  /** Counts what came of the selected robot. */
+  readings = 0;
   private polling: ReturnType<typeof setInterval> | undefined;
   private truthPolling: ReturnType<typeof setInterval> | undefined;
   private isPolling = false;
@@ -373,6 +375,7 @@ export class Session {
         if (!board.hasWorldTruth && reading.feature === kTruth) this.takeTruth(robot, reading);
         if (number === board.selected) this.history.take(robot, reading);
       }
+      if (number === board.selected) this.readings++;
     }
     board.frame++;
     board.touch();

@@ -71,7 +71,8 @@ export class World3d {
     for (const robot of board.robots.values()) this.place(robot);
     for (const object of board.objects) {
       const mesh = this.objects.get(object.name);
-      mesh?.position.set(object.x, object.y, object.z);
+      const middle = mesh?.userData.middle as number | undefined;
+      mesh?.position.set(object.x, object.y, object.z + (middle ?? 0));
       mesh?.rotation.set(0, 0, object.theta);
     }
     this.updateRays(layers);
@@ -134,6 +135,7 @@ export class World3d {
       const isBall = kind === "ball";
       const shape = isBall ? new SphereGeometry(radius, 24, 16) : upright(new CylinderGeometry(radius, radius, height, 24));
       const mesh = new Mesh(shape, new MeshLambertMaterial({ color: paint(colour) }));
+      mesh.userData.middle = isBall ? radius : height / 2;
       this.objects.set(name, mesh);
       this.moving.add(mesh);
     }
