@@ -193,3 +193,35 @@ describe("the page of a server that is started again", () => {
     await second.stop();
   });
 });
+
+describe("the page of a robot that is localized", () => {
+  it("has its map brightest where the robot is, and tells why", async () => {
+    const words = ["sim", "maps/fields/f2000.toml", "--robot", "maps/robots/pioneer.toml", "--localize", "all"];
+    const program = await startProgram(words);
+    const client = await startClient(program);
+    const page = await openPage(browser, `${program.url}&panel=localization`);
+    await page.getByText("tracking").first().waitFor({ timeout: 60000 });
+    await client.ask("PAUSE");
+    await client.ask("PLACE robot=1 x_m=-2.5 y_m=1.5 theta_deg=30");
+    await client.ask("STEP cycles=20");
+    await page.getByLabel("on the field").check();
+    const truth = await client.pose(1);
+    await until("the map is brightest where the robot is", async () => {
+      const text = await page.getByText(/^brightest at/).textContent();
+      const [x, y] = /at (\S+), (\S+)$/.exec(text).slice(1).map(Number);
+      return Math.hypot(x - truth.x, y - truth.y) < 0.3;
+    });
+    await page.getByLabel("each feature").check();
+    await page.getByRole("img", { name: /^map of LMS200\/LRF/ }).waitFor();
+    const there = await onScreen(page, truth.x + 0.6, truth.y + 0.6);
+    await page.mouse.click(there.x, there.y);
+    await page.getByRole("heading", { name: /^Why / }).waitFor();
+    await page.getByRole("button", { name: /180DegreeScan/ }).click();
+    await page.getByRole("columnheader", { name: "expected" }).waitFor();
+    await page.screenshot({ path: join(out, "map.png") });
+    assert.deepEqual(page.problems, []);
+    client.close();
+    await page.close();
+    await program.stop();
+  });
+});

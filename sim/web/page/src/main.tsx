@@ -39,6 +39,12 @@ const settle = () => {
 ui.onChange(settle);
 session.board.onTouch(settle);
 
+const frame = () => {
+  session.drawn();
+  requestAnimationFrame(frame);
+};
+requestAnimationFrame(frame);
+
 installKeys(context);
 session.start();
 insight.start();

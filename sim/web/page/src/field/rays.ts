@@ -36,10 +36,30 @@ export class Rays {
       if (!base) continue;
       const sensor = compose(base, feature.mount);
       if (layers.rays) this.addRanges(feature, held, sensor);
-      if (layers.sightings) this.addSightings(feature, held, sensor, base);
+      if (layers.sightings && !this.addPair(robot, feature, held, sensor)) {
+        this.addSightings(feature, held, sensor, base);
+      }
       const values = layers.expected ? expected?.get(feature.name) : undefined;
       if (values) this.addExpected(feature, values, sensor);
     }
+  }
+
+  /**
+   * Distance and bearing of one landmark that come as two features: one place.
+   * @returns whether the feature is of such a pair
+   */
+  private addPair(robot: Robot, { name, kind }: Feature, held: Held, sensor: Pose): boolean {
+    if (kind.name !== "range" && kind.name !== "bearing") return false;
+    const other = kind.name === "range" ? name.replace(/Distance$/, "Bearing") : name.replace(/Bearing$/, "Distance");
+    const partner = other === name ? undefined : robot.readings.get(other);
+    const isPair = partner !== undefined && partner.stamp === held.stamp && partner.words.length && held.words.length;
+    if (!isPair) return false;
+    if (kind.name === "range") {
+      const end = polar(sensor, held.words[0]! / 1000, bearingOf(partner.words[0]!));
+      this.line(sensor, end, [kSeen[0], kSeen[1], kSeen[2], 0.25], kSeen);
+      this.dot(end, kSeen);
+    }
+    return true;
   }
 
   private addRanges({ kind }: Feature, { words }: Held, sensor: Pose): void {

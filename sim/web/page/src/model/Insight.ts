@@ -211,7 +211,8 @@ export function parseWhy({ keys, lines }: Reply, pose: Pose): Why {
   const features: WhyFeature[] = [];
   for (const line of lines) {
     const { words, keys: of } = parseHead(line);
-    const optional = (key: string) => (of.has(key) ? numberOf(of, key, 0) : null);
+    // Infinite: nothing is (or should be) within reach.
+    const optional = (key: string) => (of.has(key) ? numberOf(of, key, of.get(key) === "inf" ? Infinity : NaN) : null);
     if (words[0] === "value") {
       const feature = features.find((one) => one.feature === words[1]);
       feature?.values.push({
@@ -231,7 +232,7 @@ export function expectedOf(why: Why): Expected {
   const expected: Expected = new Map();
   for (const { feature, values } of why.features) {
     const map = new Map<number, number>();
-    for (const { index, expected: value } of values) if (value !== null) map.set(index, value);
+    for (const { index, expected: value } of values) if (value !== null && Number.isFinite(value)) map.set(index, value);
     expected.set(feature, map);
   }
   return expected;

@@ -12,6 +12,7 @@ const kWorldPeriod = 0.02;
 const kFeaturePeriod = 0.05;
 const kMostQueries = 60;
 const kPoll = 1000;
+const kAhead = 2;
 const kTruth = "reference/groundTruth/pose";
 
 /** What the page wants to see of the selected robot beside its usual features. */
@@ -34,6 +35,10 @@ export class Session {
   private isReadingTruth = false;
   private subscribed = "";
   private worldPeriod = 0;
+  /** " ahead=N" if the server lets us say how many updates may be under way. */
+  private ahead = "";
+  /** Updates that were read and not yet told so, by robot. */
+  private readonly got: number[] = [];
 
   constructor(
     address: string,
@@ -162,6 +167,8 @@ export class Session {
     const help = await this.tryAsk("HELP");
     // A line of HELP begins with the command, with square brackets around what may be left out.
     board.commands = new Set(help?.lines.map((line) => /^[A-Z]+/.exec(line)?.[0] ?? "") ?? []);
+    this.ahead = help?.lines.some((line) => /^SUBSCRIBE .*\[ahead=N\]/.test(line)) ? ` ahead=${kAhead}` : "";
+    this.got.length = 0;
     this.subscribed = "";
     this.worldPeriod = 0;
     board.nextHappening = 0;
@@ -284,7 +291,7 @@ export class Session {
     if (period === this.worldPeriod) return;
     this.worldPeriod = period;
     clearInterval(this.truthPolling);
-    const reply = await this.tryAsk(`SUBSCRIBE robot=0 period_s=${plain(period)} form=binary */truth/*`);
+    const reply = await this.tryAsk(`SUBSCRIBE robot=0 period_s=${plain(period)}${this.ahead} form=binary */truth/*`);
     board.hasWorldTruth = reply !== null;
     if (reply) return void this.readOnce();
     this.truthPolling = setInterval(() => void this.readTruth(), 100);
@@ -326,7 +333,7 @@ export class Session {
       .map(({ name }) => name)
       .slice(0, kMostQueries);
     const period = plain(kFeaturePeriod * this.hurry);
-    const line = `SUBSCRIBE robot=${robot.number} period_s=${period} form=binary ${features.join(" ")}`;
+    const line = `SUBSCRIBE robot=${robot.number} period_s=${period}${this.ahead} form=binary ${features.join(" ")}`;
     if (line === this.subscribed || !features.length) return;
     const before = / robot=(\d+) /.exec(this.subscribed)?.[1];
     this.subscribed = line;
@@ -343,11 +350,19 @@ export class Session {
   private unasked({ word, keys, text, message }: Unasked): void {
     const { board } = this;
     const robot = numberOf(keys, "robot", -1);
-    if (word === "UPDATE") this.takeReadings(robot, { ...message, keys });
-    else if (word === "RESET") this.startOver();
+    if (word === "UPDATE") {
+      this.takeReadings(robot, { ...message, keys });
+      if (this.ahead) this.got.push(robot);
+    }
+    if (word === "RESET") this.startOver();
     else if (word === "REMOVE") void this.poll();
     else if (word === "ERR" && text.startsWith("token ")) this.withoutToken();
     board.touch();
+  }
+
+  /** To be called each frame: what was read is drawn, so the server may send what is newest then. */
+  drawn(): void {
+    for (const robot of this.got.splice(0)) this.ask(`GOT robot=${robot}`).catch(() => {});
   }
 
   private startOver(): void {

@@ -274,14 +274,33 @@ function Choice() {
 function Legend({ map }: { map: FeatureMap }) {
   const { insight } = usePage();
   const unit = insight.wish.of === "expectation" ? "expected" : "p";
+  const top = brightest(map.heat);
   return (
-    <div class="legend">
-      <span>{map.low.toPrecision(2)}</span>
-      <span class="ramp" role="img" aria-label={`colours from ${map.low.toPrecision(2)} to ${map.high.toPrecision(2)}`} />
-      <span>{map.high.toPrecision(2)}</span>
-      <span class="hint">{unit}</span>
-    </div>
+    <>
+      <div class="legend">
+        <span>{map.low.toPrecision(2)}</span>
+        <span class="ramp" role="img" aria-label={`colours from ${map.low.toPrecision(2)} to ${map.high.toPrecision(2)}`} />
+        <span>{map.high.toPrecision(2)}</span>
+        <span class="hint">{unit}</span>
+      </div>
+      {insight.wish.of === "probability" && top && (
+        <p class="hint">brightest at {top.x.toFixed(2)}, {top.y.toFixed(2)}</p>
+      )}
+    </>
   );
+}
+
+/** The middle of the cells that are as bright as any. */
+function brightest({ cells, columns, x, y, step }: FeatureMap["heat"]): { x: number; y: number } | null {
+  let [most, count, sumX, sumY] = [0, 0, 0, 0];
+  for (let i = 0; i < cells.length; ++i) {
+    if (cells[i]! < most || cells[i] === 0) continue;
+    if (cells[i]! > most) [most, count, sumX, sumY] = [cells[i]!, 0, 0, 0];
+    count += 1;
+    sumX += x + ((i % columns) + 0.5) * step;
+    sumY += y + (Math.floor(i / columns) + 0.5) * step;
+  }
+  return count ? { x: sumX / count, y: sumY / count } : null;
 }
 
 function SmallMap({ map }: { map: FeatureMap }) {
@@ -352,6 +371,7 @@ function WhyList({ why }: { why: Why }) {
 }
 
 function amount(value: number | null, unit: string): string {
-  if (value === null) return "–";
+  if (value === null || Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return "nothing";
   return unit === "rad" ? `${degrees(value).toFixed(1)}°` : `${value.toFixed(2)} ${unit}`;
 }
