@@ -29,6 +29,8 @@ packages=(
   python3-pil
   # the Python package
   python3-dev pybind11-dev
+  # the viewer's page in a real browser; Node.js, which builds it, is not Debian 12's (20.19 or later)
+  chromium
   # training of motion networks
   libdlib-dev libblas-dev
   # tests and benchmarks
