@@ -14,6 +14,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "Commands.hpp"
@@ -28,6 +29,8 @@
 #include "ortung/base/NewFile.hpp"
 #include "ortung/devices/DeviceStatusData.hpp"
 #include "ortung/devices/DevicesSource.hpp"
+#include "ortung/mcl_served/LocalizationCommands.hpp"
+#include "ortung/mcl_served/LocalizedRobot.hpp"
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/run/Feeder.hpp"
 #include "ortung/server/ServedContainer.hpp"
@@ -76,6 +79,7 @@ class RunningRobot {
       all.source = "devices:" + all.robot.string();
       localization_ = openLocalization(
           all, true, [this](Robot&) { return std::make_unique<Readings>(devices_, isOver_); });
+      localized_ = std::make_unique<LocalizedRobot>(localization_);
     } else {
       robot_ = openRobot(arguments.localization.robot);
       readings_ = std::make_unique<Readings>(devices_, isOver_);
@@ -106,6 +110,7 @@ class RunningRobot {
     std::string text;
     while (localization_ ? localization_->advance() : feeder_->next()) {
       if (!localization_) continue;
+      localized_->obey();
       const auto estimate = localization_->update();
       if (!estimate) continue;
       {
@@ -119,6 +124,8 @@ class RunningRobot {
     }
   }
   void stop() { isOver_ = true; }
+  /// For clients; null: it does not localize.
+  LocalizedRobot* localized() { return localized_.get(); }
 
   void commit() {
     if (record_) record_->commit();
@@ -165,10 +172,11 @@ class RunningRobot {
   Outputs outputs_;
   std::atomic<bool> isOver_ = false;
   DevicesSource devices_;
-  std::unique_ptr<Localization> localization_;  ///< or those three:
+  std::shared_ptr<Localization> localization_;  ///< or those three:
   std::unique_ptr<Robot> robot_;
   std::unique_ptr<Readings> readings_;
   std::unique_ptr<Feeder> feeder_;
+  std::unique_ptr<LocalizedRobot> localized_;
   std::optional<RecordWriter> record_;
   std::optional<NewFile> poses_;
   std::vector<SensorId> status_;
@@ -230,8 +238,13 @@ void serveRobot(RunningRobot& robot, const ServingArguments& arguments,
   config.period = 0.02;
   RobotCommands* const commands = robot.devices().commands();
   if (commands != nullptr) config.abilities = {"drive v,w"};
+  std::vector<BoardCommand> localizing;
+  if (LocalizedRobot* const localized = robot.localized()) {
+    localizing = localizationCommands(*localized);
+    config.onWant = [localized](std::span<const SensorId> features) { localized->want(features); };
+  }
   ServedContainer world(robot.container(), robot.devices().clock(), config, commands);
-  serve(world, arguments, {}, [&] { return !isDone; });
+  serve(world, arguments, std::move(localizing), [&] { return !isDone; });
 }
 
 }  // namespace

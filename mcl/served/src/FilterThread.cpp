@@ -1,11 +1,10 @@
 #include "ortung/mcl_served/FilterThread.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
+#include "Orders.hpp"
 #include "ortung/formats/OdometryData.hpp"
-#include "ortung/run/TrackData.hpp"
 
 namespace ortung {
 namespace {
@@ -36,11 +35,6 @@ std::vector<SensorId> needsOf(const SensorContainer& container) {
 LocalizationStart startOf(const LocalizationOrder& order) {
   if (order.kind != LocalizationOrder::Kind::kPlace) return {};
   return {LocalizationStart::Kind::kPose, order.pose, order.sigmaPosition, order.sigmaHeading};
-}
-
-std::array<double, 9> covarianceOf(const LocalizationOrder& order) {
-  const double place = order.sigmaPosition * order.sigmaPosition;
-  return {place, 0, 0, 0, place, 0, 0, 0, order.sigmaHeading * order.sigmaHeading};
 }
 
 }  // namespace
@@ -156,8 +150,7 @@ std::optional<FilterThread::Inbox> FilterThread::await(const std::stop_token& st
 void FilterThread::obey(const Order& order, const std::stop_token& stop) {
   if (order.kind == Order::Kind::kOff) return close({});
   if (!localization_) return start(order, stop);
-  if (order.kind == Order::Kind::kPlace) localization_->setPose(order.pose, covarianceOf(order));
-  if (order.kind == Order::Kind::kAnywhere) localization_->relocalize();
+  ortung::obey(order, *localization_);
 }
 
 void FilterThread::start(const Order& order, const std::stop_token& stop) {
@@ -210,11 +203,7 @@ void FilterThread::localize(const std::deque<std::vector<Message>>& moments) {
   if (moments.empty()) return;
   for (const std::vector<Message>& moment : moments) localization_->container().set(moment);
   localization_->update();
-  const auto track = localization_->container().get<TrackData>({kModel, kType, "status"});
-  if (!track || track->reason == TrackReason::kSearching)
-    set({Kind::kSearching, 1.0});
-  else
-    set({Kind::kRunning, 1.0, std::string(nameOf(track->status)) + ": " + nameOf(track->reason)});
+  set(stateOf(*localization_));
   publish();
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "Orders.hpp"
 #include "ortung/run/Localization.hpp"
 
 namespace ortung {
@@ -14,8 +15,6 @@ const std::string kAll = "all";
 bool has(const std::vector<SensorId>& ids, const SensorId& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
-
-SensorId samplesId() { return {"mcl", "LOCALIZATION", "samples"}; }
 
 std::vector<ServedFeature> publishedFeatures() {
   SensorContainer container;
@@ -167,14 +166,6 @@ std::vector<Resident> LocalizedWorld::residents() const {
     if (!config_.robotFile(resident.robot).empty())
       resident.features.insert(resident.features.end(), features_.begin(), features_.end());
   return residents;
-}
-
-ServedRobot LocalizedWorld::addRobot(RobotId robot, RobotWish wish) {
-  return world_.addRobot(robot, std::move(wish));
-}
-
-std::vector<std::string> LocalizedWorld::abilities(RobotId robot) const {
-  return world_.abilities(robot);
 }
 
 std::span<Message> LocalizedWorld::readings(RobotId robot) {

@@ -67,6 +67,10 @@ std::vector<std::string> ServedContainer::abilities(RobotId robot) const {
   return config_.abilities;
 }
 
+void ServedContainer::want(RobotId robot, std::span<const SensorId> features) {
+  if (robot == kRobot && config_.onWant) config_.onWant(features);
+}
+
 std::span<Message> ServedContainer::readings(RobotId robot) {
   check(robot);
   return frame_;

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
@@ -52,16 +53,25 @@ class ORTUNG_API LocalizedWorld final : public ServedWorld, public LocalizedRobo
   bool isReady() const override { return world_.isReady(); }
   bool isAtEnd() const override { return world_.isAtEnd(); }
   void step() override;
+  std::vector<std::string> field() const override { return world_.field(); }
+  std::vector<ServedFeature> truthFeatures() const override { return world_.truthFeatures(); }
+  std::span<Message> truth() override { return world_.truth(); }
   std::vector<Resident> residents() const override;
   std::uint64_t residentsVersion() const override { return world_.residentsVersion(); }
-  ServedRobot addRobot(RobotId robot, RobotWish wish) override;
-  std::vector<std::string> abilities(RobotId robot) const override;
+  ServedRobot addRobot(RobotId robot, RobotWish wish) override {
+    return world_.addRobot(robot, std::move(wish));
+  }
+  std::vector<std::string> abilities(RobotId robot) const override {
+    return world_.abilities(robot);
+  }
   void removeRobot(RobotId robot) override { world_.removeRobot(robot); }
+  std::string side(RobotId robot) const override { return world_.side(robot); }
   void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override { return world_.commands(robot); }
   void tell(RobotId robot, std::string_view text) override { world_.tell(robot, text); }
   std::vector<ServedTalk> takeHeard(RobotId robot) override { return world_.takeHeard(robot); }
+  std::optional<std::uint64_t> seed() const override { return world_.seed(); }
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override { world_.placeRobot(robot, pose); }
   void placeObject(const std::string& object, const Pose2& pose) override {

@@ -21,6 +21,8 @@ class ORTUNG_API ServedContainer : public ServedWorld {
     std::string fingerprint;             ///< of the world that it knows; "": none
     double period = 0.05;                ///< between two looks [s], in [0.001, 10]
     std::vector<std::string> abilities;  ///< lines of DESCRIBE, see ServedWorld::abilities()
+    /// Told which features clients ask for, whenever that changes; on the board's thread.
+    std::function<void(std::span<const SensorId>)> onWant = {};
     /// @throws std::invalid_argument naming the field, its value and the range
     void check() const;
   };
@@ -43,6 +45,7 @@ class ORTUNG_API ServedContainer : public ServedWorld {
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
+  void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override;
   void reset(std::optional<std::uint64_t> seed) override;
