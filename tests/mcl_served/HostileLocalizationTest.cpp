@@ -89,8 +89,10 @@ TEST(LocalizationCommands, SayThatThereIsNoReadingYet) {
   const std::shared_ptr<Robot> robot = openRobot(arena.robotFile, *tables);
   FakeRobots robots(robot);
   const Asking client(robots);
-  EXPECT_TRUE(
-      client.words("HEATMAP").starts_with("ERR state none of these features has a reading"));
+  const BoardCommand::Reply nothing = client.ask("HEATMAP");
+  EXPECT_TRUE(nothing.words.starts_with("robot=7 stamp=0 ")) << nothing.words;
+  EXPECT_TRUE(nothing.words.ends_with(" low=1 high=1 readings=0")) << "nothing speaks against any";
+  EXPECT_EQ(nothing.bytes.find_first_not_of(std::string_view("\0\1", 2)), std::string::npos);
   EXPECT_EQ(client.words("WHY x_m=0 y_m=0"), "robot=7 p=-1");
   EXPECT_TRUE(
       client.words("HEATMAP of=expectation").starts_with("ERR argument of=expectation is of one"));

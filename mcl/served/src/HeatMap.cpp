@@ -37,8 +37,6 @@ Weighers takeReadings(const Robot& robot, std::vector<const SensorData*>& featur
                       Timestamp& stamp) {
   const SensorContainer::ReadLock lock = robot.container.read();
   std::erase_if(features, [](const SensorData* one) { return !one->canWeigh(); });
-  if (features.empty())
-    throw ServeError("state", "none of these features has a reading that says where the robot is");
   for (const SensorData* one : features) stamp = std::max(stamp, one->stamp());
   return weighersOf(features);
 }
@@ -48,8 +46,10 @@ std::optional<HeatMap> probability(const Robot& robot, std::vector<const SensorD
   const FieldRegion region = coarsened(robot.tables.region, wish.mostCells);
   HeatMap map{.grid = region.grid};
   const Weighers readings = takeReadings(robot, features, map.stamp);
-  const std::vector<double> headings =
-      wish.heading ? std::vector{*wish.heading} : mapHeadings(robot.tables.headingStep, features);
+  map.readings = readings.size();
+  std::vector<double> headings{wish.heading.value_or(0.0)};
+  if (!wish.heading && !readings.empty())
+    headings = mapHeadings(robot.tables.headingStep, features);
   std::vector<double> values =
       logProbabilityMap(region, readings, headings, [&](double) { return goOn(); });
   if (values.empty()) return std::nullopt;

@@ -24,16 +24,17 @@ struct HeatMapWish {
 struct HeatMap {
   Timestamp stamp = 0;  ///< of the newest reading that counts
   FieldGrid grid;
-  double low = 0.0;        ///< what byte 1 is: p, or [m] or [rad]
-  double high = 0.0;       ///< what byte 255 is; between them it is linear
-  std::string bytes = {};  ///< 0: the cell is not open, or nothing is expected there
-  std::size_t values = 0;  ///< of an expectation: how many the feature has
-  bool isAngle = false;    ///< of an expectation
+  double low = 0.0;          ///< what byte 1 is: p, or [m] or [rad]
+  double high = 0.0;         ///< what byte 255 is; between them it is linear
+  std::string bytes = {};    ///< 0: the cell is not open, or nothing is expected there
+  std::size_t readings = 0;  ///< of a probability: how many features count; of none p is 1
+  std::size_t values = 0;    ///< of an expectation: how many the feature has
+  bool isAngle = false;      ///< of an expectation
 };
 
 /// @param goOn asked often; false: nothing comes back
-/// @throws ServeError if no feature is wanted that localizes, or none has a reading; for an
-///   expectation, if there is not just one
+/// @throws ServeError if no feature is wanted that localizes; for an expectation, if there is not
+///   just one
 std::optional<HeatMap> heatMap(const Robot& robot, const HeatMapWish& wish,
                                const std::function<bool()>& goOn);
 

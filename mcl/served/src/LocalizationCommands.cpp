@@ -118,6 +118,7 @@ Reply showMap(const LocalizedRobots& robots, const Call& call) {
               " x_min_m=" + numberText(grid.originX) + " y_min_m=" + numberText(grid.originY) +
               " step_m=" + numberText(grid.cell) + " low=" + numberText(map->low) +
               " high=" + numberText(map->high)};
+  if (!wish.isExpectation) reply.words += " readings=" + std::to_string(map->readings);
   if (wish.isExpectation)
     reply.words += std::string(map->isAngle ? " unit=rad" : " unit=m") +
                    " values=" + std::to_string(map->values);
