@@ -170,7 +170,7 @@ int runExportMcap(const ExportMcapArguments& arguments) {
   outputs.writes("--out", arguments.out, OutputKind::kMcap);
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
   const auto source = openSourceArgument(arguments.source, arguments.robot, robot->factory);
-  ros2::RobotTopics topics(robot->container, mapFrameOf(arguments.mapFrame));
+  ros2::RobotTopics topics(robot->container, {mapFrameOf(arguments.mapFrame), ""});
   BagFile file(outputs.ready(arguments.out), topics);
   if (!copyMoments(*source, arguments, readTomlText(arguments.robot), topics, file))
     throw std::runtime_error(arguments.source + ": holds no reading");

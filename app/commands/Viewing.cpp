@@ -14,6 +14,9 @@
 #include <thread>
 
 #include "Console.hpp"
+#ifdef ORTUNG_HAS_ROS2
+#include "FoxgloveSpeech.hpp"
+#endif
 
 extern char** environ;
 
@@ -47,6 +50,9 @@ WebConfig webConfigOf(const ServingArguments& arguments) {
   config.page = pageFolder();
   config.hosts = arguments.hosts;
   config.log = warn;
+#ifdef ORTUNG_HAS_ROS2
+  config.protocols.push_back(foxgloveProtocol());
+#endif
   return config;
 }
 

@@ -58,7 +58,10 @@ deny 'container mcl sim plugins realsensors/core realsensors/devices realsensors
 deny 'realsensors/devices realsensors/emulators realsensors/mrpt_devices' "ortung/(run|server|served|client)/|toml|nlohmann|opencv" 'realsensors/devices/plugins/CameraDevice'
 deny 'container mcl sim plugins' 'ortung/devices/'
 # Messages of ROS 2 are for the program and the plugin that reads them.
-deny 'container mcl sim plugins realsensors/core realsensors/devices' 'ortung/ros2/'
+deny 'container mcl sim plugins realsensors/core realsensors/devices' 'ortung/(ros2|foxglove)/'
+# It speaks for the board, and knows its words alone.
+deny 'realsensors/foxglove' 'ortung/(run|robot|records|server|served|client|web)/|toml|boost|opencv'
+deny 'realsensors/ros2' 'ortung/foxglove/'
 deny 'realsensors/ros2' "ortung/(run|robot|records|server|served|client)/|toml|nlohmann|opencv"
 
 # Rooms of the container in the order of their dependencies: each sees those before it alone. Private
@@ -78,7 +81,7 @@ done
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include mcl/player/include mcl/served/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
-              sim/pictures/include sim/web/include realsensors/ros2/include realsensors/devices/include realsensors/emulators/include; do
+              sim/pictures/include sim/web/include realsensors/ros2/include realsensors/foxglove/include realsensors/devices/include realsensors/emulators/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

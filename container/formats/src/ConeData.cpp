@@ -93,7 +93,7 @@ void ConeData::decode(std::span<const std::uint32_t> words) {
 
 std::string ConeData::wordsHelp() const {
   return "[distance mm]; 0: not valid; from " + keyNumber(config_.maxRange * 1000) +
-         " on: nothing seen";
+         " on: nothing seen, within " + keyNumber(degrees(config_.openingAngle)) + " deg";
 }
 
 void ConeData::startTables(const FieldRegion& region, double headingStep) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/camera/ImageData.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -46,13 +47,13 @@ std::int64_t rosTime(Timestamp stamp) {
   return stamp * 1000;
 }
 
-Odometry odometryMessage(const Message& reading, Header header, const char* child) {
+Odometry odometryMessage(const Message& reading, Header header, std::string child) {
   OdometryData data(reading.id);
   data.setData(reading.stamp, reading.words);
   const OdometryData::Reading& state = data.reading();
   Odometry out;
   out.header = std::move(header);
-  out.childFrame = child;
+  out.childFrame = std::move(child);
   out.pose = fromPose2(state.pose);
   out.linear = {state.translationalVelocity, state.lateralVelocity, 0.0};
   out.angular = {0.0, 0.0, state.rotationalVelocity};
@@ -124,7 +125,7 @@ PoseArray samplesMessage(const Message& reading, Header header) {
   for (std::size_t i = 0; i < reading.words.size(); i += kWords)
     out.poses.push_back(fromPose2({words::toSignedMetres(reading.words[i]),
                                    words::toSignedMetres(reading.words[i + 1]),
-                                   words::toAngle(reading.words[i + 2] % words::kAngles)}));
+                                   radians(reading.words[i + 2] % words::kAngles / 100.0)}));
   return out;
 }
 

@@ -17,7 +17,7 @@ std::int64_t rosTime(Timestamp stamp);
 
 /// Whether the reading tells more than odometryMessage().
 bool hasMotionData(const Message& reading);
-Odometry odometryMessage(const Message& reading, Header header, const char* child);
+Odometry odometryMessage(const Message& reading, Header header, std::string child);
 LaserScan scanMessage(const Message& reading, const ScanData::Config& config, Header header);
 Range rangeMessage(const Message& reading, const ConeData::Config& config, Header header);
 Image imageMessage(const Message& reading, Header header);

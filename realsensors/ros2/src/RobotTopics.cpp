@@ -18,8 +18,7 @@ namespace ortung::ros2 {
 namespace {
 
 constexpr const char* kMap = "map";
-constexpr const char* kOdom = "odom";
-constexpr const char* kBase = "base_link";
+constexpr const char* kTruths = "*/groundTruth/*";
 const SensorId kEstimate{"mcl", "LOCALIZATION", "pose"};
 const SensorId kSamples{"mcl", "LOCALIZATION", "samples"};
 
@@ -33,9 +32,9 @@ std::string cleaned(const std::string& name) {
   return text[0] >= '0' && text[0] <= '9' ? "n" + text : text;
 }
 
-TransformStamped transform(const char* frame, std::string child, const Pose2& pose,
+TransformStamped transform(std::string frame, std::string child, const Pose2& pose,
                            std::int64_t stamp) {
-  return {{stamp, frame}, std::move(child), fromPose2(pose)};
+  return {{stamp, std::move(frame)}, std::move(child), fromPose2(pose)};
 }
 
 }  // namespace
@@ -48,7 +47,9 @@ struct RobotTopics::Parts {
     std::string frame;  ///< of the sensor
   };
   const SensorContainer& container;
-  MapFrame mapFrame;
+  MapFrame mapFrame = MapFrame::kBest;
+  std::string topicStart, frameStart;  ///< of the names that are this robot's alone
+  std::string odom, base;              ///< frames
   std::vector<Topic> topics;
   std::set<std::string> names;
   std::map<std::string, Route> routes;  ///< by feature
@@ -65,7 +66,9 @@ struct RobotTopics::Parts {
     topics.push_back({std::move(name), type, isLatched, std::move(feature)});
     return topics.size() - 1;
   }
+  explicit Parts(const SensorContainer& features) : container(features) {}
   void addFeatures();
+  std::size_t addWords(const SensorId& id);
   void take(const Message& message, const Sink& sink);
   void sendWords(const Message& message, const Sink& sink);
   bool takeOwn(const Message& message, std::int64_t stamp, const Sink& sink);
@@ -74,13 +77,18 @@ struct RobotTopics::Parts {
 
 namespace {
 
+/// Ground truth and what MCL says have topics of their own.
+bool isOwn(const SensorId& id) {
+  return id.type == "groundTruth" || id == kEstimate || id == kSamples;
+}
+
 /// What a topic of a feature begins with, by its format; empty if ROS has no message for it.
 std::pair<std::string, std::string_view> kindOf(const SensorData& data) {
   if (dynamic_cast<const OdometryData*>(&data) != nullptr) return {"/odom", Odometry::kType};
   if (dynamic_cast<const ScanData*>(&data) != nullptr) return {"/scan", LaserScan::kType};
   if (dynamic_cast<const ConeData*>(&data) != nullptr) return {"/range", Range::kType};
   if (dynamic_cast<const ImageData*>(&data) != nullptr) return {"/image", Image::kType};
-  if (data.id().type == "groundTruth") return {};  // has a topic anyway
+  if (isOwn(data.id())) return {};
   if (dynamic_cast<const PoseFixData*>(&data) != nullptr)
     return {"/pose_fix", PoseWithCovarianceStamped::kType};
   return {};
@@ -93,41 +101,69 @@ void RobotTopics::Parts::addFeatures() {
   for (const auto& data : container.all()) ++count[kindOf(*data).first];
   for (const auto& data : container.all()) {
     const auto [name, type] = kindOf(*data);
-    if (name.empty()) continue;
     const SensorId& id = data->id();
+    if (name.empty()) {
+      if (!isOwn(id)) addWords(id);
+      continue;
+    }
     const bool isOdometry = type == Odometry::kType;
     const std::string feature = toText(id);
     const std::string own = cleaned(id.model) + "/" + cleaned(id.feature);
     const bool isFirstOdometry = isOdometry && odometry.empty();
     if (isFirstOdometry) odometry = feature;
     const bool isShort = isFirstOdometry || (count[name] == 1 && name != "/range");
-    const std::size_t topic = addTopic(isShort ? name : name + "/" + own, type, false, feature);
-    routes[feature] = {data.get(), topic, cleaned(id.model) + "_" + cleaned(id.feature)};
+    const std::size_t topic =
+        addTopic(topicStart + (isShort ? name : name + "/" + own), type, false, feature);
+    routes[feature] = {data.get(), topic,
+                       frameStart + cleaned(id.model) + "_" + cleaned(id.feature)};
   }
 }
 
-RobotTopics::RobotTopics(const SensorContainer& container, MapFrame mapFrame)
-    : parts_(
-          new Parts{container, mapFrame, {}, {}, {}, 0, 0, 0, 0, 0, 0, "", {}, {}, {}, false, {}}) {
+RobotTopics::RobotTopics(const SensorContainer& container, const Options& options)
+    : parts_(std::make_unique<Parts>(container)) {
   Parts& p = *parts_;
+  p.mapFrame = options.mapFrame;
+  if (!options.robot.empty()) {
+    p.frameStart = cleaned(options.robot) + "/";
+    p.topicStart = "/" + cleaned(options.robot);
+  }
+  p.odom = p.frameStart + "odom";
+  p.base = p.frameStart + "base_link";
   p.tfStatic = p.addTopic("/tf_static", TfMessage::kType, true);
   p.map = p.addTopic("/map", OccupancyGrid::kType, true);
   p.tf = p.addTopic("/tf", TfMessage::kType);
   p.addFeatures();
-  p.truth = p.addTopic("/ground_truth", PoseStamped::kType);
-  p.pose = p.addTopic("/pose", PoseWithCovarianceStamped::kType, false, toText(kEstimate));
-  p.samples = p.addTopic("/particle_cloud", PoseArray::kType);
+  p.truth = p.addTopic(p.topicStart + "/ground_truth", PoseStamped::kType);
+  p.pose = p.addTopic(p.topicStart + "/pose", PoseWithCovarianceStamped::kType, false,
+                      toText(kEstimate));
+  p.samples = p.addTopic(p.topicStart + "/particle_cloud", PoseArray::kType);
 }
 
 RobotTopics::~RobotTopics() = default;
 
 const std::vector<Topic>& RobotTopics::topics() const { return parts_->topics; }
 
+void RobotTopics::addWords(const SensorId& feature) { parts_->addWords(feature); }
+
+std::vector<std::string> RobotTopics::featuresOf(std::size_t topic) const {
+  const Parts& p = *parts_;
+  if (topic == p.truth) return {kTruths};
+  if (topic == p.samples) return {toText(kSamples)};
+  if (topic == p.tf) {
+    std::vector<std::string> features{kTruths, toText(kEstimate)};
+    if (!p.odometry.empty()) features.push_back(p.odometry);
+    return features;
+  }
+  const std::string& feature = p.topics[topic].feature;
+  return feature.empty() ? std::vector<std::string>() : std::vector<std::string>{feature};
+}
+
 void RobotTopics::start(Timestamp stamp, const Sink& sink) const {
   TfMessage mounts;
   for (const auto& [feature, route] : parts_->routes) {
     if (feature == parts_->odometry) continue;
-    mounts.transforms.push_back(transform(kBase, route.frame, route.data->mount(), rosTime(stamp)));
+    mounts.transforms.push_back(
+        transform(parts_->base, route.frame, route.data->mount(), rosTime(stamp)));
   }
   sink(parts_->tfStatic, stamp, toCdr(mounts));
 }
@@ -171,9 +207,9 @@ void RobotTopics::Parts::take(const Message& message, const Sink& sink) {
   const Header here{stamp, route.frame};
   const auto send = [&](const auto& out) { sink(route.topic, message.stamp, toCdr(out)); };
   if (dynamic_cast<const OdometryData*>(route.data) != nullptr) {
-    const Odometry odom = odometryMessage(message, {stamp, kOdom}, kBase);
-    if (feature == odometry) inOdometry = toPose2(odom.pose);
-    send(odom);
+    const Odometry moved = odometryMessage(message, {stamp, odom}, base);
+    if (feature == odometry) inOdometry = toPose2(moved.pose);
+    send(moved);
     if (hasMotionData(message)) sendWords(message, sink);
   } else if (const auto* scan = dynamic_cast<const ScanData*>(route.data)) {
     send(scanMessage(message, scan->config(), here));
@@ -186,28 +222,30 @@ void RobotTopics::Parts::take(const Message& message, const Sink& sink) {
   }
 }
 
+std::size_t RobotTopics::Parts::addWords(const SensorId& id) {
+  const std::string feature = toText(id);
+  if (const auto known = words.find(feature); known != words.end()) return known->second;
+  const std::string name = topicStart + "/ortung/" + cleaned(id.model) + "/" + cleaned(id.type) +
+                           "/" + cleaned(id.feature);
+  return words[feature] = addTopic(name, Words::kType, false, feature);
+}
+
 void RobotTopics::Parts::sendWords(const Message& message, const Sink& sink) {
   const SensorId& id = message.id;
-  auto topic = words.find(toText(id));
-  if (topic == words.end()) {
-    const std::string name =
-        "/ortung/" + cleaned(id.model) + "/" + cleaned(id.type) + "/" + cleaned(id.feature);
-    topic = words.emplace(toText(id), addTopic(name, Words::kType, false, toText(id))).first;
-  }
-  sink(topic->second, message.stamp, toCdr(Words{{}, 0, message.words}));
+  sink(addWords(id), message.stamp, toCdr(Words{{}, 0, message.words}));
 }
 
 /// Where the robot is in the frame of odometry, and where that is in the map.
 void RobotTopics::Parts::sendTransforms(Timestamp stamp, const Sink& sink) {
   TfMessage moved;
-  if (inOdometry) moved.transforms.push_back(transform(kOdom, kBase, *inOdometry, rosTime(stamp)));
+  if (inOdometry) moved.transforms.push_back(transform(odom, base, *inOdometry, rosTime(stamp)));
   isEstimated = isEstimated || newEstimate.has_value();
   const std::optional<Pose2>& inMap =
       mapFrame == MapFrame::kBest && isEstimated ? newEstimate : newTruth;
   if (inMap && mapFrame != MapFrame::kNone) {
     const bool hasOdometry = inOdometry.has_value();
     if (hasOdometry || odometry.empty())
-      moved.transforms.push_back(transform(kMap, hasOdometry ? kOdom : kBase,
+      moved.transforms.push_back(transform(kMap, hasOdometry ? odom : base,
                                            hasOdometry ? *inMap * inverse(*inOdometry) : *inMap,
                                            rosTime(stamp)));
   }

@@ -77,9 +77,10 @@ struct WebDoor::Parts {
              const web::Speaking& speaking) {
     const std::uint64_t id = ++last;
     ++count;
-    const auto bridge =
-        std::make_shared<web::Bridge>(std::move(stream), speaking.protocol->make(), speaking.name,
-                                      config.limits, [this, id] { forget(bridges, id); });
+    const auto bridge = std::make_shared<web::Bridge>(
+        std::move(stream),
+        speaking.protocol->make(std::string_view(request.target().data(), request.target().size())),
+        speaking.name, config.limits, [this, id] { forget(bridges, id); });
     bridges[id] = bridge;
     bridge->start(request, board);
   }

@@ -17,7 +17,9 @@ class BoardSpeech final : public WebSpeech {
 WebSpeech::~WebSpeech() = default;
 
 WebProtocol boardProtocol() {
-  return {{"ortung.board.1"}, "/board", [] { return std::make_unique<BoardSpeech>(); }};
+  return {{"ortung.board.1"}, "/board", [](std::string_view) {
+            return std::make_unique<BoardSpeech>();
+          }};
 }
 
 }  // namespace ortung

@@ -43,15 +43,24 @@ class ORTUNG_API RobotTopics {
     kTruth,  ///< the ground truth
     kNone,   ///< nothing: whoever plays the messages to a localization of his own wants that
   };
+  struct Options {
+    MapFrame mapFrame = MapFrame::kBest;
+    /// Before the names of its topics and frames, for several robots at a time; "": none.
+    std::string robot = {};
+  };
   /// Gets a message. @param topic its number in topics()
   using Sink = std::function<void(std::size_t topic, Timestamp stamp, std::string_view cdr)>;
 
   /// @param container must outlive this; its readings are not looked at
-  explicit RobotTopics(const SensorContainer& container, MapFrame mapFrame = MapFrame::kBest);
+  RobotTopics(const SensorContainer& container, const Options& options);
   ~RobotTopics();
 
   /// Grows as features appear that the container does not have; what is there stays.
   const std::vector<Topic>& topics() const;
+  /// A feature that the container does not have, whose words are told as they are. Once each.
+  void addWords(const SensorId& feature);
+  /// Whose readings a topic's messages are made of, "MODEL/TYPE/FEATURE" or with "*".
+  std::vector<std::string> featuresOf(std::size_t topic) const;
   /// What does not change: where the sensors sit.
   void start(Timestamp stamp, const Sink& sink) const;
   /// The map. Its stamp and frame are set here.

@@ -36,7 +36,9 @@ class ORTUNG_API WebSpeech {
 struct WebProtocol {
   std::vector<std::string> names;  ///< of Sec-WebSocket-Protocol; the client's first one of them
   std::string path;                ///< at which it is spoken, "/board"; "": any
-  std::function<std::unique_ptr<WebSpeech>()> make;  ///< for each connection; may be called often
+  /// For each connection; may be called often. Gets the path and query that were asked for, which
+  /// are hostile.
+  std::function<std::unique_ptr<WebSpeech>(std::string_view target)> make;
 };
 
 /// The board's own words: a client's messages are bytes of its lines, and binary messages to it the

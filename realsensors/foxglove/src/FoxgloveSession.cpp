@@ -1,0 +1,26 @@
+#include "ortung/foxglove/FoxgloveSession.hpp"
+
+#include "SessionParts.hpp"
+
+namespace ortung {
+
+FoxgloveSession::FoxgloveSession(const std::string& token)
+    : parts_(std::make_unique<Parts>(*this)) {
+  parts_->greet(token);
+}
+
+FoxgloveSession::~FoxgloveSession() = default;
+
+void FoxgloveSession::fromClient(std::string_view message, bool isBinary) {
+  if (isOver) return;
+  isBinary ? parts_->takeBinary(message) : parts_->takeText(message);
+}
+
+void FoxgloveSession::fromBoard(std::string_view bytes) {
+  if (isOver) return;
+  if (parts_->board.take(bytes)) return;
+  parts_->tell(Level::kError, "the board said something that is no word of its protocol");
+  isOver = true;
+}
+
+}  // namespace ortung

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "BoardReplies.hpp"
+#include "DescribedRobot.hpp"
+#include "FoxgloveFrames.hpp"
+#include "ortung/foxglove/FoxgloveSession.hpp"
+
+namespace ortung {
+
+enum class Level : std::uint8_t { kInfo, kWarning, kError };
+
+/// What a session knows of both sides.
+struct FoxgloveSession::Parts {
+  using BoardReply = foxglove::BoardReply;
+  struct Channel {
+    std::string topic;
+    std::string_view type;
+    std::optional<std::uint32_t> subscription;  ///< of the client
+    /// What whoever subscribes later gets at once, too, by its robot.
+    std::map<std::int64_t, std::string> latched;
+    std::size_t users = 0;  ///< robots that have the topic
+  };
+  struct RobotPart {
+    std::unique_ptr<foxglove::DescribedRobot> robot;  ///< null until it is described
+    std::vector<std::uint32_t> channels;              ///< by its topics
+    std::string asked;                                ///< the subscription at the board
+  };
+
+  FoxgloveSession& session;
+  foxglove::BoardReplies board;
+  std::string kind;                     ///< of the world: "simulation", ...
+  std::optional<Timestamp> start, end;  ///< of a record
+  Timestamp now = 0;
+  Timestamp listed = 0;  ///< when robots were last asked for
+  bool isListing = false;
+  bool isPlaybackWatched = false;  ///< the client knows of states
+  bool isEndTold = false;
+  std::map<std::uint32_t, Channel> channels;
+  std::map<std::string, std::uint32_t> channelOf;        ///< by topic
+  std::map<std::uint32_t, std::uint32_t> subscriptions;  ///< channel by the client's number
+  std::map<std::int64_t, RobotPart> robots;
+  std::uint32_t nextChannel = 1;
+  bool isTruthAsked = false;  ///< of the world itself, each cycle
+  bool hasWorldTruth = true;
+
+  explicit Parts(FoxgloveSession& owner);
+
+  // --- the board ---
+  void ask(const std::string& request, foxglove::BoardReplies::Handler handler) {
+    board.ask(request, std::move(handler), session.toBoard);
+  }
+  void greet(const std::string& token);
+  void takeWorld(const BoardReply& reply);
+  void takeField(const BoardReply& world, const BoardReply& reply);
+  void list();
+  void takeRobots(const BoardReply& reply);
+  void takeRobot(std::int64_t number, const std::string& name, const BoardReply& reply);
+  void removeRobot(std::int64_t number);
+  void takeUnasked(const BoardReply& reply);
+  void takeReadings(std::int64_t number, const BoardReply& reply);
+  void takeWorldTruth(const Message& message);
+  void give(std::int64_t number, std::vector<Message>& frame);
+  void subscribeAtBoard();
+  std::string queriesOf(const RobotPart& part) const;
+  bool wantsWorldTruth() const;
+
+  // --- the client ---
+  void takeText(std::string_view message);
+  void takeBinary(std::string_view message);
+  void subscribe(std::uint32_t subscription, std::uint32_t channel);
+  void unsubscribe(std::uint32_t subscription);
+  void control(const foxglove::PlaybackRequest& request);
+  void tellPlayback(const BoardReply& status, bool hasSought, const std::string& request);
+  void tell(Level level, const std::string& text);
+  void sendText(std::string text) { session.toClient.push_back({std::move(text), false}); }
+  void sendBinary(std::string bytes) { session.toClient.push_back({std::move(bytes), true}); }
+  void sendInfo(const std::string& world);
+  std::uint32_t channelFor(const ros2::Topic& topic);
+  void advertise(const std::vector<std::uint32_t>& fresh);
+};
+
+}  // namespace ortung

@@ -1,0 +1,208 @@
+// A client of Foxglove's protocol and a message board, both played by the test.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "ortung/core/BinaryReading.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/foxglove/FoxgloveSession.hpp"
+#include "ortung/ros2/Messages.hpp"
+
+namespace ortung {
+namespace {
+
+using nlohmann::json;
+using namespace std::string_literals;
+
+class FoxgloveSessionTest : public ::testing::Test {
+ protected:
+  /// What the session has said to the board.
+  std::string saidToBoard() { return std::exchange(session_.toBoard, {}); }
+  std::vector<FoxgloveSession::Frame> saidToClient() {
+    return std::exchange(session_.toClient, {});
+  }
+  /// Texts of a kind among what it has said to the client.
+  std::vector<json> texts(const std::string& op) {
+    std::vector<json> found;
+    for (const auto& frame : saidToClient())
+      if (!frame.isBinary && json::parse(frame.bytes)["op"] == op)
+        found.push_back(json::parse(frame.bytes));
+    return found;
+  }
+  void client(const json& message) { session_.fromClient(message.dump(), false); }
+
+  /// Goes as far as a world with one robot that has odometry and truth.
+  void meet(const std::string& world =
+                "world=f2000 kind=simulation x_min_m=-2 y_min_m=-1 x_max_m=2 y_max_m=1") {
+    EXPECT_EQ(saidToBoard(), "HELLO ortung/1 name=foxglove role=viewer\nDESCRIBE world\n");
+    session_.fromBoard("OK HELLO client=1 role=viewer kind=simulation now=1000000 state=running\n");
+    session_.fromBoard("OK DESCRIBE lines=1\n" + world + "\n");
+    EXPECT_EQ(saidToBoard(),
+              "DESCRIBE field\nSUBSCRIBE robot=0 period_s=1 form=binary world/truth/robots\n"
+              "LIST robots\n");
+    session_.fromBoard(
+        "OK DESCRIBE lines=1\nwall x0_m=-0.98 y0_m=1.02 x1_m=0.98 y1_m=1.02 z0_m=0 z1_m=1\n"
+        "ERR unknown-robot\nOK LIST lines=1\nrobot=3 name=my-robot client=0\n");
+    EXPECT_EQ(saidToBoard(), "DESCRIBE robot robot=3\n");
+    session_.fromBoard("OK DESCRIBE lines=3\nodometry/odometry/pose " +
+                       OdometryData({"odometry", "odometry", "pose"}).wordsHelp() +
+                       "\nreference/groundTruth/pose " +
+                       PoseData({"reference", "groundTruth", "pose"}).wordsHelp() +
+                       "\nsome/thing/else [words]\n");
+  }
+  /// Channels by topic, as the session has advertised them.
+  std::map<std::string, json> channels() {
+    std::map<std::string, json> found;
+    for (const json& message : texts("advertise"))
+      for (const json& channel : message["channels"]) found[channel["topic"]] = channel;
+    return found;
+  }
+  static std::string binary(const std::vector<Message>& readings, const std::string& now) {
+    std::string bytes;
+    for (const Message& reading : readings) writeBinary(reading, bytes);
+    return "* UPDATE robot=3 now=" + now + " bytes=" + std::to_string(bytes.size()) +
+           " readings=" + std::to_string(readings.size()) + "\n" + bytes;
+  }
+
+  FoxgloveSession session_;
+};
+
+TEST_F(FoxgloveSessionTest, AdvertisesARobotsTopicsUnderItsNameAndAsksForWhatIsSubscribed) {
+  meet();
+  auto found = channels();
+  ASSERT_TRUE(found.contains("/my_robot/odom"));
+  EXPECT_EQ(found["/my_robot/odom"]["schemaName"], "nav_msgs/msg/Odometry");
+  EXPECT_EQ(found["/my_robot/odom"]["encoding"], "cdr");
+  EXPECT_TRUE(found.contains("/my_robot/ortung/some/thing/else"));
+  EXPECT_EQ(saidToBoard(), "");
+  client({{"op", "subscribe"},
+          {"subscriptions", {{{"id", 7}, {"channelId", found["/my_robot/odom"]["id"]}}}}});
+  EXPECT_EQ(saidToBoard(), "SUBSCRIBE robot=3 form=binary odometry/odometry/pose\n");
+  client(
+      {{"op", "subscribe"}, {"subscriptions", {{{"id", 8}, {"channelId", found["/tf"]["id"]}}}}});
+  EXPECT_EQ(saidToBoard(),
+            "SUBSCRIBE robot=3 form=binary */groundTruth/* mcl/LOCALIZATION/pose "
+            "odometry/odometry/pose\n");
+  client({{"op", "unsubscribe"}, {"subscriptionIds", {7, 8}}});
+  EXPECT_EQ(saidToBoard(), "UNSUBSCRIBE robot=3\n");
+}
+
+TEST_F(FoxgloveSessionTest, GivesReadingsAsMessagesHoweverTheBoardsBytesAreCut) {
+  meet();
+  auto found = channels();
+  client({{"op", "subscribe"},
+          {"subscriptions",
+           {{{"id", 7}, {"channelId", found["/my_robot/odom"]["id"]}},
+            {{"id", 9}, {"channelId", found["/my_robot/ortung/some/thing/else"]["id"]}}}}});
+  saidToClient();
+  OdometryData::Reading state;
+  state.pose.x = 1.5;
+  const std::string update =
+      "OK SUBSCRIBE robot=3\n" +
+      binary({{2'000'000, {"odometry", "odometry", "pose"}, OdometryData::encode(state)},
+              {2'000'000, {"some", "thing", "else"}, {1, 2}}},
+             "2100000");
+  for (const char byte : update) session_.fromBoard({&byte, 1});
+  const auto frames = saidToClient();
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(frames[0].bytes.substr(0, 13),
+            "\x01\x07\x00\x00\x00\x00\x94\x35\x77\x00\x00\x00\x00"s);  // 2 * 10^9 ns
+  std::string why;
+  const auto odom = ros2::fromCdr<ros2::Odometry>(frames[0].bytes.substr(13), why);
+  ASSERT_TRUE(odom) << why;
+  EXPECT_EQ(odom->pose.position.x, 1.5);
+  EXPECT_EQ(odom->header.frame, "my_robot/odom");
+  const auto words = ros2::fromCdr<ros2::Words>(frames[1].bytes.substr(13), why);
+  ASSERT_TRUE(words) << why;
+  EXPECT_EQ(words->data, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(frames[2].bytes, "\x02\x00\x75\x2B\x7D\x00\x00\x00\x00"s);  // 2.1 * 10^9 ns
+}
+
+TEST_F(FoxgloveSessionTest, TheFieldsWallsAreTheMapWhoeverComesWhen) {
+  meet();
+  auto found = channels();
+  client(
+      {{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", found["/map"]["id"]}}}}});
+  const auto frames = saidToClient();
+  ASSERT_EQ(frames.size(), 1u);
+  std::string why;
+  const auto map = ros2::fromCdr<ros2::OccupancyGrid>(frames[0].bytes.substr(13), why);
+  ASSERT_TRUE(map) << why;
+  EXPECT_EQ(map->header.frame, "map");
+  EXPECT_EQ(map->width, 100u);  // 4 m, half a metre around them, in cells of 5 cm
+  EXPECT_EQ(map->height, 60u);
+  // The wall of 1.96 m begins 1.52 m from the left edge, 2.52 m from the lower one.
+  EXPECT_EQ(std::count(map->data.begin(), map->data.end(), 100), 40);
+  EXPECT_EQ(map->data[50 * 100 + 30], 100);
+  EXPECT_EQ(map->data[50 * 100 + 29], 0);
+}
+
+TEST_F(FoxgloveSessionTest, ARobotThatLeavesTakesItsChannelsWithIt) {
+  meet();
+  const std::size_t count = channels().size();
+  session_.fromBoard("* REMOVE robot=3\n");
+  const auto gone = texts("unadvertise");
+  ASSERT_EQ(gone.size(), 1u);
+  EXPECT_GE(gone[0]["channelIds"].size(), count - 1);  // the map stays
+}
+
+TEST_F(FoxgloveSessionTest, PlaysPausesAndSeeksInARecordAlone) {
+  const std::string play =
+      "\x03\x00\x00\x00\x00\x40\x01\x00\x94\x35\x77\x00\x00\x00\x00\x02\x00\x00\x00id"s;
+  meet();
+  saidToClient();
+  session_.fromClient(play, true);
+  EXPECT_EQ(texts("status").size(), 1u);
+  EXPECT_EQ(saidToBoard(), "");
+}
+
+TEST_F(FoxgloveSessionTest, ARecordHasATimeLine) {
+  meet("world=run kind=record start_us=1000000 end_us=9000000");
+  json info;
+  for (const auto& frame : saidToClient())
+    if (!frame.isBinary && json::parse(frame.bytes)["op"] == "serverInfo")
+      info = json::parse(frame.bytes);
+  EXPECT_EQ(info["dataStartTime"], (json{{"sec", 1}, {"nsec", 0}}));
+  EXPECT_EQ(info["dataEndTime"], (json{{"sec", 9}, {"nsec", 0}}));
+  // Play at twice the speed from 2 s of its clock on, which is 1 s from its beginning.
+  session_.fromClient(
+      "\x03\x00\x00\x00\x00\x40\x01\x00\x94\x35\x77\x00\x00\x00\x00\x02\x00\x00\x00id"s, true);
+  EXPECT_EQ(saidToBoard(), "SPEED 2.000000\nSEEK time_s=1.000000\nRESUME\nSTATUS\n");
+  session_.fromBoard(
+      "OK SPEED\nOK SEEK\nOK RESUME now=2000000\nOK STATUS state=running now=2000000 speed=2\n");
+  const auto frames = saidToClient();
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].bytes,
+            "\x05\x00\x00\x94\x35\x77\x00\x00\x00\x00\x00\x00\x00\x40\x01\x02\x00\x00\x00id"s);
+  session_.fromClient(
+      "\x03\x01\x00\x00\x80\x3F\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00"s, true);
+  EXPECT_EQ(saidToBoard(), "SPEED 1.000000\nPAUSE\nSTATUS\n");
+  session_.fromBoard("ERR role only operators may\n");
+  EXPECT_EQ(texts("status").size(), 1u);
+}
+
+TEST_F(FoxgloveSessionTest, RefusesToPlayAtSpeedsThatAreNone) {
+  meet("world=run kind=record start_us=0 end_us=9000000");
+  for (const std::string& speed :
+       {"\x00\x00\xC0\x7F"s, "\x00\x00\x80\x7F"s, "\x00\x00\x80\xBF"s, "\x00\x00\x00\x00"s}) {
+    saidToClient();
+    session_.fromClient(
+        "\x03\x00"s + speed + "\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00"s, true);
+    EXPECT_EQ(texts("status").size(), 1u);
+  }
+  EXPECT_EQ(saidToBoard(), "");
+}
+
+TEST_F(FoxgloveSessionTest, EndsWhenTheBoardRefusesIt) {
+  session_.fromBoard("ERR token wrong\n");
+  EXPECT_TRUE(session_.isOver);
+  const auto statuses = texts("status");
+  ASSERT_EQ(statuses.size(), 1u);
+  EXPECT_EQ(statuses[0]["message"], "the board refuses: ERR token wrong");
+}
+
+}  // namespace
+}  // namespace ortung

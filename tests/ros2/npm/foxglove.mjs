@@ -1,0 +1,106 @@
+// Foxglove's WebSocket protocol against its own client.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { once } from "node:events";
+import test from "node:test";
+import { MessageReader } from "@foxglove/rosmsg2-serialization";
+import protocols from "@foxglove/ws-protocol";
+import { WebSocket } from "ws";
+import { parseSchema, program, source } from "./common.mjs";
+
+const { FoxgloveClient } = protocols;
+
+/** A server on a port of its own. */
+async function serve(t, ...words) {
+  const server = spawn(program, words, { stdio: ["ignore", "pipe", "pipe"] });
+  t.after(async () => {
+    server.kill("SIGTERM");
+    if (server.exitCode === null) await once(server, "exit");
+  });
+  let text = "";
+  server.stderr.resume();
+  for await (const piece of server.stdout) {
+    text += piece;
+    const port = /port (\d+)/.exec(text);
+    const token = /#token=(\w+)/.exec(text);
+    if (port && token) return { port: port[1], token: token[1] };
+  }
+  throw new Error(`the server ended: ${text}`);
+}
+
+/** Subscribes to topics until each has told `count` messages. */
+function hear(url, protocol, wanted, count) {
+  return new Promise((resolve, reject) => {
+    const socket = new WebSocket(url, [protocol]);
+    const client = new FoxgloveClient({ ws: socket });
+    const heard = new Map(wanted.map((topic) => [topic, []]));
+    const subscriptions = new Map();
+    const told = { info: null, channels: [], statuses: [], times: 0, heard, socket };
+    client.on("error", reject);
+    socket.on("error", reject);
+    client.on("serverInfo", (info) => (told.info = info));
+    client.on("status", (status) => told.statuses.push(status));
+    client.on("time", () => told.times++);
+    client.on("advertise", (channels) => {
+      told.channels.push(...channels);
+      for (const channel of channels)
+        if (heard.has(channel.topic))
+          subscriptions.set(client.subscribe(channel.id), { topic: channel.topic, reader: new MessageReader(parseSchema(channel.schema)) });
+    });
+    const take = ({ subscriptionId, timestamp, data }) => {
+      const { topic, reader } = subscriptions.get(subscriptionId);
+      heard.get(topic).push({ time: timestamp, value: reader.readMessage(data) });
+      if (![...heard].every(([name, list]) => list.length >= (name === "/tf_static" || name === "/map" ? 1 : count))) return;
+      client.off("message", take);
+      socket.once("close", () => resolve(told));
+      client.close();
+    };
+    client.on("message", take);
+  });
+}
+
+for (const protocol of ["foxglove.websocket.v1", "foxglove.sdk.v1"]) {
+  test(`${protocol}: a simulated robot is told in messages that its client can read`, async (t) => {
+    const { port } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--view", "--listen", "0", "--speed", "20");
+    const topics = ["/tf", "/tf_static", "/pioneer_lrf/scan", "/pioneer_lrf/odom"];
+    const { info, channels, heard, statuses, times } = await hear(`ws://127.0.0.1:${port}/`, protocol, topics, 20);
+    assert.match(info.name, /f2000/);
+    assert.ok(info.capabilities.includes("time") && times > 0);
+    assert.deepEqual(statuses, []);
+    assert.ok(channels.every((channel) => channel.encoding === "cdr" && channel.schemaEncoding === "ros2msg"));
+    const scan = heard.get("/pioneer_lrf/scan")[0].value;
+    assert.equal(scan.ranges.length, 180);
+    assert.ok([...scan.ranges].some((range) => range > 0.1 && range < 8));
+    const frames = new Set(heard.get("/tf").flatMap(({ value }) => value.transforms.map((one) => `${one.header.frame_id}>${one.child_frame_id}`)));
+    assert.ok(frames.has("pioneer_lrf/odom>pioneer_lrf/base_link"), [...frames].join());
+    assert.equal(heard.get("/tf_static")[0].value.transforms.at(-1).child_frame_id, scan.header.frame_id);
+    const stamps = heard.get("/pioneer_lrf/odom").map(({ time }) => time);
+    assert.ok(stamps.every((time, i) => i === 0 || time > stamps[i - 1]));
+  });
+}
+
+test("nonsense is answered and does not end the conversation", async (t) => {
+  const { port } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--view", "--listen", "0");
+  const socket = new WebSocket(`ws://127.0.0.1:${port}/`, ["foxglove.sdk.v1"]);
+  const answers = [];
+  const enough = new Promise((resolve, reject) => {
+    socket.on("error", reject);
+    socket.on("message", (data, isBinary) => {
+      if (isBinary) return;
+      const message = JSON.parse(data.toString());
+      if (message.op === "status") answers.push(message);
+      if (answers.length === 6) resolve();
+    });
+  });
+  await once(socket, "open");
+  socket.send("{");
+  socket.send('["op"]');
+  socket.send('{"op":"subscribe","subscriptions":[{"id":-1,"channelId":1}]}');
+  socket.send('{"op":"subscribe","subscriptions":[{"id":1,"channelId":99999}]}');
+  socket.send('{"op":"callService"}');
+  socket.send(Buffer.from([3, 0, 0, 0, 128, 63, 0, 0, 0, 0, 0, 0, 0, 0, 0])); // play a simulation
+  await enough;
+  assert.ok(answers.every((answer) => answer.level >= 1 && answer.message.length > 10), JSON.stringify(answers));
+  socket.close();
+  await once(socket, "close");
+});
