@@ -85,9 +85,10 @@ void PlaybackRun::noteTrack(const Message& message) {
   constexpr std::uint32_t kLost = 2;
   if (message.words.empty() || message.words[0] == status_) return;
   const std::uint32_t now = message.words[0];
-  if (now == kLost) mark(message.stamp, "lost");
+  if (now != kTracking && now != kLost) return;  // between them it may waver
   if (now == kTracking) mark(message.stamp, "tracking");
-  if (now == kTracking || now == kLost) status_ = now;  // between them it may waver
+  if (now == kLost && status_) mark(message.stamp, "lost");  // who has just begun is not
+  status_ = now;
 }
 
 void PlaybackRun::noteTruth(const Message& message) {

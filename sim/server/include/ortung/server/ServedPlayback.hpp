@@ -24,6 +24,7 @@ class ORTUNG_API ServedPlayback : public ServedWorld {
     std::vector<std::string> abilities = {};  ///< lines of DESCRIBE, see ServedWorld
   };
   struct Config {
+    std::string name;                        ///< of the world, for clients
     std::vector<Run> runs;                   ///< 1 to 16
     std::vector<std::string> field = {};     ///< lines of DESCRIBE field
     std::optional<FieldBounds> bounds = {};  ///< by default around all true poses
