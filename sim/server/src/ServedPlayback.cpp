@@ -85,8 +85,8 @@ Timestamp ServedPlayback::length() const { return parts_->length; }
 
 WorldDescription ServedPlayback::describe() const {
   const auto& runs = parts_->runs;
-  WorldDescription world{parts_->config.name,
-                         runs.front()->fingerprint(), "record", parts_->config.bounds};
+  WorldDescription world{parts_->config.name, runs.front()->fingerprint(), "record",
+                         parts_->config.bounds};
   world.length = parts_->length;
   if (world.bounds) return world;
   for (const auto& run : runs) {
