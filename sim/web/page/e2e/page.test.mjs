@@ -96,7 +96,7 @@ describe("the page of a match", () => {
     await page.close();
   });
 
-  it("shows a player's goal in the score", async () => {
+  it("counts a goal that the referee is told of", async () => {
     const page = await openPage(browser, program.url);
     await tab(page, "Game").click();
     const before = Number(await client.key("GAME", "blue"));
@@ -174,6 +174,27 @@ describe("the page of a match", () => {
   });
 });
 
+describe("the page of a game without players", () => {
+  it("shows the goal of a player that was started from its menu", async () => {
+    const program = await startProgram(["sim", "maps/fields/f2000.toml", "--referee", "soccer"]);
+    const page = await openPage(browser, `${program.url}&panel=game`);
+    const form = page.getByRole("form", { name: "Start a player" });
+    await form.getByLabel("player").selectOption("footballer");
+    const values = { team: "blue", name: "nine", robot: "f2000_player.toml", start: "2,0,0" };
+    for (const [key, value] of Object.entries(values)) {
+      await form.locator("label", { hasText: new RegExp(`^${key}`) }).locator("input").fill(value);
+    }
+    await form.getByRole("button", { name: "Start" }).click();
+    await robot(page, "nine").waitFor();
+    await page.getByRole("combobox", { name: "Speed", exact: true }).selectOption("10");
+    await until("it has scored", async () => Number(await page.locator(".top .score b").first().textContent()) > 0, 90);
+    await page.getByText("goal blue").first().waitFor();
+    assert.deepEqual(page.problems, []);
+    await page.close();
+    await program.stop();
+  });
+});
+
 describe("the page of a server that is started again", () => {
   it("says that the connection is lost, and comes back", async () => {
     const first = await startProgram(["sim", "maps/scenes/kick.toml"]);
@@ -195,6 +216,40 @@ describe("the page of a server that is started again", () => {
 });
 
 describe("the page of a robot that is localized", () => {
+  it("drives it by keys, and tells its filter where it is by hand", async () => {
+    const words = ["sim", "maps/fields/f2000.toml", "--robot", "maps/robots/pioneer.toml", "--localize", "all"];
+    const program = await startProgram(words);
+    const client = await startClient(program);
+    const page = await openPage(browser, `${program.url}&panel=localization`);
+    await page.getByText("tracking").first().waitFor({ timeout: 60000 });
+    await page.keyboard.press("d");
+    await page.getByText("drive pioneer").waitFor();
+    await page.keyboard.down("a");
+    await page.getByText(/^VELOCITY v_m_s=0 w_rad_s=1\.0\d* robot=1/).first().waitFor();
+    await page.keyboard.up("a");
+    await page.getByText(/^VELOCITY v_m_s=0 w_rad_s=0 robot=1/).first().waitFor();
+    await until("it stands", async () => {
+      const [before, now] = [await client.pose(1), await client.pose(1)];
+      return Math.hypot(now.x - before.x, now.y - before.y) < 0.005;
+    });
+    await page.keyboard.press("Escape");
+    await tab(page, "Localization").click();
+    const truth = await client.pose(1);
+    const from = await onScreen(page, truth.x > 0 ? -4 : 4, 2);
+    await page.keyboard.down("Shift");
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(from.x + 50, from.y);
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await page.getByText(/^LOCALIZE robot=1 x_m=-?[34]\S* y_m=[12]\S* theta_deg=0/).first().waitFor();
+    await page.locator(".said .outcome", { hasText: "OK" }).waitFor();
+    assert.deepEqual(page.problems, []);
+    client.close();
+    await page.close();
+    await program.stop();
+  });
+
   it("has its map brightest where the robot is, and tells why", async () => {
     const words = ["sim", "maps/fields/f2000.toml", "--robot", "maps/robots/pioneer.toml", "--localize", "all"];
     const program = await startProgram(words);

@@ -111,7 +111,11 @@ export class Session {
     if (verb === "PLAY" || verb === "STOP" || verb === "RESET") void this.poll();
     if (verb === "RESET") this.startOver();
     if (verb === "PAUSE" || verb === "RESUME" || verb === "SPEED" || verb === "REFEREE") void this.poll();
-    if ((verb === "PLACE" || verb === "STEP" || verb === "SEEK") && this.board.state !== "running") void this.readOnce();
+    if (verb === "SEEK") {
+      for (const robot of this.board.robots.values()) robot.startOver();
+      void this.readOnce();
+    }
+    if ((verb === "PLACE" || verb === "STEP") && this.board.state !== "running") void this.readOnce();
   }
 
   /** What stands still is not sent again: asks for it. */
@@ -119,6 +123,10 @@ export class Session {
     try {
       if (this.board.hasWorldTruth) this.takeReadings(0, await this.ask("READ robot=0 form=binary"));
       else await this.readTruth();
+      const { robot } = this.board;
+      if (robot && this.wanted(robot).length) {
+        this.takeReadings(robot.number, await this.ask(`READ robot=${robot.number} form=binary ${this.wanted(robot).join(" ")}`));
+      }
     } catch {
       // the connection is gone: all is read anew with the next one
     }
@@ -236,6 +244,8 @@ export class Session {
         board.nextHappening = numberOf(events.keys, "next", board.nextHappening);
       }
     }
+    // Updates come with cycles: what changed since the last one that we could take would not come.
+    if (board.state !== "running") await this.readOnce();
     board.touch();
   }
 
@@ -323,15 +333,21 @@ export class Session {
     this.board.frame++;
   }
 
-  /** Subscribes to what is wanted of the selected robot. */
-  private async follow(): Promise<void> {
-    const { board, wishes } = this;
-    const robot = board.robot;
-    if (!robot) return;
-    const features = robot.features
-      .filter(({ kind, name }) => (kind.name !== "image" || wishes.pictures.has(name)) && (kind.name !== "samples" || wishes.samples))
+  /** Names of the features of a robot that are looked at. */
+  private wanted(robot: Robot): string[] {
+    const { pictures, samples } = this.wishes;
+    return robot.features
+      .filter(({ kind, name }) => (kind.name !== "image" || pictures.has(name)) && (kind.name !== "samples" || samples))
       .map(({ name }) => name)
       .slice(0, kMostQueries);
+  }
+
+  /** Subscribes to what is wanted of the selected robot. */
+  private async follow(): Promise<void> {
+    const { board } = this;
+    const robot = board.robot;
+    if (!robot) return;
+    const features = this.wanted(robot);
     const period = plain(kFeaturePeriod * this.hurry);
     const line = `SUBSCRIBE robot=${robot.number} period_s=${period}${this.ahead} form=binary ${features.join(" ")}`;
     if (line === this.subscribed || !features.length) return;

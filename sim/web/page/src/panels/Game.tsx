@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { useBoard, usePage } from "../app/context";
 import type { PlayerKind } from "../model/Board";
+import { plain } from "../link/words";
 import { scoresOf } from "../model/soccer";
 import { ErrorNote, Say, Section, seconds } from "./parts";
 
@@ -196,13 +197,20 @@ function Option({ name, unit, text, value, set }: {
 }
 
 function Events() {
-  const { happenings } = usePage().session.board;
+  const { board } = usePage().session;
+  const { happenings } = board;
+  const begin = board.world?.start ?? 0;
   if (!happenings.length) return <p class="hint">Nothing yet.</p>;
   return (
     <ol class="events" reversed>
       {happenings.slice(-60).reverse().map(({ number, stamp, what, text }) => (
         <li key={number}>
-          <time>{seconds(stamp)}</time> <b>{what}</b> {text}
+          {board.can("SEEK") ? (
+            <Say line={`SEEK time_s=${plain(Math.max(0, stamp - begin) / 1e6)}`} at="time">{seconds(stamp)}</Say>
+          ) : (
+            <time>{seconds(stamp)}</time>
+          )}{" "}
+          <b>{what}</b> {text}
         </li>
       ))}
     </ol>

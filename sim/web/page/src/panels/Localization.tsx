@@ -13,7 +13,7 @@ export function LocalizationPanel() {
   const board = useBoard(100);
   const { robot } = board;
   if (!robot) return <p class="hint">No robot is selected.</p>;
-  const isLocalized = robot.feature("mcl/LOCALIZATION/pose") !== undefined;
+  const isLocalized = robot.readings.has("mcl/LOCALIZATION/pose");
   return (
     <>
       <FilterSection robot={robot} />
@@ -278,9 +278,9 @@ function Legend({ map }: { map: FeatureMap }) {
   return (
     <>
       <div class="legend">
-        <span>{map.low.toPrecision(2)}</span>
-        <span class="ramp" role="img" aria-label={`colours from ${map.low.toPrecision(2)} to ${map.high.toPrecision(2)}`} />
-        <span>{map.high.toPrecision(2)}</span>
+        <span>{probability(map.low)}</span>
+        <span class="ramp" role="img" aria-label={`colours from ${probability(map.low)} to ${probability(map.high)}`} />
+        <span>{probability(map.high)}</span>
         <span class="hint">{unit}</span>
       </div>
       {insight.wish.of === "probability" && top && (
@@ -333,7 +333,7 @@ function WhyList({ why }: { why: Why }) {
   return (
     <>
       <h3>
-        Why {x.toFixed(2)}, {y.toFixed(2)}, {degrees(theta).toFixed(0)}°: p = {why.p.toPrecision(3)}
+        Why {x.toFixed(2)}, {y.toFixed(2)}, {degrees(theta).toFixed(0)}°: p = {probability(why.p)}
       </h3>
       <ul class="why">
         {why.features.map(({ feature, p, values }) => (
@@ -341,7 +341,7 @@ function WhyList({ why }: { why: Why }) {
             <button aria-expanded={open === feature} onClick={() => setOpen(open === feature ? "" : feature)}>
               <span class="who">{shortName(feature)}</span>
               <meter min={0} max={1} value={p} aria-label={`probability of ${feature}`} />
-              <span class="share">{p.toPrecision(2)}</span>
+              <span class="share">{probability(p)}</span>
             </button>
             {open === feature && (
               <table class="values">
@@ -369,6 +369,8 @@ function WhyList({ why }: { why: Why }) {
     </>
   );
 }
+
+const probability = (p: number): string => (p !== 0 && Math.abs(p) < 0.001 ? p.toExponential(1) : p.toPrecision(2));
 
 function amount(value: number | null, unit: string): string {
   if (value === null || Number.isNaN(value)) return "–";

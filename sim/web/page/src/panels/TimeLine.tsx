@@ -46,9 +46,11 @@ export function TimeLine() {
           onChange={() => setHeld(null)}
         />
         <svg class="marks" viewBox="0 0 1000 10" preserveAspectRatio="none" aria-hidden="true">
-          {board.happenings.map(({ number, stamp, what }) => (
-            <rect key={number} x={(1000 * (stamp - world.start)) / length - 1} y="0" width="2" height="10" class={`mark ${/^[a-z-]+/.exec(what)?.[0] ?? ""}`} />
-          ))}
+          {board.happenings.map(({ number, stamp, what, text }) => {
+            const kind = /goal|lost|carried/.exec(`${what} ${text}`)?.[0] ?? "";
+            const x = (1000 * (stamp - world.start)) / length - 1;
+            return <rect key={number} x={x} y="0" width="2.5" height="10" class={`mark ${kind}`} />;
+          })}
         </svg>
       </div>
       <span>{seconds(length)}</span>

@@ -60,9 +60,15 @@ function TimeControls() {
   const isRecord = board.kind === "record";
   return (
     <div class="time" role="group" aria-label="Time">
-      <Say line={isPaused ? "RESUME" : "PAUSE"} at="time" label={isPaused ? "Go on" : "Pause"} class="play">
-        <Icon name={isPaused ? "play" : "pause"} />
-      </Say>
+      {board.state === "ended" ? (
+        <Say line="SEEK time_s=0" at="time" label="From the beginning" class="play" disabled={!board.can("SEEK")}>
+          <Icon name="play" />
+        </Say>
+      ) : (
+        <Say line={isPaused ? "RESUME" : "PAUSE"} at="time" label={isPaused ? "Go on" : "Pause"} class="play">
+          <Icon name={isPaused ? "play" : "pause"} />
+        </Say>
+      )}
       <Say line="STEP" at="time" label="One cycle" disabled={!isPaused}><Icon name="step" /></Say>
       <label class="speed" title="SPEED FACTOR">
         <span class="sr">Speed</span>
