@@ -102,6 +102,13 @@ void addCheck(Builder& build, CLI::App& app) {
              "Cut off what a killed recorder left of the last moment of a record");
 }
 
+void addDemo(Builder& build, CLI::App& app) {
+  const auto a = build.command<DemoArguments>(
+      app, "demo", "A robot that finds its place on a soccer field, in a web browser",
+      "ortung demo", runDemo);
+  addDoor(build, a->serving);
+}
+
 void addSim(Builder& build, CLI::App& app) {
   const auto a = build.command<SimArguments>(
       app, "sim", "Simulate a world or play a scene; with --listen, serve it to clients",
@@ -263,6 +270,8 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   addEval(build, app, commandLine);
   addCompare(build, app);
   addLocalize(build, app);
+  addView(build, app);
+  addDemo(build, app);
   addImport(build, app);
   addExport(build, app);
   addShow(build, app);

@@ -100,6 +100,7 @@ struct EvalArguments {
   std::string convergedWithin = "0.5,15";
   std::vector<std::string> faults;  ///< "WHAT=FAULT[:VALUE][@FROM-TO]"
   std::string commandLine;          ///< for the report
+  bool isViewing = false;           ///< show the run afterwards
 };
 int runEval(const EvalArguments& arguments);
 
@@ -239,6 +240,19 @@ struct SimArguments {
   ServingArguments serving;
 };
 int runSim(const SimArguments& arguments);
+
+struct ViewArguments {
+  std::vector<std::string> sources;    ///< records, or "KIND:PATH?key=value"
+  std::filesystem::path world;         ///< whose field is drawn; "": that of the tables
+  LocalizationArguments localization;  ///< its source is not used; tables "": nothing is localized
+  ServingArguments serving;
+};
+int runView(const ViewArguments& arguments);
+
+struct DemoArguments {
+  ServingArguments serving;
+};
+int runDemo(const DemoArguments& arguments);
 
 struct RobotArguments {
   LocalizationArguments localization;  ///< tables "": it does not localize; no source

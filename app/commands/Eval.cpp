@@ -126,18 +126,36 @@ void refuseLive(const EvalArguments& arguments, const std::vector<EvalJob>& jobs
   }
 }
 
+/// The same run once more, bit for bit, for who looks on.
+ViewArguments viewOf(const EvalArguments& arguments) {
+  ViewArguments view;
+  view.sources = arguments.sources;
+  view.localization = arguments.localization;
+  return view;
+}
+
+void refuseToView(const EvalArguments& arguments, std::size_t jobs) {
+  if (jobs == 1 && arguments.kidnaps + arguments.wakeUps == 0 && !arguments.teleport &&
+      arguments.faults.empty())
+    return;
+  throw UsageError(
+      "--view shows one run of one source as it is: it does not go with further sources or runs, "
+      "faults, kidnaps and wake-ups");
+}
+
 }  // namespace
 
 int runEval(const EvalArguments& arguments) {
   const EvalSettings settings{arguments, readOptions(arguments), readFaults(arguments)};
   std::vector<EvalJob> jobs = jobsOf(arguments);
   const Outputs outputs = outputsOf(arguments, jobs.size());
+  if (arguments.isViewing) refuseToView(arguments, jobs.size());
   if (jobs.size() == 1 && jobs.front().kind == RunKind::kWhole) {
     const RunResult run = runOne(settings, jobs.front(), outputs);
     if (!arguments.json.empty()) outputs.write(arguments.json, toJson(run));
     if (!arguments.report.empty()) outputs.write(arguments.report, toHtml(run));
     fmt::print("{}", toText(run));
-    return 0;
+    return arguments.isViewing ? runView(viewOf(arguments)) : 0;
   }
   refuseLive(arguments, jobs);
   std::vector<RunResult> runs;

@@ -5,6 +5,7 @@
 
 #include "Commands.hpp"
 #include "OptionBuilder.hpp"
+#include "ServingOptions.hpp"
 #include "ortung/run/Fault.hpp"
 
 namespace ortung::app {
@@ -48,6 +49,8 @@ void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
   addLocalization(build, a->localization);
   build.option("--json", a->json, "Write the figures as JSON");
   build.option("--report", a->report, "Write a page with map, charts and figures");
+  build.flag("--view", a->isViewing,
+             "Show the run of the one source in a web browser afterwards, with a time line");
   build.option("--record", a->record, "Write all readings as a record");
   build
       .option("--converged-within", a->convergedWithin,
@@ -92,6 +95,29 @@ void addCompare(Builder& build, CLI::App& app) {
   build.option("after", a->after, "The same of the same runs, done otherwise: B")->required();
   build.option("--json", a->json, "Write the comparison as JSON");
   build.flag("--force", a->force, kForce);
+}
+
+void addView(Builder& build, CLI::App& app) {
+  const auto a = build.command<ViewArguments>(
+      app, "view",
+      "Look at records in a web browser, with a time line; with --tables, localize them first",
+      "ortung view run.rec\n"
+      "  ortung view run.rec other.rec --robot robot.toml --tables hall.ortung",
+      runView);
+  build
+      .option("records", a->sources, "Records or sources (KIND:PATH?key=value), shown side by side")
+      ->required()
+      ->expected(1, 16);
+  build.option("--world", a->world, "World whose field is drawn; default: that of the tables");
+  build.option("--robot", a->localization.robot, "Robot file (TOML)");
+  build.option("--tables", a->localization.tables, "Table file of `ortung learn`: localize, too");
+  build.option("--seed", a->localization.seed, "Seed of all random numbers")->capture_default_str();
+  build.option("--start", a->localization.start, "global, truth or x,y,theta_deg")
+      ->capture_default_str();
+  build.flag("--any-world", a->localization.anyWorld,
+             "Go on although the source comes from another world than the tables");
+  build.flag("--progress", a->localization.progress, kProgress);
+  addDoor(build, a->serving);
 }
 
 void addLocalize(Builder& build, CLI::App& app) {

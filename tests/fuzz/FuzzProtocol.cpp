@@ -90,6 +90,20 @@ BoardCommand echo() {
           }};
 }
 
+/// The same as bytes, beside the world.
+BoardCommand slowEcho() {
+  return {.name = "MULL",
+          .help = "",
+          .handle =
+              [](const BoardCommand::Call& call) {
+                BoardCommand::Reply reply;
+                if (!call.isAwaited()) std::abort();
+                for (const std::string& word : call.words) reply.bytes += word;
+                return reply;
+              },
+          .isSlow = true};
+}
+
 void judge(std::string_view bytes) {
   const std::size_t head = httpHeadLength(bytes);
   require(head == bytes.npos || head <= bytes.size());
@@ -103,7 +117,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   judge(rest);
   test::CountingWorld world(3);
   BoardConfig config;
-  config.commands = {echo()};
+  config.commands = {echo(), slowEcho()};
   config.pace = Pace::kLockstep;
   config.control = {"*"};
   config.limits.output = 20'000;

@@ -134,6 +134,15 @@ TEST(HeatMap, IsThatOfTheLibraryInLevelsAndCoarserIfAskedFor) {
   }
   EXPECT_NEAR(high, brightest, 1e-6 * brightest);
 
+  const BoardCommand::Reply inLogs = client.ask("HEATMAP LMS200/LRF/* theta_deg=30 scale=log");
+  const Map logs(inLogs);
+  const double range = std::log(high / low);
+  EXPECT_NEAR(std::log(std::stod(valueOf(inLogs.words, "high")) / high), 0.0, 1e-6);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (logs.at(i) == 0) continue;
+    EXPECT_NEAR((logs.at(i) - 1) / 254.0, std::log(expected[i] / low) / range, 1.0 / 500.0);
+  }
+
   const Map coarse(client.ask("HEATMAP cells=1000"));
   EXPECT_LE(coarse.grid.size(), 1000U);
   EXPECT_DOUBLE_EQ(coarse.grid.cell, 0.4) << "14 x 10 m: 35 x 25 cells";

@@ -59,6 +59,8 @@ TEST(LocalizationCommands, RefuseWhatMakesNoSense) {
   expectError("LOCALIZE on colour=blue", "syntax");
   expectError("HEATMAP of=everything", "syntax");
   expectError("HEATMAP index=1", "syntax");
+  expectError("HEATMAP scale=cubic", "syntax");
+  expectError("HEATMAP scale=log of=expectation", "syntax");
   expectError("HEATMAP of=expectation index=-1", "number");
   expectError("HEATMAP of=expectation index=70000", "number");
   expectError("HEATMAP cells=0", "number");

@@ -219,6 +219,7 @@ void FilterThread::publish() {
     }
   }
   const std::lock_guard lock(mutex_);
+  if (inbox_.isRestarted) return;  // meanwhile: it is of a time that has not come yet
   std::erase_if(published_, [&](const Message& old) {
     return std::any_of(fresh.begin(), fresh.end(),
                        [&](const Message& one) { return one.id == old.id; });

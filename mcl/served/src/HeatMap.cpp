@@ -56,10 +56,10 @@ std::optional<HeatMap> probability(const Robot& robot, std::vector<const SensorD
   // Levels compare with the best: p itself may be too small for a number.
   double best = -std::numeric_limits<double>::infinity();
   for (const double value : values) best = std::fmax(best, value);
-  for (double& value : values) value = std::exp(value - best);
+  for (double& value : values) value = wish.isLogarithmic ? value - best : std::exp(value - best);
   addLevels(values, map);
-  map.low *= std::exp(best);
-  map.high *= std::exp(best);
+  map.low = std::exp(best) * (wish.isLogarithmic ? std::exp(map.low) : map.low);
+  map.high = std::exp(best) * (wish.isLogarithmic ? std::exp(map.high) : map.high);
   return map;
 }
 

@@ -15,6 +15,7 @@ namespace ortung {
 struct HeatMapWish {
   std::vector<std::string> queries;  ///< "MODEL/TYPE/FEATURE"; none: all features that localize
   std::optional<double> heading;     ///< of the robot [rad]; nothing: the best one for each cell
+  bool isLogarithmic = false;        ///< levels of ln p instead of p
   bool isExpectation = false;        ///< what the feature expects, instead of how probable it is
   std::size_t index = 0;             ///< which of its values is expected
   std::size_t mostCells = 40'000;    ///< of the map; at least 1

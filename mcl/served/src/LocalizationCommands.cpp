@@ -95,6 +95,11 @@ HeatMapWish takeWish(CallArguments& arguments) {
   if (of != "probability" && of != "expectation")
     throw ServeError("syntax", "of is '" + of + "', expected probability or expectation");
   wish.isExpectation = of == "expectation";
+  const std::string scale = arguments.takeText("scale").value_or("linear");
+  if (scale != "linear" && (scale != "log" || wish.isExpectation))
+    throw ServeError("syntax",
+                     "scale is '" + scale + "', expected linear, or log of probabilities");
+  wish.isLogarithmic = scale == "log";
   const auto index = arguments.takeInteger("index", 0, kMostValue);
   if (index && !wish.isExpectation)
     throw ServeError("syntax", "index is of a value that of=expectation expects");
@@ -148,7 +153,7 @@ std::vector<BoardCommand> localizationCommands(LocalizedRobots& robots) {
        .handle = [&robots](const Call& call) { return localize(robots, call); }},
       {.name = "HEATMAP",
        .help = "robot=N [MODEL/TYPE/FEATURE ...] [theta_deg=T] [of=probability|expectation] "
-               "[index=I] [cells=MOST], p of its readings all over the field",
+               "[index=I] [scale=linear|log] [cells=MOST], p of its readings all over the field",
        .handle = [&robots](const Call& call) { return showMap(robots, call); },
        .isSlow = true},
       {.name = "WHY",

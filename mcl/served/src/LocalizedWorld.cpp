@@ -186,6 +186,15 @@ std::span<Message> LocalizedWorld::readings(RobotId robot) {
 
 void LocalizedWorld::reset(std::optional<std::uint64_t> seed) {
   world_.reset(seed);
+  restartFilters();
+}
+
+void LocalizedWorld::seek(Timestamp stamp) {
+  world_.seek(stamp);
+  restartFilters();
+}
+
+void LocalizedWorld::restartFilters() {
   meetResidents();
   for (auto& [robot, its] : filters_) {
     its.needs.clear();  // its sensors are new ones

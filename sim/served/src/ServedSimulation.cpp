@@ -6,9 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "FieldText.hpp"
+#include "OutlineText.hpp"
 #include "Truth.hpp"
 #include "ortung/motion/MotionModel.hpp"
+#include "ortung/server/FieldText.hpp"
 #include "ortung/server/RobotPlugins.hpp"
 
 namespace ortung {
@@ -366,7 +367,9 @@ std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
   return lines;
 }
 
-std::vector<std::string> ServedSimulation::field() const { return fieldText(simulation().world()); }
+std::vector<std::string> ServedSimulation::field() const {
+  return fieldText(fieldModelOf(simulation().world()));
+}
 
 std::vector<ServedFeature> ServedSimulation::truthFeatures() const { return Truth::features(); }
 

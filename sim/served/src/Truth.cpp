@@ -1,8 +1,6 @@
 #include "Truth.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "ortung/formats/PoseData.hpp"
 
@@ -21,12 +19,6 @@ std::uint32_t statesOf(const SimRobot& robot) {
   for (std::size_t i = 0; i < std::min(states.size(), kMostManipulators); ++i)
     word |= static_cast<std::uint32_t>(std::min(states[i], kLastState)) << (4 * i);
   return word;
-}
-
-/// In [0, 36000).
-std::uint32_t headingOf(const Pose2& pose) {
-  const double turns = pose.theta / (2.0 * std::numbers::pi);
-  return static_cast<std::uint32_t>(std::lround((turns - std::floor(turns)) * 36000.0)) % 36000u;
 }
 
 }  // namespace
@@ -55,13 +47,13 @@ std::span<Message> Truth::look(const Simulation& simulation,
     const auto number = numbers.find(robot->state().number);
     if (number == numbers.end()) continue;
     const std::vector<std::uint32_t> pose = PoseData::encode(robot->state().pose);
-    robots.insert(robots.end(), {number->second, pose[0], pose[1], headingOf(robot->state().pose),
-                                 statesOf(*robot)});
+    robots.insert(robots.end(), {number->second, pose[0], pose[1],
+                                 headingWord(robot->state().pose.theta), statesOf(*robot)});
   }
   auto& objects = readings_[1].words;
   for (const Simulation::Thing& thing : simulation.things()) {
     const std::vector<std::uint32_t> pose = PoseData::encode(thing.pose);
-    objects.insert(objects.end(), {pose[0], pose[1], kOnTheFloor, headingOf(thing.pose)});
+    objects.insert(objects.end(), {pose[0], pose[1], kOnTheFloor, headingWord(thing.pose.theta)});
   }
   return readings_;
 }

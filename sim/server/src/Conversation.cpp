@@ -57,6 +57,7 @@ const std::vector<Conversation::Command>& Conversation::commands() {
       {"STEP", control, &C::step, "[cycles=N] of a paused world"},
       {"SPEED", control, &C::speed, "FACTOR of real time, 0: as fast as possible"},
       {"RESET", control, &C::reset, "[seed=N], the world starts over"},
+      {"SEEK", control, &C::seek, "time_s=T, of a record's time line"},
       {"PLACE", control, &C::place, "robot=N|object=NAME x_m=X y_m=Y [theta_deg=T]"},
       {"HELP", all, &C::help, "this list"},
       {"BYE", all, &C::bye, ""}};

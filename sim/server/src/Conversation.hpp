@@ -181,6 +181,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void step(Request& request);
   void speed(Request& request);
   void reset(Request& request);
+  void seek(Request& request);
   void place(Request& request);
 
   Host& host_;

@@ -54,6 +54,17 @@ void Conversation::speed(Request& request) {
   });
 }
 
+void Conversation::seek(Request& request) {
+  constexpr double kLatest = 1e9;  // [s]
+  const auto time = request.takeNumber("time_s", 0.0, kLatest);
+  request.refuseRest();
+  if (!time) throw ServeError("syntax", "SEEK needs time_s");
+  order(request.tag(), [time](WorldKeeper& keeper, WorldKeeper::Done&) {
+    keeper.seek(fromSeconds(*time));
+    return Reply("OK SEEK now=" + std::to_string(keeper.world().now()));
+  });
+}
+
 void Conversation::reset(Request& request) {
   const auto seed = request.takeSeed();
   request.refuseRest();

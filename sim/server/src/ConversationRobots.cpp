@@ -341,18 +341,15 @@ void Conversation::endSubscriptions() {
 }
 
 void Conversation::onCycle() {
-  if (isOver_) return;
-  for (auto next = subscriptions_.begin(); next != subscriptions_.end();) {
-    const auto [robot, subscription] = *next;
-    if (sendSubscribed(robot, next->second)) {
-      ++next;
-      continue;
+  // Sending may end all subscriptions: who does not read is dismissed.
+  for (auto next = subscriptions_.begin(); !isOver_ && next != subscriptions_.end();) {
+    const RobotId robot = next->first;
+    if (!sendSubscribed(robot, next->second)) {
+      tell("REMOVE robot=" + std::to_string(robot));
+      views_.erase(robot);
+      endSubscription(robot);
     }
-    ++next;
-    tell("REMOVE robot=" + std::to_string(robot));
-    views_.erase(robot);
-    endSubscription(robot);
-    if (isOver_) return;
+    next = subscriptions_.upper_bound(robot);
   }
 }
 

@@ -224,6 +224,7 @@ void Conversation::describeWorld(const std::string& tag) {
   if (const auto& bounds = world.bounds)
     line += " x_min_m=" + shown(bounds->xMin) + " y_min_m=" + shown(bounds->yMin) +
             " x_max_m=" + shown(bounds->xMax) + " y_max_m=" + shown(bounds->yMax);
+  if (world.length) line += " start_us=0 end_us=" + std::to_string(*world.length);
   std::string lines;
   std::size_t count = 0;
   addLine(lines, count, line);

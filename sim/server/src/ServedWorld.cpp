@@ -1,9 +1,21 @@
 #include "ortung/server/ServedWorld.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace ortung {
 
 ServeError::~ServeError() = default;
 ServedWorld::~ServedWorld() = default;
+
+void ServedWorld::seek(Timestamp) {
+  throw ServeError("state", "this world has no time line: SEEK is for a record that is viewed");
+}
+
+std::uint32_t headingWord(double radians) {
+  const double turns = radians / (2.0 * std::numbers::pi);
+  return static_cast<std::uint32_t>(std::lround((turns - std::floor(turns)) * 36000.0)) % 36000u;
+}
 
 std::vector<ServedFeature> servedFeatures(const SensorContainer& container) {
   std::vector<ServedFeature> features;

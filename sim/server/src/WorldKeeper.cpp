@@ -338,6 +338,18 @@ void WorldKeeper::reset(std::optional<std::uint64_t> seed) {
   anchor(wallTime());
 }
 
+void WorldKeeper::seek(Timestamp stamp) {
+  refuseIfLive("wound back or forward");
+  world_.seek(stamp);
+  for (const auto& [id, robot] : robots_) {
+    robot.readings->forget();
+    robot.readings->publish(world_.readings(id));
+  }
+  publishTruth();
+  anchor(wallTime());
+  if (onCycle_) onCycle_();
+}
+
 std::string WorldKeeper::stateText() const {
   if (!failure_.empty()) return "failed";
   if (world_.isAtEnd()) return "ended";

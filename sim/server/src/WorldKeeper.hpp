@@ -66,6 +66,7 @@ class WorldKeeper {
   void step(std::uint64_t cycles, Done done);
   void setSpeed(double speed);
   void reset(std::optional<std::uint64_t> seed);
+  void seek(Timestamp stamp);
   /// " speed=F achieved=F [seed=N]": asked, and of the last second; 0: as fast as possible.
   std::string paceText() const;
   std::string stateText() const;  ///< "running", "paused", "waiting", "ended" or "failed"

@@ -71,6 +71,7 @@ class ORTUNG_API LocalizedWorld final : public ServedWorld, public LocalizedRobo
   RobotCommands& commands(RobotId robot) override { return world_.commands(robot); }
   void tell(RobotId robot, std::string_view text) override { world_.tell(robot, text); }
   std::vector<ServedTalk> takeHeard(RobotId robot) override { return world_.takeHeard(robot); }
+  void seek(Timestamp stamp) override;
   std::optional<std::uint64_t> seed() const override { return world_.seed(); }
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override { world_.placeRobot(robot, pose); }
@@ -85,6 +86,7 @@ class ORTUNG_API LocalizedWorld final : public ServedWorld, public LocalizedRobo
     std::vector<SensorId> needs;           ///< of the filter, as the world was told
   };
   void meetResidents();
+  void restartFilters();
   void checkNames() const;
   bool isNamed(const std::string& name) const;
   void tellWanted(RobotId robot, const Filter& filter);

@@ -86,6 +86,7 @@ struct WorldDescription {
   std::string kind;                        ///< "simulation", "record" or "robot"
   std::optional<FieldBounds> bounds = {};  ///< nothing: they are not known
   std::vector<ServedObject> objects = {};
+  std::optional<Timestamp> length = {};  ///< of a time line that clients may seek on [us]
 };
 
 /// What one robot said to all others of its team.
@@ -156,6 +157,9 @@ class ORTUNG_API ServedWorld {
   /// What a robot was told since it was last asked, in the order of time.
   virtual std::vector<ServedTalk> takeHeard(RobotId) { return {}; }
 
+  /// Goes to a time of its time line [us]; readings() are then what was newest there. What lies
+  /// before or behind becomes its beginning or end.
+  virtual void seek(Timestamp stamp);
   /// Of its chance; nothing: there is none.
   virtual std::optional<std::uint64_t> seed() const { return std::nullopt; }
   /// Starts over: time, chance and robots as at their beginning.
@@ -164,6 +168,9 @@ class ORTUNG_API ServedWorld {
   /// @param object a name of describe()
   virtual void placeObject(const std::string& object, const Pose2& pose) = 0;
 };
+
+/// As in readings of robot 0: [1/100 degree], in [0, 36000).
+ORTUNG_API std::uint32_t headingWord(double radians);
 
 /// The features of a container.
 ORTUNG_API std::vector<ServedFeature> servedFeatures(const SensorContainer& container);

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ortung/server/BoardCommand.hpp"
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung {
+
+/// Records with a time line, side by side: each is a robot of this world, with all the readings
+/// that are in it, and all begin at time 0. Clients pause, seek and change the speed. Unlike a
+/// ServedRecord it lets no robots of clients in: it is for who looks on.
+/// Not thread-safe.
+class ORTUNG_API ServedPlayback : public ServedWorld {
+ public:
+  struct Run {
+    std::filesystem::path record;
+    std::string name;  ///< of its robot: [A-Za-z0-9_-], 1 to 32 characters
+    /// What is known of its features; of others clients are told the names alone.
+    std::vector<ServedFeature> features = {};
+    std::vector<std::string> abilities = {};  ///< lines of DESCRIBE, see ServedWorld
+  };
+  struct Config {
+    std::string name;                        ///< of the world, for clients
+    std::vector<Run> runs;                   ///< 1 to 16
+    std::vector<std::string> field = {};     ///< lines of DESCRIBE field
+    std::optional<FieldBounds> bounds = {};  ///< by default around all true poses
+    double period = 0.02;                    ///< of a cycle [s], in [0.001, 10]
+  };
+  /// Something that happened in a run.
+  struct Mark {
+    Timestamp stamp = 0;  ///< on the time line [us]
+    std::string text;     ///< e.g. "scout: lost"
+  };
+
+  /// Reads each record once: which features it has, how long it is, and what happened in it.
+  /// @param progress asked now and then with the share done; false: gives up
+  /// @throws std::runtime_error if one is no record or has no readings, or when it is given up;
+  ///   std::invalid_argument for a configuration that makes no sense
+  explicit ServedPlayback(const Config& config, const std::function<bool(double)>& progress = {});
+  ~ServedPlayback() override;
+
+  /// When the localization lost itself and found itself again, a robot was carried away, or a
+  /// referee decided, in the order of time; at most 10,000.
+  const std::vector<Mark>& marks() const;
+  Timestamp length() const;  ///< of the longest run [us]
+
+  WorldDescription describe() const override;
+  std::vector<std::string> plugins() const override { return {}; }
+  std::vector<std::string> field() const override;
+  std::vector<ServedFeature> truthFeatures() const override;
+  std::span<Message> truth() override;
+  Timestamp now() const override;
+  bool isAtEnd() const override;
+  void step() override;
+  void seek(Timestamp stamp) override;
+  std::vector<Resident> residents() const override;
+  ServedRobot addRobot(RobotId robot, RobotWish wish) override;
+  std::vector<std::string> abilities(RobotId robot) const override;
+  void removeRobot(RobotId robot) override;
+  std::span<Message> readings(RobotId robot) override;
+  RobotCommands& commands(RobotId robot) override;
+  void reset(std::optional<std::uint64_t> seed) override;
+  void placeRobot(RobotId robot, const Pose2& pose) override;
+  void placeObject(const std::string& object, const Pose2& pose) override;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// EVENTS: the marks of the time line. @param playback borrowed
+ORTUNG_API std::vector<BoardCommand> playbackCommands(const ServedPlayback& playback);
+
+}  // namespace ortung

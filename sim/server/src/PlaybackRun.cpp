@@ -1,0 +1,161 @@
+#include "PlaybackRun.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "Request.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/TalkData.hpp"
+
+namespace ortung::server {
+namespace {
+
+constexpr std::size_t kMostMarks = 10'000;
+constexpr std::size_t kMostFeatures = 1024;
+constexpr std::uint64_t kBetweenProgress = 4096;  // readings
+// Of what is in sight after a seek: scans come ten times a second, camera pictures at least once.
+constexpr Timestamp kBefore = 3'000'000;  // [us]
+// Faster than robots drive: it was carried.
+constexpr double kFastest = 10.0;  // [m/s]
+constexpr double kNoJump = 0.3;    // [m]
+
+std::string help(const SensorId& id) {
+  return id.type == "groundTruth" ? PoseData(id).wordsHelp() : "";
+}
+
+std::optional<Pose2> poseOf(const Message& message) {
+  PoseData data(message.id);
+  try {
+    data.setData(message.stamp, message.words);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;  // another format of the same type
+  }
+  return data.reading();
+}
+
+}  // namespace
+
+PlaybackRun::PlaybackRun(const ServedPlayback::Run& run,
+                         const std::function<bool(double)>& progress)
+    : run_(run) {
+  scan(progress);
+  open(0);
+}
+
+PlaybackRun::~PlaybackRun() = default;
+
+std::size_t PlaybackRun::placeOf(const SensorId& id) {
+  const auto found = std::find_if(features_.begin(), features_.end(),
+                                  [&](const ServedFeature& one) { return one.id == id; });
+  if (found != features_.end()) return static_cast<std::size_t>(found - features_.begin());
+  if (features_.size() == kMostFeatures)
+    throw std::runtime_error(run_.record.string() + ": has more than " +
+                             std::to_string(kMostFeatures) + " features");
+  const auto known = std::find_if(run_.features.begin(), run_.features.end(),
+                                  [&](const ServedFeature& one) { return one.id == id; });
+  features_.push_back(known == run_.features.end() ? ServedFeature{id, help(id)} : *known);
+  return features_.size() - 1;
+}
+
+void PlaybackRun::scan(const std::function<bool(double)>& progress) {
+  RecordSource source(run_.record);
+  fingerprint_ = source.worldFingerprint();
+  Message message;
+  for (std::uint64_t count = 0; source.next(message); ++count) {
+    if (count == 0) first_ = message.stamp;
+    if (count % kBetweenProgress == 0 && progress && !progress(std::max(0.0, source.progress())))
+      throw std::runtime_error(run_.record.string() + ": reading was given up");
+    placeOf(message.id);
+    message.stamp -= first_;
+    length_ = std::max(length_, message.stamp);
+    note(message);
+  }
+  if (features_.empty()) throw std::runtime_error(run_.record.string() + ": has no readings");
+}
+
+void PlaybackRun::note(const Message& message) {
+  if (message.id == SensorId{"mcl", "LOCALIZATION", "status"}) noteTrack(message);
+  if (message.id.type == "groundTruth") noteTruth(message);
+  if (message.id.type == "referee") noteTalk(message);
+}
+
+void PlaybackRun::noteTrack(const Message& message) {
+  constexpr std::uint32_t kTracking = 0;
+  constexpr std::uint32_t kLost = 2;
+  if (message.words.empty() || message.words[0] == status_) return;
+  const std::uint32_t now = message.words[0];
+  if (now != kTracking && now != kLost) return;  // between them it may waver
+  if (now == kTracking) mark(message.stamp, "tracking");
+  if (now == kLost && status_) mark(message.stamp, "lost");  // who has just begun is not
+  status_ = now;
+}
+
+void PlaybackRun::noteTruth(const Message& message) {
+  const auto pose = poseOf(message);
+  if (!pose) return;
+  if (!bounds_) bounds_ = {pose->x, pose->y, pose->x, pose->y};
+  *bounds_ = {std::min(bounds_->xMin, pose->x), std::min(bounds_->yMin, pose->y),
+              std::max(bounds_->xMax, pose->x), std::max(bounds_->yMax, pose->y)};
+  if (lastTruth_) {
+    const auto& [stamp, last] = *lastTruth_;
+    const double way = std::hypot(pose->x - last.x, pose->y - last.y);
+    if (way > kNoJump + kFastest * toSeconds(message.stamp - stamp))
+      mark(message.stamp, "carried away");
+  }
+  lastTruth_ = {message.stamp, *pose};
+}
+
+void PlaybackRun::noteTalk(const Message& message) {
+  TalkData talk(message.id);
+  try {
+    talk.setData(message.stamp, message.words);
+  } catch (const std::invalid_argument&) {
+    return;
+  }
+  for (const TalkData::Message& one : talk.reading().messages)
+    mark(message.stamp - fromSeconds(one.age), one.text);
+}
+
+void PlaybackRun::mark(Timestamp stamp, const std::string& text) {
+  if (marks_.size() < kMostMarks) marks_.push_back({stamp, run_.name + ": " + printable(text)});
+}
+
+void PlaybackRun::open(Timestamp from) {
+  source_ = std::make_unique<RecordSource>(run_.record, RecordPart{toSeconds(from)});
+  ahead_.emplace();
+  if (!source_->next(*ahead_)) ahead_.reset();
+  newest_.clear();
+  taken_.assign(features_.size(), 0);
+}
+
+/// The newest of a feature counts.
+void PlaybackRun::take(Message&& message) {
+  const std::size_t place = placeOf(message.id);
+  if (taken_[place] == 0) {
+    newest_.push_back(std::move(message));
+    taken_[place] = newest_.size();
+  } else {
+    newest_[taken_[place] - 1] = std::move(message);
+  }
+}
+
+void PlaybackRun::play(Timestamp stamp) {
+  newest_.clear();
+  std::fill(taken_.begin(), taken_.end(), 0);
+  while (ahead_ && ahead_->stamp - first_ < stamp) {
+    ahead_->stamp -= first_;
+    if (ahead_->id.type == "groundTruth")
+      if (const auto pose = poseOf(*ahead_)) truth_ = pose;
+    take(std::move(*ahead_));
+    if (!source_->next(*ahead_)) ahead_.reset();
+  }
+}
+
+void PlaybackRun::seek(Timestamp stamp) {
+  truth_.reset();
+  open(std::max<Timestamp>(0, stamp - kBefore));
+  play(stamp);
+}
+
+}  // namespace ortung::server

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "ortung/base/Pose2.hpp"
+#include "ortung/records/RecordSource.hpp"
+#include "ortung/server/ServedPlayback.hpp"
+
+namespace ortung::server {
+
+/// One record of a playback. Its time is counted from its first reading.
+class PlaybackRun {
+ public:
+  /// @param progress as of ServedPlayback, of this record
+  PlaybackRun(const ServedPlayback::Run& run, const std::function<bool(double)>& progress);
+  ~PlaybackRun();
+
+  const std::vector<ServedFeature>& features() const { return features_; }
+  const std::vector<ServedPlayback::Mark>& marks() const { return marks_; }
+  const std::optional<FieldBounds>& bounds() const { return bounds_; }
+  const std::string& fingerprint() const { return fingerprint_; }
+  Timestamp length() const { return length_; }
+  const ServedPlayback::Run& run() const { return run_; }
+
+  /// Goes on to @p stamp, not included: newest() has what was new, the last one of each feature.
+  void play(Timestamp stamp);
+  /// Goes to @p stamp: newest() has the last one of each feature of the seconds before it.
+  void seek(Timestamp stamp);
+  std::span<Message> newest() { return newest_; }
+  /// Where the robot truly is; nothing if the record does not say so.
+  const std::optional<Pose2>& truth() const { return truth_; }
+
+ private:
+  void scan(const std::function<bool(double)>& progress);
+  void note(const Message& message);
+  void noteTrack(const Message& message);
+  void noteTruth(const Message& message);
+  void noteTalk(const Message& message);
+  void mark(Timestamp stamp, const std::string& text);
+  void open(Timestamp from);
+  void take(Message&& message);
+  std::size_t placeOf(const SensorId& id);
+
+  ServedPlayback::Run run_;
+  std::vector<ServedFeature> features_;
+  std::vector<ServedPlayback::Mark> marks_;
+  std::optional<FieldBounds> bounds_;
+  std::string fingerprint_;
+  Timestamp first_ = 0;  ///< stamp of the first reading in the record
+  Timestamp length_ = 0;
+
+  std::unique_ptr<RecordSource> source_;
+  std::optional<Message> ahead_;
+  std::vector<Message> newest_;
+  std::vector<std::size_t> taken_;  ///< by feature: its place in newest_, plus 1; 0: none
+  std::optional<Pose2> truth_;
+
+  // while it is scanned
+  std::optional<std::uint32_t> status_;
+  std::optional<std::pair<Timestamp, Pose2>> lastTruth_;
+};
+
+}  // namespace ortung::server

@@ -1,0 +1,189 @@
+#include "ortung/server/ServedPlayback.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "PlaybackRun.hpp"
+#include "Request.hpp"
+#include "ortung/formats/PoseData.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::size_t kMostRuns = 16;
+constexpr double kMargin = 1.0;  // around the poses, where nobody says how large the field is [m]
+const SensorId kRobots{"world", "truth", "robots"};
+
+[[noreturn]] void refuse() {
+  throw ServeError("record", "what happened in a record can't be changed");
+}
+
+/// Takes no commands.
+class Mute final : public RobotCommands {
+ public:
+  ~Mute() override = default;
+  void setTranslationalVelocity(double) override { refuse(); }
+  void setRotationalVelocity(double) override { refuse(); }
+  void setMotion(std::span<const double>) override { refuse(); }
+  void setManipulator(std::string_view, std::string_view) override { refuse(); }
+};
+
+void check(const ServedPlayback::Config& config) {
+  if (config.runs.empty() || config.runs.size() > kMostRuns)
+    throw std::invalid_argument("there are " + std::to_string(config.runs.size()) +
+                                " records, expected 1 to " + std::to_string(kMostRuns));
+  if (!(config.period >= 0.001 && config.period <= 10.0))
+    throw std::invalid_argument("the period is " + std::to_string(config.period) +
+                                " s, must be in [0.001, 10]");
+  for (const ServedPlayback::Run& run : config.runs)
+    if (!server::isName(run.name))
+      throw std::invalid_argument("a robot's name is '" + server::printable(run.name) +
+                                  "', expected 1 to 32 of [A-Za-z0-9_-]");
+}
+
+}  // namespace
+
+struct ServedPlayback::Parts {
+  Config config;
+  std::vector<std::unique_ptr<server::PlaybackRun>> runs;
+  std::vector<Mark> marks;
+  Timestamp length = 0;
+  Timestamp now = 0;
+  Mute mute;
+  std::vector<Message> truth{{0, kRobots, {}}};
+
+  server::PlaybackRun& run(RobotId robot) const {
+    if (robot == 0 || robot > runs.size())
+      throw ServeError("no-robot", "there is no robot " + std::to_string(robot));
+    return *runs[robot - 1];
+  }
+};
+
+ServedPlayback::ServedPlayback(const Config& config, const std::function<bool(double)>& progress)
+    : parts_(std::make_unique<Parts>()) {
+  check(config);
+  parts_->config = config;
+  const auto all = static_cast<double>(config.runs.size());
+  for (const Run& run : config.runs) {
+    const auto before = static_cast<double>(parts_->runs.size());
+    const auto share = [&](double done) { return !progress || progress((before + done) / all); };
+    auto one = std::make_unique<server::PlaybackRun>(run, share);
+    parts_->marks.insert(parts_->marks.end(), one->marks().begin(), one->marks().end());
+    parts_->length = std::max(parts_->length, one->length());
+    parts_->runs.push_back(std::move(one));
+  }
+  std::stable_sort(parts_->marks.begin(), parts_->marks.end(),
+                   [](const Mark& a, const Mark& b) { return a.stamp < b.stamp; });
+  seek(0);
+}
+
+ServedPlayback::~ServedPlayback() = default;
+
+const std::vector<ServedPlayback::Mark>& ServedPlayback::marks() const { return parts_->marks; }
+Timestamp ServedPlayback::length() const { return parts_->length; }
+
+WorldDescription ServedPlayback::describe() const {
+  const auto& runs = parts_->runs;
+  WorldDescription world{parts_->config.name, runs.front()->fingerprint(), "record",
+                         parts_->config.bounds};
+  world.length = parts_->length;
+  if (world.bounds) return world;
+  for (const auto& run : runs) {
+    if (!run->bounds()) continue;
+    const FieldBounds its = *run->bounds();
+    const FieldBounds all = world.bounds.value_or(its);
+    world.bounds = {std::min(all.xMin, its.xMin), std::min(all.yMin, its.yMin),
+                    std::max(all.xMax, its.xMax), std::max(all.yMax, its.yMax)};
+  }
+  if (auto& bounds = world.bounds)
+    *bounds = {bounds->xMin - kMargin, bounds->yMin - kMargin, bounds->xMax + kMargin,
+               bounds->yMax + kMargin};
+  return world;
+}
+
+std::vector<std::string> ServedPlayback::field() const { return parts_->config.field; }
+
+std::vector<ServedFeature> ServedPlayback::truthFeatures() const {
+  return {
+      {kRobots, "for each robot: number, x [mm + 2^31], y [mm + 2^31], heading [1/100 degree], 0"}};
+}
+
+std::span<Message> ServedPlayback::truth() {
+  Message& robots = parts_->truth.front();
+  robots.stamp = parts_->now;
+  robots.words.clear();
+  RobotId number = 0;
+  for (const auto& run : parts_->runs) {
+    ++number;
+    if (!run->truth()) continue;
+    const std::vector<std::uint32_t> pose = PoseData::encode(*run->truth());
+    robots.words.insert(robots.words.end(),
+                        {number, pose[0], pose[1], headingWord(run->truth()->theta), 0});
+  }
+  return parts_->truth;
+}
+
+Timestamp ServedPlayback::now() const { return parts_->now; }
+bool ServedPlayback::isAtEnd() const { return parts_->now > parts_->length; }
+
+void ServedPlayback::step() {
+  parts_->now += fromSeconds(parts_->config.period);
+  for (const auto& run : parts_->runs) run->play(parts_->now);
+}
+
+void ServedPlayback::seek(Timestamp stamp) {
+  parts_->now = std::clamp<Timestamp>(stamp, 0, parts_->length);
+  // The readings of that very moment, too.
+  for (const auto& run : parts_->runs) run->seek(parts_->now + 1);
+}
+
+std::vector<Resident> ServedPlayback::residents() const {
+  std::vector<Resident> residents;
+  for (const auto& run : parts_->runs)
+    residents.push_back(
+        {static_cast<RobotId>(residents.size() + 1), run->run().name, run->features()});
+  return residents;
+}
+
+ServedRobot ServedPlayback::addRobot(RobotId, RobotWish) {
+  throw ServeError("record", "robots can't join what has happened already");
+}
+
+std::vector<std::string> ServedPlayback::abilities(RobotId robot) const {
+  return parts_->run(robot).run().abilities;
+}
+
+void ServedPlayback::removeRobot(RobotId) {}
+
+std::span<Message> ServedPlayback::readings(RobotId robot) { return parts_->run(robot).newest(); }
+
+RobotCommands& ServedPlayback::commands(RobotId) { return parts_->mute; }
+
+void ServedPlayback::reset(std::optional<std::uint64_t>) { seek(0); }
+void ServedPlayback::placeRobot(RobotId, const Pose2&) { refuse(); }
+void ServedPlayback::placeObject(const std::string&, const Pose2&) { refuse(); }
+
+std::vector<BoardCommand> playbackCommands(const ServedPlayback& playback) {
+  BoardCommand events;
+  events.name = "EVENTS";
+  events.help = "[since=N]: what happened, from number N on";
+  events.handle = [&playback](const BoardCommand::Call& call) {
+    std::size_t since = 0;
+    for (const auto& [key, value] : call.keys) {
+      const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), since);
+      if (key != "since" || error != std::errc() || end != value.data() + value.size())
+        throw ServeError("argument", "EVENTS has '" + key + "=" + value + "', expected since=N");
+    }
+    BoardCommand::Reply reply;
+    const auto& marks = playback.marks();
+    for (std::size_t i = since; i < marks.size(); ++i)
+      reply.lines.push_back(std::to_string(i) + " " + std::to_string(marks[i].stamp) + " " +
+                            marks[i].text);
+    reply.words = "next=" + std::to_string(marks.size());
+    return reply;
+  };
+  return {events};
+}
+
+}  // namespace ortung

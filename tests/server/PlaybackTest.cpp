@@ -1,0 +1,150 @@
+// Records with a time line, as clients see them.
+#include <gtest/gtest.h>
+
+#include "Files.hpp"
+#include "RunningBoard.hpp"
+#include "TestClient.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/TalkData.hpp"
+#include "ortung/records/RecordWriter.hpp"
+#include "ortung/server/ServedPlayback.hpp"
+
+namespace ortung::test {
+namespace {
+
+constexpr Timestamp kBegin = 1'700'000'000'000'000;  // stamps of a robot's own clock
+const SensorId kTruth{"reference", "groundTruth", "pose"};
+const SensorId kCount{"counter", "counter", "cycle"};
+const SensorId kTrack{"mcl", "LOCALIZATION", "status"};
+
+/// Ten seconds at 10 Hz: a robot that drives 1 m/s along x from x0 on, and is put to (x0, 5) after
+/// 6 s. Every second it counts; it tracks from 1 s on and is lost from 6.5 to 8 s.
+void writeRun(const std::filesystem::path& file, double x0) {
+  RecordWriter record(file, "0123456789abcdef");
+  for (std::uint32_t i = 0; i <= 100; ++i) {
+    const Timestamp stamp = kBegin + i * 100'000;
+    const double x = x0 + 0.1 * (i < 60 ? i : i - 60);
+    record.write({stamp, kTruth, PoseData::encode({x, i < 60 ? 0.0 : 5.0, 0.5})});
+    if (i % 10 == 0) record.write({stamp, kCount, {i / 10}});
+    const std::uint32_t status = i < 10 ? 2u : i >= 65 && i < 80 ? 2u : 0u;
+    record.write({stamp, kTrack, {status, 0, 9000, 10000}});
+    if (i == 30)
+      record.write({stamp,
+                    {"referee", "referee", "events"},
+                    TalkData::encode({"", {{0.0, "referee", "goal for blue"}}})});
+    record.endMoment();
+  }
+  record.commit();
+}
+
+struct Playback {
+  TemporaryFolder folder;
+  ServedPlayback::Config config;
+  Playback() {
+    writeRun(folder / "a.rec", 0.0);
+    writeRun(folder / "b.rec", -3.0);
+    config.name = "both";
+    config.runs = {{folder / "a.rec", "a"}, {folder / "b.rec", "b"}};
+  }
+};
+
+double metres(const std::string& line, int word) {
+  std::istringstream in(line);
+  std::string skipped;
+  for (int i = 0; i < 3 + word; ++i) in >> skipped;
+  double value = 0.0;
+  in >> value;
+  return (value - 2147483648.0) / 1000.0;
+}
+
+TEST(Playback, GoesToAnyTimeAndShowsWhatWasNewestThere) {
+  Playback two;
+  ServedPlayback world(two.config);
+  const RunningBoard board(world, controlledConfig());
+  TestClient client(board.port());
+  EXPECT_NE(client.ask("HELLO ortung/1").find("kind=record world=both"), std::string::npos);
+  client.ask("DESCRIBE world");
+  const std::string described = client.line();
+  EXPECT_EQ(valueOf(described, "end_us"), "10000000");
+  EXPECT_EQ(valueOf(described, "x_min_m"), "-4");
+  for (const double time : {4.0, 9.05, 0.0, 2.55, 10.0}) {
+    const auto stamp = std::to_string(fromSeconds(time));
+    EXPECT_EQ(client.ask("SEEK time_s=" + std::to_string(time)), "OK SEEK now=" + stamp);
+    const double now = std::floor(time * 10 + 1e-9) / 10;  // the newest reading
+    const double x = now < 6 ? now : now - 6;
+    client.ask("READ robot=1 reference/*/*");
+    EXPECT_NEAR(metres(client.line(), 0), x, 6e-4) << time;
+    client.ask("READ robot=2 reference/*/*");
+    EXPECT_NEAR(metres(client.line(), 0), x - 3, 6e-4) << time;
+    client.ask("READ robot=1 counter/*/*");
+    const std::string count = client.line();
+    EXPECT_EQ(count.substr(count.rfind(' ') + 1), std::to_string(static_cast<int>(time + 1e-9)));
+    client.ask("READ robot=0");
+    EXPECT_NEAR(metres(client.line(), 1), x, 6e-4) << "the first robot of the truth, at " << time;
+  }
+}
+
+TEST(Playback, PlaysOnFromWhereItWasSetTo) {
+  Playback two;
+  ServedPlayback world(two.config);
+  const RunningBoard board(world, controlledConfig());
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  client.ask("PAUSE");
+  client.ask("SEEK time_s=3.01");
+  EXPECT_EQ(client.ask("STEP cycles=10"), "OK STEP");  // of 20 ms
+  client.ask("READ robot=1 reference/*/*");
+  const std::string line = client.line();
+  EXPECT_EQ(line.substr(0, line.find(' ')), "3200000");
+  EXPECT_EQ(client.ask("SEEK time_s=9.99"), "OK SEEK now=9990000");
+  client.ask("STEP cycles=5");
+  EXPECT_EQ(valueOf(client.ask("STATUS"), "state"), "ended");
+  EXPECT_EQ(client.ask("STEP").substr(0, 7), "ERR end");
+  EXPECT_EQ(client.ask("SEEK time_s=1e6"), "OK SEEK now=10000000");
+  client.ask("SEEK time_s=0");
+  EXPECT_EQ(valueOf(client.ask("STATUS"), "state"), "paused");
+}
+
+TEST(Playback, MarksWhatHappened) {
+  Playback two;
+  two.config.runs.resize(1);
+  const ServedPlayback world(two.config);
+  std::vector<std::string> marks;
+  for (const ServedPlayback::Mark& mark : world.marks())
+    marks.push_back(std::to_string(mark.stamp / 100'000) + " " + mark.text);
+  EXPECT_EQ(marks,
+            (std::vector<std::string>{"10 a: tracking", "30 a: goal for blue", "60 a: carried away",
+                                      "65 a: lost", "80 a: tracking"}));
+}
+
+TEST(Playback, ChangesNothingThatHasHappened) {
+  Playback two;
+  ServedPlayback world(two.config);
+  BoardConfig config = controlledConfig();
+  config.commands = playbackCommands(world);
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  for (const char* request :
+       {"PLACE robot=1 x_m=0 y_m=0", "VELOCITY v_m_s=1 robot=1", "PLACE object=ball x_m=0 y_m=0"})
+    EXPECT_TRUE(client.ask(request).starts_with("ERR record")) << request;
+  EXPECT_TRUE(client.ask("CREATE r\n[[sensor]]\nplugin = \"odometry\"\n.").starts_with("ERR "));
+  for (const char* request : {"SEEK", "SEEK time_s=-1", "SEEK time_s=nan", "EVENTS since=x"})
+    EXPECT_TRUE(client.ask(request).starts_with("ERR ")) << request;
+  EXPECT_TRUE(client.ask("EVENTS since=9").starts_with("OK EVENTS next=10 lines=1"));
+}
+
+TEST(Playback, OfWhatIsNoRecordIsRefused) {
+  const TemporaryFolder folder;
+  writeBytes(folder / "x.rec", "no record\n");
+  ServedPlayback::Config config;
+  config.runs = {{folder / "x.rec", "x"}};
+  EXPECT_THROW(ServedPlayback{config}, std::runtime_error);
+  config.runs = {};
+  EXPECT_THROW(ServedPlayback{config}, std::invalid_argument);
+  config.runs = {{folder / "x.rec", "two words"}};
+  EXPECT_THROW(ServedPlayback{config}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ortung::test
