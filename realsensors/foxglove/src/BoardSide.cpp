@@ -75,6 +75,7 @@ void FoxgloveSession::Parts::list() {
 
 void FoxgloveSession::Parts::takeRobots(const BoardReply& reply) {
   isListing = false;
+  isCrowded = isCrowded || kind == "simulation" || reply.lines.size() > 1;
   std::set<std::int64_t> there;
   for (const std::string& line : reply.lines) {
     const BoardReply one = foxglove::parseBoardLine(line);
@@ -99,9 +100,8 @@ void FoxgloveSession::Parts::takeRobot(std::int64_t number, const std::string& n
   const auto found = robots.find(number);
   if (found == robots.end() || !reply.isOk()) return;
   RobotPart& part = found->second;
-  // Elsewhere there is but one robot.
   const std::string own = name.empty() ? "robot" + std::to_string(number) : name;
-  part.robot = foxglove::describedRobot(reply.lines, kind == "simulation" ? own : "");
+  part.robot = foxglove::describedRobot(reply.lines, isCrowded ? own : "");
   std::vector<std::uint32_t> fresh;
   for (const ros2::Topic& topic : part.robot->topics->topics()) {
     const std::uint32_t channel = channelFor(topic);

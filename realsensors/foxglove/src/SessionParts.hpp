@@ -50,6 +50,7 @@ struct FoxgloveSession::Parts {
   std::uint32_t nextChannel = 1;
   bool isTruthAsked = false;  ///< of the world itself, each cycle
   bool hasWorldTruth = true;
+  bool isCrowded = false;  ///< there are, or may be, several robots: topics have their names
 
   explicit Parts(FoxgloveSession& owner);
 

@@ -6,7 +6,7 @@ import test from "node:test";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import protocols from "@foxglove/ws-protocol";
 import { WebSocket } from "ws";
-import { parseSchema, program, source } from "./common.mjs";
+import { folder, ortung, parseSchema, program, source } from "./common.mjs";
 
 const { FoxgloveClient } = protocols;
 
@@ -103,4 +103,60 @@ test("nonsense is answered and does not end the conversation", async (t) => {
   assert.ok(answers.every((answer) => answer.level >= 1 && answer.message.length > 10), JSON.stringify(answers));
   socket.close();
   await once(socket, "close");
+});
+
+test("a record is played, paused and sought in by whoever has the token", async (t) => {
+  const at = folder(t);
+  const robot = `${source}/maps/robots/pioneer_lrf.toml`;
+  ortung("sim", `${source}/maps/fields/f2000.toml`, "--robot", robot, "--duration", "20", "--free-run", "--record", at("run.rec"));
+  ortung("learn", "--world", `${source}/maps/fields/f2000.toml`, "--robot", robot, "--out", at("t.ortung"));
+  const { port, token } = await serve(t, "view", at("run.rec"), "--robot", robot, "--tables", at("t.ortung"), "--listen", "0", "--no-browser");
+  const socket = new WebSocket(`ws://127.0.0.1:${port}/?token=${token}`, ["foxglove.sdk.v1"]);
+  t.after(() => socket.close());
+  const waiting = [];
+  const channels = new Map();
+  let info = null;
+  const scans = [];
+  socket.on("message", (data, isBinary) => {
+    if (isBinary && data[0] === 5) {
+      waiting.shift()?.({ status: data[1], time: Number(data.readBigUInt64LE(2)) / 1e9, speed: data.readFloatLE(10), sought: data[14], id: data.subarray(19).toString() });
+    } else if (isBinary && data[0] === 1) {
+      scans.push(Number(data.readBigUInt64LE(5)) / 1e9);
+    } else if (!isBinary) {
+      const message = JSON.parse(data.toString());
+      if (message.op === "serverInfo") info = message;
+      if (message.op === "status") waiting.shift()?.(message);
+      for (const channel of message.channels ?? []) {
+        channels.set(channel.topic, channel);
+        if (channel.topic === "/scan") socket.send(JSON.stringify({ op: "subscribe", subscriptions: [{ id: 1, channelId: channel.id }] }));
+      }
+    }
+  });
+  await once(socket, "open");
+  while (!channels.has("/scan")) await once(socket, "message");
+  assert.ok(info.capabilities.includes("playbackControl"), JSON.stringify(info));
+  assert.ok(Math.abs(info.dataEndTime.sec + info.dataEndTime.nsec / 1e9 - 20) < 0.1, JSON.stringify(info));
+
+  const control = (isPlay, speed, seek, id) => {
+    const request = Buffer.alloc(19 + id.length);
+    request[0] = 3;
+    request[1] = isPlay ? 0 : 1;
+    request.writeFloatLE(speed, 2);
+    request[6] = seek === undefined ? 0 : 1;
+    request.writeBigUInt64LE(BigInt(Math.round((seek ?? 0) * 1e9)), 7);
+    request.writeUInt32LE(id.length, 15);
+    request.write(id, 19);
+    const answer = new Promise((resolve) => waiting.push(resolve));
+    socket.send(request);
+    return answer;
+  };
+  const paused = await control(false, 1, 5, "a");
+  assert.deepEqual([paused.status, paused.sought, paused.id], [1, 1, "a"], JSON.stringify(paused));
+  assert.ok(Math.abs(paused.time - 5) < 0.1, JSON.stringify(paused));
+  scans.length = 0;
+  const playing = await control(true, 50, 15, "b");
+  assert.deepEqual([playing.status, playing.speed, playing.id], [0, 50, "b"], JSON.stringify(playing));
+  const ended = await new Promise((resolve) => waiting.push(resolve));
+  assert.equal(ended.status, 3, JSON.stringify(ended));
+  assert.ok(scans.some((time) => time > 15) && scans.every((time) => time < 20.1), scans.join());
 });

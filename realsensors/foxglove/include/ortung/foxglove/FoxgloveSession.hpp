@@ -12,8 +12,9 @@ namespace ortung {
 /// One client of Foxglove's WebSocket protocol (subprotocols foxglove.websocket.v1 and
 /// foxglove.sdk.v1), which is told of a message board's robots in messages of ROS 2: a pure
 /// function of what both say, without sockets, clocks or threads. Channels are as
-/// `ortung::ros2::RobotTopics` makes them; in a simulation each robot's have its name before them.
-/// A record can be played, paused and sought in (PlaybackControl).
+/// `ortung::ros2::RobotTopics` makes them; in a simulation, and where there are several, each
+/// robot's have its name before them. A record can be played, paused and sought in
+/// (PlaybackControl).
 ///
 /// What it wants to be said it leaves in toBoard and toClient, from which its caller takes it.
 /// Everything from the client is hostile; the board is our own. Not thread-safe.
