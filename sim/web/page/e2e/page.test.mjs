@@ -147,15 +147,29 @@ describe("the page of a match", () => {
         await robot(page, "blue2").waitFor();
         await robot(page, "blue2").focus();
         await page.keyboard.press("Enter");
+        const check = async (what) => {
+          // The policy of the page permits no script from elsewhere: the debugger puts it in.
+          const found = await page.evaluate(`${axe}; axe.run()`);
+          const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
+          assert.deepEqual(texts, [], what);
+          await page.screenshot({ path: join(out, `${scheme}-${name}-${what}.png`) });
+        };
         for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
           await tab(page, panel).click();
           await page.waitForFunction(() => document.querySelector("#panel .block"));
-          // The policy of the page permits no script from elsewhere: it is put in by the debugger.
-          const found = await page.evaluate(`${axe}; axe.run()`);
-          const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
-          assert.deepEqual(texts, [], `${panel}`);
-          await page.screenshot({ path: join(out, `${scheme}-${name}-${panel}.png`) });
+          await check(panel);
         }
+        await page.getByText("Layers", { exact: true }).click();
+        await page.keyboard.press("l");
+        await page.getByText(/^\d+ options$/).click();
+        await tab(page, "Sensors").click();
+        await page.locator(".features summary").first().click();
+        await page.getByRole("button", { name: "Curve of x" }).click();
+        await page.locator(".chart canvas").waitFor();
+        await check("open");
+        await page.keyboard.press("?");
+        await page.getByRole("dialog").waitFor();
+        await check("help");
         assert.deepEqual(page.problems, []);
         await page.close();
       });

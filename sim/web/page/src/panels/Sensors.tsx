@@ -15,6 +15,7 @@ export function SensorsPanel() {
   const found = robot.features.filter(({ name }) => words.every((word) => name.toLowerCase().includes(word)));
   return (
     <>
+      <Curves />
       <Section title={`What ${robot.label} senses`}>
         <input
           type="search"
@@ -30,7 +31,6 @@ export function SensorsPanel() {
           ))}
         </ul>
       </Section>
-      <Curves />
     </>
   );
 }
