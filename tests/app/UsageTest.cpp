@@ -35,6 +35,11 @@ TEST(Usage, WrongUsageEndsWithCode2AndOneLine) {
   expectRefused(ortung({"fly"}), 2, "ortung: ", {"fly"});
   expectRefused(ortung({"learn"}), 2, "ortung learn: ", {"--world", "is required"});
   expectRefused(ortung({"check", "--frobnicate", "x"}), 2, "ortung check: ", {"--frobnicate"});
+  const std::string world = ORTUNG_SOURCE_DIR "/maps/fields/arena.toml";
+  expectRefused(ortung({"sim", world, "--localize", "all"}), 2, "ortung sim: --localize",
+                {"--listen"});
+  expectRefused(ortung({"sim", world, "--listen", "0", "--localize", "bert"}), 2,
+                "ortung sim: --localize", {"there is no robot 'bert'"});
 }
 
 class WrongNumber : public Workspace {};
