@@ -1,10 +1,11 @@
 // The page of the viewer in a real browser, with the real program: node --test e2e/
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, beforeEach, describe, it } from "node:test";
-import { onScreen, openPage, out, startBrowser, startClient, startProgram, until } from "./program.mjs";
+import { onScreen, openPage, out, runProgram, startBrowser, startClient, startProgram, until } from "./program.mjs";
 
 const kMatch = ["sim", "maps/scenes/f2000_match.toml"];
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
@@ -230,12 +231,14 @@ describe("the page of a server that is started again", () => {
 });
 
 describe("the page of a robot that is localized", () => {
-  it("drives it by keys, and tells its filter where it is by hand", async () => {
-    const words = ["sim", "maps/fields/f2000.toml", "--robot", "maps/robots/pioneer.toml", "--localize", "all"];
+  it("localizes it, drives it by keys, and tells its filter where it is by hand", async () => {
+    const words = ["sim", "maps/fields/f2000.toml", "--robot", "maps/robots/pioneer.toml"];
     const program = await startProgram(words);
     const client = await startClient(program);
     const page = await openPage(browser, `${program.url}&panel=localization`);
-    await page.getByText("tracking").first().waitFor({ timeout: 60000 });
+    await page.getByRole("button", { name: "Localize: off" }).click();
+    await page.getByRole("progressbar", { name: "Learning tables" }).waitFor();
+    await page.getByText("tracking").first().waitFor({ timeout: 90000 });
     await page.keyboard.press("d");
     await page.getByText("drive pioneer").waitFor();
     await page.keyboard.down("a");
@@ -292,5 +295,36 @@ describe("the page of a robot that is localized", () => {
     client.close();
     await page.close();
     await program.stop();
+  });
+});
+
+describe("the page of a record", () => {
+  it("goes to any time of it, and to what happened", async () => {
+    const folder = mkdtempSync(join(tmpdir(), "ortung-page-"));
+    const record = join(folder, "run.rec");
+    const made = runProgram(["sim", "maps/scenes/f2000_match.toml", "--duration", "20", "--free-run", "--recorded", "blue2", "--record", record]);
+    assert.equal(made.status, 0, made.stderr);
+    const program = await startProgram(["view", record, "--world", "maps/fields/f2000.toml"]);
+    const page = await openPage(browser, `${program.url}&panel=game`);
+    const client = await startClient(program);
+    await page.getByRole("button", { name: "Pause" }).click();
+    const bar = page.getByRole("slider", { name: "Time of the record" });
+    await bar.focus();
+    await page.keyboard.press("End");
+    await until("it is at its end", async () => Number(/now=(\d+)/.exec((await client.ask("STATUS"))[0])[1]) > 19e6);
+    await page.locator(".events button").last().click();
+    await until("it is at its first event", async () => Number(/now=(\d+)/.exec((await client.ask("STATUS"))[0])[1]) < 1e6);
+    const { x, y } = await client.pose(1);
+    await until("the robot is shown where it was", async () => {
+      const label = await page.getByRole("img", { name: /^run at / }).getAttribute("aria-label");
+      const [a, b] = /at (\S+), (\S+)$/.exec(label).slice(1).map(Number);
+      return Math.hypot(a - x, b - y) < 0.12;
+    });
+    await page.screenshot({ path: join(out, "record.png") });
+    assert.deepEqual(page.problems, []);
+    client.close();
+    await page.close();
+    await program.stop();
+    rmSync(folder, { recursive: true });
   });
 });

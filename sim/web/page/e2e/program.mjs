@@ -1,5 +1,5 @@
 // The real program, a second client of its board, and a real browser, for the tests.
-import { spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { createConnection } from "node:net";
 import { mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -24,9 +24,14 @@ export async function until(what, ask, seconds = 30) {
   }
 }
 
+/** Runs `ortung WORDS` to its end. */
+export function runProgram(words) {
+  return spawnSync(program, words, { cwd: root, encoding: "utf8" });
+}
+
 /** Starts `ortung WORDS --listen PORT --view` and reads the address that it prints. */
 export async function startProgram(words, port = 0) {
-  const all = [...words, "--listen", String(port), "--view", "--no-browser", "--idle", "600"];
+  const all = [...words, "--listen", String(port), "--view", "--no-browser", ...(words[0] === "sim" ? ["--idle", "600"] : [])];
   const env = { ...process.env, ORTUNG_VIEW_PATH: join(root, "sim", "web", "built") };
   const child = spawn(program, all, { cwd: root, env, stdio: ["ignore", "pipe", "pipe"] });
   let errors = "";

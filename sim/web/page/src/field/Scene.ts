@@ -5,7 +5,7 @@ import type { Robot } from "../model/Robot";
 import type { MovableKind, Outline } from "../model/world";
 import { drawGround } from "./Ground";
 import type { Layers } from "./layers";
-import { paint, teamColour } from "./palette";
+import { paint, robotColour } from "./palette";
 import { fixed, make, set } from "./svg";
 import type { View } from "./View";
 
@@ -89,8 +89,8 @@ export class Scene {
       this.robots.set(number, drawn);
     }
     const { group } = drawn;
-    const team = teamColour(robot.team);
-    const colour = (outline: Outline) => (robot.team || !outline.colour ? team : paint(outline.colour));
+    const isRun = this.board.kind === "record";
+    const team = robotColour(robot, isRun);
     drawn.label.textContent = robot.label;
     set(drawn.trail, "stroke", team);
     group.replaceChildren();
@@ -100,7 +100,7 @@ export class Scene {
     for (const outline of robot.outlines) {
       const points = outline.points.map(({ x, y }) => `${fixed(x)},${fixed(y)}`).join(" ");
       const kind = outline.manipulator ? "body part" : "body";
-      drawn.parts.push({ element: make("polygon", { points, class: kind, fill: colour(outline) }, group), outline });
+      drawn.parts.push({ element: make("polygon", { points, class: kind, fill: robotColour(robot, isRun, isRun ? "" : outline.colour) }, group), outline });
     }
     if (!robot.outlines.length) make("circle", { r: robot.radius, class: "body", fill: team }, group);
     const tip = fixed(reach * 0.62);

@@ -20,6 +20,13 @@ export function teamColour(team: string): string {
   return kSafe[sum % kSafe.length]!;
 }
 
+/** A robot's colour: of its team, of itself, or, of runs side by side, one that no other run has. */
+export function robotColour(robot: { team: string; number: number }, isRun: boolean, own = ""): string {
+  if (robot.team) return teamColour(robot.team);
+  if (own) return paint(own);
+  return isRun ? kSafe[(robot.number - 1) % kSafe.length]! : teamColour("");
+}
+
 /** Names of colours that worlds use, as they look good on the floor. */
 const kNamed: Record<string, string> = {
   white: "#f4f6f4", black: "#16181c", blue: "#2f7fd0", yellow: "#f0c020", green: "#3f9b5f", red: "#c9482b",

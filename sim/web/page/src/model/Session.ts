@@ -291,8 +291,11 @@ export class Session {
 
   /** How many seconds of the world pass in one: periods of subscriptions are the world's. */
   private get hurry(): number {
-    const achieved = numberOf(this.board.status, "achieved", 1);
-    return 2 ** Math.max(0, Math.round(Math.log2(Math.max(1, achieved))));
+    const { status } = this.board;
+    const achieved = numberOf(status, "achieved", 1);
+    // What was asked bounds it: a seek looks like a moment of great hurry.
+    const asked = numberOf(status, "speed", 1) || Infinity;
+    return 2 ** Math.max(0, Math.round(Math.log2(Math.max(1, Math.min(asked, achieved)))));
   }
 
   private async followWorld(): Promise<void> {

@@ -26,6 +26,7 @@ const kOwn: Record<string, Kind["name"]> = {
 export function kindOf(name: string, text: string): Kind {
   const own = kOwn[name];
   if (own) return { name: own } as Kind;
+  if (text === "" && name === "odometry/odometry/pose") return { name: "odometry" }; // of a record alone
   const scan = /of each of \d+ beams from (-?[\d.e-]+) deg in steps of ([\d.e-]+) deg.* from ([\d.e+]+) on/.exec(text);
   if (scan) {
     return { name: "scan", first: radians(Number(scan[1])), step: radians(Number(scan[2])), most: Number(scan[3]) / 1000 };

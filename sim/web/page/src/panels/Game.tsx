@@ -13,9 +13,11 @@ export function GamePanel() {
   const hasReferee = board.game.has("phase");
   return (
     <>
-      <Section title="Score">
-        <Score />
-      </Section>
+      {board.kind !== "record" && (
+        <Section title="Score">
+          <Score />
+        </Section>
+      )}
       {hasReferee && board.can("REFEREE") && (
         <Section title="Referee">
           <Orders />

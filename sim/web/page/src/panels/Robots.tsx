@@ -1,5 +1,5 @@
 import { useBoard, usePage } from "../app/context";
-import { teamColour } from "../field/palette";
+import { robotColour } from "../field/palette";
 import { degrees } from "../model/geometry";
 import { statusOf } from "../model/features";
 import { DriveControls } from "./Drive";
@@ -21,7 +21,7 @@ export function RobotsPanel() {
             return (
               <li key={robot.number}>
                 <button aria-pressed={board.selected === robot.number} onClick={() => session.select(robot.number)}>
-                  <Swatch team={robot.team} />
+                  <Swatch colour={robotColour(robot, board.kind === "record")} />
                   <span class="who">{robot.label}</span>
                   <span class="what">{robot.player || (robot.client ? `client ${robot.client}` : "")}</span>
                   {status && <span class={`badge ${status.status}`}>{status.status}</span>}
@@ -39,10 +39,10 @@ export function RobotsPanel() {
   );
 }
 
-function Swatch({ team }: { team: string }) {
+function Swatch({ colour }: { colour: string }) {
   return (
     <svg class="swatch" viewBox="0 0 10 10" aria-hidden="true">
-      <circle cx="5" cy="5" r="4.5" fill={teamColour(team)} />
+      <circle cx="5" cy="5" r="4.5" fill={colour} />
     </svg>
   );
 }

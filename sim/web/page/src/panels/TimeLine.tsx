@@ -47,7 +47,7 @@ export function TimeLine() {
         />
         <svg class="marks" viewBox="0 0 1000 10" preserveAspectRatio="none" aria-hidden="true">
           {board.happenings.map(({ number, stamp, what, text }) => {
-            const kind = /goal|lost|carried/.exec(`${what} ${text}`)?.[0] ?? "";
+            const kind = /(?:^|: )(goal|lost|carried)\b/.exec(`${what}: ${text}`)?.[1] ?? "";
             const x = (1000 * (stamp - world.start)) / length - 1;
             return <rect key={number} x={x} y="0" width="2.5" height="10" class={`mark ${kind}`} />;
           })}

@@ -12,7 +12,7 @@ const kNext: Record<Theme, Theme> = { auto: "light", light: "dark", dark: "auto"
 export function TopBar() {
   const board = useBoard(100);
   const { ui } = usePage();
-  const scores = scoresOf(board.game);
+  const scores = board.kind === "record" ? [] : scoresOf(board.game);
   const isLive = board.kind === "robot";
   return (
     <header class="top">

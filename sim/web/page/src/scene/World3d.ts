@@ -24,7 +24,7 @@ import {
   type Scene,
 } from "three";
 import type { Layers } from "../field/layers";
-import { paint, teamColour } from "../field/palette";
+import { paint, robotColour } from "../field/palette";
 import { Rays, arrowsOf } from "../field/rays";
 import type { Board } from "../model/Board";
 import type { Robot } from "../model/Robot";
@@ -178,18 +178,19 @@ export class World3d {
   private buildRobot(robot: Robot): void {
     const group = new Group();
     const parts: { mesh: Mesh; index: number }[] = [];
+    const isRun = this.board.kind === "record";
     const look = (colour: string) => new MeshLambertMaterial({ color: colour });
     robot.outlines.forEach((outline, index) => {
       const shape = new Shape(outline.points.map(({ x, y }) => ({ x, y }) as never));
       const depth = Math.max(0.01, outline.z1 - outline.z0);
-      const colour = outline.colour ? paint(outline.colour) : teamColour(robot.team);
-      const mesh = new Mesh(new ExtrudeGeometry(shape, { depth, bevelEnabled: false }), look(robot.team ? teamColour(robot.team) : colour));
+      const colour = robotColour(robot, isRun, isRun ? "" : outline.colour);
+      const mesh = new Mesh(new ExtrudeGeometry(shape, { depth, bevelEnabled: false }), look(colour));
       mesh.position.z = outline.z0;
       parts.push({ mesh, index });
       group.add(mesh);
     });
     if (!robot.outlines.length) {
-      const body = new Mesh(upright(new CylinderGeometry(robot.radius, robot.radius, robot.height, 32)), look(teamColour(robot.team)));
+      const body = new Mesh(upright(new CylinderGeometry(robot.radius, robot.radius, robot.height, 32)), look(robotColour(robot, isRun)));
       body.position.z = robot.height / 2;
       group.add(body);
     }
