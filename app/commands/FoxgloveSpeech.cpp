@@ -11,19 +11,18 @@ class FoxgloveSpeech final : public WebSpeech {
  public:
   explicit FoxgloveSpeech(const std::string& token) : session_(token) { fetch(); }
   ~FoxgloveSpeech() override = default;
+  /// A client that talks without reading the answers is not listened to for ever.
   void fromClient(std::string_view message, bool isBinary) override {
-    constexpr std::size_t kMost = 1U << 20;  // bytes that wait for a client who only talks
-    std::size_t waiting = 0;
-    for (const Frame& frame : toClient) waiting += frame.bytes.size() + sizeof frame;
-    if (waiting > kMost) {
-      toClient.clear();
-      isOver = true;
-      return;
-    }
+    constexpr std::size_t kMost = 1U << 18;  // bytes of answers
+    if (toClient.empty()) unread_ = 0;
     session_.fromClient(message, isBinary);
+    for (const FoxgloveSession::Frame& frame : session_.toClient)
+      unread_ += frame.bytes.size() + sizeof(Frame);
+    if (unread_ > kMost) session_.isOver = true;
     fetch();
   }
   void fromBoard(std::string_view bytes) override {
+    if (toClient.empty()) unread_ = 0;
     session_.fromBoard(bytes);
     fetch();
   }
@@ -37,6 +36,7 @@ class FoxgloveSpeech final : public WebSpeech {
     isOver = session_.isOver;
   }
   FoxgloveSession session_;
+  std::size_t unread_ = 0;  ///< bytes of answers since the client had read everything
 };
 
 /// The query's token, if it is one that a token file may hold; else none.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <random>
 
 #include "LogTesting.hpp"
 #include "ortung/formats/OdometryData.hpp"
@@ -38,7 +39,8 @@ class BagMaker {
 
  private:
   std::string bytes_;
-  McapWriter writer_{[this](std::string_view piece) { bytes_ += piece; }, {}};
+  // Without chunks there are no checksums before the messages themselves.
+  McapWriter writer_{[this](std::string_view piece) { bytes_ += piece; }, {.isChunked = false}};
   std::map<std::string, std::uint16_t> channels_;
   std::uint64_t time_ = 0;
 };
@@ -225,6 +227,30 @@ TEST_F(BagSource, NumbersThatAreNoneNeverComeIn) {
   EXPECT_EQ(readAll(*source).size(), 1u);
   EXPECT_NE(source->remark().find("1 messages of /odom hold numbers that are none"),
             std::string::npos);
+}
+
+TEST_F(BagSource, DamagedBagsAreReadOrRefused) {
+  BagMaker maker;
+  maker.add("/odom", odometryAt(0, 1.0, 0.5))
+      .add("/tf_static", frameAt("base_footprint", "laser", {{0.1, 0, 0}, {}}))
+      .add("/scan", scanOf(0, "laser", {1.0F, 2.0F, 3.0F}))
+      .add("/tf", frameAt("odom", "base_footprint", {{1, 0, 0}, {}}));
+  const std::string whole = maker.bytes();
+  std::mt19937 random(1);
+  int read = 0;
+  for (int i = 0; i < 400; ++i) {
+    const std::string text = "mcap:" + folder_.write("run.mcap", mutated(whole, random)).string();
+    try {
+      const auto source = makeSource(text);
+      for (const Message& message : readAll(*source)) EXPECT_FALSE(message.words.empty());
+      source->robotToml();
+      ++read;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("run.mcap"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_LT(read, 400);
 }
 
 }  // namespace

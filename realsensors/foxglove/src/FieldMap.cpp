@@ -7,7 +7,7 @@ namespace ortung::foxglove {
 namespace {
 
 constexpr double kFinest = 0.05;         // edge of a cell [m]
-constexpr double kMostCells = 1U << 20;  // of the map
+constexpr double kMostCells = 1U << 17;  // of the map; each client has one
 constexpr double kFarthest = 1e5;        // [m]
 constexpr double kMargin = 0.5;          // around what nothing leaves: walls have backs [m]
 constexpr std::int8_t kOccupied = 100;
