@@ -82,6 +82,18 @@ describe("descriptions", () => {
     expect(parseOutline("outline 0,0 nan,1")).toBeNull();
   });
 
+  it("keep where a robot was, between two moments, too", () => {
+    const robot = new Robot(1);
+    robot.setTruth({ x: 0, y: 0, theta: 3 }, 1000);
+    robot.setTruth({ x: 1, y: 2, theta: -3 }, 2000);
+    const middle = robot.truthAt(1500)!;
+    expect([middle.x, middle.y, Math.abs(middle.theta)]).toEqual([0.5, 1, expect.closeTo(Math.PI)]);
+    expect(robot.truthAt(2100, 50)).toBeNull();
+    expect(robot.truthAt(2100)).toMatchObject({ x: 1 });
+    robot.setTruth({ x: 5, y: 5, theta: 0 }, 500); // the time went back
+    expect(robot.truthAt(1500)).toMatchObject({ x: 5 });
+  });
+
   it("give the options of players", () => {
     const [follow, keeper] = parsePlayerKinds([
       "player follow goes from point to point",

@@ -13,6 +13,8 @@ export interface Series {
 }
 
 const kMost = 3000;
+/** How far apart estimate and truth may be to be compared [us]. */
+const kApart = 25_000;
 
 /** The numbers of the selected robot that somebody wants to see over time. */
 export class History {
@@ -63,7 +65,7 @@ export class History {
   /** The estimate's distance from the truth: [m] and [degrees]. */
   private takeError(robot: Robot, stamp: number): void {
     const { estimate } = robot;
-    const truth = robot.truthAt(stamp);
+    const truth = robot.truthAt(stamp, kApart);
     if (!estimate || !truth) return;
     const time = stamp / 1e6;
     const distance = this.series.get("error distance") ?? this.add("error distance", "error", "m");

@@ -1,6 +1,6 @@
 import { numberOf, parseHead } from "../link/words";
 import { kindOf, poseOf, type Feature } from "./features";
-import { compose, inverse, type Point, type Pose } from "./geometry";
+import { compose, inverse, wrap, type Point, type Pose } from "./geometry";
 import { parseOutline, type Outline } from "./world";
 
 /** The newest reading of a feature. */
@@ -13,6 +13,17 @@ const kTrail = 400;
 const kPast = 50;
 const kTrailStep = 0.03;
 const kJump = 0.6;
+
+type Moment = Pose & { stamp: number };
+
+function between(before: Moment, behind: Moment, stamp: number): Pose {
+  const share = behind.stamp > before.stamp ? (stamp - before.stamp) / (behind.stamp - before.stamp) : 1;
+  return {
+    x: before.x + share * (behind.x - before.x),
+    y: before.y + share * (behind.y - before.y),
+    theta: wrap(before.theta + share * wrap(behind.theta - before.theta)),
+  };
+}
 
 /** A robot as the page knows it. Mutable: the drawing loop reads what the connection writes. */
 export class Robot {
@@ -34,7 +45,7 @@ export class Robot {
   readonly readings = new Map<string, Held>();
   trail: Point[] = [];
   /** Where it was lately, to compare with estimates that come later. */
-  private past: (Pose & { stamp: number })[] = [];
+  private past: Moment[] = [];
   /** Where odometry's origin was in the field when it was last joined to the truth. */
   private odometryOrigin: Pose | null = null;
 
@@ -80,17 +91,24 @@ export class Robot {
     this.odometryOrigin = odometry && pose ? compose(pose, inverse(odometry)) : null;
   }
 
-  /** Where it was at @p stamp, or the moment next to it. */
-  truthAt(stamp: number): Pose | null {
-    let best: (Pose & { stamp: number }) | null = null;
-    for (const one of this.past) {
-      if (!best || Math.abs(one.stamp - stamp) < Math.abs(best.stamp - stamp)) best = one;
-    }
-    return best ?? this.truth;
+  /**
+   * Where it was at @p stamp: between the two moments around it, or at the one next to it if that
+   * is no farther away than @p most [us].
+   */
+  truthAt(stamp: number, most = Infinity): Pose | null {
+    const { past } = this;
+    const next = past.findIndex((one) => one.stamp >= stamp);
+    if (next > 0) return between(past[next - 1]!, past[next]!, stamp);
+    const nearest = next === 0 ? past[0]! : past.at(-1);
+    if (nearest) return Math.abs(nearest.stamp - stamp) <= most ? nearest : null;
+    return most === Infinity ? this.truth : null;
   }
 
   setTruth(pose: Pose, stamp: number): void {
     this.truth = pose;
+    const newest = this.past.at(-1);
+    if (newest && stamp < newest.stamp) this.past = [];
+    else if (newest?.stamp === stamp) this.past.pop();
     this.past.push({ ...pose, stamp });
     if (this.past.length > kPast) this.past.shift();
     const last = this.trail.at(-1);
