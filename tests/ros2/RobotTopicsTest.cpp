@@ -1,0 +1,124 @@
+// Readings as messages: what MCL says, and the tree of frames.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/ros2/RobotTopics.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const SensorId kOdometryId{"odometry", "odometry", "pose"};
+const SensorId kTruthId{"reference", "groundTruth", "pose"};
+const SensorId kPoseId{"mcl", "LOCALIZATION", "pose"};
+
+class RobotTopicsTest : public ::testing::Test {
+ protected:
+  RobotTopicsTest() { container_.add(std::make_unique<OdometryData>(kOdometryId)); }
+
+  /// What a moment's readings become, by topic.
+  std::map<std::string, std::string> told(RobotTopics& topics, const std::vector<Message>& frame) {
+    std::map<std::string, std::string> found;
+    topics.take(frame, [&](std::size_t topic, Timestamp, std::string_view cdr) {
+      found[topics.topics()[topic].name] = cdr;
+    });
+    return found;
+  }
+  template <class M>
+  static M read(const std::string& cdr) {
+    std::string why;
+    const auto message = fromCdr<M>(cdr, why);
+    EXPECT_TRUE(message) << why;
+    return message.value_or(M());
+  }
+  static Message odometry(double x, double y, double theta) {
+    OdometryData::Reading state;
+    state.pose = {x, y, theta};
+    return {0, kOdometryId, OdometryData::encode(state)};
+  }
+  static Message estimate(const Pose2& pose) {
+    const PoseFixData::Fix fix{pose, {0.04, 0.01, 0.002, 0.01, 0.09, 0.003, 0.002, 0.003, 0.01}};
+    return {0, kPoseId, PoseFixData::encode({&fix, 1})};
+  }
+  /// Where odometry's frame lies in the map.
+  static Pose2 inMap(const std::string& tf) {
+    for (const TransformStamped& one : read<TfMessage>(tf).transforms)
+      if (one.childFrame == "odom" && one.header.frame == "map") return toPose2(one.transform);
+    return {std::nan(""), 0, 0};
+  }
+
+  SensorContainer container_;
+};
+
+TEST_F(RobotTopicsTest, AnEstimateHasItsCovarianceInTheRowsOfXYAndHeading) {
+  RobotTopics topics(container_, {});
+  auto found = told(topics, {estimate({1.5, -2.0, kPi / 2})});
+  const auto pose = read<PoseWithCovarianceStamped>(found["/pose"]);
+  EXPECT_EQ(pose.header.frame, "map");
+  EXPECT_NEAR(pose.pose.position.x, 1.5, 1e-9);
+  EXPECT_NEAR(pose.pose.orientation.z, std::sqrt(0.5), 1e-4);
+  EXPECT_NEAR(pose.covariance[0], 0.04, 1e-6);   // x, x
+  EXPECT_NEAR(pose.covariance[1], 0.01, 1e-5);   // x, y
+  EXPECT_NEAR(pose.covariance[7], 0.09, 1e-6);   // y, y
+  EXPECT_NEAR(pose.covariance[5], 0.002, 1e-5);  // x, heading
+  EXPECT_NEAR(pose.covariance[35], 0.01, 1e-6);  // heading, heading
+  EXPECT_EQ(pose.covariance[14], 0.0);           // z, z
+}
+
+TEST_F(RobotTopicsTest, SamplesArePosesInTheMap) {
+  RobotTopics topics(container_, {});
+  constexpr std::uint32_t kZero = 1U << 31;
+  auto found = told(topics, {{0,
+                              {"mcl", "LOCALIZATION", "samples"},
+                              {kZero + 1500, kZero - 250, 27000, 65535, kZero, kZero, 0, 1}}});
+  const auto cloud = read<PoseArray>(found["/particle_cloud"]);
+  ASSERT_EQ(cloud.poses.size(), 2u);
+  const Pose2 first = toPose2(cloud.poses[0]);
+  EXPECT_NEAR(first.x, 1.5, 1e-9);
+  EXPECT_NEAR(first.y, -0.25, 1e-9);
+  EXPECT_NEAR(first.theta, -kPi / 2, 1e-9);  // 270 degrees, counted from 0
+  EXPECT_NEAR(toPose2(cloud.poses[1]).theta, 0.0, 1e-9);
+  EXPECT_THROW(told(topics, {{0, {"mcl", "LOCALIZATION", "samples"}, {1, 2, 3}}}),
+               std::invalid_argument);
+}
+
+TEST_F(RobotTopicsTest, TheMapsFrameFollowsTheTruthUntilThereIsAnEstimate) {
+  RobotTopics topics(container_, {});
+  // The robot is at (2, 1) looking left; odometry believes (1, 0) looking ahead.
+  auto found = told(topics, {odometry(1, 0, 0), {0, kTruthId, PoseData::encode({2, 1, kPi / 2})}});
+  Pose2 frame = inMap(found["/tf"]);
+  EXPECT_NEAR(frame.x, 2.0, 1e-9);
+  EXPECT_NEAR(frame.y, 0.0, 1e-9);
+  EXPECT_NEAR(frame.theta, kPi / 2, 1e-9);
+  found = told(topics, {odometry(1, 0, 0), estimate({5, 5, 0})});
+  frame = inMap(found["/tf"]);
+  EXPECT_NEAR(frame.x, 4.0, 1e-9);
+  EXPECT_NEAR(frame.y, 5.0, 1e-9);
+  found = told(topics, {odometry(1, 0, 0), {0, kTruthId, PoseData::encode({2, 1, 0})}});
+  EXPECT_TRUE(std::isnan(inMap(found["/tf"]).x));
+}
+
+TEST_F(RobotTopicsTest, TheMapsFrameCanBeLeftToOthers) {
+  RobotTopics topics(container_, {.mapFrame = RobotTopics::MapFrame::kNone});
+  auto found = told(topics, {odometry(1, 0, 0), {0, kTruthId, PoseData::encode({2, 1, 0})}});
+  const auto tf = read<TfMessage>(found["/tf"]);
+  ASSERT_EQ(tf.transforms.size(), 1u);
+  EXPECT_EQ(tf.transforms[0].childFrame, "base_link");
+}
+
+TEST_F(RobotTopicsTest, StampsThatRosDoesNotHaveAreRefused) {
+  RobotTopics topics(container_, {});
+  for (const Timestamp stamp : {Timestamp{-1}, Timestamp{1} << 52}) {
+    Message message = odometry(0, 0, 0);
+    message.stamp = stamp;
+    EXPECT_THROW(told(topics, {message}), std::invalid_argument) << stamp;
+  }
+}
+
+}  // namespace
+}  // namespace ortung::ros2
