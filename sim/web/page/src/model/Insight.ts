@@ -43,7 +43,7 @@ export interface MapWish {
   each: boolean;
 }
 
-const kPause = 120;
+const kPause = 60;
 const kSlowPause = 500;
 const kSmallCells = 3000;
 

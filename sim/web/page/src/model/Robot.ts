@@ -93,12 +93,15 @@ export class Robot {
 
   /**
    * Where it was at @p stamp: between the two moments around it, or at the one next to it if that
-   * is no farther away than @p most [us].
+   * is no farther away than @p most [us]; null if nothing is known of that time.
    */
   truthAt(stamp: number, most = Infinity): Pose | null {
     const { past } = this;
     const next = past.findIndex((one) => one.stamp >= stamp);
-    if (next > 0) return between(past[next - 1]!, past[next]!, stamp);
+    if (next > 0) {
+      const [before, behind] = [past[next - 1]!, past[next]!];
+      return behind.stamp - before.stamp <= 4 * most ? between(before, behind, stamp) : null;
+    }
     const nearest = next === 0 ? past[0]! : past.at(-1);
     if (nearest) return Math.abs(nearest.stamp - stamp) <= most ? nearest : null;
     return most === Infinity ? this.truth : null;
