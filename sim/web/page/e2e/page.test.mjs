@@ -141,40 +141,39 @@ describe("the page of a match", () => {
     await page.close();
   });
 
-  for (const scheme of ["light", "dark"]) {
-    for (const [name, width, height] of [["desktop", 1280, 720], ["tablet", 820, 1180]]) {
-      it(`has no findings of axe: ${scheme}, ${name}`, async () => {
-        const page = await openPage(browser, program.url, { viewport: { width, height }, colorScheme: scheme });
-        await robot(page, "blue2").waitFor();
-        await robot(page, "blue2").focus();
-        await page.keyboard.press("Enter");
-        const check = async (what) => {
-          // The policy of the page permits no script from elsewhere: the debugger puts it in.
-          const found = await page.evaluate(`${axe}; axe.run()`);
-          const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
-          assert.deepEqual(texts, [], what);
-          await page.screenshot({ path: join(out, `${scheme}-${name}-${what}.png`) });
-        };
-        for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
-          await tab(page, panel).click();
-          await page.waitForFunction(() => document.querySelector("#panel .block"));
-          await check(panel);
-        }
-        await page.getByText("Layers", { exact: true }).click();
-        await page.keyboard.press("l");
-        await page.getByText(/^\d+ options$/).click();
-        await tab(page, "Sensors").click();
-        await page.locator(".features summary").first().click();
-        await page.getByRole("button", { name: "Curve of x" }).click();
-        await page.locator(".chart canvas").waitFor();
-        await check("open");
-        await page.keyboard.press("?");
-        await page.getByRole("dialog").waitFor();
-        await check("help");
-        assert.deepEqual(page.problems, []);
-        await page.close();
-      });
-    }
+  // Each of the colours and each of the sizes.
+  for (const [scheme, name, width, height] of [["dark", "desktop", 1280, 720], ["light", "tablet", 820, 1180]]) {
+    it(`has no findings of axe: ${scheme}, ${name}`, async () => {
+      const page = await openPage(browser, program.url, { viewport: { width, height }, colorScheme: scheme });
+      await robot(page, "blue2").waitFor();
+      await robot(page, "blue2").focus();
+      await page.keyboard.press("Enter");
+      const check = async (what) => {
+        // The policy of the page permits no script from elsewhere: the debugger puts it in.
+        const found = await page.evaluate(`${axe}; axe.run()`);
+        const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
+        assert.deepEqual(texts, [], what);
+        await page.screenshot({ path: join(out, `${scheme}-${name}-${what}.png`) });
+      };
+      for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
+        await tab(page, panel).click();
+        await page.waitForFunction(() => document.querySelector("#panel .block"));
+        await check(panel);
+      }
+      await page.getByText("Layers", { exact: true }).click();
+      await page.keyboard.press("l");
+      await page.getByText(/^\d+ options$/).click();
+      await tab(page, "Sensors").click();
+      await page.locator(".features summary").first().click();
+      await page.getByRole("button", { name: "Curve of x" }).click();
+      await page.locator(".chart canvas").waitFor();
+      await check("open");
+      await page.keyboard.press("?");
+      await page.getByRole("dialog").waitFor();
+      await check("help");
+      assert.deepEqual(page.problems, []);
+      await page.close();
+    });
   }
 
   it("shows the same in three dimensions", async () => {
