@@ -18,7 +18,7 @@ TableGiver learnedTables(const std::filesystem::path& world) {
 }
 
 TableGiver givenTables(const std::filesystem::path& file, const std::string& worldFingerprint) {
-  const auto tables = std::make_shared<const RobotTables>(file);
+  auto tables = std::make_shared<const RobotTables>(file);
   const TableInfo& info = tables->info();
   if (!worldFingerprint.empty() && !info.worldFingerprint.empty() &&
       info.worldFingerprint != worldFingerprint)
