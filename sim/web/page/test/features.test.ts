@@ -85,13 +85,15 @@ describe("descriptions", () => {
   it("keep where a robot was, between two moments, too", () => {
     const robot = new Robot(1);
     robot.setTruth({ x: 0, y: 0, theta: 3 }, 1000);
-    robot.setTruth({ x: 1, y: 2, theta: -3 }, 2000);
+    robot.setTruth({ x: 0.4, y: 0.2, theta: -3 }, 2000);
     const middle = robot.truthAt(1500)!;
-    expect([middle.x, middle.y, Math.abs(middle.theta)]).toEqual([0.5, 1, expect.closeTo(Math.PI)]);
+    expect([middle.x, middle.y, Math.abs(middle.theta)]).toEqual([0.2, 0.1, expect.closeTo(Math.PI)]);
     expect(robot.truthAt(2100, 50)).toBeNull();
-    expect(robot.truthAt(2100)).toMatchObject({ x: 1 });
+    expect(robot.truthAt(2100)).toMatchObject({ x: 0.4 });
     robot.setTruth({ x: 5, y: 5, theta: 0 }, 500); // the time went back
-    expect(robot.truthAt(1500)).toMatchObject({ x: 5 });
+    robot.setTruth({ x: -5, y: 5, theta: 0 }, 600); // it was carried away
+    expect(robot.truthAt(580)).toMatchObject({ x: -5 });
+    expect(robot.truthAt(0)).toMatchObject({ x: 5 });
   });
 
   it("give the options of players", () => {

@@ -16,7 +16,11 @@ const kJump = 0.6;
 
 type Moment = Pose & { stamp: number };
 
+/** Who was carried away meanwhile was at one place or the other, never between them. */
 function between(before: Moment, behind: Moment, stamp: number): Pose {
+  if (Math.hypot(behind.x - before.x, behind.y - before.y) > kJump) {
+    return stamp - before.stamp < behind.stamp - stamp ? before : behind;
+  }
   const share = behind.stamp > before.stamp ? (stamp - before.stamp) / (behind.stamp - before.stamp) : 1;
   return {
     x: before.x + share * (behind.x - before.x),
