@@ -249,6 +249,13 @@ struct ViewArguments {
 };
 int runView(const ViewArguments& arguments);
 
+struct ExportHtmlArguments {
+  ViewArguments runs;  ///< what is in it; it is not served
+  std::filesystem::path out;
+  bool force = false;
+};
+int runExportHtml(const ExportHtmlArguments& arguments);
+
 struct DemoArguments {
   ServingArguments serving;
 };

@@ -2,6 +2,7 @@
 
 #include "Commands.hpp"
 #include "ExportImagesCommand.hpp"
+#include "LocalizationCommands.hpp"
 #include "OptionBuilder.hpp"
 
 namespace ortung::app {
@@ -47,6 +48,16 @@ void addMcap(Builder& build, CLI::App& app) {
 }
 #endif
 
+void addHtml(Builder& build, CLI::App& app) {
+  const auto a = build.command<ExportHtmlArguments>(
+      app, "html", "Put records into one page that any browser shows, without a server",
+      "ortung export html run.rec --robot robot.toml --tables hall.ortung --out run.html",
+      runExportHtml);
+  addRuns(build, a->runs);
+  build.option("--out", a->out, "Page to write")->required();
+  build.flag("--force", a->force, kForce);
+}
+
 void addMap(Builder& build, CLI::App& app) {
   const auto a = build.command<ExportMapArguments>(
       app, "map", "Draw what a scanner sees of a world as a grid map",
@@ -74,6 +85,7 @@ void addExport(Builder& build, CLI::App& app) {
   group->footer(
       "Example:\n  ortung export rawlog record:run.rec --robot robot.toml --out run.rawlog");
   addRawlog(build, *group);
+  addHtml(build, *group);
   addMap(build, *group);
 #ifdef ORTUNG_HAS_ROS2
   addMcap(build, *group);

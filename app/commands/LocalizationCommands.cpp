@@ -97,6 +97,22 @@ void addCompare(Builder& build, CLI::App& app) {
   build.flag("--force", a->force, kForce);
 }
 
+void addRuns(Builder& build, ViewArguments& a) {
+  build
+      .option("records", a.sources, "Records or sources (KIND:PATH?key=value), shown side by side")
+      ->required()
+      ->expected(1, 16);
+  build.option("--world", a.world, "World whose field is drawn; default: that of the tables");
+  build.option("--robot", a.localization.robot, "Robot file (TOML)");
+  build.option("--tables", a.localization.tables, "Table file of `ortung learn`: localize, too");
+  build.option("--seed", a.localization.seed, "Seed of all random numbers")->capture_default_str();
+  build.option("--start", a.localization.start, "global, truth or x,y,theta_deg")
+      ->capture_default_str();
+  build.flag("--any-world", a.localization.anyWorld,
+             "Go on although the source comes from another world than the tables");
+  build.flag("--progress", a.localization.progress, kProgress);
+}
+
 void addView(Builder& build, CLI::App& app) {
   const auto a = build.command<ViewArguments>(
       app, "view",
@@ -104,19 +120,7 @@ void addView(Builder& build, CLI::App& app) {
       "ortung view run.rec\n"
       "  ortung view run.rec other.rec --robot robot.toml --tables hall.ortung",
       runView);
-  build
-      .option("records", a->sources, "Records or sources (KIND:PATH?key=value), shown side by side")
-      ->required()
-      ->expected(1, 16);
-  build.option("--world", a->world, "World whose field is drawn; default: that of the tables");
-  build.option("--robot", a->localization.robot, "Robot file (TOML)");
-  build.option("--tables", a->localization.tables, "Table file of `ortung learn`: localize, too");
-  build.option("--seed", a->localization.seed, "Seed of all random numbers")->capture_default_str();
-  build.option("--start", a->localization.start, "global, truth or x,y,theta_deg")
-      ->capture_default_str();
-  build.flag("--any-world", a->localization.anyWorld,
-             "Go on although the source comes from another world than the tables");
-  build.flag("--progress", a->localization.progress, kProgress);
+  addRuns(build, *a);
   addDoor(build, a->serving);
 }
 

@@ -6,6 +6,7 @@
 namespace ortung::app {
 
 class Builder;
+struct ViewArguments;
 
 // Subcommands that localize.
 
@@ -13,6 +14,8 @@ class Builder;
 void addEval(Builder& build, CLI::App& app, const std::string& commandLine);
 void addCompare(Builder& build, CLI::App& app);
 void addView(Builder& build, CLI::App& app);
+/// Which runs a viewer shows.
+void addRuns(Builder& build, ViewArguments& a);
 void addLocalize(Builder& build, CLI::App& app);
 
 }  // namespace ortung::app

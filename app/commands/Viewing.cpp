@@ -25,18 +25,6 @@ namespace {
 
 constexpr const char* kClient = "view";
 
-/// The built page: where the program was installed or built, unless $ORTUNG_VIEW_PATH says where.
-std::filesystem::path pageFolder() {
-  if (const char* given = std::getenv("ORTUNG_VIEW_PATH")) return given;
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  for (const char* way : {ORTUNG_VIEW_FROM_BIN, "../share/ortung/view"}) {
-    const std::filesystem::path folder = (program.parent_path() / way).lexically_normal();
-    if (std::filesystem::is_directory(folder, error)) return folder;
-  }
-  return {};
-}
-
 /// 128 bits that nobody guesses.
 std::string newToken() {
   std::random_device chance;
@@ -83,6 +71,17 @@ void showInBrowser(const std::string& url) {
 }
 
 }  // namespace
+
+std::filesystem::path pageFolder() {
+  if (const char* given = std::getenv("ORTUNG_VIEW_PATH")) return given;
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  for (const char* way : {ORTUNG_VIEW_FROM_BIN, "../share/ortung/view"}) {
+    const std::filesystem::path folder = (program.parent_path() / way).lexically_normal();
+    if (std::filesystem::is_directory(folder, error)) return folder;
+  }
+  return {};
+}
 
 Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config)
     : arguments_(arguments), address_(config.address), door_(webConfigOf(arguments)) {

@@ -8,6 +8,10 @@
 
 namespace ortung::app {
 
+/// Where the files of the built page are: where the program was installed or built, unless
+/// $ORTUNG_VIEW_PATH says where; "" if they are nowhere.
+std::filesystem::path pageFolder();
+
 /// The viewer's page at the port of a message board, for those who were given its address.
 class Viewing {
  public:

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "Conversation.hpp"
+#include "ortung/server/DescribeText.hpp"
 
 namespace ortung::server {
 namespace {
@@ -198,18 +199,10 @@ void Conversation::describe(Request& request) {
       request.tag(),
       [robot, lines](WorldKeeper& keeper, WorldKeeper::Done&) {
         std::size_t count = 0;
-        const std::vector<ServedFeature>& features = keeper.readings(robot)->features();
-        for (const ServedFeature& feature : features)
-          addLine(*lines, count,
-                  ortung::toText(feature.id) + " " + printable(feature.wordsHelp, kLongestHelp));
-        for (const ServedFeature& feature : features)
-          addLine(*lines, count,
-                  "mount " + ortung::toText(feature.id) + " x_m=" + shown(feature.mount.x) +
-                      " y_m=" + shown(feature.mount.y) +
-                      " theta_rad=" + shown(feature.mount.theta));
-        if (robot == 0) return Reply("OK DESCRIBE lines=" + std::to_string(count));
-        for (const std::string& ability : keeper.world().abilities(robot))
-          addLine(*lines, count, printable(ability, kLongestHelp));
+        const std::vector<std::string> abilities =
+            robot == 0 ? std::vector<std::string>() : keeper.world().abilities(robot);
+        for (const std::string& line : robotText(keeper.readings(robot)->features(), abilities))
+          addLine(*lines, count, line);
         return Reply("OK DESCRIBE lines=" + std::to_string(count));
       },
       [lines](Conversation& self, const std::string& tag, const std::string& text) {
@@ -218,22 +211,9 @@ void Conversation::describe(Request& request) {
 }
 
 void Conversation::describeWorld(const std::string& tag) {
-  const WorldDescription& world = host_.description;
-  std::string line = "world=" + oneWord(world.name) + " kind=" + world.kind +
-                     " fingerprint=" + oneWord(world.fingerprint);
-  if (const auto& bounds = world.bounds)
-    line += " x_min_m=" + shown(bounds->xMin) + " y_min_m=" + shown(bounds->yMin) +
-            " x_max_m=" + shown(bounds->xMax) + " y_max_m=" + shown(bounds->yMax);
-  if (world.length) line += " start_us=0 end_us=" + std::to_string(*world.length);
   std::string lines;
   std::size_t count = 0;
-  addLine(lines, count, line);
-  for (const ServedObject& object : world.objects)
-    addLine(lines, count,
-            "object=" + object.name + " kind=" + oneWord(object.kind) +
-                (object.radius > 0.0 ? " radius_m=" + shown(object.radius) : "") +
-                (object.height > 0.0 ? " height_m=" + shown(object.height) : "") +
-                (object.colour.empty() ? "" : " colour=" + oneWord(object.colour)));
+  for (const std::string& line : worldText(host_.description)) addLine(lines, count, line);
   answer(tag, [tag, lines, count](Conversation& self) {
     self.reply(tag, "OK DESCRIBE lines=" + std::to_string(count), lines);
   });

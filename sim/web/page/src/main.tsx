@@ -6,12 +6,18 @@ import { PageContext, type Context } from "./app/context";
 import { installKeys } from "./app/keys";
 import { Ui } from "./app/Ui";
 import { boardAddress, parseAddress } from "./link/address";
+import type { Line } from "./link/Connection";
+import { RecordedBoard, type RecordedRun } from "./link/RecordedBoard";
 import { Insight } from "./model/Insight";
 import { Session } from "./model/Session";
 
 const address = parseAddress(location.hash);
 const ui = new Ui(address);
-const session = new Session(boardAddress(location), address.token);
+const recorded = document.getElementById("run");
+const dial = recorded
+  ? () => new RecordedBoard(JSON.parse(recorded.textContent ?? "") as RecordedRun) as Line
+  : () => new WebSocket(boardAddress(location), ["ortung.board.1"]);
+const session = new Session(dial, recorded ? "-" : address.token);
 if (address.robot) session.board.selected = address.robot;
 const insight = new Insight(session, () => {
   ui.heat = insight.map?.heat ?? null;

@@ -35,6 +35,12 @@ interface Waiting {
   reject: (error: BoardError) => void;
 }
 
+/** What is used of a WebSocket. */
+export type Line = Pick<
+  WebSocket,
+  "readyState" | "binaryType" | "onopen" | "onmessage" | "onclose" | "send" | "close"
+>;
+
 export interface ConnectionEvents {
   /** A socket is open; nothing has been said yet. */
   opened(): void;
@@ -48,7 +54,7 @@ const kLongestWait = 5;
 
 /** A connection to the message board that comes back by itself. Requests are answered in order. */
 export class Connection {
-  private socket: WebSocket | null = null;
+  private socket: Line | null = null;
   private waiting: Waiting[] = [];
   private tag = 0;
   private wait = kShortestWait;
@@ -58,14 +64,14 @@ export class Connection {
   bytesRead = 0;
 
   constructor(
-    private readonly address: string,
+    private readonly dial: () => Line,
     private readonly events: ConnectionEvents,
   ) {}
 
   open(): void {
     clearTimeout(this.timer);
     this.why = "";
-    const socket = new WebSocket(this.address, ["ortung.board.1"]);
+    const socket = this.dial();
     const parser = new StreamParser((message) => this.take(message));
     socket.binaryType = "arraybuffer";
     this.socket = socket;

@@ -1,4 +1,4 @@
-import { BoardError, Connection, type Reply, type Unasked } from "../link/Connection";
+import { BoardError, Connection, type Reply, type Unasked, type Line } from "../link/Connection";
 import { readingsOf, type Reading } from "../link/readingsIn";
 import { numberOf, parseHead, plain } from "../link/words";
 import { Board } from "./Board";
@@ -41,10 +41,10 @@ export class Session {
   private readonly got: number[] = [];
 
   constructor(
-    address: string,
+    dial: () => Line,
     private token: string,
   ) {
-    this.connection = new Connection(address, {
+    this.connection = new Connection(dial, {
       opened: () => void this.greet(),
       closed: (why, againIn) => this.lost(why, againIn),
       unasked: (unasked) => this.unasked(unasked),

@@ -1,0 +1,180 @@
+#include "ViewedRuns.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Console.hpp"
+#include "Localizing.hpp"
+#include "Progress.hpp"
+#include "SourceArguments.hpp"
+#include "ortung/records/RecordWriter.hpp"
+#include "ortung/run/Localization.hpp"
+#include "ortung/server/FieldText.hpp"
+#include "ortung/sim/SimWorld.hpp"
+
+namespace ortung::app {
+namespace {
+
+/// What a client of the protocol may call a robot.
+std::string nameOf(const std::string& text, std::size_t number) {
+  constexpr std::size_t kLongest = 28;
+  std::string name = std::filesystem::path(text).stem().string().substr(0, kLongest);
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_';
+      },
+      '_');
+  if (name.empty()) name = "run";
+  return number == 0 ? name : fmt::format("{}-{}", name, number + 1);
+}
+
+/// The readings of a source and what MCL makes of them, as one record: what it publishes comes
+/// with the moment in which it does so.
+class LocalizedRecord {
+ public:
+  LocalizedRecord(const LocalizationArguments& arguments, const std::filesystem::path& file)
+      : arguments_(arguments), localization_(openLocalization(arguments)) {
+    RecordWriter record(file, localization_->source().worldFingerprint());
+    localization_->wantSamples(true);
+    localization_->feeder().recordInto(record);
+    Progress progress("localizing " + arguments.source, arguments.progress);
+    while (unlessInterrupted(localization_->source(), [&] { return localization_->advance(); })) {
+      localization_->update();
+      writePublished(record);
+      progress.update(localization_->feeder().progress());
+    }
+    record.commit();
+  }
+  std::vector<ServedFeature> features() const { return servedFeatures(localization_->container()); }
+
+ private:
+  void writePublished(RecordWriter& record) {
+    const Timestamp now = localization_->feeder().stamp();
+    const SensorContainer& container = localization_->container();
+    const auto all = container.all();
+    seen_.resize(all.size(), 0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const SensorData& data = *all[i];
+      if (data.id().model != "mcl" || data.sequence() == seen_[i]) continue;
+      seen_[i] = data.sequence();
+      const std::span<const std::uint32_t> words = data.getData();
+      record.write({now, data.id(), {words.begin(), words.end()}});
+    }
+    record.endMoment();
+  }
+
+  LocalizationArguments arguments_;
+  std::unique_ptr<Localization> localization_;
+  std::vector<std::uint64_t> seen_;  ///< by feature: sequence number of what was written last
+};
+
+/// What a source gives, as a record; the source itself if it is one.
+std::filesystem::path recordOf(const SourceText& text, const ViewArguments& arguments,
+                               const std::filesystem::path& file) {
+  if (text.kind == "record" && text.options.empty()) return text.path;
+  PluginFactory factory(PluginFactory::standardFolders());
+  const auto source = openSourceArgument(text, arguments.localization.robot, factory);
+  RecordWriter record(file, source->worldFingerprint());
+  FrameReader reader(*source);
+  std::vector<Message> frame;
+  while (unlessInterrupted(*source, [&] { return reader.next(frame); })) {
+    for (const Message& message : frame) record.write(message);
+    record.endMoment();
+  }
+  record.commit();
+  return file;
+}
+
+/// A record may be named as it is.
+SourceText sourceTextOf(const std::string& argument) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(argument, error)) return {"record", argument, {}};
+  try {
+    return parseSourceText(argument);
+  } catch (const std::invalid_argument& wrong) {
+    throw UsageError(
+        fmt::format("{}: is no file, nor a source: {}", printable(argument), wrong.what()));
+  }
+}
+
+/// The text that names it on a command line.
+std::string textOf(const SourceText& source) {
+  std::string text = source.kind + ":" + source.path;
+  char mark = '?';
+  for (const auto& [key, value] : source.options) {
+    text += mark + key + "=" + value;
+    mark = '&';
+  }
+  return text;
+}
+
+/// Lines, walls and goals: of the tables, else of the world.
+void describeField(const ViewArguments& arguments, ServedPlayback::Config& config) {
+  const auto boundsOf = [](const FieldRegion& region) {
+    const FieldGrid& grid = region.grid;
+    return FieldBounds{grid.originX, grid.originY, grid.originX + grid.cell * grid.columns,
+                       grid.originY + grid.cell * grid.rows};
+  };
+  if (!arguments.world.empty()) {
+    const auto world = readWorld(arguments.world);
+    const Box2 bounds = world->solids().bounds;
+    config.field = fieldText(fieldModelOf(*world));
+    config.bounds = FieldBounds{bounds.xLow, bounds.yLow, bounds.xHigh, bounds.yHigh};
+  } else if (!arguments.localization.tables.empty()) {
+    const TableInfo info = readTableInfo(TableFile(arguments.localization.tables));
+    config.field = fieldText(info.field);
+    config.bounds = boundsOf(info.region);
+  }
+}
+
+}  // namespace
+
+Workbench::Workbench() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "ortung-view-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr)
+    throw std::runtime_error(pattern + ": this folder can't be made");
+  path_ = pattern;
+}
+
+Workbench::~Workbench() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::filesystem::path Workbench::file(std::size_t number) const {
+  return path_ / fmt::format("run{}.rec", number);
+}
+
+ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const Workbench& bench) {
+  if (arguments.localization.tables.empty() != arguments.localization.robot.empty())
+    throw UsageError("--robot and --tables come together: both, or nothing is localized");
+  ServedPlayback::Config config;
+  describeField(arguments, config);
+  for (std::size_t i = 0; i < arguments.sources.size(); ++i) {
+    const SourceText source = sourceTextOf(arguments.sources[i]);
+    ServedPlayback::Run run;
+    run.name = nameOf(source.path, i);
+    config.name += (i == 0 ? "" : ", ") + std::filesystem::path(source.path).filename().string();
+    if (arguments.localization.tables.empty()) {
+      run.record = recordOf(source, arguments, bench.file(i));
+    } else {
+      LocalizationArguments localization = arguments.localization;
+      localization.source = textOf(source);
+      localization.publish = true;
+      run.record = bench.file(i);
+      run.features = LocalizedRecord(localization, run.record).features();
+    }
+    config.runs.push_back(std::move(run));
+  }
+  return config;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/server/ServedWorld.hpp"
+
+namespace ortung {
+
+// What DESCRIBE answers, line by line (docs/protocol.md), for whoever tells it in another way.
+
+ORTUNG_API std::vector<std::string> worldText(const WorldDescription& world);
+
+/// @param abilities as of ServedWorld::abilities()
+ORTUNG_API std::vector<std::string> robotText(std::span<const ServedFeature> features,
+                                              std::span<const std::string> abilities);
+
+}  // namespace ortung
