@@ -128,7 +128,11 @@ json tale(const ServedPlayback& playback, const ServedPlayback::Config& config,
 /// One file: style, script and data within, and nothing from elsewhere.
 std::string pageOf(const json& told, const std::string& title) {
   const std::filesystem::path folder = pageFolder();
-  const std::string script = fileOfPage(folder, "page.js");
+  std::string script = fileOfPage(folder, "page.js");
+  const std::string icon = "./icon.svg";  // the one file that the page shows by its name
+  for (std::size_t at = 0; (at = script.find(icon, at)) != script.npos;)
+    script.replace(at, icon.size(),
+                   "data:image/svg+xml;base64," + base64(fileOfPage(folder, "icon.svg")));
   // A text within a script must not end it.
   if (script.find("</script") != script.npos)
     throw std::runtime_error((folder / "page.js").string() + ": can't stand within a page");

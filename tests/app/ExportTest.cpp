@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "Workspace.hpp"
@@ -45,6 +46,27 @@ class Export : public Workspace {
 
 const SensorId kScan{"LMS200", "LRF", "180DegreeScan"};
 const SensorId kOdometry{"odometry", "odometry", "pose"};
+
+TEST_F(Export, HtmlIsOnePageWithTheRunAndNothingFromElsewhere) {
+  recordRun();
+  const Outcome outcome = ortung({"export", "html", path("run.rec"), "--out", path("run.html")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const std::string page = readBytes(path("run.html"));
+  const std::string begin = "<script id=\"run\" type=\"application/json\">";
+  const std::size_t at = page.find(begin);
+  ASSERT_NE(at, page.npos);
+  const std::size_t end = page.find("</script>", at);
+  const auto told = nlohmann::json::parse(page.substr(at + begin.size(), end - at - begin.size()));
+  ASSERT_EQ(told["robots"].size(), 1u);
+  EXPECT_EQ(told["robots"][0]["name"], "run");
+  EXPECT_GT(told["end_us"], 1'000'000);
+  EXPECT_TRUE(told["world"][0].get<std::string>().starts_with("world=run.rec kind=record"));
+  EXPECT_NE(page.find("default-src 'none'"), page.npos);
+  for (const char* elsewhere : {"src=\"http", "href=\"http", "src=\"./", "href=\"./"})
+    EXPECT_EQ(page.find(elsewhere), page.npos) << elsewhere;
+  // It replaces no other kind of file unasked.
+  EXPECT_NE(ortung({"export", "html", path("run.rec"), "--out", path("run.rec")}).exitCode, 0);
+}
 
 TEST_F(Export, RawlogComesBackAsTheSameRangesAndOdometry) {
   exportRun();

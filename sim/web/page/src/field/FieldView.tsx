@@ -6,6 +6,9 @@ import { FieldPainter } from "./FieldPainter";
 import { kLayerNames, kLayers } from "./layers";
 
 /** The field with its buttons; drawing itself is FieldPainter's, outside of Preact. */
+// What is loaded when it is asked for is not in a page that stands alone.
+const isExported = document.getElementById("run") !== null;
+
 export function FieldView() {
   const context = usePage();
   const { ui, session } = context;
@@ -45,15 +48,17 @@ export function FieldView() {
         >
           <Icon name="measure" />
         </button>
-        <button
-          title="The same in three dimensions (v)"
-          aria-label="3D view"
-          aria-pressed={ui.is3d}
-          class="word"
-          onClick={() => ui.change({ is3d: !ui.is3d })}
-        >
-          3D
-        </button>
+        {!isExported && (
+          <button
+            title="The same in three dimensions (v)"
+            aria-label="3D view"
+            aria-pressed={ui.is3d}
+            class="word"
+            onClick={() => ui.change({ is3d: !ui.is3d })}
+          >
+            3D
+          </button>
+        )}
       </div>
       <details class="tools right layers">
         <summary>Layers</summary>

@@ -1,0 +1,25 @@
+import { describe, expect, test } from "vitest";
+import { countUntil, matches, truthWords } from "../src/link/RecordedBoard";
+
+describe("a run within the page", () => {
+  test("finds how far it is by halving", () => {
+    const stamps = Float64Array.from([0, 10, 10, 25]);
+    expect([-1, 0, 9, 10, 24, 25, 1e9].map((time) => countUntil(stamps, time))).toEqual([0, 1, 1, 3, 3, 4, 4]);
+    expect(countUntil(new Float64Array(), 5)).toBe(0);
+  });
+
+  test("queries are of three whole names, or anything", () => {
+    expect(matches([], "LMS200/LRF/Scan")).toBe(true);
+    expect(matches(["*/LRF/*"], "LMS200/LRF/Scan")).toBe(true);
+    expect(matches(["*/truth/*", "LMS200/*/Scan"], "LMS200/LRF/Scan")).toBe(true);
+    expect(matches(["*/LR/*"], "LMS200/LRF/Scan")).toBe(false);
+  });
+
+  test("ground truth becomes a robot of the world: headings from 0 on", () => {
+    // 90 and -90 degrees; those of a reading count from -180 on.
+    expect(truthWords(2, "5 reference/groundTruth/pose 3 2147484148 2147482148 27000")).toBe(
+      "2 2147484148 2147482148 9000 0",
+    );
+    expect(truthWords(1, "5 reference/groundTruth/pose 3 0 0 9000")).toBe("1 0 0 27000 0");
+  });
+});
