@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "Files.hpp"
 #include "Workspace.hpp"
 #include "ortung/records/RecordSource.hpp"
 
