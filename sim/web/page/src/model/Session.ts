@@ -1,11 +1,13 @@
 import { BoardError, Connection, type Reply, type Unasked, type Line } from "../link/Connection";
 import { readingsOf, type Reading } from "../link/readingsIn";
-import { numberOf, parseHead, plain } from "../link/words";
+import { numberOf, plain } from "../link/words";
 import { Board } from "./Board";
-import { headingOf, lengthOf, poseOf } from "./features";
+import { poseOf } from "./features";
 import { History } from "./History";
-import { Robot } from "./Robot";
+import type { Robot } from "./Robot";
+import { takeRobots } from "./roster";
 import { parseGame, parseHappenings, parsePlayerKinds, parsePlaying } from "./soccer";
+import { takeWorld } from "./truth";
 import { parseDrawing, parseWorld } from "./world";
 
 const kWorldPeriod = 0.02;
@@ -252,27 +254,7 @@ export class Session {
   private async listRobots(): Promise<void> {
     const { board } = this;
     const list = await this.ask("LIST robots");
-    const there = new Set<number>();
-    for (const line of list.lines) {
-      const { keys } = parseHead(line);
-      const number = numberOf(keys, "robot", 0);
-      if (!Number.isInteger(number) || number <= 0) continue;
-      there.add(number);
-      let robot = board.robots.get(number);
-      if (!robot || (robot.name && robot.name !== keys.get("name"))) {
-        robot = new Robot(number);
-        board.robots.set(number, robot);
-        board.scene++;
-      }
-      robot.name = keys.get("name") ?? "";
-      robot.team = keys.get("team") ?? teamInName(robot.name);
-      robot.player = keys.get("player") ?? "";
-      robot.client = numberOf(keys, "client", 0);
-    }
-    for (const number of [...board.robots.keys()]) {
-      if (there.has(number)) continue;
-      board.robots.delete(number);
-      board.scene++;
+    for (const number of takeRobots(board, list.lines)) {
       if (this.subscribed.includes(` robot=${number} `)) this.subscribed = "";
     }
     for (const robot of board.robots.values()) {
@@ -400,7 +382,7 @@ export class Session {
     if (from.keys.has("now")) board.setNow(numberOf(from.keys, "now", board.now));
     const readings = readingsOf(from);
     if (number === 0) {
-      for (const reading of readings) this.takeWorld(reading);
+      for (const reading of readings) takeWorld(board, reading);
     } else {
       const robot = board.robots.get(number);
       if (!robot) return;
@@ -414,31 +396,4 @@ export class Session {
     board.frame++;
     board.touch();
   }
-
-  private takeWorld({ stamp, feature, words }: Reading): void {
-    const { board } = this;
-    if (feature === "world/truth/robots") {
-      for (let i = 0; i + 5 <= words.length; i += 5) {
-        const robot = board.robots.get(words[i]!);
-        if (!robot) continue;
-        const pose = { x: lengthOf(words[i + 1]!), y: lengthOf(words[i + 2]!), theta: headingOf(words[i + 3]!) };
-        robot.setTruth(pose, stamp);
-        robot.states = words[i + 4]!;
-      }
-    } else if (feature === "world/truth/objects") {
-      const names = board.world?.objects ?? [];
-      board.objects = names.slice(0, words.length >> 2).map(({ name }, n) => ({
-        name,
-        x: lengthOf(words[4 * n]!),
-        y: lengthOf(words[4 * n + 1]!),
-        z: lengthOf(words[4 * n + 2]!),
-        theta: headingOf(words[4 * n + 3]!),
-      }));
-    }
-  }
-}
-
-/** Older servers do not tell the team; a name such as blue2 does. */
-function teamInName(name: string): string {
-  return /^(blue|yellow|cyan|magenta|red|green)\d*$/i.exec(name)?.[1]?.toLowerCase() ?? "";
 }
