@@ -82,6 +82,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
     Timestamp due = 0;
     std::int64_t ahead = 0;   ///< updates that may be on their way; 0: any number
     std::int64_t unread = 0;  ///< that the client has not said GOT to
+    bool isOwed = false;      ///< something newer waits for that
   };
   struct Greeting {  ///< HELLO
     std::string tag;

@@ -323,9 +323,12 @@ void Conversation::got(Request& request) {
   const RobotId robot = takeRobot(request, true);
   request.refuseRest();
   answer(request.tag(), [tag = request.tag(), robot](Conversation& self) {
-    const auto found = self.subscriptions_.find(robot);
-    if (found != self.subscriptions_.end() && found->second.unread > 0) --found->second.unread;
     self.reply(tag, "OK GOT");
+    const auto found = self.subscriptions_.find(robot);
+    if (found == self.subscriptions_.end() || found->second.unread == 0) return;
+    --found->second.unread;
+    // A world that stands has no next cycle with which it would come.
+    if (std::exchange(found->second.isOwed, false)) self.sendSubscribed(robot, found->second);
   });
 }
 
@@ -357,12 +360,12 @@ void Conversation::onCycle() {
 bool Conversation::sendSubscribed(RobotId robot, Subscription& subscription) {
   const auto view = views_.find(robot);
   if (view != views_.end() && view->second.readings->isRetired()) return false;
-  // A client that is behind gets less often what is newest.
-  constexpr std::size_t kBehind = 64u << 10;
-  const bool isBehind = subscription.ahead > 0 && subscription.unread >= subscription.ahead;
-  if (isBehind || outlet_->outstanding() > kBehind) return true;
   const Timestamp now = host_.keeper.clock().at(wallTime());
   if (now < subscription.due && subscription.due - now <= subscription.period) return true;
+  // A client that is behind gets less often what is newest.
+  constexpr std::size_t kBehind = 64u << 10;
+  subscription.isOwed = subscription.ahead > 0 && subscription.unread >= subscription.ahead;
+  if (subscription.isOwed || outlet_->outstanding() > kBehind) return true;
   subscription.due += subscription.period;
   // It was the first, or the world has started over.
   if (subscription.due < now || subscription.due - now > subscription.period)

@@ -146,7 +146,10 @@ void PlaybackRun::play(Timestamp stamp) {
   while (ahead_ && ahead_->stamp - first_ < stamp) {
     ahead_->stamp -= first_;
     if (ahead_->id.type == "groundTruth")
-      if (const auto pose = poseOf(*ahead_)) truth_ = pose;
+      if (const auto pose = poseOf(*ahead_)) {
+        truth_ = pose;
+        truthStamp_ = ahead_->stamp;
+      }
     take(std::move(*ahead_));
     if (!source_->next(*ahead_)) ahead_.reset();
   }

@@ -32,6 +32,7 @@ class PlaybackRun {
   std::span<Message> newest() { return newest_; }
   /// Where the robot truly is; nothing if the record does not say so.
   const std::optional<Pose2>& truth() const { return truth_; }
+  Timestamp truthStamp() const { return truthStamp_; }
 
  private:
   void scan(const std::function<bool(double)>& progress);
@@ -57,6 +58,7 @@ class PlaybackRun {
   std::vector<Message> newest_;
   std::vector<std::size_t> taken_;  ///< by feature: its place in newest_, plus 1; 0: none
   std::optional<Pose2> truth_;
+  Timestamp truthStamp_ = 0;
 
   // while it is scanned
   std::optional<std::uint32_t> status_;

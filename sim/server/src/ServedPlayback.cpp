@@ -111,12 +111,13 @@ std::vector<ServedFeature> ServedPlayback::truthFeatures() const {
 
 std::span<Message> ServedPlayback::truth() {
   Message& robots = parts_->truth.front();
-  robots.stamp = parts_->now;
+  robots.stamp = 0;  // of the newest pose, so that it can be compared with others of its time
   robots.words.clear();
   RobotId number = 0;
   for (const auto& run : parts_->runs) {
     ++number;
     if (!run->truth()) continue;
+    robots.stamp = std::max(robots.stamp, run->truthStamp());
     const std::vector<std::uint32_t> pose = PoseData::encode(*run->truth());
     robots.words.insert(robots.words.end(),
                         {number, pose[0], pose[1], headingWord(run->truth()->theta), 0});

@@ -104,6 +104,7 @@ Timestamp WorldKeeper::latest() const { return isLive() ? kNever : world_.now() 
 void WorldKeeper::anchor(Timestamp wall) {
   anchorStamp_ = world_.now();
   anchorWall_ = wall;
+  measuredWall_ = 0;  // time may have jumped
   const bool stands = isFree_ || isPaused_ || wasBlocked_;
   clock_.set(anchorStamp_, anchorWall_, stands ? 0.0 : speed_, latest());
 }

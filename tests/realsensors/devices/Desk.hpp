@@ -46,6 +46,15 @@ class Rehearsed : public Source {
   std::map<std::string, std::vector<std::vector<std::uint32_t>>> given_;
 };
 
+/// Faults: the cable is pulled for so many seconds, again and again, so that a computer that was
+/// too busy to open the device before the first time sees the next one.
+inline std::vector<std::string> pulledAgainAndAgain(int seconds) {
+  std::vector<std::string> faults;
+  for (int from = 1; from < 60; from += seconds + 3)
+    faults.push_back("unplug@" + std::to_string(from) + "-" + std::to_string(from + seconds));
+  return faults;
+}
+
 /// Emulated devices on one side of the table, the drivers of a robot file on the other.
 class Desk {
  public:

@@ -151,13 +151,16 @@ export class RecordedBoard {
   private truth(queries: string[], since: number): string[] {
     if (!matches(queries, kTruth)) return [];
     const words: string[] = [];
+    let stamp = 0;
     this.tracks.forEach((_, i) => {
       const lines = this.newest(i + 1, ["*/groundTruth/*"], Math.min(since, this.now - kBefore));
       const last = lines[lines.length - 1];
-      if (last) words.push(truthWords(i + 1, last));
+      if (!last) return;
+      words.push(truthWords(i + 1, last));
+      stamp = Math.max(stamp, Number(last.slice(0, last.indexOf(" "))));
     });
     if (!words.length) return [];
-    return [`${Math.round(this.now)} ${kTruth} ${5 * words.length} ${words.join(" ")}`];
+    return [`${stamp} ${kTruth} ${5 * words.length} ${words.join(" ")}`];
   }
 
   private get state(): string {
