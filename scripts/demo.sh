@@ -48,4 +48,5 @@ fi
 step "Done. Reports and pictures:"
 ls -1 "$out"/*.html "$out"/*.png
 echo
+echo "In a web browser, live: $ortung demo"
 echo "All plugins, libraries and examples: cmake --build --preset release"
