@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "Base64.hpp"
 #include "Commands.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
@@ -84,13 +84,7 @@ std::string compressed(const std::string& text) {
   return std::move(out).str();
 }
 
-std::string base64(const std::string& bytes) {
-  namespace it = boost::archive::iterators;
-  using Encoder = it::base64_from_binary<it::transform_width<const char*, 6, 8>>;
-  std::string text(Encoder(bytes.data()), Encoder(bytes.data() + bytes.size()));
-  text.append((3 - bytes.size() % 3) % 3, '=');
-  return text;
-}
+std::string textOf(const std::string& bytes) { return base64(std::as_bytes(std::span(bytes))); }
 
 std::string fileOfPage(const std::filesystem::path& folder, const char* name) {
   std::ifstream in(folder / name, std::ios::binary);
@@ -111,7 +105,7 @@ json tale(const ServedPlayback& playback, const ServedPlayback::Config& config,
     robots.push_back(
         {{"name", resident.name},
          {"describe", robotText(resident.features, playback.abilities(resident.robot))},
-         {"readings", base64(compressed(readings.lines))}});
+         {"readings", textOf(compressed(readings.lines))}});
   }
   json events = json::array();
   for (const ServedPlayback::Mark& mark : playback.marks())
@@ -132,7 +126,7 @@ std::string pageOf(const json& told, const std::string& title) {
   const std::string icon = "./icon.svg";  // the one file that the page shows by its name
   for (std::size_t at = 0; (at = script.find(icon, at)) != script.npos;)
     script.replace(at, icon.size(),
-                   "data:image/svg+xml;base64," + base64(fileOfPage(folder, "icon.svg")));
+                   "data:image/svg+xml;base64," + textOf(fileOfPage(folder, "icon.svg")));
   // A text within a script must not end it.
   if (script.find("</script") != script.npos)
     throw std::runtime_error((folder / "page.js").string() + ": can't stand within a page");
@@ -158,8 +152,8 @@ int runExportHtml(const ExportHtmlArguments& arguments) {
   Outputs outputs(arguments.force);
   for (const std::string& source : arguments.runs.sources) outputs.reads(source);
   outputs.writes("--out", arguments.out, OutputKind::kReport);
-  const Workbench bench;
-  const ServedPlayback::Config config = prepareRuns(arguments.runs, bench);
+  const ScratchFolder scratch;
+  const ServedPlayback::Config config = prepareRuns(arguments.runs, scratch);
   Progress progress("reading", arguments.runs.localization.progress);
   const ServedPlayback playback(config, [&](double done) {
     progress.update(done);

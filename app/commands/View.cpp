@@ -8,8 +8,8 @@
 namespace ortung::app {
 
 int runView(const ViewArguments& arguments) {
-  const Workbench bench;
-  const ServedPlayback::Config config = prepareRuns(arguments, bench);
+  const ScratchFolder scratch;
+  const ServedPlayback::Config config = prepareRuns(arguments, scratch);
   Progress progress("reading", arguments.localization.progress);
   ServedPlayback playback(config, [&](double done) {
     progress.update(done);

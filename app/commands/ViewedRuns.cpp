@@ -1,11 +1,9 @@
 #include "ViewedRuns.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -137,39 +135,24 @@ void describeField(const ViewArguments& arguments, ServedPlayback::Config& confi
 
 }  // namespace
 
-Workbench::Workbench() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "ortung-view-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr)
-    throw std::runtime_error(pattern + ": this folder can't be made");
-  path_ = pattern;
-}
-
-Workbench::~Workbench() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path Workbench::file(std::size_t number) const {
-  return path_ / fmt::format("run{}.rec", number);
-}
-
-ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const Workbench& bench) {
+ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const ScratchFolder& scratch) {
   if (arguments.localization.tables.empty() != arguments.localization.robot.empty())
     throw UsageError("--robot and --tables come together: both, or nothing is localized");
   ServedPlayback::Config config;
   describeField(arguments, config);
   for (std::size_t i = 0; i < arguments.sources.size(); ++i) {
     const SourceText source = sourceTextOf(arguments.sources[i]);
+    const std::filesystem::path file = scratch.path() / fmt::format("run{}.rec", i);
     ServedPlayback::Run run;
     run.name = nameOf(source.path, i);
     config.name += (i == 0 ? "" : ", ") + std::filesystem::path(source.path).filename().string();
     if (arguments.localization.tables.empty()) {
-      run.record = recordOf(source, arguments, bench.file(i));
+      run.record = recordOf(source, arguments, file);
     } else {
       LocalizationArguments localization = arguments.localization;
       localization.source = textOf(source);
       localization.publish = true;
-      run.record = bench.file(i);
+      run.record = file;
       run.features = LocalizedRecord(localization, run.record).features();
     }
     config.runs.push_back(std::move(run));

@@ -1,11 +1,9 @@
 #include "Workshop.hpp"
 
-#include <stdlib.h>
-
 #include <cerrno>
 #include <fstream>
 #include <stdexcept>
-#include <system_error>
+#include <utility>
 
 #include "ortung/base/InputFile.hpp"
 #include "ortung/base/NewFile.hpp"
@@ -28,17 +26,7 @@ void copyFile(const fs::path& made, const fs::path& place) {
 }  // namespace
 
 Workshop::Workshop(const char* option, fs::path target)
-    : option_(option), target_(std::move(target)) {
-  std::string name = (fs::temp_directory_path() / "ortung-made-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error(name + ": " + std::generic_category().message(errno));
-  folder_ = name;
-}
-
-Workshop::~Workshop() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
+    : option_(option), target_(std::move(target)) {}
 
 void Workshop::declare(Outputs& outputs) const {
   const fs::path target = behindLinks(target_);
@@ -61,14 +49,14 @@ void Workshop::deliver(const Outputs& outputs) const {
 
 std::vector<fs::path> Workshop::files() const {
   std::vector<fs::path> found;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder())) {
     if (!entry.is_directory()) found.push_back(entry.path());
   }
   return found;
 }
 
 fs::path Workshop::placeOf(const fs::path& made) const {
-  return target_.parent_path() / fs::relative(made, folder_);
+  return target_.parent_path() / fs::relative(made, folder());
 }
 
 }  // namespace ortung::app

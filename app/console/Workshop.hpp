@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "Outputs.hpp"
+#include "ScratchFolder.hpp"
 
 namespace ortung::app {
 
@@ -13,13 +14,10 @@ class Workshop {
  public:
   /// @param option what messages call the target. @throws std::runtime_error
   Workshop(const char* option, std::filesystem::path target);
-  ~Workshop();
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   /// The target's place within the folder.
-  std::filesystem::path file() const { return folder_ / target_.filename(); }
+  std::filesystem::path file() const { return folder() / target_.filename(); }
 
   /// Declares what was made beside the target, which is declared already.
   void declare(Outputs& outputs) const;
@@ -32,7 +30,7 @@ class Workshop {
 
   const char* option_;
   std::filesystem::path target_;
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
 };
 
 }  // namespace ortung::app

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <span>
 
 #include "Axis.hpp"
+#include "Base64.hpp"
 #include "FieldMarks.hpp"
 #include "LandmarkLabels.hpp"
 #include "Picture.hpp"
@@ -21,17 +20,6 @@ constexpr Colour kSolid{255, 255, 255};
 constexpr Colour kNotStandable{40, 40, 40};
 constexpr Colour kStandable{0, 0, 0};
 constexpr int kMaxPixels = 4096;  ///< of the map's longer side
-
-std::string base64(std::span<const std::byte> bytes) {
-  using namespace boost::archive::iterators;
-  using Encoder = base64_from_binary<transform_width<const char*, 6, 8>>;
-  const std::size_t missing = (3 - bytes.size() % 3) % 3;
-  std::string padded(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  padded.append(missing, '\0');  // the encoder reads whole groups of three
-  std::string text(Encoder(padded.data()), Encoder(padded.data() + padded.size()));
-  text.replace(text.size() - missing, missing, missing, '=');
-  return text;
-}
 
 /// The region as a picture, a pixel a cell. Of maps too large for a page a pixel is several cells,
 /// and solid if one of them is: thin walls stay.
