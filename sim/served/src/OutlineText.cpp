@@ -10,10 +10,6 @@ namespace {
 
 constexpr int kCornersOfEllipse = 24;
 
-std::string colourText(const std::string& colour) {
-  return colour.empty() ? "" : " colour=" + colour;
-}
-
 /// Corners of a piece in the frame that it lies in, in order.
 std::vector<Point2> outlineOf(const Primitive& piece) {
   if (piece.shape != Primitive::Shape::ellipse) return cornersOf(piece);

@@ -8,10 +8,6 @@ namespace {
 
 constexpr std::size_t kMostWalls = 20'000;
 
-std::string colourText(const std::string& colour) {
-  return colour.empty() ? "" : " colour=" + colour;
-}
-
 std::string lineText(const FieldLine& line) {
   std::string text = line.shape == FieldLine::Shape::straight
                          ? "line" + keyValue("x0_m", line.x0) + keyValue("y0_m", line.y0) +
@@ -49,6 +45,10 @@ std::string number(double value) {
 }
 
 }  // namespace
+
+std::string colourText(const std::string& colour) {
+  return colour.empty() ? "" : " colour=" + colour;
+}
 
 std::string keyValue(const char* key, double value) {
   return std::string(" ").append(key).append("=").append(number(value));
