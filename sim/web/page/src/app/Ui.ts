@@ -1,6 +1,6 @@
 import type { Address } from "../link/address";
 import { toFragment } from "../link/address";
-import type { Heat } from "../field/Cloud";
+import type { Heat } from "../field/HeatLayer";
 import { kLayers, kLayerNames, type Layers } from "../field/layers";
 import type { Expected } from "../field/rays";
 import type { Point } from "../model/geometry";

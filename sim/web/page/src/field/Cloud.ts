@@ -1,15 +1,4 @@
 import type { View } from "./View";
-import { heatPalette } from "./palette";
-
-/** A map of values over the field: one byte a cell, rows from the lowest y on; 0: not open. */
-export interface Heat {
-  columns: number;
-  rows: number;
-  x: number;
-  y: number;
-  step: number;
-  cells: Uint8Array;
-}
 
 /** Lines and dots: x, y [m] and a colour (r, g, b, a in 0..1) each. */
 export const kVertex = 6;
@@ -48,23 +37,6 @@ in vec4 tint;
 out vec4 result;
 void main() { result = vec4(tint.rgb * tint.a, tint.a); }`;
 
-const kHeatVertex = `${kHead}
-layout(location = 0) in vec2 corner;
-uniform vec4 box; // x, y, width, height [m]
-out vec2 at;
-void main() { at = corner; gl_Position = onView(box.xy + corner * box.zw); }`;
-
-const kHeatFragment = `#version 300 es
-precision mediump float;
-uniform sampler2D cells;
-uniform sampler2D palette;
-in vec2 at;
-out vec4 result;
-void main() {
-  vec4 c = texture(palette, vec2((texture(cells, at).r * 255.0 + 0.5) / 256.0, 0.5));
-  result = vec4(c.rgb * c.a, c.a);
-}`;
-
 function program(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {
   const made = gl.createProgram();
   for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
@@ -80,28 +52,38 @@ function program(gl: WebGL2RenderingContext, vertex: string, fragment: string): 
   return made;
 }
 
+/** Whether WebGL is drawn by a graphics card: in software, smooth edges cost more than all the rest. */
+function hasGpu(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const renderer = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(renderer);
+}
+
 interface Part {
   program: WebGLProgram;
   array: WebGLVertexArrayObject;
   buffer: WebGLBuffer;
   count: number;
+  /** How many numbers the buffer holds. */
+  room: number;
   uniforms: Map<string, WebGLUniformLocation | null>;
 }
 
-/** Draws what is too much for SVG: samples, rays, heat maps. Below the SVG, in the same view. */
+/** Draws what is too much for SVG: samples and rays. Below the SVG, in the same view. */
 export class Cloud {
   private readonly gl: WebGL2RenderingContext;
   private arrows!: Part;
   private lines!: Part;
   private dots!: Part;
-  private heat!: Part & { cells: WebGLTexture; palette: WebGLTexture };
-  private heatShown: Heat | null = null;
+  private corners = new Float32Array();
   private isLost = false;
 
   /** @throws Error where there is no WebGL2 */
   constructor(private readonly canvas: HTMLCanvasElement) {
-    const gl = canvas.getContext("webgl2", { alpha: true, antialias: true, premultipliedAlpha: true });
-    if (!gl) throw new Error("this browser has no WebGL2: samples, rays and heat maps are not shown");
+    const gl = canvas.getContext("webgl2", { alpha: true, antialias: hasGpu(), premultipliedAlpha: true });
+    if (!gl) throw new Error("this browser has no WebGL2: samples and rays are not shown");
     this.gl = gl;
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
@@ -110,8 +92,6 @@ export class Cloud {
     canvas.addEventListener("webglcontextrestored", () => {
       this.isLost = false;
       this.build();
-      const shown = this.heatShown;
-      if (shown) this.setHeat(shown);
     });
     this.build();
   }
@@ -125,30 +105,13 @@ export class Cloud {
     const flat = program(gl, kFlatVertex, kTintFragment);
     this.lines = this.flat(flat);
     this.dots = this.flat(flat);
-    const heat = this.part(program(gl, kHeatVertex, kHeatFragment));
-    gl.bindBuffer(gl.ARRAY_BUFFER, heat.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([0, 0, 1, 0, 0, 1, 1, 1]), gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
-    this.heat = { ...heat, cells: gl.createTexture(), palette: gl.createTexture() };
-    gl.bindTexture(gl.TEXTURE_2D, this.heat.palette);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, heatPalette(0.85));
-    this.filter(gl.NEAREST);
-  }
-
-  private filter(kind: number): void {
-    const { gl } = this;
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, kind);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, kind);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
   }
 
   private part(made: WebGLProgram): Part {
     const { gl } = this;
     const array = gl.createVertexArray();
     gl.bindVertexArray(array);
-    return { program: made, array, buffer: gl.createBuffer(), count: 0, uniforms: new Map() };
+    return { program: made, array, buffer: gl.createBuffer(), count: 0, room: 0, uniforms: new Map() };
   }
 
   private flat(made: WebGLProgram): Part {
@@ -166,7 +129,9 @@ export class Cloud {
     const { gl } = this;
     part.count = data.length / each;
     gl.bindBuffer(gl.ARRAY_BUFFER, part.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
+    if (data.length > part.room) gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
+    else gl.bufferSubData(gl.ARRAY_BUFFER, 0, data);
+    part.room = Math.max(part.room, data.length);
   }
 
   /**
@@ -174,12 +139,17 @@ export class Cloud {
    * @param data x, y [m], heading [rad], weight 0..1 a sample
    */
   setArrows(data: Float32Array): void {
-    const corners = new Float32Array(3 * data.length);
+    if (this.corners.length < 3 * data.length) this.corners = new Float32Array(3 * data.length);
+    const { corners } = this;
     for (let from = 0, to = 0; from < data.length; from += 4) {
-      const sample = data.subarray(from, from + 4);
-      for (let corner = 0; corner < 3; ++corner, to += 4) corners.set(sample, to);
+      for (let corner = 0; corner < 3; ++corner, to += 4) {
+        corners[to] = data[from]!;
+        corners[to + 1] = data[from + 1]!;
+        corners[to + 2] = data[from + 2]!;
+        corners[to + 3] = data[from + 3]!;
+      }
     }
-    this.fill(this.arrows, corners, 4);
+    this.fill(this.arrows, corners.subarray(0, 3 * data.length), 4);
   }
 
   setLines(data: Float32Array): void {
@@ -188,16 +158,6 @@ export class Cloud {
 
   setDots(data: Float32Array): void {
     this.fill(this.dots, data, kVertex);
-  }
-
-  setHeat(heat: Heat | null): void {
-    const { gl } = this;
-    this.heatShown = heat;
-    if (!heat) return;
-    gl.bindTexture(gl.TEXTURE_2D, this.heat.cells);
-    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.R8, heat.columns, heat.rows, 0, gl.RED, gl.UNSIGNED_BYTE, heat.cells);
-    this.filter(gl.NEAREST);
   }
 
   /** @param ratio device pixels a pixel */
@@ -215,7 +175,6 @@ export class Cloud {
     gl.clear(gl.COLOR_BUFFER_BIT);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    if (this.heatShown) this.drawHeat(view, this.heatShown);
     this.drawFlat(this.lines, gl.LINES, view, 1);
     if (this.arrows.count) {
       this.use(this.arrows, view);
@@ -248,19 +207,5 @@ export class Cloud {
     this.use(part, view);
     this.gl.uniform1f(this.at(part, "size"), size);
     this.gl.drawArrays(mode, 0, part.count);
-  }
-
-  private drawHeat(view: View, heat: Heat): void {
-    const { gl } = this;
-    this.use(this.heat, view);
-    gl.uniform4f(this.at(this.heat, "box"), heat.x, heat.y, heat.columns * heat.step, heat.rows * heat.step);
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, this.heat.cells);
-    gl.activeTexture(gl.TEXTURE1);
-    gl.bindTexture(gl.TEXTURE_2D, this.heat.palette);
-    gl.uniform1i(this.at(this.heat, "cells"), 0);
-    gl.uniform1i(this.at(this.heat, "palette"), 1);
-    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-    gl.activeTexture(gl.TEXTURE0);
   }
 }

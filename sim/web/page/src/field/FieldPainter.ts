@@ -2,6 +2,7 @@ import type { Context } from "../app/context";
 import { degrees, type Point, type Pose } from "../model/geometry";
 import { Cloud } from "./Cloud";
 import { FieldHands } from "./FieldHands";
+import { HeatLayer } from "./HeatLayer";
 import { Overlay } from "./Overlay";
 import { Rays, arrowsOf } from "./rays";
 import { Scene } from "./Scene";
@@ -22,6 +23,7 @@ export class FieldPainter {
   readonly svg: SVGSVGElement;
   problem = "";
   private readonly floor: HTMLDivElement;
+  private readonly heat = new HeatLayer();
   private readonly canvas: HTMLCanvasElement;
   private readonly scene: Scene;
   private readonly hands: FieldHands;
@@ -32,8 +34,9 @@ export class FieldPainter {
   private drawnBoard = -1;
   private drawnUi = -1;
   private drawnSamples: Uint32Array | null = null;
-  private drawnHeat: unknown = null;
-  private drawnCloud = "";
+  /** What the rays were made of, and the view that the cloud was drawn in. */
+  private rayInputs: unknown[] = [];
+  private drawnView = "";
   private isDirty = true;
   private times: number[] = [];
 
@@ -46,7 +49,7 @@ export class FieldPainter {
     this.canvas = document.createElement("canvas");
     this.canvas.setAttribute("aria-hidden", "true");
     this.svg = make("svg", { class: "over", role: "group", "aria-label": "Field: robots, ball and lines", tabindex: 0 });
-    this.place.replaceChildren(this.floor, this.canvas, this.svg);
+    this.place.replaceChildren(this.floor, this.heat.canvas, this.canvas, this.svg);
     this.scene = new Scene(make("svg"), context.session.board);
     // The scene's groups live in the one SVG, below what hands draw.
     this.svg.append(...this.scene.svg.childNodes);
@@ -135,6 +138,7 @@ export class FieldPainter {
       view.fit(world.min, world.max, kMargin, kTools);
     }
     this.drawFloor();
+    this.heat.draw(view, ui.heat);
     this.scene.draw(view, ui.layers, this.held);
     this.drawCloud(needsAll);
     overlay.drawScale(view);
@@ -153,23 +157,36 @@ export class FieldPainter {
 
   private drawCloud(needsAll: boolean): void {
     const { cloud, view } = this;
+    if (!cloud) return;
+    // The cloud changes with the readings of one robot; robots move far more often.
+    const areSamplesNew = this.takeSamples(cloud);
+    const areRaysNew = this.takeRays(cloud);
+    const seen = `${view.matrix} ${view.width} ${view.height}`;
+    if (!areSamplesNew && !areRaysNew && seen === this.drawnView && !needsAll) return;
+    this.drawnView = seen;
+    cloud.draw(view, window.devicePixelRatio || 1, { light: [0.85, 0.45, 0.1], heavy: [1, 0.85, 0.3] });
+  }
+
+  private takeSamples(cloud: Cloud): boolean {
+    const { session, ui } = this.context;
+    const samples = (ui.layers.samples && session.board.robot?.readings.get("mcl/LOCALIZATION/samples")?.words) || null;
+    if (samples === this.drawnSamples) return false;
+    cloud.setArrows(samples ? arrowsOf(samples) : new Float32Array());
+    this.drawnSamples = samples;
+    return true;
+  }
+
+  private takeRays(cloud: Cloud): boolean {
     const { session, ui } = this.context;
     const { robot } = session.board;
-    if (!cloud) return;
-    // The cloud changes with the readings of one robot, ten times a second; robots move far more often.
-    const inputs = [session.readings, ui.frame, view.matrix, view.width, view.height, robot?.number].join();
-    if (inputs === this.drawnCloud && !needsAll) return;
-    this.drawnCloud = inputs;
+    const inputs = [session.readings, ui.layers, ui.expected, robot];
+    if (inputs.every((input, i) => input === this.rayInputs[i])) return false;
+    this.rayInputs = inputs;
     const rays = new Rays();
     if (robot && (ui.layers.rays || ui.layers.sightings || ui.layers.expected)) rays.add(robot, ui.layers, ui.expected);
     cloud.setLines(new Float32Array(rays.lines));
     cloud.setDots(new Float32Array(rays.dots));
-    const samples = (ui.layers.samples && robot?.readings.get("mcl/LOCALIZATION/samples")?.words) || null;
-    if (samples !== this.drawnSamples) cloud.setArrows(samples ? arrowsOf(samples) : new Float32Array());
-    this.drawnSamples = samples;
-    if (ui.heat !== this.drawnHeat) cloud.setHeat(ui.heat);
-    this.drawnHeat = ui.heat;
-    cloud.draw(view, window.devicePixelRatio || 1, { light: [0.85, 0.45, 0.1], heavy: [1, 0.85, 0.3] });
+    return true;
   }
 
   /** The heading to ask for at a place: that of the map, or of the selected robot. */

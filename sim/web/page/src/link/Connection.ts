@@ -110,11 +110,18 @@ export class Connection {
 
   /** Ends this connection, if there is one, and begins the next one at once. */
   comeAgain(): void {
+    this.close("a new connection");
+    this.open();
+  }
+
+  /** Ends this connection for good, until `open`. */
+  close(why: string): void {
     const { socket } = this;
     this.socket = null;
     socket?.close();
-    this.lost("a new connection");
-    this.open();
+    this.lost(why);
+    clearTimeout(this.timer);
+    this.wait = kShortestWait;
   }
 
   request(line: string): Promise<Reply> {

@@ -33,3 +33,8 @@ export function boardAddress(location: { protocol: string; host: string; pathnam
   const folder = location.pathname.replace(/[^/]*$/, "");
   return `${scheme}//${location.host}${folder}board`;
 }
+
+/** What is said first. Who has the token steers; others look, under a name that needs none. */
+export function greeting(token: string, role: "viewer" | "operator"): string {
+  return `HELLO ortung/1 ${token ? `name=view role=${role} token=${token}` : "name=look role=viewer"}`;
+}

@@ -18,6 +18,12 @@ export interface PlayerKind { name: string; text: string; options: PlayerOption[
 export interface Playing { robot: string; player: string; team: string }
 export interface MovableState extends Pose { name: string; z: number }
 
+/** What the page wants to see of the selected robot beside its usual features. */
+export interface Wishes {
+  samples: boolean;
+  pictures: Set<string>;
+}
+
 const kMostSaid = 300;
 
 /**

@@ -1,4 +1,4 @@
-import type { Heat } from "../field/Cloud";
+import type { Heat } from "../field/HeatLayer";
 import type { Expected } from "../field/rays";
 import { BoardError, type Reply } from "../link/Connection";
 import { numberOf, parseHead, plain } from "../link/words";
@@ -43,11 +43,17 @@ export interface MapWish {
   each: boolean;
 }
 
-const kPause = 60;
+/** From one map to the next, and what is left to the server between them [ms]. */
+const kMapPeriod = 110;
+const kRest = 15;
 const kSlowPause = 500;
+const kCells = 40000;
 const kSmallCells = 3000;
 
-/** Asks how the filter sees the field: maps of p(s given l), why, and what is expected where it is. */
+/**
+ * Asks how the filter sees the field: maps of p(s given l), why, and what is expected where it is. One request at a time on
+ * a connection of its own: what was wished last is asked next, and what comes for another robot is dropped.
+ */
 export class Insight {
   readonly wish: MapWish = { theta: null, of: "probability", index: 0, without: new Set(), each: false };
   /** Whether maps are wanted at all, and whether what is expected is. */
@@ -65,6 +71,13 @@ export class Insight {
   rate = 0;
   private isRunning = false;
   private lastMap = 0;
+  /** What the map is of; the same is not asked again. */
+  private mapped = "";
+  private nextSmall = 0;
+  /** How many of the small maps are as new as the large one. */
+  private smallAsked = 0;
+  /** Counts robots that were looked at. */
+  private turn = 0;
 
   constructor(
     private readonly session: Session,
@@ -74,56 +87,76 @@ export class Insight {
   start(): void {
     if (this.isRunning) return;
     this.isRunning = true;
-    void this.run();
+    void this.run(() => this.askSlow());
+    void this.run(() => this.askState());
   }
 
   /** Forgets all, since another robot is looked at. */
   clear(): void {
+    this.turn++;
     this.map = this.why = this.expected = this.localize = null;
     this.small = [];
     this.features = [];
+    this.mapped = "";
     this.error = "";
     this.changed();
   }
 
-  private async run(): Promise<void> {
+  /** Asks again and again; @p once tells how long to wait. */
+  private async run(once: () => Promise<number>): Promise<void> {
     for (;;) {
       let pause = kSlowPause;
+      const { board } = this.session;
+      const { turn } = this;
       try {
-        if (this.session.board.link === "open" && !document.hidden) pause = await this.once();
+        if (board.link === "open" && board.robot && !document.hidden) pause = await once();
       } catch (error) {
         if (!(error instanceof BoardError)) throw error;
-        if (error.code !== "closed") this.error = error.message;
+        if (turn === this.turn && board.link === "open" && this.wantsMap) this.error = error.message;
+        this.mapped = "";
       }
       await new Promise((resolve) => setTimeout(resolve, pause));
     }
   }
 
-  private async once(): Promise<number> {
-    const { board } = this.session;
-    const robot = board.robot;
-    if (!robot) return kSlowPause;
-    if (this.wantsLocalize && board.can("LOCALIZE")) await this.askLocalize();
-    let isBusy = false;
-    if (board.can("WHY") && (this.wantsExpected || (this.wantsMap && !this.features.length))) {
-      const at = robot.truth ?? robot.estimate;
-      const why = at && (await this.askWhy(at));
-      if (why) {
-        this.features = why.features.map(({ feature }) => feature);
-        this.expected = expectedOf(why);
-        isBusy = true;
-      }
+  private async askState(): Promise<number> {
+    if (this.wantsLocalize && this.session.board.can("LOCALIZE")) {
+      await this.askLocalize();
+      this.changed();
     }
-    if (this.wantsMap && board.can("HEATMAP")) {
-      await this.askMaps();
-      isBusy = true;
-    } else if (this.map) {
-      this.map = null;
-      this.small = [];
+    return kSlowPause;
+  }
+
+  private async askSlow(): Promise<number> {
+    const { session, turn } = this;
+    const { board } = session;
+    const began = performance.now();
+    const wantsMap = this.wantsMap && board.can("HEATMAP");
+    const wantsWhy = board.can("WHY") && (this.wantsExpected || (wantsMap && !this.features.length));
+    if (!wantsMap && (this.map || this.small.length)) this.forgetMaps();
+    if (!this.wantsExpected && this.expected) this.expected = null;
+    if (!wantsMap && !wantsWhy) {
+      session.side.close();
+      return kSlowPause / 4;
     }
-    if (!this.wantsExpected) this.expected = null;
+    const at = wantsWhy && (board.robot!.truth ?? board.robot!.estimate);
+    const why = at ? await this.askWhy(at) : null;
+    if (turn !== this.turn) return 0;
+    if (why) {
+      this.features = why.features.map(({ feature }) => feature);
+      this.expected = this.wantsExpected ? expectedOf(why) : null;
+    }
+    if (wantsMap) await this.askMaps(began, turn);
+    if (turn === this.turn) this.changed();
+    return Math.max(kRest, kMapPeriod - (performance.now() - began));
+  }
+
+  private forgetMaps(): void {
+    this.map = null;
+    this.small = [];
+    this.mapped = "";
+    this.rate = this.lastMap = 0;
     this.changed();
-    return isBusy ? kPause : kSlowPause;
   }
 
   private get chosen(): string[] {
@@ -131,28 +164,47 @@ export class Insight {
     return without.size ? this.features.filter((feature) => !without.has(feature)) : [];
   }
 
-  private async askMaps(): Promise<void> {
+  private async askMaps(began: number, turn: number): Promise<void> {
     const { wish } = this;
     if (wish.of === "expectation" && this.features.length - wish.without.size !== 1) {
       this.error = "an expectation is that of one feature: choose it above";
       this.map = null;
+      this.mapped = "";
       return;
     }
-    this.map = await this.askMap("", this.chosen, 40000);
-    this.error = "";
+    // Readings that are not new make the same map.
+    const what = [this.session.readings, wish.theta, wish.of, wish.index, wish.each, ...wish.without].join(" ");
+    if (what !== this.mapped) {
+      const map = await this.askMap("", this.chosen, kCells);
+      if (turn !== this.turn) return;
+      this.map = map;
+      this.mapped = what;
+      this.smallAsked = 0;
+      this.error = "";
+      this.count();
+    }
+    if (wish.each) await this.askSmall(began + kMapPeriod, turn);
+    else this.small = [];
+  }
+
+  private count(): void {
     const time = performance.now();
     if (this.lastMap) this.rate = 0.8 * this.rate + (0.2 * 1000) / Math.max(1, time - this.lastMap);
     this.lastMap = time;
-    this.changed();
-    if (!wish.each) {
-      this.small = [];
-      return;
-    }
-    const small: FeatureMap[] = [];
-    for (const feature of this.features) {
-      small.push(await this.askMap(feature, [feature], kSmallCells));
-    }
-    this.small = small;
+  }
+
+  /** Maps of one feature each: as many as there is time for, the oldest first. */
+  private async askSmall(until: number, turn: number): Promise<void> {
+    const { features } = this;
+    if (this.smallAsked >= features.length) return;
+    const known = new Map(this.small.map((map) => [map.feature, map]));
+    do {
+      const feature = features[this.nextSmall++ % features.length]!;
+      const map = await this.askMap(feature, [feature], kSmallCells);
+      if (turn !== this.turn) return;
+      known.set(feature, map);
+    } while (++this.smallAsked < features.length && performance.now() < until);
+    this.small = features.flatMap((feature) => known.get(feature) ?? []);
   }
 
   private async askMap(feature: string, queries: string[], cells: number): Promise<FeatureMap> {
@@ -160,7 +212,7 @@ export class Insight {
     const parts = [`HEATMAP robot=${this.session.board.selected}`, ...queries, `cells=${cells}`];
     if (wish.theta !== null) parts.push(`theta_deg=${plain(degrees(wish.theta))}`);
     if (wish.of === "expectation" && feature === "") parts.push("of=expectation", `index=${wish.index}`);
-    return { feature, ...parseMap(await this.session.ask(parts.join(" "))) };
+    return { feature, ...parseMap(await this.session.side.ask(parts.join(" "))) };
   }
 
   /** Why the filter finds @p pose as probable as it does. */
@@ -172,7 +224,7 @@ export class Insight {
   private async askWhy({ x, y, theta }: Pose): Promise<Why | null> {
     const { board } = this.session;
     const at = `x_m=${plain(x)} y_m=${plain(y)} theta_deg=${plain(degrees(theta))}`;
-    return parseWhy(await this.session.ask(`WHY robot=${board.selected} ${at}`), { x, y, theta });
+    return parseWhy(await this.session.side.ask(`WHY robot=${board.selected} ${at}`), { x, y, theta });
   }
 
   private async askLocalize(): Promise<void> {

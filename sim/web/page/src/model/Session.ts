@@ -1,7 +1,9 @@
+import { greeting } from "../link/address";
 import { BoardError, Connection, type Reply, type Unasked, type Line } from "../link/Connection";
+import { SideLine } from "../link/SideLine";
 import { readingsOf, type Reading } from "../link/readingsIn";
 import { numberOf, plain } from "../link/words";
-import { Board } from "./Board";
+import { Board, type Wishes } from "./Board";
 import { poseOf } from "./features";
 import { History } from "./History";
 import type { Robot } from "./Robot";
@@ -17,18 +19,14 @@ const kPoll = 1000;
 const kAhead = 2;
 const kTruth = "reference/groundTruth/pose";
 
-/** What the page wants to see of the selected robot beside its usual features. */
-export interface Wishes {
-  samples: boolean;
-  pictures: Set<string>;
-}
-
 /** Keeps a Board like the world of a server, as long as there is one. */
 export class Session {
   readonly board = new Board();
   readonly history = new History();
   readonly wishes: Wishes = { samples: true, pictures: new Set() };
   readonly connection: Connection;
+  /** For what takes long: maps, and why a place is probable. */
+  readonly side: SideLine;
   /** Counts what came of the selected robot. */
   readings = 0;
   private polling: ReturnType<typeof setInterval> | undefined;
@@ -51,6 +49,7 @@ export class Session {
       closed: (why, againIn) => this.lost(why, againIn),
       unasked: (unasked) => this.unasked(unasked),
     });
+    this.side = new SideLine(dial, () => greeting(this.token, "viewer"));
   }
 
   start(): void {
@@ -137,9 +136,7 @@ export class Session {
   private async greet(): Promise<void> {
     const { board } = this;
     try {
-      // Who has the token steers; others look, under a name that needs none.
-      const who = this.token ? `name=view role=operator token=${this.token}` : "name=look role=viewer";
-      const hello = await this.ask(`HELLO ortung/1 ${who}`);
+      const hello = await this.ask(greeting(this.token, "operator"));
       board.role = hello.keys.get("role") ?? "viewer";
       board.kind = hello.keys.get("kind") ?? "";
       board.worldName = hello.keys.get("world") ?? "";
@@ -203,6 +200,7 @@ export class Session {
     const { board } = this;
     clearInterval(this.polling);
     clearInterval(this.truthPolling);
+    this.side.close();
     board.link = board.link === "refused" ? "refused" : "lost";
     board.linkText = `${why}; trying again${againIn >= 1 ? ` in ${Math.round(againIn)} s` : ""}`;
     board.touch();

@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { useBoard, usePage } from "../app/context";
-import { heatPalette } from "../field/palette";
+import { kOpaque, paintHeat } from "../field/HeatLayer";
 import { fixOf, placesOf, statusOf } from "../model/features";
 import { degrees, radians, wrap } from "../model/geometry";
 import type { FeatureMap, Why } from "../model/Insight";
@@ -306,18 +306,7 @@ function brightest({ cells, columns, x, y, step }: FeatureMap["heat"]): { x: num
 function SmallMap({ map }: { map: FeatureMap }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
-    const { columns, rows, cells } = map.heat;
-    canvas.current!.width = columns;
-    canvas.current!.height = rows;
-    const palette = heatPalette(1);
-    const picture = new ImageData(columns, rows);
-    for (let row = 0; row < rows; ++row) {
-      for (let column = 0; column < columns; ++column) {
-        const colour = 4 * cells[row * columns + column]!;
-        picture.data.set(palette.subarray(colour, colour + 4), 4 * ((rows - 1 - row) * columns + column));
-      }
-    }
-    canvas.current!.getContext("2d")?.putImageData(picture, 0, 0);
+    paintHeat(canvas.current!, map.heat, kOpaque);
   }, [map]);
   return (
     <figure>
