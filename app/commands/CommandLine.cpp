@@ -107,6 +107,7 @@ void addDemo(Builder& build, CLI::App& app) {
       app, "demo", "A robot that finds its place on a soccer field, in a web browser",
       "ortung demo", runDemo);
   addDoor(build, a->serving);
+  addRecording(build, a->serving);
 }
 
 void addSim(Builder& build, CLI::App& app) {
@@ -167,6 +168,7 @@ void addSim(Builder& build, CLI::App& app) {
       "--tables", a->tables,
       "Table file for that, of `ortung learn`; default: learned when the first one begins");
   addServing(build, a->serving);
+  addRecording(build, a->serving);
 }
 
 #ifdef ORTUNG_HAS_PLAY
@@ -209,6 +211,7 @@ void addServe(Builder& build, CLI::App& app) {
   build.option("record", a->record, "Record file")->required();
   build.flag("--repeat", a->repeats, "Start over at the end");
   addServing(build, a->serving);
+  addRecording(build, a->serving);
 }
 
 void addPlugins(Builder& build, CLI::App& app) {

@@ -205,9 +205,10 @@ struct ServingArguments {
   double speed = 1.0;                 ///< times real time
   bool freeRun = false;
   bool lockstep = false;
-  bool isViewing = false;          ///< with the page for browsers
-  bool opensBrowser = true;        ///< and shows it, where there is a desktop
-  std::vector<std::string> hosts;  ///< further names of this computer
+  bool isViewing = false;            ///< with the page for browsers
+  bool opensBrowser = true;          ///< and shows it, where there is a desktop
+  std::vector<std::string> hosts;    ///< further names of this computer
+  std::filesystem::path recordInto;  ///< folder for records that clients begin; "": none
   bool isServing() const { return isViewing || listen; }
 };
 

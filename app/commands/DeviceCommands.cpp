@@ -43,6 +43,7 @@ void addRobot(Builder& build, CLI::App& app) {
       ->check(within(0.0, 1e9));
   addLocalization(build, a->localization);
   addDoor(build, a->serving);
+  addRecording(build, a->serving);
 }
 
 void addEmulate(Builder& build, CLI::App& app) {

@@ -33,6 +33,7 @@
 #include "ortung/mcl_served/LocalizedRobot.hpp"
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/run/Feeder.hpp"
+#include "ortung/server/RecordedWorld.hpp"
 #include "ortung/server/ServedContainer.hpp"
 
 namespace ortung::app {
@@ -40,6 +41,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatience{200};
 constexpr std::chrono::milliseconds kBetweenStatus{500};
+constexpr RobotId kRobot = 1;  // as clients know it
 
 /// The devices as a source that ends when it is told to, or with a signal.
 class Readings : public Source {
@@ -68,6 +70,7 @@ class RunningRobot {
  public:
   explicit RunningRobot(const RobotArguments& arguments)
       : arguments_(arguments),
+        clientRecords_(arguments.serving),
         outputs_(arguments.localization.force),
         devices_({arguments.localization.robot, arguments.dev, arguments.duration}) {
     declareInputs(arguments.localization, outputs_);
@@ -90,6 +93,9 @@ class RunningRobot {
       record_.emplace(outputs_.ready(arguments.record), "", RecordWriter::Pace::kLive);
       feeder().recordInto(*record_);
     }
+    feeder().showTo([this](std::span<const Message> moment) {
+      clientRecords_.recordings().write(kRobot, moment);
+    });
     if (!arguments.out.empty()) poses_.emplace(outputs_.ready(arguments.out));
   }
 
@@ -97,6 +103,7 @@ class RunningRobot {
     return localization_ ? localization_->container() : robot_->container;
   }
   DevicesSource& devices() { return devices_; }
+  Recordings& recordings() { return clientRecords_.recordings(); }
   std::string name() const {
     return localization_ ? localization_->robot().config.name : robot_->config.name;
   }
@@ -169,6 +176,7 @@ class RunningRobot {
   }
 
   const RobotArguments& arguments_;
+  ClientRecords clientRecords_;
   Outputs outputs_;
   std::atomic<bool> isOver_ = false;
   DevicesSource devices_;
@@ -238,13 +246,15 @@ void serveRobot(RunningRobot& robot, const ServingArguments& arguments,
   config.period = 0.02;
   RobotCommands* const commands = robot.devices().commands();
   if (commands != nullptr) config.abilities = {"drive v,w"};
-  std::vector<BoardCommand> localizing;
+  std::vector<BoardCommand> added;
   if (LocalizedRobot* const localized = robot.localized()) {
-    localizing = localizationCommands(*localized);
+    added = localizationCommands(*localized);
     config.onWant = [localized](std::span<const SensorId> features) { localized->want(features); };
   }
   ServedContainer world(robot.container(), robot.devices().clock(), config, commands);
-  serve(world, arguments, std::move(localizing), [&] { return !isDone; });
+  RecordedWorld recorded(world, robot.recordings(), {.takesReadings = false});
+  added.push_back(recordCommand(recorded));
+  serve(recorded, arguments, std::move(added), [&] { return !isDone; });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "Serving.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/records/RecordSource.hpp"
+#include "ortung/server/RecordedWorld.hpp"
 #include "ortung/server/ServedRecord.hpp"
 
 namespace ortung::app {
@@ -13,7 +14,9 @@ int runServe(const ServeArguments& arguments) {
   checkPace(arguments.serving);
   warnOf(RecordSource(arguments.record));
   ServedRecord record(arguments.record, arguments.repeats);
-  serve(record, arguments.serving);
+  ClientRecords records(arguments.serving);
+  RecordedWorld world(record, records.recordings(), {});
+  serve(world, arguments.serving, {recordCommand(world)});
   return 0;
 }
 

@@ -106,6 +106,19 @@ void checkPace(const ServingArguments& arguments) {
     throw UsageError("--free-run and --lockstep exclude each other: in lockstep, clients decide");
 }
 
+ClientRecords::ClientRecords(const ServingArguments& arguments)
+    : recordings_({.folder = arguments.recordInto, .onProblem = warn}),
+      rescue_([this] { recordings_.endAll(); }) {
+  if (!arguments.recordInto.empty() && !arguments.isServing())
+    throw UsageError("--record-into is for --listen and --view");
+}
+
+ClientRecords::~ClientRecords() {
+  for (const Recordings::State& one : recordings_.endAll())
+    if (one.kind == Recordings::State::Kind::kOff)
+      note(fmt::format("{}: {} moments", one.file, one.moments));
+}
+
 void serve(ServedWorld& world, const ServingArguments& arguments,
            std::vector<BoardCommand> commands, const std::function<bool()>& goesOn) {
   BoardConfig config;

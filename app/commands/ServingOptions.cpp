@@ -30,6 +30,13 @@ void addDoor(Builder& build, ServingArguments& a) {
   build.flag("--no-browser{false}", a.opensBrowser, "Print the address for browsers only");
 }
 
+void addRecording(Builder& build, ServingArguments& a) {
+  build.option(
+      "--record-into", a.recordInto,
+      "With --listen or --view: folder for the records of robots that clients begin and end "
+      "(RECORD)");
+}
+
 void addServing(Builder& build, ServingArguments& a) {
   addDoor(build, a);
   build.option("--idle", a.idle, "Clients that keep silent for so long are dropped [s]")

@@ -10,7 +10,9 @@ class Builder;
 
 /// Who is let in, and the page for browsers.
 void addDoor(Builder& build, ServingArguments& a);
-/// That, and how time passes.
+/// Where records go that clients begin and end.
+void addRecording(Builder& build, ServingArguments& a);
+/// Who is let in, and how time passes.
 void addServing(Builder& build, ServingArguments& a);
 
 }  // namespace ortung::app

@@ -24,6 +24,7 @@
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/served/PlayerCommands.hpp"
 #include "ortung/served/ServedSimulation.hpp"
+#include "ortung/server/RecordedWorld.hpp"
 #include "ortung/sim/RunDigest.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
@@ -216,12 +217,15 @@ class RefereedSimulation : public ServedSimulation {
     if (trace_) trace_->add(run().simulation());
     printEvents();
   }
+  /// What the referee has seen and decided in this cycle, for records.
+  const std::vector<Message>& told() const { return told_; }
   void commit() {
     if (trace_) trace_->commit();
   }
 
  private:
   void printEvents() {
+    told_.clear();
     if (eventsSoFar() == printed_) return;
     if (eventsSoFar() < printed_) printed_ = 0;  // after a reset
     std::vector<RefereeEvent> unsaid;
@@ -229,8 +233,10 @@ class RefereedSimulation : public ServedSimulation {
       if (event.number >= printed_) unsaid.push_back(event.event);
     printed_ = eventsSoFar();
     print(unsaid);
+    if (!unsaid.empty()) told_.push_back(messageOf(unsaid));
   }
 
+  std::vector<Message> told_;
   std::uint64_t printed_ = 0;
   Pacing clock_{ServingArguments{}};
   std::optional<RefBoxLink> box_;
@@ -238,7 +244,9 @@ class RefereedSimulation : public ServedSimulation {
 };
 
 /// With filters for those of its robots that can localize.
-LocalizedWorld localized(ServedSimulation& simulation, const SimArguments& arguments) {
+/// @param world that simulation, and what else is told of it
+LocalizedWorld localized(ServedWorld& world, ServedSimulation& simulation,
+                         const SimArguments& arguments) {
   LocalizedWorld::Config config;
   config.robotFile = [&simulation](RobotId id) -> std::filesystem::path {
     const SimRobot& robot = simulation.simRobot(id);
@@ -253,7 +261,7 @@ LocalizedWorld localized(ServedSimulation& simulation, const SimArguments& argum
   config.names = arguments.localize;
   config.seed = arguments.seed;
   try {
-    return {simulation, config};
+    return {world, config};
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--localize: ") + error.what());
   }
@@ -328,6 +336,7 @@ int runSim(const SimArguments& arguments) {
   const ServingArguments& serving = arguments.serving;
   checkPace(serving);
   if (!serving.isServing()) {
+    if (!serving.recordInto.empty()) throw UsageError("--record-into is for --listen and --view");
     if (serving.lockstep || !serving.control.empty() || !serving.tokens.empty())
       throw UsageError("--lockstep, --allow-control and --token-file are for --listen and --view");
     if (!arguments.localize.empty() || !arguments.tables.empty())
@@ -341,9 +350,13 @@ int runSim(const SimArguments& arguments) {
         "the server runs until it is stopped");
   Simulation::Config config = configOf(arguments);
   config.onProblem = warn;
+  ClientRecords records(serving);
   RefereedSimulation simulation(arguments, config);
-  LocalizedWorld world = localized(simulation, arguments);
+  RecordedWorld recorded(simulation, records.recordings(),
+                         {.also = [&simulation] { return simulation.told(); }});
+  LocalizedWorld world = localized(recorded, simulation, arguments);
   std::vector<BoardCommand> commands = playerCommands(simulation);
+  commands.push_back(recordCommand(recorded));
   for (BoardCommand& command : localizationCommands(world)) commands.push_back(std::move(command));
   serve(world, arguments.serving, std::move(commands));
   simulation.commit();

@@ -1,14 +1,12 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
-
 #include "Files.hpp"
+#include "SmallFiles.hpp"
 #include "ortung/base/NewFile.hpp"
 
 namespace ortung {
@@ -16,6 +14,7 @@ namespace {
 
 using test::messageOf;
 using test::readBytes;
+using test::SmallFiles;
 using test::TemporaryFolder;
 
 TEST(NewFile, ReplacesAFileWhenItIsWholeAndLeavesNothingElse) {
@@ -49,25 +48,6 @@ TEST(NewFile, NamesFileAndReason) {
             (folder / "folder").string() + ": can't be written: Is a directory");
   EXPECT_EQ(folder.files(), 1u) << "nothing is left behind";
 }
-
-/// Files of this process may have no more than so many bytes, as on a full disk.
-class SmallFiles {
- public:
-  explicit SmallFiles(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-    signal_ = std::signal(SIGXFSZ, SIG_IGN);
-  }
-  ~SmallFiles() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, signal_);
-  }
-
- private:
-  rlimit before_{};
-  void (*signal_)(int) = nullptr;
-};
 
 TEST(NewFile, ThatFindsNoRoomLeavesTheOldOne) {
   const TemporaryFolder folder;

@@ -8,6 +8,7 @@
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/served/ServedSimulation.hpp"
+#include "ortung/server/RecordedWorld.hpp"
 
 namespace ortung::test {
 namespace {
@@ -35,6 +36,10 @@ TEST(Protocol, TheSessionOfThePageIsReplayedByteForByte) {
   EXPECT_EQ(client.line(), "(closed)");  // after BYE
 }
 
+const std::string kScout =
+    "[robot]\nradius_m = 0.2\n[[sensor]]\nplugin = \"odometry\"\n[[sensor]]\nplugin = \"lrf\"\n"
+    "feature = \"FiveBeams\"\nbeams = 5\n";
+
 /// The page's form of a reply: N for numbers, X for a fingerprint.
 std::string withoutNumbers(const std::string& line) {
   static const std::regex kFingerprint("fingerprint=[0-9a-f]{16}");
@@ -53,15 +58,35 @@ std::vector<std::string> blockOfThePage(const std::string& name) {
   return lines;
 }
 
+TEST(Protocol, TheRecordingOfThePageIsReplayedByteForByte) {
+  const TemporaryFolder folder;
+  ServedSimulation simulation(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
+  Recordings recordings({.folder = folder.path()});
+  RecordedWorld world(simulation, recordings, {});
+  BoardConfig config = controlledConfig();
+  config.commands = {recordCommand(world)};
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  client.join(kScout, "anna", "x_m=0.5 y_m=-1.5", "scout");
+  client.ask("LOCKSTEP on");
+  std::size_t replies = 0;
+  for (const std::string& text : blockOfThePage("recording")) {
+    const std::string line = text.substr(2);
+    if (text[0] == '>') {
+      client.send(line + "\n");
+      continue;
+    }
+    EXPECT_EQ(client.line(), line);
+    ++replies;
+  }
+  EXPECT_GT(replies, 8u);
+}
+
 TEST(Protocol, RepliesHaveTheFormsOfThePage) {
   ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
   const RunningBoard board(world, controlledConfig());
   TestClient client(board.port());
-  ASSERT_TRUE(client
-                  .join("[robot]\nradius_m = 0.2\n[[sensor]]\nplugin = \"odometry\"\n[[sensor]]\n"
-                        "plugin = \"lrf\"\nfeature = \"FiveBeams\"\nbeams = 5\n",
-                        "anna", "x_m=0.5 y_m=-1.5", "scout")
-                  .starts_with("OK CREATE"));
+  ASSERT_TRUE(client.join(kScout, "anna", "x_m=0.5 y_m=-1.5", "scout").starts_with("OK CREATE"));
   client.ask("LOCKSTEP on");
   std::size_t requests = 0;
   int left = 0;  // of the lines that belong to a reply

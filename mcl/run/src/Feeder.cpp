@@ -23,6 +23,7 @@ bool Feeder::next() {
   try {
     for (const Message& message : frame_) look(message);
     if (record_ != nullptr) record_->endMoment();
+    if (listener_) listener_(frame_);
     container_.set(frame_);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name_ + ": reading at " + std::to_string(stamp_) +

@@ -27,7 +27,7 @@ bool isOfFilter(const SensorId& id) { return id.model == "mcl" && id.type == "LO
 }  // namespace
 
 LocalizedWorld::LocalizedWorld(ServedWorld& world, Config config)
-    : world_(world), config_(std::move(config)), features_(publishedFeatures()) {
+    : ForwardedWorld(world), config_(std::move(config)), features_(publishedFeatures()) {
   checkNames();
   meetResidents();
 }
@@ -35,7 +35,7 @@ LocalizedWorld::LocalizedWorld(ServedWorld& world, Config config)
 LocalizedWorld::~LocalizedWorld() = default;
 
 void LocalizedWorld::checkNames() const {
-  const std::vector<Resident> residents = world_.residents();
+  const std::vector<Resident> residents = world().residents();
   for (const std::string& name : config_.names) {
     if (name == kAll) continue;
     const auto found = std::find_if(residents.begin(), residents.end(),
@@ -54,10 +54,10 @@ bool LocalizedWorld::isNamed(const std::string& name) const {
 /// Robots of the world's own come and go.
 void LocalizedWorld::meetResidents() {
   std::erase_if(leaving_, [](const auto& thread) { return thread->isOver(); });
-  const std::uint64_t version = world_.residentsVersion();
+  const std::uint64_t version = world().residentsVersion();
   if (version_ == version) return;
   version_ = version;
-  const std::vector<Resident> residents = world_.residents();
+  const std::vector<Resident> residents = world().residents();
   const std::lock_guard lock(mutex_);
   for (auto entry = filters_.begin(); entry != filters_.end();) {
     const bool isThere = std::any_of(residents.begin(), residents.end(), [&](const Resident& one) {
@@ -132,7 +132,7 @@ std::shared_ptr<const Robot> LocalizedWorld::perceiver(RobotId robot) const {
 // --- ServedWorld
 
 void LocalizedWorld::step() {
-  world_.step();
+  world().step();
   meetResidents();
   for (auto& [robot, its] : filters_) {
     if (!its.thread) continue;
@@ -148,12 +148,12 @@ void LocalizedWorld::tellWanted(RobotId robot, const Filter& filter) {
   std::vector<SensorId> all = filter.needs;
   for (const SensorId& id : filter.wanted)
     if (!isOfFilter(id) && !has(all, id)) all.push_back(id);
-  world_.want(robot, all);
+  world().want(robot, all);
 }
 
 void LocalizedWorld::want(RobotId robot, std::span<const SensorId> features) {
   const auto found = filters_.find(robot);
-  if (found == filters_.end()) return world_.want(robot, features);
+  if (found == filters_.end()) return world().want(robot, features);
   Filter& its = found->second;
   its.wanted.assign(features.begin(), features.end());
   if (its.thread) its.thread->wantSamples(has(its.wanted, samplesId()));
@@ -161,7 +161,7 @@ void LocalizedWorld::want(RobotId robot, std::span<const SensorId> features) {
 }
 
 std::vector<Resident> LocalizedWorld::residents() const {
-  std::vector<Resident> residents = world_.residents();
+  std::vector<Resident> residents = world().residents();
   for (Resident& resident : residents)
     if (!config_.robotFile(resident.robot).empty())
       resident.features.insert(resident.features.end(), features_.begin(), features_.end());
@@ -169,7 +169,7 @@ std::vector<Resident> LocalizedWorld::residents() const {
 }
 
 std::span<Message> LocalizedWorld::readings(RobotId robot) {
-  const std::span<Message> frame = world_.readings(robot);
+  const std::span<Message> frame = world().readings(robot);
   const auto found = filters_.find(robot);
   if (found == filters_.end() || !found->second.thread) return frame;
   FilterThread& thread = *found->second.thread;
@@ -185,12 +185,12 @@ std::span<Message> LocalizedWorld::readings(RobotId robot) {
 }
 
 void LocalizedWorld::reset(std::optional<std::uint64_t> seed) {
-  world_.reset(seed);
+  world().reset(seed);
   restartFilters();
 }
 
 void LocalizedWorld::seek(Timestamp stamp) {
-  world_.seek(stamp);
+  world().seek(stamp);
   restartFilters();
 }
 

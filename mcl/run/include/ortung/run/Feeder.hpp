@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
@@ -27,6 +30,10 @@ class ORTUNG_API Feeder {
 
   /// Also writes everything that passes into @p record, which is borrowed.
   void recordInto(RecordWriter& record) { record_ = &record; }
+  /// Also shows each moment to @p listener, before it is in the container; on the thread of next().
+  void showTo(std::function<void(std::span<const Message>)> listener) {
+    listener_ = std::move(listener);
+  }
 
   /// Fills in the next moment; false at the end.
   /// @throws std::runtime_error naming the source, the time and what is wrong with a reading
@@ -53,6 +60,7 @@ class ORTUNG_API Feeder {
   Source& source_;
   SensorContainer& container_;
   RecordWriter* record_ = nullptr;
+  std::function<void(std::span<const Message>)> listener_;
   FrameReader reader_;
   std::vector<Message> frame_;
   Timestamp first_ = 0;

@@ -7,13 +7,12 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/mcl_served/FilterThread.hpp"
 #include "ortung/mcl_served/LocalizedRobots.hpp"
-#include "ortung/server/ServedWorld.hpp"
+#include "ortung/server/ForwardedWorld.hpp"
 
 namespace ortung {
 
@@ -21,7 +20,7 @@ namespace ortung {
 /// localize by: while its filter is on, their readings come with the robot's. Filters run on
 /// threads of their own, so when their readings come depends on the computer. One thread owns it,
 /// but for what says that it is thread-safe.
-class ORTUNG_API LocalizedWorld final : public ServedWorld, public LocalizedRobots {
+class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedRobots {
  public:
   struct Config {
     /// The file of a robot of the world's own; "" if it has no features to localize by.
@@ -44,40 +43,13 @@ class ORTUNG_API LocalizedWorld final : public ServedWorld, public LocalizedRobo
   void order(RobotId robot, const LocalizationOrder& order) override;
   std::shared_ptr<const Robot> perceiver(RobotId robot) const override;
 
-  // ServedWorld: that of the world, and what filters add
-  WorldDescription describe() const override { return world_.describe(); }
-  std::vector<std::string> plugins() const override { return world_.plugins(); }
-  std::vector<std::string> players() const override { return world_.players(); }
-  Timestamp now() const override { return world_.now(); }
-  Timestamp livePeriod() const override { return world_.livePeriod(); }
-  bool isReady() const override { return world_.isReady(); }
-  bool isAtEnd() const override { return world_.isAtEnd(); }
+  // ServedWorld: what filters add
   void step() override;
-  std::vector<std::string> field() const override { return world_.field(); }
-  std::vector<ServedFeature> truthFeatures() const override { return world_.truthFeatures(); }
-  std::span<Message> truth() override { return world_.truth(); }
   std::vector<Resident> residents() const override;
-  std::uint64_t residentsVersion() const override { return world_.residentsVersion(); }
-  ServedRobot addRobot(RobotId robot, RobotWish wish) override {
-    return world_.addRobot(robot, std::move(wish));
-  }
-  std::vector<std::string> abilities(RobotId robot) const override {
-    return world_.abilities(robot);
-  }
-  void removeRobot(RobotId robot) override { world_.removeRobot(robot); }
-  std::string side(RobotId robot) const override { return world_.side(robot); }
   void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
-  RobotCommands& commands(RobotId robot) override { return world_.commands(robot); }
-  void tell(RobotId robot, std::string_view text) override { world_.tell(robot, text); }
-  std::vector<ServedTalk> takeHeard(RobotId robot) override { return world_.takeHeard(robot); }
   void seek(Timestamp stamp) override;
-  std::optional<std::uint64_t> seed() const override { return world_.seed(); }
   void reset(std::optional<std::uint64_t> seed) override;
-  void placeRobot(RobotId robot, const Pose2& pose) override { world_.placeRobot(robot, pose); }
-  void placeObject(const std::string& object, const Pose2& pose) override {
-    world_.placeObject(object, pose);
-  }
 
  private:
   struct Filter {
@@ -93,7 +65,6 @@ class ORTUNG_API LocalizedWorld final : public ServedWorld, public LocalizedRobo
   Filter& filter(RobotId robot);
   FilterThread& threadOf(RobotId robot, Filter& filter);
 
-  ServedWorld& world_;
   Config config_;
   std::vector<ServedFeature> features_;  ///< that filters add
   std::optional<std::uint64_t> version_;

@@ -35,6 +35,10 @@ export class Robot {
   team = "";
   player = "";
   client = 0;
+  /** The record under way: its file's name, or "failed"; "": none. */
+  record = "";
+  /** Why it has failed. */
+  recordProblem = "";
   truth: Pose | null = null;
   /** States of its manipulators, four bits each. */
   states = 0;

@@ -109,7 +109,7 @@ export class Session {
   }
 
   private acted(verb: string): void {
-    if (verb === "PLAY" || verb === "STOP" || verb === "RESET") void this.poll();
+    if (verb === "PLAY" || verb === "STOP" || verb === "RESET" || verb === "RECORD") void this.poll();
     if (verb === "RESET") this.startOver();
     if (verb === "PAUSE" || verb === "RESUME" || verb === "SPEED" || verb === "REFEREE") void this.poll();
     if (verb === "SEEK") {
@@ -256,6 +256,9 @@ export class Session {
       if (this.subscribed.includes(` robot=${number} `)) this.subscribed = "";
     }
     for (const robot of board.robots.values()) {
+      if (robot.record === "failed" && !robot.recordProblem) {
+        robot.recordProblem = (await this.tryAsk(`RECORD robot=${robot.number}`))?.words.join(" ") || "it has failed";
+      }
       if (robot.isDescribed) continue;
       const text = await this.tryAsk(`DESCRIBE robot robot=${robot.number}`);
       robot.describe(text?.lines ?? []);

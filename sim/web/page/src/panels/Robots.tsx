@@ -3,6 +3,7 @@ import { robotColour } from "../field/palette";
 import { degrees } from "../model/geometry";
 import { statusOf } from "../model/features";
 import { DriveControls } from "./Drive";
+import type { Robot } from "../model/Robot";
 import { ErrorNote, Say, Section } from "./parts";
 
 export function RobotsPanel() {
@@ -24,6 +25,7 @@ export function RobotsPanel() {
                   <Swatch colour={robotColour(robot, board.kind === "record")} />
                   <span class="who">{robot.label}</span>
                   <span class="what">{robot.player || (robot.client ? `client ${robot.client}` : "")}</span>
+                  {isRecorded(robot) && <span class="badge recorded" title={robot.record}>rec</span>}
                   {status && <span class={`badge ${status.status}`}>{status.status}</span>}
                   <span class="where">
                     {pose ? `${pose.x.toFixed(2)}, ${pose.y.toFixed(2)}, ${degrees(pose.theta).toFixed(0)}°` : "nowhere yet"}
@@ -34,7 +36,39 @@ export function RobotsPanel() {
           })}
         </ul>
       </Section>
+      {board.can("RECORD") && robots.length > 0 && (
+        <Section title="Records">
+          <Recording robots={robots} />
+        </Section>
+      )}
       {board.robot && <Selected />}
+    </>
+  );
+}
+
+const isRecorded = (robot: Robot) => robot.record !== "" && robot.record !== "failed";
+
+/** Begins and ends records on the server: of the selected robot, and of all. */
+function Recording({ robots }: { robots: Robot[] }) {
+  const { board } = usePage().session;
+  const { robot } = board;
+  const recorded = robots.filter(isRecorded);
+  const button = (who: string, isOn: boolean, label: string) => (
+    <Say line={`RECORD robot=${who} ${isOn ? "off" : "on"}`} at="record" pressed={isOn} label={`Record ${label}`}>
+      <i class="dot" aria-hidden="true" /> {label}
+    </Say>
+  );
+  return (
+    <>
+      <div class="row wrap recording" role="group" aria-label="Records">
+        {robot && button(String(robot.number), isRecorded(robot), robot.label)}
+        {robots.length > 1 && button("all", recorded.length === robots.length, "all robots")}
+      </div>
+      {recorded.length > 0 && <p class="hint">{recorded.map(({ record }) => record).join(", ")}</p>}
+      {robots.map(({ number, label, recordProblem }) => recordProblem && (
+        <p class="error" role="alert" key={number}>{label}: {recordProblem}</p>
+      ))}
+      <ErrorNote at="record" />
     </>
   );
 }

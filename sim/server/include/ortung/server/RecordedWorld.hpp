@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/server/BoardCommand.hpp"
+#include "ortung/server/ForwardedWorld.hpp"
+#include "ortung/server/Recordings.hpp"
+
+namespace ortung {
+
+/// A served world whose robots clients record: LIST robots says whose record is under way. While a
+/// robot is recorded it senses all that it can. Records end with their robots, and where time
+/// starts over. Not thread-safe: one thread owns it.
+class ORTUNG_API RecordedWorld final : public ForwardedWorld {
+ public:
+  struct Config {
+    /// Whether records take what readings() gives. If not, somebody else writes their moments.
+    bool takesReadings = true;
+    /// What else belongs to the present cycle in each record; may be empty.
+    std::function<std::vector<Message>()> also = {};
+  };
+
+  /// @param world borrowed, as are @p recordings
+  RecordedWorld(ServedWorld& world, Recordings& recordings, Config config);
+  ~RecordedWorld() override;
+
+  /// All that can be recorded.
+  std::vector<RobotId> robots();
+  /// @throws ServeError as Recordings does, or if there is no such robot
+  void begin(RobotId robot);
+  void end(RobotId robot);
+  Recordings::State state(RobotId robot);
+
+  void step() override;
+  ServedRobot addRobot(RobotId robot, RobotWish wish) override;
+  void removeRobot(RobotId robot) override;
+  std::string side(RobotId robot) const override;
+  void want(RobotId robot, std::span<const SensorId> features) override;
+  std::span<Message> readings(RobotId robot) override;
+  void seek(Timestamp stamp) override;
+  void reset(std::optional<std::uint64_t> seed) override;
+
+ private:
+  struct Robot {
+    std::string name;
+    std::vector<SensorId> features;
+    bool isResident = false;
+    std::vector<SensorId> wanted = {};  ///< by clients
+  };
+  void meetResidents();
+  Robot& find(RobotId robot);
+
+  Recordings& recordings_;
+  const Config config_;
+  std::optional<std::uint64_t> version_;  ///< of the residents that it has met
+  std::map<RobotId, Robot> robots_;
+};
+
+/// RECORD of docs/protocol.md.
+/// @param world borrowed, for as long as the board that has the command
+ORTUNG_API BoardCommand recordCommand(RecordedWorld& world);
+
+}  // namespace ortung

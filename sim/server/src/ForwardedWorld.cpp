@@ -1,0 +1,7 @@
+#include "ortung/server/ForwardedWorld.hpp"
+
+namespace ortung {
+
+ForwardedWorld::~ForwardedWorld() = default;
+
+}  // namespace ortung

@@ -1,0 +1,192 @@
+#include "ortung/server/Recordings.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace ortung {
+namespace {
+
+using Kind = Recordings::State::Kind;
+
+constexpr std::size_t kLongestName = 64;
+constexpr int kMostFiles = 100'000;  // of one robot's name
+
+/// Of the name what no file system, shell or client minds.
+std::string safe(const std::string& name) {
+  std::string text = name.substr(0, kLongestName);
+  for (char& c : text) {
+    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                         (c >= '0' && c <= '9') || c == '-' || c == '_';
+    if (!isPlain) c = '_';
+  }
+  if (text.empty()) text = "robot";
+  if (text.front() == '-') text.front() = '_';  // programs take it for an option
+  return text;
+}
+
+}  // namespace
+
+Recordings::Recordings(Config config) : config_(std::move(config)) {
+  if (config_.folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(config_.folder, error);
+  if (error)
+    throw std::runtime_error(config_.folder.string() +
+                             ": can't be made a folder for records: " + error.message());
+  if (::access(config_.folder.c_str(), W_OK | X_OK) != 0)
+    throw std::runtime_error(config_.folder.string() + ": no records can be written there: " +
+                             std::generic_category().message(errno));
+}
+
+Recordings::~Recordings() { endAll(); }
+
+/// Nobody else takes a name that is there, though the file is empty.
+std::string Recordings::newFile(const std::string& name) const {
+  for (int number = 1; number <= kMostFiles; ++number) {
+    std::string file = safe(name) + "-" + std::to_string(number) + ".rec";
+    const std::filesystem::path path = config_.folder / file;
+    if (std::FILE* const made = std::fopen(path.c_str(), "wxe")) {
+      std::fclose(made);
+      return file;
+    }
+    if (errno != EEXIST)
+      throw ServeError("disk", file + " can't be made: " + std::generic_category().message(errno));
+  }
+  throw ServeError("limit", "there are " + std::to_string(kMostFiles) + " records of '" +
+                                safe(name) + "' in the server's folder");
+}
+
+void Recordings::begin(RobotId robot, const std::string& name,
+                       const std::string& worldFingerprint) {
+  if (config_.folder.empty())
+    throw ServeError("state",
+                     "the server has no folder for records; start it with --record-into FOLDER");
+  const std::lock_guard lock(mutex_);
+  if (records_[robot].writer) return;
+  const auto open = std::count_if(records_.begin(), records_.end(),
+                                  [](const auto& entry) { return entry.second.writer != nullptr; });
+  if (static_cast<std::size_t>(open) >= config_.most)
+    throw ServeError("limit",
+                     "at most " + std::to_string(config_.most) + " robots are recorded at a time");
+  const std::string file = newFile(name);
+  try {
+    auto writer = std::make_unique<RecordWriter>(config_.folder / file, worldFingerprint,
+                                                 RecordWriter::Pace::kLive);
+    records_[robot] = {std::move(writer), {Kind::kOn, file}, 0};
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(config_.folder / file, ignored);
+    throw ServeError("disk", error.what());
+  }
+}
+
+/// @throws std::runtime_error
+void Recordings::write(Record& record, std::span<const Message> readings) {
+  for (const Message& message : readings) {
+    // No reader would take what lies behind it.
+    if (record.writer->messages() > 0 && message.stamp < record.last)
+      throw std::runtime_error("the time of the readings went back, from " +
+                               std::to_string(record.last) + " to " +
+                               std::to_string(message.stamp) + " us");
+    record.writer->write(message);
+    record.last = message.stamp;
+  }
+}
+
+void Recordings::write(RobotId robot, std::span<const Message> moment,
+                       std::span<const Message> more) {
+  std::string problem;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = records_.find(robot);
+    if (moment.empty() || found == records_.end() || !found->second.writer) return;
+    Record& record = found->second;
+    try {
+      write(record, moment);
+      write(record, more);
+      record.writer->endMoment();
+      ++record.state.moments;
+      return;
+    } catch (const std::exception& error) {
+      record.state.kind = Kind::kFailed;
+      record.state.text = error.what();
+      record.writer.reset();  // what is whole stays
+      problem = "the record " + record.state.file + " has ended: " + error.what();
+    }
+  }
+  if (config_.onProblem) config_.onProblem(problem);
+}
+
+/// @returns what went wrong; "" if nothing did
+std::string Recordings::close(RobotId robot) {
+  std::unique_ptr<RecordWriter> writer;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = records_.find(robot);
+    if (found == records_.end()) return {};
+    State& state = found->second.state;
+    if (state.kind == Kind::kFailed) state = {Kind::kOff, state.file, state.moments};
+    writer = std::move(found->second.writer);
+    if (!writer) return {};
+    state.kind = Kind::kOff;
+  }
+  try {
+    writer->commit();
+    return {};
+  } catch (const std::exception& error) {
+    const std::lock_guard lock(mutex_);
+    State& state = records_[robot].state;
+    if (state.kind != Kind::kOn) {
+      state.kind = Kind::kFailed;
+      state.text = error.what();
+    }
+    return error.what();
+  }
+}
+
+void Recordings::end(RobotId robot) {
+  if (const std::string problem = close(robot); !problem.empty()) throw ServeError("disk", problem);
+}
+
+Recordings::State Recordings::state(RobotId robot) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = records_.find(robot);
+  return found == records_.end() ? State() : found->second.state;
+}
+
+void Recordings::forget(RobotId robot) {
+  const std::string problem = close(robot);
+  {
+    const std::lock_guard lock(mutex_);
+    records_.erase(robot);
+  }
+  if (!problem.empty() && config_.onProblem) config_.onProblem(problem);
+}
+
+std::vector<Recordings::State> Recordings::endAll() {
+  std::vector<RobotId> open;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [robot, record] : records_)
+      if (record.writer) open.push_back(robot);
+  }
+  std::vector<State> ended;
+  for (const RobotId robot : open) {
+    const std::string problem = close(robot);
+    if (!problem.empty() && config_.onProblem) config_.onProblem(problem);
+    ended.push_back(state(robot));
+  }
+  return ended;
+}
+
+const char* nameOf(Recordings::State::Kind kind) {
+  return kind == Kind::kOn ? "on" : kind == Kind::kOff ? "off" : "failed";
+}
+
+}  // namespace ortung
