@@ -297,6 +297,56 @@ describe("the page of a robot that is localized", () => {
   });
 });
 
+describe("the page of a server that records", () => {
+  it("begins and ends a record that can be read then", async () => {
+    const folder = mkdtempSync(join(tmpdir(), "ortung-page-"));
+    const program = await startProgram(["sim", "maps/scenes/f2000_match.toml", "--record-into", folder]);
+    const page = await openPage(browser, program.url);
+    const client = await startClient(program);
+    await robot(page, "blue2").waitFor();
+    const { number } = (await client.robots()).find(({ name }) => name === "blue2");
+    await robot(page, "blue2").focus();
+    await page.keyboard.press("Enter");
+    const one = page.getByRole("button", { name: "Record blue2" });
+    await one.click();
+    await page.getByText("blue2-1.rec", { exact: true }).waitFor();
+    assert.equal(await one.getAttribute("aria-pressed"), "true");
+    await page.locator(".said code", { hasText: `RECORD robot=${number} on` }).waitFor();
+    await client.ask("RECORD robot=all on"); // by another client
+    const all = page.getByRole("button", { name: "Record all robots", pressed: true });
+    await all.waitFor();
+    await until("something was recorded", async () => Number(await client.key(`RECORD robot=${number}`, "moments")) > 20);
+    await page.screenshot({ path: join(out, "recording.png") });
+    await all.click();
+    await page.getByRole("button", { name: "Record blue2", pressed: false }).waitFor();
+    const moments = await client.key(`RECORD robot=${number}`, "moments");
+    assert.ok(Number(moments) > 20);
+    const checked = runProgram(["check", join(folder, "blue2-1.rec")]);
+    assert.equal(checked.status, 0, checked.stderr);
+    assert.match(checked.stdout, /reference\/groundTruth\/pose/);
+    const viewed = await startProgram(["view", join(folder, "blue2-1.rec"), "--world", "maps/fields/f2000.toml"]);
+    const other = await startClient(viewed);
+    assert.equal((await other.robots()).length, 1);
+    assert.deepEqual(page.problems, []);
+    other.close();
+    client.close();
+    await page.close();
+    await viewed.stop();
+    await program.stop();
+    rmSync(folder, { recursive: true });
+  });
+
+  it("says what it must be started with", async () => {
+    const program = await startProgram(["sim", "maps/scenes/kick.toml"]);
+    const page = await openPage(browser, program.url);
+    await page.getByRole("button", { name: /^Record / }).first().click();
+    await page.getByRole("alert").filter({ hasText: "--record-into FOLDER" }).waitFor();
+    assert.deepEqual(page.problems, []);
+    await page.close();
+    await program.stop();
+  });
+});
+
 describe("the page of a record", () => {
   it("goes to any time of it, and to what happened", async () => {
     const folder = mkdtempSync(join(tmpdir(), "ortung-page-"));
