@@ -22,4 +22,4 @@ diff -rq "$folder" ../built || { echo "sim/web/built is not what sim/web/page ma
 most=153600 # bytes of gzip, without what is loaded when it is asked for
 size=$(cat ../built/index.html ../built/page.js ../built/page.css | gzip -9 | wc -c)
 ((size <= most)) || { echo "the page has $size bytes of gzip, more than $most"; exit 1; }
-ORTUNG=$2 node --test --test-reporter=spec e2e/*.test.mjs
+ORTUNG=$2 node --test --test-force-exit --test-reporter=spec e2e/*.test.mjs

@@ -17,6 +17,30 @@ after(() => browser.close());
 const robot = (page, name) => page.getByRole("img", { name: new RegExp(`^${name} at `) });
 const tab = (page, name) => page.getByRole("tab", { name });
 
+/** Nothing that axe finds fault with, in dark and in light; a picture of each. */
+async function checkAccess(page, what) {
+  for (const colorScheme of ["dark", "light"]) {
+    await page.emulateMedia({ colorScheme });
+    // Until the page has seen it: colours are of the system, not of the style sheet alone.
+    await page.waitForFunction((scheme) => document.documentElement.dataset.theme === scheme, colorScheme);
+    // Colours fade into each other.
+    await page.evaluate(() => Promise.all(document.getAnimations().map((animation) => animation.finished.catch(() => {}))));
+    // The policy of the page permits no script from elsewhere: the debugger puts it in.
+    const found = await page.evaluate(`${axe}; axe.run()`);
+    const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
+    assert.deepEqual(texts, [], `${what}, ${colorScheme}`);
+    await page.screenshot({ path: join(out, `${what}-${colorScheme}.png`) });
+  }
+}
+
+async function checkPanels(page, what) {
+  for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
+    await tab(page, panel).click();
+    await page.waitForFunction(() => document.querySelector("#panel .block"));
+    await checkAccess(page, `${what}-${panel}`);
+  }
+}
+
 describe("the page of a match", () => {
   let program;
   let client;
@@ -141,25 +165,13 @@ describe("the page of a match", () => {
     await page.close();
   });
 
-  // Each of the colours and each of the sizes.
-  for (const [scheme, name, width, height] of [["dark", "desktop", 1280, 720], ["light", "tablet", 820, 1180]]) {
-    it(`has no findings of axe: ${scheme}, ${name}`, async () => {
-      const page = await openPage(browser, program.url, { viewport: { width, height }, colorScheme: scheme });
+  for (const [name, width, height] of [["desktop", 1280, 720], ["tablet", 820, 1180]]) {
+    it(`has no findings of axe: ${name}`, async () => {
+      const page = await openPage(browser, program.url, { viewport: { width, height } });
       await robot(page, "blue2").waitFor();
       await robot(page, "blue2").focus();
       await page.keyboard.press("Enter");
-      const check = async (what) => {
-        // The policy of the page permits no script from elsewhere: the debugger puts it in.
-        const found = await page.evaluate(`${axe}; axe.run()`);
-        const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
-        assert.deepEqual(texts, [], what);
-        await page.screenshot({ path: join(out, `${scheme}-${name}-${what}.png`) });
-      };
-      for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
-        await tab(page, panel).click();
-        await page.waitForFunction(() => document.querySelector("#panel .block"));
-        await check(panel);
-      }
+      await checkPanels(page, name);
       await page.getByText("Layers", { exact: true }).click();
       await page.keyboard.press("l");
       await page.getByText(/^\d+ options$/).click();
@@ -167,14 +179,74 @@ describe("the page of a match", () => {
       await page.locator(".features summary").first().click();
       await page.getByRole("button", { name: "Curve of x" }).click();
       await page.locator(".chart canvas").waitFor();
-      await check("open");
+      await checkAccess(page, `${name}-open`);
       await page.keyboard.press("?");
       await page.getByRole("dialog").waitFor();
-      await check("help");
+      await checkAccess(page, `${name}-help`);
       assert.deepEqual(page.problems, []);
       await page.close();
     });
   }
+
+  it("has panels that are as wide as the user makes them, and stay so", async () => {
+    const page = await openPage(browser, program.url);
+    const edge = page.getByRole("separator", { name: "Width of the panels" });
+    const side = page.getByRole("complementary", { name: "Panels" });
+    const { x, y, width, height } = await edge.boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x - 100, y + height / 2);
+    await page.mouse.up();
+    await until("they are wider", async () => Math.abs((await side.boundingBox()).width - 476) < 4);
+    const before = Number(await edge.getAttribute("aria-valuenow"));
+    await edge.focus();
+    await page.keyboard.press("ArrowLeft");
+    await page.reload();
+    await until("they are as before", async () => Math.round((await side.boundingBox()).width) === before + 20);
+    await edge.dblclick();
+    await until("they are as usual", async () => Math.round((await side.boundingBox()).width) === 372);
+    await page.close();
+  });
+
+  it("is steered by two fingers, by a gamepad, and turns a robot", async () => {
+    await client.ask("PAUSE");
+    await client.ask("PLACE robot=3 x_m=-4 y_m=3.5 theta_deg=0");
+    await client.ask("STEP");
+    const page = await openPage(browser, `${program.url}&robot=3`, { hasTouch: true });
+    await until("the robot is shown at its place", async () => /at -4.0, 3.5/.test(await robot(page, "blue3").getAttribute("aria-label")));
+    const from = await onScreen(page, -4, 3.5);
+    const below = await onScreen(page, -4, 2.5);
+    await page.keyboard.down("Alt");
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(below.x, below.y, { steps: 3 });
+    await page.mouse.up();
+    await page.keyboard.up("Alt");
+    await page.getByText(/^PLACE robot=3 x_m=-4\S* y_m=3\.\S* theta_deg=-(89\.|90)/).first().waitFor();
+    const scale = () => page.locator(".over > g").first().evaluate((group) => Number(/matrix\((\S+)/.exec(group.getAttribute("transform"))[1]));
+    const before = await scale();
+    const debug = await page.context().newCDPSession(page);
+    const { x, y } = await onScreen(page, 1, -2);
+    const touch = (type, apart) => {
+      const touchPoints = apart ? [{ x: x - apart, y, id: 0 }, { x: x + apart, y, id: 1 }] : [];
+      return debug.send("Input.dispatchTouchEvent", { type, touchPoints });
+    };
+    await touch("touchStart", 40);
+    for (const apart of [55, 70, 80]) await touch("touchMove", apart);
+    await touch("touchEnd", 0);
+    await until("the field is twice as large", async () => Math.abs((await scale()) / before - 2) < 0.01);
+    await page.evaluate(() => {
+      window.pad = { id: "pad of a test", connected: true, axes: [0, -1, 0, 0], buttons: [] };
+      navigator.getGamepads = () => [window.pad];
+    });
+    await page.keyboard.press("d");
+    await page.getByText(/gamepad: pad of a test/).waitFor();
+    await page.getByText(/^VELOCITY v_m_s=0\.\d+ w_rad_s=0 robot=3/).first().waitFor();
+    await page.keyboard.press("Escape");
+    await page.getByText(/^VELOCITY v_m_s=0 w_rad_s=0 robot=3/).first().waitFor();
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
 
   it("shows the same in three dimensions", async () => {
     const page = await openPage(browser, program.url);
@@ -275,7 +347,10 @@ describe("the page of a robot that is localized", () => {
     await client.ask("PAUSE");
     await client.ask("PLACE robot=1 x_m=-2.5 y_m=1.5 theta_deg=30");
     await client.ask("STEP cycles=20");
+    const first = page.waitForEvent("websocket");
     await page.getByLabel("on the field").check();
+    // Maps come over a connection of their own, so that nothing waits behind them.
+    await (await first).waitForEvent("framesent", { predicate: ({ payload }) => /HEATMAP/.test(String(payload)) });
     const truth = await client.pose(1);
     await until("the map is brightest where the robot is", async () => {
       const text = await page.getByText(/^brightest at/).textContent();
@@ -289,7 +364,7 @@ describe("the page of a robot that is localized", () => {
     await page.getByRole("heading", { name: /^Why / }).waitFor();
     await page.getByRole("button", { name: /180DegreeScan/ }).click();
     await page.getByRole("columnheader", { name: "expected" }).waitFor();
-    await page.screenshot({ path: join(out, "map.png") });
+    await checkAccess(page, "map");
     assert.deepEqual(page.problems, []);
     client.close();
     await page.close();
@@ -369,7 +444,7 @@ describe("the page of a record", () => {
       const [a, b] = /at (\S+), (\S+)$/.exec(label).slice(1).map(Number);
       return Math.hypot(a - x, b - y) < 0.12;
     });
-    await page.screenshot({ path: join(out, "record.png") });
+    await checkPanels(page, "record");
     assert.deepEqual(page.problems, []);
     client.close();
     await page.close();

@@ -1,5 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import { FieldView } from "../field/FieldView";
+import { Divider } from "../panels/Divider";
 import { GamePanel } from "../panels/Game";
 import { Help } from "../panels/Help";
 import { LocalizationPanel } from "../panels/Localization";
@@ -29,11 +30,12 @@ export function App() {
       <TopBar />
       <LinkNote />
       <TokenNote />
-      <main class="work">
+      <main class="work" style={{ "--side": `${ui.sideWidth}px`, "--field": `${ui.fieldHeight}%` }}>
         <section class="stage" aria-label="Field">
           <FieldView />
           {board.world && board.world.kind === "record" && <TimeLine />}
         </section>
+        <Divider />
         <aside class="side" aria-label="Panels">
           <div class="tabs" role="tablist" aria-label="Panels" onKeyDown={turn}>
             {kPanels.map((name) => (

@@ -3,6 +3,7 @@ import { toFragment } from "../link/address";
 import type { Heat } from "../field/HeatLayer";
 import { kLayers, kLayerNames, type Layers } from "../field/layers";
 import type { Expected } from "../field/rays";
+import { kept as sizeOf, kFieldHeight, kSideWidth } from "./sizes";
 import type { Point } from "../model/geometry";
 
 export type Theme = "auto" | "light" | "dark";
@@ -10,6 +11,7 @@ export const kPanels = ["robots", "sensors", "localization", "game"] as const;
 export type Panel = (typeof kPanels)[number];
 export type Tool = "look" | "measure";
 
+const kPrefersDark = matchMedia("(prefers-color-scheme: dark)");
 const kStore = "ortung.view";
 
 interface Kept {
@@ -17,6 +19,8 @@ interface Kept {
   panel: Panel;
   layers: Layers;
   isLogOpen: boolean;
+  sideWidth: number;
+  fieldHeight: number;
 }
 
 /** How the user wants to see things. Kept in the browser; the address has what others can be sent. */
@@ -25,6 +29,9 @@ export class Ui {
   panel: Panel = "robots";
   layers = Object.fromEntries(kLayerNames.map((name) => [name, kLayers[name].on])) as unknown as Layers;
   isLogOpen = false;
+  /** Of the panels beside the field [pixels], of the field above them on narrow screens [percent]. */
+  sideWidth = kSideWidth.usual;
+  fieldHeight = kFieldHeight.usual;
   isHelpOpen = false;
   is3d = false;
   follow = false;
@@ -42,6 +49,8 @@ export class Ui {
     if (kPanels.includes(address.panel as Panel)) this.panel = address.panel as Panel;
     this.follow = address.follow;
     this.showTheme();
+    // The system's colours may change while the page is open, at dusk for example.
+    kPrefersDark.addEventListener("change", () => this.change({}));
   }
 
   onChange(listener: () => void): () => void {
@@ -73,7 +82,7 @@ export class Ui {
 
   get isDark(): boolean {
     if (this.theme !== "auto") return this.theme === "dark";
-    return matchMedia("(prefers-color-scheme: dark)").matches;
+    return kPrefersDark.matches;
   }
 
   private showTheme(): void {
@@ -86,6 +95,8 @@ export class Ui {
       if (kept.theme === "light" || kept.theme === "dark") this.theme = kept.theme;
       if (kept.panel && kPanels.includes(kept.panel)) this.panel = kept.panel;
       this.isLogOpen = kept.isLogOpen === true;
+      this.sideWidth = sizeOf(kept.sideWidth, kSideWidth);
+      this.fieldHeight = sizeOf(kept.fieldHeight, kFieldHeight);
       for (const name of kLayerNames) {
         const on: unknown = kept.layers?.[name];
         if (typeof on === "boolean") this.layers[name] = on;
@@ -96,9 +107,9 @@ export class Ui {
   }
 
   private keep(): void {
-    const { theme, panel, layers, isLogOpen } = this;
+    const { theme, panel, layers, isLogOpen, sideWidth, fieldHeight } = this;
     try {
-      localStorage.setItem(kStore, JSON.stringify({ theme, panel, layers, isLogOpen } satisfies Kept));
+      localStorage.setItem(kStore, JSON.stringify({ theme, panel, layers, isLogOpen, sideWidth, fieldHeight } satisfies Kept));
     } catch {
       // as above
     }

@@ -13,6 +13,7 @@ const kFramesCounted = 30;
 const kSpokenPeriod = 500;
 const kMargin = 0.3;
 const kTools = 44;
+const kScale = 14;
 
 /** Draws the field when something on it is new, at most once a frame of the screen. */
 export class FieldPainter {
@@ -82,7 +83,7 @@ export class FieldPainter {
     const { world } = this.context.session.board;
     const { ui } = this.context;
     if (ui.follow) ui.change({ follow: false });
-    if (world) this.view.fit(world.min, world.max, kMargin, kTools);
+    if (world) this.view.fit(world.min, world.max, kMargin, kTools, kScale);
     this.dirty();
   }
 
@@ -135,7 +136,7 @@ export class FieldPainter {
       view.y = robot.pose.y;
       view.isFree = true;
     } else if (!view.isFree) {
-      view.fit(world.min, world.max, kMargin, kTools);
+      view.fit(world.min, world.max, kMargin, kTools, kScale);
     }
     this.drawFloor();
     this.heat.draw(view, ui.heat);

@@ -31,10 +31,10 @@ export class Overlay {
     const length = niceLength(view.scale, 110);
     const width = length * view.scale;
     const x = view.width - 18;
-    const y = view.height - 14;
+    const y = view.height - 7;
     set(this.scale, "d", `M${fixed(x - width, 1)} ${y - 5}v5H${x}v-5`);
-    set(this.scaleText, "x", fixed(x - width / 2, 1));
-    set(this.scaleText, "y", String(y - 5));
+    set(this.scaleText, "x", fixed(x - width - 7, 1));
+    set(this.scaleText, "y", String(y));
     this.scaleText.textContent = length >= 1 ? `${length} m` : `${fixed(length * 100, 1)} cm`;
   }
 

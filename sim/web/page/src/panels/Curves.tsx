@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import { useBoard, usePage } from "../app/context";
 import { kSafe } from "../field/palette";
 import type { Series } from "../model/History";
-import { Section } from "./parts";
+import { kLongAgo, seconds, Section } from "./parts";
 
 const kPeriod = 100;
 const kHeight = 110;
@@ -54,7 +54,7 @@ function Chart({ series, unit }: { series: Series[]; unit: string }) {
         legend: { show: false },
         cursor: { y: false, drag: { x: false, y: false } },
         axes: [
-          { ...axis, size: 22, values: (_, ticks) => ticks.map((t) => `${t} s`) },
+          { ...axis, size: 22, values: (_, ticks) => ticks.map(timeOf) },
           { ...axis, size: 46, values: (_, ticks) => ticks.map((t) => String(Number(t.toPrecision(4)))) },
         ],
         series: [{}, ...series.map(({ label }, i) => ({ label, stroke: kSafe[i % kSafe.length]!, width: 1.5, points: { show: false } }))],
@@ -92,6 +92,9 @@ function Chart({ series, unit }: { series: Series[]; unit: string }) {
     </figure>
   );
 }
+
+/** Of a robot's own clock, which counts from 1970, the time of day. */
+const timeOf = (time: number): string => (time < kLongAgo ? `${time} s` : seconds(time * 1e6));
 
 /** One axis of time for all: where a series has no value it has a gap that is drawn over. */
 function joined(series: Series[]): uPlot.AlignedData {

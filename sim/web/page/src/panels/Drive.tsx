@@ -93,9 +93,10 @@ function gamepad(): { id: string; v: number; w: number } | null {
   return { id: pad.id, v: axis(pad.axes[1]), w: axis(pad.axes[2] ?? pad.axes[0]) };
 }
 
-/** Says a velocity when it has changed, and not before the last one was answered. */
+/** Says a velocity when it has changed, and not before the last one was answered; the last one is always said. */
 class Sender {
   private said = "";
+  private wanted = "";
   private isBusy = false;
 
   constructor(
@@ -104,14 +105,18 @@ class Sender {
   ) {}
 
   want(v: number, w: number): void {
-    const line = `VELOCITY v_m_s=${plain(v)} w_rad_s=${plain(w)} robot=${this.robot.number}`;
-    const rests = v === 0 && w === 0 && this.said === "";
-    if (line === this.said || rests) return;
+    if (v === 0 && w === 0 && this.said === "") return; // it was never told to move
+    this.wanted = `VELOCITY v_m_s=${plain(v)} w_rad_s=${plain(w)} robot=${this.robot.number}`;
+    void this.say();
+  }
+
+  private async say(): Promise<void> {
     if (this.isBusy) return;
-    this.said = line;
     this.isBusy = true;
-    void this.session.act(line, "drive").then(() => {
-      this.isBusy = false;
-    });
+    while (this.said !== this.wanted) {
+      this.said = this.wanted;
+      await this.session.act(this.said, "drive");
+    }
+    this.isBusy = false;
   }
 }

@@ -12,8 +12,8 @@ const kNext: Record<Theme, Theme> = { auto: "light", light: "dark", dark: "auto"
 export function TopBar() {
   const board = useBoard(100);
   const { ui } = usePage();
-  const scores = board.kind === "record" ? [] : scoresOf(board.game);
   const isLive = board.kind === "robot";
+  const scores = isLive || board.kind === "record" ? [] : scoresOf(board.game);
   return (
     <header class="top">
       <h1>

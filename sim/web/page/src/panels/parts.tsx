@@ -58,10 +58,20 @@ export function Section({ title, children }: { title: string; children: Componen
   );
 }
 
+/** From here on a time can't be one since a start [s]: it is since 1970. */
+export const kLongAgo = 1e8;
+
+/** Minutes and seconds since the start, or the time of day. @param stamp [us] */
 export const seconds = (stamp: number): string => {
   const s = stamp / 1e6;
+  if (s > kLongAgo) return timeOfDay(new Date(s * 1000));
   const minutes = Math.floor(s / 60);
   return `${minutes}:${(s - 60 * minutes).toFixed(1).padStart(4, "0")}`;
 };
+
+function timeOfDay(date: Date): string {
+  const parts = [date.getHours(), date.getMinutes(), date.getSeconds()].map((part) => String(part).padStart(2, "0"));
+  return parts.join(":");
+}
 
 export const shortName = (feature: string): string => feature.split("/").slice(1).join("/");
