@@ -1,6 +1,7 @@
 // A simulation whose robots are localized for clients of its message board.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "LocalizedArena.hpp"
@@ -122,6 +123,25 @@ TEST(LocalizedWorld, AResetBeginsAnewAndPlayersComeAndGo) {
   served.client.ask("NEXT none/*/* cycles=1");
   EXPECT_TRUE(served.client.ask("LOCALIZE robot=2").starts_with("ERR no-robot"));
   EXPECT_TRUE(served.client.ask("HEATMAP robot=2").starts_with("ERR state"));
+}
+
+TEST(LocalizedWorld, TellsWhatFiltersFinishWhileTheWorldStands) {
+  ServedArena served({"scout"});
+  TestClient& client = served.client;
+  served.await("running");
+  client.ask("NEXT cycles=40 none/*/*");
+  client.ask("PAUSE");
+  // The newest scan was taken before the world stood; its estimate was not there yet.
+  const auto stampOf = [&](const std::string& query) {
+    const std::vector<std::string> read = served.lines("READ " + query + " robot=1");
+    return read.size() == 1 ? parseLine(read.front())->stamp : -1;
+  };
+  const Timestamp scan = stampOf("*/LRF/*");
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  Timestamp estimate = -1;
+  while (estimate < scan && std::chrono::steady_clock::now() < end)
+    estimate = stampOf("mcl/LOCALIZATION/pose");
+  EXPECT_GE(estimate, scan);
 }
 
 TEST(LocalizedWorld, NamesThatNobodyHasAreRefused) {

@@ -1,7 +1,9 @@
 // Players of a served world: clients start, list and stop them, and see their robots come and go.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "Files.hpp"
 #include "RunningBoard.hpp"
@@ -95,7 +97,31 @@ TEST(ServedPlayers, SayWhatTheyCanDo) {
                      "default: 1.5"));
   EXPECT_TRUE(lines.contains("option learner out unit=file the table file; must be given"));
   EXPECT_EQ(client.ask("DESCRIBE player"),
-            "ERR syntax DESCRIBE knows world, field, robot and players");
+            "ERR syntax DESCRIBE knows world, field, robot, robots and players");
+}
+
+TEST(ServedPlayers, PlayOnShippedRobotsByTheirNames) {
+  ServedSimulation world(kField, {.noise = false});
+  const RunningBoard board(world, withPlayers(world));
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1 name=anna");
+  std::set<std::string> names;
+  for (int left = std::stoi(valueOf(client.ask("DESCRIBE robots"), "lines")); left > 0; --left) {
+    std::istringstream line(client.line());
+    std::string kind;
+    std::string name;
+    line >> kind >> name;
+    EXPECT_EQ(kind, "robot");
+    names.insert(name);
+  }
+  std::set<std::string> files;
+  for (const auto& file : std::filesystem::directory_iterator(ORTUNG_SOURCE_DIR "/maps/robots"))
+    files.insert(file.path().stem().string());
+  EXPECT_EQ(names, files);
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer name=one"), "OK PLAY robot=one");
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml name=two"), "OK PLAY robot=two");
+  EXPECT_TRUE(client.ask("PLAY wander robot=nothing").starts_with("ERR configuration"));
+  EXPECT_TRUE(client.ask("PLAY wander robot=../robots/pioneer").starts_with("ERR argument"));
 }
 
 TEST(ServedPlayers, AReferee) {

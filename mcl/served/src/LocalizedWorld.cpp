@@ -184,6 +184,13 @@ std::span<Message> LocalizedWorld::readings(RobotId robot) {
   return frame_;
 }
 
+std::vector<Message> LocalizedWorld::lateReadings(RobotId robot) {
+  std::vector<Message> late = world().lateReadings(robot);
+  const auto found = filters_.find(robot);
+  if (found != filters_.end() && found->second.thread) found->second.thread->takePublished(late);
+  return late;
+}
+
 void LocalizedWorld::reset(std::optional<std::uint64_t> seed) {
   world().reset(seed);
   restartFilters();

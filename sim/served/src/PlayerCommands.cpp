@@ -1,8 +1,7 @@
 #include "ortung/served/PlayerCommands.hpp"
 
-#include <charconv>
-
 #include "ortung/base/Time.hpp"
+#include "ortung/server/CallArguments.hpp"
 #include "ortung/sim/PlayerWish.hpp"
 
 namespace ortung {
@@ -30,21 +29,12 @@ PlayerWish wishOf(ServedSimulation& simulation, const BoardCommand::Call& call) 
       team = "@" + value;
       continue;
     }
-    text += mark + key + "=" + value;
+    // Shipped robots are known by their names (DESCRIBE robots), with or without the file's ending.
+    const bool isName = key == "robot" && !value.empty() && !value.ends_with(".toml");
+    text += mark + key + "=" + value + (isName ? ".toml" : "");
     mark = '&';
   }
   return parsePlayer(text + team);
-}
-
-std::uint64_t sinceOf(const BoardCommand::Call& call) {
-  std::uint64_t since = 0;
-  for (const auto& [key, value] : call.keys) {
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), since);
-    if (key != "since" || error != std::errc() || end != value.data() + value.size())
-      throw ServeError("argument", "EVENTS has '" + key + "=" + value +
-                                       "', expected since=N, a number that it gave before");
-  }
-  return since;
 }
 
 BoardCommand::Reply eventsSince(const ServedSimulation& simulation, std::uint64_t since) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "OutlineText.hpp"
+#include "ShippedRobots.hpp"
 #include "Truth.hpp"
 #include "ortung/motion/MotionModel.hpp"
 #include "ortung/server/FieldText.hpp"
@@ -138,6 +139,8 @@ void ServedSimulation::dropLeavers() {
   });
   if (gone > 0) ++version_;
 }
+
+std::vector<std::string> ServedSimulation::robotKinds() const { return shippedRobots(); }
 
 Timestamp ServedSimulation::now() const {
   return simulation().now() + (isMovePending_ ? fromSeconds(simulation().cycle()) : 0);

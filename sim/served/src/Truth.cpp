@@ -46,9 +46,8 @@ std::span<Message> Truth::look(const Simulation& simulation,
   for (const auto& robot : simulation.robots()) {
     const auto number = numbers.find(robot->state().number);
     if (number == numbers.end()) continue;
-    const std::vector<std::uint32_t> pose = PoseData::encode(robot->state().pose);
-    robots.insert(robots.end(), {number->second, pose[0], pose[1],
-                                 headingWord(robot->state().pose.theta), statesOf(*robot)});
+    const auto words = robotWords(number->second, robot->state().pose, statesOf(*robot));
+    robots.insert(robots.end(), words.begin(), words.end());
   }
   auto& objects = readings_[1].words;
   for (const Simulation::Thing& thing : simulation.things()) {

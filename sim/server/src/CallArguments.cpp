@@ -1,6 +1,9 @@
 #include "ortung/server/CallArguments.hpp"
 
+#include <charconv>
+
 #include "Request.hpp"
+#include "ortung/server/ServedWorld.hpp"
 
 namespace ortung {
 namespace {
@@ -36,5 +39,16 @@ std::optional<std::int64_t> CallArguments::takeInteger(std::string_view key, std
 std::optional<Pose2> CallArguments::takePose() { return request_->takePose(); }
 
 void CallArguments::refuseRest() const { request_->refuseRest(); }
+
+std::uint64_t sinceOf(const BoardCommand::Call& call) {
+  std::uint64_t since = 0;
+  for (const auto& [key, value] : call.keys) {
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), since);
+    if (key != "since" || error != std::errc() || end != value.data() + value.size())
+      throw ServeError("argument", "EVENTS has '" + key + "=" + value +
+                                       "', expected since=N, a number that it gave before");
+  }
+  return since;
+}
 
 }  // namespace ortung

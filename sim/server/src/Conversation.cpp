@@ -33,7 +33,7 @@ const std::vector<Conversation::Command>& Conversation::commands() {
       {"TIME", all, &C::time, "the clock of the stamps when this came and when the reply left"},
       {"STATUS", all, &C::status, "how the world is doing"},
       {"LIST", all, &C::list, "worlds|plugins|clients|robots"},
-      {"DESCRIBE", all, &C::describe, "world|field|robot|players [robot=N]"},
+      {"DESCRIBE", all, &C::describe, "world|field|robot|robots|players [robot=N]"},
       {"CREATE", player, &C::create,
        "NAME [x_m=X y_m=Y theta_deg=T] [drive=wander], then a robot file, then a line with a dot"},
       {"REMOVE", player, &C::remove, "[robot=N]"},

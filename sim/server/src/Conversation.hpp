@@ -170,7 +170,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void describe(Request& request);
   void describeWorld(const std::string& tag);
   void describeField(const std::string& tag);
-  void describePlayers(const std::string& tag);
+  void describeKinds(const std::string& tag, const std::vector<std::string>& kinds);
   void say(Request& request);
   void tellTeam(Request& request);
   void hearTeam(Request& request);

@@ -12,7 +12,6 @@ using Reply = std::optional<std::string>;
 
 constexpr std::int64_t kMostGoals = 999;
 constexpr double kLastRobot = 0xFFFFFFFF;
-constexpr std::size_t kLongestHelp = 1000;
 constexpr const char* kWrongToken = "ERR token it is missing or wrong";
 
 void addLine(std::string& lines, std::size_t& count, const std::string& line) {
@@ -183,15 +182,17 @@ void Conversation::list(Request& request) {
 }
 
 void Conversation::describe(Request& request) {
-  const std::string what = request.takeWord("world, field, robot or players");
-  if (what == "world" || what == "field" || what == "players") {
+  const std::string what = request.takeWord("world, field, robot, robots or players");
+  if (what == "world" || what == "field" || what == "players" || what == "robots") {
     request.refuseRest();
     if (what == "world") describeWorld(request.tag());
     if (what == "field") describeField(request.tag());
-    if (what == "players") describePlayers(request.tag());
+    if (what == "players") describeKinds(request.tag(), host_.players);
+    if (what == "robots") describeKinds(request.tag(), host_.robotKinds);
     return;
   }
-  if (what != "robot") throw ServeError("syntax", "DESCRIBE knows world, field, robot and players");
+  if (what != "robot")
+    throw ServeError("syntax", "DESCRIBE knows world, field, robot, robots and players");
   const RobotId robot = takeRobot(request, true);
   request.refuseRest();
   auto lines = std::make_shared<std::string>();
@@ -227,7 +228,7 @@ void Conversation::describeField(const std::string& tag) {
       [lines](WorldKeeper& keeper, WorldKeeper::Done&) {
         std::size_t count = 0;
         for (const std::string& line : keeper.world().field())
-          addLine(*lines, count, printable(line, kLongestHelp));
+          addLine(*lines, count, printable(line, kLongestDescription));
         return Reply("OK DESCRIBE lines=" + std::to_string(count));
       },
       [lines](Conversation& self, const std::string& itsTag, const std::string& text) {
@@ -235,11 +236,10 @@ void Conversation::describeField(const std::string& tag) {
       });
 }
 
-void Conversation::describePlayers(const std::string& tag) {
+void Conversation::describeKinds(const std::string& tag, const std::vector<std::string>& kinds) {
   std::string lines;
   std::size_t count = 0;
-  for (const std::string& line : host_.players)
-    addLine(lines, count, printable(line, kLongestHelp));
+  for (const std::string& line : kinds) addLine(lines, count, printable(line, kLongestDescription));
   const std::string head =
       count == 0 ? "OK DESCRIBE" : "OK DESCRIBE lines=" + std::to_string(count);
   answer(tag, [tag, lines, head](Conversation& self) { self.reply(tag, head, lines); });

@@ -5,11 +5,10 @@
 namespace ortung {
 namespace {
 
+using server::kLongestDescription;
 using server::oneWord;
 using server::printable;
 using server::shown;
-
-constexpr std::size_t kLongestHelp = 1000;
 
 std::string objectText(const ServedObject& object) {
   return "object=" + object.name + " kind=" + oneWord(object.kind) +
@@ -36,11 +35,12 @@ std::vector<std::string> robotText(std::span<const ServedFeature> features,
                                    std::span<const std::string> abilities) {
   std::vector<std::string> lines;
   for (const ServedFeature& feature : features)
-    lines.push_back(toText(feature.id) + " " + printable(feature.wordsHelp, kLongestHelp));
+    lines.push_back(toText(feature.id) + " " + printable(feature.wordsHelp, kLongestDescription));
   for (const ServedFeature& feature : features)
     lines.push_back("mount " + toText(feature.id) + " x_m=" + shown(feature.mount.x) +
                     " y_m=" + shown(feature.mount.y) + " theta_rad=" + shown(feature.mount.theta));
-  for (const std::string& ability : abilities) lines.push_back(printable(ability, kLongestHelp));
+  for (const std::string& ability : abilities)
+    lines.push_back(printable(ability, kLongestDescription));
   return lines;
 }
 

@@ -26,6 +26,7 @@ Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worl
       description(world.describe()),
       plugins(world.plugins()),
       players(world.players()),
+      robotKinds(world.robotKinds()),
       liveRobot(liveRobotOf(world)),
       keeper(worldKeeper),
       door(config),

@@ -69,8 +69,9 @@ class Host {
   const BoardConfig config;
   const WorldDescription description;
   const std::vector<std::string> plugins;
-  const std::vector<std::string> players;  ///< as DESCRIBE gives them
-  const RobotId liveRobot;                 ///< the robot of a live world; 0: it is not live
+  const std::vector<std::string> players;     ///< as DESCRIBE gives them
+  const std::vector<std::string> robotKinds;  ///< likewise
+  const RobotId liveRobot;                    ///< the robot of a live world; 0: it is not live
   WorldKeeper& keeper;
   Doorkeeper door;
   TalkBudget talk;  ///< of all clients together

@@ -56,6 +56,9 @@ double parseNumber(std::string_view text, const std::string& what, double low, d
 /// @p text with everything that could do harm to a terminal replaced by '?'.
 std::string printable(std::string_view text, std::size_t mostCharacters = 200);
 
+/// Of a line that describes something [characters].
+constexpr std::size_t kLongestDescription = 1000;
+
 /// The same as one word: '_' for blanks.
 std::string oneWord(std::string_view text);
 

@@ -1,12 +1,11 @@
 #include "ortung/server/ServedPlayback.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 #include "PlaybackRun.hpp"
 #include "Request.hpp"
-#include "ortung/formats/PoseData.hpp"
+#include "ortung/server/CallArguments.hpp"
 
 namespace ortung {
 namespace {
@@ -118,9 +117,8 @@ std::span<Message> ServedPlayback::truth() {
     ++number;
     if (!run->truth()) continue;
     robots.stamp = std::max(robots.stamp, run->truthStamp());
-    const std::vector<std::uint32_t> pose = PoseData::encode(*run->truth());
-    robots.words.insert(robots.words.end(),
-                        {number, pose[0], pose[1], headingWord(run->truth()->theta), 0});
+    const auto words = robotWords(number, *run->truth(), 0);
+    robots.words.insert(robots.words.end(), words.begin(), words.end());
   }
   return parts_->truth;
 }
@@ -170,15 +168,9 @@ std::vector<BoardCommand> playbackCommands(const ServedPlayback& playback) {
   events.name = "EVENTS";
   events.help = "[since=N]: what happened, from number N on";
   events.handle = [&playback](const BoardCommand::Call& call) {
-    std::size_t since = 0;
-    for (const auto& [key, value] : call.keys) {
-      const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), since);
-      if (key != "since" || error != std::errc() || end != value.data() + value.size())
-        throw ServeError("argument", "EVENTS has '" + key + "=" + value + "', expected since=N");
-    }
     BoardCommand::Reply reply;
     const auto& marks = playback.marks();
-    for (std::size_t i = since; i < marks.size(); ++i)
+    for (std::size_t i = sinceOf(call); i < marks.size(); ++i)
       reply.lines.push_back(std::to_string(i) + " " + std::to_string(marks[i].stamp) + " " +
                             marks[i].text);
     reply.words = "next=" + std::to_string(marks.size());

@@ -150,6 +150,7 @@ void WorldKeeper::run(const std::function<bool()>& goesOn) {
       cycle(next);
       continue;
     }
+    if (wasBlocked_ || isPaused_) publishLate();
     std::unique_lock lock(mutex_);
     if (!turns_.empty() || isStopped_) continue;
     news_.wait_for(lock, std::chrono::microseconds(std::min(next - now, kLongestWait)));
@@ -246,6 +247,17 @@ bool WorldKeeper::publishTruth() {
   told_.assign(truth.begin(), truth.end());
   truth_->publish(truth);
   return true;
+}
+
+/// While the world stands no cycle brings what is still worked out.
+void WorldKeeper::publishLate() {
+  bool isNew = false;
+  for (const auto& [id, robot] : robots_) {
+    std::vector<Message> late = world_.lateReadings(id);
+    isNew = isNew || !late.empty();
+    if (!late.empty()) robot.readings->publish(late);
+  }
+  if (isNew && onCycle_) onCycle_();
 }
 
 void WorldKeeper::measure(Timestamp wall) {

@@ -108,6 +108,7 @@ class WorldKeeper {
   void cycle(Timestamp due);
   void finishCycle();
   bool publishTruth();
+  void publishLate();
   void measure(Timestamp wall);
   void fail(const std::string& why);
   bool isLive() const { return livePeriod_ > 0; }

@@ -48,6 +48,7 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
   std::vector<Resident> residents() const override;
   void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
+  std::vector<Message> lateReadings(RobotId robot) override;
   void seek(Timestamp stamp) override;
   void reset(std::optional<std::uint64_t> seed) override;
 

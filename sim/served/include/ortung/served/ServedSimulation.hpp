@@ -31,6 +31,7 @@ class ORTUNG_API ServedSimulation : public ServedWorld {
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return plugins_; }
   std::vector<std::string> players() const override { return playersHelp_; }
+  std::vector<std::string> robotKinds() const override;
   Timestamp now() const override;
   void step() override;
   std::vector<std::string> field() const override;

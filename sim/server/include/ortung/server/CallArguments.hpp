@@ -41,4 +41,7 @@ class ORTUNG_API CallArguments {
   std::unique_ptr<server::Request> request_;
 };
 
+/// The number behind `since=` of EVENTS, 0 if it is not there. @throws ServeError for anything else
+ORTUNG_API std::uint64_t sinceOf(const BoardCommand::Call& call);
+
 }  // namespace ortung

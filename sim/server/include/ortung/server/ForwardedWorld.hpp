@@ -22,6 +22,7 @@ class ORTUNG_API ForwardedWorld : public ServedWorld {
   WorldDescription describe() const override { return world_.describe(); }
   std::vector<std::string> plugins() const override { return world_.plugins(); }
   std::vector<std::string> players() const override { return world_.players(); }
+  std::vector<std::string> robotKinds() const override { return world_.robotKinds(); }
   Timestamp now() const override { return world_.now(); }
   Timestamp livePeriod() const override { return world_.livePeriod(); }
   bool isReady() const override { return world_.isReady(); }
@@ -44,6 +45,7 @@ class ORTUNG_API ForwardedWorld : public ServedWorld {
     world_.want(robot, features);
   }
   std::span<Message> readings(RobotId robot) override { return world_.readings(robot); }
+  std::vector<Message> lateReadings(RobotId robot) override { return world_.lateReadings(robot); }
   RobotCommands& commands(RobotId robot) override { return world_.commands(robot); }
   void tell(RobotId robot, std::string_view text) override { world_.tell(robot, text); }
   std::vector<ServedTalk> takeHeard(RobotId robot) override { return world_.takeHeard(robot); }

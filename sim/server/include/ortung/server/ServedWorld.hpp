@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -109,6 +110,8 @@ class ORTUNG_API ServedWorld {
   /// Players that may be started here, a line each, and behind it one for each of their options
   /// (docs/protocol.md).
   virtual std::vector<std::string> players() const { return {}; }
+  /// Robots that players may be given by name, a line "robot NAME TEXT" each.
+  virtual std::vector<std::string> robotKinds() const { return {}; }
   /// Stamp of the readings that the next step gives; if it is live, the time of its clock.
   virtual Timestamp now() const = 0;
   /// How long the board waits between two steps of a world whose time goes on whatever the board
@@ -149,6 +152,10 @@ class ORTUNG_API ServedWorld {
   /// Called once a cycle, by who may take words away.
   virtual std::span<Message> readings(RobotId robot) = 0;
 
+  /// What has come of a robot since readings() was asked, though no cycle has passed since: of
+  /// features that somebody else works out. Asked several times a second while the world stands.
+  virtual std::vector<Message> lateReadings(RobotId) { return {}; }
+
   /// Through which a robot is commanded; valid until the next call of anything.
   virtual RobotCommands& commands(RobotId robot) = 0;
 
@@ -171,6 +178,11 @@ class ORTUNG_API ServedWorld {
 
 /// As in readings of robot 0: [1/100 degree], in [0, 36000).
 ORTUNG_API std::uint32_t headingWord(double radians);
+
+/// A robot's words of `world/truth/robots` of robot 0: number, x, y, heading, and the states of its
+/// manipulators, four bits each.
+ORTUNG_API std::array<std::uint32_t, 5> robotWords(RobotId robot, const Pose2& poseInField,
+                                                   std::uint32_t states);
 
 /// The features of a container.
 ORTUNG_API std::vector<ServedFeature> servedFeatures(const SensorContainer& container);

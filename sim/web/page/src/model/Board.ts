@@ -56,6 +56,8 @@ export class Board {
   happenings: Happening[] = [];
   nextHappening = 0;
   playerKinds: PlayerKind[] = [];
+  /** Names of the robots that ship with the program. */
+  robotKinds: string[] = [];
   playing: Playing[] = [];
 
   robots = new Map<number, Robot>();

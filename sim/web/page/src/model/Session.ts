@@ -191,6 +191,8 @@ export class Session {
     await this.follow();
     const kinds = board.kind === "simulation" ? await this.tryAsk("DESCRIBE players") : null;
     board.playerKinds = kinds ? parsePlayerKinds(kinds.lines) : [];
+    const robots = board.kind === "simulation" ? await this.tryAsk("DESCRIBE robots") : null;
+    board.robotKinds = robots?.lines.flatMap((line) => /^robot (\S+)/.exec(line)?.[1] ?? []) ?? [];
     await this.poll();
     clearInterval(this.polling);
     this.polling = setInterval(() => void this.poll(), kPoll);

@@ -158,6 +158,9 @@ function StartPlayer() {
           </div>
         </details>
       )}
+      <datalist id="robot-kinds">
+        {board.robotKinds.map((one) => <option key={one} value={one} />)}
+      </datalist>
       <div class="row">
         <button type="submit" disabled={!board.isOperator} class="primary">Start</button>
         <code>{line}</code>
@@ -178,7 +181,7 @@ function Option({ name, unit, text, value, set }: {
   name: string; unit: string; text: string; value: string; set(key: string, value: string): void;
 }) {
   const choices = unit.includes("|") ? unit.split("|") : null;
-  const example = name === "robot" ? "pioneer.toml" : "";
+  const example = name === "robot" ? "pioneer" : "";
   const otherwise = /default: (.*)$/.exec(text)?.[1] ?? "";
   return (
     <label title={text}>
@@ -192,7 +195,7 @@ function Option({ name, unit, text, value, set }: {
           {choices.map((one) => <option key={one} value={one}>{one}</option>)}
         </select>
       ) : (
-        <input value={value} placeholder={otherwise || example} onInput={(event) => set(name, event.currentTarget.value)} />
+        <input value={value} list={name === "robot" ? "robot-kinds" : undefined} placeholder={otherwise || example} onInput={(event) => set(name, event.currentTarget.value)} />
       )}
     </label>
   );
