@@ -15,7 +15,8 @@ bool isPlain(std::string_view name) {
          std::all_of(
              name.begin(), name.end(),
              [](unsigned char c) {
-               return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-';
+               return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-' || c == '(' ||
+                      c == ')' || c == ',';
              });
 }
 
@@ -42,7 +43,8 @@ void read(const std::string& text) {
   static PluginFactory factory({ORTUNG_PLUGINS_DIR});
   const SourceText parsed = parseSourceText(text);
   // Others read no logs: rawlog starts a program, sim and tcp wait for one.
-  if (parsed.kind != "carmen" && parsed.kind != "scanlog" && parsed.kind != "mrclam") return;
+  const std::string_view kinds[] = {"carmen", "scanlog", "mrclam", "plaza", "uwbpose", "roh"};
+  if (std::find(std::begin(kinds), std::end(kinds), parsed.kind) == std::end(kinds)) return;
   // What lies elsewhere is none of our business.
   if (parsed.path.starts_with('/') || parsed.path.find("..") != parsed.path.npos) return;
   Parameters parameters(text);

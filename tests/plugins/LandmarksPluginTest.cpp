@@ -52,9 +52,42 @@ TEST(LandmarksPlugin, RefusesWrongSettingsByName) {
   expectRefusal("landmarks", "kind = 'a/b'", {"kind", "a/b"});
   expectRefusal("landmarks", "features = 'some'", {"features", "some", "each", "list"});
   expectRefusal("landmarks", "feature = 'x'", {"feature", "kind"});
+  expectRefusal("landmarks", "range_scale = 0", {"range_scale", "0"});
   expectRefusal("landmarks", "range_sigma_m = 0", {"range_sigma_m"});
   expectRefusal("landmarks", "bearing_sigma_deg = 1000", {"bearing_sigma_deg", "1000"});
   expectRefusal("landmarks", "missed_share = -0.1", {"missed_share", "-0.1"});
+}
+
+TEST(LandmarksPlugin, MakesDistancesOrBearingsAlone) {
+  SensorRig distances("landmarks", "features = 'distances'\nidentities = [1, 2]");
+  ASSERT_EQ(distances.data.size(), 2u);
+  EXPECT_EQ(distances.data[1]->id().feature, "post2Distance");
+  SensorRig bearings("landmarks", "features = 'bearings'\nidentities = [1, 2]");
+  ASSERT_EQ(bearings.data.size(), 2u);
+  EXPECT_EQ(bearings.data[0]->id().feature, "post1Bearing");
+}
+
+TEST(LandmarksPlugin, MeasuresInSpaceAndByAScaleOfItsOwn) {
+  FakeWorld room(12.0, 8.0);
+  room.addLandmark({1, "post", 4.0, 0.0, 3.5});
+  const std::string post = "identities = [1]\npose = { z_m = 0.5 }\n";
+  const auto distance = [&](const std::string& more, std::string& key) {
+    SensorRig rig("landmarks", post + more);
+    rig.sense(room, {0.0, 0.0, 0.0});
+    key = rig.data[0]->learningKey();
+    return rig.get<ScalarData>(0).reading().value();
+  };
+  std::string floor;
+  std::string space;
+  std::string scaled;
+  EXPECT_NEAR(distance("", floor), 4.0, kMillimetre);
+  EXPECT_NEAR(distance("slant = true", space), 5.0, kMillimetre);  // 4 m, and 3 m up
+  EXPECT_NEAR(distance("range_scale = 1.1", scaled), 4.4, kMillimetre);
+  EXPECT_NE(space, floor) << "other tables";
+  EXPECT_NE(scaled, floor);
+  SensorRig list("landmarks", post + "features = 'list'\nslant = true\nrange_scale = 1.1");
+  list.sense(room, {0.0, 0.0, 0.0});
+  EXPECT_NEAR(list.get<LandmarksData>().reading().at(0).range, 5.5, kMillimetre);
 }
 
 TEST(LandmarksPlugin, SeesWhatGeometrySays) {

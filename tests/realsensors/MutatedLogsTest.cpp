@@ -67,9 +67,34 @@ Log carmen() {
             "ODOM 0.9 0.5 1.5 0 0 0 2 h 2\nFLASER 2 2 2 0.8 0.4 1.5 0.8 0.4 1.5 2 h 2\n"}}};
 }
 
+Log plaza() {
+  return {"plaza",
+          "",
+          {{"plaza1_TL.txt", "5.0 -17.5 59\n6.0 22 23.5\n"},
+           {"plaza1_DR.txt", "1 0 0\n2 0.5 0\n3 0 1.5\n"},
+           {"plaza1_TD.txt", "2.5 2.0 6.0 20.25\n1.5 2 5 10\n"},
+           {"plaza1_GT.txt", "# add 3.1 to heading\n1 2 3 0\n"}}};
+}
+
+Log uwbpose() {
+  return {
+      "uwbpose",
+      "",
+      {{"README_source.md",
+        "| Tag 0 | -0.5 | 0.25 | 0 |\n| Anchor 0 | -3 | 3 | 1.5 |\n| Anchor 1 | 3 | -3 | 1.2 |\n"},
+       {"mid_ranges.txt", "1 4 4.5\n1.5 nan 4.5\n"},
+       {"mid_gt.txt", "1 0 0 0.96 3.14\n1.5 0 0.2 0.96 3.14\n"}}};
+}
+
+Log roh() {
+  return {"roh",
+          "(X1.5,Y3.0).csv",
+          {{"(X1.5,Y3.0).csv", "152,-122.5\n-19 , 0.25\n"}, {"landmark.csv", "0, 0\r\n6, 0\r\n"}}};
+}
+
 TEST(MutatedLogs, AreReadOrRefused) {
   std::mt19937 random(20240607);
-  for (const Log& log : {mrclam(), scanlog(), carmen()}) {
+  for (const Log& log : {mrclam(), scanlog(), carmen(), plaza(), uwbpose(), roh()}) {
     int read = 0;
     for (int round = 0; round < kRounds; ++round) {
       const TemporaryFolder folder;

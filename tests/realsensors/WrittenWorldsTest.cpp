@@ -103,7 +103,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"mrclam", "utias_mrclam/ds1", "?robot=3", 1.0},
         Case{"mrclam", "utias_mrclam/ds2", "?robot=3&features=each", 1.0},
         Case{"mrclam", "utias_mrclam/ds3", "?robot=3", 1.0},
-        Case{"mrclam", "utias_mrclam/ds6", "", 1.0}),
+        Case{"mrclam", "utias_mrclam/ds6", "", 1.0}, Case{"plaza", "plaza", "", 1.0},
+        Case{"uwbpose", "uwb_planar_pose", "", 1.0},
+        Case{"roh", "roh_bearings/(X1.5,Y1.5).csv", "", 1.0}),
     nameOf);
 
 }  // namespace

@@ -8,18 +8,38 @@
 namespace ortung {
 namespace {
 
+/// A format whose distances are not those along the floor: tables hold what is read, so they depend
+/// on how.
+template <class Format>
+class Measured : public Format {
+ public:
+  Measured(const LandmarksSettings& s, const SensorId& id, const typename Format::Config& config)
+      : Format(id, s.mounting.pose, config) {
+    if (s.slant) key_ += " slant_from_m=" + std::to_string(s.mounting.z);
+    if (s.rangeScale != 1.0) key_ += " range_scale=" + std::to_string(s.rangeScale);
+  }
+  std::string learningKey() const override { return Format::learningKey() + key_; }
+
+ private:
+  std::string key_;
+};
+
 void addEach(const LandmarksSettings& s, DeviceData& data) {
   for (const std::uint32_t identity : s.identities) {
     SensorId id = s.id;
-    id.feature = s.kind + std::to_string(identity) + kDistanceEnding;
-    data.push_back(std::make_unique<ScalarData>(
-        id, s.mounting.pose,
-        ScalarData::Config{
-            .maxRange = s.maxRange, .fieldOfView = s.fieldOfView, .model = s.range}));
-    id.feature = s.kind + std::to_string(identity) + kBearingEnding;
-    data.push_back(std::make_unique<BearingData>(
-        id, s.mounting.pose,
-        BearingData::Config{.fieldOfView = s.fieldOfView, .model = s.bearing}));
+    if (s.hasDistances) {
+      id.feature = s.kind + std::to_string(identity) + kDistanceEnding;
+      data.push_back(std::make_unique<Measured<ScalarData>>(
+          s, id,
+          ScalarData::Config{
+              .maxRange = s.maxRange, .fieldOfView = s.fieldOfView, .model = s.range}));
+    }
+    if (s.hasBearings) {
+      id.feature = s.kind + std::to_string(identity) + kBearingEnding;
+      data.push_back(std::make_unique<BearingData>(
+          id, s.mounting.pose,
+          BearingData::Config{.fieldOfView = s.fieldOfView, .model = s.bearing}));
+    }
   }
 }
 
@@ -36,7 +56,7 @@ DeviceData makeLandmarks(const Parameters& p) {
   config.fieldOfView = s.fieldOfView;
   config.range = s.range;
   config.bearing = s.bearing;
-  data.push_back(std::make_unique<LandmarksData>(s.id, s.mounting.pose, config));
+  data.push_back(std::make_unique<Measured<LandmarksData>>(s, s.id, config));
   return data;
 }
 

@@ -55,7 +55,8 @@ class LandmarksSensor : public Sensor {
     if (landmark == nullptr) return std::nullopt;
     const double dx = landmark->x - sensor.x;
     const double dy = landmark->y - sensor.y;
-    const Sighting sighting{identity, std::hypot(dx, dy),
+    const double dz = settings_.slant ? landmark->z - settings_.mounting.z : 0.0;
+    const Sighting sighting{identity, settings_.rangeScale * std::hypot(dx, dy, dz),
                             wrapAngle(std::atan2(dy, dx) - sensor.theta)};
     const bool isInView =
         settings_.fieldOfView >= kTurn || std::abs(sighting.bearing) <= settings_.fieldOfView / 2.0;

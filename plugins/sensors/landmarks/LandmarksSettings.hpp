@@ -14,14 +14,18 @@ namespace ortung {
 struct LandmarksSettings {
   SensorId id;  ///< its feature only counts for a list
   Mounting mounting;
-  bool isList = false;  ///< one LandmarksData; otherwise a distance and a bearing each
-  std::string kind;     ///< of the landmarks in the world, and the beginning of features' names
+  bool isList = false;  ///< one LandmarksData; otherwise features of each landmark:
+  bool hasDistances = true;
+  bool hasBearings = true;
+  std::string kind;  ///< of the landmarks in the world, and the beginning of features' names
   std::vector<std::uint32_t> identities;
   double minRange = 0.0;         ///< [m]
   double maxRange = 20.0;        ///< [m]
   double fieldOfView = kTurn;    ///< [rad]; 2 pi: all around
   SensorModel range;             ///< [m]
   SensorModel bearing;           ///< [rad]
+  bool slant = false;            ///< distances are measured in space, not along the floor
+  double rangeScale = 1.0;       ///< what is read of a metre [m]
   double period = 0.1;           ///< [s]
   double slack = 0.3;            ///< what is this near to a landmark does not hide it [m]
   bool occlusion = true;         ///< whether obstacles hide landmarks
@@ -63,9 +67,14 @@ inline LandmarksSettings readLandmarksSettings(const Parameters& p) {
   LandmarksSettings s;
   s.kind = p.textOr("kind", "post");
   checkKind(p, s.kind);
-  s.isList = p.choiceOr("features", "each", {"each", "list"}) == "list";
+  const std::string features =
+      p.choiceOr("features", "each", {"each", "list", "distances", "bearings"});
+  s.isList = features == "list";
+  s.hasDistances = features != "bearings";
+  s.hasBearings = features != "distances";
   if (!s.isList && p.has("feature"))
-    p.fail("feature", "is given, but with features = \"each\" the names come from kind");
+    p.fail("feature",
+           "is given, but with features = \"" + features + "\" the names come from kind");
   s.id = sensorIdOf(p, {"omnivision", "camera", s.kind + "s"});
   s.mounting = readMounting(p, 0.5);
   s.identities = readIdentities(p);
@@ -74,6 +83,8 @@ inline LandmarksSettings readLandmarksSettings(const Parameters& p) {
   s.fieldOfView = radians(p.numberOr("fov_deg", 360.0, {1.0, 360.0}));
   s.range = SensorModel::read(p, "range_sigma_m", {.sigma = 0.1});
   s.bearing = SensorModel::read(p, "bearing_sigma_deg", {.sigma = radians(3.0)});
+  s.slant = p.flagOr("slant", false);
+  s.rangeScale = p.numberOr("range_scale", 1.0, {0.1, 10.0});
   s.period = readPeriod(p, 0.1);
   s.slack = p.numberOr("slack_m", 0.3, {0.0, 10.0});
   s.occlusion = p.flagOr("occlusion", true);

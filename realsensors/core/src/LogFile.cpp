@@ -18,13 +18,25 @@ constexpr std::size_t kShown = 40;  // bytes of a text that an error shows
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 void split(std::string_view line, std::vector<std::string_view>& fields) {
-  fields.clear();
   std::size_t at = 0;
   while (at < line.size()) {
     while (at < line.size() && isBlank(line[at])) ++at;
     const std::size_t begin = at;
     while (at < line.size() && !isBlank(line[at])) ++at;
     if (at > begin) fields.push_back(line.substr(begin, at - begin));
+  }
+}
+
+/// An empty field is one, too: it is no number, which whoever reads it says.
+void splitAtCommas(std::string_view line, std::vector<std::string_view>& fields) {
+  while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
+  if (line.empty()) return;
+  for (std::size_t begin = 0, end = 0; end != line.npos; begin = end + 1) {
+    end = line.find(',', begin);
+    std::string_view field = line.substr(begin, end == line.npos ? line.npos : end - begin);
+    while (!field.empty() && isBlank(field.front())) field.remove_prefix(1);
+    while (!field.empty() && isBlank(field.back())) field.remove_suffix(1);
+    fields.push_back(field);
   }
 }
 
@@ -119,6 +131,8 @@ LogFile::LogFile(const std::filesystem::path& path, std::uint64_t maxBytes) {
   stream_ = std::make_unique<Stream>(path_, maxBytes);
 }
 
+LogFile::LogFile(const std::filesystem::path& path, Commas) : LogFile(path) { hasCommas_ = true; }
+
 LogFile::~LogFile() = default;
 
 bool LogFile::nextLine() {
@@ -138,7 +152,8 @@ bool LogFile::nextLine() {
     if (line_.size() > kMaxLogLine) {
       fail("a line of more than " + std::to_string(kMaxLogLine) + " bytes", "a shorter one");
     }
-    split(line_, fields_);
+    fields_.clear();
+    hasCommas_ ? splitAtCommas(line_, fields_) : split(line_, fields_);
   } while (fields_.empty());
   return true;
 }
@@ -151,7 +166,7 @@ bool LogFile::nextRecord() {
 }
 
 bool LogFile::isComment() const {
-  return !fields_.empty() && (fields_[0][0] == '#' || fields_[0][0] == '%');
+  return !fields_.empty() && (fields_[0].starts_with('#') || fields_[0].starts_with('%'));
 }
 
 std::string_view LogFile::text(std::size_t field) const {

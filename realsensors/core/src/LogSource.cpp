@@ -68,6 +68,21 @@ Pose2 alongArc(const Pose2& pose, double v, double w, double seconds) {
   return pose * Pose2{chord * std::cos(half), chord * std::sin(half), wrapAngle(2 * half)};
 }
 
+std::vector<double> headingsOfWay(std::span<const Pose2> places, double step) {
+  std::vector<double> headings(places.size(), 0.0);
+  std::size_t begin = 0;
+  double heading = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double dx = places[i].x - places[begin].x;
+    const double dy = places[i].y - places[begin].y;
+    if (std::hypot(dx, dy) < step) continue;
+    heading = std::atan2(dy, dx);
+    for (; begin < i; ++begin) headings[begin] = heading;
+  }
+  for (; begin < places.size(); ++begin) headings[begin] = heading;
+  return headings;
+}
+
 std::string tomlNumber(double value) {
   std::array<char, 400> text{};
   const auto end =

@@ -43,6 +43,9 @@ class ORTUNG_API LogFile {
   /// Opens @p path or, if there is none, the same name with .xz or .gz behind it.
   /// @throws std::runtime_error if there is none of them
   explicit LogFile(const std::filesystem::path& path, std::uint64_t maxBytes = kMaxLogBytes);
+  enum Commas { kCommas };
+  /// A file whose fields are parted by commas, with or without blanks: numbers, nothing in quotes.
+  LogFile(const std::filesystem::path& path, Commas);
   ~LogFile();
   LogFile(const LogFile&) = delete;
   LogFile& operator=(const LogFile&) = delete;
@@ -83,6 +86,7 @@ class ORTUNG_API LogFile {
   std::string line_;
   std::vector<std::string_view> fields_;
   std::size_t lineNumber_ = 0;
+  bool hasCommas_ = false;
   bool torn_ = false;
 };
 

@@ -61,6 +61,11 @@ class ORTUNG_API PoseOdometry {
 /// @param v [m/s] @param w [rad/s] @param seconds [s]
 ORTUNG_API Pose2 alongArc(const Pose2& pose, double v, double w, double seconds);
 
+/// Directions of the way along @p places [rad], for truths that know no heading: of each the one
+/// from the last to the next of those that are @p step [m] apart. Those before the first step are 0
+/// if there is none.
+ORTUNG_API std::vector<double> headingsOfWay(std::span<const Pose2> places, double step);
+
 /// "1.5", as short as it reads back the same; always with a point, so that TOML takes it for a
 /// float.
 ORTUNG_API std::string tomlNumber(double value);
