@@ -206,6 +206,7 @@ void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weig
   keepResolution(estimate);
   momentum.follow(estimate, stamp);
   lateness.keep(samples, weights, estimate, stamp);
+  polish.follow(news, estimate);
   present = estimate;
   if (lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);
   estimate = lateness.widened(estimate, stamp);

@@ -15,6 +15,7 @@
 #include "Lateness.hpp"
 #include "Momentum.hpp"
 #include "OdometryTrust.hpp"
+#include "Polish.hpp"
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
 #include "Rivals.hpp"
@@ -52,6 +53,7 @@ struct Mcl::Impl {
   std::optional<Timestamp> lastTime;  ///< up to which the samples were moved to weigh them
   double usualInterval = 0.0;         ///< between weighings, lately at most [s]
   OdometryTrust trust;
+  Polish polish;
   Lateness lateness;
   Momentum momentum;        ///< where isBlind
   SampleSet anchor;         ///< the belief when it was weighed last, while odometry is not trusted
@@ -108,6 +110,7 @@ struct Mcl::Impl {
     recovery.forget();
     rivals.forget();
     trust.forget();
+    polish.forget();
     lateness.forgetBelief();
     momentum.forget();
     coarsest = {};

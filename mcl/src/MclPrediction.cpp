@@ -57,6 +57,7 @@ void Mcl::Impl::predict(const Pose2& odometry) {
   const double come = std::hypot(change.x, change.y);
   metres += come;
   way += come + std::abs(change.theta);
+  polish.move(*motion, change, config.seed, stream(Purpose::kMotion));
   move([&](const MovableSamples& some, std::size_t first) {
     motion->sampleMotion(some, change, config.seed, stream(Purpose::kMotion), first);
   });
@@ -88,6 +89,7 @@ void Mcl::Impl::predictBlindly(Timestamp stamp) {
   const double come = config.driftMetres * std::sqrt(seconds);  // it may have
   metres += come;
   way += come;
+  polish.forget();
   if (!waitsForStart) enlarge(samples);
   const Pose2 ahead = momentum.changeAt(stamp);
   move([&](const MovableSamples& some, std::size_t first) {
@@ -102,6 +104,7 @@ void Mcl::Impl::spread(Timestamp stamp) {
   if (seconds == 0.0 || waitsForStart) return;
   Spread both = ortung::spread(config, samples, anchor, momentum.changeAt(stamp), seconds,
                                kSpreadSamples, stream(Purpose::kSpread));
+  polish.forget();
   samples = std::move(both.samples);
   drifted = both.drifted;
   present.reset();

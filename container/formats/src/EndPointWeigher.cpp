@@ -48,7 +48,10 @@ const float* EndPointTables::logByLevel(double range) const {
 }
 
 EndPointWeigher::EndPointWeigher(std::shared_ptr<const EndPointTables> tables, const Pose2& mount)
-    : tables_(std::move(tables)), mount_(mount), floor_(tables_->floor) {}
+    : tables_(std::move(tables)),
+      mount_(mount),
+      floor_(tables_->floor),
+      fit_(tables_->surfaces, mount, tables_->model()) {}
 
 void EndPointWeigher::add(double range, double bearing) {
   const Pose2 end = mount_ * Pose2{range * std::cos(bearing), range * std::sin(bearing), 0};
@@ -56,6 +59,7 @@ void EndPointWeigher::add(double range, double bearing) {
   endY_.push_back(static_cast<float>(end.y));
   endLog_.push_back(tables_->logByLevel(range));
   ranges_.push_back(static_cast<float>(range));
+  fit_.add(range, bearing);
 }
 
 std::shared_ptr<const BlurrableWeigher> EndPointWeigher::blurred(

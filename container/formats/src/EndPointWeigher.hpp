@@ -7,8 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "SurfaceFit.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/BlurrableWeigher.hpp"
+#include "ortung/core/Polishable.hpp"
 #include "ortung/tables/EndPointField.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
@@ -19,6 +21,8 @@ struct EndPointTables {
   using LogByLevel = std::array<float, 256>;
   FieldGrid region;       ///< where the sensor may be
   EndPointField field;    ///< where points should lie
+  /// The same, finer than cells; empty: nobody learned it.
+  std::shared_ptr<SurfaceField> surfaces = std::make_shared<SurfaceField>();
   double maxRange = 1.0;  ///< of points; their sigma grows with range [m]
   float floor = 0.0F;     ///< ln p of a point that fits nowhere
 
@@ -26,6 +30,7 @@ struct EndPointTables {
   void complete(const SensorModel& model, double greatestRange);
   /// ln p by level of the field, of points at a range [m].
   const float* logByLevel(double range) const;
+  const SensorModel& model() const { return model_; }
   /// Standard deviation of where points at a range [m] are [m].
   double sigmaAt(double range) const;
   /// The same of points with noise of @p sigma [m], so many times as much.
@@ -39,7 +44,7 @@ struct EndPointTables {
 
 /// Weighs samples by points that should lie where an end-point field was marked: ends of a scan's
 /// beams, points on lines.
-class EndPointWeigher final : public BlurrableWeigher {
+class EndPointWeigher final : public BlurrableWeigher, public Polishable {
  public:
   /// @param mount of the sensor that sees the points
   EndPointWeigher(std::shared_ptr<const EndPointTables> tables, const Pose2& mount);
@@ -53,6 +58,7 @@ class EndPointWeigher final : public BlurrableWeigher {
   /// Points far from the robot, which a turn moves far, say little; of many, every n-th one stays.
   std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override;
   double nominalNanoseconds() const override;
+  Slope slopeAt(const Pose2& pose) const override { return fit_.slopeAt(pose); }
 
  private:
   /// The floor for each point where the sensor is outside of the region.
@@ -67,6 +73,7 @@ class EndPointWeigher final : public BlurrableWeigher {
   std::vector<const float*> endLog_;  ///< ln p by level, for its range
   std::vector<float> ranges_;         ///< from the sensor [m]
   float floor_;                       ///< ln p of a point that fits nowhere
+  SurfaceFit fit_;
   /// Of a blurred one, by noise in steps: endLog_ points here.
   std::map<int, EndPointTables::LogByLevel> ownLogs_;
 };

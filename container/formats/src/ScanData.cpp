@@ -57,6 +57,7 @@ ScanData::ScanData(SensorId id, const Pose2& mount, const Config& config)
       scale_(config.maxRange, config.resolution),
       rays_(std::make_shared<DirectionTable>()),
       endPoints_(std::make_shared<EndPointTables>()),
+      surfaces_(endPoints_->surfaces),
       learning_(std::make_unique<Learning>()) {
   if (config.beams < 1 || config.beams > kMostBeams || !(config.angleStep > 0.0) ||
       config.beams * config.angleStep > kTurn + config.angleStep) {
@@ -121,8 +122,11 @@ int ScanData::runLength(int directions) const {
 // --- learning ------------------------------------------------------------------------------
 
 void ScanData::startTables(const FieldRegion& region, double headingStep) {
+  surfaces_ = std::make_shared<SurfaceField>();
+  surfaces_->start(region, config_.endPointCell, 2 * config_.endPointCell);
   if (config_.perception == Perception::kEndPoints) {
     endPoints_ = std::make_shared<EndPointTables>();
+    endPoints_->surfaces = surfaces_;
     endPoints_->region = region.grid;
     endPoints_->field.start(region.grid, config_.endPointCell, 2 * config_.endPointCell);
     return;
@@ -149,14 +153,17 @@ void ScanData::learn(const Pose2& robotInField) {
     if (config_.perception == Perception::kRays) {
       const std::size_t word = std::min<std::size_t>(words[i], learning_->levelOfWord.size() - 1);
       rays_->learn(sensor.x, sensor.y, angle, learning_->levelOfWord[word]);
-    } else if (std::isfinite(range)) {
-      endPoints_->field.mark(sensor.x + range * std::cos(angle),
-                             sensor.y + range * std::sin(angle));
     }
+    if (!std::isfinite(range)) continue;
+    const double x = sensor.x + range * std::cos(angle);
+    const double y = sensor.y + range * std::sin(angle);
+    if (config_.perception == Perception::kEndPoints) endPoints_->field.mark(x, y);
+    surfaces_->mark(x, y);
   }
 }
 
 void ScanData::finishTables() {
+  surfaces_->finish();
   if (config_.perception == Perception::kRays) {
     rays_->finish();
     learning_->levelOfWord = {};
@@ -180,6 +187,7 @@ std::string ScanData::learningKey() const {
 }
 
 void ScanData::saveTables(TableWriter& file, const std::string& prefix) const {
+  surfaces_->save(file, prefix);
   if (config_.perception == Perception::kRays) {
     rays_->save(file, prefix);
   } else {
@@ -189,6 +197,8 @@ void ScanData::saveTables(TableWriter& file, const std::string& prefix) const {
 
 void ScanData::useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
                          const FieldGrid& grid) {
+  surfaces_ = std::make_shared<SurfaceField>();
+  surfaces_->load(file, prefix);
   if (config_.perception == Perception::kRays) {
     auto rays = std::make_shared<DirectionTable>();
     rays->load(file, prefix, grid, [this](int directions) { return runLength(directions); });
@@ -196,6 +206,7 @@ void ScanData::useTables(const std::shared_ptr<const TableFile>& file, const std
   } else {
     auto endPoints = std::make_shared<EndPointTables>();
     endPoints->region = grid;
+    endPoints->surfaces = surfaces_;
     endPoints->field.load(file, prefix);
     endPoints->complete(config_.model, config_.maxRange);
     endPoints_ = std::move(endPoints);

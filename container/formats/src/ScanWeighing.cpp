@@ -9,6 +9,7 @@
 #include "EndPointWeigher.hpp"
 #include "FormatTools.hpp"
 #include "ScanCost.hpp"
+#include "SurfaceFit.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/formats/ScanData.hpp"
 
@@ -53,10 +54,11 @@ struct RayPlaces {
 };
 
 /// A scan in the terms of a ray table: for each direction of the run the nearest beam.
-class RayWeigher final : public BlurrableWeigher {
+class RayWeigher final : public BlurrableWeigher, public Polishable {
  public:
   RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& mount, double firstAngle,
-             const SensorModel& model, std::size_t run, const PoseResolution& spread = {})
+             const SensorModel& model, std::size_t run, SurfaceFit fit,
+             const PoseResolution& spread = {})
       : rays_(std::move(rays)),
         mount_(mount),
         firstAngle_(static_cast<float>(firstAngle)),
@@ -64,7 +66,8 @@ class RayWeigher final : public BlurrableWeigher {
         spread_(spread),
         run_(run),
         unit_(-std::log(model.outliers) / kLargestCost),
-        nats_(static_cast<float>(-unit_ * model.exponent)) {
+        nats_(static_cast<float>(-unit_ * model.exponent)),
+        fit_(std::move(fit)) {
     const std::size_t padded = (run + kScanBlock - 1) / kScanBlock * kScanBlock;
     levels_.assign(padded, 0);
     caps_.assign(padded, 0);
@@ -88,12 +91,13 @@ class RayWeigher final : public BlurrableWeigher {
 
   std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override {
     auto other = std::make_shared<RayWeigher>(rays_, mount_, static_cast<double>(firstAngle_),
-                                              model_, run_, spread);
+                                              model_, run_, fit_, spread);
     for (const Beam& beam : beams_) other->add(beam.at, beam.range, scale_);
     other->complete();
     return other;
   }
   double nominalNanoseconds() const override { return 10.0 + 0.12 * static_cast<double>(run_); }
+  Slope slopeAt(const Pose2& pose) const override { return fit_.slopeAt(pose); }
 
  private:
   struct Beam {
@@ -131,6 +135,7 @@ class RayWeigher final : public BlurrableWeigher {
   std::vector<std::uint8_t> steps_;  ///< none: all of 1
   int shift_ = 0;
   std::array<std::uint8_t, kLevelDifferences> costs_{};
+  SurfaceFit fit_;
   std::uint32_t floorCost_ = 0;         ///< of a sample without expectation
   std::vector<double> levelsPerSigma_;  ///< by direction, where there is a beam
 };
@@ -230,8 +235,14 @@ std::shared_ptr<const Weigher> ScanData::makeWeigher() const {
 
 std::shared_ptr<const Weigher> ScanData::makeRayWeigher() const {
   const int run = runLength(rays_->directions());
+  SurfaceFit fit(surfaces_, mount(), config_.model);
+  for (int i = 0; i < config_.beams; ++i) {
+    const float range = ranges_[static_cast<std::size_t>(i)];
+    if (std::isfinite(range))
+      fit.add(static_cast<double>(range), config_.firstAngle + i * config_.angleStep);
+  }
   auto weigher = std::make_shared<RayWeigher>(rays_, mount(), config_.firstAngle, config_.model,
-                                              static_cast<std::size_t>(run));
+                                              static_cast<std::size_t>(run), std::move(fit));
   const int thin = config_.usedBeams > 0 ? std::max(1, run / config_.usedBeams) : 1;
   for (int j = 0; j < run; j += thin) {
     const double place = j * rays_->step() / config_.angleStep;

@@ -81,7 +81,10 @@ class ModelledWorld final : public SimWorld {
   const std::string& name() const override { return ground_->model.name; }
   std::string fingerprint() const override { return ground_->fingerprint; }
   FieldRegion region(double cell, const RobotSize& robot) const override {
-    return ground_->space.region(cell, robot);
+    FieldRegion region = ground_->space.region(cell, robot);
+    for (const GridBody& body : ground_->model.grids)
+      region.surfaceSigma = std::max(region.surfaceSigma, body.map.cell / std::sqrt(12.0));
+    return region;
   }
   std::span<const Landmark> landmarks() const override { return ground_->model.landmarks; }
   std::span<const FieldLine> lines() const override { return ground_->lines; }

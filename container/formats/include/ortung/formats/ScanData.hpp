@@ -15,6 +15,7 @@
 namespace ortung {
 
 struct EndPointTables;
+class SurfaceField;
 
 /// Ranges at evenly spaced bearings, counter-clockwise. Words: one [mm] a beam; 0: no valid
 /// measurement; at or above the greatest range: nothing seen.
@@ -80,6 +81,7 @@ class ORTUNG_API ScanData : public SensorData {
   RangeScale scale_;
   std::shared_ptr<DirectionTable> rays_;
   std::shared_ptr<EndPointTables> endPoints_;
+  std::shared_ptr<SurfaceField> surfaces_;  ///< beside a ray table
   std::vector<float> ranges_;
   std::unique_ptr<Learning> learning_;
 };

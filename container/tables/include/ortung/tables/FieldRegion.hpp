@@ -44,6 +44,9 @@ struct FieldRegion {
   FieldGrid grid;
   std::vector<std::uint8_t> open;       ///< centre of the cell is not inside anything solid
   std::vector<std::uint8_t> standable;  ///< the robot's body fits with its centre here
+  /// How well the world knows where its surfaces are, standard deviation: of maps that are made of
+  /// cells, what rounding to them leaves open [m].
+  double surfaceSigma = 0.0;
 
   /// @throws std::invalid_argument when sizes do not fit or nothing is standable
   ORTUNG_API void check() const;

@@ -1,0 +1,7 @@
+#include "ortung/core/Polishable.hpp"
+
+namespace ortung {
+
+Polishable::~Polishable() = default;
+
+}  // namespace ortung

@@ -1,0 +1,128 @@
+#include "SurfaceFit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ortung {
+namespace {
+
+/// Lines that beams only graze say less than their slant promises: ends lie at other heights.
+constexpr double kLeastSlant = 0.15;
+/// Scatter and likeness of so many residuals are supposed beside those that are there.
+constexpr double kSupposed = 10.0;
+constexpr double kMostAlike = 0.95;
+constexpr int kScatterSteps = 4;
+constexpr double kLeastScatter = 0.01;  ///< of the model's variance
+
+/// One residual, in standard deviations of the model.
+struct Residual {
+  double off;
+  double variance;  ///< of the model [m^2]
+  std::array<double, 3> expectation;
+  bool follows;  ///< it is of the beam beside that of the one before
+};
+
+double weightOf(const Residual& r, double variance, double outliers) {
+  const double inlier = (1.0 - outliers) * std::exp(-0.5 * r.off * r.off / variance);
+  return inlier / (inlier + outliers);
+}
+
+/// Variance of residuals that are no outliers, in variances of the model: expectation and
+/// maximization in turn, from the model's.
+double scatterOf(const std::vector<Residual>& residuals, double outliers) {
+  double variance = 1.0;
+  for (int k = 0; k < kScatterSteps; ++k) {
+    double count = kSupposed;
+    double squares = kSupposed * variance;
+    for (const Residual& r : residuals) {
+      const double weight = weightOf(r, variance, outliers);
+      count += weight;
+      squares += weight * r.off * r.off;
+    }
+    variance = std::clamp(squares / count, kLeastScatter, 1.0);
+  }
+  return variance;
+}
+
+Slope slopeOf(const std::vector<Residual>& residuals, double outliers) {
+  const double scatter = scatterOf(residuals, outliers);
+  Slope slope;
+  double products = 0.0;
+  double pairs = 1e-9;
+  double lastWeight = 0.0;
+  double last = 0.0;
+  for (const Residual& r : residuals) {
+    const double weight = weightOf(r, scatter, outliers);
+    slope.add(r.off * std::sqrt(r.variance), r.expectation, weight / (r.variance * scatter));
+    if (r.follows) {
+      const double both = std::min(weight, lastWeight);
+      products += both * r.off * last;
+      pairs += 0.5 * both * (r.off * r.off + last * last);
+    }
+    last = r.off;
+    lastWeight = weight;
+  }
+  const double alike = std::clamp(products / pairs, 0.0, kMostAlike);
+  Slope worth;
+  worth.add(slope, (1.0 - alike) / (1.0 + alike));
+  return worth;
+}
+
+}  // namespace
+
+void SurfaceFit::add(double range, double bearing) {
+  const Pose2 end = mount_ * Pose2{range * std::cos(bearing), range * std::sin(bearing), 0.0};
+  ends_.push_back({end.x, end.y, range});
+}
+
+Slope SurfaceFit::slopeAt(const Pose2& robot) const {
+  if (isEmpty()) return {};
+  std::vector<Residual> residuals;
+  residuals.reserve(2 * ends_.size());
+  const double c = std::cos(robot.theta);
+  const double s = std::sin(robot.theta);
+  const Pose2 sensor = robot * mount_;
+  bool follows = false;
+  for (const End& end : ends_) {
+    const double dx = c * end.x - s * end.y;  // from the robot, in the field's directions
+    const double dy = s * end.x + c * end.y;
+    const double x = robot.x + dx;
+    const double y = robot.y + dy;
+    const Surface* surface = surfaces_->near(x, y);
+    if (surface == nullptr) {
+      follows = false;
+      continue;
+    }
+    const double sigma = model_.sigmaAt(end.range);
+    const auto take = [&](double nx, double ny, double variance) {
+      const double off =
+          nx * (static_cast<double>(surface->x) - x) + ny * (static_cast<double>(surface->y) - y);
+      residuals.push_back(
+          {off / std::sqrt(variance), variance, {nx, ny, ny * dx - nx * dy}, follows});
+    };
+    const auto nx = static_cast<double>(surface->normalX);
+    const auto ny = static_cast<double>(surface->normalY);
+    const auto across = static_cast<double>(surface->across);
+    if (surface->along < 0.0F) {
+      const double slant =
+          std::max(kLeastSlant, std::abs(nx * (x - sensor.x) + ny * (y - sensor.y)) / end.range);
+      take(nx, ny, sigma * sigma * slant * slant + across * across);
+      follows = true;
+    } else {
+      const auto along = static_cast<double>(surface->along);
+      follows = false;
+      take(nx, ny, sigma * sigma + across * across);
+      take(-ny, nx, sigma * sigma + along * along);
+    }
+  }
+  Slope slope = slopeOf(residuals, model_.outliers);
+  slope.blurMetres = surfaces_->sigma();
+  double squares = 0.0;
+  for (const Residual& r : residuals) squares += r.expectation[2] * r.expectation[2];
+  const double lever = std::sqrt(squares / (static_cast<double>(residuals.size()) + 1e-9));
+  slope.blurRadians = lever > 0.0 ? std::min(1.0, surfaces_->sigma() / lever) : 0.0;
+  return slope;
+}
+
+}  // namespace ortung

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/tables/TableFile.hpp"
+
+namespace ortung {
+
+/// A piece of what beams end on: a line, or a spot where the ends lie all around.
+struct Surface {
+  float x = 0.0F;  ///< a point of it, in the field [m]
+  float y = 0.0F;
+  float normalX = 1.0F;  ///< of a line
+  float normalY = 0.0F;
+  float across = 0.0F;  ///< standard deviation of ends across it [m]
+  float along = -1.0F;  ///< along it [m]; negative: a line, of which nothing is known along
+};
+
+/// The surfaces that beams end on, finer than any cell: learned end points are summed up by cell,
+/// and mean and covariance of a cell and its neighbours give a line or a spot (after Biber,
+/// Straßer, "The normal distributions transform", IROS 2003; Segal, Haehnel, Thrun,
+/// "Generalized-ICP", RSS 2009). Only blocks of cells near surfaces take memory. Not thread-safe
+/// while it is filled; then any number of threads may read it.
+class ORTUNG_API SurfaceField {
+ public:
+  static constexpr int kReach = 6;  ///< cells from a point to the surface it may lie on
+
+  /// Covers the region's grid and @p margin beyond it on all sides [m], with cells of @p cell [m].
+  void start(const FieldRegion& region, double cell, double margin);
+  void mark(double x, double y);  ///< outside: ignored
+  void finish();
+
+  /// How well the world knows where its surfaces are (FieldRegion::surfaceSigma) [m].
+  double sigma() const { return sigma_; }
+  bool isEmpty() const { return surfaces_.empty(); }
+  const FieldGrid& grid() const { return grid_; }
+  /// The nearest surface, or null.
+  const Surface* near(double x, double y) const {
+    const std::ptrdiff_t cell = grid_.cellAt(x, y);
+    if (cell < 0) return nullptr;
+    const std::int32_t number = numberAt(static_cast<std::size_t>(cell));
+    return number < 0 ? nullptr : &surfaces_[static_cast<std::size_t>(number)];
+  }
+
+  void save(TableWriter& file, const std::string& prefix) const;
+  /// Files of older versions have no surfaces: then it stays empty.
+  void load(const std::shared_ptr<const TableFile>& file, const std::string& prefix);
+
+ private:
+  static constexpr int kBlock = 16;  ///< cells along the edge of a block
+  /// Mean and covariance of the ends in a cell; lengths in cells, from the cell's centre.
+  struct Ends {
+    float x = 0.0F;
+    float y = 0.0F;
+    float xx = 0.0F;
+    float xy = 0.0F;
+    float yy = 0.0F;
+  };
+  struct Sums {
+    double count = 0.0;
+    double x = 0.0;
+    double y = 0.0;
+    double xx = 0.0;
+    double xy = 0.0;
+    double yy = 0.0;
+    void add(double px, double py);
+    Ends ends() const;
+  };
+  using Block = std::array<std::int32_t, static_cast<std::size_t>(kBlock) * kBlock>;
+
+  std::size_t blockAt(int column, int row) const {
+    return static_cast<std::size_t>(row / kBlock) * blockColumns_ +
+           static_cast<std::size_t>(column / kBlock);
+  }
+  static std::size_t within(int column, int row) {
+    return static_cast<std::size_t>(row % kBlock * kBlock + column % kBlock);
+  }
+  /// Number of the cell's surface, or -1. @pre in the grid
+  std::int32_t numberAt(std::size_t cell) const {
+    const int column = static_cast<int>(cell % static_cast<std::size_t>(grid_.columns));
+    const int row = static_cast<int>(cell / static_cast<std::size_t>(grid_.columns));
+    const std::int32_t block = blockOf_[blockAt(column, row)];
+    return block < 0 ? -1 : blocks_[static_cast<std::size_t>(block)][within(column, row)];
+  }
+  std::int32_t& numberFor(int column, int row);
+  void checkAndClear();
+  void makeSurfaces();
+  Surface surfaceOf(std::size_t number) const;
+  void spreadNumbers();
+
+  FieldGrid grid_;
+  double sigma_ = 0.0;
+  std::size_t blockColumns_ = 0;
+  std::vector<std::int32_t> blockOf_;  ///< by block of the grid: place in blocks_; -1: nothing near
+  std::vector<Block> blocks_;          ///< of a cell: number of its surface; -1: none
+  std::vector<std::int32_t> cells_;    ///< of the surfaces
+  std::vector<Ends> ends_;
+  std::vector<Surface> surfaces_;
+  std::vector<Sums> sums_;  ///< while learning
+};
+
+}  // namespace ortung

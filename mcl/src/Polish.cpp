@@ -1,0 +1,186 @@
+#include "Polish.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "CarriedOn.hpp"
+#include "ortung/base/Angles.hpp"
+
+namespace ortung {
+namespace {
+
+using Vector = Eigen::Vector3d;
+using Matrix = Eigen::Matrix3d;
+using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+constexpr int kMostSteps = 8;
+constexpr double kSettledMetres = 2e-4;
+constexpr double kSettledRadians = 2e-5;
+constexpr double kMostSigmas = 4.0;  ///< between a cluster and a pose that are one place
+// A cluster's mean is known no better than this: cells, few samples.
+constexpr double kClusterMetres = 0.03;
+constexpr double kClusterRadians = 0.02;
+/// Directions of which readings tell less than this share of what was open don't surprise.
+constexpr double kTold = 0.2;
+constexpr double kMostTimes = 9.0;  ///< a surprise counts at most so many times what is usual
+constexpr double kRate = 0.05;      ///< at which surprises are followed; at first faster
+
+Matrix matrixOf(const std::array<double, 9>& values) {
+  return Eigen::Map<const RowMajor>(values.data());
+}
+
+Vector difference(const Pose2& to, const Pose2& from) {
+  return {to.x - from.x, to.y - from.y, wrapAngle(to.theta - from.theta)};
+}
+
+Matrix widened(const std::array<double, 9>& covariance, double metres, double radians) {
+  Matrix wider = matrixOf(covariance);
+  wider.diagonal() += Vector(metres * metres, metres * metres, radians * radians);
+  return wider;
+}
+
+/// Whether two poses are one place, as far as a cluster of samples can tell.
+bool isSame(const Pose2& pose, const PoseEstimate& cluster) {
+  const Matrix covariance = widened(cluster.covariance, kClusterMetres, kClusterRadians);
+  const Vector off = difference(pose, cluster.pose);
+  return off.dot(covariance.ldlt().solve(off)) < kMostSigmas * kMostSigmas;
+}
+
+/// What was known before readings: a normal distribution.
+struct Prior {
+  Pose2 mean;
+  Matrix precision;
+};
+
+struct Solution {
+  Pose2 pose;
+  Matrix covariance;
+  Slope slope;  ///< of the readings there
+};
+
+/// The pose where the readings and the prior agree best, from @p start on.
+std::optional<Solution> agreement(const std::vector<const Polishable*>& readings,
+                                  const Prior& prior, const Pose2& start) {
+  Solution found{start, {}, {}};
+  for (int step = 0; step < kMostSteps; ++step) {
+    found.slope = {};
+    for (const Polishable* reading : readings) found.slope.add(reading->slopeAt(found.pose), 1.0);
+    const Eigen::LDLT<Matrix> all(prior.precision + matrixOf(found.slope.information));
+    const Vector change = all.solve(Vector(found.slope.pull.data()) +
+                                    prior.precision * difference(prior.mean, found.pose));
+    if (!change.allFinite()) return std::nullopt;
+    found.covariance = all.solve(Matrix::Identity());
+    found.pose = {found.pose.x + change.x(), found.pose.y + change.y(),
+                  wrapAngle(found.pose.theta + change.z())};
+    if (std::hypot(change.x(), change.y()) < kSettledMetres &&
+        std::abs(change.z()) < kSettledRadians)
+      break;
+  }
+  return found;
+}
+
+/// Square of how far readings have moved the pose, in what they were promised to: 1 in the mean if
+/// promises are kept. Nothing if they told nothing.
+/// @param moved from what was predicted @param promised covariance of that
+std::optional<double> surprise(const Vector& moved, const Matrix& promised,
+                               const Solution& solution) {
+  const Matrix seen = matrixOf(solution.slope.information);
+  const Matrix expected =
+      solution.covariance * (seen * promised * seen + seen) * solution.covariance;
+  const Matrix unit = Matrix(promised.llt().matrixL()).inverse();
+  const Eigen::SelfAdjointEigenSolver<Matrix> parts(unit * expected * unit.transpose());
+  const Vector off = parts.eigenvectors().transpose() * (unit * moved);
+  double squares = 0.0;
+  double count = 0.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    if (!(parts.eigenvalues()[k] > kTold)) continue;
+    squares += off[k] * off[k] / parts.eigenvalues()[k];
+    count += 1.0;
+  }
+  if (count == 0.0 || !std::isfinite(squares)) return std::nullopt;
+  return squares / count;
+}
+
+}  // namespace
+
+void Polish::move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
+                  std::uint64_t stream) {
+  if (place_) place_ = carriedOn(*place_, motion, change, seed, stream);
+  if (cluster_) cluster_ = carriedOn(*cluster_, motion, change, seed, stream);
+}
+
+void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
+  const std::optional<PoseEstimate> predicted = std::exchange(cluster_, estimate);
+  std::vector<const Polishable*> readings;
+  for (const News& one : news)
+    if (const auto* reading = dynamic_cast<const Polishable*>(one.weigher.get()))
+      readings.push_back(reading);
+  const bool follows = place_ && predicted && isSame(place_->pose, *predicted);
+  Prior prior;
+  if (follows) {
+    // As narrow as it promises only if promises are kept: the samples know the rest.
+    prior.mean = place_->pose;
+    prior.precision =
+        (matrixOf(place_->covariance) + (1.0 - 1.0 / times_) * matrixOf(predicted->covariance))
+            .inverse();
+  } else {
+    const PoseEstimate& cluster = predicted ? *predicted : estimate;
+    prior.mean = cluster.pose;
+    prior.precision = widened(cluster.covariance, kClusterMetres, kClusterRadians).inverse();
+  }
+  if (readings.empty()) {
+    apply(estimate);
+    return;
+  }
+  const auto solution = agreement(readings, prior, estimate.pose);
+  if (!solution || !isSame(solution->pose, estimate)) {
+    place_.reset();
+    return;
+  }
+  if (follows) {
+    const auto observed =
+        surprise(difference(solution->pose, prior.mean), matrixOf(place_->covariance), *solution);
+    if (observed) learnTimes(*observed);
+  }
+  place_ = estimate;
+  place_->pose = solution->pose;
+  Eigen::Map<RowMajor>(place_->covariance.data()) = solution->covariance;
+  blurMetres_ = solution->slope.blurMetres;
+  blurRadians_ = solution->slope.blurRadians;
+  if (readings.size() == news.size()) {
+    put(estimate);
+  } else {
+    apply(estimate);
+  }
+}
+
+void Polish::learnTimes(double observed) {
+  const double rate = std::max(kRate, 1.0 / (2.0 + surprises_));
+  if (rate > kRate) ++surprises_;
+  times_ += rate * (std::min(observed, kMostTimes * times_) - times_);
+  times_ = std::max(1.0, times_);
+}
+
+/// Samples know what the other readings have said, too: where that is more, they are the estimate.
+void Polish::apply(PoseEstimate& cluster) const {
+  if (!place_ || !isSame(place_->pose, cluster)) return;
+  PoseEstimate polished = cluster;
+  put(polished);
+  const auto spread = [](const PoseEstimate& e) { return e.covariance[0] + e.covariance[4]; };
+  if (spread(polished) < spread(cluster)) cluster = polished;
+}
+
+void Polish::put(PoseEstimate& cluster) const {
+  cluster.pose = place_->pose;
+  cluster.covariance = place_->covariance;
+  for (double& value : cluster.covariance) value *= times_;
+  Eigen::Map<RowMajor>(cluster.covariance.data()) =
+      widened(cluster.covariance, blurMetres_, blurRadians_);
+}
+
+}  // namespace ortung

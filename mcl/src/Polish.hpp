@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "News.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/core/Polishable.hpp"
+#include "ortung/mcl/PoseEstimate.hpp"
+#include "ortung/motion/MotionModel.hpp"
+
+namespace ortung {
+
+/// The heaviest place, finer than samples are apart and tables round: the pose where the readings
+/// and what was known before them agree best, by Gauss and Newton (an iterated extended Kalman
+/// filter; Bell, Cathey, IEEE Trans. Automatic Control 38, 1993), of the readings whose weighers
+/// tell a slope. It rides on the samples, which stay as they are: a place that is not theirs is
+/// forgotten. Not thread-safe.
+class Polish {
+ public:
+  void forget() {
+    place_.reset();
+    cluster_.reset();
+  }
+  /// By odometry. @param change in the robot's old frame
+  void move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
+            std::uint64_t stream);
+  /// Takes readings in. @param estimate heaviest cluster after they were weighed: polished, if they
+  /// can do it
+  void follow(const std::vector<News>& news, PoseEstimate& estimate);
+  /// Puts the place in for a cluster of samples that is at the same place.
+  void apply(PoseEstimate& cluster) const;
+
+ private:
+  void put(PoseEstimate& cluster) const;
+  void learnTimes(double observed);
+
+  std::optional<PoseEstimate> place_;    ///< with what readings and motion promise as covariance
+  std::optional<PoseEstimate> cluster_;  ///< of samples, as the last readings left it
+  double blurMetres_ = 0.0;              ///< of the place
+  double blurRadians_ = 0.0;
+  /// How many times as large as promised the squares of surprises are: readings that are wrong
+  /// alike, surfaces that are not where the map has them, odometry that errs more than its model.
+  double times_ = kTimesAtFirst;
+  int surprises_ = 0;
+  static constexpr double kTimesAtFirst = 10.0;
+};
+
+}  // namespace ortung
