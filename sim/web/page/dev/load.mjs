@@ -110,7 +110,7 @@ function talk(socket) {
     const [verb, what] = line.split(" ");
     const number = Number(/ robot=(\d+)/.exec(line)?.[1] ?? 1);
     if (verb === "DESCRIBE") {
-      const lines = { world: ["world=load kind=simulation x_min_m=-7 y_min_m=-5 x_max_m=7 y_max_m=5 cycle_s=0.01", "object=ball kind=ball radius_m=0.11 colour=orange"], field: fields, robot, players: [] }[what];
+      const lines = { world: ["world=load kind=simulation x_min_m=-7 y_min_m=-5 x_max_m=7 y_max_m=5 cycle_s=0.01", "object=ball kind=ball radius_m=0.11 colour=orange"], field: fields, robot, robots: [], players: [] }[what];
       return `${tag} OK DESCRIBE lines=${lines.length}\n${lines.map((one) => `${one}\n`).join("")}`;
     }
     if (verb === "SUBSCRIBE") {
