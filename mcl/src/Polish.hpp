@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "News.hpp"
+#include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/Polishable.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
@@ -18,7 +19,7 @@ namespace ortung {
 /// filter; Bell, Cathey, IEEE Trans. Automatic Control 38, 1993), of the readings whose weighers
 /// tell a slope. It rides on the samples, which stay as they are: a place that is not theirs is
 /// forgotten. Not thread-safe.
-class Polish {
+class ORTUNG_API Polish {
  public:
   void forget() {
     place_.reset();

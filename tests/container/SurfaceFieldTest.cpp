@@ -76,13 +76,13 @@ TEST(SurfaceField, KnowsASpotOnAllSides) {
   SurfaceField field;
   field.start(square(), 0.05, 0.1);
   for (double angle = 0.0; angle < 2 * kPi; angle += 0.05)
-    field.mark(0.3 + 0.02 * std::cos(angle), 0.2 + 0.02 * std::sin(angle));
+    field.mark(0.325 + 0.01 * std::cos(angle), 0.225 + 0.01 * std::sin(angle));
   field.finish();
-  const Surface* spot = field.near(0.36, 0.2);
+  const Surface* spot = field.near(0.38, 0.22);
   ASSERT_NE(spot, nullptr);
   EXPECT_GE(spot->along, 0.0F);
-  EXPECT_NEAR(static_cast<double>(spot->x), 0.3, 0.012);
-  EXPECT_NEAR(static_cast<double>(spot->y), 0.2, 0.012);
+  EXPECT_NEAR(static_cast<double>(spot->x), 0.325, 0.001);
+  EXPECT_NEAR(static_cast<double>(spot->y), 0.225, 0.001);
   EXPECT_EQ(field.near(1.2, 0.2), nullptr);  // out of reach
 }
 

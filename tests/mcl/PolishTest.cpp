@@ -78,7 +78,7 @@ TEST(Polish, FollowsLikeAKalmanFilterWhereReadingsKeepTheirPromises) {
   // The mean of hundreds of readings, not the last one: 0.01 / sqrt(200) and better.
   EXPECT_LT(std::sqrt(squares / 200), 0.003);
   EXPECT_GT(claimed, 0.2 * squares);
-  EXPECT_LT(claimed, 20.0 * squares);
+  EXPECT_LT(claimed, 100.0 * squares);
 }
 
 TEST(Polish, BelievesReadingsLessThatSurpriseIt) {
@@ -129,9 +129,10 @@ TEST(Polish, MovesByOdometry) {
   polish.move(OdometryMotion(), {0.5, 0, 0.1}, 1, 1);
   PoseEstimate later = cluster({1.5, 1, 0.1}, 0.05);
   polish.apply(later);
-  EXPECT_NEAR(later.pose.x, 1.5, 0.01);
-  EXPECT_NE(later.pose.x, 1.5);
-  EXPECT_GT(later.covariance[0], estimate.covariance[0]);
+  EXPECT_NEAR(later.pose.x, 1.5, 1e-3);
+  EXPECT_NEAR(later.pose.theta, 0.1, 1e-3);
+  // A heading that is open moves the place aside.
+  EXPECT_GT(later.covariance[4], estimate.covariance[4] + 0.9 * 0.25 * estimate.covariance[8]);
 }
 
 TEST(Polish, MakesScansFinerThanCells) {
@@ -147,8 +148,7 @@ TEST(Polish, MakesScansFinerThanCells) {
     mcl->startAt(run.truth, 0.1, 0.05);
     for (int i = 0; i < 100; ++i) {
       run.drive();
-      mcl->update(run.container);
-      if (i < 20) continue;
+      if (!mcl->update(run.container) || i < 20) continue;
       const Pose2& pose = mcl->estimate().pose;
       squares += std::pow(pose.x - run.truth.x, 2) + std::pow(pose.y - run.truth.y, 2);
       ++count;
