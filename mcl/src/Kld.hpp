@@ -19,6 +19,8 @@ class ORTUNG_API PoseBins {
   PoseBins(const MclConfig& config, const SampleView& samples);
 
   std::size_t count() const { return bins_.size(); }
+  /// Whether headings are within a quarter of a turn, so that their mean is that of numbers.
+  bool isNarrow() const;
   /// Bin of each sample.
   std::span<const std::uint32_t> binOf() const { return binOf_; }
   /// For each bin the number of its cluster: bins that touch (also at corners) hang together.
@@ -31,14 +33,25 @@ class ORTUNG_API PoseBins {
     std::int32_t turn;
     bool operator==(const Bin&) const = default;
   };
+  bool sortDensely(const std::vector<Bin>& binOfSample);
   std::uint32_t insert(const Bin& bin);
   std::int64_t find(const Bin& bin) const;
   std::size_t slotOf(const Bin& bin) const;
+  std::size_t placeOf(const Bin& bin) const {
+    return (static_cast<std::size_t>(bin.y - low_.y) * columns_ +
+            static_cast<std::size_t>(bin.x - low_.x)) *
+               static_cast<std::size_t>(turns_) +
+           static_cast<std::size_t>(bin.turn);
+  }
 
   int turns_;  ///< bins a turn
+  /// Sets that lie together have a table of all bins between the outermost; others are hashed.
+  Bin low_{};
+  std::size_t columns_ = 0;  ///< of that table; 0: hashed
+  std::size_t rows_ = 0;
   std::vector<Bin> bins_;
   std::vector<std::uint32_t> binOf_;
-  std::vector<std::uint32_t> table_;  ///< open addressing: bin + 1, or 0
+  std::vector<std::uint32_t> table_;  ///< bin + 1, or 0; open addressing if hashed
 };
 
 /// Samples needed so that the sampled distribution is closer than `kldError` to the true one with
