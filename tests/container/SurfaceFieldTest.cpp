@@ -138,19 +138,20 @@ TEST(SurfaceField, RefusesFilesThatLie) {
     TableWriter writer(path);
     writer.add<double>("surface_grid", {grid.size()}, grid);
     writer.add<std::int32_t>("surface_cells", {cells.size()}, cells);
-    writer.add<float>("surface_ends", {ends.size() / 5, 5}, ends);
+    writer.add<float>("surface_ends", {ends.size() / 6, 6}, ends);
     writer.commit();
     SurfaceField().load(std::make_shared<TableFile>(path), "");
   };
   const std::vector<double> grid = {0, 0, 0.05, 10, 10, 0};
-  const std::vector<float> ends = {0, 0, 0.1F, 0, 0.1F};
+  const std::vector<float> ends = {0, 0, 0.1F, 0, 0.1F, 7};
   EXPECT_NO_THROW(load(grid, {5}, ends));
   EXPECT_THROW(load(grid, {100}, ends), TableError);
   EXPECT_THROW(load(grid, {-1}, ends), TableError);
   EXPECT_THROW(load(grid, {5, 6}, ends), TableError);
-  EXPECT_THROW(load(grid, {5, 5}, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), TableError);
-  EXPECT_THROW(load(grid, {5}, {std::nanf(""), 0, 0, 0, 0}), TableError);
-  EXPECT_THROW(load(grid, {5}, {0, 0, 1e30F, 0, 0}), TableError);
+  EXPECT_THROW(load(grid, {5, 5}, {0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1}), TableError);
+  EXPECT_THROW(load(grid, {5}, {std::nanf(""), 0, 0, 0, 0, 1}), TableError);
+  EXPECT_THROW(load(grid, {5}, {0, 0, 1e30F, 0, 0, 1}), TableError);
+  EXPECT_THROW(load(grid, {5}, {0, 0, 0, 0, 0, 0}), TableError);
   for (std::vector<double> lying : {std::vector<double>{0, 0, 0.05, 1e9, 1e9, 0},
                                     {0, 0, -1, 10, 10, 0},
                                     {std::nan(""), 0, 0.05, 10, 10, 0},

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ortung/base/Angles.hpp"
+
 namespace ortung {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr std::size_t kMostCells = 1U << 27;
 constexpr int kWidest = 2;  ///< cells beside one that take part in its surface
 /// A surface is thinner than this [cells]; the stairs that a slanting wall is in a grid are 0.3.
 constexpr double kThickest = 0.35;
+constexpr double kFewEnds = 0.2;     ///< of what the fullest neighbour has: fewer count less
 constexpr double kLineRatio = 0.45;  ///< a line is so much thinner than it is long, at least
 /// Nothing is known better, with ends in whole millimetres [m].
 constexpr double kThinnest = 0.0005;
@@ -31,8 +34,12 @@ void SurfaceField::Sums::add(double px, double py) {
 SurfaceField::Ends SurfaceField::Sums::ends() const {
   const double mx = x / count;
   const double my = y / count;
-  return {static_cast<float>(mx), static_cast<float>(my), static_cast<float>(xx / count - mx * mx),
-          static_cast<float>(xy / count - mx * my), static_cast<float>(yy / count - my * my)};
+  return {static_cast<float>(mx),
+          static_cast<float>(my),
+          static_cast<float>(xx / count - mx * mx),
+          static_cast<float>(xy / count - mx * my),
+          static_cast<float>(yy / count - my * my),
+          static_cast<float>(count)};
 }
 
 void SurfaceField::checkAndClear() {
@@ -97,12 +104,26 @@ void SurfaceField::makeSurfaces() {
   spreadNumbers();
 }
 
-/// Of as many neighbours as lie on one line with the cell's ends: each of them counts alike,
-/// however many ends it has.
+/// Of as many neighbours as lie on one line with the cell's ends. Cells count alike, but those with
+/// few ends, which beams have met between others: through gaps, at corners that they graze.
 Surface SurfaceField::surfaceOf(std::size_t number) const {
   const std::int32_t cell = cells_[number];
   const int column = cell % grid_.columns;
   const int row = cell / grid_.columns;
+  const auto forNeighbours = [&](int radius, const auto& visit) {
+    for (int r = std::max(0, row - radius); r <= std::min(grid_.rows - 1, row + radius); ++r)
+      for (int c = std::max(0, column - radius); c <= std::min(grid_.columns - 1, column + radius);
+           ++c) {
+        const std::int32_t other =
+            numberAt(static_cast<std::size_t>(r) * static_cast<std::size_t>(grid_.columns) +
+                     static_cast<std::size_t>(c));
+        if (other >= 0) visit(ends_[static_cast<std::size_t>(other)], c - column, r - row);
+      }
+  };
+  double most = 0.0;
+  forNeighbours(kWidest, [&](const Ends& ends, int, int) {
+    most = std::max(most, static_cast<double>(ends.count));
+  });
   Surface surface;
   for (int radius = kWidest; radius >= 0; --radius) {
     double n = 0.0;
@@ -111,24 +132,17 @@ Surface SurfaceField::surfaceOf(std::size_t number) const {
     double xx = 0.0;
     double xy = 0.0;
     double yy = 0.0;
-    for (int r = std::max(0, row - radius); r <= std::min(grid_.rows - 1, row + radius); ++r) {
-      for (int c = std::max(0, column - radius); c <= std::min(grid_.columns - 1, column + radius);
-           ++c) {
-        const std::int32_t other =
-            numberAt(static_cast<std::size_t>(r) * static_cast<std::size_t>(grid_.columns) +
-                     static_cast<std::size_t>(c));
-        if (other < 0) continue;
-        const Ends& ends = ends_[static_cast<std::size_t>(other)];
-        const double ex = static_cast<double>(ends.x) + c - column;
-        const double ey = static_cast<double>(ends.y) + r - row;
-        n += 1.0;
-        x += ex;
-        y += ey;
-        xx += ex * ex + static_cast<double>(ends.xx);
-        xy += ex * ey + static_cast<double>(ends.xy);
-        yy += ey * ey + static_cast<double>(ends.yy);
-      }
-    }
+    forNeighbours(radius, [&](const Ends& ends, int columnsOff, int rowsOff) {
+      const double weight = std::min(1.0, static_cast<double>(ends.count) / (kFewEnds * most));
+      const double ex = static_cast<double>(ends.x) + columnsOff;
+      const double ey = static_cast<double>(ends.y) + rowsOff;
+      n += weight;
+      x += weight * ex;
+      y += weight * ey;
+      xx += weight * (ex * ex + static_cast<double>(ends.xx));
+      xy += weight * (ex * ey + static_cast<double>(ends.xy));
+      yy += weight * (ey * ey + static_cast<double>(ends.yy));
+    });
     x /= n;
     y /= n;
     const double sxx = xx / n - x * x;
@@ -139,7 +153,7 @@ Surface SurfaceField::surfaceOf(std::size_t number) const {
     const double across = std::sqrt(std::max(0.0, middle - apart));
     const double along = std::sqrt(std::max(0.0, middle + apart));
     // The direction in which they are spread least.
-    const double angle = 0.5 * std::atan2(2.0 * sxy, sxx - syy) + 0.5 * 3.14159265358979323846;
+    const double angle = 0.5 * std::atan2(2.0 * sxy, sxx - syy) + 0.25 * kTurn;
     surface.x = static_cast<float>(grid_.originX + (column + 0.5 + x) * grid_.cell);
     surface.y = static_cast<float>(grid_.originY + (row + 0.5 + y) * grid_.cell);
     surface.normalX = static_cast<float>(std::cos(angle));
@@ -188,8 +202,8 @@ void SurfaceField::save(TableWriter& file, const std::string& prefix) const {
   file.add<double>(prefix + "surface_grid", {6}, place);
   file.add<std::int32_t>(prefix + "surface_cells", {cells_.size()}, cells_);
   std::vector<float> values;
-  for (const Ends& e : ends_) values.insert(values.end(), {e.x, e.y, e.xx, e.xy, e.yy});
-  file.add<float>(prefix + "surface_ends", {ends_.size(), 5}, values);
+  for (const Ends& e : ends_) values.insert(values.end(), {e.x, e.y, e.xx, e.xy, e.yy, e.count});
+  file.add<float>(prefix + "surface_ends", {ends_.size(), 6}, values);
 }
 
 void SurfaceField::load(const std::shared_ptr<const TableFile>& shared, const std::string& prefix) {
@@ -211,14 +225,14 @@ void SurfaceField::load(const std::shared_ptr<const TableFile>& shared, const st
   sigma_ = place[5];
   checkAndClear();
   const auto cells = file.get<std::int32_t>(prefix + "surface_cells", {0});
-  const auto values = file.get<float>(prefix + "surface_ends", {cells.size(), 5});
+  const auto values = file.get<float>(prefix + "surface_ends", {cells.size(), 6});
   const auto most = static_cast<std::int32_t>(grid_.size());
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    const Ends e{values[5 * k], values[5 * k + 1], values[5 * k + 2], values[5 * k + 3],
-                 values[5 * k + 4]};
+    const Ends e{values[6 * k],     values[6 * k + 1], values[6 * k + 2],
+                 values[6 * k + 3], values[6 * k + 4], values[6 * k + 5]};
     const auto isFine = [](float v) { return v >= -kMostCellsOff && v <= kMostCellsOff; };
     if (cells[k] < 0 || cells[k] >= most || !isFine(e.x) || !isFine(e.y) || !isFine(e.xx) ||
-        !isFine(e.xy) || !isFine(e.yy))
+        !isFine(e.xy) || !isFine(e.yy) || !(e.count >= 1.0F && e.count < 1e9F))
       refuse("surface_ends");
     std::int32_t& number = numberFor(cells[k] % grid_.columns, cells[k] / grid_.columns);
     if (number >= 0) refuse("surface_cells");

@@ -62,6 +62,7 @@ class ORTUNG_API SurfaceField {
     float xx = 0.0F;
     float xy = 0.0F;
     float yy = 0.0F;
+    float count = 0.0F;  ///< of ends
   };
   struct Sums {
     double count = 0.0;
