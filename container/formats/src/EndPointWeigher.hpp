@@ -19,8 +19,8 @@ namespace ortung {
 /// An end-point field with all that weighing points against it needs, whatever the reading.
 struct EndPointTables {
   using LogByLevel = std::array<float, 256>;
-  FieldGrid region;       ///< where the sensor may be
-  EndPointField field;    ///< where points should lie
+  FieldGrid region;     ///< where the sensor may be
+  EndPointField field;  ///< where points should lie
   /// The same, finer than cells; empty: nobody learned it.
   std::shared_ptr<SurfaceField> surfaces = std::make_shared<SurfaceField>();
   double maxRange = 1.0;  ///< of points; their sigma grows with range [m]
