@@ -50,8 +50,8 @@ std::vector<double> BearingData::expectation(const Pose2& pose) const {
 
 std::shared_ptr<const Weigher> BearingData::makeWeigher() const {
   if (!reading_) return nullptr;
-  return std::make_shared<CellWeigher<BearingTable>>(table_, gaussian_, mount(), *reading_,
-                                                     config_.model.sigma);
+  return std::make_shared<CellWeigher<BearingTable>>(table_, gaussian_, config_.model, mount(),
+                                                     *reading_, config_.model.sigma);
 }
 
 std::string BearingData::learningKey() const {

@@ -7,7 +7,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "TableSlope.hpp"
 #include "TableWeigher.hpp"
+#include "ortung/core/Polishable.hpp"
 #include "ortung/core/Weigher.hpp"
 
 namespace ortung {
@@ -15,17 +17,22 @@ namespace ortung {
 /// Weighs samples by one table over the position: a PositionTable or a BearingTable. Sigma is that
 /// at the reading, not at the expectation: the same for all samples.
 template <class Table>
-class CellWeigher final : public Weigher {
+class CellWeigher final : public Weigher, public Polishable {
  public:
   CellWeigher(std::shared_ptr<const Table> table, std::shared_ptr<const GaussianTable> gaussian,
-              const Pose2& mount, double reading, double sigma)
+              const SensorModel& model, const Pose2& mount, double reading, double sigma)
       : table_(std::move(table)),
         gaussian_(std::move(gaussian)),
+        model_(model),
         mount_(mount),
         reading_(reading),
         sigma_(sigma) {}
 
-  PoseResolution resolution() const override { return {.metres = table_->cells().grid().cell}; }
+  Slope slopeAt(const Pose2& robot) const override {
+    Slope slope;
+    addReading(slope, *table_, reading_, sigma_, model_, robot, robot * mount_);
+    return slope;
+  }
 
  private:
   static constexpr bool kIsBearing = std::is_same_v<Table, BearingTable>;
@@ -58,6 +65,7 @@ class CellWeigher final : public Weigher {
 
   std::shared_ptr<const Table> table_;
   std::shared_ptr<const GaussianTable> gaussian_;
+  SensorModel model_;
   Pose2 mount_;
   double reading_;  ///< [m] or [rad]
   double sigma_;    ///< [m] or [rad]

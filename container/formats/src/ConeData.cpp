@@ -6,35 +6,84 @@
 
 #include "CellLookup.hpp"
 #include "FormatTools.hpp"
+#include "TableSlope.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/core/Polishable.hpp"
 
 namespace ortung {
 
 namespace {
 
-class ConeWeigher final : public Weigher {
+class ConeWeigher final : public Weigher, public Polishable {
  public:
   ConeWeigher(std::shared_ptr<const DirectionTable> table, const Pose2& mount,
               const RangeScale& scale, const SensorModel& model, double reading)
-      : table_(std::move(table)), mount_(mount), floor_(static_cast<float>(model.logFloor())) {
+      : table_(std::move(table)),
+        mount_(mount),
+        scale_(scale),
+        model_(model),
+        reading_(reading),
+        floor_(static_cast<float>(model.logFloor())) {
     for (int level = 0; level < 256; ++level) {
       logByLevel_[static_cast<std::size_t>(level)] =
-          logProbabilityOf(static_cast<std::uint8_t>(level), scale, model, reading);
+          logProbabilityOf(static_cast<std::uint8_t>(level));
     }
   }
 
+  /// Nothing where a neighbour of the pose's cell sees nothing, or the reading does.
+  Slope slopeAt(const Pose2& robot) const override {
+    Slope slope;
+    if (!std::isfinite(reading_)) return slope;
+    const Pose2 sensor = robot * mount_;
+    const double metres = 0.5 * table_->grid().cell;
+    const double radians = 0.5 * table_->step();
+    const auto by = [&](double x, double y, double theta) {
+      return expected({sensor.x + x, sensor.y + y, sensor.theta + theta}) -
+             expected({sensor.x - x, sensor.y - y, sensor.theta - theta});
+    };
+    addResidual(slope, reading_ - expected(sensor),
+                byRobot(by(metres, 0, 0) / (2 * metres), by(0, metres, 0) / (2 * metres),
+                        by(0, 0, radians) / (2 * radians), robot, sensor),
+                model_.sigmaAt(reading_), model_);
+    return slope;
+  }
+
  private:
-  static float logProbabilityOf(std::uint8_t level, const RangeScale& scale,
-                                const SensorModel& model, double reading) {
-    const bool sees = std::isfinite(reading);
+  float logProbabilityOf(std::uint8_t level) const {
+    const bool sees = std::isfinite(reading_);
     const bool shouldSee = level != RangeScale::kNothing;
     if (sees && shouldSee) {
-      const double sigmas = (reading - scale.range(level)) / model.sigmaAt(reading);
-      return static_cast<float>(model.exponent * model.logProbability(sigmas));
+      const double sigmas = (reading_ - scale_.range(level)) / model_.sigmaAt(reading_);
+      return static_cast<float>(model_.exponent * model_.logProbability(sigmas));
     }
     if (sees == shouldSee) return 0.0F;
-    return static_cast<float>(model.exponent *
-                              std::log(sees ? model.outliers : model.maxRangeMass));
+    return static_cast<float>(model_.exponent *
+                              std::log(sees ? model_.outliers : model_.maxRangeMass));
+  }
+
+  /// Range between the centres of cells and the directions around a pose [m]; NaN: one of them
+  /// sees nothing.
+  double expected(const Pose2& sensor) const {
+    const FieldGrid& grid = table_->grid();
+    const double column = (sensor.x - grid.originX) / grid.cell - 0.5;
+    const double row = (sensor.y - grid.originY) / grid.cell - 0.5;
+    const double direction = sensor.theta / table_->step();
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const auto near = [&](double place, unsigned bit) {
+        return std::floor(place) + ((corner & bit) != 0 ? 1.0 : 0.0);
+      };
+      const auto share = [&](double place, unsigned bit) {
+        return 1.0 - std::abs(place - near(place, bit));
+      };
+      const std::uint8_t* levels = table_->row(grid.originX + (near(column, 1) + 0.5) * grid.cell,
+                                               grid.originY + (near(row, 2) + 0.5) * grid.cell);
+      if (levels == nullptr) return std::numeric_limits<double>::quiet_NaN();
+      const std::uint8_t level = levels[table_->directionOf(near(direction, 4) * table_->step())];
+      if (level == RangeScale::kNothing) return std::numeric_limits<double>::quiet_NaN();
+      sum += share(column, 1) * share(row, 2) * share(direction, 4) * scale_.range(level);
+    }
+    return sum;
   }
 
   double logProbabilityAt(const Pose2& pose) const override {
@@ -59,6 +108,9 @@ class ConeWeigher final : public Weigher {
 
   std::shared_ptr<const DirectionTable> table_;
   Pose2 mount_;
+  RangeScale scale_;
+  SensorModel model_;
+  double reading_;  ///< [m]
   float floor_;
   std::array<float, 256> logByLevel_{};  ///< ln p of the reading by expected level
 };

@@ -59,6 +59,7 @@ void PointsData::startTables(const FieldRegion& region, double) {
   tables_ = std::make_shared<EndPointTables>();
   tables_->region = region.grid;
   tables_->field.start(region.grid, config_.cell, config_.margin);
+  tables_->surfaces->start(region, config_.cell, config_.margin);
 }
 
 void PointsData::learn(const Pose2& robotInField) {
@@ -66,13 +67,16 @@ void PointsData::learn(const Pose2& robotInField) {
   for (const Point& point : reading_) {
     if (point.range > config_.maxRange) continue;
     const double angle = sensor.theta + point.bearing;
-    tables_->field.mark(sensor.x + point.range * std::cos(angle),
-                        sensor.y + point.range * std::sin(angle));
+    const double x = sensor.x + point.range * std::cos(angle);
+    const double y = sensor.y + point.range * std::sin(angle);
+    tables_->field.mark(x, y);
+    tables_->surfaces->mark(x, y);
   }
 }
 
 void PointsData::finishTables() {
   tables_->field.finish();
+  tables_->surfaces->finish();
   tables_->complete(config_.model, config_.maxRange);
 }
 
@@ -81,12 +85,14 @@ void PointsData::useTables(const std::shared_ptr<const TableFile>& file, const s
   auto tables = std::make_shared<EndPointTables>();
   tables->region = grid;
   tables->field.load(file, prefix);
+  tables->surfaces->load(file, prefix);
   tables->complete(config_.model, config_.maxRange);
   tables_ = std::move(tables);
 }
 
 void PointsData::saveTables(TableWriter& file, const std::string& prefix) const {
   tables_->field.save(file, prefix);
+  tables_->surfaces->save(file, prefix);
 }
 
 std::string PointsData::learningKey() const {

@@ -10,6 +10,8 @@
 
 #include "FixWords.hpp"
 #include "FormatTools.hpp"
+#include "TableSlope.hpp"
+#include "ortung/core/Polishable.hpp"
 
 namespace ortung {
 namespace {
@@ -51,15 +53,33 @@ struct Weighed {
   }
 };
 
-class PoseFixWeigher final : public Weigher {
+class PoseFixWeigher final : public Weigher, public Polishable {
  public:
   PoseFixWeigher(const PoseFixData::Reading& fixes, const PoseFixData::Config& config,
                  std::shared_ptr<const GaussianTable> gaussian, const FieldGrid& grid)
-      : gaussian_(std::move(gaussian)), grid_(grid) {
+      : model_(config.model), gaussian_(std::move(gaussian)), grid_(grid) {
     for (const PoseFixData::Fix& fix : fixes) {
       fixes_.push_back({fix.pose, {}});
       Eigen::Map<Matrix3>(fixes_.back().information.data()) = informationOf(fix, config);
     }
+  }
+
+  /// Of the fix that is nearest.
+  Slope slopeAt(const Pose2& pose) const override {
+    const auto sigmasTo = [&](const Weighed& fix) {
+      return fix.sigmas(pose.x, pose.y, pose.theta);
+    };
+    const auto nearest = std::min_element(
+        fixes_.begin(), fixes_.end(),
+        [&](const Weighed& a, const Weighed& b) { return sigmasTo(a) < sigmasTo(b); });
+    const Matrix3 information = inlierShare(model_, sigmasTo(*nearest)) * model_.exponent *
+                                Eigen::Map<const Matrix3>(nearest->information.data());
+    const Eigen::Vector3d off(nearest->pose.x - pose.x, nearest->pose.y - pose.y,
+                              wrapAngle(nearest->pose.theta - pose.theta));
+    Slope slope;
+    Eigen::Map<Matrix3>(slope.information.data()) = information;
+    Eigen::Map<Eigen::Vector3d>(slope.pull.data()) = information * off;
+    return slope;
   }
 
  private:
@@ -80,6 +100,7 @@ class PoseFixWeigher final : public Weigher {
   }
 
   std::vector<Weighed> fixes_;
+  SensorModel model_;
   std::shared_ptr<const GaussianTable> gaussian_;
   FieldGrid grid_;
 };

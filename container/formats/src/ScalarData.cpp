@@ -48,8 +48,8 @@ std::vector<double> ScalarData::expectation(const Pose2& pose) const {
 
 std::shared_ptr<const Weigher> ScalarData::makeWeigher() const {
   if (!reading_) return nullptr;
-  return std::make_shared<CellWeigher<PositionTable>>(table_, gaussian_, mount(), *reading_,
-                                                      config_.model.sigmaAt(*reading_));
+  return std::make_shared<CellWeigher<PositionTable>>(table_, gaussian_, config_.model, mount(),
+                                                      *reading_, config_.model.sigmaAt(*reading_));
 }
 
 std::string ScalarData::learningKey() const {

@@ -1,6 +1,7 @@
 #include "ortung/tables/PositionTable.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,46 @@ namespace {
 
 constexpr int kDirections = 65535;  // levels 0..65534, so that CellTable::kNone stays free
 constexpr double kPerRadian = kDirections / kTurn;
+
+/// Of the cells along an edge of the grid: the one before a place, and how far behind its centre.
+struct Between {
+  std::size_t before;
+  double share;
+
+  /// @param place in cells, from the centre of the first one
+  Between(double place, int cells)
+      : before(static_cast<std::size_t>(std::clamp(place, 0.0, std::max(0.0, cells - 2.0)))),
+        share(std::clamp(place - static_cast<double>(before), 0.0, cells > 1 ? 1.0 : 0.0)) {}
+};
+
+/// The shorter way from one level to another.
+double way(double to, double from, int turn) {
+  const double levels = to - from;
+  if (turn == 0) return levels;
+  return levels - turn * std::nearbyint(levels / turn);
+}
+
+/// Level between the centres of the four cells around a point, in proportion to how near they are;
+/// where one of the four knows nothing, that of the point's own cell, and NaN where that knows
+/// nothing. @param turn so many levels are the same again (directions), or 0
+double between(const CellTable& table, double x, double y, int turn) {
+  const std::uint16_t own = table.at(x, y);
+  if (own == CellTable::kNone) return std::numeric_limits<double>::quiet_NaN();
+  const FieldGrid& grid = table.grid();
+  const Between column((x - grid.originX) / grid.cell - 0.5, grid.columns);
+  const Between row((y - grid.originY) / grid.cell - 0.5, grid.rows);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const std::size_t right = grid.columns > 1 ? 1 : 0;
+  const std::size_t up = grid.rows > 1 ? columns : 0;
+  const std::uint16_t* cell = table.levels().data() + row.before * columns + column.before;
+  const std::array<std::uint16_t, 4> level = {cell[0], cell[right], cell[up], cell[up + right]};
+  if (*std::max_element(level.begin(), level.end()) == CellTable::kNone) return own;
+  const double first = level[0];
+  const double lower = column.share * way(level[1], first, turn);
+  const double above = way(level[2], first, turn);
+  const double upper = above + column.share * (way(level[3], first, turn) - above);
+  return first + lower + row.share * (upper - lower);
+}
 
 }  // namespace
 
@@ -49,9 +90,7 @@ void PositionTable::learn(double x, double y, double range) {
 }
 
 float PositionTable::at(double x, double y) const {
-  const std::uint16_t level = cells_.at(x, y);
-  return level == CellTable::kNone ? std::numeric_limits<float>::quiet_NaN()
-                                   : static_cast<float>(level * metresPerLevel_);
+  return static_cast<float>(between(cells_, x, y, 0) * metresPerLevel_);
 }
 
 void BearingTable::learn(double x, double y, double directionInField) {
@@ -61,9 +100,7 @@ void BearingTable::learn(double x, double y, double directionInField) {
 }
 
 float BearingTable::at(double x, double y) const {
-  const std::uint16_t level = cells_.at(x, y);
-  if (level == CellTable::kNone) return std::numeric_limits<float>::quiet_NaN();
-  return static_cast<float>(std::remainder(level / kPerRadian, kTurn));
+  return static_cast<float>(std::remainder(between(cells_, x, y, kDirections) / kPerRadian, kTurn));
 }
 
 }  // namespace ortung

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -10,8 +11,9 @@
 #include "ortung/tables/PositionTable.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
-/// Weighs samples by features that are tables over the position, a block of samples at a time:
-/// looking up is a loop of its own, so that the arithmetic between the lookups vectorizes.
+/// Weighs samples by features that are tables over the position, interpolated as their at() does, a
+/// block of samples at a time: looking up is a loop of its own, so that
+/// the arithmetic between the lookups vectorizes.
 namespace ortung {
 
 class TableWeigher {
@@ -19,13 +21,33 @@ class TableWeigher {
   static constexpr std::size_t kBlock = 64;
 
   /// @param grid of all tables that are asked for
-  explicit TableWeigher(const FieldGrid& grid) : lookup_(grid) {}
+  explicit TableWeigher(const FieldGrid& grid)
+      : lookup_(grid),
+        originX_(static_cast<float>(grid.originX + 0.5 * grid.cell)),
+        originY_(static_cast<float>(grid.originY + 0.5 * grid.cell)),
+        perMetre_(static_cast<float>(1.0 / grid.cell)),
+        columns_(grid.columns),
+        right_(grid.columns > 1 ? 1 : 0),
+        up_(grid.rows > 1 ? grid.columns : 0),
+        mostColumns_(static_cast<float>(std::max(0, grid.columns - 1))),
+        mostRows_(static_cast<float>(std::max(0, grid.rows - 1))),
+        lastColumn_(static_cast<float>(std::max(0, grid.columns - 2))),
+        lastRow_(static_cast<float>(std::max(0, grid.rows - 2))) {}
 
   /// @param poses at most kBlock, alive until the next call
   void start(const SensorPoses& poses, std::size_t n) {
     poses_ = poses;
     n_ = n;
     for (std::size_t k = 0; k < n; ++k) cells_[k] = lookup_.index(poses.x[k], poses.y[k]);
+    for (std::size_t k = 0; k < n; ++k) {  // vectorizes
+      const float column = bounded((poses.x[k] - originX_) * perMetre_, mostColumns_);
+      const float row = bounded((poses.y[k] - originY_) * perMetre_, mostRows_);
+      const auto left = static_cast<std::int32_t>(column < lastColumn_ ? column : lastColumn_);
+      const auto below = static_cast<std::int32_t>(row < lastRow_ ? row : lastRow_);
+      corners_[k] = below * columns_ + left;
+      shareX_[k] = column - static_cast<float>(left);
+      shareY_[k] = row - static_cast<float>(below);
+    }
   }
 
   /// Adds ln p of a distance to out[0 .. n). @param perSigma of the reading [1/m]
@@ -34,8 +56,10 @@ class TableWeigher {
     const auto metresPerLevel = static_cast<float>(table.metresPerLevel());
     take(table.cells());
     for (std::size_t k = 0; k < n_; ++k) {
-      const float residual = reading - static_cast<float>(levels_[k]) * metresPerLevel;
-      setPlace(k, residual * perSigma);
+      const auto right = static_cast<float>(right1_[k] - levels_[k]);
+      const auto up = static_cast<float>(up1_[k] - levels_[k]);
+      const auto both = static_cast<float>(both1_[k] - levels_[k]);
+      setPlace(k, (reading - between(k, right, up, both) * metresPerLevel) * perSigma);
     }
     add(gaussian, out);
   }
@@ -47,8 +71,11 @@ class TableWeigher {
     const auto turnsPerLevel = static_cast<float>(BearingTable::kRadiansPerLevel / kTurn);
     take(table.cells());
     for (std::size_t k = 0; k < n_; ++k) {
+      const auto right = static_cast<float>(shorter(right1_[k] - levels_[k]));
+      const auto up = static_cast<float>(shorter(up1_[k] - levels_[k]));
+      const auto both = static_cast<float>(shorter(both1_[k] - levels_[k]));
       const float turns = (reading + poses_.theta[k]) * (1.0F / kTurnFloat) -
-                          static_cast<float>(levels_[k]) * turnsPerLevel;
+                          between(k, right, up, both) * turnsPerLevel;
       const int usual =
           static_cast<int>(turns > -kMostTurns) & static_cast<int>(turns < kMostTurns);
       const float bounded = usual != 0 ? turns : 0.0F;
@@ -60,10 +87,47 @@ class TableWeigher {
   }
 
  private:
+  static float bounded(float place, float most) {
+    const float least = place > 0.0F ? place : 0.0F;  // also for NaN
+    return least < most ? least : most;
+  }
+  /// Levels from one direction to another, by the shorter way.
+  static std::int32_t shorter(std::int32_t way) {
+    constexpr auto kDirections =
+        static_cast<std::int32_t>(kTurn / BearingTable::kRadiansPerLevel + 0.5);
+    constexpr std::int32_t kHalf = kDirections / 2;
+    way = way > kHalf ? way - kDirections : way;
+    return way < -kHalf ? way + kDirections : way;
+  }
+
   void take(const CellTable& table) {
     const std::uint16_t* levels = table.levels().data();
-    for (std::size_t k = 0; k < n_; ++k)
-      levels_[k] = cells_[k] < 0 ? CellTable::kNone : levels[cells_[k]];
+    if (levels == nullptr) {  // nobody learned it
+      levels_.fill(CellTable::kNone);
+      return;
+    }
+    for (std::size_t k = 0; k < n_; ++k) {
+      const std::uint16_t* corner = levels + corners_[k];
+      levels_[k] = corner[0];
+      right1_[k] = corner[right_];
+      up1_[k] = corner[up_];
+      both1_[k] = corner[up_ + right_];
+      own_[k] = cells_[k] < 0 ? CellTable::kNone : levels[cells_[k]];
+    }
+    for (std::size_t k = 0; k < n_; ++k) {  // vectorizes
+      const int none = isNone(levels_[k]) | isNone(right1_[k]) | isNone(up1_[k]) |
+                       isNone(both1_[k]) | isNone(own_[k]);
+      levels_[k] = none != 0 ? own_[k] : levels_[k];
+      right1_[k] = none != 0 ? own_[k] : right1_[k];
+      up1_[k] = none != 0 ? own_[k] : up1_[k];
+      both1_[k] = none != 0 ? own_[k] : both1_[k];
+    }
+  }
+  static int isNone(std::int32_t level) { return static_cast<int>(level == CellTable::kNone); }
+  float between(std::size_t k, float right, float up, float both) const {
+    const float lower = shareX_[k] * right;
+    const float upper = up + shareX_[k] * (both - up);
+    return static_cast<float>(levels_[k]) + lower + shareY_[k] * (upper - lower);
   }
   /// Nothing expected is as bad as the worst residual.
   void setPlace(std::size_t k, float sigmas) {
@@ -75,10 +139,27 @@ class TableWeigher {
   }
 
   CellLookup lookup_;
+  float originX_;  ///< centre of the first cell [m]
+  float originY_;
+  float perMetre_;
+  std::int32_t columns_;
+  std::int32_t right_;  ///< from a cell to the one at its right, or above; 0: there is none
+  std::int32_t up_;
+  float mostColumns_;  ///< place of the last column
+  float mostRows_;
+  float lastColumn_;  ///< the last one that has a neighbour at its right
+  float lastRow_;
   SensorPoses poses_{};
   std::size_t n_ = 0;
-  std::array<std::int32_t, kBlock> cells_;
-  std::array<std::int32_t, kBlock> levels_;
+  std::array<std::int32_t, kBlock> cells_;    ///< that hold the samples; -1: outside
+  std::array<std::int32_t, kBlock> corners_;  ///< the lower left one of the four around
+  std::array<float, kBlock> shareX_;
+  std::array<float, kBlock> shareY_;
+  std::array<std::int32_t, kBlock> levels_;  ///< of the four; all alike: that of the cell itself
+  std::array<std::int32_t, kBlock> right1_;
+  std::array<std::int32_t, kBlock> up1_;
+  std::array<std::int32_t, kBlock> both1_;
+  std::array<std::int32_t, kBlock> own_;
   std::array<std::int32_t, kBlock> places_;
 };
 
