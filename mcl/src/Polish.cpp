@@ -84,6 +84,17 @@ std::optional<Solution> agreement(const std::vector<const Polishable*>& readings
   return found;
 }
 
+/// Whether readings determine a pose by themselves. Of what they leave open samples know more than
+/// a normal distribution does: a distance puts the robot on a circle.
+bool determine(const std::vector<const Polishable*>& readings, const Pose2& pose) {
+  constexpr double kNothing = 1e-6;
+  Slope slope;
+  for (const Polishable* reading : readings) slope.add(reading->slopeAt(pose), 1.0);
+  const Eigen::SelfAdjointEigenSolver<Matrix> parts(matrixOf(slope.information),
+                                                    Eigen::EigenvaluesOnly);
+  return parts.eigenvalues()[0] > kNothing * parts.eigenvalues()[2];
+}
+
 /// Square of how far readings have moved the pose, in what they were promised to: 1 in the mean if
 /// promises are kept. Nothing if they told nothing.
 /// @param moved from what was predicted @param promised covariance of that
@@ -133,7 +144,7 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
     prior.mean = cluster.pose;
     prior.precision = widened(cluster.covariance, kClusterMetres, kClusterRadians).inverse();
   }
-  if (readings.empty()) {
+  if (!determine(readings, estimate.pose)) {
     apply(estimate);
     return;
   }

@@ -37,9 +37,8 @@ struct LandmarksData::Tables {
   std::vector<Landmark> landmarks;  ///< in the order of the list of identities
 };
 
-class LandmarksData::Sight : public Weigher {
+class LandmarksData::Sight final : public Weigher, public Polishable {
  public:
-  class Sharp;
   Sight(std::shared_ptr<const Model> model, std::shared_ptr<const Tables> tables,
         const Pose2& mount)
       : model_(std::move(model)), tables_(std::move(tables)), mount_(mount) {}
@@ -48,18 +47,7 @@ class LandmarksData::Sight : public Weigher {
     known_.push_back({&tables_->landmarks[index], sighting.range, sighting.bearing,
                       model_->range.sigmaAt(sighting.range)});
   }
-
- protected:
-  Slope slope(const Pose2& robot) const {
-    const Pose2 sensor = robot * mount_;
-    Slope slope;
-    for (const Known& k : known_) {
-      addReading(slope, k.landmark->range, k.range, k.sigma, model_->range, robot, sensor);
-      addReading(slope, k.landmark->bearing, k.bearing, model_->bearing.sigma, model_->bearing,
-                 robot, sensor);
-    }
-    return slope;
-  }
+  bool isEmpty() const { return known_.empty(); }
 
  private:
   struct Known {
@@ -105,17 +93,21 @@ class LandmarksData::Sight : public Weigher {
         });
   }
 
+  Slope slopeAt(const Pose2& robot) const override {
+    const Pose2 sensor = robot * mount_;
+    Slope slope;
+    for (const Known& k : known_) {
+      addReading(slope, k.landmark->range, k.range, k.sigma, model_->range, robot, sensor);
+      addReading(slope, k.landmark->bearing, k.bearing, model_->bearing.sigma, model_->bearing,
+                 robot, sensor);
+    }
+    return slope;
+  }
+
   std::shared_ptr<const Model> model_;
   std::shared_ptr<const Tables> tables_;
   Pose2 mount_;
   std::vector<Known> known_;
-};
-
-/// Of landmarks that determine a pose together: of what one alone leaves open, samples know more.
-class LandmarksData::Sight::Sharp final : public Sight, public Polishable {
- public:
-  using Sight::Sight;
-  Slope slopeAt(const Pose2& robot) const override { return slope(robot); }
 };
 
 LandmarksData::LandmarksData(SensorId id, const Pose2& mount, Config config)
@@ -203,19 +195,12 @@ std::vector<double> LandmarksData::expectation(const Pose2& pose) const {
 }
 
 std::shared_ptr<const Weigher> LandmarksData::makeWeigher() const {
-  std::vector<std::pair<std::size_t, Sighting>> known;
+  auto sight = std::make_shared<Sight>(model_, tables_, mount());
   for (const Sighting& sighting : reading_) {
     const std::ptrdiff_t index = indexOf(sighting.identity);
-    if (index >= 0) known.emplace_back(static_cast<std::size_t>(index), sighting);
+    if (index >= 0) sight->add(static_cast<std::size_t>(index), sighting);
   }
-  if (known.empty()) return nullptr;
-  std::shared_ptr<Sight> sight;
-  if (known.size() > 1)
-    sight = std::make_shared<Sight::Sharp>(model_, tables_, mount());
-  else
-    sight = std::make_shared<Sight>(model_, tables_, mount());
-  for (const auto& [index, sighting] : known) sight->add(index, sighting);
-  return sight;
+  return sight->isEmpty() ? nullptr : sight;
 }
 
 std::string LandmarksData::learningKey() const {

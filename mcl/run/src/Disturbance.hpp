@@ -4,6 +4,7 @@
 
 #include "ortung/base/Random.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/run/Fault.hpp"
 
@@ -27,6 +28,10 @@ std::unique_ptr<Disturbance> makeOdometryFault(const Fault& fault);
 /// Faults of a scan's beams.
 std::unique_ptr<Disturbance> makeScanFault(const Fault& fault, const ScanData::Config& scan,
                                            const Random& random);
+/// A share of the landmarks in sight is another one anywhere.
+std::unique_ptr<Disturbance> makeLandmarksFault(const Fault& fault,
+                                                const LandmarksData::Config& landmarks,
+                                                const Random& random);
 /// People who stand and walk slowly around a scanner, with it wherever it goes.
 std::unique_ptr<Disturbance> makeCrowd(const ScanData::Config& scan, Random random);
 

@@ -21,6 +21,7 @@ constexpr Timestamp kFarthest = Timestamp{1} << 60;  ///< as far as FrameReader 
 struct Formats {
   std::map<std::string, bool> isOdometry;  ///< of all features but ground truth
   std::map<std::string, ScanData::Config> scans;
+  std::map<std::string, LandmarksData::Config> landmarks;
 };
 
 Formats formatsOf(const SensorContainer& robot) {
@@ -31,6 +32,8 @@ Formats formatsOf(const SensorContainer& robot) {
     formats.isOdometry[name] = dynamic_cast<const OdometryData*>(data.get()) != nullptr;
     if (const auto* scan = dynamic_cast<const ScanData*>(data.get()))
       formats.scans.emplace(name, scan->config());
+    if (const auto* landmarks = dynamic_cast<const LandmarksData*>(data.get()))
+      formats.landmarks.emplace(name, landmarks->config());
   }
   return formats;
 }
@@ -43,7 +46,9 @@ bool isOdometry(const Formats& formats, const std::string& feature) {
 /// Whether a fault alters a feature of the log that is not ground truth.
 bool concerns(const Fault& fault, const Formats& formats, const std::string& feature) {
   const FaultOf of = groupOf(fault.kind);
-  if (of == FaultOf::kScan && !formats.scans.contains(feature)) return false;
+  if (of == FaultOf::kScan && !formats.scans.contains(feature) &&
+      !(fault.kind == Fault::Kind::kRandom && formats.landmarks.contains(feature)))
+    return false;
   if (fault.what == "odometry") return isOdometry(formats, feature);
   if (fault.what == "readings") return !isOdometry(formats, feature);
   return fault.what == feature;
@@ -177,6 +182,8 @@ class Disturbed : public Source {
       case FaultOf::kOdometry:
         return makeOdometryFault(fault);
       case FaultOf::kScan:
+        if (const auto list = formats_.landmarks.find(feature); list != formats_.landmarks.end())
+          return makeLandmarksFault(fault, list->second, random);
         return makeScanFault(fault, formats_.scans.at(feature), random);
       default:
         return makeReadingFault(fault, random);

@@ -44,14 +44,15 @@ constexpr std::array<Form, 14> kForms = {{
      "the pose jumps once, at FROM: ahead, to the left [m], to the left [degrees]"},
     {"crowd", Kind::kCrowd, FaultOf::kScan, "", 0, 0,
      "people 0.4 to 1.5 m away hide more than half of the beams"},
-    {"random", Kind::kRandom, FaultOf::kScan, "SHARE", 0, 1, "that share of the beams is random"},
+    {"random", Kind::kRandom, FaultOf::kScan, "SHARE", 0, 1,
+     "that share of the beams, or of the landmarks in sight, is random"},
     {"short", Kind::kShort, FaultOf::kScan, "SHARE", 0, 1,
      "that share of the beams reads too little"},
 }};
 
 std::string_view nameOf(FaultOf of) {
   if (of == FaultOf::kOdometry) return "odometry";
-  return of == FaultOf::kScan ? "scans" : "all readings";
+  return of == FaultOf::kScan ? "scans, lists of landmarks" : "all readings";
 }
 
 /// @p form with its value as one writes it.

@@ -30,7 +30,7 @@ struct Fault {
     kSlip,     ///< odometry stands while the robot moves, and goes on from there
     kJump,     ///< odometry's counter jumps once: x, y [m], heading [rad] in the robot's frame
     kCrowd,    ///< people around the robot hide half of a scan's beams or more
-    kRandom,   ///< a share of a scan's beams reads anything
+    kRandom,   ///< a share of a scan's beams, or of the landmarks in sight, is anything
     kShort     ///< a share of a scan's beams reads too little
   };
   std::string text;  ///< as it was given, for messages
