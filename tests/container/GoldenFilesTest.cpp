@@ -162,7 +162,7 @@ TEST(GoldenTables, AreWrittenAsTheyWere) {
   const TemporaryFolder folder;
   writeTables(folder / "x.ortung", robot.container,
               {"small", "00f315bae1fde647", "robot", kPi / 2, region, {}});
-  expectGolden("tables2.ortung", readBytes(folder / "x.ortung"));
+  expectGolden("tables3.ortung", readBytes(folder / "x.ortung"));
 }
 
 TEST(GoldenTables, TellWhatTheyTold) {
