@@ -140,9 +140,11 @@ void addLocalize(Builder& build, CLI::App& app) {
       ->check(within(0.01, 1000));
   build
       .option("--format", a->format,
-              "text: a line of numbers a pose, which the first line names; json: an object a line")
-      ->check(CLI::IsMember({"text", "json"}))
+              "text: a line of numbers a pose, which the first line names; json: an object a line; "
+              "tum: seconds x y z qx qy qz qw, as evo reads it")
+      ->check(CLI::IsMember({"text", "json", "tum"}))
       ->capture_default_str();
+  build.option("--truth", a->truth, "Write the source's ground truth, too, as --format tum has it");
   build.option("--belief", a->belief,
                "Begin with the belief in this file, if it is there, in place of --start; save the "
                "belief there at the end, and every 10 s of a live source");

@@ -22,14 +22,27 @@ namespace {
 constexpr double kPatience = 5.0;                  // for the first odometry of a live source [s]
 constexpr Timestamp kBetweenBeliefs = 10'000'000;  // of a live source [us]
 
+enum class Format : std::uint8_t { kText, kJson, kTum };
+
+Format formatOf(const LocalizeArguments& arguments) {
+  if (arguments.format == "json") return Format::kJson;
+  return arguments.format == "tum" ? Format::kTum : Format::kText;
+}
+
+OutputKind kindOf(Format format) {
+  if (format == Format::kJson) return OutputKind::kPosesJson;
+  return format == Format::kTum ? OutputKind::kPosesTum : OutputKind::kPoses;
+}
+
 /// Where the poses go: to a file, which appears whole or, of a live source, grows with each pose;
 /// or to stdout, where whoever reads it gets each pose as soon as it is known.
 class PoseOutput {
  public:
   PoseOutput(const Outputs& outputs, const LocalizeArguments& arguments, bool isLive)
-      : isLive_(isLive), isJson_(arguments.format == "json"), isEven_(arguments.rate.has_value()) {
+      : isLive_(isLive), format_(formatOf(arguments)), isEven_(arguments.rate.has_value()) {
     if (!arguments.out.empty()) file_.emplace(outputs.ready(arguments.out));
-    if (isJson_) return;
+    if (format_ == Format::kTum) text_ = kTumHeader;
+    if (format_ != Format::kText) return;
     text_ = kEstimatesHeader;
     if (!isEven_) return;
     text_.back() = ' ';
@@ -37,8 +50,10 @@ class PoseOutput {
   }
   /// @param age of the newest weighing [s]
   void add(const PoseEstimate& estimate, std::optional<double> age) {
-    if (isJson_) {
+    if (format_ == Format::kJson) {
       appendEstimateJson(estimate, age, text_);
+    } else if (format_ == Format::kTum) {
+      appendTum(estimate.stamp, estimate.pose, text_);
     } else {
       isEven_ ? appendEstimate(estimate, age, text_) : appendEstimate(estimate, text_);
     }
@@ -57,7 +72,7 @@ class PoseOutput {
 
  private:
   bool isLive_;
-  bool isJson_;
+  Format format_;
   bool isEven_;
   std::optional<NewFile> file_;
   std::string text_;
@@ -109,6 +124,9 @@ class LocalizeRun {
         output_(outputs, arguments, localization.source().isLive()),
         rescue_([this] { output_.commit(); }) {
     if (arguments.rate) times_.emplace(*arguments.rate);
+    if (arguments.truth.empty()) return;
+    truth_.emplace(outputs.ready(arguments.truth));
+    truth_->write(kTumHeader);
   }
 
   void toTheEnd() {
@@ -132,6 +150,7 @@ class LocalizeRun {
     {
       const auto held = rescue_.hold();
       output_.commit();
+      if (truth_) truth_->commit();
     }
     belief_.save();
   }
@@ -140,6 +159,11 @@ class LocalizeRun {
   /// A pose is as of the readings up to then and before all later ones; only of odometry the next
   /// reading is known, so that the way between the two is.
   void onMoment(const Feeder& feeder) {
+    if (truth_ && feeder.truth()) {
+      std::string line;
+      appendTum(feeder.stamp(), *feeder.truth(), line);
+      truth_->write(line);
+    }
     if (!times_) return;
     localization_.followOdometry();
     writeBefore(feeder.stamp());
@@ -160,6 +184,7 @@ class LocalizeRun {
   KeptBelief belief_;
   PoseOutput output_;
   Rescue rescue_;
+  std::optional<NewFile> truth_;    ///< ground truth of the source, if it is wanted
   std::optional<EvenTimes> times_;  ///< without: one pose an update
   std::optional<Timestamp> weighed_;
   std::size_t updates_ = 0;
@@ -169,10 +194,10 @@ class LocalizeRun {
 }  // namespace
 
 int runLocalize(const LocalizeArguments& arguments) {
-  const bool isJson = arguments.format == "json";
   Outputs outputs(arguments.localization.force);
   declareInputs(arguments.localization, outputs);
-  outputs.writes("--out", arguments.out, isJson ? OutputKind::kPosesJson : OutputKind::kPoses);
+  outputs.writes("--out", arguments.out, kindOf(formatOf(arguments)));
+  outputs.writes("--truth", arguments.truth, OutputKind::kPosesTum);
   outputs.writes("--belief", arguments.belief, OutputKind::kBelief);
   const std::unique_ptr<Localization> localization = openLocalization(arguments.localization);
   LocalizeRun run(arguments, outputs, *localization);

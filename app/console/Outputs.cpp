@@ -52,6 +52,8 @@ Signature signatureOf(OutputKind kind) {
       return {"poses of `ortung localize`", "# stamp_us x_m", ""};
     case OutputKind::kPosesJson:
       return {"poses of `ortung localize --format json`", "{\"stamp_us\":", ""};
+    case OutputKind::kPosesTum:
+      return {"poses as TUM has them", "# timestamp tx ty tz qx qy qz qw", ""};
     case OutputKind::kBelief:
       return {"a belief of `ortung localize`", "PK\x03\x04", "stamp_us.npy"};
     case OutputKind::kTrace:

@@ -19,6 +19,7 @@ enum class OutputKind : std::uint8_t {
   kPicture,     ///< PNG
   kPoses,       ///< of localize
   kPosesJson,   ///< of localize --format json
+  kPosesTum,    ///< of localize --format tum
   kBelief,      ///< of localize; the run that replaces it may have read it
   kTrace,       ///< CSV of sim
   kMotion,      ///< TOML of learn-motion

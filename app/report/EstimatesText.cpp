@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -41,6 +42,14 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
   line["reason"] = nameOf(estimate.reason);
   line["age_s"] = age ? nlohmann::ordered_json(*age) : nlohmann::ordered_json();
   text += line.dump() + "\n";
+}
+
+void appendTum(Timestamp stamp, const Pose2& pose, std::string& text) {
+  constexpr Timestamp kSecond = 1'000'000;
+  const Timestamp whole = stamp / kSecond - (stamp % kSecond < 0 ? 1 : 0);
+  fmt::format_to(std::back_inserter(text), "{}.{:06} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", whole,
+                 stamp - whole * kSecond, pose.x, pose.y, std::sin(pose.theta / 2),
+                 std::cos(pose.theta / 2));
 }
 
 }  // namespace ortung::app

@@ -24,4 +24,11 @@ void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std
 /// The same as a JSON object and a line feed; the covariance row by row; no age is null.
 void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age, std::string& text);
 
+/// The first line of such a file, a comment.
+inline constexpr std::string_view kTumHeader = "# timestamp tx ty tz qx qy qz qw\n";
+
+/// A pose as the RGB-D benchmark of TUM and `evo` have it, with a line feed: seconds, x y z [m],
+/// and the quaternion x y z w of the heading.
+void appendTum(Timestamp stamp, const Pose2& pose, std::string& text);
+
 }  // namespace ortung::app

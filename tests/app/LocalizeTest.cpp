@@ -1,4 +1,5 @@
 // Poses at an even rate, as JSON, and a belief that outlives the program.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -102,6 +103,54 @@ TEST_F(Localize, WritesPosesAtAnEvenRateWithTheAgeOfTheLastWeighing) {
   const std::vector<Line> weighed = linesOf(run({"--start", "truth"}).out);
   EXPECT_LT(weighed.size(), 10U);
   EXPECT_EQ(weighed.front().size(), 12U);
+}
+
+// What evo would compute from the files, here by itself: absolute errors of positions and headings
+// beside the truth, which is interpolated; eval's figures must be the same.
+TEST_F(Localize, WritesPosesAndTruthFromWhichEvalsFiguresFollow) {
+  const Outcome outcome =
+      run({"--start", "truth", "--start-sigma", "0.05,2", "--rate", "10", "--format", "tum",
+           "--out", path("poses.tum"), "--truth", path("truth.tum")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const std::vector<Line> truth = linesOf(read("truth.tum"));
+  ASSERT_EQ(truth.size(), truth_.size());
+  const auto headingOf = [](const Line& line) { return 2 * std::atan2(line[6], line[7]); };
+  std::vector<double> errors;
+  double squares = 0.0;
+  double turns = 0.0;
+  std::size_t behind = 0;
+  for (const Line& pose : linesOf(read("poses.tum"))) {
+    ASSERT_EQ(pose.size(), 8U);
+    while (behind < truth.size() && truth[behind][0] < pose[0] - 1e-9) ++behind;
+    if (behind == truth.size()) break;
+    const Line& b = truth[behind];
+    const Line& a = truth[behind == 0 ? 0 : behind - 1];
+    const double share = b[0] > a[0] ? (pose[0] - a[0]) / (b[0] - a[0]) : 1.0;
+    const double error =
+        std::hypot(pose[1] - a[1] - share * (b[1] - a[1]), pose[2] - a[2] - share * (b[2] - a[2]));
+    const double turn =
+        headingOf(a) + share * std::remainder(headingOf(b) - headingOf(a), 2 * M_PI);
+    errors.push_back(error);
+    squares += error * error;
+    turns += std::pow(std::remainder(headingOf(pose) - turn, 2 * M_PI), 2);
+  }
+  ASSERT_GT(errors.size(), 190U);
+  std::sort(errors.begin(), errors.end());
+  const std::size_t n = errors.size();
+  const auto count = static_cast<double>(n);
+  const double median = (errors[(n - 1) / 2] + errors[n / 2]) / 2;
+
+  const Outcome eval = ortung({"eval", "--source", "record:" + path("run.rec"), "--robot",
+                               path("robot.toml"), "--tables", path("hall.ortung"), "--start",
+                               "truth", "--start-sigma", "0.05,2", "--json", path("figures.json")});
+  ASSERT_EQ(eval.exitCode, 0) << eval.err;
+  const auto figures = nlohmann::json::parse(read("figures.json"));
+  ASSERT_EQ(figures.at("converged_after_s"), 0.0);
+  ASSERT_NEAR(figures.at("compared_moments").get<double>(), count, 1.0);  // the last one
+  EXPECT_NEAR(figures.at("position_median_m").get<double>(), median, 2e-4);
+  EXPECT_NEAR(figures.at("position_rmse_m").get<double>(), std::sqrt(squares / count), 1e-4);
+  EXPECT_NEAR(figures.at("heading_rmse_deg").get<double>(), std::sqrt(turns / count) * 180 / M_PI,
+              2e-3);
 }
 
 TEST_F(Localize, WritesTheSameAsJson) {
