@@ -106,7 +106,36 @@ class GridFilter {
     return e;
   }
 
+  /// Kullback-Leibler divergence of a sample set from this belief, both in bins of 0.25 m and 30
+  /// degrees: sum of q ln(q / p).
+  double divergenceOf(const SampleSet& samples) const {
+    std::vector<double> p(kBins, 0.0);
+    std::vector<double> q(kBins, 0.0);
+    forEach([&](const double& share, const Pose2& pose) { p[binOf(pose)] += share; });
+    double sum = 0.0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double weight = std::exp(static_cast<double>(samples.logWeight[i]));
+      q[binOf({samples.x[i], samples.y[i], samples.theta[i]})] += weight;
+      sum += weight;
+    }
+    double divergence = 0.0;
+    for (std::size_t bin = 0; bin < kBins; ++bin)
+      if (q[bin] > 0.0)
+        divergence += q[bin] / sum * std::log(q[bin] / sum / std::max(p[bin], 1e-12));
+    return divergence;
+  }
+
  private:
+  static constexpr std::size_t kBins = 16 * 12 * 12;
+  static std::size_t binOf(const Pose2& pose) {
+    const auto place = [](double at, double size, int count) {
+      return static_cast<std::size_t>(
+          std::clamp(static_cast<int>(std::floor(at / size)), 0, count - 1));
+    };
+    const double turn = pose.theta < 0.0 ? pose.theta + 2 * kPi : pose.theta;
+    return (place(pose.y + 1.5, 0.25, 12) * 16 + place(pose.x + 2.0, 0.25, 16)) * 12 +
+           place(turn, kPi / 6, 12);
+  }
   // Nodes and weights for the normal distribution, exact for polynomials up to degree 5.
   static constexpr std::array<std::pair<double, double>, 3> kNodes = {
       {{-1.7320508075689, 1.0 / 6}, {0.0, 2.0 / 3}, {1.7320508075689, 1.0 / 6}}};
@@ -160,7 +189,7 @@ class GridFilter {
 
 /// The same world for MCL: three features with tables, odometry.
 struct McLocalizer {
-  McLocalizer() {
+  explicit McLocalizer(std::size_t samples = 60000, std::uint64_t seed = 1) {
     container.add(std::make_unique<OdometryData>(SensorId{"base", "odometry", "pose"}));
     for (int i = 0; i < 2; ++i) {
       SensorData& range = container.add(std::make_unique<ScalarData>(
@@ -177,7 +206,8 @@ struct McLocalizer {
       return BearingData::encode(test::bearingTo(s, kPosts[0][0], kPosts[0][1]));
     });
     MclConfig config;
-    config.maxSamples = config.minSamples = 60000;
+    config.maxSamples = config.minSamples = samples;
+    config.seed = seed;
     config.minDistance = config.minRotation = 0.0;
     config.recoverSlow = 0.0;
     config.budgetMs = 1e6;  // of the start, too
@@ -236,6 +266,43 @@ TEST(GridFilter, AndMclAgreeOnMeanAndCovariance) {
     }
     EXPECT_LT(sigma[0], 0.4) << "the case is small, but the belief is no point";
     EXPECT_GT(sigma[0], 0.05);
+  }
+}
+
+// Of n independent samples the divergence is about (bins - 1) / 2n; what is left of it with many
+// is that of cells and quadrature.
+TEST(GridFilter, IsComeNearerByMclWithMoreSamples) {
+  constexpr std::size_t kSamples[] = {500, 2000, 10000};
+  constexpr int kSeeds = 4;
+  std::array<double, 3> divergence{};
+  GridFilter grid;
+  std::vector<std::unique_ptr<McLocalizer>> all;
+  for (const std::size_t samples : kSamples)
+    for (int seed = 1; seed <= kSeeds; ++seed)
+      all.push_back(std::make_unique<McLocalizer>(samples, static_cast<std::uint64_t>(seed)));
+  Pose2 truth{-0.6, 0.2, 0.4};
+  Random random(4);
+  for (const double way : {0.0, 0.5, 0.4}) {
+    truth = truth * Pose2{way, 0, 0};
+    Reading reading{};
+    for (int i = 0; i < 2; ++i)
+      reading.range[i] = std::hypot(kPosts[i][0] - truth.x, kPosts[i][1] - truth.y) +
+                         kSigmaRange * random.gaussian();
+    reading.bearing =
+        test::bearingTo(truth, kPosts[0][0], kPosts[0][1]) + kSigmaBearing * random.gaussian();
+    if (way > 0.0) grid.predict(way);
+    grid.correct(reading);
+    divergence = {};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i]->step(way, reading);
+      divergence[i / kSeeds] += grid.divergenceOf(all[i]->mcl->samples()) / kSeeds;
+    }
+    RecordProperty("way " + std::to_string(way), std::to_string(divergence[0]) + " " +
+                                                     std::to_string(divergence[1]) + " " +
+                                                     std::to_string(divergence[2]));
+    EXPECT_LT(divergence[1], 0.7 * divergence[0]) << way;
+    EXPECT_LT(divergence[2], 0.7 * divergence[1]) << way;
+    EXPECT_LT(divergence[2], 0.05) << way;
   }
 }
 
