@@ -6,6 +6,36 @@
 namespace ortung::app {
 namespace {
 
+void addNoise(Builder& build, CLI::App& app) {
+  const auto a = build.command<CalibrateNoiseArguments>(
+      app, "noise",
+      "Each sensor's noise, outliers, biases, latency and mount from logs of the robot",
+      "ortung calibrate noise run1.rec run2.rec --robot robot.toml --tables hall.ortung --out "
+      "learned.toml",
+      runCalibrateNoise);
+  build.option("sources", a->sources, "Records, or sources KIND:PATH?key=value")->required();
+  build.option("--robot", a->robot, "Robot file (TOML)")->required();
+  build.option("--tables", a->tables, "Table file of `ortung learn`")->required();
+  build.option("--out", a->out, "Robot file to write: the same with what was learned");
+  build
+      .option("--reference", a->reference,
+              "Where the robot was: truth, the track that MCL finds, or auto: truth where there is "
+              "one")
+      ->check(CLI::IsMember({"auto", "truth", "track"}))
+      ->capture_default_str();
+  build.option("--fixed", a->fixed, "What is not learned: bias, mount, latency")
+      ->check(CLI::IsMember({"bias", "mount", "latency"}))
+      ->delimiter(',');
+  build.option("--motion", a->motion,
+               "File with [motion] for the track; default: the robot file's");
+  build.option("--seed", a->seed, "Seed of the track")->capture_default_str();
+  build.flag("--any-world", a->anyWorld,
+             "Go on although a source comes from another world than the tables");
+  build.flag("--force", a->force, kForce);
+  build.flag("--progress", a->progress, kProgress);
+}
+
+#ifdef ORTUNG_HAS_VISION
 void addLines(Builder& build, CLI::App& app) {
   const auto a = build.command<CalibrateLinesArguments>(
       app, "lines",
@@ -62,15 +92,20 @@ void addColours(Builder& build, CLI::App& app) {
   build.flag("--force", a->force, kForce);
 }
 
+#endif
+
 }  // namespace
 
 void addCalibrate(Builder& build, CLI::App& app) {
-  CLI::App* calibrate = app.add_subcommand("calibrate", "Find out how a camera sees");
+  CLI::App* calibrate = app.add_subcommand("calibrate", "Find out how sensors err and cameras see");
   calibrate->require_subcommand(1);
   calibrate->footer("Example:\n  ortung calibrate lines cam0/*.jpg --world maps/fields/msl.toml");
+  addNoise(build, *calibrate);
+#ifdef ORTUNG_HAS_VISION
   addCamera(build, *calibrate);
   addLines(build, *calibrate);
   addColours(build, *calibrate);
+#endif
 }
 
 }  // namespace ortung::app

@@ -289,9 +289,7 @@ ParsedCommand parseCommandLine(int argc, char** argv) {
   addEmulate(build, app);
 #endif
   addBenchmark(build, app);
-#ifdef ORTUNG_HAS_VISION
   addCalibrate(build, app);
-#endif
   addPlugins(build, app);
   try {
     app.parse(argc, argv);

@@ -101,6 +101,7 @@ struct EvalArguments {
   std::vector<std::string> faults;  ///< "WHAT=FAULT[:VALUE][@FROM-TO]"
   std::string commandLine;          ///< for the report
   bool isViewing = false;           ///< show the run afterwards
+  std::filesystem::path bound;      ///< world of all sources, whose truth is exact; "" for none
 };
 int runEval(const EvalArguments& arguments);
 

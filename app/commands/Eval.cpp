@@ -86,6 +86,7 @@ Outputs outputsOf(const EvalArguments& arguments, std::size_t runs) {
   Outputs outputs(arguments.localization.force);
   declareInputs(arguments.localization, outputs);
   for (const std::string& source : arguments.sources) outputs.readsSource(source);
+  outputs.reads(arguments.bound);
   outputs.writes("--json", arguments.json, OutputKind::kFigures);
   outputs.writes("--report", arguments.report, OutputKind::kReport);
   outputs.writes("--record", arguments.record, OutputKind::kRecord);

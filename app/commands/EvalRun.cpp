@@ -10,6 +10,7 @@
 
 #include "Console.hpp"
 #include "Localizing.hpp"
+#include "SimulatedBound.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/mcl/Verdict.hpp"
 #include "ortung/run/Cases.hpp"
@@ -108,11 +109,14 @@ class Run {
     result_.calibration = calibrationOf(result_.figures.points);
   }
   RunResult& result() { return result_; }
+  /// Is shown all moments. @param bound borrowed
+  void setBound(SimulatedBound* bound) { bound_ = bound; }
 
  private:
   void onMoment(const Feeder& feeder) {
     if (!any_) result_.first = feeder.stamp();
     any_ = true;
+    if (bound_ != nullptr) bound_->look(localization_.container(), feeder.stamp(), feeder.truth());
     localization_.followOdometry();
     for (const Timestamp time : evaluation_.due(feeder.stamp(), feeder.truth().has_value())) {
       const auto estimate = localization_.estimate(time);
@@ -129,6 +133,7 @@ class Run {
   Evaluation evaluation_;
   RunResult result_;
   bool any_ = false;
+  SimulatedBound* bound_ = nullptr;
   Timestamp nextVerdict_ = std::numeric_limits<Timestamp>::min();
 };
 
@@ -202,8 +207,15 @@ RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExt
       return judge(points, since, kEnd, ruleOf(settings, job.kind)).state != Verdict::State::kOpen;
     };
   }
+  std::optional<SimulatedBound> bound;
+  if (!settings.arguments.bound.empty()) {
+    bound.emplace(settings.arguments.bound, arguments.robot);
+    run.setBound(&*bound);
+  }
   run.toTheEnd(isDone, extras.progress);
   RunResult& result = run.result();
+  if (bound && result.figures.convergedAfter)
+    result.bound = bound->figures(result.first + fromSeconds(*result.figures.convergedAfter));
   if (splice)
     result.events =
         eventsOf(settings, job, *splice, localization->container(), result.figures.points);

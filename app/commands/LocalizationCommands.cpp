@@ -49,6 +49,10 @@ void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
   addLocalization(build, a->localization);
   build.option("--json", a->json, "Write the figures as JSON");
   build.option("--report", a->report, "Write a page with map, charts and figures");
+  build.option(
+      "--bound", a->bound,
+      "World file of simulated sources, whose truth is exact: also tell how good estimates "
+      "could be at all, the Cramer-Rao bound of readings and motion");
   build.flag("--view", a->isViewing,
              "Show the run of the one source in a web browser afterwards, with a time line");
   build.option("--record", a->record, "Write all readings as a record");

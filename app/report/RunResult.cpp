@@ -128,6 +128,12 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
         {"nees_mean", jsonNumber(atCorrections.neesMean)}}},
       {"gaps", gapsOf(run)},
   };
+  const BoundFigures bound = run.bound.value_or(BoundFigures());
+  json["bound_median_m"] = jsonNumber(bound.positionMedian);
+  json["bound_rmse_m"] = jsonNumber(bound.positionRmse);
+  json["bound_heading_rmse_deg"] = jsonNumber(degrees(bound.headingRmse));
+  json["ratio_median"] = jsonNumber(atCorrections.positionMedian / bound.positionMedian);
+  json["ratio_rmse"] = jsonNumber(atCorrections.positionRmse / bound.positionRmse);
   if (run.kind != RunKind::kWhole) json["case"] = caseOf(run);
   return json;
 }
@@ -148,7 +154,7 @@ std::vector<Figure> figuresOf(const RunResult& run) {
   const EvaluationErrors& atUpdates = figures.atCorrections;
   const std::string converged =
       figures.convergedAfter ? show("{:.1f}", *figures.convergedAfter, " s") : "never";
-  return {
+  std::vector<Figure> all = {
       {"Duration", show("{:.1f}", figures.duration, " s")},
       {"Updates", fmt::format("{}", figures.steps)},
       {"Updates with known truth", fmt::format("{}", atUpdates.compared)},
@@ -173,6 +179,15 @@ std::vector<Figure> figuresOf(const RunResult& run) {
       {"Time an update, most", show("{:.3f}", figures.updateMsMax, " ms")},
       {"Faster than real time", show("{:.0f}", figures.realtimeFactor, " x")},
   };
+  if (!run.bound) return all;
+  const BoundFigures& bound = *run.bound;
+  all.push_back({"Least median (Cramer-Rao)", show("{:.4f}", bound.positionMedian, " m")});
+  all.push_back({"Least RMS (Cramer-Rao)", show("{:.4f}", bound.positionRmse, " m")});
+  all.push_back({"Median at updates beside that",
+                 show("{:.1f}", atUpdates.positionMedian / bound.positionMedian, " x")});
+  all.push_back({"RMS at updates beside that",
+                 show("{:.1f}", atUpdates.positionRmse / bound.positionRmse, " x")});
+  return all;
 }
 
 std::string toText(const RunResult& run) {

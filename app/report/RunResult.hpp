@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "Calibration.hpp"
 #include "ortung/mcl/Evaluation.hpp"
+#include "ortung/mcl/PoseBound.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TableInfo.hpp"
 
@@ -49,11 +51,12 @@ struct RunResult {
   std::vector<std::string> faults;  ///< that the readings had
   std::string commandLine;
   RunKind kind = RunKind::kWhole;
-  std::size_t number = 1;         ///< of its kind, from 1
-  std::vector<CaseEvent> events;  ///< of a case
-  std::vector<float> updateMs;    ///< of all updates
-  Calibration calibration;        ///< of the claimed quality
-  std::vector<float> errors;      ///< of the positions of all moments after convergence [m]
+  std::size_t number = 1;             ///< of its kind, from 1
+  std::vector<CaseEvent> events;      ///< of a case
+  std::vector<float> updateMs;        ///< of all updates
+  Calibration calibration;            ///< of the claimed quality
+  std::optional<BoundFigures> bound;  ///< of the same run, if it was asked for
+  std::vector<float> errors;          ///< of the positions of all moments after convergence [m]
 };
 
 /// How well the filter's claim that a position is right to 0.5 m fits what came of it.

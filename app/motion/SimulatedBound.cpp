@@ -1,0 +1,213 @@
+#include "SimulatedBound.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <vector>
+
+#include "ortung/base/Angles.hpp"
+#include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScalarData.hpp"
+#include "ortung/formats/ScanData.hpp"
+#include "ortung/mcl/NoiseFit.hpp"
+#include "ortung/run/Robot.hpp"
+#include "ortung/sim/SimWorld.hpp"
+#include "ortung/sim_api/Sensor.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// Steps of differences: words are of 1 mm and 0.01 degrees.
+constexpr std::array<double, 3> kSteps = {0.02, 0.02, 0.5 * kDegree};
+// Where an expectation bends by more within a step there is an edge, of which no slope tells.
+constexpr double kBendMetres = 0.01;
+constexpr double kBendRadians = 0.01;
+
+/// What was measured, in an order that is the same for each reading; NaN for nothing.
+struct Values {
+  std::vector<double> ranges;    ///< [m]
+  std::vector<double> bearings;  ///< [rad]
+};
+
+double finiteOr(double value) { return std::isfinite(value) ? value : kNan; }
+
+void add(const SensorData& feature, Values& out) {
+  if (const auto* scan = dynamic_cast<const ScanData*>(&feature)) {
+    for (const float range : scan->reading().ranges)
+      out.ranges.push_back(finiteOr(static_cast<double>(range)));
+  } else if (const auto* cone = dynamic_cast<const ConeData*>(&feature)) {
+    out.ranges.push_back(finiteOr(cone->reading()));
+  } else if (const auto* scalar = dynamic_cast<const ScalarData*>(&feature)) {
+    out.ranges.push_back(scalar->reading().value_or(kNan));
+  } else if (const auto* bearing = dynamic_cast<const BearingData*>(&feature)) {
+    out.bearings.push_back(bearing->reading().value_or(kNan));
+  } else if (const auto* all = dynamic_cast<const LandmarksData*>(&feature)) {
+    const std::size_t first = out.ranges.size();
+    const auto& identities = all->config().identities;
+    out.ranges.resize(first + identities.size(), kNan);
+    out.bearings.resize(out.bearings.size() + identities.size(), kNan);
+    for (const LandmarksData::Sighting& s : all->reading()) {
+      const auto at = std::find(identities.begin(), identities.end(), s.identity);
+      if (at == identities.end()) continue;
+      const auto index = static_cast<std::size_t>(at - identities.begin());
+      out.ranges[first + index] = s.range;
+      out.bearings[out.bearings.size() - identities.size() + index] = s.bearing;
+    }
+  }
+}
+
+/// One value of a reading at the true pose.
+struct Seen {
+  std::size_t step = 0;
+  NoiseResidual residual;
+  std::array<double, 3> slope{};  ///< by x, y, theta
+};
+
+}  // namespace
+
+struct SimulatedBound::Parts {
+  struct Mounted {
+    Device device;
+    std::unique_ptr<Sensor> sensor;
+    std::map<std::string, std::uint64_t> sequences;
+    std::vector<Seen> seen;
+  };
+
+  std::unique_ptr<Robot> robot;
+  std::unique_ptr<SimWorld> world;
+  std::vector<Mounted> sensors;
+  std::vector<BoundStep> steps;
+
+  Values at(Mounted& mounted, const Pose2& pose, Timestamp stamp,
+            const std::vector<SensorData*>& wanted) const {
+    RobotState state;
+    state.pose = pose;
+    mounted.sensor->generateData(*world, state, nullptr, stamp, mounted.device.data);
+    Values values;
+    for (const SensorData* feature : wanted) add(*feature, values);
+    return values;
+  }
+
+  /// Those of a device's features that have a new reading, and that reading.
+  std::vector<SensorData*> news(Mounted& mounted, const SensorContainer& container,
+                                Values& read) const {
+    std::vector<SensorData*> wanted;
+    for (SensorData* ideal : mounted.device.data) {
+      const SensorData* actual = container.findExactly(ideal->id());
+      if (actual == nullptr || !actual->localizes() || actual->sequence() == 0) continue;
+      std::uint64_t& sequence = mounted.sequences[toText(ideal->id())];
+      if (sequence == actual->sequence()) continue;
+      sequence = actual->sequence();
+      add(*actual, read);
+      wanted.push_back(ideal);
+    }
+    return wanted;
+  }
+
+  bool look(Mounted& mounted, const SensorContainer& container, Timestamp stamp,
+            const Pose2& truth) {
+    Values read;
+    const std::vector<SensorData*> wanted = news(mounted, container, read);
+    if (wanted.empty()) return false;
+    const Values middle = at(mounted, truth, stamp, wanted);
+    std::array<std::array<Values, 2>, 3> sides;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        Pose2 pose = truth;
+        (axis == 0   ? pose.x
+         : axis == 1 ? pose.y
+                     : pose.theta) += side == 0 ? -kSteps[axis] : kSteps[axis];
+        pose.theta = wrapAngle(pose.theta);
+        sides[axis][side] = at(mounted, pose, stamp, wanted);
+      }
+    }
+    take(mounted, read, middle, sides, &Values::ranges, false, stamp);
+    take(mounted, read, middle, sides, &Values::bearings, true, stamp);
+    return true;
+  }
+
+  void take(Mounted& mounted, const Values& read, const Values& middle,
+            const std::array<std::array<Values, 2>, 3>& sides, std::vector<double> Values::* kind,
+            bool isAngle, Timestamp stamp) const {
+    const auto less = [isAngle](double a, double b) { return isAngle ? wrapAngle(a - b) : a - b; };
+    for (std::size_t i = 0; i < (read.*kind).size(); ++i) {
+      Seen seen;
+      seen.step = steps.size();
+      const double expected = (middle.*kind)[i];
+      seen.residual.stamp = stamp;
+      seen.residual.isAngle = isAngle;
+      seen.residual.residual = less((read.*kind)[i], expected);
+      seen.residual.range = isAngle ? 0.0 : expected;
+      bool isSmooth = std::isfinite(seen.residual.residual);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double before = less((sides[axis][0].*kind)[i], expected);
+        const double after = less((sides[axis][1].*kind)[i], expected);
+        seen.slope[axis] = (after - before) / (2.0 * kSteps[axis]);
+        isSmooth = isSmooth && std::abs(after + before) < (isAngle ? kBendRadians : kBendMetres);
+      }
+      if (isSmooth) mounted.seen.push_back(seen);
+    }
+  }
+
+  /// Adds what a device's readings say, with the noise that they had.
+  void inform(const Mounted& mounted, std::vector<BoundStep>& all) const {
+    std::vector<NoiseResidual> residuals;
+    for (const Seen& seen : mounted.seen) residuals.push_back(seen.residual);
+    if (residuals.empty()) return;
+    const NoiseFit fit = fitNoise(residuals, {});
+    for (const Seen& seen : mounted.seen) {
+      const NoiseShape& shape = seen.residual.isAngle ? fit.angles : fit.distances;
+      const double sigma = shape.sigma.value + shape.sigmaPerMetre.value * seen.residual.range;
+      const double weight = (1.0 - shape.outliers.value) / (sigma * sigma);
+      for (std::size_t k = 0; k < 9; ++k)
+        all[seen.step].information[k] += weight * seen.slope[k / 3] * seen.slope[k % 3];
+    }
+  }
+};
+
+SimulatedBound::SimulatedBound(const std::filesystem::path& world,
+                               const std::filesystem::path& robot)
+    : parts_(std::make_unique<Parts>()) {
+  parts_->robot = openRobot(robot);
+  parts_->world = readWorld(world);
+  for (const Device& device : parts_->robot->devices) {
+    const bool isUseful = std::any_of(device.data.begin(), device.data.end(),
+                                      [](const SensorData* data) { return data->localizes(); });
+    if (!isUseful || device.hasExtractor) continue;
+    parts_->sensors.push_back(
+        {device,
+         parts_->robot->factory.make<Sensor>(device.config->plugin, device.config->parameters),
+         {},
+         {}});
+  }
+}
+
+SimulatedBound::~SimulatedBound() = default;
+
+void SimulatedBound::look(const SensorContainer& container, Timestamp stamp,
+                          const std::optional<Pose2>& truth) {
+  if (!truth) return;
+  const OdometryData* odometry = nullptr;
+  for (const auto& data : container.all()) {
+    if (odometry == nullptr) odometry = dynamic_cast<const OdometryData*>(data.get());
+  }
+  if (odometry == nullptr || odometry->sequence() == 0) return;
+  bool any = false;
+  for (Parts::Mounted& mounted : parts_->sensors)
+    any = parts_->look(mounted, container, stamp, *truth) || any;
+  if (any) parts_->steps.push_back({stamp, *truth, odometry->reading().pose, {}});
+}
+
+BoundFigures SimulatedBound::figures(Timestamp since) const {
+  std::vector<BoundStep> steps = parts_->steps;
+  for (const Parts::Mounted& mounted : parts_->sensors) parts_->inform(mounted, steps);
+  return figuresOf(poseBound(steps), since);
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/mcl/PoseBound.hpp"
+
+namespace ortung::app {
+
+/// How good estimates can be of a run in a world that is known exactly: asks the robot's simulated
+/// sensors without noise what they read at the true pose and around it, and how much noise there
+/// was from the readings themselves. Not thread-safe.
+class SimulatedBound {
+ public:
+  /// @throws ConfigError, PluginError
+  SimulatedBound(const std::filesystem::path& world, const std::filesystem::path& robot);
+  ~SimulatedBound();
+  SimulatedBound(const SimulatedBound&) = delete;
+  SimulatedBound& operator=(const SimulatedBound&) = delete;
+
+  /// Takes the newest readings of the robot, of the moment at which it is at @p truth.
+  void look(const SensorContainer& container, Timestamp stamp, const std::optional<Pose2>& truth);
+
+  /// The bound of all moments with readings and truth. @param since moments before do not count
+  BoundFigures figures(Timestamp since) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace ortung::app
