@@ -12,7 +12,6 @@ namespace {
 
 /// A model needs some room even where a log shows less: other logs are not as tame.
 constexpr double kLeastFloor = 0.005;
-constexpr double kLeastExponent = 0.05;
 
 struct TermText {
   NoiseTerm term;
@@ -108,12 +107,6 @@ std::vector<TomlEntry> noiseEntries(const SensorConfig& sensor, const LearnedNoi
   if (angles.values > 0) out.emplace_back("bearing_sigma_deg", number(degrees(angles.sigma.value)));
   const double floor = std::max({kLeastFloor, distances.floor, angles.floor});
   out.emplace_back("outliers", number(std::min(0.5, floor)));
-  if (isLandmarks) {
-    double independent = 1.0;
-    for (const NoiseShape& shape : {distances, angles})
-      if (shape.values > 0) independent = std::min(independent, shape.independent);
-    out.emplace_back("exponent", number(std::max(kLeastExponent, independent)));
-  }
   addBias(sensor, isLandmarks ? "range_bias_m" : "bias_m", known(noise, NoiseTerm::kRangeBias),
           out);
   addBias(sensor, "bearing_bias_deg", degrees(known(noise, NoiseTerm::kBearingBias)), out);
