@@ -68,12 +68,6 @@ void addPose(const SensorConfig& sensor, const LearnedNoise& noise, std::vector<
   out.emplace_back("pose", text + ", theta_deg = " + number(turn) + " }");
 }
 
-void addBias(const SensorConfig& sensor, const char* key, double bias,
-             std::vector<TomlEntry>& out) {
-  if (bias == 0.0) return;
-  out.emplace_back(key, number(sensor.parameters.numberOr(key, 0.0) + bias));
-}
-
 void addSigmas(const NoiseShape& shape, const std::string& stem, std::vector<TomlEntry>& out) {
   out.emplace_back(stem + "_m", number(std::max(1e-4, shape.sigma.value)));
   out.emplace_back(stem + "_per_m", number(shape.sigmaPerMetre.value));
@@ -107,9 +101,6 @@ std::vector<TomlEntry> noiseEntries(const SensorConfig& sensor, const LearnedNoi
   if (angles.values > 0) out.emplace_back("bearing_sigma_deg", number(degrees(angles.sigma.value)));
   const double floor = std::max({kLeastFloor, distances.floor, angles.floor});
   out.emplace_back("outliers", number(std::min(0.5, floor)));
-  addBias(sensor, isLandmarks ? "range_bias_m" : "bias_m", known(noise, NoiseTerm::kRangeBias),
-          out);
-  addBias(sensor, "bearing_bias_deg", degrees(known(noise, NoiseTerm::kBearingBias)), out);
   addPose(sensor, noise, out);
   return out;
 }

@@ -15,7 +15,8 @@ namespace ortung::app {
 std::string noiseText(std::span<SensorData* const> features, const LearnedNoise& noise);
 
 /// The keys of a [[sensor]] that say it: sigmas, outliers, and the terms that are known, added to
-/// what the robot file says of them. None of plugins that have other keys. A latency has no key.
+/// what the robot file says of them. None of plugins that have other keys. Biases and a latency
+/// have no key.
 std::vector<TomlEntry> noiseEntries(const SensorConfig& sensor, const LearnedNoise& noise);
 
 }  // namespace ortung::app
