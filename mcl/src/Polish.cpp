@@ -27,6 +27,8 @@ constexpr double kClusterMetres = 0.03;
 constexpr double kClusterRadians = 0.02;
 /// Directions of which readings tell less than this share of what was open don't surprise.
 constexpr double kTold = 0.2;
+constexpr double kKept =
+    2.0;  ///< promises are, if squares of surprises are not so many times larger
 constexpr double kMostTimes = 9.0;  ///< a surprise counts at most so many times what is usual
 constexpr double kRate = 0.05;      ///< at which surprises are followed; at first faster
 
@@ -84,15 +86,32 @@ std::optional<Solution> agreement(const std::vector<const Polishable*>& readings
   return found;
 }
 
-/// Whether readings determine a pose by themselves. Of what they leave open samples know more than
-/// a normal distribution does: a distance puts the robot on a circle.
-bool determine(const std::vector<const Polishable*>& readings, const Pose2& pose) {
-  constexpr double kNothing = 1e-6;
+/// Of which directions readings by themselves tell more than a cluster of samples can.
+enum class Told { kNone, kSome, kAll };
+
+/// What vaguer readings say is known to samples as well, and what they leave open better: a
+/// distance puts the robot on a circle.
+Told toldBy(const std::vector<const Polishable*>& readings, const Pose2& pose) {
   Slope slope;
   for (const Polishable* reading : readings) slope.add(reading->slopeAt(pose), 1.0);
-  const Eigen::SelfAdjointEigenSolver<Matrix> parts(matrixOf(slope.information),
-                                                    Eigen::EigenvaluesOnly);
-  return parts.eigenvalues()[0] > kNothing * parts.eigenvalues()[2];
+  const Vector unit(kClusterMetres, kClusterMetres, kClusterRadians);
+  const Matrix times = unit.asDiagonal() * matrixOf(slope.information) * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> parts(times, Eigen::EigenvaluesOnly);
+  if (!(parts.eigenvalues()[2] > 1.0)) return Told::kNone;
+  return parts.eigenvalues()[0] > 1.0 ? Told::kAll : Told::kSome;
+}
+
+Prior priorOf(const PoseEstimate& cluster, double metres, double radians) {
+  return {cluster.pose, widened(cluster.covariance, metres, radians).inverse()};
+}
+
+/// A place and a cluster that are the same: from the cluster (0) to the place (1).
+Prior between(const PoseEstimate& cluster, const PoseEstimate& place, double towards) {
+  const Vector off = towards * difference(place.pose, cluster.pose);
+  return {
+      {cluster.pose.x + off.x(), cluster.pose.y + off.y(), wrapAngle(cluster.pose.theta + off.z())},
+      (towards * matrixOf(place.covariance) + (1.0 - towards) * matrixOf(cluster.covariance))
+          .inverse()};
 }
 
 /// Square of how far readings have moved the pose, in what they were promised to: 1 in the mean if
@@ -132,22 +151,16 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
     if (const auto* reading = dynamic_cast<const Polishable*>(one.weigher.get()))
       readings.push_back(reading);
   const bool follows = place_ && predicted && isSame(place_->pose, *predicted);
-  Prior prior;
-  if (follows) {
-    // As narrow as it promises only if promises are kept: the samples know the rest.
-    prior.mean = place_->pose;
-    prior.precision =
-        (matrixOf(place_->covariance) + (1.0 - 1.0 / times_) * matrixOf(predicted->covariance))
-            .inverse();
-  } else {
-    const PoseEstimate& cluster = predicted ? *predicted : estimate;
-    prior.mean = cluster.pose;
-    prior.precision = widened(cluster.covariance, kClusterMetres, kClusterRadians).inverse();
-  }
-  if (!determine(readings, estimate.pose)) {
+  const Told told = toldBy(readings, estimate.pose);
+  // A place that keeps its promises is known well enough to be normal where readings leave it open.
+  const bool isNormal = follows && times_ < kKept;
+  if (told == Told::kNone || (told == Told::kSome && !isNormal)) {
     apply(estimate);
     return;
   }
+  const Prior prior = follows
+                          ? between(*predicted, *place_, 1.0 / times_)
+                          : priorOf(predicted.value_or(estimate), kClusterMetres, kClusterRadians);
   const auto solution = agreement(readings, prior, estimate.pose);
   if (!solution || !isSame(solution->pose, estimate)) {
     place_.reset();
@@ -155,7 +168,7 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
   }
   if (follows) {
     const auto observed =
-        surprise(difference(solution->pose, prior.mean), matrixOf(place_->covariance), *solution);
+        surprise(difference(solution->pose, place_->pose), matrixOf(place_->covariance), *solution);
     if (observed) learnTimes(*observed);
   }
   place_ = estimate;

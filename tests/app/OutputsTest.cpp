@@ -55,12 +55,13 @@ TEST(Outputs, OfAnotherKindAreReplacedByForceOnly) {
       "\x89PNG\r\n\x1a\n",
       "# stamp_us x_m y_m",
       "{\"stamp_us\":0,\"x_m\":1.0",
+      "# timestamp tx ty tz qx qy qz qw\n",
       "PK\x03\x04 ... stamp_us.npy",
       "time_s,kind,name,x_m",
       "# Learned by `ortung learn-motion` from",
       "{\n \"commands\": 5, \"format\": \"ortung motion network 1\"",
   };
-  constexpr int kKinds = 12;
+  constexpr int kKinds = 13;
   for (int content = 0; content < kKinds; ++content) {
     for (int kind = 0; kind <= kKinds; ++kind) {  // the last one is never replaced unasked
       writeBytes(folder / "a", samples[content]);

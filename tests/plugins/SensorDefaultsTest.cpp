@@ -225,6 +225,7 @@ TEST(SensorDefaults, OfAnObserverOfLandmarksAreThoseOfItsPage) {
                                   {"bearing_sigma_deg", angle(s.bearing.sigma)},
                                   {"outliers", text(s.range.outliers)},
                                   {"exponent", text(s.range.exponent)},
+                                  {"range_scale", text(s.rangeScale)},
                                   {"occlusion", text(s.occlusion)},
                                   {"slack_m", text(s.slack)},
                                   {"missed_share", text(s.missedShare)},
@@ -232,6 +233,7 @@ TEST(SensorDefaults, OfAnObserverOfLandmarksAreThoseOfItsPage) {
             defaultsOf("landmarks"));
   EXPECT_EQ(s.kind, "post");
   EXPECT_FALSE(s.isList);
+  EXPECT_FALSE(s.slant);
   EXPECT_EQ(s.bearing.outliers, s.range.outliers);
   EXPECT_EQ(s.bearing.exponent, s.range.exponent);
 }

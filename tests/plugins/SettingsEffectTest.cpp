@@ -247,6 +247,8 @@ TEST(SettingsEffect, OfLandmarks) {
                                    {"min_range_m", "3"},
                                    {"max_range_m", "2"},
                                    {"fov_deg", "100"},
+                                   {"slant", "true"},
+                                   {"range_scale", "1.2"},
                                    {"range_sigma_m", "0.4"},
                                    {"range_sigma_per_m", "0.4"},
                                    {"bearing_sigma_deg", "9"},
