@@ -26,9 +26,13 @@ constexpr double kMostSigmas = 4.0;  ///< between a cluster and a pose that are 
 constexpr double kClusterMetres = 0.03;
 constexpr double kClusterRadians = 0.02;
 /// Directions of which readings tell less than this share of what was open don't surprise.
-constexpr double kTold = 0.2;
+constexpr double kTold = 0.1;
+/// Where readings are so much (1 / 50) narrower than what was foreseen, all of a surprise is the
+/// motion's: it tells nothing of the readings.
+constexpr double kForeseen = 0.02;
 constexpr double kKept =
     2.0;  ///< promises are, if squares of surprises are not so many times larger
+constexpr double kChance = 1.5;     ///< of squares of surprises, so much may be chance
 constexpr double kMostTimes = 9.0;  ///< a surprise counts at most so many times what is usual
 constexpr double kRate = 0.05;      ///< at which surprises are followed; at first faster
 
@@ -128,7 +132,8 @@ std::optional<double> surprise(const Vector& moved, const Matrix& promised,
   double squares = 0.0;
   double count = 0.0;
   for (Eigen::Index k = 0; k < 3; ++k) {
-    if (!(parts.eigenvalues()[k] > kTold)) continue;
+    const double share = parts.eigenvalues()[k];
+    if (!(share > kTold) || std::abs(share - 1.0) < kForeseen) continue;
     squares += off[k] * off[k] / parts.eigenvalues()[k];
     count += 1.0;
   }
@@ -159,7 +164,7 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
     return;
   }
   const Prior prior = follows
-                          ? between(*predicted, *place_, 1.0 / times_)
+                          ? between(*predicted, *place_, std::min(1.0, kChance / times_))
                           : priorOf(predicted.value_or(estimate), kClusterMetres, kClusterRadians);
   const auto solution = agreement(readings, prior, estimate.pose);
   if (!solution || !isSame(solution->pose, estimate)) {
@@ -193,16 +198,18 @@ void Polish::learnTimes(double observed) {
 /// Samples know what the other readings have said, too: where that is more, they are the estimate.
 void Polish::apply(PoseEstimate& cluster) const {
   if (!place_ || !isSame(place_->pose, cluster)) return;
-  PoseEstimate polished = cluster;
-  put(polished);
   const auto spread = [](const PoseEstimate& e) { return e.covariance[0] + e.covariance[4]; };
-  if (spread(polished) < spread(cluster)) cluster = polished;
+  if (times_ * spread(*place_) < spread(cluster)) put(cluster);
 }
 
+/// What promises are not kept leaves open, the samples show.
 void Polish::put(PoseEstimate& cluster) const {
+  const Vector apart = difference(place_->pose, cluster.pose);
+  const Matrix samples = matrixOf(cluster.covariance) + apart * apart.transpose();
+  const Matrix covariance =
+      times_ * matrixOf(place_->covariance) + (1.0 - std::min(1.0, kChance / times_)) * samples;
   cluster.pose = place_->pose;
-  cluster.covariance = place_->covariance;
-  for (double& value : cluster.covariance) value *= times_;
+  Eigen::Map<RowMajor>(cluster.covariance.data()) = covariance;
   Eigen::Map<RowMajor>(cluster.covariance.data()) =
       widened(cluster.covariance, blurMetres_, blurRadians_);
 }
