@@ -69,13 +69,19 @@ struct Solution {
   Slope slope;  ///< of the readings there
 };
 
+Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose) {
+  Slope slope;
+  for (const Polishable* reading : readings) slope.add(reading->slopeAt(pose), 1.0);
+  return slope;
+}
+
 /// The pose where the readings and the prior agree best, from @p start on.
+/// @param slope of the readings there
 std::optional<Solution> agreement(const std::vector<const Polishable*>& readings,
-                                  const Prior& prior, const Pose2& start) {
-  Solution found{start, {}, {}};
+                                  const Prior& prior, const Pose2& start, const Slope& slope) {
+  Solution found{start, {}, slope};
   for (int step = 0; step < kMostSteps; ++step) {
-    found.slope = {};
-    for (const Polishable* reading : readings) found.slope.add(reading->slopeAt(found.pose), 1.0);
+    if (step > 0) found.slope = slopeOf(readings, found.pose);
     const Eigen::LDLT<Matrix> all(prior.precision + matrixOf(found.slope.information));
     const Vector change = all.solve(Vector(found.slope.pull.data()) +
                                     prior.precision * difference(prior.mean, found.pose));
@@ -95,9 +101,7 @@ enum class Told { kNone, kSome, kAll };
 
 /// What vaguer readings say is known to samples as well, and what they leave open better: a
 /// distance puts the robot on a circle.
-Told toldBy(const std::vector<const Polishable*>& readings, const Pose2& pose) {
-  Slope slope;
-  for (const Polishable* reading : readings) slope.add(reading->slopeAt(pose), 1.0);
+Told toldBy(const Slope& slope) {
   const Vector unit(kClusterMetres, kClusterMetres, kClusterRadians);
   const Matrix times = unit.asDiagonal() * matrixOf(slope.information) * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix> parts(times, Eigen::EigenvaluesOnly);
@@ -134,7 +138,7 @@ std::optional<double> surprise(const Vector& moved, const Matrix& promised,
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double share = parts.eigenvalues()[k];
     if (!(share > kTold) || std::abs(share - 1.0) < kForeseen) continue;
-    squares += off[k] * off[k] / parts.eigenvalues()[k];
+    squares += off[k] * off[k] / share;
     count += 1.0;
   }
   if (count == 0.0 || !std::isfinite(squares)) return std::nullopt;
@@ -156,7 +160,8 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
     if (const auto* reading = dynamic_cast<const Polishable*>(one.weigher.get()))
       readings.push_back(reading);
   const bool follows = place_ && predicted && isSame(place_->pose, *predicted);
-  const Told told = toldBy(readings, estimate.pose);
+  const Slope slope = slopeOf(readings, estimate.pose);
+  const Told told = toldBy(slope);
   // A place that keeps its promises is known well enough to be normal where readings leave it open.
   const bool isNormal = follows && times_ < kKept;
   if (told == Told::kNone || (told == Told::kSome && !isNormal)) {
@@ -166,7 +171,7 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
   const Prior prior = follows
                           ? between(*predicted, *place_, std::min(1.0, kChance / times_))
                           : priorOf(predicted.value_or(estimate), kClusterMetres, kClusterRadians);
-  const auto solution = agreement(readings, prior, estimate.pose);
+  const auto solution = agreement(readings, prior, estimate.pose, slope);
   if (!solution || !isSame(solution->pose, estimate)) {
     place_.reset();
     return;
