@@ -25,6 +25,9 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Steps of differences: words are of 1 mm and 0.01 degrees.
 constexpr std::array<double, 3> kSteps = {0.02, 0.02, 0.5 * kDegree};
+// Where a beam grazes a wall, the wall ends within a large step; small ones are for these alone,
+// since words are coarse beside them.
+constexpr std::array<double, 2> kScales = {1.0, 0.2};
 // Where an expectation bends by more within a step there is an edge, of which no slope tells.
 constexpr double kBendMetres = 0.01;
 constexpr double kBendRadians = 0.01;
@@ -61,6 +64,33 @@ void add(const SensorData& feature, Values& out) {
     }
   }
 }
+
+struct Slope {
+  double value;
+  double bend;  ///< by how much the differences to both sides are not each other's opposite
+};
+
+/// @param values at one step before the place, there, and at one step after it
+/// @param isTurn the step is one of the heading
+Slope slopeOf(const std::array<double, 3>& values, bool isAngle, bool isTurn, double step) {
+  const auto [before, middle, after] = values;
+  if (isTurn && !isAngle) {
+    // Along a straight wall, however it slants, the inverse of the range is a sine of the heading:
+    // its differences are those of sines, which no step makes wrong.
+    const double square = middle * middle;
+    return {-square * (1.0 / after - 1.0 / before) / (2.0 * std::sin(step)),
+            square * std::abs(1.0 / after + 1.0 / before - 2.0 / middle * std::cos(step))};
+  }
+  const double up = isAngle ? wrapAngle(after - middle) : after - middle;
+  const double down = isAngle ? wrapAngle(middle - before) : middle - before;
+  return {(up + down) / (2.0 * step), std::abs(up - down)};
+}
+
+/// Readings without noise around a pose.
+struct Sides {
+  double scale = 1.0;  ///< of kSteps
+  std::array<std::array<Values, 2>, 3> values;
+};
 
 /// One value of a reading at the true pose.
 struct Seen {
@@ -116,42 +146,55 @@ struct SimulatedBound::Parts {
     const std::vector<SensorData*> wanted = news(mounted, container, read);
     if (wanted.empty()) return false;
     const Values middle = at(mounted, truth, stamp, wanted);
-    std::array<std::array<Values, 2>, 3> sides;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t side = 0; side < 2; ++side) {
-        Pose2 pose = truth;
-        (axis == 0   ? pose.x
-         : axis == 1 ? pose.y
-                     : pose.theta) += side == 0 ? -kSteps[axis] : kSteps[axis];
-        pose.theta = wrapAngle(pose.theta);
-        sides[axis][side] = at(mounted, pose, stamp, wanted);
-      }
-    }
+    std::vector<Sides> sides;
+    for (const double scale : kScales)
+      sides.push_back(sidesOf(mounted, truth, stamp, wanted, scale));
     take(mounted, read, middle, sides, &Values::ranges, false, stamp);
     take(mounted, read, middle, sides, &Values::bearings, true, stamp);
     return true;
   }
 
+  Sides sidesOf(Mounted& mounted, const Pose2& truth, Timestamp stamp,
+                const std::vector<SensorData*>& wanted, double scale) const {
+    Sides sides;
+    sides.scale = scale;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        const double step = (side == 0 ? -scale : scale) * kSteps[axis];
+        Pose2 pose = truth;
+        (axis == 0 ? pose.x : axis == 1 ? pose.y : pose.theta) += step;
+        pose.theta = wrapAngle(pose.theta);
+        sides.values[axis][side] = at(mounted, pose, stamp, wanted);
+      }
+    }
+    return sides;
+  }
+
   void take(Mounted& mounted, const Values& read, const Values& middle,
-            const std::array<std::array<Values, 2>, 3>& sides, std::vector<double> Values::* kind,
-            bool isAngle, Timestamp stamp) const {
-    const auto less = [isAngle](double a, double b) { return isAngle ? wrapAngle(a - b) : a - b; };
+            const std::vector<Sides>& sides, std::vector<double> Values::* kind, bool isAngle,
+            Timestamp stamp) const {
     for (std::size_t i = 0; i < (read.*kind).size(); ++i) {
       Seen seen;
       seen.step = steps.size();
       const double expected = (middle.*kind)[i];
+      const double off = (read.*kind)[i] - expected;
       seen.residual.stamp = stamp;
       seen.residual.isAngle = isAngle;
-      seen.residual.residual = less((read.*kind)[i], expected);
+      seen.residual.residual = isAngle ? wrapAngle(off) : off;
       seen.residual.range = isAngle ? 0.0 : expected;
-      bool isSmooth = std::isfinite(seen.residual.residual);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double before = less((sides[axis][0].*kind)[i], expected);
-        const double after = less((sides[axis][1].*kind)[i], expected);
-        seen.slope[axis] = (after - before) / (2.0 * kSteps[axis]);
-        isSmooth = isSmooth && std::abs(after + before) < (isAngle ? kBendRadians : kBendMetres);
-      }
-      if (isSmooth) mounted.seen.push_back(seen);
+      if (!std::isfinite(off)) continue;
+      const auto isFound = [&](const Sides& some) {
+        bool isSmooth = true;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto& [before, after] = some.values[axis];
+          const Slope slope = slopeOf({(before.*kind)[i], expected, (after.*kind)[i]}, isAngle,
+                                      axis == 2, some.scale * kSteps[axis]);
+          seen.slope[axis] = slope.value;
+          isSmooth = isSmooth && slope.bend < (isAngle ? kBendRadians : kBendMetres);
+        }
+        return isSmooth;
+      };
+      if (std::any_of(sides.begin(), sides.end(), isFound)) mounted.seen.push_back(seen);
     }
   }
 
@@ -204,10 +247,14 @@ void SimulatedBound::look(const SensorContainer& container, Timestamp stamp,
   if (any) parts_->steps.push_back({stamp, *truth, odometry->reading().pose, {}});
 }
 
-BoundFigures SimulatedBound::figures(Timestamp since) const {
+std::vector<BoundStep> SimulatedBound::steps() const {
   std::vector<BoundStep> steps = parts_->steps;
   for (const Parts::Mounted& mounted : parts_->sensors) parts_->inform(mounted, steps);
-  return figuresOf(poseBound(steps), since);
+  return steps;
+}
+
+BoundFigures SimulatedBound::figures(Timestamp since) const {
+  return figuresOf(poseBound(steps()), since);
 }
 
 }  // namespace ortung::app

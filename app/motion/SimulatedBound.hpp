@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/mcl/PoseBound.hpp"
@@ -23,6 +24,8 @@ class SimulatedBound {
   /// Takes the newest readings of the robot, of the moment at which it is at @p truth.
   void look(const SensorContainer& container, Timestamp stamp, const std::optional<Pose2>& truth);
 
+  /// All moments with readings and truth, with what their readings tell.
+  std::vector<BoundStep> steps() const;
   /// The bound of all moments with readings and truth. @param since moments before do not count
   BoundFigures figures(Timestamp since) const;
 

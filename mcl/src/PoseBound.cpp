@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "ortung/base/Random.hpp"
@@ -12,7 +13,11 @@ namespace {
 
 /// Steps over which odometry is compared with truth: over one, rounded words would look like noise.
 constexpr std::size_t kStride = 10;
-constexpr int kDraws = 8;  ///< of errors, a step
+/// What noise of the place must explain besides that of the heading, which moves it, too: two
+/// sigmas, of stretches that overlap.
+constexpr double kSignificant = 4.0 * kStride;
+constexpr double kRounded = 4.0 * 1e-6 / 12.0;  ///< variance of four words of 1 mm [m^2]
+constexpr int kDraws = 8;                       ///< of errors, a step
 
 /// Variances of ahead, aside and turn after 1 m of way and after 1 rad of turn.
 struct MotionNoise {
@@ -20,59 +25,134 @@ struct MotionNoise {
   Eigen::Vector3d ofTurn = Eigen::Vector3d::Zero();
 };
 
-/// Way and turn between two steps and those between them, which curves do not shorten.
-Eigen::Vector2d lengthOf(std::span<const BoundStep> steps, std::size_t from, std::size_t to) {
-  Eigen::Vector2d length = Eigen::Vector2d::Zero();
-  for (std::size_t i = from; i < to; ++i) {
-    length[0] += distance(steps[i].truth, steps[i + 1].truth);
-    length[1] += std::abs(wrapAngle(steps[i + 1].truth.theta - steps[i].truth.theta));
-  }
-  return length;
+/// Way and turn from one step to the next.
+Eigen::Vector2d lengthOf(const BoundStep& from, const BoundStep& to) {
+  return {distance(from.truth, to.truth), std::abs(wrapAngle(to.truth.theta - from.truth.theta))};
 }
 
-/// Least squares of the squared errors, none below 0.
-MotionNoise fitMotion(std::span<const BoundStep> steps) {
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-12;
-  Eigen::Matrix<double, 2, 3> right = Eigen::Matrix<double, 2, 3>::Zero();
-  for (std::size_t i = 0; i + kStride < steps.size(); i += kStride) {
-    const BoundStep& a = steps[i];
-    const BoundStep& b = steps[i + kStride];
-    const Pose2 error = inverse(inverse(a.truth) * b.truth) * (inverse(a.odometry) * b.odometry);
-    const Eigen::Vector2d length = lengthOf(steps, i, i + kStride);
-    normal += length * length.transpose();
-    const Eigen::RowVector3d squares(error.x * error.x, error.y * error.y,
-                                     error.theta * error.theta);
-    right += length * squares;
+/// Halfway from one step to the next, which is where its noise comes in.
+Pose2 middleOf(const BoundStep& from, const BoundStep& to) {
+  const double turn = wrapAngle(to.truth.theta - from.truth.theta);
+  return {0.5 * (from.truth.x + to.truth.x), 0.5 * (from.truth.y + to.truth.y),
+          wrapAngle(from.truth.theta + 0.5 * turn)};
+}
+
+/// Least squares of squared errors by N variances, none of which is below 0.
+template <int N>
+struct VarianceFit {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  Eigen::Matrix<double, N, N> normal = Eigen::Matrix<double, N, N>::Identity() * 1e-12;
+  Vector right = Vector::Zero();
+  double squares = 0.0;
+  double count = 0.0;
+
+  void add(const Vector& times, double square) {
+    normal += times * times.transpose();
+    right += times * square;
+    squares += square * square;
+    ++count;
   }
-  MotionNoise noise;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector2d both = normal.ldlt().solve(right.col(axis));
-    if (both.minCoeff() >= 0.0) {
-      noise.ofWay[axis] = both[0];
-      noise.ofTurn[axis] = both[1];
-    } else if (both[0] >= both[1]) {
-      noise.ofWay[axis] = right(0, axis) / normal(0, 0);
-    } else {
-      noise.ofTurn[axis] = right(1, axis) / normal(1, 1);
+  /// Tries which of them are 0: there are few.
+  /// @param significant what each must explain, in variances of a square
+  Vector solve(double significant) const {
+    const double least = squares - right.dot(normal.ldlt().solve(right));
+    const double ofChance = significant * least / std::max(count, 1.0);
+    Vector best = Vector::Zero();
+    double most = 0.0;
+    for (int kept = 1; kept < (1 << N); ++kept) {
+      Eigen::Matrix<double, N, N> some = normal;
+      Vector its = right;
+      for (int i = 0; i < N; ++i) {
+        if (((kept >> i) & 1) != 0) continue;
+        some.row(i).setZero();
+        some.col(i).setZero();
+        some(i, i) = 1.0;
+        its[i] = 0.0;
+      }
+      const Vector found = some.ldlt().solve(its);
+      const double explained = found.dot(its) - ofChance * std::popcount(unsigned(kept));
+      if (found.minCoeff() < 0.0 || explained <= most) continue;
+      best = found;
+      most = explained;
     }
+    return best;
   }
-  return noise;
+};
+
+/// Errors over some steps in the frame of the last one, and what they are made of.
+struct Stretch {
+  Eigen::Vector3d error;
+  Eigen::Vector2d length = Eigen::Vector2d::Zero();  ///< way and turn, which curves do not shorten
+  // Way and turn, times the squares of how far a turn there by 1 moves the end, ahead and aside ...
+  Eigen::Vector2d leverAhead = Eigen::Vector2d::Zero();
+  Eigen::Vector2d leverAside = Eigen::Vector2d::Zero();
+  // ... and of how far 1 m ahead and aside there do.
+  Eigen::Vector4d placeAhead = Eigen::Vector4d::Zero();
+  Eigen::Vector4d placeAside = Eigen::Vector4d::Zero();
+};
+
+Stretch stretchOf(std::span<const BoundStep> steps) {
+  const BoundStep& a = steps.front();
+  const BoundStep& b = steps.back();
+  const Pose2 error = inverse(inverse(a.truth) * b.truth) * (inverse(a.odometry) * b.odometry);
+  Stretch stretch;
+  stretch.error = {error.x, error.y, error.theta};
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    const Eigen::Vector2d length = lengthOf(steps[i], steps[i + 1]);
+    const Pose2 middle = inverse(b.truth) * middleOf(steps[i], steps[i + 1]);
+    stretch.length += length;
+    stretch.leverAhead += middle.y * middle.y * length;
+    stretch.leverAside += middle.x * middle.x * length;
+    const double along = std::pow(std::cos(middle.theta), 2);
+    Eigen::Vector4d ahead;
+    ahead << along * length, (1.0 - along) * length;
+    Eigen::Vector4d aside;
+    aside << (1.0 - along) * length, along * length;
+    stretch.placeAhead += ahead;
+    stretch.placeAside += aside;
+  }
+  return stretch;
+}
+
+/// Noise of the heading moves the place that it is carried to: what that explains of errors of the
+/// place is not counted as noise of its own.
+MotionNoise fitMotion(std::span<const BoundStep> steps) {
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i + kStride < steps.size(); ++i)
+    stretches.push_back(stretchOf(steps.subspan(i, kStride + 1)));
+  VarianceFit<2> turns;
+  for (const Stretch& s : stretches) turns.add(s.length, s.error[2] * s.error[2]);
+  const Eigen::Vector2d heading = turns.solve(0.0);
+  VarianceFit<4> places;
+  for (const Stretch& s : stretches) {
+    places.add(s.placeAhead, s.error[0] * s.error[0] - kRounded - s.leverAhead.dot(heading));
+    places.add(s.placeAside, s.error[1] * s.error[1] - kRounded - s.leverAside.dot(heading));
+  }
+  const Eigen::Vector4d place = places.solve(kSignificant);
+  return {{place[0], place[2], heading[0]}, {place[1], place[3], heading[1]}};
+}
+
+/// What is known of a place after an exact change of it: heading becomes place.
+Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to) {
+  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  f(0, 2) = -(to.y - from.y);
+  f(1, 2) = to.x - from.x;
+  return f * covariance * f.transpose();
 }
 
 /// What is known after moving from one step to the next.
 Eigen::Matrix3d moved(const Eigen::Matrix3d& covariance, const BoundStep& from, const BoundStep& to,
                       const MotionNoise& noise) {
-  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
-  f(0, 2) = -(to.truth.y - from.truth.y);
-  f(1, 2) = to.truth.x - from.truth.x;
-  const double way = distance(from.truth, to.truth);
-  const double turn = std::abs(wrapAngle(to.truth.theta - from.truth.theta));
-  const Eigen::Vector3d variances = noise.ofWay * way + noise.ofTurn * turn;
+  const Eigen::Vector2d length = lengthOf(from, to);
+  const Pose2 middle = middleOf(from, to);
+  const Eigen::Vector3d variances = noise.ofWay * length[0] + noise.ofTurn * length[1];
   Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
-  turned(0, 0) = turned(1, 1) = std::cos(to.truth.theta);
-  turned(1, 0) = std::sin(to.truth.theta);
+  turned(0, 0) = turned(1, 1) = std::cos(middle.theta);
+  turned(1, 0) = std::sin(middle.theta);
   turned(0, 1) = -turned(1, 0);
-  return f * covariance * f.transpose() + turned * variances.asDiagonal() * turned.transpose();
+  const Eigen::Matrix3d halfway = carried(covariance, from.truth, middle) +
+                                  turned * variances.asDiagonal() * turned.transpose();
+  return carried(halfway, middle, to.truth);
 }
 
 }  // namespace

@@ -61,6 +61,51 @@ TEST(PoseBound, HeadingBecomesPlaceAlongTheWay) {
   EXPECT_NEAR(c[5], 5 * 0.0004, 1e-5);
 }
 
+/// A drive around the corners of a square of 5 m, whose odometry errs at random along the way and
+/// in the heading alone, as a wheeled robot's does; then straight on without readings.
+std::vector<BoundStep> driveWithErrors(int sides, double sigmaWay, double sigmaTurn) {
+  Random random(7);
+  std::vector<BoundStep> steps;
+  Pose2 truth;
+  Pose2 odometry;
+  const auto go = [&](double way, double turn) {
+    const double itsWay = way + sigmaWay * std::sqrt(way) * random.gaussian();
+    const double itsTurn = turn + sigmaTurn * std::sqrt(way) * random.gaussian();
+    truth = truth * Pose2{way * std::cos(turn / 2), way * std::sin(turn / 2), turn};
+    odometry =
+        odometry * Pose2{itsWay * std::cos(itsTurn / 2), itsWay * std::sin(itsTurn / 2), itsTurn};
+    steps.push_back({100'000 * static_cast<Timestamp>(steps.size()), truth, odometry,
+                     diagonal(1e10, 1e10, 1e10)});
+  };
+  for (int side = 0; side < sides; ++side) {
+    for (int i = 0; i < 50; ++i) go(0.1, 0.0);
+    for (int i = 0; i < 10; ++i) go(0.02, M_PI / 20);
+  }
+  for (int i = 0; i < 30; ++i) {
+    go(0.1, 0.0);
+    steps.back().information = {};
+  }
+  return steps;
+}
+
+// Noise of the heading alone: aside it grows with the third power of the way, sigma^2 L^3 / 3. If
+// that were taken for noise of the place, too, it would be counted twice.
+TEST(PoseBound, ErrorsOfTheHeadingAreNotCountedAsThoseOfThePlaceTheyLeadTo) {
+  constexpr double kWay = 0.02;
+  constexpr double kTurn = 0.0175;
+  const std::vector<BoundStep> steps = driveWithErrors(200, kWay, kTurn);
+  const PoseBound bound = poseBound(steps).back();
+  const double heading = steps.back().truth.theta;
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  const auto& p = bound.covariance;
+  const double ahead = c * c * p[0] + 2 * c * s * p[1] + s * s * p[4];
+  const double aside = s * s * p[0] - 2 * c * s * p[1] + c * c * p[4];
+  EXPECT_NEAR(ahead, kWay * kWay * 3.0, 0.1 * kWay * kWay * 3.0);  // variances to 3 % of 2,000
+  EXPECT_NEAR(aside, kTurn * kTurn * 9.0, 0.1 * kTurn * kTurn * 9.0);
+  EXPECT_NEAR(p[8], kTurn * kTurn * 3.0, 0.1 * kTurn * kTurn * 3.0);
+}
+
 // Of a round normal distribution the median distance is sigma sqrt(2 ln 2), the RMS sigma sqrt 2.
 TEST(PoseBound, FiguresAreThoseOfRayleigh) {
   std::vector<PoseBound> bounds;
