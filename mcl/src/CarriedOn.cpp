@@ -2,44 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace ortung {
 namespace {
 
 /// Of a pose: the mean is off by a tenth of the noise's sigma, and asking takes microseconds.
 constexpr std::size_t kCopies = 128;
-
-/// Mean and covariance of a change of pose, in the robot's old frame.
-struct Change {
-  Pose2 mean;
-  std::array<double, 9> covariance{};
-};
-
-Change changeOf(const MotionModel& motion, const Pose2& odometryChange, std::uint64_t seed,
-                std::uint64_t stream) {
-  std::array<float, kCopies> x{};
-  std::array<float, kCopies> y{};
-  std::array<float, kCopies> theta{};
-  motion.sampleMotion({x, y, theta}, odometryChange, seed, stream, 0);
-  // Turns are looked at from odometry's, so that they are not taken apart at half a turn.
-  std::array<std::array<double, kCopies>, 3> off{};
-  std::array<double, 3> mean{};
-  for (std::size_t i = 0; i < kCopies; ++i) {
-    off[0][i] = static_cast<double>(x[i]) - odometryChange.x;
-    off[1][i] = static_cast<double>(y[i]) - odometryChange.y;
-    off[2][i] = wrapAngle(static_cast<double>(theta[i]) - odometryChange.theta);
-    for (std::size_t k = 0; k < 3; ++k) mean[k] += off[k][i] / kCopies;
-  }
-  Change change;
-  change.mean = {odometryChange.x + mean[0], odometryChange.y + mean[1],
-                 wrapAngle(odometryChange.theta + mean[2])};
-  for (std::size_t row = 0; row < 3; ++row)
-    for (std::size_t column = 0; column < 3; ++column)
-      for (std::size_t i = 0; i < kCopies; ++i)
-        change.covariance[3 * row + column] +=
-            (off[row][i] - mean[row]) * (off[column][i] - mean[column]) / kCopies;
-  return change;
-}
 
 /// Adds noise of the robot's frame at heading @p theta, turned into the field's.
 void add(const std::array<double, 9>& noise, double theta, std::array<double, 9>& covariance) {
@@ -54,6 +23,33 @@ void add(const std::array<double, 9>& noise, double theta, std::array<double, 9>
 }
 
 }  // namespace
+
+MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, std::size_t samples,
+                      std::uint64_t seed, std::uint64_t stream) {
+  std::array<std::vector<float>, 3> drawn;
+  for (std::vector<float>& axis : drawn) axis.assign(samples, 0.0F);
+  motion.sampleMotion({drawn[0], drawn[1], drawn[2]}, odometryChange, seed, stream, 0);
+  const auto n = static_cast<double>(samples);
+  // Turns are looked at from odometry's, so that they are not taken apart at half a turn.
+  std::array<std::vector<double>, 3> off;
+  for (std::vector<double>& axis : off) axis.resize(samples);
+  std::array<double, 3> mean{};
+  for (std::size_t i = 0; i < samples; ++i) {
+    off[0][i] = static_cast<double>(drawn[0][i]) - odometryChange.x;
+    off[1][i] = static_cast<double>(drawn[1][i]) - odometryChange.y;
+    off[2][i] = wrapAngle(static_cast<double>(drawn[2][i]) - odometryChange.theta);
+    for (std::size_t k = 0; k < 3; ++k) mean[k] += off[k][i] / n;
+  }
+  MotionChange change;
+  change.mean = {odometryChange.x + mean[0], odometryChange.y + mean[1],
+                 wrapAngle(odometryChange.theta + mean[2])};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      for (std::size_t i = 0; i < samples; ++i)
+        change.covariance[3 * row + column] +=
+            (off[row][i] - mean[row]) * (off[column][i] - mean[column]) / n;
+  return change;
+}
 
 PoseEstimate moved(PoseEstimate e, const Pose2& change) {
   // With the way turned into the field, (dx, dy), a heading that is off by h shifts the new place
@@ -78,7 +74,7 @@ PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionModel& motion,
                        const Pose2& odometryChange, std::uint64_t seed, std::uint64_t stream) {
   if (odometryChange.x == 0.0 && odometryChange.y == 0.0 && odometryChange.theta == 0.0)
     return estimate;
-  const Change change = changeOf(motion, odometryChange, seed, stream);
+  const MotionChange change = changeOf(motion, odometryChange, kCopies, seed, stream);
   PoseEstimate then = moved(estimate, change.mean);
   add(change.covariance, estimate.pose.theta, then.covariance);
   return then;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "ortung/base/Export.hpp"
@@ -7,6 +9,16 @@
 #include "ortung/motion/MotionModel.hpp"
 
 namespace ortung {
+
+/// Mean and covariance of a change of pose, in the robot's old frame.
+struct MotionChange {
+  Pose2 mean;
+  std::array<double, 9> covariance{};  ///< row-major, of (x [m], y [m], theta [rad])
+};
+
+/// What a motion model makes of odometry's change, of so many samples.
+MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, std::size_t samples,
+                      std::uint64_t seed, std::uint64_t stream);
 
 /// What is known of a robot after moving on: its pose by the mean of what the motion model makes of
 /// odometry's change, its covariance by that of the heading before and the model's noise.

@@ -4,6 +4,7 @@
 
 #include "Drift.hpp"
 #include "MclImpl.hpp"
+#include "MotionPieces.hpp"
 #include "Parallel.hpp"
 #include "Resampling.hpp"
 #include "ortung/base/Random.hpp"
@@ -11,10 +12,6 @@
 namespace ortung {
 namespace {
 
-// Motion without readings is followed in pieces of this size: the noise of a long way that leads
-// back to where it began is not that of no way at all.
-constexpr double kLongestPieceMetres = 0.1;
-constexpr double kLongestPieceRadians = 0.1;
 // The noise of rivals is not that of the belief's samples.
 constexpr std::size_t kNumberOfRivals = 1U << 24;
 constexpr double kIntervalKept = 0.9;
@@ -25,10 +22,7 @@ constexpr double kIntervalKept = 0.9;
 void Mcl::Impl::followMotion(const Pose2& odometry) {
   if (!lastOdometry && !waitsForStart) lastOdometry = odometry;  // where the known start was
   if (!lastOdometry) return;
-  const Pose2 change = inverse(*lastOdometry) * odometry;
-  if (std::hypot(change.x, change.y) < kLongestPieceMetres &&
-      std::abs(change.theta) < kLongestPieceRadians)
-    return;
+  if (!isPiece(inverse(*lastOdometry) * odometry)) return;
   ++step;
   predict(odometry);
 }

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/mcl/SampleSet.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+
+namespace ortung {
+
+/// A belief as shares of cells of (x, y, heading). The cells of a heading are a layer; layers lie
+/// where odometry has carried them, to a fraction of a cell, so that motion alone blurs nothing:
+/// what motion leaves open does, by steps to neighbours that have its mean and covariance.
+/// Not thread-safe.
+class ORTUNG_API GridBelief {
+ public:
+  /// @param area [m] @param turns headings, at least 4
+  GridBelief(const FieldGrid& area, double cell, int turns);
+
+  static std::size_t cellsOf(const FieldGrid& area, double cell, int turns);
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+
+  /// The share of each cell by its centre, up to a common factor. False: none has any.
+  bool fill(const std::function<double(const Pose2&)>& shareAt);
+  /// Moves all by a change of pose in the robot's frame. What leaves the area is lost.
+  void move(const Pose2& change);
+  /// Adds noise of mean zero in the frame of the robot as it was before @p turn [rad].
+  /// @param covariance row-major, of (x [m], y [m], theta [rad])
+  void blur(const std::array<double, 9>& covariance, double turn);
+  /// Multiplies each share by e^v, of values in the order of samples(), and forgets what is little.
+  void weigh(const std::function<void(const SampleSet& cells, std::vector<float>& out)>& logOf);
+  /// Centres of all cells that have a share; ln of it as weight. They sum to 1.
+  SampleSet samples() const;
+
+  /// Visits all such cells. @param visit (centre, share)
+  void forEach(const std::function<void(const Pose2&, double)>& visit) const;
+  double cell() const { return cell_; }
+  double headingStep() const { return step_; }
+
+ private:
+  struct Box {
+    int firstRow, rows, firstColumn, columns;
+  };
+  /// Where a layer lies besides its cells' places, at most half a cell [m].
+  struct Offset {
+    double x = 0.0;
+    double y = 0.0;
+  };
+  double headingOf(int turn) const;
+  float* layer(std::vector<float>& of, int turn) const {
+    return of.data() + static_cast<std::size_t>(turn) * layerSize();
+  }
+  std::size_t layerSize() const {
+    return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  }
+  void grow(int by);
+  void tighten();
+  void normalize();
+  void addShifted(const float* from, double right, double up, float share, float* to) const;
+  void turnAbout(float share, const Offset& aside, double turn);
+  void spread(int right, int up, const std::vector<float>& shareOfLayer);
+
+  FieldGrid area_;
+  double cell_;
+  int turns_;
+  double step_;  ///< of headings [rad]
+  int columns_;
+  int rows_;
+  double turnOffset_ = 0.0;  ///< of all headings, at most half a step [rad]
+  std::vector<Offset> offsets_;
+  std::vector<float> shares_;  ///< (turn, row, column)
+  std::vector<float> buffer_;
+  std::vector<std::uint8_t> isFilled_;  ///< layers that have any
+  Box box_;                             ///< of all layers: outside there is nothing
+};
+
+}  // namespace ortung
