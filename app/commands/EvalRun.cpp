@@ -165,6 +165,7 @@ RunResult lightened(RunResult run) {
   run.figures.points = {};
   run.estimates = {};
   run.path = {};
+  run.bounds = {};
   run.tableInfo.region = {};
   run.tableInfo.robotToml = {};
   return run;
@@ -214,8 +215,10 @@ RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExt
   }
   run.toTheEnd(isDone, extras.progress);
   RunResult& result = run.result();
+  if (bound) result.bounds = bound->bounds();
   if (bound && result.figures.convergedAfter)
-    result.bound = bound->figures(result.first + fromSeconds(*result.figures.convergedAfter));
+    result.bound =
+        figuresOf(result.bounds, result.first + fromSeconds(*result.figures.convergedAfter));
   if (splice)
     result.events =
         eventsOf(settings, job, *splice, localization->container(), result.figures.points);

@@ -253,8 +253,4 @@ std::vector<BoundStep> SimulatedBound::steps() const {
   return steps;
 }
 
-BoundFigures SimulatedBound::figures(Timestamp since) const {
-  return figuresOf(poseBound(steps()), since);
-}
-
 }  // namespace ortung::app

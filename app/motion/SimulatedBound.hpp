@@ -26,8 +26,8 @@ class SimulatedBound {
 
   /// All moments with readings and truth, with what their readings tell.
   std::vector<BoundStep> steps() const;
-  /// The bound of all moments with readings and truth. @param since moments before do not count
-  BoundFigures figures(Timestamp since) const;
+  /// The bound of all of them.
+  std::vector<PoseBound> bounds() const { return poseBound(steps()); }
 
  private:
   struct Parts;

@@ -59,6 +59,19 @@ std::string namesOf(const char* member, Value last) {
   return json + "],";
 }
 
+/// The bound of each point: that of the newest moment up to it; an empty array without.
+template <class Number>
+std::string boundsOf(const std::vector<EvaluationPoint>& points,
+                     const std::vector<PoseBound>& bounds, Number number) {
+  if (bounds.empty()) return "[]";
+  return jsonArray(points, [&](const EvaluationPoint& p) {
+    const auto after =
+        std::upper_bound(bounds.begin(), bounds.end(), p.stamp,
+                         [](Timestamp stamp, const PoseBound& b) { return stamp < b.stamp; });
+    return after == bounds.begin() ? std::nan("") : number(std::prev(after)->covariance);
+  });
+}
+
 /// What report.js draws.
 std::string chartData(const RunResult& run) {
   const auto points = thin(run.figures.points, [](const auto& p) { return p.positionError; });
@@ -80,6 +93,12 @@ std::string chartData(const RunResult& run) {
   member("heading", jsonArray(points, [](const Point& p) { return degrees(p.headingError); }));
   member("headingSigma",
          jsonArray(points, [](const Point& p) { return degrees(std::sqrt(p.covariance[8])); }));
+  member("positionBound", boundsOf(points, run.bounds, [](const auto& covariance) {
+           return std::sqrt(covariance[0] + covariance[4]);
+         }));
+  member("headingBound", boundsOf(points, run.bounds, [](const auto& covariance) {
+           return degrees(std::sqrt(covariance[8]));
+         }));
   member("truthX", jsonArray(points, [](const Point& p) { return p.truth.x; }));
   member("truthY", jsonArray(points, [](const Point& p) { return p.truth.y; }));
   member("estimateX", jsonArray(points, [](const Point& p) { return p.estimate.x; }));
@@ -124,7 +143,8 @@ std::string legend(bool hasTruth, const FieldModel& field) {
 }
 
 /// A heading and a place for one chart.
-std::string chart(const char* id, const char* name, const char* unit, const std::string& about) {
+std::string chart(const char* id, const char* name, const std::string& unit,
+                  const std::string& about) {
   return fmt::format(
       R"(<h2>{1} <small>{2}</small></h2><div id="{0}" class="chart" role="img" aria-label="{1} over time. {3}"></div>)",
       id, name, unit, escapeHtml(about));
@@ -138,10 +158,10 @@ std::string charts(const RunResult& run) {
     return std::string();
   };
   if (!run.figures.points.empty()) {
-    html += chart("position", "Position error", "m, with the filter's own 1 sigma",
-                  figure("Position error, RMS"));
-    html += chart("heading", "Heading error", "degrees, with the filter's own 1 sigma",
-                  figure("Heading error, RMS"));
+    const std::string about = std::string("with the filter's own 1 sigma") +
+                              (run.bounds.empty() ? "" : " and the least that is possible (green)");
+    html += chart("position", "Position error", "m, " + about, figure("Position error, RMS"));
+    html += chart("heading", "Heading error", "degrees, " + about, figure("Heading error, RMS"));
   } else {
     html +=
         R"(<p class="note">The source gave no ground truth, so there are no errors to show.</p>)";

@@ -56,6 +56,7 @@ struct RunResult {
   std::vector<float> updateMs;        ///< of all updates
   Calibration calibration;            ///< of the claimed quality
   std::optional<BoundFigures> bound;  ///< of the same run, if it was asked for
+  std::vector<PoseBound> bounds;      ///< of all its moments then
   std::vector<float> errors;          ///< of the positions of all moments after convergence [m]
 };
 

@@ -59,6 +59,23 @@ TEST(Report, ShowsErrorsOverTimeSinceTheFirstReading) {
   EXPECT_EQ(data["converged"], 5.0);
 }
 
+TEST(Report, ShowsTheBoundBesideErrorsIfThereIsOne) {
+  RunResult run = syntheticRun();
+  EXPECT_TRUE(dataOf(toHtml(run))["positionBound"].empty());
+  EXPECT_EQ(toHtml(run).find("least that is possible"), std::string::npos);
+  const Timestamp later = run.figures.points[10].stamp;
+  run.bounds = {{run.figures.points[1].stamp, {0.0009, 0, 0, 0, 0.0016, 0, 0, 0, 0.0}},
+                {later, {0.0036, 0, 0, 0, 0.0064, 0, 0, 0, 0.0001}}};
+  const nlohmann::json data = dataOf(toHtml(run));
+  ASSERT_EQ(data["positionBound"].size(), 600u);
+  EXPECT_TRUE(data["positionBound"][0].is_null());  // nothing was known then
+  EXPECT_NEAR(data["positionBound"][1].get<double>(), 0.05, 1e-6);
+  EXPECT_NEAR(data["positionBound"][9].get<double>(), 0.05, 1e-6);
+  EXPECT_NEAR(data["positionBound"][10].get<double>(), 0.1, 1e-6);
+  EXPECT_NEAR(data["headingBound"][599].get<double>(), 0.573, 1e-3);
+  EXPECT_EQ(countOf(toHtml(run), "the least that is possible (green)"), 2u);
+}
+
 TEST(Report, KeepsPeaksOfLongRuns) {
   RunResult run = syntheticRun();
   const EvaluationPoint point = run.figures.points.back();

@@ -117,17 +117,22 @@
     return top > 0 ? 1.15 * top : null;
   }
 
-  function errorChart(id, unit, values, sigmas) {
+  // Bounds are those of an estimate that uses all readings say; empty where nobody asked for them.
+  function errorChart(id, unit, values, sigmas, bounds) {
     const top = topAfterConvergence(values, sigmas);
-    const rows = data.time.map(function (t, i) { return [t, sigmas[i], values[i]]; });
-    chart(id, withGaps(rows, data.longestStep), ['time', '1 sigma', 'error'], ['sigma', 'estimate'], {
+    const hasBounds = bounds.length > 0;
+    const rows = data.time.map(function (t, i) {
+      return [t, sigmas[i], values[i]].concat(hasBounds ? [bounds[i]] : []);
+    });
+    const names = ['time', '1 sigma', 'error'].concat(hasBounds ? ['least 1 sigma'] : []);
+    chart(id, withGaps(rows, data.longestStep), names, ['sigma', 'estimate'].concat(hasBounds ? ['samples'] : []), {
       ylabel: 'error [' + unit + ']', valueRange: [0, top],
       series: { '1 sigma': { fillGraph: true, strokeWidth: 0.5 } }
     });
   }
 
-  errorChart('position', 'm', data.position, data.positionSigma);
-  errorChart('heading', 'deg', data.heading, data.headingSigma);
+  errorChart('position', 'm', data.position, data.positionSigma, data.positionBound);
+  errorChart('heading', 'deg', data.heading, data.headingSigma, data.headingBound);
   const qualities = data.pathTime.map(function (t, i) { return [t, data.quality[i]]; });
   chart('quality', withGaps(qualities, data.longestPathStep), ['time', 'quality'], ['ink'], {
     ylabel: 'quality', valueRange: [0, 1.05], underlayCallback: drawStatus,
