@@ -147,6 +147,8 @@ void refuseToView(const EvalArguments& arguments, std::size_t jobs) {
 }  // namespace
 
 int runEval(const EvalArguments& arguments) {
+  if (arguments.localization.besideGrid && arguments.localization.filter == "grid")
+    throw UsageError("--against-grid compares MCL with the grid filter, and --filter is grid");
   const EvalSettings settings{arguments, readOptions(arguments), readFaults(arguments)};
   std::vector<EvalJob> jobs = jobsOf(arguments);
   const Outputs outputs = outputsOf(arguments, jobs.size());

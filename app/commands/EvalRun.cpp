@@ -100,6 +100,7 @@ class Run {
       result_.estimates.push_back(step->estimate);
       result_.path.push_back(step->estimate);
       result_.updateMs.push_back(static_cast<float>(step->updateMilliseconds));
+      if (arguments_.besideGrid) compareWithGrid();
       if (progress) progress(localization_.feeder().progress());
       if (!isDone || step->estimate.stamp < nextVerdict_) continue;
       nextVerdict_ = step->estimate.stamp + kBetweenVerdicts;
@@ -113,6 +114,15 @@ class Run {
   void setBound(SimulatedBound* bound) { bound_ = bound; }
 
  private:
+  /// Where both have taken the same readings.
+  void compareWithGrid() {
+    const PoseEstimate& ours = localization_.mcl().estimate();
+    const PoseEstimate& its = localization_.grid()->estimate();
+    if (ours.stamp != its.stamp) return;
+    result_.besideGrid.push_back({ours.stamp,
+                                  localization_.grid()->divergenceOf(localization_.mcl().samples()),
+                                  distance(ours.pose, its.pose)});
+  }
   void onMoment(const Feeder& feeder) {
     if (!any_) result_.first = feeder.stamp();
     any_ = true;

@@ -30,6 +30,14 @@ void addLocalization(Builder& build, LocalizationArguments& a) {
   build.option("--motion", a.motion,
                "File with [motion], e.g. of `ortung learn-motion`, or odometry noise "
                "turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
+  build
+      .option("--filter", a.filter,
+              "mcl, or grid: all poses of a grid, exhaustively, as a reference on small fields; it "
+              "neither recovers nor polishes")
+      ->check(CLI::IsMember({"mcl", "grid"}))
+      ->capture_default_str();
+  build.option("--grid", a.grid, "Cell m and step of headings deg of that grid")
+      ->capture_default_str();
   build.flag("--any-world", a.anyWorld,
              "Go on although the source comes from another world than the tables");
   build.flag("--force", a.force, kForce);
@@ -53,6 +61,9 @@ void addEval(Builder& build, CLI::App& app, const std::string& commandLine) {
       "--bound", a->bound,
       "World file of simulated sources, whose truth is exact: also tell how good estimates "
       "could be at all, the Cramer-Rao bound of readings and motion");
+  build.flag("--against-grid", a->localization.besideGrid,
+             "Also tell how far MCL's samples are from what the grid filter makes of the same "
+             "readings");
   build.flag("--view", a->isViewing,
              "Show the run of the one source in a web browser afterwards, with a time line");
   build.option("--record", a->record, "Write all readings as a record");

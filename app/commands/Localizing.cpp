@@ -59,6 +59,20 @@ std::optional<Parameters> readMotion(const LocalizationArguments& arguments, Rob
   return motion;
 }
 
+GridConfig readGrid(const LocalizationArguments& arguments) {
+  const std::vector<double> numbers =
+      parseNumbers(arguments.grid, "--grid", {"cell_m", "step_deg"});
+  GridConfig grid;
+  grid.cell = numbers[0];
+  grid.headingStep = radians(numbers[1]);
+  try {
+    grid.check();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--grid: ") + error.what());
+  }
+  return grid;
+}
+
 }  // namespace
 
 std::unique_ptr<Localization> openLocalization(
@@ -73,6 +87,9 @@ std::unique_ptr<Localization> openLocalization(
   config.particles = arguments.particles;
   config.threads = arguments.threads;
   config.publish = arguments.publish;
+  config.grid = readGrid(arguments);
+  if (arguments.besideGrid) config.filter = LocalizationFilter::kMclBesideGrid;
+  if (arguments.filter == "grid") config.filter = LocalizationFilter::kGrid;
   config.anyWorld = true;  // the message below names the option
   std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
   std::unique_ptr<Source> source =
@@ -121,7 +138,7 @@ void requireUpdates(std::size_t updates, const LocalizationArguments& arguments)
 }
 
 bool warnWithoutOdometry(const Localization& localization, const LocalizationArguments& arguments) {
-  if (localization.mcl().hasOdometry()) return false;
+  if (localization.hasOdometry()) return false;
   const MclConfig& mcl = localization.mclConfig();
   warn(fmt::format(
       "{}: gives no odometry (a feature that the robot file has, with plugin "

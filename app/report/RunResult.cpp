@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -56,6 +57,26 @@ nlohmann::ordered_json jsonOf(const Calibration& calibration) {
   return {{"calibration_error", jsonNumber(calibration.error)},
           {"area_under_curve", jsonNumber(calibration.area)},
           {"bins", bins}};
+}
+
+/// Medians of updates after convergence; NaN for none.
+GridComparison besideGridOf(const RunResult& run) {
+  std::vector<double> divergences;
+  std::vector<double> distances;
+  for (const GridComparison& one : run.besideGrid) {
+    if (!run.figures.convergedAfter ||
+        one.stamp < run.first + fromSeconds(*run.figures.convergedAfter))
+      continue;
+    divergences.push_back(one.divergence);
+    distances.push_back(one.distance);
+  }
+  const auto median = [](std::vector<double>& values) {
+    if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  return {0, median(divergences), median(distances)};
 }
 
 }  // namespace
@@ -134,6 +155,9 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
   json["bound_heading_rmse_deg"] = jsonNumber(degrees(bound.headingRmse));
   json["ratio_median"] = jsonNumber(atCorrections.positionMedian / bound.positionMedian);
   json["ratio_rmse"] = jsonNumber(atCorrections.positionRmse / bound.positionRmse);
+  const GridComparison besideGrid = besideGridOf(run);
+  json["grid_divergence_median"] = jsonNumber(besideGrid.divergence);
+  json["grid_distance_median_m"] = jsonNumber(besideGrid.distance);
   if (run.kind != RunKind::kWhole) json["case"] = caseOf(run);
   return json;
 }
@@ -179,6 +203,12 @@ std::vector<Figure> figuresOf(const RunResult& run) {
       {"Time an update, most", show("{:.3f}", figures.updateMsMax, " ms")},
       {"Faster than real time", show("{:.0f}", figures.realtimeFactor, " x")},
   };
+  if (!run.besideGrid.empty()) {
+    const GridComparison besideGrid = besideGridOf(run);
+    all.push_back(
+        {"Divergence from the grid, median", show("{:.3f}", besideGrid.divergence, " nats")});
+    all.push_back({"Distance from the grid, median", show("{:.3f}", besideGrid.distance, " m")});
+  }
   if (!run.bound) return all;
   const BoundFigures& bound = *run.bound;
   all.push_back({"Least median (Cramer-Rao)", show("{:.4f}", bound.positionMedian, " m")});

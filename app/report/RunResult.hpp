@@ -34,6 +34,13 @@ struct CaseEvent {
   std::size_t readings = 0;  ///< ... and how many moments with readings
 };
 
+/// MCL beside the grid filter, after the same readings.
+struct GridComparison {
+  Timestamp stamp = 0;
+  double divergence = 0.0;  ///< of the samples from the grid [nats]
+  double distance = 0.0;    ///< of the two estimates [m]
+};
+
 /// One evaluated run with all that it depends on.
 struct RunResult {
   EvaluationResult figures;
@@ -51,13 +58,14 @@ struct RunResult {
   std::vector<std::string> faults;  ///< that the readings had
   std::string commandLine;
   RunKind kind = RunKind::kWhole;
-  std::size_t number = 1;             ///< of its kind, from 1
-  std::vector<CaseEvent> events;      ///< of a case
-  std::vector<float> updateMs;        ///< of all updates
-  Calibration calibration;            ///< of the claimed quality
-  std::optional<BoundFigures> bound;  ///< of the same run, if it was asked for
-  std::vector<PoseBound> bounds;      ///< of all its moments then
-  std::vector<float> errors;          ///< of the positions of all moments after convergence [m]
+  std::size_t number = 1;                  ///< of its kind, from 1
+  std::vector<CaseEvent> events;           ///< of a case
+  std::vector<float> updateMs;             ///< of all updates
+  Calibration calibration;                 ///< of the claimed quality
+  std::optional<BoundFigures> bound;       ///< of the same run, if it was asked for
+  std::vector<PoseBound> bounds;           ///< of all its moments then
+  std::vector<GridComparison> besideGrid;  ///< of updates, if it was asked for
+  std::vector<float> errors;  ///< of the positions of all moments after convergence [m]
 };
 
 /// How well the filter's claim that a position is right to 0.5 m fits what came of it.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 namespace ortung {
 namespace {
@@ -43,21 +45,27 @@ double GridBelief::headingOf(int turn) const {
   return wrapAngle((turn + 0.5) * step_ + turnOffset_);
 }
 
-void GridBelief::forEach(const std::function<void(const Pose2&, double)>& visit) const {
-  for (int turn = 0; turn < turns_; ++turn) {
-    const auto t = static_cast<std::size_t>(turn);
-    if (isFilled_[t] == 0) continue;
-    for (int row = box_.firstRow; row < box_.firstRow + box_.rows; ++row) {
-      const float* shares = shares_.data() + t * layerSize() +
-                            static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_);
-      const double y = area_.originY + (row + 0.5) * cell_ + offsets_[t].y;
-      for (int column = box_.firstColumn; column < box_.firstColumn + box_.columns; ++column) {
-        if (shares[column] > 0.0F)
-          visit({area_.originX + (column + 0.5) * cell_ + offsets_[t].x, y, headingOf(turn)},
-                static_cast<double>(shares[column]));
-      }
+template <class Grid, class Visit>
+void GridBelief::forEachRow(Grid& grid, const Visit& visit) {
+  for (int turn = 0; turn < grid.turns_; ++turn) {
+    if (grid.isFilled_[static_cast<std::size_t>(turn)] == 0) continue;
+    for (int row = grid.box_.firstRow; row < grid.box_.firstRow + grid.box_.rows; ++row) {
+      auto* begin = grid.shares_.data() + grid.placeOf(turn, row, grid.box_.firstColumn);
+      visit(turn, row, std::span(begin, static_cast<std::size_t>(grid.box_.columns)));
     }
   }
+}
+
+void GridBelief::forEach(const std::function<void(const Pose2&, double)>& visit) const {
+  forEachRow(*this, [&](int turn, int row, std::span<const float> shares) {
+    const Offset& offset = offsets_[static_cast<std::size_t>(turn)];
+    Pose2 centre{0.0, area_.originY + (row + 0.5) * cell_ + offset.y, headingOf(turn)};
+    double column = box_.firstColumn + 0.5;
+    for (const float share : shares) {
+      centre.x = area_.originX + column++ * cell_ + offset.x;
+      if (share > 0.0F) visit(centre, static_cast<double>(share));
+    }
+  });
 }
 
 bool GridBelief::fill(const std::function<double(const Pose2&)>& shareAt) {
@@ -66,17 +74,16 @@ bool GridBelief::fill(const std::function<double(const Pose2&)>& shareAt) {
   box_ = {0, rows_, 0, columns_};
   std::fill(isFilled_.begin(), isFilled_.end(), std::uint8_t{1});
   double sum = 0.0;
-  std::size_t i = 0;
-  for (int turn = 0; turn < turns_; ++turn)
-    for (int row = 0; row < rows_; ++row)
-      for (int column = 0; column < columns_; ++column, ++i) {
-        const double share = shareAt({area_.originX + (column + 0.5) * cell_,
-                                      area_.originY + (row + 0.5) * cell_, headingOf(turn)});
-        shares_[i] = static_cast<float>(share);
-        sum += share;
-      }
+  forEachRow(*this, [&](int turn, int row, std::span<float> shares) {
+    double column = 0.5;
+    for (float& share : shares) {
+      const double its = shareAt(
+          {area_.originX + column++ * cell_, area_.originY + (row + 0.5) * cell_, headingOf(turn)});
+      share = static_cast<float>(its);
+      sum += its;
+    }
+  });
   normalize();
-  tighten();
   return sum > 0.0;
 }
 
@@ -100,48 +107,52 @@ void GridBelief::weigh(
   for (std::size_t i = 0; i < set.size(); ++i) values[i] += set.logWeight[i];
   const float best = *std::max_element(values.begin(), values.end());
   std::size_t next = 0;
-  for (int turn = 0; turn < turns_; ++turn) {
-    if (isFilled_[static_cast<std::size_t>(turn)] == 0) continue;
-    float* shares = layer(shares_, turn);
-    for (std::size_t i = 0; i < layerSize(); ++i)
-      if (shares[i] > 0.0F) shares[i] = std::exp(values[next++] - best);
-  }
+  forEachRow(*this, [&](int, int, std::span<float> shares) {
+    for (float& share : shares)
+      if (share > 0.0F) share = std::exp(values[next++] - best);
+  });
   normalize();
-  tighten();
 }
 
-/// Scales shares to sum 1, without what is little.
+/// Scales shares to sum 1, without what is little, and finds the box and the layers of the rest.
 void GridBelief::normalize() {
   double sum = 0.0;
-  for (const float share : shares_) sum += static_cast<double>(share);
-  if (!(sum > 0.0)) return;
-  const auto factor = static_cast<float>(1.0 / sum);
-  for (float& share : shares_) {
-    share *= factor;
-    if (share < kLittle) share = 0.0F;
-  }
-}
-
-/// Finds the box and the layers that have anything.
-void GridBelief::tighten() {
+  forEachRow(*this, [&sum](int, int, std::span<const float> shares) {
+    for (const float share : shares) sum += static_cast<double>(share);
+  });
+  const float factor = sum > 0.0 ? static_cast<float>(1.0 / sum) : 0.0F;
   Box found{rows_, 0, columns_, 0};  // with ends in place of lengths
-  for (int turn = 0; turn < turns_; ++turn) {
-    const float* shares = layer(shares_, turn);
-    bool any = false;
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        if (!(*shares++ > 0.0F)) continue;
-        any = true;
+  std::vector<std::uint8_t> filled(isFilled_.size());
+  forEachRow(*this, [&](int turn, int row, std::span<float> shares) {
+    int column = box_.firstColumn;
+    for (float& share : shares) {
+      share *= factor;
+      if (share < kLittle) share = 0.0F;
+      if (share > 0.0F) {
         found.firstRow = std::min(found.firstRow, row);
         found.rows = std::max(found.rows, row + 1);
         found.firstColumn = std::min(found.firstColumn, column);
         found.columns = std::max(found.columns, column + 1);
+        filled[static_cast<std::size_t>(turn)] = 1;
       }
+      ++column;
     }
-    isFilled_[static_cast<std::size_t>(turn)] = any ? 1 : 0;
-  }
+  });
+  isFilled_ = std::move(filled);
   box_ = {found.firstRow, std::max(0, found.rows - found.firstRow), found.firstColumn,
           std::max(0, found.columns - found.firstColumn)};
+}
+
+/// What an operation has put into the buffer becomes the shares; the buffer is empty again.
+/// @param grownBy by how many cells it may have spread
+/// @param filled layers that have anything now
+void GridBelief::take(int grownBy, std::vector<std::uint8_t> filled) {
+  forEachRow(*this, [](int, int, std::span<float> shares) {
+    std::fill(shares.begin(), shares.end(), 0.0F);
+  });
+  shares_.swap(buffer_);
+  isFilled_ = std::move(filled);
+  grow(grownBy);
 }
 
 void GridBelief::grow(int by) {
@@ -154,7 +165,6 @@ void GridBelief::grow(int by) {
 }
 
 void GridBelief::move(const Pose2& change) {
-  std::fill(buffer_.begin(), buffer_.end(), 0.0F);
   for (int turn = 0; turn < turns_; ++turn) {
     Offset& offset = offsets_[static_cast<std::size_t>(turn)];
     const Pose2 come = Pose2{offset.x, offset.y, headingOf(turn)} * change;
@@ -164,18 +174,14 @@ void GridBelief::move(const Pose2& change) {
     if (isFilled_[static_cast<std::size_t>(turn)] != 0)
       addShifted(layer(shares_, turn), right, up, 1.0F, layer(buffer_, turn));
   }
-  shares_.swap(buffer_);
-  grow(static_cast<int>(std::hypot(change.x, change.y) / cell_) + 2);
+  take(static_cast<int>(std::hypot(change.x, change.y) / cell_) + 2, isFilled_);
   const double turned = turnOffset_ + change.theta;
   const int steps = static_cast<int>(std::lround(turned / step_));
   turnOffset_ = turned - steps * step_;
   const int first = ((-steps) % turns_ + turns_) % turns_;  // becomes layer 0
-  const auto rotate = [&](auto& all, std::size_t each) {
-    std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(each) * first, all.end());
-  };
-  rotate(shares_, layerSize());
-  rotate(offsets_, 1);
-  rotate(isFilled_, 1);
+  std::rotate(offsets_.begin(), offsets_.begin() + first, offsets_.end());
+  std::rotate(isFilled_.begin(), isFilled_.begin() + first, isFilled_.end());
+  firstLayer_ = (firstLayer_ + first) % turns_;
 }
 
 /// Adds a layer moved by so many cells, shared out between those that it covers.
@@ -207,7 +213,6 @@ void GridBelief::addShifted(const float* from, double right, double up, float sh
 /// they are moved by what that turn stands for.
 /// @param aside of a turn to the left by one step, in the frame of the robot before @p turn [m]
 void GridBelief::turnAbout(float share, const Offset& aside, double turn) {
-  std::fill(buffer_.begin(), buffer_.end(), 0.0F);
   std::vector<std::uint8_t> filled(isFilled_.size());
   for (int from = 0; from < turns_; ++from) {
     if (isFilled_[static_cast<std::size_t>(from)] == 0) continue;
@@ -222,14 +227,11 @@ void GridBelief::turnAbout(float share, const Offset& aside, double turn) {
       filled[static_cast<std::size_t>(to)] = 1;
     }
   }
-  shares_.swap(buffer_);
-  isFilled_ = std::move(filled);
-  grow(static_cast<int>(std::hypot(aside.x, aside.y) / cell_) + 2);
+  take(static_cast<int>(std::hypot(aside.x, aside.y) / cell_) + 2, std::move(filled));
 }
 
 /// Shares go to the neighbours on either side in one direction.
 void GridBelief::spread(int right, int up, const std::vector<float>& shareOfLayer) {
-  std::fill(buffer_.begin(), buffer_.end(), 0.0F);
   for (int turn = 0; turn < turns_; ++turn) {
     if (isFilled_[static_cast<std::size_t>(turn)] == 0) continue;
     const float share = shareOfLayer[static_cast<std::size_t>(turn)];
@@ -237,8 +239,7 @@ void GridBelief::spread(int right, int up, const std::vector<float>& shareOfLaye
       addShifted(layer(shares_, turn), step * right, step * up,
                  step == 0 ? 1.0F - 2.0F * share : share, layer(buffer_, turn));
   }
-  shares_.swap(buffer_);
-  grow(1);
+  take(1, isFilled_);
 }
 
 /// In steps, each no larger than neighbours are. Noise of a place is what the turn leaves open of
@@ -282,7 +283,6 @@ void GridBelief::blur(const std::array<double, 9>& covariance, double turn) {
     spread(1, -1, ofFalling);
   }
   normalize();
-  tighten();
 }
 
 }  // namespace ortung

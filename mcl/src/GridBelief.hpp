@@ -53,14 +53,20 @@ class ORTUNG_API GridBelief {
     double y = 0.0;
   };
   double headingOf(int turn) const;
-  float* layer(std::vector<float>& of, int turn) const {
-    return of.data() + static_cast<std::size_t>(turn) * layerSize();
+  std::size_t placeOf(int turn, int row, int column) const {
+    return static_cast<std::size_t>((turn + firstLayer_) % turns_) * layerSize() +
+           static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
   }
+  float* layer(std::vector<float>& of, int turn) const { return of.data() + placeOf(turn, 0, 0); }
+  /// Rows of the box in layers that have any. @param visit (turn, row, shares)
+  template <class Grid, class Visit>
+  static void forEachRow(Grid& grid, const Visit& visit);
   std::size_t layerSize() const {
     return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
   }
   void grow(int by);
-  void tighten();
+  void take(int grownBy, std::vector<std::uint8_t> filled);
   void normalize();
   void addShifted(const float* from, double right, double up, float share, float* to) const;
   void turnAbout(float share, const Offset& aside, double turn);
@@ -74,8 +80,9 @@ class ORTUNG_API GridBelief {
   int rows_;
   double turnOffset_ = 0.0;  ///< of all headings, at most half a step [rad]
   std::vector<Offset> offsets_;
-  std::vector<float> shares_;  ///< (turn, row, column)
-  std::vector<float> buffer_;
+  int firstLayer_ = 0;                  ///< that of heading 0: turns move no memory
+  std::vector<float> shares_;           ///< (layer, row, column)
+  std::vector<float> buffer_;           ///< likewise; zeros
   std::vector<std::uint8_t> isFilled_;  ///< layers that have any
   Box box_;                             ///< of all layers: outside there is nothing
 };

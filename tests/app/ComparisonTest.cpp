@@ -155,7 +155,7 @@ TEST_F(RunFiles, AreReadAsTheyWereWritten) {
 }
 
 TEST_F(RunFiles, OfEarlierVersionsAreRead) {
-  for (const char* file : {"result.json", "result-2.json", "result-3.json"})
+  for (const char* file : {"result.json", "result-2.json", "result-3.json", "result-4.json"})
     EXPECT_EQ(readRuns(test::goldenFile(file)).size(), 1u) << file;
 }
 

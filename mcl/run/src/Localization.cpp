@@ -133,11 +133,18 @@ Localization::Localization(Opened opened, const LocalizationConfig& config)
       robot_(std::move(opened.robot)),
       source_(std::move(opened.source)),
       mclConfig_(readMcl(config, robot_->config)),
+      filter_(config.filter),
       mcl_(std::make_unique<Mcl>(mclConfig_, robot_->tables.region, readMotion(config, *robot_))),
       publishes_(config.publish) {
   for (const auto& data : robot_->container.all())
     if (odometry_ == nullptr) odometry_ = dynamic_cast<const OdometryData*>(data.get());
-  if (publishes_) addPublishedFeatures(robot_->container);
+  if (filter_ != LocalizationFilter::kMcl)
+    grid_ = std::make_unique<GridFilter>(mclConfig_, config.grid, robot_->tables.region,
+                                         readMotion(config, *robot_));
+  if (publishes_) {
+    requireMcl("publish");
+    addPublishedFeatures(robot_->container);
+  }
   if (source_) feeder_ = std::make_unique<Feeder>(sourceName_, *source_, robot_->container);
   checkWorld(config);
   start(config.start);
@@ -160,7 +167,10 @@ void Localization::start(const LocalizationStart& start) {
   checkSigmas("start", start.sigmaPosition, start.sigmaHeading);
   start_ = start;
   waitsForTruth_ = start.kind == LocalizationStart::Kind::kTruth;
-  if (start.kind == LocalizationStart::Kind::kGlobal) mcl_->startGlobal();
+  if (start.kind == LocalizationStart::Kind::kGlobal) {
+    mcl_->startGlobal();
+    if (grid_) grid_->startGlobal();
+  }
   if (start.kind != LocalizationStart::Kind::kPose) return;
   checkPlace(robot_->tables.region, start.pose, start.sigmaPosition, "start:");
   startAt(start.pose);
@@ -168,7 +178,13 @@ void Localization::start(const LocalizationStart& start) {
 
 void Localization::startAt(const Pose2& pose) {
   mcl_->startAt(pose, start_.sigmaPosition, start_.sigmaHeading);
+  if (grid_) grid_->startAt(pose, start_.sigmaPosition, start_.sigmaHeading);
   waitsForTruth_ = false;
+}
+
+void Localization::requireMcl(const char* what) const {
+  if (!isGrid()) return;
+  throw std::logic_error(std::string(what) + " is of MCL, and a grid filter is in its place");
 }
 
 void Localization::checkPose(const Pose2& pose, double sigmaPosition) const {
@@ -176,6 +192,7 @@ void Localization::checkPose(const Pose2& pose, double sigmaPosition) const {
 }
 
 void Localization::setPose(const Pose2& pose, const std::array<double, 9>& covariance) {
+  requireMcl("setPose");
   const double variance = covariance[0] + covariance[4];
   const bool isNumber = variance >= 0.0 && std::isfinite(variance);  // else MCL says what it is
   checkPlace(robot_->tables.region, pose, isNumber ? std::sqrt(variance) : 0.0, "the pose set");
@@ -184,11 +201,13 @@ void Localization::setPose(const Pose2& pose, const std::array<double, 9>& covar
 }
 
 void Localization::relocalize() {
+  requireMcl("relocalize");
   mcl_->relocalize();
   waitsForTruth_ = false;
 }
 
 void Localization::saveBelief(const std::filesystem::path& file) const {
+  requireMcl("saveBelief");
   const auto belief = waitsForTruth_ ? std::nullopt : mcl_->belief();
   if (!belief) throw std::logic_error("there is no belief yet that could be saved");
   writeBelief(file, *belief, robot_->tables.worldFingerprint);
@@ -196,6 +215,7 @@ void Localization::saveBelief(const std::filesystem::path& file) const {
 
 void Localization::restoreBelief(const std::filesystem::path& file, double sigmaPosition,
                                  double sigmaHeading) {
+  requireMcl("restoreBelief");
   checkSigmas("belief", sigmaPosition, sigmaHeading);
   Belief belief = readBelief(file, robot_->tables);
   widen(sigmaPosition, sigmaHeading, mclConfig_.seed, belief.samples);
@@ -246,21 +266,29 @@ std::optional<PoseEstimate> Localization::update() {
     startAt(*pose);
   }
   const auto begin = std::chrono::steady_clock::now();
-  const bool weighed = mcl_->update(robot_->container);
+  const bool weighed =
+      isGrid() ? grid_->update(robot_->container) : mcl_->update(robot_->container);
   count(millisecondsSince(begin));
+  if (grid_ && !isGrid()) grid_->update(robot_->container);
   if (!weighed) {
     publishChange();
     return std::nullopt;
   }
   longest_ = std::exchange(longestSince_, 0.0);
   spent_ = std::exchange(spentSince_, 0.0);
+  if (isGrid()) return grid_->estimate();
   publish(mcl_->estimate());
   return mcl_->estimate();
 }
 
+void Localization::followOdometry() {
+  if (!isGrid()) mcl_->followOdometry(robot_->container);
+  if (grid_) grid_->followOdometry(robot_->container);
+}
+
 std::optional<PoseEstimate> Localization::estimate(Timestamp stamp) const {
   if (waitsForTruth_ || (knownSince_ && stamp < *knownSince_)) return std::nullopt;
-  return mcl_->estimate(stamp);
+  return isGrid() ? grid_->estimate(stamp) : mcl_->estimate(stamp);
 }
 
 bool Localization::advance() {

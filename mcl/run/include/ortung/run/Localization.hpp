@@ -16,6 +16,7 @@
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/core/Source.hpp"
+#include "ortung/mcl/GridFilter.hpp"
 #include "ortung/mcl/Mcl.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
@@ -37,6 +38,13 @@ struct LocalizationStart {
   double sigmaHeading = 0.1745;  ///< of kTruth and kPose: standard deviation [rad], at least 0
 };
 
+/// Who says where the robot is.
+enum class LocalizationFilter : std::uint8_t {
+  kMcl,
+  kGrid,          ///< an exhaustive reference for small fields (GridFilter)
+  kMclBesideGrid  ///< MCL; the grid filter follows the same readings, to compare with
+};
+
 /// What a localization works with; only robot and tables have no default.
 struct LocalizationConfig {
   std::filesystem::path robot = {};   ///< robot file
@@ -48,11 +56,13 @@ struct LocalizationConfig {
   LocalizationStart start = {};
   std::optional<Parameters> motion = {};  ///< in place of the robot file's [motion]
   bool anyWorld = false;  ///< take readings of another world than that of the tables
+  LocalizationFilter filter = LocalizationFilter::kMcl;
+  GridConfig grid = {};  ///< of the grid filter, if there is one
   /// Adds the features mcl/LOCALIZATION/pose (words as of PoseFixData), status (TrackData), places
   /// (ClustersData), work (WorkData) and samples (SamplesData, see wantSamples()) to the container
   /// and sets them to each new estimate, for whoever reads, records or serves the container. Status
   /// is also set when it or its reason changes between two of them, as of the newest odometry: no
-  /// reading comes any more.
+  /// reading comes any more. Of MCL alone.
   bool publish = false;
 };
 
@@ -101,7 +111,7 @@ class ORTUNG_API Localization {
   std::optional<PoseEstimate> update();
 
   /// Looks at odometry alone, which estimate(stamp) then knows of.
-  void followOdometry() { mcl_->followOdometry(robot_->container); }
+  void followOdometry();
   /// Where the robot is at @p stamp: the belief carried on by odometry, as Mcl::estimate(stamp).
   /// Nothing before there is a belief. The newest weighing is that of mcl().estimate().
   std::optional<PoseEstimate> estimate(Timestamp stamp) const;
@@ -111,6 +121,8 @@ class ORTUNG_API Localization {
   ///   stand, nor within three sigmas of it, such as one off the map. With kTruth, update() throws
   ///   that once the truth is known
   void start(const LocalizationStart& start);
+  // The four that follow are of MCL: with a grid filter in its place they throw std::logic_error.
+
   /// Somebody else knows where the robot is now: a belief as wide as that is put there, which
   /// odometry carries on and readings sharpen. Unlike start() it keeps what is known of time and
   /// odometry, and does not wait for a reading.
@@ -144,7 +156,9 @@ class ORTUNG_API Localization {
 
   SensorContainer& container() { return robot_->container; }
   const Robot& robot() const { return *robot_; }
-  const Mcl& mcl() const { return *mcl_; }
+  const Mcl& mcl() const { return *mcl_; }  ///< waits for ever if a grid filter is in its place
+  const GridFilter* grid() const { return grid_.get(); }  ///< null without
+  bool hasOdometry() const { return isGrid() ? grid_->hasOdometry() : mcl_->hasOdometry(); }
   const MclConfig& mclConfig() const { return mclConfig_; }
 
   Source& source();  ///< @throws std::logic_error without one
@@ -169,13 +183,17 @@ class ORTUNG_API Localization {
   void publish(const PoseEstimate& estimate);
   void publishChange();
   std::optional<Pose2> truth() const;
+  bool isGrid() const { return filter_ == LocalizationFilter::kGrid; }
+  void requireMcl(const char* what) const;
 
   std::string sourceName_;
   std::unique_ptr<Robot> robot_;
   std::unique_ptr<Source> source_;
   std::unique_ptr<Feeder> feeder_;  ///< null without a source
   MclConfig mclConfig_;
+  LocalizationFilter filter_;
   std::unique_ptr<Mcl> mcl_;
+  std::unique_ptr<GridFilter> grid_;
   LocalizationStart start_;
   bool waitsForTruth_ = false;
   bool publishes_ = false;
