@@ -1,18 +1,27 @@
 #!/usr/bin/env python3
 """Runs the evaluation of docs/results.md and prints its tables as Markdown.
 
-  scripts/evaluate.py build/release/bin/ortung ../shared/data [--only mrclam,laser,sim,beacons] [--seeds 3] [--out DIR]
+  scripts/evaluate.py build/release/bin/ortung ../shared/data [--only sim,laser,...] [--seeds 3] [--out DIR] [--write docs/results.md]
 
-For each log it imports, learns (once a map) and evaluates from an unknown and a known start.
+For each log it imports, learns (once a map) and evaluates from an unknown and a known start. --write puts each table behind its mark
+in the page, <!-- table: HEADING -->, part by part, so that what fails later leaves what was there. All parts take some hours.
 """
 import argparse
 import json
 import math
 import os
+import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
+import types
 
+import ablations
+import results_page
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MAPS = os.path.join(os.path.dirname(HERE), "maps")
 LASER = {  # name: folder, options of the import
     "intel": ("carmen/intel", []),
     "aces": ("carmen/aces", []),
@@ -92,14 +101,19 @@ def import_laser(ortung, data, out, name):
     return base
 
 
+def fixed_robot(base):
+    """MRPT's set has a fixed size, so ours is measured with that, too."""
+    fixed = base + "-fixed.toml"
+    with open(base + "-robot.toml") as robot, open(fixed, "w") as out_file:
+        out_file.write(robot.read() + "\n[mcl]\nparticles = 10000\nmin_particles = 10000\n")
+    return fixed
+
+
 def laser(ortung, data, out, seeds):
     print("\n## Laser\n\n| log " + HEAD + "\n" + RULE, flush=True)
     for name in LASER:
         base = import_laser(ortung, data, out, name)
-        # MRPT's set has a fixed size, so ours is measured with that, too.
-        fixed = base + "-fixed.toml"
-        with open(base + "-robot.toml") as robot, open(fixed, "w") as out_file:
-            out_file.write(robot.read() + "\n[mcl]\nparticles = 10000\nmin_particles = 10000\n")
+        fixed = fixed_robot(base)
         for start in ("global", "truth"):
             for robot in (base + "-robot.toml", fixed):
                 print("| %s %s" % (name, evaluate(ortung, "record:" + base + ".rec", robot, base + ".ortung", start,
@@ -134,8 +148,8 @@ def import_beacons(ortung, out, name, kind, path, options=(), cell="0.1"):
     return base
 
 
-def uwb_ro(ortung, data, out, seeds):
-    """Laser, ranges and both; then where the laser has a scan in ten."""
+def import_uwb_ro(ortung, data, out):
+    """Robots with the laser, the ranges and both, and tables of both; returns what their names begin with."""
     folder = os.path.join(data, "mrpt_uwb_ro")
     base = import_beacons(ortung, out, "uwb_ro_beacons", "rawlog",
                           os.path.join(folder, "raw/uwb_ro-localization_demo.rawlog"),
@@ -147,6 +161,12 @@ def uwb_ro(ortung, data, out, seeds):
         with open(base + "-%s.toml" % name, "w") as robot:
             robot.write("[[sensor]]".join([head, odometry, *sensors]) + (ranges if name != "laser" else ""))
     run([ortung, "learn", "--world", base + ".toml", "--robot", base + "-both.toml", "--out", base + ".ortung", "--force"])
+    return base
+
+
+def uwb_ro(ortung, data, out, seeds):
+    """Laser, ranges and both; then where the laser has a scan in ten."""
+    base = import_uwb_ro(ortung, data, out)
     for fault in ((), ("--fault", "laser/LRF/scan=drop:0.9"), ("--fault", "laser/LRF/scan=missing@30-90")):
         for name in ("laser", "ranges", "both"):
             if fault and name == "ranges":
@@ -174,30 +194,154 @@ def beacons(ortung, data, out, seeds):
 
 
 def sim(ortung, _, out, seeds):
-    maps = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "maps")
     print("\n## Simulated soccer field, 60 s, a new drive for each seed\n\n| robot, field " + HEAD + "\n" + RULE, flush=True)
     # A laser alone can't tell the halves of the bare field apart (see the world's comment).
     for name, field in (("pioneer_lrf", "f2000_hall"), ("pioneer_posts", "f2000"), ("pioneer", "f2000")):
-        world = os.path.join(maps, "fields", field + ".toml")
-        robot = os.path.join(maps, "robots", name + ".toml")
+        world = os.path.join(MAPS, "fields", field + ".toml")
+        robot = os.path.join(MAPS, "robots", name + ".toml")
         tables = os.path.join(out, name + ".ortung")
         run([ortung, "learn", "--world", world, "--robot", robot, "--out", tables])
         print("| %s, %s %s" % (name, field, evaluate(ortung, "sim:" + world + "?duration=60&seed={seed}", robot, tables,
                                           "global", seeds)), flush=True)
 
 
+def bound(ortung, _, out, seeds):
+    """Errors of simulated robots beside the Cramer-Rao bound, as medians over the drives."""
+    print("\n## The bound\n\n| robot, field | drives | bound: median [m] | RMSE [m] | heading RMSE [deg] | error at updates: median [m] | "
+          "RMSE [m] | ratio of medians | of RMSE |\n|" + "---|" * 9, flush=True)
+    for name, field in (("pioneer_lrf", "f2000_hall"), ("pioneer_posts", "f2000"), ("pioneer", "f2000"), ("sonar_ring", "f2000_hall")):
+        world = os.path.join(MAPS, "fields", field + ".toml")
+        robot = os.path.join(MAPS, "robots", name + ".toml")
+        tables = os.path.join(out, name + "-bound.ortung")
+        file = os.path.join(out, name + "-bound.json")
+        run([ortung, "learn", "--world", world, "--robot", robot, "--out", tables, "--force"])
+        run([ortung, "eval", "--robot", robot, "--tables", tables, "--bound", world, "--json", file, "--force",
+             *[w for seed in range(1, seeds + 1) for w in ("--source", "sim:%s?duration=60&seed=%d" % (world, seed))]])
+        runs = json.load(open(file))["runs"]
+        good = [r for r in runs if r["converged_after_s"] is not None]
+        m = lambda key: statistics.median([r[key] for r in good])
+        at = lambda key: statistics.median([r["at_corrections"][key] for r in good])
+        print("| %s, %s | %d of %d | %.4f | %.4f | %.3f | %.4f | %.4f | %.1f | %.1f |" % (
+            name, field, len(good), len(runs), m("bound_median_m"), m("bound_rmse_m"), m("bound_heading_rmse_deg"),
+            at("position_median_m"), at("position_rmse_m"), m("ratio_median"), m("ratio_rmse")), flush=True)
+
+
+def ablation(ortung, data, out, _):
+    tools = types.SimpleNamespace(ortung=ortung, data=data, out=out, maps=MAPS, run=run, mean=mean, import_uwb_ro=import_uwb_ro)
+    ablations.simulated(tools)
+    ablations.logged(tools)
+
+
+# Where a fault of some seconds begins, in which the robot moves [s].
+FAULT_FROM = {"jarvis": 20, "sena_telecom": 20, "intel": 600, "fhw": 200}
+LATE_S = (0.5, 1, 2, 3)
+
+
+def lost_shares(ortung, base, faults):
+    """Share of the time lost of two runs from the truth, as text."""
+    file = base + "-lost.json"
+    run([ortung, "eval", "--source", "record:" + base + ".rec", "--robot", base + "-robot.toml", "--tables", base + ".ortung",
+         "--start", "truth", "--runs", "2", *[w for f in faults for w in ("--fault", f)], "--json", file, "--force"])
+    return " / ".join("never converged" if r["lost_share"] is None else "%.3g" % round(r["lost_share"], 3)
+                      for r in json.load(open(file))["runs"])
+
+
+def faults(ortung, data, out, _):
+    """Constructed faults at fixed times, and late stamps, seeds 1 and 2."""
+    bases = {name: import_laser(ortung, data, out, name) for name in FAULT_FROM}
+    print("\n## Constructed faults\n\n| fault | %s |\n|%s" % (" | ".join(bases), "---|" * (len(bases) + 1)), flush=True)
+    for what, seconds in (("readings=crowd", 30), ("readings=frozen", 30), ("readings=missing", 30), ("odometry=slip", 4),
+                          ("odometry=reverse", 4), ("odometry=none", None), ("odometry=zero", None)):
+        cells = [lost_shares(ortung, base, [what + ("@%d-%d" % (FAULT_FROM[n], FAULT_FROM[n] + seconds) if seconds else "")])
+                 for n, base in bases.items()]
+        print("| `%s`, %s | %s |" % (what, "%d s" % seconds if seconds else "all the time", " | ".join(cells)), flush=True)
+    names = ("intel", "belgioioso", "sena_telecom", "jarvis", "fhw", "freiburg-079", "aces")
+    print("\n## Late stamps\n\n| late by | %s |\n|%s" % (" | ".join(names), "---|" * (len(names) + 1)), flush=True)
+    bases = [import_laser(ortung, data, out, name) for name in names]
+    for late in LATE_S:
+        print("| %g s | %s |" % (late, " | ".join(lost_shares(ortung, b, ["readings=late:%g" % late]) for b in bases)), flush=True)
+
+
+def trust(ortung, data, out, _):
+    """Wake-ups, kidnaps, teleports and faults at other moments."""
+    script = os.path.join(HERE, "benchmark-localization.py")
+    common = [sys.executable, script, ortung, data, "--out", out]
+    print(run([*common, "--only", "wake-ups,kidnaps", "--cases", "20"]), end="")
+    print(run([*common, "--only", "teleports", "--cases", "6", "--logs", "intel,belgioioso,jarvis,fhw"]), end="")
+    print(run([*common, "--only", "faults", "--cases", "2", "--logs", "intel,belgioioso,jarvis,fhw,sena_telecom"]), end="", flush=True)
+
+
+def ours_beside(ortung, data, out, logs):
+    """Our figures with 10,000 samples by log: tracking from the truth, and how often an unknown start converged."""
+    found = {}
+    for name in logs:
+        base = import_laser(ortung, data, out, name)
+        fixed = fixed_robot(base)
+        for start in ("truth", "global"):
+            file = base + "-beside.json"
+            run([ortung, "eval", "--source", "record:" + base + ".rec", "--robot", fixed, "--tables", base + ".ortung", "--start", start,
+                 "--runs", "3", "--json", file, "--force"])
+            found[name, start] = json.load(open(file))["runs"]
+    return found
+
+
+def mrpt(ortung, data, out, _):
+    """MRPT's pf-localization, and ours with as many samples beside it."""
+    if shutil.which("pf-localization") is None:
+        print("\n## MRPT's pf-localization\n\nLeft out: pf-localization is not installed (Debian: mrpt-apps).")
+        return
+    theirs = []
+    rows = []
+    for samples, seeds, longest in ((2000, 2, 600), (10000, 1, 900)):
+        file = os.path.join(out, "mrpt-%d.json" % samples)
+        told = run([os.path.join(HERE, "compare-mrpt.sh"), data, "--samples", str(samples), "--seeds", str(seeds), "--jobs", "1",
+                    "--longest", str(longest), "--budget", "3600", "--json", file])
+        lines = [line for line in told.splitlines() if line.startswith("|")]
+        rows += lines if not rows else lines[2:]
+        theirs += json.load(open(file))
+    print("\n## MRPT's pf-localization\n\n" + "\n".join(rows[:2] + sorted(rows[2:])))
+    print("\n## Side by side\n\n| log | median, ours | MRPT | RMSE, ours | MRPT | lost, ours | MRPT | converged from an unknown start, "
+          "ours | MRPT, 10,000 | MRPT, 2,000 |\n|" + "---|" * 10)
+    ours = ours_beside(ortung, data, out, dict.fromkeys(t["log"] for t in theirs))
+    for log in dict.fromkeys(t["log"] for t in theirs):
+        its = {(t["start"], t["samples"]): t["runs"] for t in theirs if t["log"] == log}
+        tracked = [r for r in its.get(("truth", 10000), []) if r["converged_after"] is not None]
+        own = [r for r in ours[log, "truth"] if r["converged_after_s"] is not None]
+        converged = lambda runs, key: "%d/%d" % (sum(r[key] is not None for r in runs), len(runs)) if runs else "-"
+        both = []
+        for mine, their in (("position_median_m", "median"), ("position_rmse_m", "rmse")):
+            values = [mean([r["at_corrections"][mine] for r in own]), mean([r[their] for r in tracked])]
+            both += [("**%.3f**" if v == min(values) else "%.3f") % v for v in values]
+        both += ["%.1f%%" % (100 * mean(v)) for v in ([r["at_corrections"]["lost_share"] for r in own], [r["lost"] for r in tracked])]
+        print("| %s | %s | %s | %s | %s |" % (log, " | ".join(both), converged(ours[log, "global"], "converged_after_s"),
+                                             *[converged(its.get(("global", n), []), "converged_after") for n in (10000, 2000)]))
+
+
+def three_ways(ortung, *_):
+    print("\n## One robot, three ways\n\n" + run([sys.executable, os.path.join(HERE, "three-ways.py"), ortung]), end="", flush=True)
+
+
+PARTS = {"sim": sim, "bound": bound, "ablations": ablation, "mrclam": mrclam, "beacons": beacons, "laser": laser, "trust": trust,
+         "faults": faults, "mrpt": mrpt, "three-ways": three_ways, "goalkeepers": results_page.goalkeepers}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ortung")
     parser.add_argument("data")
-    parser.add_argument("--only", default="sim,mrclam,laser,beacons")
+    parser.add_argument("--only", default=",".join(PARTS), help="of " + ", ".join(PARTS))
     parser.add_argument("--seeds", type=int, default=3, help="runs a row; the simulated ones get 20")
     parser.add_argument("--out", default="out/evaluate")
+    parser.add_argument("--write", metavar="FILE", help="put the tables into this page, in place of those that it has")
     arguments = parser.parse_args()
+    parts = arguments.only.split(",")
+    if unknown := [p for p in parts if p not in PARTS]:
+        parser.error("--only is %s, expected some of %s" % (",".join(unknown), ", ".join(PARTS)))
     os.makedirs(arguments.out, exist_ok=True)
-    for part in arguments.only.split(","):
-        seeds = 20 if part == "sim" else arguments.seeds
-        {"mrclam": mrclam, "laser": laser, "sim": sim, "beacons": beacons}[part](arguments.ortung, arguments.data, arguments.out, seeds)
+    for part in parts:
+        seeds = 20 if part in ("sim", "bound") else arguments.seeds
+        with results_page.written(arguments.write):
+            PARTS[part](arguments.ortung, arguments.data, arguments.out, seeds)
 
 
 if __name__ == "__main__":

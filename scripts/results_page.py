@@ -1,0 +1,115 @@
+"""What evaluate.py prints goes into a page of tables; and the tables of the goalkeeper benchmark there."""
+import contextlib
+import io
+import json
+import os
+import random
+import subprocess
+import sys
+
+EPISODES = 2000
+BOOTSTRAPS = 1000
+STRIKERS = ("yardstick-v1", "shot", "dribble")
+
+
+class Tee(io.StringIO):
+    """Text that is also printed at once."""
+
+    def write(self, text):
+        sys.__stdout__.write(text)
+        sys.__stdout__.flush()
+        return super().write(text)
+
+
+def tables_of(text):
+    """Tables by the headings above them, up to the first comma or colon with a blank: {heading: lines}."""
+    found = {}
+    heading = ""
+    for line in text.splitlines():
+        if line.startswith("## "):
+            heading = line[3:].split(",")[0].strip()
+        elif line.startswith("|"):
+            found.setdefault(heading, []).append(line)
+    return found
+
+
+def put(page, tables):
+    """The page with the tables behind their marks, in place of those that are there; and marks that it lacks."""
+    lines = page.split("\n")
+    missing = []
+    for heading, rows in tables.items():
+        mark = "<!-- table: %s -->" % heading
+        if mark not in lines:
+            missing.append(mark)
+            continue
+        begin = lines.index(mark) + 1
+        while begin < len(lines) and not lines[begin].strip():
+            begin += 1
+        end = begin
+        while end < len(lines) and lines[end].startswith("|"):
+            end += 1
+        lines[lines.index(mark) + 1:end] = ["", *rows] if end > begin else ["", *rows, ""]
+    return "\n".join(lines), missing
+
+
+@contextlib.contextmanager
+def written(file):
+    """Puts the tables that are printed meanwhile into the page, if there is one."""
+    if file is None:
+        yield
+        return
+    tee = Tee()
+    with contextlib.redirect_stdout(tee):
+        yield
+    with open(file) as page:
+        text, missing = put(page.read(), tables_of(tee.getvalue()))
+    with open(file + ".new", "w") as page:
+        page.write(text)
+    os.replace(file + ".new", file)
+    for mark in missing:
+        print("%s has no line %s, so its table is not there" % (file, mark), file=sys.stderr)
+
+
+def more_goals(goals, truth):
+    """Goals of 100 more than against the keeper that sees the truth, in the same situations, with an interval by bootstrap."""
+    differences = [a - b for a, b in zip(goals, truth)]
+    chance = random.Random(1)
+    n = len(differences)
+    means = sorted(100.0 * sum(chance.choices(differences, k=n)) / n for _ in range(BOOTSTRAPS))
+    return "%+.1f [%+.1f, %+.1f]" % (100.0 * sum(differences) / n, means[int(0.025 * BOOTSTRAPS)], means[int(0.975 * BOOTSTRAPS)])
+
+
+def keeper_rows(result):
+    """A row a keeper and way to see; the last columns are errors against the first striker."""
+    cells = {(c["keeper"], c["striker"]): c for c in result["cells"]}
+    rows = []
+    for keeper in result["keepers"]:
+        policy, sees = keeper.split("policy=")[1].split("&sees=")
+        row = [policy, "`%s`" % sees]
+        for striker in result["strikers"]:
+            cell = cells[keeper, striker]
+            goals = [outcome == "g" for outcome in cell["outcomes"]]
+            truth = [outcome == "g" for outcome in cells[keeper.split("&sees=")[0] + "&sees=truth", striker]["outcomes"]]
+            row.append("%.1f [%.1f, %.1f]" % tuple(100.0 * cell["scoring"][k] for k in ("value", "low", "high")))
+            row.append("-" if sees == "truth" else more_goals(goals, truth))
+        error = cells[keeper, result["strikers"][0]].get("keeper_pose_error")
+        row.append("%.3f / %.3f" % (error["mean_m"], error["median_m"]) if error else "0")
+        row.append("%.2f / %.2f" % tuple(error[k] * 57.29578 for k in ("mean_heading_rad", "median_heading_rad")) if error else "0")
+        rows.append("| " + " | ".join(row) + " |")
+    return rows
+
+
+def goalkeepers(ortung, _, out, __):
+    file = os.path.join(out, "sees.json")
+    result = subprocess.run([ortung, "benchmark", "goalkeeper", "--keepers", "blocking,intercepting", "--sees",
+                             "truth,features,scan,localized", "--strikers", ",".join(STRIKERS), "--episodes", str(EPISODES),
+                             "--threads", str(os.cpu_count()), "--json", file, "--force"], capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.exit(result.stderr)
+    with open(file) as text:
+        rows = keeper_rows(json.load(text))
+    head = ["keeper", "sees"]
+    for i, striker in enumerate(STRIKERS):
+        head += ["against " + striker if i == 0 else striker, "more than `truth`" if i == 0 else "more"]
+    head += ["pose error mean / median [m]", "heading [deg]"]
+    print("\n## Goalkeepers\n\n| %s |\n|%s\n%s" % (" | ".join(head), "---|" * len(head), "\n".join(rows)), flush=True)
