@@ -55,7 +55,31 @@ TEST(LandmarksPlugin, RefusesWrongSettingsByName) {
   expectRefusal("landmarks", "range_scale = 0", {"range_scale", "0"});
   expectRefusal("landmarks", "range_sigma_m = 0", {"range_sigma_m"});
   expectRefusal("landmarks", "bearing_sigma_deg = 1000", {"bearing_sigma_deg", "1000"});
+  expectRefusal("landmarks", "range_bias_m = 0.1", {"range_bias_m", "list"});
+  expectRefusal("landmarks", "identified = false", {"identified", "list"});
+  expectRefusal("landmarks", "identified = false\nfeatures = 'list'\nslant = true",
+                {"identified", "slant"});
   expectRefusal("landmarks", "missed_share = -0.1", {"missed_share", "-0.1"});
+}
+
+// The learner must know which is which; a camera that can't tell does not.
+TEST(LandmarksPlugin, SaysWhichLandmarkIsWhichToTheLearnerAlone) {
+  SensorRig rig("landmarks", "features = 'list'\nidentified = false\nrange_bias_m = 0.5");
+  const FakeWorld room = roomWithPosts();
+  rig.sense(room, {0.0, 0.0, 0.0});
+  const LandmarksData::Reading truth = rig.get<LandmarksData>().reading();
+  Random random(1);
+  rig.sense(room, {0.0, 0.0, 0.0}, &random);
+  const LandmarksData::Reading seen = rig.get<LandmarksData>().reading();
+  ASSERT_EQ(truth.size(), 4u);
+  ASSERT_EQ(seen.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(truth[i].identity, i + 1);
+    EXPECT_NEAR(truth[i].range, std::hypot(5.0, 3.0), kMillimetre);
+    EXPECT_EQ(seen[i].identity, LandmarksData::kUnknown);
+    EXPECT_NEAR(seen[i].range, std::hypot(5.0, 3.0) + 0.5, 0.5) << "five sigmas";
+    EXPECT_GT(seen[i].range, std::hypot(5.0, 3.0) + 0.1);
+  }
 }
 
 TEST(LandmarksPlugin, MakesDistancesOrBearingsAlone) {

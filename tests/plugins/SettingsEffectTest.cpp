@@ -240,28 +240,34 @@ TEST(SettingsEffect, OfTheSonar) {
 }
 
 TEST(SettingsEffect, OfLandmarks) {
-  const std::vector<Change> own = {{"period_s", "0.7"},
-                                   {"kind", "'beacon'", {{"identities", "[1]"}}},
-                                   {"features", "'list'"},
-                                   {"identities", "[2, 1]"},
-                                   {"min_range_m", "3"},
-                                   {"max_range_m", "2"},
-                                   {"fov_deg", "100"},
-                                   {"slant", "true"},
-                                   {"range_scale", "1.2"},
-                                   {"range_sigma_m", "0.4"},
-                                   {"range_sigma_per_m", "0.4"},
-                                   {"bearing_sigma_deg", "9"},
-                                   {"outliers", "0.3"},
-                                   {"exponent", "0.5"},
-                                   {"slack_m", "0"},
-                                   {"occlusion", "false", {{"slack_m", "0"}}},
-                                   {"noise_range_sigma_m", "0.5"},
-                                   {"noise_range_sigma_per_m", "0.3"},
-                                   {"noise_bearing_sigma_deg", "9"},
-                                   {"missed_share", "0.4"},
-                                   {"false_share", "0.4"},
-                                   {"pose.z_m", "1.6", {{"slack_m", "0"}}}};
+  std::vector<Change> own = {{"period_s", "0.7"},
+                             {"kind", "'beacon'", {{"identities", "[1]"}}},
+                             {"features", "'list'"},
+                             {"identities", "[2, 1]"},
+                             {"min_range_m", "3"},
+                             {"max_range_m", "2"},
+                             {"fov_deg", "100"},
+                             {"slant", "true"},
+                             {"range_scale", "1.2"},
+                             {"range_sigma_m", "0.4"},
+                             {"range_sigma_per_m", "0.4"},
+                             {"bearing_sigma_deg", "9"},
+                             {"outliers", "0.3"},
+                             {"exponent", "0.5"},
+                             {"slack_m", "0"},
+                             {"occlusion", "false", {{"slack_m", "0"}}},
+                             {"noise_range_sigma_m", "0.5"},
+                             {"noise_range_sigma_per_m", "0.3"},
+                             {"noise_bearing_sigma_deg", "9"},
+                             {"missed_share", "0.4"},
+                             {"false_share", "0.4"},
+                             {"pose.z_m", "1.6", {{"slack_m", "0"}}}};
+  const Settings list{{"features", "'list'"}};
+  own.push_back({"identified", "false", list});
+  for (const char* key :
+       {"range_bias_m", "range_bias_per_m", "range_bias_per_m_rad", "range_bias_per_m_rad2",
+        "bearing_bias_deg", "bearing_bias_per_rad", "bearing_bias_per_rad2"})
+    own.push_back({key, "0.2", list});
   expectSensorEffects("landmarks", {{"identities", "[1, 2]"}},
                       together(own, {{"model", "'other'"}, {"type", "'other'"}}), {""},
                       {"pose", "feature", "max_range_mass"});

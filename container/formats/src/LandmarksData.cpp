@@ -6,6 +6,7 @@
 #include "FormatTools.hpp"
 #include "TableSlope.hpp"
 #include "TableWeigher.hpp"
+#include "UnidentifiedSight.hpp"
 
 namespace ortung {
 namespace {
@@ -17,11 +18,16 @@ constexpr std::size_t kMostSightings = 4096;
 
 struct LandmarksData::Model {
   explicit Model(const Config& c)
-      : range(c.range), bearing(c.bearing), ranges(c.range), bearings(c.bearing) {}
+      : range(c.range),
+        bearing(c.bearing),
+        ranges(c.range),
+        bearings(c.bearing),
+        unidentified(std::make_shared<UnidentifiedSight::Model>(c.range, c.bearing)) {}
   SensorModel range;
   SensorModel bearing;
   GaussianTable ranges;
   GaussianTable bearings;
+  std::shared_ptr<const UnidentifiedSight::Model> unidentified;
 };
 
 struct LandmarksData::Tables {
@@ -30,11 +36,13 @@ struct LandmarksData::Tables {
     BearingTable bearing;
   };
   explicit Tables(const Config& config) {
+    if (!config.identified) return;
     landmarks.reserve(config.identities.size());
     for (std::size_t i = 0; i < config.identities.size(); ++i)
       landmarks.push_back({PositionTable(config.maxRange), {}});
   }
-  std::vector<Landmark> landmarks;  ///< in the order of the list of identities
+  std::vector<Landmark> landmarks;  ///< in the order of the list of identities; or none, but
+  std::shared_ptr<LandmarkPlaces> places = std::make_shared<LandmarkPlaces>();
 };
 
 class LandmarksData::Sight final : public Weigher, public Polishable {
@@ -160,13 +168,29 @@ std::string LandmarksData::wordsHelp() const {
 
 double LandmarksData::headingSpacing() const { return spacingOf(config_.fieldOfView); }
 
+LandmarksData::Sighting LandmarksData::corrected(const Sighting& sighting) const {
+  const auto [range, bearing] = config_.bias.corrected({sighting.range, sighting.bearing});
+  return {sighting.identity, range, bearing};
+}
+
 std::ptrdiff_t LandmarksData::indexOf(std::uint32_t identity) const {
   const auto it = std::find(config_.identities.begin(), config_.identities.end(), identity);
   return it == config_.identities.end() ? -1 : it - config_.identities.begin();
 }
 
+std::ptrdiff_t LandmarksData::indexOf(const Sighting& sighting, const Pose2& pose) const {
+  if (config_.identified || sighting.identity != kUnknown) return indexOf(sighting.identity);
+  const Pose2 sensor = pose * mount();
+  const Sighting truly = corrected(sighting);
+  const double angle = sensor.theta + truly.bearing;
+  const std::uint16_t which = tables_->places->nearestTo(sensor.x + truly.range * std::cos(angle),
+                                                         sensor.y + truly.range * std::sin(angle));
+  return which == LandmarkPlaces::kNone ? -1 : which;
+}
+
 void LandmarksData::startTables(const FieldRegion& region, double) {
   tables_ = std::make_shared<Tables>(config_);
+  if (!config_.identified) tables_->places->start(region.grid, config_.identities.size());
   for (Tables::Landmark& landmark : tables_->landmarks) {
     landmark.range.start(region.grid);
     landmark.bearing.start(region.grid);
@@ -178,15 +202,36 @@ void LandmarksData::learn(const Pose2& robotInField) {
   for (const Sighting& sighting : reading_) {
     const std::ptrdiff_t index = indexOf(sighting.identity);
     if (index < 0 || sighting.range > config_.maxRange) continue;
+    if (!config_.identified) {
+      const double angle = sensor.theta + sighting.bearing;
+      tables_->places->mark(static_cast<std::size_t>(index),
+                            sensor.x + sighting.range * std::cos(angle),
+                            sensor.y + sighting.range * std::sin(angle));
+      continue;
+    }
     Tables::Landmark& landmark = tables_->landmarks[static_cast<std::size_t>(index)];
     landmark.range.learn(sensor.x, sensor.y, sighting.range);
     landmark.bearing.learn(sensor.x, sensor.y, sensor.theta + sighting.bearing);
   }
 }
 
+void LandmarksData::finishTables() {
+  if (!config_.identified) tables_->places->finish();
+}
+
 std::vector<double> LandmarksData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
   std::vector<double> expected;
+  const LandmarkPlaces& places = *tables_->places;
+  for (std::size_t i = 0; !places.isEmpty() && i < config_.identities.size(); ++i) {
+    const double dx = places.x(i) - sensor.x;
+    const double dy = places.y(i) - sensor.y;
+    const double range = std::hypot(dx, dy);
+    const bool isSeen = range <= config_.maxRange;
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    expected.push_back(isSeen ? range : kNothing);
+    expected.push_back(isSeen ? wrapAngle(std::atan2(dy, dx) - sensor.theta) : kNothing);
+  }
   for (const Tables::Landmark& landmark : tables_->landmarks) {
     expected.push_back(landmark.range.at(sensor.x, sensor.y));
     expected.push_back(wrapAngle(landmark.bearing.at(sensor.x, sensor.y) - sensor.theta));
@@ -195,10 +240,19 @@ std::vector<double> LandmarksData::expectation(const Pose2& pose) const {
 }
 
 std::shared_ptr<const Weigher> LandmarksData::makeWeigher() const {
+  if (!config_.identified) {
+    if (tables_->places->isEmpty()) return nullptr;
+    auto all = std::make_shared<UnidentifiedSight>(model_->unidentified, tables_->places, mount());
+    for (const Sighting& sighting : reading_) {
+      const auto [identity, range, bearing] = corrected(sighting);
+      if (range <= config_.maxRange) all->add(range, bearing);
+    }
+    return all->isEmpty() ? nullptr : all;
+  }
   auto sight = std::make_shared<Sight>(model_, tables_, mount());
   for (const Sighting& sighting : reading_) {
     const std::ptrdiff_t index = indexOf(sighting.identity);
-    if (index >= 0) sight->add(static_cast<std::size_t>(index), sighting);
+    if (index >= 0) sight->add(static_cast<std::size_t>(index), corrected(sighting));
   }
   return sight->isEmpty() ? nullptr : sight;
 }
@@ -209,10 +263,11 @@ std::string LandmarksData::learningKey() const {
                     " identities=";
   for (const std::uint32_t identity : config_.identities) key += std::to_string(identity) + ",";
   key.pop_back();
-  return key;
+  return config_.identified ? key : key + " unidentified";
 }
 
 void LandmarksData::saveTables(TableWriter& file, const std::string& prefix) const {
+  if (!config_.identified) tables_->places->save(file, prefix);
   for (std::size_t i = 0; i < tables_->landmarks.size(); ++i) {
     const std::string name = prefix + std::to_string(config_.identities[i]);
     tables_->landmarks[i].range.cells().save(file, name + ".distance");
@@ -223,6 +278,7 @@ void LandmarksData::saveTables(TableWriter& file, const std::string& prefix) con
 void LandmarksData::useTables(const std::shared_ptr<const TableFile>& file,
                               const std::string& prefix, const FieldGrid& grid) {
   auto tables = std::make_shared<Tables>(config_);
+  if (!config_.identified) tables->places->load(file, prefix, grid, config_.identities.size());
   for (std::size_t i = 0; i < tables->landmarks.size(); ++i) {
     const std::string name = prefix + std::to_string(config_.identities[i]);
     tables->landmarks[i].range.cells().load(file, name + ".distance", grid);

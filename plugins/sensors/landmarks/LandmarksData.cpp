@@ -52,10 +52,12 @@ DeviceData makeLandmarks(const Parameters& p) {
   }
   LandmarksData::Config config;
   config.identities = s.identities;
+  config.identified = s.isIdentified;
   config.maxRange = s.maxRange;
   config.fieldOfView = s.fieldOfView;
   config.range = s.range;
   config.bearing = s.bearing;
+  config.bias = s.bias;
   data.push_back(std::make_unique<Measured<LandmarksData>>(s, s.id, config));
   return data;
 }

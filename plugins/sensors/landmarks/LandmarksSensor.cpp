@@ -76,11 +76,15 @@ class LandmarksSensor : public Sensor {
   }
 
   Sighting measured(Sighting sighting, Random& noise) const {
+    if (!settings_.isIdentified) sighting.identity = LandmarksData::kUnknown;
     if (noise.uniform() < settings_.falseShare) {
       sighting.range = noise.uniform(settings_.minRange, settings_.maxRange);
       sighting.bearing = wrapAngle(settings_.fieldOfView * (noise.uniform() - 0.5));
       return sighting;
     }
+    const SightingBias::Sight biased = settings_.bias.measured({sighting.range, sighting.bearing});
+    sighting.range = biased.range;
+    sighting.bearing = biased.bearing;
     const double sigma =
         settings_.noiseRangeSigma + settings_.noiseRangeSigmaPerMetre * sighting.range;
     sighting.range = std::max(sighting.range + sigma * noise.gaussian(), 0.0);

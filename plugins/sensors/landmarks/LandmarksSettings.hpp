@@ -14,7 +14,8 @@ namespace ortung {
 struct LandmarksSettings {
   SensorId id;  ///< its feature only counts for a list
   Mounting mounting;
-  bool isList = false;  ///< one LandmarksData; otherwise features of each landmark:
+  bool isIdentified = true;  ///< whether real readings tell them apart
+  bool isList = false;       ///< one LandmarksData; otherwise features of each landmark:
   bool hasDistances = true;
   bool hasBearings = true;
   std::string kind;  ///< of the landmarks in the world, and the beginning of features' names
@@ -24,6 +25,7 @@ struct LandmarksSettings {
   double fieldOfView = kTurn;    ///< [rad]; 2 pi: all around
   SensorModel range;             ///< [m]
   SensorModel bearing;           ///< [rad]
+  SightingBias bias;             ///< of real readings, in a list
   bool slant = false;            ///< distances are measured in space, not along the floor
   double rangeScale = 1.0;       ///< what is read of a metre [m]
   double period = 0.1;           ///< [s]
@@ -62,6 +64,25 @@ inline std::vector<std::uint32_t> readIdentities(const Parameters& p) {
   return identities;
 }
 
+/// What real readings get wrong. @throws ConfigError
+inline SightingBias readSightingBias(const Parameters& p, bool isList) {
+  for (const char* key :
+       {"range_bias_m", "range_bias_per_m", "range_bias_per_m_rad", "range_bias_per_m_rad2",
+        "bearing_bias_deg", "bearing_bias_per_rad", "bearing_bias_per_rad2"}) {
+    if (p.has(key) && !isList)
+      p.fail(key, "needs range and bearing of a sighting together: features = \"list\"");
+  }
+  SightingBias bias;
+  bias.metres = p.numberOr("range_bias_m", 0.0, {-10.0, 10.0});
+  bias.perMetre = p.numberOr("range_bias_per_m", 0.0, {-0.5, 0.5});
+  bias.perMetreRad = p.numberOr("range_bias_per_m_rad", 0.0, {-1.0, 1.0});
+  bias.perMetreRad2 = p.numberOr("range_bias_per_m_rad2", 0.0, {-1.0, 1.0});
+  bias.radians = radians(p.numberOr("bearing_bias_deg", 0.0, {-180.0, 180.0}));
+  bias.perRad = p.numberOr("bearing_bias_per_rad", 0.0, {-0.3, 0.3});
+  bias.perRad2 = p.numberOr("bearing_bias_per_rad2", 0.0, {-0.2, 0.2});
+  return bias;
+}
+
 /// Reads all settings of both halves. @throws ConfigError
 inline LandmarksSettings readLandmarksSettings(const Parameters& p) {
   LandmarksSettings s;
@@ -70,6 +91,9 @@ inline LandmarksSettings readLandmarksSettings(const Parameters& p) {
   const std::string features =
       p.choiceOr("features", "each", {"each", "list", "distances", "bearings"});
   s.isList = features == "list";
+  s.isIdentified = p.flagOr("identified", true);
+  if (!s.isIdentified && !s.isList)
+    p.fail("identified", "is false, which needs features = \"list\"");
   s.hasDistances = features != "bearings";
   s.hasBearings = features != "distances";
   if (!s.isList && p.has("feature"))
@@ -83,8 +107,12 @@ inline LandmarksSettings readLandmarksSettings(const Parameters& p) {
   s.fieldOfView = radians(p.numberOr("fov_deg", 360.0, {1.0, 360.0}));
   s.range = SensorModel::read(p, "range_sigma_m", {.sigma = 0.1});
   s.bearing = SensorModel::read(p, "bearing_sigma_deg", {.sigma = radians(3.0)});
+  s.bias = readSightingBias(p, s.isList);
   s.slant = p.flagOr("slant", false);
   s.rangeScale = p.numberOr("range_scale", 1.0, {0.1, 10.0});
+  if (!s.isIdentified && (s.slant || s.rangeScale != 1.0))
+    p.fail("identified",
+           "is false, so landmarks' places are learned: neither slant nor range_scale");
   s.period = readPeriod(p, 0.1);
   s.slack = p.numberOr("slack_m", 0.3, {0.0, 10.0});
   s.occlusion = p.flagOr("occlusion", true);

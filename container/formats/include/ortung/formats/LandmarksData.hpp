@@ -9,23 +9,30 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/SightingBias.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
 
-/// Ranges and bearings of identified landmarks seen at one moment.
+/// Ranges and bearings of landmarks seen at one moment.
 /// Words: three a landmark: identity, [mm], [angle]; none: looked and saw nothing.
-/// Learns a position and a bearing table for each landmark of its list.
+/// Learns a position and a bearing table for each landmark of its list or, if they can't be told
+/// apart, where each of them is: the readings that it learns from say which is which, all others
+/// need not. A sighting is then of the landmark that fits best (UnidentifiedSight.hpp).
 /// Not thread-safe, see SensorData.
 class ORTUNG_API LandmarksData : public SensorData {
  public:
+  /// Identity of a sighting of which nobody knows it.
+  static constexpr std::uint32_t kUnknown = 0xFFFFFFFF;
   struct Config {
-    std::vector<std::uint32_t> identities;  ///< landmarks that can be told apart; not empty, unique
+    std::vector<std::uint32_t> identities;  ///< of the landmarks; not empty, unique
+    bool identified = true;                 ///< whether readings tell them apart
     double maxRange = 20.0;                 ///< [m]
     double fieldOfView = 0.0;               ///< [rad]; 0 or 2 pi: all around
     SensorModel range{};
     SensorModel bearing{.sigma = 0.02};
+    SightingBias bias;  ///< of readings; they are corrected before they are weighed
   };
   struct Sighting {
     std::uint32_t identity = 0;
@@ -41,6 +48,11 @@ class ORTUNG_API LandmarksData : public SensorData {
   static std::vector<std::uint32_t> encode(const Reading& reading);
   static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
   const Config& config() const { return config_; }
+  /// A sighting without what the sensor gets wrong always in the same way.
+  Sighting corrected(const Sighting& sighting) const;
+  /// Place in the list of identities of what is sighted with the robot at @p pose, by its identity
+  /// or, without one, the landmark that is nearest to where it lies; -1: none.
+  std::ptrdiff_t indexOf(const Sighting& sighting, const Pose2& pose) const;
 
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
@@ -52,12 +64,13 @@ class ORTUNG_API LandmarksData : public SensorData {
 
  private:
   struct Model;   ///< what stays: how probable residuals are
-  struct Tables;  ///< of each landmark
+  struct Tables;  ///< of each landmark, or where all of them are
   class Sight;    ///< the weigher
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   void startTables(const FieldRegion& region, double headingStep) override;
   void learn(const Pose2& robotInField) override;
+  void finishTables() override;
   void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
                  const FieldGrid& grid) override;
   std::shared_ptr<const Weigher> makeWeigher() const override;
