@@ -90,6 +90,10 @@ NoiseLearning howOf(const CalibrateNoiseArguments& arguments) {
     if (fixed == "bias") {
       set(NoiseTerm::kRangeBias);
       set(NoiseTerm::kBearingBias);
+      for (const NoiseTerm term :
+           {NoiseTerm::kRangePerMetre, NoiseTerm::kRangePerMetreRad, NoiseTerm::kRangePerMetreRad2,
+            NoiseTerm::kBearingPerRad, NoiseTerm::kBearingPerRad2})
+        set(term);
     }
     if (fixed == "mount") {
       set(NoiseTerm::kMountX);

@@ -23,7 +23,12 @@ struct TermText {
 const std::vector<TermText>& termTexts() {
   static const std::vector<TermText> kTerms = {
       {NoiseTerm::kRangeBias, "range bias", "m", 1.0},
+      {NoiseTerm::kRangePerMetre, "  per m", "m/m", 1.0},
+      {NoiseTerm::kRangePerMetreRad, "  per m and rad", "1/rad", 1.0},
+      {NoiseTerm::kRangePerMetreRad2, "  per m and rad^2", "1/rad^2", 1.0},
       {NoiseTerm::kBearingBias, "bearing bias", "deg", degrees(1.0)},
+      {NoiseTerm::kBearingPerRad, "  per rad", "rad/rad", 1.0},
+      {NoiseTerm::kBearingPerRad2, "  per rad^2", "1/rad", 1.0},
       {NoiseTerm::kMountX, "mount x", "m", 1.0},
       {NoiseTerm::kMountY, "mount y", "m", 1.0},
       {NoiseTerm::kMountTheta, "mount theta", "deg", degrees(1.0)},
@@ -73,6 +78,31 @@ void addSigmas(const NoiseShape& shape, const std::string& stem, std::vector<Tom
   out.emplace_back(stem + "_per_m", number(shape.sigmaPerMetre.value));
 }
 
+/// Biases of sightings: what the robot file says of them, and behind it what was found of readings
+/// that were corrected by that. One after the other they are one such bias again, but for terms
+/// of higher order.
+void addBias(const SensorConfig& sensor, const LearnedNoise& noise, std::vector<TomlEntry>& out) {
+  const Parameters& p = sensor.parameters;
+  const auto both = [&](const char* key, double found) {
+    const double sum = p.numberOr(key, 0.0) + found;
+    if (sum != 0.0 || p.has(key)) out.emplace_back(key, number(sum));
+  };
+  // A range that was too long by what is known already has grown by its share, too.
+  const double first = 1.0 + p.numberOr("range_bias_per_m", 0.0);
+  const double then = 1.0 + known(noise, NoiseTerm::kRangePerMetre);
+  const double lopsided = p.numberOr("range_bias_per_m_rad", 0.0);
+  const double bent = p.numberOr("range_bias_per_m_rad2", 0.0);
+  const double thenLopsided = known(noise, NoiseTerm::kRangePerMetreRad);
+  both("range_bias_m", first * known(noise, NoiseTerm::kRangeBias));
+  both("range_bias_per_m", first * (then - 1.0));
+  both("range_bias_per_m_rad", first * thenLopsided + (then - 1.0) * lopsided);
+  both("range_bias_per_m_rad2", first * known(noise, NoiseTerm::kRangePerMetreRad2) +
+                                    (then - 1.0) * bent + lopsided * thenLopsided);
+  both("bearing_bias_deg", degrees(known(noise, NoiseTerm::kBearingBias)));
+  both("bearing_bias_per_rad", known(noise, NoiseTerm::kBearingPerRad));
+  both("bearing_bias_per_rad2", known(noise, NoiseTerm::kBearingPerRad2));
+}
+
 }  // namespace
 
 std::string noiseText(std::span<SensorData* const> features, const LearnedNoise& noise) {
@@ -95,12 +125,15 @@ std::vector<TomlEntry> noiseEntries(const SensorConfig& sensor, const LearnedNoi
   const NoiseShape& distances = noise.fit.distances;
   const NoiseShape& angles = noise.fit.angles;
   std::vector<TomlEntry> out;
-  const bool isLandmarks = sensor.plugin == "landmarks";
+  const bool isCylinders = sensor.plugin == "lrf_cylinders";
+  const bool isLandmarks = isCylinders || sensor.plugin == "landmarks";
   if (!isLandmarks && sensor.plugin != "lrf" && sensor.plugin != "sonar") return out;
   if (distances.values > 0) addSigmas(distances, isLandmarks ? "range_sigma" : "sigma", out);
   if (angles.values > 0) out.emplace_back("bearing_sigma_deg", number(degrees(angles.sigma.value)));
   const double floor = std::max({kLeastFloor, distances.floor, angles.floor});
   out.emplace_back("outliers", number(std::min(0.5, floor)));
+  if (isCylinders || (isLandmarks && sensor.parameters.textOr("features", "each") == "list"))
+    addBias(sensor, noise, out);
   addPose(sensor, noise, out);
   return out;
 }

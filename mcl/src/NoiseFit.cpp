@@ -24,7 +24,7 @@ constexpr double kLeastSigma = 1e-4;  ///< [m], [rad]
 constexpr double kLeastShare = 1e-4;
 constexpr double kMostShare = 0.9;
 /// How large terms may be, so that what nothing is known of stays none: sigmas of a prior.
-constexpr ByNoiseTerm<double> kPrior = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+constexpr ByNoiseTerm<double> kPrior = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 constexpr int kKinds = 2;  ///< distances and angles
 /// Beside the terms: sigma, sigma per metre, outliers of each kind.
 constexpr int kNumbers = static_cast<int>(kNoiseTerms) + 3 * kKinds;

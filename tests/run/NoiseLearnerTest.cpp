@@ -114,6 +114,41 @@ TEST_F(NoiseLearnerTest, FindsWhatIsWrongWithACameraThatSeesLandmarks) {
   expectNear(fit.angles.outliers, faulty.outliers, 0.01, "outliers of bearings");
 }
 
+// Such a camera takes distances for those along its axis, which are shorter by the cosine; its lens
+// bends bearings. Of a mount that is not open.
+TEST_F(NoiseLearnerTest, FindsThatACameraMeasuresAlongItsAxis) {
+  const std::vector<test::Point> points = {
+      {1, -3.5, -2.0}, {2, 3.5, -2.0}, {3, 3.0, 2.2}, {4, -3.0, 1.0}};
+  LandmarksData camera({"omnivision", "camera", "posts"}, {},
+                       {.identities = {1, 2, 3, 4}, .maxRange = 10.0});
+  test::learnEverywhere(camera, info.region, info.headingStep, [&](const Pose2& sensor) {
+    return test::landmarkWords(points, sensor, 10.0);
+  });
+  std::vector<NoiseLog::Reading>& readings = log.readings[toText(camera.id())];
+  for (double t = 1.0; t < kSeconds - 1.0; t += kPeriod) {
+    LandmarksData::Reading reading;
+    for (const test::Point& p : points) {
+      const double bearing = test::bearingTo(poseAt(t), p.x, p.y);
+      if (std::abs(bearing) > 0.6) continue;
+      const double range = std::hypot(p.x - poseAt(t).x, p.y - poseAt(t).y);
+      reading.push_back({p.identity, 1.03 * range * std::cos(bearing) + 0.02 * random.gaussian(),
+                         bearing - 0.05 * bearing * bearing + 0.005 * random.gaussian()});
+    }
+    readings.push_back({fromSeconds(t), LandmarksData::encode(reading)});
+  }
+  SensorData* const features[] = {&camera};
+  NoiseLearning how;
+  for (const NoiseTerm term : {NoiseTerm::kMountX, NoiseTerm::kMountY, NoiseTerm::kLatency})
+    how.wanted[static_cast<std::size_t>(term)] = false;
+  const NoiseFit fit = learnNoise(features, info, {&log, 1}, how).fit;
+  const auto term = [&](NoiseTerm t) { return fit.terms[static_cast<std::size_t>(t)].value; };
+  EXPECT_NEAR(term(NoiseTerm::kRangePerMetre), 0.03, 0.004);
+  EXPECT_NEAR(term(NoiseTerm::kRangePerMetreRad2), -0.5 * 1.03, 0.03);
+  EXPECT_NEAR(term(NoiseTerm::kRangePerMetreRad), 0.0, 0.005);
+  EXPECT_NEAR(term(NoiseTerm::kBearingPerRad2), -0.05, 0.01);
+  EXPECT_NEAR(fit.distances.sigma.value + 3.0 * fit.distances.sigmaPerMetre.value, 0.02, 0.004);
+}
+
 TEST_F(NoiseLearnerTest, SaysNothingOfWhatIsNotWrong) {
   const std::vector<test::Point> points = {{1, -3.5, -2.0}, {2, 3.5, -2.0}};
   LandmarksData camera({"omnivision", "camera", "posts"}, {},

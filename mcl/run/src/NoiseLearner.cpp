@@ -8,6 +8,7 @@
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/mcl/Evaluation.hpp"
 #include "ortung/run/ReadingValues.hpp"
@@ -191,6 +192,7 @@ class Residuals {
     const auto sides = sidesOf(feature, expected, log);
     if (middle.empty() || !sides) return;
     ++readings_;
+    const bool isSighting = dynamic_cast<const LandmarksData*>(&feature) != nullptr;
     // What was measured does not depend on the pose.
     const std::vector<ReadingValue> values =
         readingValues(feature, *sensor * inverse(feature.mount()));
@@ -205,8 +207,25 @@ class Residuals {
       if (residual.isAngle) residual.residual = wrapAngle(residual.residual);
       residual.range = residual.isAngle ? 0.0 : *values[i].measured;
       residual.by[residual.isAngle ? 1 : 0] = 1.0;
+      if (isSighting) {
+        if (!std::isfinite(middle[i | 1U])) continue;  // so near that its direction is open
+        addBend(middle, i, residual);
+      }
       if (takeSides(*sides, i, residual)) residuals_.push_back(residual);
     }
+  }
+
+  /// How a sighting's range and bearing, which come in pairs, depend on range and bearing.
+  static void addBend(const std::vector<double>& expected, std::size_t i, NoiseResidual& residual) {
+    const double b = expected[i | 1U];
+    if (residual.isAngle) {
+      residual.by[indexOf(NoiseTerm::kBearingPerRad)] = b;
+      residual.by[indexOf(NoiseTerm::kBearingPerRad2)] = b * b;
+      return;
+    }
+    residual.by[indexOf(NoiseTerm::kRangePerMetre)] = expected[i];
+    residual.by[indexOf(NoiseTerm::kRangePerMetreRad)] = expected[i] * b;
+    residual.by[indexOf(NoiseTerm::kRangePerMetreRad2)] = expected[i] * b * b;
   }
 
   static bool takeSides(const Sides& sides, std::size_t i, NoiseResidual& residual) {
@@ -241,6 +260,9 @@ ByNoiseTerm<bool> wantedOf(const ByNoiseTerm<bool>& asked,
   const bool hasRanges = !std::all_of(residuals.begin(), residuals.end(), isAngle);
   wanted[indexOf(NoiseTerm::kRangeBias)] &= hasRanges;
   wanted[indexOf(NoiseTerm::kBearingBias)] &= hasAngles;
+  for (std::size_t k = indexOf(NoiseTerm::kRangePerMetre); k < kNoiseTerms; ++k)
+    wanted[k] &= std::any_of(residuals.begin(), residuals.end(),
+                             [k](const NoiseResidual& r) { return r.by[k] != 0.0; });
   // All bearings are off where the sensor is turned: one of the two says it.
   wanted[indexOf(NoiseTerm::kMountTheta)] &= !hasAngles;
   return wanted;
@@ -278,7 +300,7 @@ LearnedNoise learnNoise(std::span<SensorData* const> features, const TableInfo& 
     }
     // Biases are linear as they are.
     bool isSame = true;
-    for (std::size_t k = 2; k < kNoiseTerms; ++k) {
+    for (std::size_t k = 2; k <= indexOf(NoiseTerm::kLatency); ++k) {
       isSame = isSame && std::abs(already[k] - learned.fit.terms[k].value) < 1e-4;
       already[k] = learned.fit.terms[k].value;
     }

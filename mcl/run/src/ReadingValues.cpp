@@ -32,14 +32,15 @@ void addBeams(const ScanData& scan, std::vector<ReadingValue>& values) {
   }
 }
 
-void addSightings(const LandmarksData& landmarks, std::vector<ReadingValue>& values) {
-  const std::vector<std::uint32_t>& identities = landmarks.config().identities;
+void addSightings(const LandmarksData& landmarks, const Pose2& pose,
+                  std::vector<ReadingValue>& values) {
   for (const LandmarksData::Sighting& sighting : landmarks.reading()) {
-    const auto found = std::find(identities.begin(), identities.end(), sighting.identity);
-    const auto index = 2 * static_cast<std::size_t>(found - identities.begin());
-    if (index + 1 >= values.size()) continue;
-    values[index].measured = sighting.range;
-    values[index + 1].measured = sighting.bearing;
+    const std::ptrdiff_t found = landmarks.indexOf(sighting, pose);
+    const auto index = 2 * static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, found));
+    if (found < 0 || index + 1 >= values.size()) continue;
+    const LandmarksData::Sighting corrected = landmarks.corrected(sighting);
+    values[index].measured = corrected.range;
+    values[index + 1].measured = corrected.bearing;
   }
 }
 
@@ -56,7 +57,8 @@ std::vector<ReadingValue> readingValues(const SensorData& feature, const Pose2& 
   for (const double expected : feature.expectation(pose))
     values.push_back({isAngle(feature, values.size()), std::nullopt, unlessNaN(expected)});
   if (const auto* scan = dynamic_cast<const ScanData*>(&feature)) addBeams(*scan, values);
-  if (const auto* all = dynamic_cast<const LandmarksData*>(&feature)) addSightings(*all, values);
+  if (const auto* all = dynamic_cast<const LandmarksData*>(&feature))
+    addSightings(*all, pose, values);
   if (values.size() != 1 || feature.sequence() == 0) return values;
   if (const auto* scalar = dynamic_cast<const ScalarData*>(&feature))
     values.front().measured = scalar->reading();

@@ -18,9 +18,16 @@ enum class NoiseTerm : std::uint8_t {
   kMountX,       ///< where the sensor is, beyond where the robot file says, robot frame [m]
   kMountY,
   kMountTheta,  ///< [rad]
-  kLatency      ///< how much older readings are than their stamps say [s]
+  kLatency,     ///< how much older readings are than their stamps say [s]
+  // Of sightings at range r and bearing b, see SightingBias; ranges are too long by
+  kRangePerMetre,      ///< r times this
+  kRangePerMetreRad,   ///< r b times this [1/rad]
+  kRangePerMetreRad2,  ///< r b^2 times this [1/rad^2]
+  // and bearings too large by
+  kBearingPerRad,  ///< b times this
+  kBearingPerRad2  ///< b^2 times this [1/rad]
 };
-inline constexpr std::size_t kNoiseTerms = 6;
+inline constexpr std::size_t kNoiseTerms = 11;
 template <class T>
 using ByNoiseTerm = std::array<T, kNoiseTerms>;
 

@@ -38,7 +38,7 @@ class ORTUNG_API NoiseLogger {
 
 /// How to learn.
 struct NoiseLearning {
-  ByNoiseTerm<bool> wanted = {true, true, true, true, true, true};
+  ByNoiseTerm<bool> wanted = {true, true, true, true, true, true, true, true, true, true, true};
   double longestGap = 1.0;          ///< of the reference, within which it is interpolated [s]
   std::size_t mostValues = 100000;  ///< of longer logs some readings and beams count
 };
