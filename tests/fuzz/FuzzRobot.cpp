@@ -29,9 +29,9 @@ void takeWords(SensorContainer& container, std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   static PluginFactory factory({ORTUNG_PLUGINS_DIR});
   static const std::vector<std::string> plugins = {
-      "compass",   "differential", "ground_truth", "iconic_camera", "iconic_omnivision",
-      "landmarks", "lrf",          "lrf_iconic",   "neural",        "odometry",
-      "omni",      "sonar"};
+      "compass",   "differential", "ground_truth",  "iconic_camera", "iconic_omnivision",
+      "landmarks", "lrf",          "lrf_cylinders", "lrf_iconic",    "neural",
+      "odometry",  "omni",         "sonar"};
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
   try {
     const RobotConfig robot = readNetworkRobot(text, "robot file", plugins);

@@ -119,6 +119,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         SensorPage{"lrf", "lrf", {"", "first_angle_deg = 0\nangle_step_deg = 1"}},
         SensorPage{"lrf_iconic", "lrf_iconic", {"", "reads = \"*/LRF/*\""}, {"feature"}},
+        SensorPage{"lrf_cylinders",
+                   "lrf_cylinders",
+                   {"reads = \"*/LRF/*\"\nradius_m = 0.05"},
+                   {"max_range_mass"}},
         SensorPage{"sonar", "sonar", {""}},
         SensorPage{"iconic_omnivision", "iconic", {""}, {"feature"}},
         SensorPage{"iconic_camera", "iconic", {""}, {"feature"}},
