@@ -23,13 +23,19 @@ constexpr double kMaxSubject = 1e6;
 // not depend on the robot, so that one world, and one table, serves all robots of a run.
 constexpr double kMargin = 2.0;
 constexpr double kMaxRange = 10.0;      // [m]; the farthest reading of all runs is 9.6
+constexpr double kLatency = 0.04;       // [s]; run 6 says 0.034 to 0.049, each robot
 constexpr double kMaxVelocity = 100.0;  // [m/s], [rad/s]
 
 // Near those measured against Vicon over all robots of run 6 (realsensors/README.md). Ranges and
 // bearings err alike from image to image (each robot has its own bias, of bearings up to 0.8
 // degrees), hence the exponent and a sigma of bearings wider than the spread.
-constexpr const char* kModels = R"(range_sigma_m = 0.08
-range_sigma_per_m = 0.03
+// Ranges are measured along the optical axis, so they are too short towards the edges of the image,
+// by the cosine; biases are means over the five robots.
+constexpr const char* kModels = R"(range_bias_m = 0.04
+range_bias_per_m = 0.023
+range_bias_per_m_rad2 = -0.48
+range_sigma_m = 0.04
+range_sigma_per_m = 0.02
 bearing_sigma_deg = 1.2
 outliers = 0.1
 exponent = 0.2
@@ -76,7 +82,7 @@ class MrclamSource : public LogSource {
   explicit MrclamSource(const Parameters& options)
       : folder_(options.text("path")),
         robot_(static_cast<int>(optionNumber(options, "robot", 1, {1, kRobots}))),
-        latency_(optionNumber(options, "latency_s", 0.0, {-1.0, 1.0})),
+        latency_(optionNumber(options, "latency_s", kLatency, {-1.0, 1.0})),
         jitter_(optionNumber(options, "jitter_s", 0.0, {0.0, 3600.0})),
         each_(options.choiceOr("features", "list", {"list", "each"}) == "each") {
     options.textOr("robot_file", "");
@@ -307,7 +313,7 @@ class MrclamHelp : public SourceHelp {
                     {"features", "", "list",
                      "list: all landmarks of an image in one feature; each: distance and bearing "
                      "of each are features"},
-                    {"latency_s", "s", "0", "taken off the stamps of images"},
+                    {"latency_s", "s", "0.04", "taken off the stamps of images"},
                     {"jitter_s", "s", "0", "how far stamps may fall back before it is an error"}}) {
   }
 };

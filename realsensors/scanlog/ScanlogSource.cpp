@@ -1,10 +1,14 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/SourceHelp.hpp"
+#include "ortung/formats/LandmarksData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/MapFiles.hpp"
+#include "ortung/realsensors/OpenWorld.hpp"
 #include "ortung/realsensors/ScanLog.hpp"
 
 namespace ortung {
@@ -12,6 +16,8 @@ namespace {
 
 constexpr std::size_t kBeforeRanges = 5;  // time, three of odometry, number of beams
 constexpr int kFoldersAbove = 2;          // how far up a map is looked for
+
+const SensorId kReflectors{"laser", "landmarks", "reflectors"};
 
 /// The number right behind @p key in a comment, e.g. "x=" in "sensor at x=+0.78 m".
 std::optional<double> numberBehind(const std::string& text, const std::string& key) {
@@ -34,6 +40,7 @@ class ScanlogSource : public ScanLogSource {
     readOdometry(options);
     readCommands(options);
     readTruth(options);
+    readReflectors(options);
     useMap(fileOption(options, "map", folder_));
     if (map().empty()) findMap();
     finishLog(folder_.string());
@@ -45,9 +52,16 @@ class ScanlogSource : public ScanLogSource {
   void readOdometry(const Parameters& options);
   void readCommands(const Parameters& options);
   void readTruth(const Parameters& options);
+  void readReflectors(const Parameters& options);
   void findMap();
+  std::string robotToml() const override;
+  void writeWorld(const std::filesystem::path& file) const override;
 
   std::filesystem::path folder_;
+  std::filesystem::path reflectorMap_;
+  std::string reflectorIdentities_;  ///< "1, 2, 7"; "": there are none
+  Pose2 reflectorMount_;
+  double farthestReflector_ = 1.0;  ///< [m]
 };
 
 Scanner ScanlogSource::scannerOf(const LogFile& file, const std::string& comment) const {
@@ -143,6 +157,70 @@ void ScanlogSource::readTruth(const Parameters& options) {
   }
 }
 
+/// Sightings of reflectors, of which nobody says which they are; all of one time are of one
+/// reading.
+void ScanlogSource::readReflectors(const Parameters& options) {
+  const auto path = fileOption(options, "reflectors", folder_);
+  reflectorMap_ = fileOption(options, "reflector_map", folder_);
+  if (path.empty() != reflectorMap_.empty())
+    throw std::runtime_error(
+        folder_.string() +
+        ": found one of the options reflectors and reflector_map, expected both or none");
+  if (path.empty()) return;
+  OpenWorld world("reflector", 0.0);
+  for (LogFile places(reflectorMap_); places.nextRecord();) {
+    places.needFields(3, "identity, x, y [m]");
+    const auto identity = places.integer(0, "an identity", {0, 1e6});
+    world.read(places, static_cast<std::uint32_t>(identity), 1);
+  }
+  reflectorIdentities_ = world.identities();
+  const std::uint32_t feature = addFeature(kReflectors);
+  LogFile file(path);
+  LandmarksData::Reading sightings;
+  std::optional<Timestamp> at;
+  while (file.nextLine()) {
+    if (file.isComment()) {
+      if (const auto x = numberBehind(std::string(file.line()), "sensor at "))
+        reflectorMount_.x = *x;
+      continue;
+    }
+    file.needFields(3, "time [s], range [m], bearing [rad]");
+    const Timestamp stamp = file.stamp(0);
+    if (at && stamp < *at) file.fail("a time before that of the line above", "rising times");
+    if (at && stamp > *at) {
+      add(feature, *at, LandmarksData::encode(sightings));
+      sightings.clear();
+    }
+    at = stamp;
+    const double range = file.number(1, "a range [m]", {0.0, 1000.0});
+    farthestReflector_ = std::max(farthestReflector_, range);
+    sightings.push_back({LandmarksData::kUnknown, range,
+                         wrapAngle(file.number(2, "a bearing [rad]", {-10.0, 10.0}))});
+  }
+  if (at) add(feature, *at, LandmarksData::encode(sightings));
+}
+
+std::string ScanlogSource::robotToml() const {
+  std::string text = ScanLogSource::robotToml();
+  if (reflectorIdentities_.empty()) return text;
+  // Navigation scanners look over all that is lower than their reflectors.
+  return text + "\n[[sensor]]\nplugin = \"landmarks\"\nmodel = " + tomlText(kReflectors.model) +
+         "\ntype = " + tomlText(kReflectors.type) + "\nfeature = " + tomlText(kReflectors.feature) +
+         "\nfeatures = \"list\"\nidentified = false\nkind = \"reflector\"\nidentities = [" +
+         reflectorIdentities_ + "]\npose = { x_m = " + tomlNumber(reflectorMount_.x) +
+         ", z_m = 2.0 }\nmax_range_m = " + tomlNumber(std::ceil(farthestReflector_)) +
+         "\nocclusion = false\nrange_sigma_m = 0.05\nbearing_sigma_deg = 0.3\noutliers = 0.05\n"
+         "exponent = 0.3\n";
+}
+
+void ScanlogSource::writeWorld(const std::filesystem::path& file) const {
+  if (reflectorMap_.empty() || map().empty()) {
+    ScanLogSource::writeWorld(file);
+  } else {
+    writeGridWorld(file, map(), landmarksToml(reflectorMap_, "reflector"));
+  }
+}
+
 /// map.yaml or the only YAML file, in the folder or up to two above.
 void ScanlogSource::findMap() {
   std::error_code error;
@@ -165,14 +243,18 @@ void ScanlogSource::findMap() {
 class ScanlogHelp : public SourceHelp {
  public:
   explicit ScanlogHelp(const Parameters&)
-      : SourceHelp("folder with scans.txt",
-                   withScanLogOptions(
-                       {{"gt", "", "ref.txt, else gt.txt",
-                         "file with the reference: t x y theta; none: without one"},
-                        {"odom", "", "that beside the scans", "file with odometry: t x y theta"},
-                        {"commands", "", "none", "file with commanded velocities: t v w"},
-                        {"map", "", "map.yaml, or the only *.yaml",
-                         "map_server YAML, CARMEN map or grid map of MRPT, for --world"}})) {}
+      : SourceHelp(
+            "folder with scans.txt",
+            withScanLogOptions(
+                {{"gt", "", "ref.txt, else gt.txt",
+                  "file with the reference: t x y theta; none: without one"},
+                 {"odom", "", "that beside the scans", "file with odometry: t x y theta"},
+                 {"commands", "", "none", "file with commanded velocities: t v w"},
+                 {"reflectors", "", "none",
+                  "file with sightings of reflectors without identity: t range bearing"},
+                 {"reflector_map", "", "none", "file with their places: identity x y, for --world"},
+                 {"map", "", "map.yaml, or the only *.yaml",
+                  "map_server YAML, CARMEN map or grid map of MRPT, for --world"}})) {}
 };
 
 }  // namespace

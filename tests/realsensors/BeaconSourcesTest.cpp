@@ -1,4 +1,4 @@
-/// Logs of beacons: plaza, uwbpose, roh.
+/// Logs of beacons: plaza, uwbpose, roh, lego.
 
 #include "LogTesting.hpp"
 #include "ortung/formats/PoseData.hpp"
@@ -54,6 +54,26 @@ TEST_F(BeaconSources, UwbPoseLeavesOutFailedRangesAndTakesTheHeadingOfTheWay) {
   EXPECT_EQ(only(messages, "tag1/landmarks/anchor1Distance").size(), 2u);
   for (const Message& truth : only(messages, "reference/groundTruth/pose"))
     EXPECT_NEAR(words::toAngle(truth.words[2]), 1.5708, 1e-3) << "0.2 m to the left";
+}
+
+// Ticks of 0.349 mm, tracks 0.173 m apart; the reference is of the scanner, 30 mm ahead.
+TEST_F(BeaconSources, LegoCountsTicksAndPutsTheReferenceBehindTheScanner) {
+  folder_.write("robot_arena_landmarks.txt", "L C 1000 500 55\nL C 0 -500 55\n");
+  folder_.write("r_motors.txt", "M 100 0 0 0 0 50\nM 300 1000 0 0 0 1050\n");
+  folder_.write("r_scan.txt", "S 200 3 100 2000 0\n");
+  folder_.write("r_reference.txt", "P 150 100 200\nP 250 100 300\n");
+  const auto messages = readAll("lego:" + path("r") + "?latency_s=0.05");
+  const auto odometry = asText(only(messages, "odometry/odometry/pose"));
+  ASSERT_EQ(odometry.size(), 2u);
+  EXPECT_TRUE(odometry[1].starts_with("300000 odometry/odometry/pose 2147483997 2147483648 18000"));
+  EXPECT_EQ(asText(only(messages, "laser/LRF/scan")), (Texts{"150000 laser/LRF/scan 100 2000 0"}));
+  EXPECT_EQ(asText(only(messages, "reference/groundTruth/pose"))[0],
+            "150000 reference/groundTruth/pose 2147483748 2147483818 27000");
+  const std::string toml = makeSource("lego:" + path("r"))->robotToml();
+  EXPECT_NE(toml.find("identities = [1, 2]\nradius_m = 0.055\n"), toml.npos) << toml;
+  folder_.write("r_scan.txt", "S 200 3 100 2000 0\nS 210 2 100 2000\n");
+  EXPECT_NE(errorOf("lego:" + path("r")).find("r_scan.txt:2: found 2 beams, expected 3"),
+            std::string::npos);
 }
 
 TEST_F(BeaconSources, RohStandsWhereItsNameSays) {

@@ -43,25 +43,25 @@ TEST_F(MrclamSource, IntegratesTheCommandedVelocitiesAlongArcs) {
 TEST_F(MrclamSource, GroupsLandmarksByImageAndLeavesOutRobotsAndMisreadBarcodes) {
   EXPECT_EQ(
       asText(only(readAll(text()), "camera/landmarks/posts")),
-      (Texts{"10500000 camera/landmarks/posts 6 2000 20865 7 1500 15135",
-             "11250000 camera/landmarks/posts", "11500000 camera/landmarks/posts 7 1250 35189"}));
+      (Texts{"10460000 camera/landmarks/posts 6 2000 20865 7 1500 15135",
+             "11210000 camera/landmarks/posts", "11460000 camera/landmarks/posts 7 1250 35189"}));
 }
 
 TEST_F(MrclamSource, GivesEachLandmarkItsOwnFeaturesIfAsked) {
   const auto messages = readAll(text("&features=each"));
   EXPECT_TRUE(only(messages, "camera/landmarks/posts").empty());
   EXPECT_EQ(asText(only(messages, "camera/landmarks/post7Distance")),
-            (Texts{"10500000 camera/landmarks/post7Distance 1500",
-                   "11500000 camera/landmarks/post7Distance 1250"}));
+            (Texts{"10460000 camera/landmarks/post7Distance 1500",
+                   "11460000 camera/landmarks/post7Distance 1250"}));
   EXPECT_EQ(asText(only(messages, "camera/landmarks/post6Bearing")),
-            (Texts{"10500000 camera/landmarks/post6Bearing 20865"}));
+            (Texts{"10460000 camera/landmarks/post6Bearing 20865"}));
 }
 
 TEST_F(MrclamSource, MergesItsStreamsInTheOrderOfTime) {
   std::vector<Timestamp> stamps;
   for (const Message& message : readAll(text())) stamps.push_back(message.stamp);
   EXPECT_EQ(stamps,
-            (std::vector<Timestamp>{10000000, 10500000, 11000000, 11250000, 11500000, 12000000}));
+            (std::vector<Timestamp>{10000000, 10460000, 11000000, 11210000, 11460000, 12000000}));
   stamps.clear();
   for (const Message& message : readAll(text("&latency_s=0.6"))) stamps.push_back(message.stamp);
   EXPECT_EQ(stamps,

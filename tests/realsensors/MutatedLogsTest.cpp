@@ -54,6 +54,8 @@ Log scanlog() {
           {{"scans.txt",
             "# ANGLES -1.5 0.5 ; sensor at x=0.78 y=0 yaw=0, max range 80.0\n"
             "1 0 0 0 3 1.25 0 81.91\n2 0.5 0 0.1 3 1.5 2 1\n3 1 0 0.1 3 1 2 1\n"},
+           {"reflectors.txt", "1 2.5 0.5\n1 3 -1\n2 3.5 0\n"},
+           {"reflector_map.txt", "1 2 3\n2 -1 4\n"},
            {"gt.txt", "1 4 -5 3\n2 4.5 -5 3.1 0.99\n3 5 -5 3\n"},
            {"map.yaml", "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n"}}};
 }
@@ -92,9 +94,18 @@ Log roh() {
           {{"(X1.5,Y3.0).csv", "152,-122.5\n-19 , 0.25\n"}, {"landmark.csv", "0, 0\r\n6, 0\r\n"}}};
 }
 
+Log lego() {
+  return {"lego",
+          "r",
+          {{"robot_arena_landmarks.txt", "L C 1000 500 55\nL C 0 -500 55\n"},
+           {"r_motors.txt", "M 1 10 0 0 0 7\nM 20 20 0 0 0 9\n"},
+           {"r_scan.txt", "S 10 3 100 2000 0\nS 30 3 1 2 3\n"},
+           {"r_reference.txt", "P 5 100 200\nP 15 150 200\n"}}};
+}
+
 TEST(MutatedLogs, AreReadOrRefused) {
   std::mt19937 random(20240607);
-  for (const Log& log : {mrclam(), scanlog(), carmen(), plaza(), uwbpose(), roh()}) {
+  for (const Log& log : {mrclam(), scanlog(), carmen(), plaza(), uwbpose(), roh(), lego()}) {
     int read = 0;
     for (int round = 0; round < kRounds; ++round) {
       const TemporaryFolder folder;

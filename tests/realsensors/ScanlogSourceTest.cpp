@@ -54,6 +54,26 @@ TEST_F(ScanlogSource, AddsCommandsToOdometryAsMotionData) {
   EXPECT_THROW(readAll(text("?commands=missing.txt")), std::runtime_error);
 }
 
+TEST_F(ScanlogSource, AddsReflectorsThatNobodyTellsApart) {
+  folder_.write("refl.txt",
+                "# t range bearing, sensor at +0.25 m\n1.5 2.5 0.5\n1.5 3 -0.5\n2 7.2 0\n");
+  folder_.write("places.txt", "# id x y\n3 1.5 -2\n8 0 4.25\n");
+  const std::string with = text("?reflectors=refl.txt&reflector_map=places.txt");
+  EXPECT_EQ(asText(only(readAll(with), "laser/landmarks/reflectors")),
+            (Texts{"1500000 laser/landmarks/reflectors 4294967295 2500 20865 4294967295 3000 15135",
+                   "2000000 laser/landmarks/reflectors 4294967295 7200 18000"}));
+  const std::string toml = makeSource(with)->robotToml();
+  EXPECT_NE(toml.find("identified = false\nkind = \"reflector\"\nidentities = [3, 8]\n"
+                      "pose = { x_m = 0.25, z_m = 2.0 }\nmax_range_m = 8.0\n"),
+            toml.npos)
+      << toml;
+  EXPECT_NE(errorOf(text("?reflectors=refl.txt")).find("reflector_map"), std::string::npos);
+  folder_.write("refl.txt", "1.5 2.5 0.5\n1.25 3 0\n");
+  EXPECT_NE(errorOf(with).find("refl.txt:2: found a time before"), std::string::npos);
+  folder_.write("refl.txt", "1.5 -2.5 0.5\n");
+  EXPECT_NE(errorOf(with).find("refl.txt:1"), std::string::npos);
+}
+
 TEST_F(ScanlogSource, ReadsTheScannerFromTheCommentAboveTheScans) {
   const std::string toml = makeSource(text())->robotToml();
   EXPECT_NE(

@@ -20,8 +20,16 @@ void OpenWorld::read(const LogFile& file, std::uint32_t identity, std::size_t x,
   Place place{identity, file.number(x, "x [m]", metres), file.number(x + step, "y [m]", metres),
               std::nullopt};
   if (hasHeight) place.z = file.number(x + 2 * step, "z [m]", {0.0, 100.0});
-  if (has(identity))
-    file.fail("landmark " + std::to_string(identity) + " twice", "each landmark once");
+  add(file, place);
+}
+
+void OpenWorld::add(const LogFile& file, std::uint32_t identity, double x, double y) {
+  add(file, {identity, x, y, std::nullopt});
+}
+
+void OpenWorld::add(const LogFile& file, const Place& place) {
+  if (has(place.identity))
+    file.fail("landmark " + std::to_string(place.identity) + " twice", "each landmark once");
   if (landmarks_.size() == kMostLandmarks)
     file.fail("more landmarks", "at most " + std::to_string(kMostLandmarks));
   landmarks_.push_back(place);

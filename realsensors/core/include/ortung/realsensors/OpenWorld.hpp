@@ -24,6 +24,9 @@ class ORTUNG_API OpenWorld {
   void read(const LogFile& file, std::uint32_t identity, std::size_t x, std::size_t step = 1,
             bool hasHeight = false);
 
+  /// A landmark at a place [m] that the file's line tells. @throws as read()
+  void add(const LogFile& file, std::uint32_t identity, double x, double y);
+
   bool has(std::uint32_t identity) const;
   bool isEmpty() const { return landmarks_.empty(); }
   const std::string& kind() const { return kind_; }
@@ -42,6 +45,7 @@ class ORTUNG_API OpenWorld {
   struct Bounds {
     double xLow, xHigh, yLow, yHigh;  ///< [m]
   };
+  void add(const LogFile& file, const Place& place);
   Bounds bounds() const;
 
   std::string kind_;
