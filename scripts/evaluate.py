@@ -70,14 +70,20 @@ def evaluate(ortung, source, robot, tables, start, seeds, extra=()):
         m("update_ms_p50"), mean([r["at_corrections"]["position_rmse_m"] for r in good]))
 
 
+# Biases of a robot's camera are learned from another run: (run, from which, what stands still says nothing of).
+MRCLAM_LEARNED = (("ds6", "ds2", "mount,latency"), ("ds1", "ds6", "mount"), ("ds2", "ds6", "mount"), ("ds3", "ds6", "mount"))
+
+
 def mrclam(ortung, data, out, seeds):
     print("\n## Landmarks: MRCLAM\n\n| run, robot " + HEAD + "\n" + RULE, flush=True)
+    missing = set()
     for name in ("ds6", "ds1", "ds2", "ds3"):
         tables = os.path.join(out, name + ".ortung")
         for robot in range(1, 6):
             folder = os.path.join(data, "utias_mrclam", name)
             if not os.path.exists(os.path.join(folder, "Robot%d_Odometry.dat.xz" % robot)):
                 print("| %s, %d | no odometry in the data |" % (name, robot))
+                missing.add((name, robot))
                 continue
             base = os.path.join(out, "%s-%d" % (name, robot))
             run([ortung, "import", "mrclam", folder, "--robot", str(robot), "--out", base + ".rec",
@@ -87,6 +93,39 @@ def mrclam(ortung, data, out, seeds):
                      "--cell", "0.05"])
             print("| %s, %d %s" % (name, robot, evaluate(ortung, "record:" + base + ".rec", base + "-robot.toml",
                                                          tables, "global", seeds)), flush=True)
+
+
+    print("\n## Landmarks: MRCLAM with learned biases\n\n| run, robot, learned from " + HEAD + "\n" + RULE)
+    for name, other, fixed in MRCLAM_LEARNED:
+        for robot in range(1, 6):
+            if (name, robot) in missing or (other, robot) in missing:
+                continue
+            base = os.path.join(out, "%s-%d" % (other, robot))
+            learned = base + "-learned.toml"
+            run([ortung, "calibrate", "noise", base + ".rec", "--robot", base + "-robot.toml", "--tables",
+                 os.path.join(out, other + ".ortung"), "--fixed", fixed, "--out", learned, "--force"])
+            print("| %s, %d, %s %s" % (name, robot, other, evaluate(
+                ortung, "record:" + os.path.join(out, "%s-%d.rec" % (name, robot)), learned,
+                os.path.join(out, name + ".ortung"), "global", seeds)), flush=True)
+
+
+def lookalikes(ortung, data, out, seeds):
+    """Landmarks that nobody tells apart: reflectors alone and beside a laser, cylinders in scans."""
+    print("\n## Landmarks without identity\n\n| log " + HEAD + "\n" + RULE, flush=True)
+    folder = os.path.join(data, "crob_lab_jarvis")
+    base = import_beacons(ortung, out, "reflectors", "scanlog", os.path.join(folder, "complex_path_fast/security"),
+                          ["%s=%s" % (key, os.path.join(folder, file)) for key, file in
+                           (("map", "map_security_from_complex.yaml"), ("odom", "complex_path_fast/odom.txt.xz"),
+                            ("reflectors", "complex_path_fast/reflectors.txt.xz"), ("reflector_map", "reflector_map.txt"))])
+    head, odometry, scanner, reflectors = open(base + "-robot.toml").read().split("[[sensor]]")
+    for name, sensors in (("reflectors", [reflectors]), ("laser", [scanner]), ("both", [scanner, reflectors])):
+        with open(base + "-%s.toml" % name, "w") as robot:
+            robot.write("[[sensor]]".join([head, odometry, *sensors]))
+        print("| jarvis, %s %s" % (name, evaluate(ortung, "record:%s.rec" % base, base + "-%s.toml" % name,
+                                                  base + ".ortung", "global", seeds)), flush=True)
+    base = import_beacons(ortung, out, "lego", "lego", os.path.join(data, "lego_brenner/robot4"))
+    print("| lego %s" % evaluate(ortung, "record:%s.rec?from_s=27" % base, base + "-robot.toml", base + ".ortung",
+                                 "global", seeds), flush=True)
 
 
 def import_laser(ortung, data, out, name):
@@ -321,7 +360,8 @@ def three_ways(ortung, *_):
     print("\n## One robot, three ways\n\n" + run([sys.executable, os.path.join(HERE, "three-ways.py"), ortung]), end="", flush=True)
 
 
-PARTS = {"sim": sim, "bound": bound, "ablations": ablation, "mrclam": mrclam, "beacons": beacons, "laser": laser, "trust": trust,
+PARTS = {"sim": sim, "bound": bound, "ablations": ablation, "mrclam": mrclam, "beacons": beacons, "lookalikes": lookalikes, "laser": laser,
+         "trust": trust,
          "faults": faults, "mrpt": mrpt, "three-ways": three_ways, "goalkeepers": results_page.goalkeepers}
 
 
