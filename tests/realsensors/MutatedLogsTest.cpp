@@ -50,7 +50,7 @@ Log mrclam() {
 
 Log scanlog() {
   return {"scanlog",
-          "",
+          "?reflectors=reflectors.txt&reflector_map=reflector_map.txt",
           {{"scans.txt",
             "# ANGLES -1.5 0.5 ; sensor at x=0.78 y=0 yaw=0, max range 80.0\n"
             "1 0 0 0 3 1.25 0 81.91\n2 0.5 0 0.1 3 1.5 2 1\n3 1 0 0.1 3 1 2 1\n"},
