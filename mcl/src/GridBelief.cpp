@@ -14,7 +14,7 @@ constexpr float kLittle = 1e-9F;  ///< of the whole, is taken for nothing
 /// Variance of one step to neighbours, in squares of their distance: with a third the fourth moment
 /// is that of a normal distribution, too.
 constexpr double kMostVariance = 1.0 / 3.0;
-constexpr int kMostSteps = 1000;
+constexpr int kMostSteps = 300;  ///< that is ten cells, or as many headings
 
 int countOf(double length, double cell) {
   return std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9)));
@@ -248,10 +248,9 @@ void GridBelief::spread(int right, int up, const std::vector<float>& shareOfLaye
 void GridBelief::blur(const std::array<double, 9>& covariance, double turn) {
   const double ofTurn = covariance[8];
   const double place = std::max(covariance[0] + covariance[4], 0.0);
-  const int steps = std::clamp(
-      static_cast<int>(
-          std::ceil(std::max(ofTurn / (step_ * step_), place / (cell_ * cell_)) / kMostVariance)),
-      1, kMostSteps);
+  const double neighbours = std::max(ofTurn / (step_ * step_), place / (cell_ * cell_));
+  const int steps = static_cast<int>(
+      std::clamp(std::ceil(neighbours / kMostVariance), 1.0, static_cast<double>(kMostSteps)));
   const bool turns = ofTurn > 0.0;
   const double alongX = turns ? covariance[2] / ofTurn : 0.0;
   const double alongY = turns ? covariance[5] / ofTurn : 0.0;

@@ -178,7 +178,13 @@ struct GridFilter::Impl {
   }
   PoseEstimate estimateNow() const {
     const SampleSet cells = belief.samples();
-    if (cells.size() == 0) return estimate;  // all of it has left the area
+    if (cells.size() == 0) {  // all of it has left the area
+      PoseEstimate gone = estimate;
+      gone.share = 0.0;
+      gone.samples = 0;
+      judge(Signs{}, gone);
+      return gone;
+    }
     PoseEstimate now = estimateOf(config, cells.view(), normalized(cells.logWeight));
     // What is within a cell.
     now.covariance[0] += square(belief.cell()) / 12.0;

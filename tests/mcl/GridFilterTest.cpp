@@ -123,6 +123,24 @@ TEST(GridFilter, MovesWithoutBlurring) {
   EXPECT_NEAR(after[2], before[2] + 0.05 * 0.05, 0.1 * before[2]);  // heading's sigma after 1 m
 }
 
+// Odometry that jumps off the map by kilometres, with noise to match, leaves no belief there; what
+// comes then is taken as well as can be, and ends.
+TEST(GridFilter, SurvivesOdometryThatLeavesTheMap) {
+  Grid grid({.cell = 0.2, .headingStep = 0.3});
+  VagueDrive drive;
+  grid.step(0.0, drive.after(0.0));
+  grid.step(4e6, drive.after(0.0));
+  EXPECT_EQ(grid.filter.cells().size(), 0U);
+  EXPECT_TRUE(isFinite(grid.filter.estimate().pose));
+  EXPECT_EQ(grid.filter.estimate().status, TrackStatus::kLost);
+  grid.step(-4e6, drive.after(0.0));
+  EXPECT_TRUE(grid.filter.estimate(grid.robot.stamp).has_value());
+  EXPECT_GT(grid.filter.divergenceOf(McLocalizer(100).mcl->samples()), 0.0);
+  grid.filter.startGlobal();
+  grid.step(0.1, drive.after(0.0));
+  EXPECT_GT(grid.filter.cells().size(), 0U);
+}
+
 TEST(GridFilter, RefusesWhatDoesNotFitIntoMemory) {
   VagueRobot robot;
   const auto make = [&](const GridConfig& config) {
