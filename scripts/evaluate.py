@@ -254,7 +254,8 @@ def bound(ortung, _, out, seeds):
         tables = os.path.join(out, name + "-bound.ortung")
         file = os.path.join(out, name + "-bound.json")
         run([ortung, "learn", "--world", world, "--robot", robot, "--out", tables, "--force"])
-        run([ortung, "eval", "--robot", robot, "--tables", tables, "--bound", world, "--json", file, "--force",
+        start = "truth" if name == "sonar_ring" else "global"  # sixteen sonars take minutes to find a place
+        run([ortung, "eval", "--robot", robot, "--tables", tables, "--bound", world, "--start", start, "--json", file, "--force",
              *[w for seed in range(1, seeds + 1) for w in ("--source", "sim:%s?duration=60&seed=%d" % (world, seed))]])
         runs = json.load(open(file))["runs"]
         good = [r for r in runs if r["converged_after_s"] is not None]
