@@ -70,8 +70,9 @@ def evaluate(ortung, source, robot, tables, start, seeds, extra=()):
         m("update_ms_p50"), mean([r["at_corrections"]["position_rmse_m"] for r in good]))
 
 
-# Biases of a robot's camera are learned from another run: (run, from which, what stands still says nothing of).
-MRCLAM_LEARNED = (("ds6", "ds2", "mount,latency"), ("ds1", "ds6", "mount"), ("ds2", "ds6", "mount"), ("ds3", "ds6", "mount"))
+# Biases of a robot's camera are learned elsewhere: run and part, from which run and part, and what that says nothing of.
+MRCLAM_LEARNED = (("ds6", "?from_s=440", "ds6", "?to_s=440", "mount"), ("ds6", "", "ds2", "", "mount,latency"),
+                  ("ds1", "", "ds6", "", "mount"), ("ds2", "", "ds6", "", "mount"), ("ds3", "", "ds6", "", "mount"))
 
 
 def mrclam(ortung, data, out, seeds):
@@ -93,20 +94,27 @@ def mrclam(ortung, data, out, seeds):
                      "--cell", "0.05"])
             print("| %s, %d %s" % (name, robot, evaluate(ortung, "record:" + base + ".rec", base + "-robot.toml",
                                                          tables, "global", seeds)), flush=True)
+    mrclam_learned(ortung, out, seeds, missing)
 
 
-    print("\n## Landmarks: MRCLAM with learned biases\n\n| run, robot, learned from " + HEAD + "\n" + RULE)
-    for name, other, fixed in MRCLAM_LEARNED:
+def mrclam_learned(ortung, out, seeds, missing=frozenset()):
+    """With biases of each camera that another run, or half of one, has told; of halves also without."""
+    print("\n## Landmarks: MRCLAM with learned biases\n\n| run, robot, learned from " + HEAD + "\n" + RULE, flush=True)
+    for name, part, other, other_part, fixed in MRCLAM_LEARNED:
+        tables = os.path.join(out, name + ".ortung")
         for robot in range(1, 6):
             if (name, robot) in missing or (other, robot) in missing:
                 continue
             base = os.path.join(out, "%s-%d" % (other, robot))
             learned = base + "-learned.toml"
-            run([ortung, "calibrate", "noise", base + ".rec", "--robot", base + "-robot.toml", "--tables",
+            run([ortung, "calibrate", "noise", "record:" + base + ".rec" + other_part, "--robot", base + "-robot.toml", "--tables",
                  os.path.join(out, other + ".ortung"), "--fixed", fixed, "--out", learned, "--force"])
-            print("| %s, %d, %s %s" % (name, robot, other, evaluate(
-                ortung, "record:" + os.path.join(out, "%s-%d.rec" % (name, robot)), learned,
-                os.path.join(out, name + ".ortung"), "global", seeds)), flush=True)
+            source = "record:" + os.path.join(out, "%s-%d.rec" % (name, robot)) + part
+            if part:
+                print("| %s, %d, - %s" % (name + part, robot, evaluate(ortung, source, base + "-robot.toml", tables, "global",
+                                                                      seeds)), flush=True)
+            print("| %s, %d, %s %s" % (name + part, robot, other + other_part,
+                                       evaluate(ortung, source, learned, tables, "global", seeds)), flush=True)
 
 
 def lookalikes(ortung, data, out, seeds):

@@ -81,6 +81,33 @@ void addLandmarks(SensorContainer& container) {
         });
 }
 
+/// One that does not tell landmarks apart: six are seen, of so many that there are.
+void addLookalikes(SensorContainer& container, std::uint32_t landmarks) {
+  LandmarksData::Config config;
+  config.identified = false;
+  config.maxRange = kFarthest;
+  config.range.sigma = kRangeNoise;
+  config.bearing.sigma = kBearingNoise;
+  for (std::uint32_t i = 0; i < landmarks; ++i) config.identities.push_back(i);
+  learn(
+      container.add(std::make_unique<LandmarksData>(SensorId{"Bench", "Camera", "Lookalikes"},
+                                                    Pose2{}, config)),
+      [&](const Pose2& pose) {
+        LandmarksData::Reading reading;
+        for (std::size_t post = 0; post < std::size(kPosts); ++post)
+          reading.push_back(sight(post, pose));
+        // The others stand in a row beside the field.
+        for (auto i = static_cast<std::uint32_t>(std::size(kPosts)); i < landmarks; ++i) {
+          const double dx = 0.1 * i - 10.0 - pose.x;
+          const double dy = 9.0 - pose.y;
+          const bool isLearned = pose.x != kRobot.x || pose.y != kRobot.y;
+          if (isLearned)
+            reading.push_back({i, std::hypot(dx, dy), wrapAngle(std::atan2(dy, dx) - pose.theta)});
+        }
+        return LandmarksData::encode(reading);
+      });
+}
+
 /// The same without tables: geometry and exponent for each landmark.
 void weighDirectly(const SampleView& samples, std::span<float> logProbability) {
   LandmarksData::Sighting seen[std::size(kPosts)];
@@ -137,6 +164,14 @@ void landmarks(benchmark::State& state) {
           [&](const SampleView& s, std::span<float> out) { container.getProbability(s, out); });
 }
 BENCHMARK(landmarks)->DenseRange(0, 1);
+
+void lookalikes(benchmark::State& state) {
+  SensorContainer container;
+  addLookalikes(container, static_cast<std::uint32_t>(state.range(1)));
+  measure(state, false,
+          [&](const SampleView& s, std::span<float> out) { container.getProbability(s, out); });
+}
+BENCHMARK(lookalikes)->ArgsProduct({{0, 1}, {6, 200}});
 
 }  // namespace
 }  // namespace ortung::bench

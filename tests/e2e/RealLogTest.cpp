@@ -18,8 +18,9 @@ void PrintTo(const Expected& one, std::ostream* out) {  // NOLINT: GoogleTest lo
   *out << "robot " << one.robot;
 }
 
-/// Five robots among landmarks, truth by motion capture. Ranges to landmarks are good to 0.06 to
-/// 0.24 m, dead reckoning drifts 0.24 to 0.53 m a minute, and for up to 78 s nothing is seen.
+/// Five robots among landmarks, truth by motion capture. Ranges to landmarks are good to 2 to 3 %
+/// with the biases of all cameras taken off, dead reckoning drifts 0.24 to 0.53 m a minute, and for
+/// up to 78 s nothing is seen.
 class MrclamLog : public testing::TestWithParam<Expected> {};
 
 TEST_P(MrclamLog, IsTrackedFromAnUnknownStart) {
@@ -48,9 +49,9 @@ TEST_P(MrclamLog, IsTrackedFromAnUnknownStart) {
 
 // A third above what is measured, so that no more than chance fits in between.
 INSTANTIATE_TEST_SUITE_P(RealLog, MrclamLog,
-                         testing::Values(Expected{1, 0.09, 0.20}, Expected{2, 0.08, 0.29},
-                                         Expected{3, 0.09, 0.18}, Expected{4, 0.12, 0.20},
-                                         Expected{5, 0.08, 0.18}),
+                         testing::Values(Expected{1, 0.08, 0.16}, Expected{2, 0.10, 0.20},
+                                         Expected{3, 0.06, 0.13}, Expected{4, 0.10, 0.15},
+                                         Expected{5, 0.08, 0.12}),
                          [](const auto& one) { return "Robot" + std::to_string(one.param.robot); });
 
 // What one run says of a camera holds in another: its landmarks stand elsewhere, and of its truth
@@ -77,7 +78,7 @@ TEST(MrclamRuns, AreTrackedBetterWithBiasesThatAnotherRunTells) {
         .get<double>();
   };
   const double learned = median("learned.toml");
-  EXPECT_LT(learned, 0.034);  // 0.025 measured
+  EXPECT_LT(learned, 0.042);  // 0.031 measured, 0.042 as imported
   EXPECT_LT(learned, 0.9 * median("robot.toml"));
 }
 
