@@ -46,6 +46,21 @@ TEST_F(CalibrateNoise, WritesARobotFileWithTheNoiseThatEvalTakes) {
   EXPECT_EQ(eval("learned.toml", {}).exitCode, 0);
 }
 
+// End-point fields keep no ranges: what is expected are the surfaces that the tables have, too,
+// which add next to nothing to 3 cm. The file says 5 cm.
+TEST_F(CalibrateNoise, LearnsOfScannersThatAreWeighedByTheirEndPoints) {
+  replace("robot.toml", "noise_sigma_m = 0.03\n",
+          "noise_sigma_m = 0.03\nperception = \"endpoints\"\nsigma_m = 0.05\n");
+  learnTables();
+  const Outcome outcome = calibrate({"--fixed", "mount,latency", "--out", path("learned.toml")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const Parameters scanner = readRobot(path("learned.toml")).sensors.front().parameters;
+  const double at2m = scanner.number("sigma_m") + 2 * scanner.number("sigma_per_m");
+  EXPECT_GT(at2m, 0.025);
+  EXPECT_LT(at2m, 0.035);
+  EXPECT_EQ(eval("learned.toml", {}).exitCode, 0);
+}
+
 TEST_F(CalibrateNoise, LearnsAlongItsOwnTrackWhereThereIsNoTruth) {
   const Outcome truth = calibrate({"--reference", "truth"});
   EXPECT_EQ(truth.exitCode, 0) << truth.err;

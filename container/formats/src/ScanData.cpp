@@ -5,6 +5,7 @@
 
 #include "EndPointWeigher.hpp"
 #include "FormatTools.hpp"
+#include "SurfaceRay.hpp"
 #include "ortung/base/Angles.hpp"
 
 namespace ortung {
@@ -215,10 +216,18 @@ void ScanData::useTables(const std::shared_ptr<const TableFile>& file, const std
 
 std::vector<double> ScanData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
-  const std::uint8_t* row =
-      config_.perception == Perception::kRays ? rays_->row(sensor.x, sensor.y) : nullptr;
-  if (row == nullptr) return {};
   std::vector<double> expected;
+  if (config_.perception == Perception::kEndPoints) {  // which keep no ranges, but surfaces
+    if (surfaces_->isEmpty() || surfaces_->grid().cellAt(sensor.x, sensor.y) < 0) return {};
+    for (int i = 0; i < config_.beams; ++i)
+      expected.push_back(rangeAlong(
+          *surfaces_,
+          {sensor.x, sensor.y, sensor.theta + config_.firstAngle + i * config_.angleStep},
+          config_.maxRange));
+    return expected;
+  }
+  const std::uint8_t* row = rays_->row(sensor.x, sensor.y);
+  if (row == nullptr) return {};
   for (int i = 0; i < config_.beams; ++i) {
     expected.push_back(scale_.range(
         row[rays_->directionOf(sensor.theta + config_.firstAngle + i * config_.angleStep)]));

@@ -19,13 +19,20 @@ namespace {
 constexpr int kLinearizations = 3;
 /// Where the four cells around a place differ by more, there is an edge between them [m].
 constexpr double kEdge = 0.3;
+constexpr double kBesides = 0.5 * kDegree;
 // Steps of differences.
 constexpr double kMetres = 0.1;
 constexpr double kRadians = 0.02;
 constexpr double kSeconds = 0.05;
 
+/// Whether it expects what surfaces finer than cells say.
+bool isExact(const SensorData& feature) {
+  const auto* scan = dynamic_cast<const ScanData*>(&feature);
+  return scan != nullptr && scan->config().perception == ScanData::Perception::kEndPoints;
+}
+
 bool hasDirections(const SensorData& feature) {
-  return dynamic_cast<const ScanData*>(&feature) != nullptr ||
+  return (dynamic_cast<const ScanData*>(&feature) != nullptr && !isExact(feature)) ||
          dynamic_cast<const ConeData*>(&feature) != nullptr;
 }
 
@@ -42,6 +49,7 @@ class Expected {
 
   /// With the SENSOR at a pose; NaN where nothing is expected or there is an edge.
   std::vector<double> at(const Pose2& sensor) const {
+    if (isExact(feature_)) return betweenEdges(sensor);
     // The mean over a direction's width of what is constant over it is its linear interpolation.
     const std::size_t turns = step_ > 0.0 ? 4 : 1;
     std::vector<double> mean;
@@ -57,6 +65,19 @@ class Expected {
   }
 
  private:
+  /// Where beams half a degree to either side see something else, there is an edge.
+  std::vector<double> betweenEdges(const Pose2& sensor) const {
+    std::vector<double> middle = feature_.expectation(sensor * back_);
+    for (const double turn : {-kBesides, kBesides}) {
+      const std::vector<double> other =
+          feature_.expectation(sensor * Pose2{0.0, 0.0, turn} * back_);
+      if (other.size() != middle.size()) return {};
+      for (std::size_t i = 0; i < middle.size(); ++i)
+        if (!(std::abs(other[i] - middle[i]) < kEdge))
+          middle[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    return middle;
+  }
   std::vector<double> betweenCells(const Pose2& sensor) const {
     const double column = (sensor.x - grid_.originX) / grid_.cell - 0.5;
     const double row = (sensor.y - grid_.originY) / grid_.cell - 0.5;
