@@ -25,9 +25,11 @@ const Pose2 kMount{0.1, -0.05, 0.3};
 const std::vector<test::Point> kPoints = {{7, -3.7, -2.2}, {8, 3.6, -2.1}, {9, 0.3, 2.3}};
 
 LandmarksData::Config config(const std::vector<test::Point>& points) {
-  LandmarksData::Config c{.identified = false,
+  LandmarksData::Config c{.identities = {},
+                          .identified = false,
                           .range = {.sigma = 0.05, .sigmaPerMetre = 0.01, .outliers = 0.1},
-                          .bearing = {.sigma = 0.03, .outliers = 0.1}};
+                          .bearing = {.sigma = 0.03, .outliers = 0.1},
+                          .bias = {}};
   for (const test::Point& point : points) c.identities.push_back(point.identity);
   return c;
 }
