@@ -170,7 +170,7 @@ bool FieldSearch::isStandable(const Pose2& pose) const {
 void FieldSearch::weigh(std::size_t count) {
   batch_.resize(count);
   std::fill(batch_.logWeight.begin(), batch_.logWeight.end(), 0.0F);
-  forEachChunk(count, settings_.threads, [&](std::size_t first, std::size_t n) {
+  forEachChunk(count, settings_.workers, [&](std::size_t first, std::size_t n) {
     for (std::size_t i = first; i < first + n; ++i) {
       const Pose2 pose = poseAt(next_ + i);
       batch_.x[i] = static_cast<float>(pose.x);

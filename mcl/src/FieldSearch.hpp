@@ -13,6 +13,8 @@
 
 namespace ortung {
 
+class Workers;
+
 /// What it takes to ask readings for a pose, about [ns]: constants of theirs.
 ORTUNG_API double nominalNanoseconds(std::span<const std::shared_ptr<const Weigher>> readings);
 
@@ -33,7 +35,7 @@ class ORTUNG_API FieldSearch {
     std::size_t places = 50;       ///< most that are found, at least 1
     double apartMetres = 0.5;      ///< two places differ by this ...
     double apartRadians = 0.35;    ///< ... or by this
-    unsigned threads = 1;          ///< what is found does not depend on it
+    Workers* workers = nullptr;    ///< borrowed; what is found does not depend on them
     /// @throws std::invalid_argument for what makes no sense
     void check() const;
   };

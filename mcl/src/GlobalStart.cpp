@@ -29,13 +29,13 @@ constexpr double kDrawNanoseconds = 150.0;
 }  // namespace
 
 GlobalStart::GlobalStart(const MclConfig& config, const FieldRegion& region,
-                         const PoseSearch& search)
-    : config_(config), region_(region), search_(search) {}
+                         const PoseSearch& search, Workers& workers)
+    : config_(config), region_(region), search_(search), workers_(workers) {}
 
 void GlobalStart::prepare() {
   if (field_) return;
   FieldSearch::Settings settings;
-  settings.threads = config_.threads;
+  settings.workers = &workers_;
   field_.emplace(region_, settings);
 }
 
@@ -87,7 +87,7 @@ bool GlobalStart::drawOn(PoseSearch::Drawing& drawing, double& left) const {
 
 PoseSearch::Weigh GlobalStart::weigher() const {
   return [this](const SampleSet& set, std::vector<float>& out) {
-    ortung::weigh(moment_->news, set, config_.threads, out);
+    ortung::weigh(moment_->news, set, &workers_, out);
   };
 }
 
@@ -186,7 +186,7 @@ bool GlobalStart::areNotAll() const {
     }
   }
   std::vector<float> logs;
-  ortung::weigh(moment_->news, edges, 1, logs);
+  ortung::weigh(moment_->news, edges, nullptr, logs);
   for (std::size_t i = 0; i < logs.size(); ++i)
     if (static_cast<double>(logs[i]) > tops[i] - kEdgeNats) return true;
   return false;

@@ -36,7 +36,8 @@ class ORTUNG_API GlobalStart {
   };
 
   /// All borrowed.
-  GlobalStart(const MclConfig& config, const FieldRegion& region, const PoseSearch& search);
+  GlobalStart(const MclConfig& config, const FieldRegion& region, const PoseSearch& search,
+              Workers& workers);
   GlobalStart(const GlobalStart&) = delete;
   GlobalStart& operator=(const GlobalStart&) = delete;
 
@@ -66,6 +67,7 @@ class ORTUNG_API GlobalStart {
   const MclConfig& config_;
   const FieldRegion& region_;
   const PoseSearch& search_;
+  Workers& workers_;
   std::optional<FieldSearch> field_;  ///< its cover is made once
   std::optional<Moment> moment_;
   double nanoseconds_ = 0.0;                   ///< that drawing takes for a pose

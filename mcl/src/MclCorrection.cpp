@@ -103,21 +103,22 @@ bool Mcl::Impl::compareWithRivals(const std::vector<News>& news, const Rivals::M
 }
 
 /// Weighs the samples by what the readings say.
-/// @param before weights before that
-void Mcl::Impl::takeIn(const std::vector<News>& news, std::vector<double> before) {
-  if (drifted > 0) {
-    takeInUnsure(news, before);
-    return;
-  }
+/// @param before weights before that @returns weights then
+std::vector<double> Mcl::Impl::takeIn(const std::vector<News>& news,
+                                      const std::vector<double>& before) {
+  if (drifted > 0) return takeInUnsure(news, before);
   for (std::size_t i = 0; i < samples.size(); ++i) samples.logWeight[i] += logProbability[i];
-  if (config.resampleBelow > 0.0 && effectiveSamples(normalized(samples.logWeight)) < kFewLeft)
-    sharpen(news, before);
+  std::vector<double> weights = weightsNow();
+  if (!(config.resampleBelow > 0.0 && effectiveSamples(weights) < kFewLeft)) return weights;
+  sharpen(news, before);
+  return weightsNow();
 }
 
 /// While odometry is not trusted: whether it leads to where the readings are, or drifting about
 /// does as well. Samples that drifted count only if the readings fit there as they use to: in a
 /// crowd nothing fits, and wherever one goes a little less unlike it is no better a place.
-void Mcl::Impl::takeInUnsure(const std::vector<News>& news, const std::vector<double>& before) {
+std::vector<double> Mcl::Impl::takeInUnsure(const std::vector<News>& news,
+                                            const std::vector<double>& before) {
   const double ratio = logMeanOfPart(before, logProbability, drifted, samples.size() - drifted) -
                        logMeanOfPart(before, logProbability, 0, drifted);
   trust.compare(-ratio, way);
@@ -129,15 +130,17 @@ void Mcl::Impl::takeInUnsure(const std::vector<News>& news, const std::vector<do
   logProbability.resize(samples.size());
   takeIn(news, normalized(samples.logWeight));
   if (recovery.isUsual(fitNow(news, near))) add(samples, near, 1.0 / (1.0 + std::exp(-ratio)));
+  return weightsNow();
 }
 
-void Mcl::Impl::resample(const std::vector<double>& weights) {
+/// @param bins of the samples
+void Mcl::Impl::resample(const std::vector<double>& weights, const PoseBins& bins) {
   Random random(config.seed, stream(Purpose::kResampling));
   const double offset = random.uniform();
-  SampleSet drawn = taken(samples, lowVariance(weights, samples.size(), offset));
-  const std::size_t n = kldSamples(config, PoseBins(config, drawn.view()).count());
-  if (n != drawn.size()) drawn = taken(samples, lowVariance(weights, n, offset));
-  samples = std::move(drawn);
+  std::vector<std::uint32_t> drawn = lowVariance(weights, samples.size(), offset, &workers);
+  const std::size_t n = kldSamples(config, bins.countOf(drawn));
+  if (n != drawn.size()) drawn = lowVariance(weights, n, offset, &workers);
+  samples = taken(samples, drawn, &workers);
 }
 
 /// Where readings are far sharper than the belief, hardly any sample is left, and none of them at
@@ -165,7 +168,7 @@ void Mcl::Impl::sharpen(const std::vector<News>& news, const std::vector<double>
 }
 
 void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
-  const std::vector<double> before = normalized(samples.logWeight);
+  const std::vector<double> before = weightsNow();
   followFit(news, before);
   const bool isCompared = recovery.isDoubtful() || recovery.callsForSearch() || !rivals.isIdle();
   Rivals::Moment moment{stamp, {}, 0.0, way, stream(Purpose::kRivals), lastOdometry, {}};
@@ -174,15 +177,14 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
     for (const News& one : news) moment.readings.push_back(one.weigher);
   }
   weigherOf(news)(samples, logProbability);
-  moment.logEvidence = logMean(before, logProbability);
-  takeIn(news, before);
-  std::vector<double> weights = normalized(samples.logWeight);
+  moment.logEvidence = logMean(before, logProbability, &workers);
+  std::vector<double> weights = takeIn(news, before);
   recovery.followBest(fitOf(readingsOf(news), samples, weights).value_or(0.0));
   confirmation.count(recovery.unusual() == 0, metres);
   if (!isCompared) {
     rivals.forget();
   } else if (compareWithRivals(news, moment)) {
-    weights = normalized(samples.logWeight);
+    weights = weightsNow();
   }
   conclude(
       news, std::move(weights), stamp,
@@ -195,11 +197,12 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
 void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weights,
                          Timestamp stamp, std::optional<Lateness::Moment> weighed) {
   way = metres = 0.0;
-  estimate = estimateOf(config, samples.view(), weights);
+  std::optional<PoseBins> bins;
+  estimate = estimateBy(weights, bins);
   if (weighed) weighed->estimate = estimate;
   if (weighed && compareDelays(news, *weighed)) {
-    weights = normalized(samples.logWeight);
-    estimate = estimateOf(config, samples.view(), weights);
+    weights = weightsNow();
+    estimate = estimateBy(weights, bins);
   }
   estimate.stamp = stamp;
   coarsest = coarsestOf(news);
@@ -212,7 +215,7 @@ void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weig
   estimate = lateness.widened(estimate, stamp);
   judge(signsAt(stamp), estimate);
   if (effectiveSamples(weights) < config.resampleBelow * static_cast<double>(samples.size())) {
-    resample(weights);
+    resample(weights, *bins);
   } else {
     // Keeps the numbers small: weights matter up to a common factor only.
     const float largest = *std::max_element(samples.logWeight.begin(), samples.logWeight.end());

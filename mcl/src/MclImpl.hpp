@@ -12,15 +12,18 @@
 #include "Drift.hpp"
 #include "GlobalStart.hpp"
 #include "Intake.hpp"
+#include "Kld.hpp"
 #include "Lateness.hpp"
 #include "Momentum.hpp"
 #include "OdometryTrust.hpp"
 #include "Polish.hpp"
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
+#include "Resampling.hpp"
 #include "Rivals.hpp"
 #include "UpdateTime.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/base/Workers.hpp"
 #include "ortung/mcl/Mcl.hpp"
 
 namespace ortung {
@@ -43,6 +46,7 @@ struct Mcl::Impl {
   std::unique_ptr<MotionModel> motion;
   PoseSearch search;
   UpdateTime time;
+  mutable Workers workers;
   SampleSet samples;
   PoseEstimate estimate;    ///< of the newest weighing
   PoseResolution coarsest;  ///< of the tables that it was weighed by
@@ -71,19 +75,18 @@ struct Mcl::Impl {
   std::vector<float> logProbability;
 
   Impl(const MclConfig& c, FieldRegion r, std::unique_ptr<MotionModel> m)
-      : config(c),
+      : config((c.check(), c)),
         region((r.check(), std::move(r))),
         motion(std::move(m)),
         search(region),
         time(config),
+        workers(config.threads),
         intake(config, *motion),
         lateness(config, *motion),
         momentum(config),
         recovery(config),
-        rivals(config, region, search, *motion, time),
-        globalStart(config, region, search) {
-    config.check();
-  }
+        rivals(config, region, search, *motion, time, workers),
+        globalStart(config, region, search, workers) {}
 
   std::uint64_t stream(Purpose purpose) const {
     return step * static_cast<std::uint64_t>(Purpose::kCount) + static_cast<std::uint64_t>(purpose);
@@ -122,6 +125,12 @@ struct Mcl::Impl {
   double secondsSinceWeighing(Timestamp stamp) const {
     return lastTime ? driftSeconds(*lastTime, stamp) : 0.0;
   }
+  /// Of the samples, and their bins, which whoever resamples them needs again.
+  PoseEstimate estimateBy(const std::vector<double>& weights, std::optional<PoseBins>& bins) {
+    bins.emplace(config, samples.view(), &workers);
+    return estimateOf(*bins, samples.view(), weights, &workers);
+  }
+  std::vector<double> weightsNow() const { return normalized(samples.logWeight, &workers); }
   void waitAnywhere();
   void followMotion(const Pose2& odometry);
   void predict(const Pose2& odometry);
@@ -137,7 +146,7 @@ struct Mcl::Impl {
     return
         [this, &news, each = nanosecondsOf(news)](const SampleSet& set, std::vector<float>& out) {
           time.spend(each * static_cast<double>(set.size()));
-          weigh(news, set, config.threads, out);
+          weigh(news, set, &workers, out);
         };
   }
   void start(NewsByTime& news);
@@ -145,11 +154,12 @@ struct Mcl::Impl {
   static std::vector<const Weigher*> readingsOf(const std::vector<News>& news);
   static double fitNow(const std::vector<News>& news, const SampleSet& set);
   void followFit(const std::vector<News>& news, const std::vector<double>& before);
-  void takeIn(const std::vector<News>& news, std::vector<double> before);
-  void takeInUnsure(const std::vector<News>& news, const std::vector<double>& before);
+  std::vector<double> takeIn(const std::vector<News>& news, const std::vector<double>& before);
+  std::vector<double> takeInUnsure(const std::vector<News>& news,
+                                   const std::vector<double>& before);
   bool compareDelays(const std::vector<News>& news, const Lateness::Moment& moment);
   bool compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment);
-  void resample(const std::vector<double>& weights);
+  void resample(const std::vector<double>& weights, const PoseBins& bins);
   void sharpen(const std::vector<News>& news, const std::vector<double>& before);
   void keepResolution(PoseEstimate& e) const;
   PoseEstimate atStamp(const PoseEstimate& e, Timestamp stamp) const;

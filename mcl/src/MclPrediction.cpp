@@ -31,7 +31,7 @@ template <class Move>
 void Mcl::Impl::move(const Move& moveSome) {
   if (waitsForStart) return;
   const auto moveAll = [&](SampleSet& set, std::size_t number) {
-    forEachChunk(set.size(), config.threads, [&](std::size_t first, std::size_t count) {
+    forEachChunk(set.size(), &workers, [&](std::size_t first, std::size_t count) {
       moveSome(MovableSamples{std::span(set.x).subspan(first, count),
                               std::span(set.y).subspan(first, count),
                               std::span(set.theta).subspan(first, count)},

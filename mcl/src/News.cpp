@@ -29,10 +29,10 @@ double nanosecondsOf(const std::vector<News>& news) {
   return nominalNanoseconds(readings);
 }
 
-void weigh(const std::vector<News>& news, const SampleSet& set, unsigned threads,
+void weigh(const std::vector<News>& news, const SampleSet& set, Workers* workers,
            std::vector<float>& out) {
   out.assign(set.size(), 0.0F);
-  forEachChunk(set.size(), threads, [&](std::size_t first, std::size_t count) {
+  forEachChunk(set.size(), workers, [&](std::size_t first, std::size_t count) {
     const SampleView part = set.view().part(first, count);
     const std::span<float> values = std::span(out).subspan(first, count);
     for (const News& one : news) one.weigher->getProbability(part, values);

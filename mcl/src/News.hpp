@@ -12,6 +12,7 @@
 namespace ortung {
 
 class SensorData;
+class Workers;
 
 /// A reading that is to be weighed: all that is needed of it once the container's lock is given
 /// back.
@@ -30,7 +31,7 @@ double nanosecondsOf(const std::vector<News>& news);
 
 /// ln p of the readings of one moment at each sample, finite whatever plugins answer.
 /// @param out as many as samples
-void weigh(const std::vector<News>& news, const SampleSet& set, unsigned threads,
+void weigh(const std::vector<News>& news, const SampleSet& set, Workers* workers,
            std::vector<float>& out);
 
 }  // namespace ortung

@@ -190,7 +190,7 @@ void Rivals::goOnSearching(const Moment& moment) {
   std::vector<News> news;
   for (const auto& reading : then.readings) news.push_back({nullptr, 0, reading});
   const auto weigh = [&](const SampleSet& set, std::vector<float>& out) {
-    ortung::weigh(news, set, config_.threads, out);
+    ortung::weigh(news, set, &workers_, out);
   };
   SampleSet found = search_
                         .drawFrom(rings, kSamplesElsewhere, kCandidatesElsewhere, weigh,
@@ -215,7 +215,7 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   if (!elsewhere_) {
     if (!searching_ && recovery.callsForSearch()) {
       FieldSearch::Settings settings;
-      settings.threads = config_.threads;
+      settings.workers = &workers_;
       searching_.emplace(Searching{FieldSearch(region_, settings), moment});
       searching_->job.begin(moment.readings);
     }

@@ -59,8 +59,13 @@ class ORTUNG_API Rivals {
 
   /// All borrowed.
   Rivals(const MclConfig& config, const FieldRegion& region, const PoseSearch& search,
-         const MotionModel& motion, const UpdateTime& time)
-      : config_(config), region_(region), search_(search), motion_(motion), time_(time) {}
+         const MotionModel& motion, const UpdateTime& time, Workers& workers)
+      : config_(config),
+        region_(region),
+        search_(search),
+        motion_(motion),
+        time_(time),
+        workers_(workers) {}
 
   void forget();
   bool isIdle() const { return !doubtSince_ && !elsewhere_ && !searching_; }
@@ -111,6 +116,7 @@ class ORTUNG_API Rivals {
   const PoseSearch& search_;
   const MotionModel& motion_;
   const UpdateTime& time_;
+  Workers& workers_;
   std::optional<Timestamp> doubtSince_;
   std::optional<Around> around_;
   std::optional<Searching> searching_;

@@ -133,6 +133,7 @@ void updateOurs(benchmark::State& state) {
   container.add(learnedScan(ScanData::Perception::kRays, 2.0));
   MclConfig config;
   config.maxSamples = config.minSamples = kMany;
+  config.threads = static_cast<unsigned>(state.range(0));
   Mcl mcl(config, fieldRegion(), std::make_unique<OdometryMotion>());
   mcl.startAt(placeOf(0), 0.1, 0.05);
   std::size_t step = 0;
@@ -153,8 +154,11 @@ void updateOurs(benchmark::State& state) {
   if (worst > 0.5) state.SkipWithError("the filter got lost");
   state.counters["worst_m"] = worst;
   perSample(state, "update", taken);
+  if (config.threads == 1) remember("update by one thread", taken);
+  if (const auto alone = recall("update by one thread"); alone && config.threads > 1)
+    state.counters["x_one_thread"] = *alone / taken;
 }
-BENCHMARK(updateOurs)->Unit(benchmark::kMillisecond);
+BENCHMARK(updateOurs)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// Log weights of a cloud under a scan.
 std::vector<float> weightsOf(const SampleSet& samples) {

@@ -7,6 +7,7 @@
 #include "FakeRoom.hpp"
 #include "FieldSearch.hpp"
 #include "SearchedHall.hpp"
+#include "ortung/base/Workers.hpp"
 #include "ortung/core/BlurrableWeigher.hpp"
 
 namespace ortung {
@@ -94,7 +95,8 @@ TEST(FieldSearch, FindsTheSameBitsWithAnyThreadsAndInAnySlices) {
   const FieldRegion region = hall();
   const auto search = [&](unsigned threads, double milliseconds) {
     FieldSearch::Settings settings;
-    settings.threads = threads;
+    Workers workers(threads);
+    settings.workers = &workers;
     settings.survivors = 300;
     return found(region, {told(bumps)}, settings, milliseconds);
   };
@@ -119,7 +121,8 @@ TEST(FieldSearch, DecidesBetweenEqualsAlikeInAnySlices) {
   const FieldRegion region = hall();
   const auto flat = [](double, double, double) { return -1.0; };
   const auto whole = found(region, {told(flat)});
-  const auto sliced = found(region, {told(flat)}, {.threads = 3}, 0.017);
+  Workers workers(3);
+  const auto sliced = found(region, {told(flat)}, {.workers = &workers}, 0.017);
   ASSERT_EQ(whole.size(), sliced.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
     EXPECT_EQ(whole[i].pose.x, sliced[i].pose.x);

@@ -9,6 +9,7 @@
 #include "GlobalStart.hpp"
 #include "Resampling.hpp"
 #include "SearchedHall.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {
@@ -22,7 +23,7 @@ using test::told;
 /// A start by one reading.
 struct Start {
   explicit Start(std::shared_ptr<const Weigher> reading, const MclConfig& c = {})
-      : config(c), start(config, region, search) {
+      : config(c), start(config, region, search, workers) {
     start.begin({1, {}, 7, {{nullptr, 0, std::move(reading)}}});
   }
   SampleSet drawn(double milliseconds = 1e9) {
@@ -34,6 +35,7 @@ struct Start {
   MclConfig config;
   FieldRegion region = hall();
   PoseSearch search{region};
+  Workers workers{1};
   GlobalStart start;
 };
 

@@ -189,15 +189,15 @@ TEST(Clusters, AreToldHeaviestFirstWithTheirShares) {
     set.y[i] = place == 2 ? 5.0F : 0.0F;
     set.theta[i] = 1.0F;
   }
-  const auto clusters = clustersOf(MclConfig{}, set.view(), weights, 0.2);
+  const auto clusters = clustersOf(PoseBins(MclConfig{}, set.view()), set.view(), weights, 0.2);
   ASSERT_EQ(clusters.size(), 2u) << "the third has a sixth";
   EXPECT_NEAR(clusters[0].share, 0.5, 1e-9);
   EXPECT_NEAR(clusters[0].pose.y, 5.0, 1e-6);
   EXPECT_NEAR(clusters[1].share, 1.0 / 3.0, 1e-9);
   EXPECT_NEAR(clusters[1].pose.x, 5.0, 0.011);
   EXPECT_LT(clusters[1].covariance[0], 1.1e-4);
-  EXPECT_EQ(clustersOf(MclConfig{}, set.view(), weights, 0.1).size(), 3u);
-  EXPECT_EQ(clustersOf(MclConfig{}, set.view(), weights, 2.0).size(), 1u);
+  EXPECT_EQ(clustersOf(PoseBins(MclConfig{}, set.view()), set.view(), weights, 0.1).size(), 3u);
+  EXPECT_EQ(clustersOf(PoseBins(MclConfig{}, set.view()), set.view(), weights, 2.0).size(), 1u);
   EXPECT_NEAR(estimateOf(MclConfig{}, set.view(), weights).share, 0.5, 1e-9);
 }
 

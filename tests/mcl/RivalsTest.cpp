@@ -7,6 +7,7 @@
 #include "FakeRoom.hpp"
 #include "Resampling.hpp"
 #include "Rivals.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {
@@ -118,7 +119,8 @@ struct Drive {
   MclConfig config;
   test::ExactMotion motion;
   UpdateTime time{config};
-  Rivals rivals{config, region, search, motion, time};
+  Workers workers{1};
+  Rivals rivals{config, region, search, motion, time, workers};
   Recovery recovery{MclConfig{}};
   Pose2 truth{-8, 2, 0.3};
   Timestamp stamp = 0;

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "ortung/sim/Workers.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {

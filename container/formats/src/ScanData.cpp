@@ -12,6 +12,9 @@ namespace ortung {
 namespace {
 
 constexpr int kMostBeams = 8192;
+/// Between positions from which surfaces are looked at [cells of theirs]: beams of many positions
+/// meet in each cell all the same.
+constexpr double kCellsApart = 6.0;
 
 /// Headings whose scans together span a turn.
 int fewestViews(const ScanData::Config& config) {
@@ -50,6 +53,8 @@ int viewsFor(const ScanData::Config& config, int directions) {
 struct ScanData::Learning {
   std::vector<std::uint8_t> levelOfWord;
   int views = 0;  ///< headings a turn; 0: not known yet
+  FieldGrid grid;
+  std::vector<bool> showsSurfaces;  ///< by cell: whether surfaces are marked from there
 };
 
 ScanData::ScanData(SensorId id, const Pose2& mount, const Config& config)
@@ -113,6 +118,10 @@ double ScanData::headingSpacing() const {
   return kTurn / fewestViews(config_);
 }
 
+double ScanData::positionSpacing() const {
+  return config_.perception == Perception::kEndPoints ? kCellsApart * config_.endPointCell : 0.0;
+}
+
 int ScanData::runLength(int directions) const {
   const double step = kTurn / directions;
   const auto run =
@@ -125,6 +134,10 @@ int ScanData::runLength(int directions) const {
 void ScanData::startTables(const FieldRegion& region, double headingStep) {
   surfaces_ = std::make_shared<SurfaceField>();
   surfaces_->start(region, config_.endPointCell, 2 * config_.endPointCell);
+  learning_->grid = region.grid;
+  learning_->showsSurfaces.assign(region.grid.size(), false);
+  for (const std::size_t cell : openCellsApart(region, kCellsApart * config_.endPointCell))
+    learning_->showsSurfaces[cell] = true;
   if (config_.perception == Perception::kEndPoints) {
     endPoints_ = std::make_shared<EndPointTables>();
     endPoints_->surfaces = surfaces_;
@@ -146,6 +159,8 @@ void ScanData::startTables(const FieldRegion& region, double headingStep) {
 void ScanData::learn(const Pose2& robotInField) {
   const Pose2 sensor = robotInField * mount();
   const std::span<const std::uint32_t> words = getData();
+  const std::ptrdiff_t cell = learning_->grid.cellAt(sensor.x, sensor.y);
+  const bool showsSurfaces = cell >= 0 && learning_->showsSurfaces[static_cast<std::size_t>(cell)];
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
     const double angle =
         sensor.theta + config_.firstAngle + static_cast<double>(i) * config_.angleStep;
@@ -155,7 +170,7 @@ void ScanData::learn(const Pose2& robotInField) {
       const std::size_t word = std::min<std::size_t>(words[i], learning_->levelOfWord.size() - 1);
       rays_->learn(sensor.x, sensor.y, angle, learning_->levelOfWord[word]);
     }
-    if (!std::isfinite(range)) continue;
+    if (!showsSurfaces || !std::isfinite(range)) continue;
     const double x = sensor.x + range * std::cos(angle);
     const double y = sensor.y + range * std::sin(angle);
     if (config_.perception == Perception::kEndPoints) endPoints_->field.mark(x, y);
@@ -165,9 +180,10 @@ void ScanData::learn(const Pose2& robotInField) {
 
 void ScanData::finishTables() {
   surfaces_->finish();
+  learning_->levelOfWord = {};
+  learning_->showsSurfaces = {};
   if (config_.perception == Perception::kRays) {
     rays_->finish();
-    learning_->levelOfWord = {};
   } else {
     endPoints_->field.finish();
     endPoints_->complete(config_.model, config_.maxRange);

@@ -11,6 +11,7 @@
 #include "ScanCost.hpp"
 #include "SurfaceFit.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/base/Widest.hpp"
 #include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
@@ -30,9 +31,10 @@ struct RayPlaces {
   std::array<std::int32_t, kSamplesABlock> cell;  ///< -1: outside of the table
   std::array<std::int32_t, kSamplesABlock> direction;
 
-  void find(const FieldGrid& grid, int directions, float firstAngle, const SensorPoses& poses,
-            std::size_t n) {
-    const CellLookup lookup(grid);
+  ORTUNG_INLINE static void run(RayPlaces* places, CellLookup lookup, int directions,
+                                float firstAngle, SensorPoses poses, std::size_t n) {
+    std::int32_t* cell = places->cell.data();
+    std::int32_t* direction = places->direction.data();
     const auto turn = static_cast<float>(directions);
     const auto perRadian = static_cast<float>(directions / kTurn);
     constexpr float kMostTurns = 1e6F;  // beyond, single precision knows no direction
@@ -186,6 +188,7 @@ void RayWeigher::weigh(const SampleView& poses, std::span<float> logProbability)
   const std::int32_t* rowOf = rays_->rowIndex().data();
   const std::uint8_t* levels = rays_->levels().data();
   RayPlaces places;
+  const CellLookup lookup(rays_->grid());
   // Two blocks take turns: the rows of one are on their way while the other's costs are added up.
   struct Block {
     std::array<const std::uint8_t*, kSamplesABlock> rows;
@@ -203,7 +206,7 @@ void RayWeigher::weigh(const SampleView& poses, std::span<float> logProbability)
   std::size_t current = 0;
   forEachPoseBlock<kSamplesABlock>(
       poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-        places.find(rays_->grid(), rays_->directions(), firstAngle_, sensor, n);
+        runWidest<RayPlaces>(&places, lookup, rays_->directions(), firstAngle_, sensor, n);
         Block& block = blocks[current];
         block.size = 0;
         for (std::size_t k = 0; k < n; ++k) {

@@ -26,7 +26,7 @@ class CellLookup {
   std::ptrdiff_t operator()(float x, float y) const { return index(x, y); }
 
   /// Without a branch, so that loops over it vectorize. (Grids have fewer than 2^31 cells.)
-  std::int32_t index(float x, float y) const {
+  ORTUNG_INLINE std::int32_t index(float x, float y) const {
     const float column = (x - originX_) * perMetre_;
     const float row = (y - originY_) * perMetre_;
     const int inside = static_cast<int>(column >= 0.0F) & static_cast<int>(row >= 0.0F) &

@@ -12,7 +12,7 @@
 
 #include "Episode.hpp"
 #include "Settings.hpp"
-#include "ortung/sim/Workers.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung::learning {
 namespace {

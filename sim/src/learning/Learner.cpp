@@ -9,7 +9,7 @@
 
 #include "Sweeps.hpp"
 #include "ortung/base/Angles.hpp"
-#include "ortung/sim/Workers.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {
@@ -98,20 +98,19 @@ void Learner::Parts::begin(const LearnOptions& options) {
       if (!data.localizes()) continue;
       data.beginLearning(region, options.headingStep);
       learning.push_back(&data);
-      needs.push_back({data.id(), data.headingSpacing() > 0.0 ? addTo(sweeps, own, i, k) : 0});
+      needs.push_back(
+          {data.id(), data.headingSpacing() > 0.0 ? addTo(sweeps, region, own, i, k) : 0});
     }
   }
-  const auto open = static_cast<std::size_t>(std::count_if(
-      region.open.begin(), region.open.end(), [](std::uint8_t isOpen) { return isOpen != 0; }));
-  for (const Sweep& one : sweeps) total += open * one.headings * one.groups.size();
+  for (const Sweep& one : sweeps) total += one.cells.size() * one.headings * one.groups.size();
 }
 
 std::vector<Stop> Learner::Parts::nextStops(std::size_t most) {
   std::vector<Stop> stops;
   for (; sweep < sweeps.size(); ++sweep, cell = 0)
-    for (; cell < region.open.size(); ++cell) {
+    for (; cell < sweeps[sweep].cells.size(); ++cell) {
       if (stops.size() == most) return stops;
-      if (region.open[cell] != 0) stops.push_back({&sweeps[sweep], cell, ++now});
+      stops.push_back({&sweeps[sweep], sweeps[sweep].cells[cell], ++now});
     }
   return stops;
 }

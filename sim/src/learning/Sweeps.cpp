@@ -41,16 +41,19 @@ Rig::Rig(const std::vector<Device>& d, PluginFactory& factory) : devices(&d) {
   for (const Device& device : d) sensors.push_back(makeSensor(device, factory));
 }
 
-std::size_t addTo(std::vector<Sweep>& sweeps, const Rig& rig, std::size_t device,
-                  std::size_t feature) {
+std::size_t addTo(std::vector<Sweep>& sweeps, const FieldRegion& region, const Rig& rig,
+                  std::size_t device, std::size_t feature) {
   const SensorData& data = *(*rig.devices)[device].data[feature];
   const double spacing = std::clamp(data.headingSpacing(), 1e-4, kTurn);
-  auto sweep = std::find_if(sweeps.begin(), sweeps.end(),
-                            [&](const Sweep& s) { return s.spacing == spacing; });
+  const double apart = data.positionSpacing();
+  auto sweep = std::find_if(sweeps.begin(), sweeps.end(), [&](const Sweep& s) {
+    return s.spacing == spacing && s.positionSpacing == apart;
+  });
   if (sweep == sweeps.end()) {
     // Headings that are no whole number a turn overlap at its end instead of leaving a gap.
     const auto headings = static_cast<std::size_t>(std::ceil(kTurn / spacing - 1e-6));
-    sweep = sweeps.insert(sweeps.end(), {spacing, headings, {}});
+    sweep =
+        sweeps.insert(sweeps.end(), {spacing, apart, headings, openCellsApart(region, apart), {}});
   }
   const Pose2 robotInSensor = inverse(data.mount());
   auto group = std::find_if(sweep->groups.begin(), sweep->groups.end(), [&](const SweepGroup& g) {

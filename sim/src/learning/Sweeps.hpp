@@ -26,17 +26,19 @@ struct SweepGroup {
   std::vector<std::size_t> features;
 };
 
-/// Everything that is learned in the same headings.
+/// Everything that is learned in the same headings and places.
 struct Sweep {
-  double spacing = 0.0;  ///< between headings [rad]
+  double spacing = 0.0;          ///< between headings [rad]
+  double positionSpacing = 0.0;  ///< [m]
   std::size_t headings = 0;
+  std::vector<std::size_t> cells;
   std::vector<SweepGroup> groups;
 };
 
-/// Adds a feature that has begun to learn to the sweep that it belongs to.
+/// Adds a feature that has begun to learn to the sweep of the region that it belongs to.
 /// @returns the number of its headings @throws std::invalid_argument if nothing gives it
-std::size_t addTo(std::vector<Sweep>& sweeps, const Rig& rig, std::size_t device,
-                  std::size_t feature);
+std::size_t addTo(std::vector<Sweep>& sweeps, const FieldRegion& region, const Rig& rig,
+                  std::size_t device, std::size_t feature);
 
 /// Fills a group's features with what they read, without noise, where the robot stands.
 /// @param isNew by feature: whether there is a reading; what is not made there has none

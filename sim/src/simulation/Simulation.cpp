@@ -6,7 +6,7 @@
 #include <string>
 
 #include "Physics.hpp"
-#include "ortung/sim/Workers.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {

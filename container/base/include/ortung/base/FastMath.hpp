@@ -62,10 +62,11 @@ ORTUNG_INLINE float naturalLog(float x) {
 
 /// e^x for x <= 0, wrong by less than 2e-7 relative; 0 below -87 (less than the smallest float),
 /// above 0 and for NaN. Cephes' expf.c.
-inline float powerOfE(float x) {
+ORTUNG_INLINE float powerOfE(float x) {
   constexpr float kLeast = -87.0F;
-  const int usual = static_cast<int>(x >= kLeast) & static_cast<int>(x <= 0.0F);  // 0 for NaN
-  const float bounded = usual != 0 ? x : 0.0F;
+  // All bits where x is usual, not for NaN. Choices by bits: compilers make branches of others.
+  const std::int32_t usual = -(static_cast<int>(x >= kLeast) & static_cast<int>(x <= 0.0F));
+  const auto bounded = std::bit_cast<float>(std::bit_cast<std::int32_t>(x) & usual);
   const auto power = static_cast<std::int32_t>(bounded * 1.44269504088896341F - 0.5F);
   const auto k = static_cast<float>(power);
   const float y = (bounded - k * 0.693359375F) + k * 2.12194440e-4F;
@@ -77,7 +78,7 @@ inline float powerOfE(float x) {
   p = p * y + 5.0000001201e-1F;
   p = p * y * y + y + 1.0F;
   const float scaled = p * std::bit_cast<float>((power + 127) << 23);
-  return usual != 0 ? scaled : 0.0F;
+  return std::bit_cast<float>(std::bit_cast<std::int32_t>(scaled) & usual);
 }
 
 }  // namespace ortung

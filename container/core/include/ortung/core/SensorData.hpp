@@ -79,6 +79,8 @@ class ORTUNG_API SensorData {
   void beginLearning(const FieldRegion& region, double headingStep);
   /// How far apart the sweep's headings may be to see everything [rad]; 2 pi: one will do.
   virtual double headingSpacing() const;
+  /// How far apart the sweep's positions may be to see everything [m]; 0: every cell is needed.
+  virtual double positionSpacing() const { return 0.0; }
   /// Takes the present noise-free reading as the expectation with the robot at @p pose
   /// (paper, section 5.2). The sweep puts the SENSOR, pose * mount(), on the centres of cells.
   /// @pre beginLearning() came before

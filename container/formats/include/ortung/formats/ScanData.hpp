@@ -57,6 +57,7 @@ class ORTUNG_API ScanData : public SensorData {
   std::string wordsHelp() const override;
   bool localizes() const override { return config_.localizes; }
   double headingSpacing() const override;
+  double positionSpacing() const override;
   /// Range of each beam [m]; the greatest range where nothing is expected to be seen.
   /// With an end-point field: empty, since that does not keep ranges.
   std::vector<double> expectation(const Pose2& pose) const override;

@@ -52,4 +52,9 @@ struct FieldRegion {
   ORTUNG_API void check() const;
 };
 
+/// Open cells that are about @p spacing [m] apart, in the order of their numbers: of each square
+/// block of so many cells the open one that is nearest to its middle, so that no part of the region
+/// is left out. All open cells if the spacing is no wider than two of them.
+ORTUNG_API std::vector<std::size_t> openCellsApart(const FieldRegion& region, double spacing);
+
 }  // namespace ortung

@@ -1,4 +1,4 @@
-#include "ortung/sim/Workers.hpp"
+#include "ortung/base/Workers.hpp"
 
 #include <atomic>
 #include <condition_variable>
