@@ -8,6 +8,7 @@
 #include "Resampling.hpp"
 #include "Seeded.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {
@@ -70,6 +71,40 @@ RC_GTEST_PROP(LowVarianceProperty, TakesEachSampleItsShareUpToOne, ()) {
 TEST(LowVariance, NeverTakesATrailingSampleWithoutWeight) {
   // Weights that sum to a little less than 1, as rounding leaves them.
   EXPECT_EQ(lowVariance(Weights{0.5, 0.5 - 1e-9, 0.0, 0.0}, 2, 1.0 - 1e-12), (Indices{0, 1}));
+}
+
+/// The textbook's loop (Thrun, Burgard, Fox, table 4.4), one sample after the other.
+Indices oneByOne(const Weights& weights, std::size_t n, double offset) {
+  Indices indices;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    sum += weights[i];
+    while (indices.size() < n &&
+           (static_cast<double>(indices.size()) + offset) / static_cast<double>(n) < sum)
+      indices.push_back(static_cast<std::uint32_t>(i));
+  }
+  return indices;
+}
+
+TEST(LowVariance, DrawsLargeSetsAsTheTextbookDoesWithAnyThreads) {
+  Random random(2);
+  Workers workers(3);
+  for (const std::size_t size : {1U, 511U, 512U, 513U, 2047U, 2048U, 2049U, 9001U, 40000U}) {
+    std::vector<float> logs(size);
+    for (float& w : logs) w = static_cast<float>(4.0 * random.gaussian());
+    // Long stretches that weigh nothing, and one sample that weighs as much as many.
+    for (std::size_t i = size / 5; i < size / 2; ++i) logs[i] = -kInfinity;
+    logs[size / 7] = 20.0F;
+    const Weights weights = normalized(logs);
+    EXPECT_EQ(normalized(logs, &workers), weights);
+    for (const std::size_t n : {1UL, 64UL, 2000UL, size, 3 * size}) {
+      const double offset = random.uniform();
+      const Indices expected = oneByOne(weights, n, offset);
+      ASSERT_EQ(expected.size(), n) << "of " << size << " samples";
+      EXPECT_EQ(lowVariance(weights, n, offset), expected) << n << " of " << size << " samples";
+      EXPECT_EQ(lowVariance(weights, n, offset, &workers), expected);
+    }
+  }
 }
 
 TEST(LowVariance, KeepsTheMean) {

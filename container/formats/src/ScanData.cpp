@@ -54,7 +54,7 @@ struct ScanData::Learning {
   std::vector<std::uint8_t> levelOfWord;
   int views = 0;  ///< headings a turn; 0: not known yet
   FieldGrid grid;
-  std::vector<bool> showsSurfaces;  ///< by cell: whether surfaces are marked from there
+  std::vector<bool> showsSurfaces;  ///< by cell of the grid
 };
 
 ScanData::ScanData(SensorId id, const Pose2& mount, const Config& config)
@@ -134,10 +134,6 @@ int ScanData::runLength(int directions) const {
 void ScanData::startTables(const FieldRegion& region, double headingStep) {
   surfaces_ = std::make_shared<SurfaceField>();
   surfaces_->start(region, config_.endPointCell, 2 * config_.endPointCell);
-  learning_->grid = region.grid;
-  learning_->showsSurfaces.assign(region.grid.size(), false);
-  for (const std::size_t cell : openCellsApart(region, kCellsApart * config_.endPointCell))
-    learning_->showsSurfaces[cell] = true;
   if (config_.perception == Perception::kEndPoints) {
     endPoints_ = std::make_shared<EndPointTables>();
     endPoints_->surfaces = surfaces_;
@@ -149,6 +145,10 @@ void ScanData::startTables(const FieldRegion& region, double headingStep) {
   rays_ = std::make_shared<DirectionTable>();
   rays_->start(region, directions, runLength(directions));
   learning_->views = viewsFor(config_, directions);
+  learning_->grid = region.grid;
+  learning_->showsSurfaces.assign(region.grid.size(), false);
+  for (const std::size_t cell : openCellsApart(region, kCellsApart * config_.endPointCell))
+    learning_->showsSurfaces[cell] = true;
   // The last word is beyond the greatest range, and stands for all that are.
   learning_->levelOfWord.resize(words::fromMetres(config_.maxRange) + 2);
   for (std::uint32_t word = 0; word < learning_->levelOfWord.size(); ++word) {
@@ -156,11 +156,18 @@ void ScanData::startTables(const FieldRegion& region, double headingStep) {
   }
 }
 
+/// Whether surfaces are marked from there. A ray table is learned in every cell, and what all of
+/// them see of a surface says no more of it.
+bool ScanData::marksFrom(const Pose2& sensor) const {
+  if (config_.perception == Perception::kEndPoints) return true;
+  const std::ptrdiff_t cell = learning_->grid.cellAt(sensor.x, sensor.y);
+  return cell >= 0 && learning_->showsSurfaces[static_cast<std::size_t>(cell)];
+}
+
 void ScanData::learn(const Pose2& robotInField) {
   const Pose2 sensor = robotInField * mount();
   const std::span<const std::uint32_t> words = getData();
-  const std::ptrdiff_t cell = learning_->grid.cellAt(sensor.x, sensor.y);
-  const bool showsSurfaces = cell >= 0 && learning_->showsSurfaces[static_cast<std::size_t>(cell)];
+  const bool marks = marksFrom(sensor);
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
     const double angle =
         sensor.theta + config_.firstAngle + static_cast<double>(i) * config_.angleStep;
@@ -170,7 +177,7 @@ void ScanData::learn(const Pose2& robotInField) {
       const std::size_t word = std::min<std::size_t>(words[i], learning_->levelOfWord.size() - 1);
       rays_->learn(sensor.x, sensor.y, angle, learning_->levelOfWord[word]);
     }
-    if (!showsSurfaces || !std::isfinite(range)) continue;
+    if (!marks || !std::isfinite(range)) continue;
     const double x = sensor.x + range * std::cos(angle);
     const double y = sensor.y + range * std::sin(angle);
     if (config_.perception == Perception::kEndPoints) endPoints_->field.mark(x, y);

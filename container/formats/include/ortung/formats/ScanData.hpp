@@ -76,6 +76,7 @@ class ORTUNG_API ScanData : public SensorData {
   std::shared_ptr<const Weigher> makeWeigher() const override;
   std::shared_ptr<const Weigher> makeRayWeigher() const;
   std::shared_ptr<const Weigher> makeEndPointWeigher() const;
+  bool marksFrom(const Pose2& sensor) const;
   int runLength(int directions) const;
 
   Config config_;
