@@ -17,6 +17,7 @@
 #include "Kld.hpp"
 #include "MotionPieces.hpp"
 #include "Resampling.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {
@@ -119,6 +120,7 @@ struct GridFilter::Impl {
   MclConfig config;
   FieldRegion region;
   std::unique_ptr<MotionModel> motion;
+  Workers workers;
   Intake intake;
   GridBelief belief;
   PoseEstimate estimate;
@@ -133,6 +135,7 @@ struct GridFilter::Impl {
       : config((c.check(), grid.check(), r.check(), checkMemory(grid, r), c)),
         region(r),
         motion(std::move(m)),
+        workers(config.threads),
         intake(config, *motion),
         belief(region.grid, grid.cell, turnsOf(grid)) {}
 
@@ -167,7 +170,7 @@ struct GridFilter::Impl {
     const std::optional<Pose2> odometry = motion->odometryAt(stamp);
     odometry ? predict(*odometry) : drift(stamp);
     belief.weigh([&](const SampleSet& cells, std::vector<float>& out) {
-      ortung::weigh(news, cells, config.threads, out);
+      ortung::weigh(news, cells, &workers, out);
     });
     intake.used(news, stamp, lastOdometry);
     lastTime = stamp;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "CellLookup.hpp"
+#include "ortung/base/Widest.hpp"
 
 namespace ortung {
 namespace {
@@ -13,6 +14,16 @@ namespace {
 constexpr std::size_t kBlurredPoints = 64;  ///< at most
 
 constexpr double kStepsAnOctave = 4.0;  ///< of noise, when it grows
+
+/// Cells in which points lie, as a robot at (x, y) sees them.
+struct EndCells {
+  ORTUNG_INLINE static void run(CellLookup lookup, float x, float y, float sine, float cosine,
+                                const float* px, const float* py, std::size_t n,
+                                std::int32_t* cells) {
+    for (std::size_t k = 0; k < n; ++k)
+      cells[k] = lookup.index(x + cosine * px[k] - sine * py[k], y + sine * px[k] + cosine * py[k]);
+  }
+};
 
 }  // namespace
 
@@ -133,10 +144,7 @@ void EndPointWeigher::weigh(const SampleView& poses, std::span<float> logProbabi
       const std::size_t n = std::min(kPointsABlock, count - begin);
       const float* px = endX_.data() + begin;
       const float* py = endY_.data() + begin;
-      for (std::size_t k = 0; k < n; ++k) {  // vectorizes
-        cells[k] =
-            lookup.index(x + cosine * px[k] - sine * py[k], y + sine * px[k] + cosine * py[k]);
-      }
+      runWidest<EndCells>(lookup, x, y, sine, cosine, px, py, n, cells.data());
       const float* const* logByLevel = endLog_.data() + begin;
       const auto at = [&](std::size_t k) {
         return cells[k] < 0 ? floor : logByLevel[k][levels[cells[k]]];
