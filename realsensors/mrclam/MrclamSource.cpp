@@ -30,11 +30,13 @@ constexpr double kMaxVelocity = 100.0;  // [m/s], [rad/s]
 // bearings err alike from image to image (each robot has its own bias, of bearings up to 0.8
 // degrees), hence the exponent and a sigma of bearings wider than the spread.
 // Ranges are measured along the optical axis, so they are too short towards the edges of the image,
-// by the cosine; biases are means over the five robots.
-constexpr const char* kModels = R"(range_bias_m = 0.04
+// by the cosine; biases are means over the five robots. Only sightings that are whole have them: a
+// distance alone does not know how far from the axis it was.
+constexpr const char* kBiases = R"(range_bias_m = 0.04
 range_bias_per_m = 0.023
 range_bias_per_m_rad2 = -0.48
-range_sigma_m = 0.04
+)";
+constexpr const char* kModels = R"(range_sigma_m = 0.04
 range_sigma_per_m = 0.02
 bearing_sigma_deg = 1.2
 outliers = 0.1
@@ -290,7 +292,8 @@ std::string MrclamSource::robotToml() const {
          std::string(each_ ? "features = \"each\"\n"
                            : "feature = \"posts\"\nfeatures = \"list\"\n") +
          "kind = \"post\"\nidentities = [" + identities +
-         "]\nmax_range_m = " + tomlNumber(kMaxRange) + "\nfov_deg = 70.0\n" + kModels;
+         "]\nmax_range_m = " + tomlNumber(kMaxRange) + "\nfov_deg = 70.0\n" +
+         (each_ ? "" : kBiases) + kModels;
 }
 
 void MrclamSource::writeWorld(const std::filesystem::path& file) const {
