@@ -1,6 +1,4 @@
 // Which cells a sweep stands in.
-#include "ortung/tables/FieldRegion.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,6 +7,7 @@
 #include <numeric>
 
 #include "Seeded.hpp"
+#include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
 namespace {
