@@ -32,7 +32,7 @@ class ORTUNG_API LandmarksData : public SensorData {
     double fieldOfView = 0.0;               ///< [rad]; 0 or 2 pi: all around
     SensorModel range{};
     SensorModel bearing{.sigma = 0.02};
-    SightingBias bias{};///< of readings; they are corrected before they are weighed
+    SightingBias bias{};  ///< of readings; they are corrected before they are weighed
   };
   struct Sighting {
     std::uint32_t identity = 0;
