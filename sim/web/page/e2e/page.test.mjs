@@ -267,7 +267,7 @@ describe("the page of a game without players", () => {
     const form = page.getByRole("form", { name: "Start a player" });
     await form.getByLabel("player").selectOption("footballer");
     const values = { team: "blue", name: "nine", robot: "f2000_player", start: "2,0,0" };
-    assert.ok((await page.locator("#robot-kinds option").count()) > 10);
+    await page.locator("#robot-kinds option").nth(10).waitFor({ state: "attached" });
     for (const [key, value] of Object.entries(values)) {
       await form.locator("label", { hasText: new RegExp(`^${key}`) }).locator("input").fill(value);
     }
