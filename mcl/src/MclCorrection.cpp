@@ -65,7 +65,7 @@ double Mcl::Impl::fitNow(const std::vector<News>& news, const SampleSet& set) {
 
 /// @param before weights before the readings are weighed
 void Mcl::Impl::followFit(const std::vector<News>& news, const std::vector<double>& before) {
-  const auto fit = fitOf(readingsOf(news), samples, before);
+  const auto fit = fitOf(readingsOf(news), samples, before, &workers);
   if (fit) recovery.follow(*fit, lastOdometry && way < kStands);
 }
 
@@ -179,7 +179,7 @@ void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
   weigherOf(news)(samples, logProbability);
   moment.logEvidence = logMean(before, logProbability, &workers);
   std::vector<double> weights = takeIn(news, before);
-  recovery.followBest(fitOf(readingsOf(news), samples, weights).value_or(0.0));
+  recovery.followBest(fitOf(readingsOf(news), samples, weights, &workers).value_or(0.0));
   confirmation.count(recovery.unusual() == 0, metres);
   if (!isCompared) {
     rivals.forget();

@@ -20,10 +20,10 @@ constexpr double kRateWhileFallen = 0.1;
 constexpr double kPoorFit = 0.25;  ///< below this the belief explains too little, always
 
 /// Some samples, by their weights; the last one is nowhere: it gets a feature's floor.
-SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights) {
+SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights, Workers* workers) {
   SampleSet witnesses;
   witnesses.resize(kWitnesses + 1);
-  const auto indices = lowVariance(weights, kWitnesses, 0.5);
+  const auto indices = lowVariance(weights, kWitnesses, 0.5, workers);
   for (std::size_t k = 0; k < kWitnesses; ++k) {
     witnesses.x[k] = samples.x[indices[k]];
     witnesses.y[k] = samples.y[indices[k]];
@@ -37,8 +37,8 @@ SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights)
 }  // namespace
 
 std::optional<double> fitOf(std::span<const Weigher* const> readings, const SampleSet& samples,
-                            std::span<const double> weights) {
-  const SampleSet witnesses = witnessesOf(samples, weights);
+                            std::span<const double> weights, Workers* workers) {
+  const SampleSet witnesses = witnessesOf(samples, weights, workers);
   double sum = 0.0;
   double voices = 0.0;
   std::vector<float> logs(witnesses.size());

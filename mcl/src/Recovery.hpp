@@ -10,12 +10,15 @@
 
 namespace ortung {
 
+class Workers;
+
 /// How well a belief explains readings: 1 perfectly, 0 no better than nowhere; nothing if none of
 /// them tells any pose from nowhere. Every reading has one voice: a scan of many beams must not
 /// drown the landmarks that contradict it.
 /// @param weights of the samples, sum 1
 ORTUNG_API std::optional<double> fitOf(std::span<const Weigher* const> readings,
-                                       const SampleSet& samples, std::span<const double> weights);
+                                       const SampleSet& samples, std::span<const double> weights,
+                                       Workers* workers = nullptr);
 
 /// Says how well the belief fares, from how well it explains readings: as the fit falls behind its
 /// own past (as Thrun, Burgard, Fox, table 8.3, with a fit in place of a likelihood, which has no
