@@ -7,7 +7,7 @@
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/FastMath.hpp"
-#include "ortung/base/InstructionSet.hpp"
+#include "ortung/base/Widest.hpp"
 
 namespace ortung {
 namespace {
@@ -66,93 +66,52 @@ constexpr std::size_t kNumbersABlock = 4;
 constexpr std::size_t kBlocksAGroup = 16;  ///< vectors of every width divide it
 constexpr std::size_t kNumbersAGroup = kNumbersABlock * kBlocksAGroup;
 
-ORTUNG_INLINE void uniformGroups(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
-                                 std::size_t groups, float* out) {
-  for (std::size_t g = 0; g < groups; ++g) {
-    for (std::size_t lane = 0; lane < kBlocksAGroup; ++lane) {
-      const Block c = philox(seed, stream, block + g * kBlocksAGroup + lane);
-      float* numbers = out + g * kNumbersAGroup + lane * kNumbersABlock;
-      for (std::size_t w = 0; w < kNumbersABlock; ++w) numbers[w] = unit(c.words[w]);
+/// Whole groups of blocks from @p block on.
+struct UniformGroups {
+  ORTUNG_INLINE static void run(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                                std::size_t groups, float* out) {
+    for (std::size_t g = 0; g < groups; ++g) {
+      for (std::size_t lane = 0; lane < kBlocksAGroup; ++lane) {
+        const Block c = philox(seed, stream, block + g * kBlocksAGroup + lane);
+        float* numbers = out + g * kNumbersAGroup + lane * kNumbersABlock;
+        for (std::size_t w = 0; w < kNumbersABlock; ++w) numbers[w] = unit(c.words[w]);
+      }
     }
   }
-}
+};
 
-ORTUNG_INLINE void gaussianGroups(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
-                                  std::size_t groups, float* out) {
-  for (std::size_t g = 0; g < groups; ++g) {
-    for (std::size_t lane = 0; lane < kBlocksAGroup; ++lane) {
-      const Block c = philox(seed, stream, block + g * kBlocksAGroup + lane);
-      const Pair low = boxMuller(c.words[0], c.words[1]);
-      const Pair high = boxMuller(c.words[2], c.words[3]);
-      float* numbers = out + g * kNumbersAGroup + lane * kNumbersABlock;
-      numbers[0] = low.first;
-      numbers[1] = low.second;
-      numbers[2] = high.first;
-      numbers[3] = high.second;
+struct GaussianGroups {
+  ORTUNG_INLINE static void run(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
+                                std::size_t groups, float* out) {
+    for (std::size_t g = 0; g < groups; ++g) {
+      for (std::size_t lane = 0; lane < kBlocksAGroup; ++lane) {
+        const Block c = philox(seed, stream, block + g * kBlocksAGroup + lane);
+        const Pair low = boxMuller(c.words[0], c.words[1]);
+        const Pair high = boxMuller(c.words[2], c.words[3]);
+        float* numbers = out + g * kNumbersAGroup + lane * kNumbersABlock;
+        numbers[0] = low.first;
+        numbers[1] = low.second;
+        numbers[2] = high.first;
+        numbers[3] = high.second;
+      }
     }
   }
-}
-
-/// Whole groups of blocks from @p block on, for each instruction set.
-using Groups = void (*)(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
-                        std::size_t groups, float* out);
-
-void uniformPortable(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n,
-                     float* out) {
-  uniformGroups(seed, stream, block, n, out);
-}
-void gaussianPortable(std::uint64_t seed, std::uint64_t stream, std::uint64_t block, std::size_t n,
-                      float* out) {
-  gaussianGroups(seed, stream, block, n, out);
-}
-#ifdef ORTUNG_X86
-ORTUNG_AVX2 void uniformAvx2(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
-                             std::size_t n, float* out) {
-  uniformGroups(seed, stream, block, n, out);
-}
-ORTUNG_AVX2 void gaussianAvx2(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
-                              std::size_t n, float* out) {
-  gaussianGroups(seed, stream, block, n, out);
-}
-ORTUNG_AVX512 void uniformAvx512(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
-                                 std::size_t n, float* out) {
-  uniformGroups(seed, stream, block, n, out);
-}
-ORTUNG_AVX512 void gaussianAvx512(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
-                                  std::size_t n, float* out) {
-  gaussianGroups(seed, stream, block, n, out);
-}
-#else
-constexpr Groups uniformAvx2 = uniformPortable, uniformAvx512 = uniformPortable;
-constexpr Groups gaussianAvx2 = gaussianPortable, gaussianAvx512 = gaussianPortable;
-#endif
-
-Groups pick(Groups portable, Groups avx2, Groups avx512) {
-  switch (instructionSet()) {
-    case InstructionSet::kAvx512:
-      return avx512;
-    case InstructionSet::kAvx2:
-      return avx2;
-    case InstructionSet::kPortable:
-      break;
-  }
-  return portable;
-}
+};
 
 /// Fills @p out from number @p first of the stream on: whole groups in place, its ends from a
 /// spare.
-void fill(Groups make, std::uint64_t seed, std::uint64_t stream, std::uint64_t first,
-          std::span<float> out) {
+template <class Groups>
+void fill(std::uint64_t seed, std::uint64_t stream, std::uint64_t first, std::span<float> out) {
   std::array<float, kNumbersAGroup> spare;
   while (!out.empty()) {
     const std::size_t skipped = first % kNumbersABlock;
     std::size_t done = out.size() / kNumbersAGroup * kNumbersAGroup;
     if (skipped == 0 && done > 0) {
-      make(seed, stream, first / kNumbersABlock, done / kNumbersAGroup, out.data());
+      runWidest<Groups>(seed, stream, first / kNumbersABlock, done / kNumbersAGroup, out.data());
     } else {
       // From the middle of a block: only up to the block's end, so that the rest goes in place.
       done = std::min(out.size(), skipped == 0 ? kNumbersAGroup : kNumbersABlock - skipped);
-      make(seed, stream, first / kNumbersABlock, 1, spare.data());
+      runWidest<Groups>(seed, stream, first / kNumbersABlock, 1, spare.data());
       std::copy_n(spare.begin() + static_cast<std::ptrdiff_t>(skipped), done, out.begin());
     }
     first += done;
@@ -207,13 +166,13 @@ Random Random::fork(std::uint64_t stream) const {
 
 void fillUniform(std::uint64_t seed, std::uint64_t stream, std::uint64_t first,
                  std::span<float> out) {
-  fill(pick(uniformPortable, uniformAvx2, uniformAvx512), seed, stream, first, out);
+  fill<UniformGroups>(seed, stream, first, out);
 }
 
 void fillGaussian(std::uint64_t seed, std::uint64_t stream, std::uint64_t first,
                   std::span<float> out) {
   assert(first % 2 == 0);
-  fill(pick(gaussianPortable, gaussianAvx2, gaussianAvx512), seed, stream, first, out);
+  fill<GaussianGroups>(seed, stream, first, out);
 }
 
 }  // namespace ortung

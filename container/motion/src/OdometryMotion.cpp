@@ -10,8 +10,8 @@
 #include "MotionFit.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/FastMath.hpp"
-#include "ortung/base/InstructionSet.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/base/Widest.hpp"
 
 namespace ortung {
 namespace {
@@ -55,45 +55,21 @@ struct Step {
 };
 
 /// Moves @p n samples by numbers of mean 0 and sigma 1, kNumbersASample each.
-ORTUNG_INLINE void moveAll(const Step& step, const float* noise, std::size_t n, float* __restrict x,
-                           float* __restrict y, float* __restrict theta) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float* numbers = noise + i * kNumbersASample;
-    const float heading = theta[i] + step.turn1 + step.sigmaTurn1 * numbers[0];
-    const float way = step.way + step.sigmaWay * numbers[1];
-    const float sideways = step.sigmaSideways * numbers[3];
-    const SinCos direction = sinCos(heading);
-    x[i] += way * direction.cos - sideways * direction.sin;
-    y[i] += way * direction.sin + sideways * direction.cos;
-    theta[i] = heading + step.turn2 + step.sigmaTurn2 * numbers[2];
+struct MoveAll {
+  ORTUNG_INLINE static void run(const Step& step, const float* noise, std::size_t n,
+                                float* __restrict x, float* __restrict y, float* __restrict theta) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const float* numbers = noise + i * kNumbersASample;
+      const float heading = theta[i] + step.turn1 + step.sigmaTurn1 * numbers[0];
+      const float way = step.way + step.sigmaWay * numbers[1];
+      const float sideways = step.sigmaSideways * numbers[3];
+      const SinCos direction = sinCos(heading);
+      x[i] += way * direction.cos - sideways * direction.sin;
+      y[i] += way * direction.sin + sideways * direction.cos;
+      theta[i] = heading + step.turn2 + step.sigmaTurn2 * numbers[2];
+    }
   }
-}
-
-using Move = void (*)(const Step& step, const float* noise, std::size_t n, float* x, float* y,
-                      float* theta);
-
-void movePortable(const Step& step, const float* noise, std::size_t n, float* x, float* y,
-                  float* theta) {
-  moveAll(step, noise, n, x, y, theta);
-}
-#ifdef ORTUNG_X86
-ORTUNG_AVX2 void moveAvx2(const Step& step, const float* noise, std::size_t n, float* x, float* y,
-                          float* theta) {
-  moveAll(step, noise, n, x, y, theta);
-}
-ORTUNG_AVX512 void moveAvx512(const Step& step, const float* noise, std::size_t n, float* x,
-                              float* y, float* theta) {
-  moveAll(step, noise, n, x, y, theta);
-}
-#endif
-
-Move pickMove() {
-#ifdef ORTUNG_X86
-  if (instructionSet() == InstructionSet::kAvx512) return moveAvx512;
-  if (instructionSet() == InstructionSet::kAvx2) return moveAvx2;
-#endif
-  return movePortable;
-}
+};
 
 /// Reads what may stand in [motion].
 OdometryNoise readNoise(const Parameters& motion) {
@@ -262,15 +238,14 @@ void OdometryMotion::sampleMotion(const MovableSamples& samples, const Pose2& od
                   sigmaWay,
                   sigmaSecond,
                   static_cast<float>(noise_.floorMetres)};
-  const Move move = pickMove();
   std::array<float, kBlock * kNumbersASample> noise;
   for (std::size_t begin = 0; begin < samples.x.size(); begin += kBlock) {
     const std::size_t count = std::min(kBlock, samples.x.size() - begin);
     fillGaussian(seed, stream, (first + begin) * kNumbersASample,
                  std::span(noise).first(count * kNumbersASample));
     slip(noise_.slipShare, first + begin, count, noise.data());
-    move(step, noise.data(), count, samples.x.data() + begin, samples.y.data() + begin,
-         samples.theta.data() + begin);
+    runWidest<MoveAll>(step, noise.data(), count, samples.x.data() + begin,
+                       samples.y.data() + begin, samples.theta.data() + begin);
   }
 }
 
