@@ -26,6 +26,8 @@ interface Kept {
 /** How the user wants to see things. Kept in the browser; the address has what others can be sent. */
 export class Ui {
   theme: Theme = "auto";
+  /** What `theme` comes to, with the system's colours. */
+  isDark = true;
   panel: Panel = "robots";
   layers = Object.fromEntries(kLayerNames.map((name) => [name, kLayers[name].on])) as unknown as Layers;
   isLogOpen = false;
@@ -80,12 +82,12 @@ export class Ui {
     this.address.token = token;
   }
 
-  get isDark(): boolean {
-    if (this.theme !== "auto") return this.theme === "dark";
-    return kPrefersDark.matches;
-  }
-
+  /**
+   * The only place that asks which colours the system has: a browser that was asked between a change and its event
+   * thinks that the change is known, and does not tell it.
+   */
   private showTheme(): void {
+    this.isDark = this.theme === "auto" ? kPrefersDark.matches : this.theme === "dark";
     document.documentElement.dataset.theme = this.isDark ? "dark" : "light";
   }
 
