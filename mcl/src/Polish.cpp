@@ -181,11 +181,15 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
         surprise(difference(solution->pose, place_->pose), matrixOf(place_->covariance), *solution);
     if (observed) learnTimes(*observed);
   }
+  const Matrix blur =
+      Vector(solution->slope.blurMetres, solution->slope.blurMetres, solution->slope.blurRadians)
+          .asDiagonal();
+  const Matrix kept = solution->covariance * prior.precision;
+  auto mixed = Eigen::Map<RowMajor>(blur_.data());
+  mixed = follows ? Matrix(kept * mixed + (Matrix::Identity() - kept) * blur) : blur;
   place_ = estimate;
   place_->pose = solution->pose;
   Eigen::Map<RowMajor>(place_->covariance.data()) = solution->covariance;
-  blurMetres_ = solution->slope.blurMetres;
-  blurRadians_ = solution->slope.blurRadians;
   if (readings.size() == news.size()) {
     put(estimate);
   } else {
@@ -213,10 +217,9 @@ void Polish::put(PoseEstimate& cluster) const {
   const Matrix samples = matrixOf(cluster.covariance) + apart * apart.transpose();
   const Matrix covariance =
       times_ * matrixOf(place_->covariance) + (1.0 - std::min(1.0, kChance / times_)) * samples;
+  const Matrix blur = matrixOf(blur_);
   cluster.pose = place_->pose;
-  Eigen::Map<RowMajor>(cluster.covariance.data()) = covariance;
-  Eigen::Map<RowMajor>(cluster.covariance.data()) =
-      widened(cluster.covariance, blurMetres_, blurRadians_);
+  Eigen::Map<RowMajor>(cluster.covariance.data()) = covariance + blur * blur.transpose();
 }
 
 }  // namespace ortung

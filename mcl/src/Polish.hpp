@@ -40,8 +40,9 @@ class ORTUNG_API Polish {
 
   std::optional<PoseEstimate> place_;    ///< with what readings and motion promise as covariance
   std::optional<PoseEstimate> cluster_;  ///< of samples, as the last readings left it
-  double blurMetres_ = 0.0;              ///< of the place
-  double blurRadians_ = 0.0;
+  /// Of the place, row-major: what its readings were compared with is off by this, times something
+  /// of variance 1 that is the same for all of them, so that it is mixed, but never averaged out.
+  std::array<double, 9> blur_{};
   /// How many times as large as promised the squares of surprises are: readings that are wrong
   /// alike, surfaces that are not where the map has them, odometry that errs more than its model.
   double times_ = kTimesAtFirst;

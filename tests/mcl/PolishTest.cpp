@@ -16,9 +16,11 @@ using test::FakeRun;
 /// Reads the pose itself, with independent noise.
 class PoseReading final : public Weigher, public Polishable {
  public:
-  PoseReading(const Pose2& read, double sigma) : read_(read), sigma_(sigma) {}
+  PoseReading(const Pose2& read, double sigma, double blur)
+      : read_(read), sigma_(sigma), blur_(blur) {}
   Slope slopeAt(const Pose2& pose) const override {
     Slope slope;
+    slope.blurMetres = blur_;
     const double weight = 1.0 / (sigma_ * sigma_);
     slope.add(read_.x - pose.x, {1, 0, 0}, weight);
     slope.add(read_.y - pose.y, {0, 1, 0}, weight);
@@ -30,14 +32,15 @@ class PoseReading final : public Weigher, public Polishable {
   void weigh(const SampleView&, std::span<float>) const override {}
   Pose2 read_;
   double sigma_;
+  double blur_;
 };
 
 class OtherReading final : public Weigher {
   void weigh(const SampleView&, std::span<float>) const override {}
 };
 
-std::vector<News> reading(const Pose2& read, double sigma) {
-  return {{nullptr, 1, std::make_shared<PoseReading>(read, sigma)}};
+std::vector<News> reading(const Pose2& read, double sigma, double blur = 0.0) {
+  return {{nullptr, 1, std::make_shared<PoseReading>(read, sigma, blur)}};
 }
 
 PoseEstimate cluster(const Pose2& pose, double sigma) {
@@ -95,6 +98,40 @@ TEST(Polish, BelievesReadingsLessThatSurpriseIt) {
   }
   EXPECT_GT(nees, 0.03);
   EXPECT_LT(nees, 3.0);
+}
+
+TEST(Polish, MixesWhatMapsLeaveOpenAndNeverAveragesItOut) {
+  // Two sensors in turn: what the first compares with is off by the same 2 cm in all of a run.
+  constexpr double kNoise = 0.01;
+  constexpr double kMap = 0.02;
+  constexpr int kRuns = 300;
+  Random random(3);
+  const Pose2 truth{1, 2, 0.3};
+  double nees = 0.0;
+  double claimed = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    Polish polish;
+    const double off = kMap * random.gaussian();
+    PoseEstimate estimate;
+    const auto noisy = [&](double v) { return v + kNoise * random.gaussian(); };
+    const auto read = [&](double mapOff, double blur) {
+      estimate = cluster(truth, 0.05);
+      polish.follow(
+          reading({noisy(truth.x) + mapOff, noisy(truth.y), noisy(truth.theta)}, kNoise, blur),
+          estimate);
+    };
+    for (int i = 0; i < 100; ++i) {
+      read(off, kMap);
+      read(0.0, 0.0);
+    }
+    nees += std::pow(estimate.pose.x - truth.x, 2) / estimate.covariance[0] / kRuns;
+    claimed += std::sqrt(estimate.covariance[0]) / kRuns;
+  }
+  // Each has half of the say. That they contradict each other widens the covariance a little more.
+  EXPECT_GT(nees, 0.3);
+  EXPECT_LT(nees, 1.2);
+  EXPECT_GT(claimed, 0.5 * kMap);
+  EXPECT_LT(claimed, 0.9 * kMap);
 }
 
 TEST(Polish, ForgetsAPlaceThatIsNotThatOfTheSamples) {
