@@ -214,6 +214,7 @@ void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weig
   if (lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);
   estimate = lateness.widened(estimate, stamp);
   judge(signsAt(stamp), estimate);
+  if (config.learnsBiases) biases.follow(news, estimate);
   if (effectiveSamples(weights) < config.resampleBelow * static_cast<double>(samples.size())) {
     resample(weights, *bins);
   } else {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "Biases.hpp"
 #include "Confidence.hpp"
 #include "Confirmation.hpp"
 #include "Drift.hpp"
@@ -58,6 +59,7 @@ struct Mcl::Impl {
   double usualInterval = 0.0;         ///< between weighings, lately at most [s]
   OdometryTrust trust;
   Polish polish;
+  Biases biases;
   Lateness lateness;
   Momentum momentum;        ///< where isBlind
   SampleSet anchor;         ///< the belief when it was weighed last, while odometry is not trusted
@@ -114,6 +116,7 @@ struct Mcl::Impl {
     rivals.forget();
     trust.forget();
     polish.forget();
+    biases.forget();
     lateness.forgetBelief();
     momentum.forget();
     coarsest = {};

@@ -52,6 +52,7 @@ void Mcl::Impl::predict(const Pose2& odometry) {
   metres += come;
   way += come + std::abs(change.theta);
   polish.move(*motion, change, config.seed, stream(Purpose::kMotion));
+  biases.move(*motion, change, config.seed, stream(Purpose::kMotion));
   move([&](const MovableSamples& some, std::size_t first) {
     motion->sampleMotion(some, change, config.seed, stream(Purpose::kMotion), first);
   });
@@ -84,6 +85,7 @@ void Mcl::Impl::predictBlindly(Timestamp stamp) {
   metres += come;
   way += come;
   polish.forget();
+  biases.forget();
   if (!waitsForStart) enlarge(samples);
   const Pose2 ahead = momentum.changeAt(stamp);
   move([&](const MovableSamples& some, std::size_t first) {
@@ -99,6 +101,7 @@ void Mcl::Impl::spread(Timestamp stamp) {
   Spread both = ortung::spread(config, samples, anchor, momentum.changeAt(stamp), seconds,
                                kSpreadSamples, stream(Purpose::kSpread));
   polish.forget();
+  biases.forget();
   samples = std::move(both.samples);
   drifted = both.drifted;
   present.reset();

@@ -20,6 +20,7 @@ struct News {
   const SensorData* feature;  ///< which one; not looked at any more
   std::uint64_t sequence;
   std::shared_ptr<const Weigher> weigher;
+  std::shared_ptr<const Weigher> asRead = {};  ///< without what was corrected; none: nothing was
 };
 
 using NewsByTime = std::map<Timestamp, std::vector<News>>;

@@ -19,7 +19,10 @@ std::shared_ptr<const Robot> pioneer() {
   std::shared_ptr<Robot> robot = openRobot(kPioneer, *tables);
   Scene scene;
   scene.world = kField;
-  scene.robots.push_back({.file = kPioneer, .name = "pioneer", .start = Pose2{1.53, -0.72, 0.6}});
+  SceneRobot& pioneer = scene.robots.emplace_back();
+  pioneer.file = kPioneer;
+  pioneer.name = "pioneer";
+  pioneer.start = Pose2{1.53, -0.72, 0.6};
   ServedSimulation world(scene, {.noise = false});
   for (int cycle = 0; cycle < 15; ++cycle) {
     world.step();

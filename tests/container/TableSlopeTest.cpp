@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "FakeRoom.hpp"
+#include "ortung/core/Correctable.hpp"
 #include "ortung/core/Polishable.hpp"
 #include "ortung/formats/BearingData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -182,6 +183,70 @@ TEST(TableSlope, OfOneDistanceAndOfOneBearingAreThoseOfAListOfOneLandmark) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(both.pull[k], expected.pull[k], 1e-9);
   for (std::size_t k = 0; k < 9; ++k)
     EXPECT_NEAR(both.information[k], expected.information[k], 1e-6);
+}
+
+/// What the residuals of a reading, biased as they say, are beside those without.
+void expectCorrectable(SensorData& data, const std::vector<std::uint32_t>& read,
+                       const std::vector<std::uint32_t>& truth, const DeviceBias& bias,
+                       const Pose2& pose) {
+  data.setData(1, truth);
+  const auto unbiased = data.weigher();
+  data.setData(2, read);
+  const auto biased = data.weigher();
+  const auto* reading = dynamic_cast<const Correctable*>(biased.get());
+  ASSERT_NE(reading, nullptr);
+  const auto corrected = reading->corrected(bias);
+  EXPECT_NEAR(std::log(corrected->getProbability(pose)), std::log(unbiased->getProbability(pose)),
+              0.02);
+  EXPECT_NEAR(test::batchOfOne(*corrected, pose), test::batchOfOne(*unbiased, pose), 0.02);
+  std::vector<ReadingResidual> residuals;
+  reading->residualsAt(pose, residuals);
+  ASSERT_FALSE(residuals.empty());
+  for (const ReadingResidual& r : residuals)
+    EXPECT_NEAR(r.value, r.isAngle ? bias.radians : bias.metres + bias.perMetre * r.expected,
+                0.005);
+}
+
+TEST(Correctable, WeighsAReadingWithoutItsBiasAsOneThatHasNone) {
+  const DeviceBias bias{0.2, 0.05, 0.07};
+  const auto list = landmarks(config(0.1, 0.05));
+  ScalarData distance({"M", "T", "D"}, kMount, {.model = {.sigma = 0.1}});
+  BearingData bearing({"M", "T", "B"}, kMount, {.model = {.sigma = 0.05}});
+  const auto to = [](const Pose2& sensor) {
+    return std::hypot(kPoints[0].x - sensor.x, kPoints[0].y - sensor.y);
+  };
+  const auto towards = [](const Pose2& sensor) {
+    return test::bearingTo(sensor, kPoints[0].x, kPoints[0].y);
+  };
+  const FieldRegion region = kRoom.region(0.1, 0.2);
+  test::learnEverywhere(distance, region, kPi,
+                        [&](const Pose2& s) { return ScalarData::encode(to(s)); });
+  test::learnEverywhere(bearing, region, kPi,
+                        [&](const Pose2& s) { return BearingData::encode(towards(s)); });
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    const Pose2 pose = somewhere(random);
+    const Pose2 sensor = pose * kMount;
+    if (to(sensor) < 0.8) continue;
+    LandmarksData::Reading biased;
+    LandmarksData::Reading unbiased;
+    for (std::size_t k = 1; k < kPoints.size(); ++k) {
+      const double r = std::hypot(kPoints[k].x - sensor.x, kPoints[k].y - sensor.y);
+      if (r < 0.8) continue;
+      const double b = test::bearingTo(sensor, kPoints[k].x, kPoints[k].y);
+      const std::uint32_t identity = kPoints[k].identity;
+      unbiased.push_back({identity, r, b});
+      biased.push_back({identity, r * (1 + bias.perMetre) + bias.metres, b + bias.radians});
+    }
+    if (!biased.empty())
+      expectCorrectable(*list, LandmarksData::encode(biased), LandmarksData::encode(unbiased), bias,
+                        pose);
+    const double r = to(sensor);
+    expectCorrectable(distance, ScalarData::encode(r * (1 + bias.perMetre) + bias.metres),
+                      ScalarData::encode(r), bias, pose);
+    expectCorrectable(bearing, BearingData::encode(wrapAngle(towards(sensor) + bias.radians)),
+                      BearingData::encode(towards(sensor)), bias, pose);
+  }
 }
 
 TEST(PoseFixSlope, IsTheGradientOfLnP) {

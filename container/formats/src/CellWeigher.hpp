@@ -6,6 +6,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "TableSlope.hpp"
 #include "TableWeigher.hpp"
@@ -17,7 +18,7 @@ namespace ortung {
 /// Weighs samples by one table over the position: a PositionTable or a BearingTable. Sigma is that
 /// at the reading, not at the expectation: the same for all samples.
 template <class Table>
-class CellWeigher final : public Weigher, public Polishable {
+class CellWeigher final : public Weigher, public Polishable, public Correctable {
  public:
   CellWeigher(std::shared_ptr<const Table> table, std::shared_ptr<const GaussianTable> gaussian,
               const SensorModel& model, const Pose2& mount, double reading, double sigma)
@@ -32,6 +33,16 @@ class CellWeigher final : public Weigher, public Polishable {
     Slope slope;
     addReading(slope, *table_, reading_, sigma_, model_, robot, robot * mount_);
     return slope;
+  }
+
+  void residualsAt(const Pose2& robot, std::vector<ReadingResidual>& residuals) const override {
+    if (const auto one = residualOf(*table_, reading_, sigma_, model_, robot, robot * mount_))
+      residuals.push_back(*one);
+  }
+
+  std::shared_ptr<const Weigher> corrected(const DeviceBias& bias) const override {
+    const double without = kIsBearing ? bias.bearing(reading_) : bias.distance(reading_);
+    return std::make_shared<CellWeigher>(table_, gaussian_, model_, mount_, without, sigma_);
   }
 
  private:

@@ -45,7 +45,7 @@ struct LandmarksData::Tables {
   std::shared_ptr<LandmarkPlaces> places = std::make_shared<LandmarkPlaces>();
 };
 
-class LandmarksData::Sight final : public Weigher, public Polishable {
+class LandmarksData::Sight final : public Weigher, public Polishable, public Correctable {
  public:
   Sight(std::shared_ptr<const Model> model, std::shared_ptr<const Tables> tables,
         const Pose2& mount)
@@ -110,6 +110,28 @@ class LandmarksData::Sight final : public Weigher, public Polishable {
                  robot, sensor);
     }
     return slope;
+  }
+
+  void residualsAt(const Pose2& robot, std::vector<ReadingResidual>& residuals) const override {
+    const Pose2 sensor = robot * mount_;
+    const auto add = [&](const std::optional<ReadingResidual>& one) {
+      if (one) residuals.push_back(*one);
+    };
+    for (const Known& k : known_) {
+      add(residualOf(k.landmark->range, k.range, k.sigma, model_->range, robot, sensor));
+      add(residualOf(k.landmark->bearing, k.bearing, model_->bearing.sigma, model_->bearing, robot,
+                     sensor));
+    }
+  }
+
+  std::shared_ptr<const Weigher> corrected(const DeviceBias& bias) const override {
+    auto without = std::make_shared<Sight>(model_, tables_, mount_);
+    without->known_ = known_;
+    for (Known& k : without->known_) {
+      k.range = bias.distance(k.range);
+      k.bearing = bias.bearing(k.bearing);
+    }
+    return without;
   }
 
   std::shared_ptr<const Model> model_;

@@ -72,7 +72,7 @@ class PoseFixWeigher final : public Weigher, public Polishable {
     const auto nearest = std::min_element(
         fixes_.begin(), fixes_.end(),
         [&](const Weighed& a, const Weighed& b) { return sigmasTo(a) < sigmasTo(b); });
-    const Matrix3 information = inlierShare(model_, sigmasTo(*nearest)) * model_.exponent *
+    const Matrix3 information = inlierShare(model_.outliers, sigmasTo(*nearest)) * model_.exponent *
                                 Eigen::Map<const Matrix3>(nearest->information.data());
     const Eigen::Vector3d off(nearest->pose.x - pose.x, nearest->pose.y - pose.y,
                               wrapAngle(nearest->pose.theta - pose.theta));

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "TableSlope.hpp"
+
 namespace ortung {
 namespace {
 
@@ -23,11 +25,6 @@ struct Residual {
   bool follows;  ///< it is of the beam beside that of the one before
 };
 
-double weightOf(const Residual& r, double variance, double outliers) {
-  const double inlier = (1.0 - outliers) * std::exp(-0.5 * r.off * r.off / variance);
-  return inlier / (inlier + outliers);
-}
-
 /// Variance of residuals that are no outliers, in variances of the model: expectation and
 /// maximization in turn, from the model's.
 double scatterOf(const std::vector<Residual>& residuals, double outliers) {
@@ -36,7 +33,7 @@ double scatterOf(const std::vector<Residual>& residuals, double outliers) {
     double count = kSupposed;
     double squares = kSupposed * variance;
     for (const Residual& r : residuals) {
-      const double weight = weightOf(r, variance, outliers);
+      const double weight = inlierShare(outliers, r.off / std::sqrt(variance));
       count += weight;
       squares += weight * r.off * r.off;
     }
@@ -53,7 +50,7 @@ Slope slopeOf(const std::vector<Residual>& residuals, double outliers) {
   double lastWeight = 0.0;
   double last = 0.0;
   for (const Residual& r : residuals) {
-    const double weight = weightOf(r, scatter, outliers);
+    const double weight = inlierShare(outliers, r.off / std::sqrt(scatter));
     slope.add(r.off * std::sqrt(r.variance), r.expectation, weight / (r.variance * scatter));
     if (r.follows) {
       const double both = std::min(weight, lastWeight);

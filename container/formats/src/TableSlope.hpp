@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/core/Correctable.hpp"
 #include "ortung/core/Polishable.hpp"
 #include "ortung/tables/PositionTable.hpp"
 #include "ortung/tables/SensorModel.hpp"
@@ -15,15 +17,16 @@
 namespace ortung {
 
 /// How probably a reading so many standard deviations off is no outlier.
-inline double inlierShare(const SensorModel& model, double sigmas) {
-  const double inlier = (1.0 - model.outliers) * std::exp(-0.5 * sigmas * sigmas);
-  return inlier / (inlier + model.outliers);
+inline double inlierShare(double outliers, double sigmas) {
+  const double inlier = (1.0 - outliers) * std::exp(-0.5 * sigmas * sigmas);
+  return inlier / (inlier + outliers);
 }
 
 /// Adds what a residual says. @param expectation its derivatives by the robot's x, y, theta
 inline void addResidual(Slope& slope, double residual, const std::array<double, 3>& expectation,
                         double sigma, const SensorModel& model) {
-  const double weight = model.exponent * inlierShare(model, residual / sigma) / (sigma * sigma);
+  const double weight =
+      model.exponent * inlierShare(model.outliers, residual / sigma) / (sigma * sigma);
   if (!std::isfinite(weight)) return;
   for (const double derivative : expectation)
     if (!std::isfinite(derivative)) return;
@@ -63,19 +66,32 @@ double derivative(const Table& table, const Pose2& sensor, double alongX, double
   return differenceOf<Table>(after, before) / width;
 }
 
-/// Adds what a reading says of which a table knows what to expect. @param reading [m], or a bearing
-/// in the sensor's frame [rad]
+/// A reading beside what a table expects; nothing where it expects nothing. @param reading [m], or
+/// a bearing in the sensor's frame [rad]
 template <class Table>
-void addReading(Slope& slope, const Table& table, double reading, double sigma,
-                const SensorModel& model, const Pose2& robot, const Pose2& sensor) {
+std::optional<ReadingResidual> residualOf(const Table& table, double reading, double sigma,
+                                          const SensorModel& model, const Pose2& robot,
+                                          const Pose2& sensor) {
   constexpr bool kIsBearing = std::is_same_v<Table, BearingTable>;
   const double expected =
       static_cast<double>(table.at(sensor.x, sensor.y)) - (kIsBearing ? sensor.theta : 0.0);
-  if (std::isnan(expected)) return;
-  addResidual(slope, differenceOf<Table>(reading, expected),
-              byRobot(derivative(table, sensor, 1.0, 0.0), derivative(table, sensor, 0.0, 1.0),
-                      kIsBearing ? -1.0 : 0.0, robot, sensor),
-              sigma, model);
+  if (std::isnan(expected)) return std::nullopt;
+  return ReadingResidual{
+      kIsBearing,
+      differenceOf<Table>(reading, expected),
+      expected,
+      byRobot(derivative(table, sensor, 1.0, 0.0), derivative(table, sensor, 0.0, 1.0),
+              kIsBearing ? -1.0 : 0.0, robot, sensor),
+      sigma,
+      model.outliers};
+}
+
+/// Adds what a reading says of which a table knows what to expect.
+template <class Table>
+void addReading(Slope& slope, const Table& table, double reading, double sigma,
+                const SensorModel& model, const Pose2& robot, const Pose2& sensor) {
+  if (const auto residual = residualOf(table, reading, sigma, model, robot, sensor))
+    addResidual(slope, residual->value, residual->byPose, sigma, model);
 }
 
 }  // namespace ortung

@@ -111,7 +111,7 @@ Slope UnidentifiedSight::slopeAt(const Pose2& robot) const {
     const double bearingSigma = model_->bearing.sigma;
     const double share =
         model_->range.exponent *
-        inlierShare(model_->range, std::hypot(tooLong / sigma, tooLarge / bearingSigma));
+        inlierShare(model_->range.outliers, std::hypot(tooLong / sigma, tooLarge / bearingSigma));
     const double squared = range * range;
     slope.add(tooLong, byRobot(-dx / range, -dy / range, 0.0, robot, sensor),
               share / (sigma * sigma));

@@ -58,8 +58,9 @@ TEST(CameraDevice, PlaysAVideoFileAtItsOwnSpeed) {
     for (std::size_t c = 0; c < 3; ++c)  // JPEG and its colour space round
       EXPECT_NEAR(middle[c], kColours[i % kColours.size()][c], 6) << i << " " << c;
     // By the file's clock, which is exact; ours is put onto it.
-    if (i > 0 && i % kColours.size() != 0)
+    if (i > 0 && i % kColours.size() != 0) {
       EXPECT_NEAR(toSeconds(messages[i].stamp - messages[i - 1].stamp), 0.1, 0.05);
+    }
   }
 }
 

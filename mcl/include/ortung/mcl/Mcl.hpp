@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ortung/base/Pose2.hpp"
+#include "ortung/core/Correctable.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/mcl/Belief.hpp"
 #include "ortung/mcl/MclConfig.hpp"
@@ -85,6 +88,9 @@ class ORTUNG_API Mcl {
   /// Whether there is odometry; without, samples drift (MclConfig::driftMetres).
   bool hasOdometry() const;
   const SampleSet& samples() const;
+  /// What devices that read distances or bearings get wrong always in the same way, as far as it
+  /// was learned since the last start (MclConfig::learnsBiases), by "model/type" of their features.
+  std::map<std::string, DeviceBias> biases() const;
 
  private:
   struct Impl;

@@ -25,6 +25,7 @@ struct MclConfig {
   double maxInterval = 0.5;        ///< `max_interval_s`: or this much time
   double driftMetres = 0.5;        ///< `drift_m`: without odometry, sigma of the way after 1 s [m],
   double driftRadians = 0.5236;    ///< `drift_deg`: and of the turn (30 degrees) [rad]
+  bool learnsBiases = true;        ///< `learns_biases`: of distances and bearings, while it runs
   double budgetMs = 20.0;          ///< `budget_ms`: of an update; longer searches are spread [ms]
   std::uint64_t seed = 1;
   unsigned threads = 1;  ///< the result does not depend on it

@@ -1,0 +1,7 @@
+#include "ortung/core/Correctable.hpp"
+
+namespace ortung {
+
+Correctable::~Correctable() = default;
+
+}  // namespace ortung

@@ -1,0 +1,227 @@
+#include "Biases.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "CarriedOn.hpp"
+#include "ortung/base/Angles.hpp"
+#include "ortung/core/SensorData.hpp"
+
+namespace ortung {
+namespace {
+
+using Matrix = Eigen::Matrix3d;
+using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+/// Biases are of the size of the noise, and scales of this size, as long as nothing is known.
+constexpr double kScale = 0.05;
+constexpr double kErrors = 4.0;       ///< from none, of a bias that is known
+constexpr double kStillErrors = 1.5;  ///< and of one that stays known
+constexpr int kFewest = 30;           ///< values that a bias is known by
+constexpr double kMostErrors = 4.0;  ///< of a value that is no outlier, of places that are the same
+constexpr double kMisfits = 0.5;     ///< so large a share of outliers: the place is wrong
+/// Readings of a feature from places nearer to each other err alike [m].
+constexpr double kApart = 0.3;
+constexpr double kRate = 0.02;  ///< at which outliers are followed
+
+}  // namespace
+
+void Biases::forget() {
+  isRunning_ = false;
+  way_ = 0.0;
+  for (auto& [data, feature] : features_) feature.learnedAt = -1.0;
+  for (Device& device : devices_) device = {std::move(device.name)};
+}
+
+void Biases::move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
+                  std::uint64_t stream) {
+  if (!isRunning_) return;
+  PoseEstimate before;
+  before.pose = pose_;
+  const Matrix old = covariance_.topLeftCorner<3, 3>();
+  Eigen::Map<RowMajor>(before.covariance.data()) = old;
+  const PoseEstimate after = carriedOn(before, motion, change, seed, stream);
+  Matrix forward = Matrix::Identity();
+  forward(0, 2) = -(after.pose.y - pose_.y);
+  forward(1, 2) = after.pose.x - pose_.x;
+  const Eigen::Index rest = covariance_.cols() - kPose;
+  covariance_.topRightCorner(kPose, rest) = forward * covariance_.topRightCorner(kPose, rest);
+  covariance_.bottomLeftCorner(rest, kPose) = covariance_.topRightCorner(kPose, rest).transpose();
+  covariance_.topLeftCorner<3, 3>() = Eigen::Map<const RowMajor>(after.covariance.data());
+  way_ += std::hypot(change.x, change.y) + std::abs(change.theta);
+  pose_ = after.pose;
+}
+
+Biases::Feature& Biases::featureOf(const News& news) {
+  const auto [at, isNew] = features_.try_emplace(news.feature);
+  if (isNew) {
+    const SensorId& id = news.feature->id();
+    const std::string name = id.model + "/" + id.type;
+    const auto same = std::find_if(devices_.begin(), devices_.end(),
+                                   [&](const Device& device) { return device.name == name; });
+    at->second.device = static_cast<std::size_t>(same - devices_.begin());
+    if (same == devices_.end()) devices_.push_back({name});
+  }
+  return at->second;
+}
+
+void Biases::correct(NewsByTime& newsByTime) {
+  for (auto& [stamp, news] : newsByTime) {
+    for (News& one : news) {
+      const auto* reading = dynamic_cast<const Correctable*>(one.weigher.get());
+      if (!reading) continue;
+      const DeviceBias bias = biasOf(featureOf(one).device);
+      if (bias == DeviceBias()) continue;
+      std::shared_ptr<const Weigher> corrected = reading->corrected(bias);
+      one.asRead = std::exchange(one.weigher, std::move(corrected));
+    }
+  }
+}
+
+void Biases::follow(const std::vector<News>& news, const PoseEstimate& estimate) {
+  std::vector<ReadingResidual> residuals;
+  for (const News& one : news) {
+    const Weigher* weigher = (one.asRead ? one.asRead : one.weigher).get();
+    const auto* reading = dynamic_cast<const Correctable*>(weigher);
+    const auto found = features_.find(one.feature);
+    if (!reading || found == features_.end()) continue;
+    Feature& feature = found->second;
+    if (isRunning_ && feature.learnedAt >= 0.0 && way_ - feature.learnedAt < kApart) continue;
+    residuals.clear();
+    const Pose2 at = isRunning_ ? pose_ : estimate.pose;
+    reading->residualsAt(at, residuals);
+    if (residuals.empty()) continue;
+    if (!isRunning_) {
+      if (estimate.status != TrackStatus::kTracking) return;
+      begin(estimate, residuals);
+    }
+    feature.learnedAt = way_;
+    open(feature.device, residuals);
+    for (const ReadingResidual& residual : residuals)
+      misfit_ += kRate * ((learn(feature.device, residual, at) ? 0.0 : 1.0) - misfit_);
+  }
+  if (!isRunning_) return;
+  if (misfit_ > kMisfits) {
+    forget();
+    return;
+  }
+  decide();
+}
+
+/// The samples know where the robot is, as far as biases leave it: those may have moved them.
+void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidual>& residuals) {
+  isRunning_ = true;
+  misfit_ = 0.0;
+  pose_ = estimate.pose;
+  mean_ = Eigen::VectorXd::Zero(kPose);
+  double metres = 0.1;
+  double radians = 0.05;
+  for (const ReadingResidual& r : residuals) {
+    if (r.isAngle)
+      radians = std::max(radians, 2.0 * r.sigma);
+    else
+      metres = std::max(metres, r.sigma + kScale * r.expected);
+  }
+  covariance_ = Eigen::Map<const RowMajor>(estimate.covariance.data());
+  covariance_.diagonal() += Eigen::Vector3d(metres * metres, metres * metres, radians * radians);
+}
+
+void Biases::open(std::size_t device, const std::vector<ReadingResidual>& residuals) {
+  const Eigen::Index needed = placeOf(devices_.size());
+  const Eigen::Index there = mean_.size();
+  if (needed > there) {
+    mean_.conservativeResize(needed);
+    covariance_.conservativeResize(needed, needed);
+    mean_.tail(needed - there).setZero();
+    covariance_.rightCols(needed - there).setZero();
+    covariance_.bottomRows(needed - there).setZero();
+  }
+  Device& d = devices_[device];
+  const Eigen::Index at = placeOf(device);
+  for (const ReadingResidual& r : residuals) {
+    if (r.isAngle && !std::exchange(d.hasBearings, true)) {
+      covariance_(at + 2, at + 2) = r.sigma * r.sigma;
+    } else if (!r.isAngle && !std::exchange(d.hasDistances, true)) {
+      covariance_(at, at) = r.sigma * r.sigma;
+      covariance_(at + 1, at + 1) = kScale * kScale;
+    }
+  }
+}
+
+/// @param at where the residual is of @returns whether it fits
+bool Biases::learn(std::size_t device, const ReadingResidual& r, const Pose2& at) {
+  const Eigen::Index n = mean_.size();
+  Eigen::VectorXd by = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index k = 0; k < kPose; ++k) by[k] = r.byPose[static_cast<std::size_t>(k)];
+  if (!by.allFinite()) return true;
+  const Eigen::Index place = placeOf(device);
+  if (r.isAngle) {
+    by[place + 2] = 1.0;
+  } else {
+    by[place] = 1.0;
+    by[place + 1] = r.expected;
+  }
+  const Eigen::Vector3d moved(pose_.x - at.x, pose_.y - at.y, wrapAngle(pose_.theta - at.theta));
+  double off = r.value - by.head<3>().dot(moved) - by.tail(n - kPose).dot(mean_.tail(n - kPose));
+  if (r.isAngle) off = wrapAngle(off);
+  const Eigen::VectorXd cross = covariance_ * by;
+  const double known = by.dot(cross);
+  const double variance = known + r.sigma * r.sigma;
+  if (!(off * off < kMostErrors * kMostErrors * variance)) return false;
+  const double inlier = (1.0 - r.outliers) * std::exp(-0.5 * off * off / variance);
+  const double noise = r.sigma * r.sigma * (inlier + r.outliers) / inlier;
+  const Eigen::VectorXd gain = cross / (known + noise);
+  const Eigen::VectorXd change = gain * off;
+  mean_.tail(n - kPose) += change.tail(n - kPose);
+  pose_ = {pose_.x + change[0], pose_.y + change[1], wrapAngle(pose_.theta + change[2])};
+  ++devices_[device].values;
+  covariance_ -= gain * cross.transpose();
+  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+  return true;
+}
+
+void Biases::decide() {
+  for (std::size_t d = 0; d < devices_.size(); ++d) {
+    Device& device = devices_[d];
+    const Eigen::Index at = placeOf(d);
+    const auto isOther = [&](bool isKnown, double square) {
+      const double errors = isKnown ? kStillErrors : kErrors;
+      if (device.values < kFewest) return false;
+      return square > errors * errors;
+    };
+    // Together: what one of them says too much the other one says too little.
+    if (device.hasDistances) {
+      const Eigen::Vector2d both = mean_.segment<2>(at);
+      const Eigen::Matrix2d spread = covariance_.block<2, 2>(at, at);
+      device.knowsDistances =
+          isOther(device.knowsDistances, 0.75 * both.dot(spread.ldlt().solve(both)));
+    }
+    if (device.hasBearings)
+      device.knowsBearings = isOther(device.knowsBearings,
+                                     mean_[at + 2] * mean_[at + 2] / covariance_(at + 2, at + 2));
+  }
+}
+
+DeviceBias Biases::biasOf(std::size_t device) const {
+  DeviceBias bias;
+  if (!isRunning_) return bias;
+  const Eigen::Index at = placeOf(device);
+  if (devices_[device].knowsDistances) {
+    bias.metres = mean_[at];
+    bias.perMetre = mean_[at + 1];
+  }
+  if (devices_[device].knowsBearings) bias.radians = mean_[at + 2];
+  return bias;
+}
+
+std::map<std::string, DeviceBias> Biases::known() const {
+  std::map<std::string, DeviceBias> all;
+  for (std::size_t d = 0; d < devices_.size(); ++d)
+    if (const DeviceBias bias = biasOf(d); !(bias == DeviceBias())) all[devices_[d].name] = bias;
+  return all;
+}
+
+}  // namespace ortung
