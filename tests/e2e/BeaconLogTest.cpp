@@ -116,6 +116,27 @@ std::string textOf(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+TEST(BeaconLog, AScaleThatIsOffByThreePercentIsLearnedOnTheWay) {
+  const std::string path = kData + "/plaza";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const Folder folder;
+  import(folder, "plaza", path, {});
+  std::string robot = textOf(folder.path("robot.toml"));
+  const std::string scale = "range_scale = 1.07";
+  ASSERT_NE(robot.find(scale), std::string::npos);
+  robot.replace(robot.find(scale), scale.size(), "range_scale = 1.04");
+  std::ofstream(folder.path("robot.toml")) << robot;
+  learn(folder, "0.5");
+  const std::string part = "?from_s=970";
+  const auto learned = localized(folder, "robot.toml", part, {"--seed", "2"});
+  ASSERT_FALSE(learned["converged_after_s"].is_null());
+  EXPECT_LT(learned["position_median_m"].get<double>(), 0.4);
+  robot.insert(robot.find("[mcl]") + 5, "\nlearns_biases = false");
+  std::ofstream(folder.path("stubborn.toml")) << robot;
+  const auto stubborn = localized(folder, "stubborn.toml", part, {"--seed", "2"});
+  EXPECT_TRUE(stubborn["converged_after_s"].is_null());
+}
+
 TEST(BeaconLog, ALaserWithOneScanInTenAndThreeBeaconsAreBetterThanEither) {
   const std::string data = kData + "/mrpt_uwb_ro/";
   if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is not here";
