@@ -3,7 +3,8 @@
 if(PROJECT_IS_TOP_LEVEL)
   find_program(ORTUNG_CCACHE ccache)
   if(ORTUNG_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${ORTUNG_CCACHE})
+    # Without this it does not keep what was compiled with a precompiled header, whose macros it can't see.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${ORTUNG_CCACHE})
   endif()
 endif()
 # In the variables of this project alone; a parent keeps its own.
@@ -38,6 +39,30 @@ function(ortung_options target)
   endif()
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden
                         VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
+# ortung_precompiled(tests HEADERS <gtest/gtest.h> <vector> LINK GTest::gtest [OPTIONS -O0] [PIC])
+# Makes a target whose headers are parsed once; ortung_reuse_precompiled(TARGET tests) includes them in all sources of a
+# target with the same options. A source still includes what it uses itself.
+function(ortung_precompiled name)
+  cmake_parse_arguments(ARG "PIC" "" "HEADERS;LINK;OPTIONS" ${ARGN})
+  set(target ortung_precompiled_${name})
+  file(CONFIGURE OUTPUT ${target}.cpp CONTENT "")
+  add_library(${target} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+  ortung_options(${target})
+  target_compile_options(${target} PRIVATE ${ARG_OPTIONS})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fpch-preprocess)  # for ccache
+  endif()
+  target_link_libraries(${target} PRIVATE ${ARG_LINK})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ${ARG_PIC})
+  target_precompile_headers(${target} PRIVATE ${ARG_HEADERS})
+endfunction()
+function(ortung_reuse_precompiled target name)
+  target_precompile_headers(${target} REUSE_FROM ortung_precompiled_${name})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fpch-preprocess)
+  endif()
 endfunction()
 
 # ortung_library(sim SOURCES src/a.cpp HEADERS include/ortung/sim/a.hpp PUBLIC Eigen3::Eigen PRIVATE x)
