@@ -1,8 +1,12 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -127,12 +131,18 @@ void refuseLive(const EvalArguments& arguments, const std::vector<EvalJob>& jobs
   }
 }
 
-/// The same run once more, bit for bit, for who looks on.
-ViewArguments viewOf(const EvalArguments& arguments) {
-  ViewArguments view;
-  view.sources = arguments.sources;
-  view.localization = arguments.localization;
-  return view;
+/// The same run once more, bit for bit, for who looks on: this program becomes `ortung view`, whose
+/// libraries an evaluation does without. Returns only if that fails.
+int viewAgain(const EvalArguments& arguments) {
+  std::vector<std::string> words = {"ortung", "view", arguments.sources.front()};
+  for (std::string& word : arguments.localizationWords()) words.push_back(std::move(word));
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  flushOutput();
+  ::execv("/proc/self/exe", pointers.data());
+  throw std::runtime_error("--view: `ortung view` can't be run: " +
+                           std::generic_category().message(errno));
 }
 
 void refuseToView(const EvalArguments& arguments, std::size_t jobs) {
@@ -158,7 +168,7 @@ int runEval(const EvalArguments& arguments) {
     if (!arguments.json.empty()) outputs.write(arguments.json, toJson(run));
     if (!arguments.report.empty()) outputs.write(arguments.report, toHtml(run));
     fmt::print("{}", toText(run));
-    return arguments.isViewing ? runView(viewOf(arguments)) : 0;
+    return arguments.isViewing ? viewAgain(arguments) : 0;
   }
   refuseLive(arguments, jobs);
   std::vector<RunResult> runs;

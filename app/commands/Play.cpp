@@ -6,7 +6,7 @@
 #include "Console.hpp"
 #include "HostPort.hpp"
 #include "Interrupt.hpp"
-#include "Serving.hpp"
+#include "TokenFile.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/ShippedFiles.hpp"

@@ -6,11 +6,9 @@
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <stop_token>
 #include <thread>
 
@@ -18,8 +16,8 @@
 #include "HostPort.hpp"
 #include "Interrupt.hpp"
 #include "Rescue.hpp"
+#include "TokenFile.hpp"
 #include "Viewing.hpp"
-#include "ortung/base/InputFile.hpp"
 #include "ortung/server/MessageBoard.hpp"
 
 namespace ortung::app {
@@ -76,28 +74,6 @@ std::unique_ptr<MessageBoard> openBoard(ServedWorld& world, BoardConfig& config,
 }
 
 }  // namespace
-
-std::vector<BoardToken> readTokens(const std::filesystem::path& file) {
-  std::vector<BoardToken> tokens;
-  if (file.empty()) return tokens;
-  std::string why;
-  std::ifstream in = openInput(file, why);
-  if (!in) throw std::runtime_error(file.string() + ": " + why);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    std::istringstream words(line);
-    BoardToken token;
-    if (!(words >> token.name) || token.name.starts_with('#')) continue;
-    std::string more;
-    if (!(words >> token.token) || (words >> more) || token.token.size() < 8)
-      throw std::runtime_error(fmt::format(
-          "{}:{}: expected a client's name (or *) and its token of at least 8 characters",
-          file.string(), number));
-    tokens.push_back(token);
-  }
-  if (tokens.empty()) throw std::runtime_error(file.string() + ": has no tokens");
-  return tokens;
-}
 
 void checkPace(const ServingArguments& arguments) {
   if (arguments.freeRun && arguments.speed != 1.0)

@@ -12,9 +12,6 @@
 
 namespace ortung::app {
 
-/// Lines 'NAME TOKEN' of a file; nothing if it is "". @throws std::runtime_error
-std::vector<BoardToken> readTokens(const std::filesystem::path& file);
-
 /// @throws UsageError for paces that exclude each other
 void checkPace(const ServingArguments& arguments);
 

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "Console.hpp"
-#ifdef ORTUNG_HAS_ROS2
+#ifdef ORTUNG_HAS_FOXGLOVE
 #include "FoxgloveSpeech.hpp"
 #endif
 
@@ -38,7 +38,7 @@ WebConfig webConfigOf(const ServingArguments& arguments) {
   config.page = pageFolder();
   config.hosts = arguments.hosts;
   config.log = warn;
-#ifdef ORTUNG_HAS_ROS2
+#ifdef ORTUNG_HAS_FOXGLOVE
   config.protocols.push_back(foxgloveProtocol());
 #endif
   return config;

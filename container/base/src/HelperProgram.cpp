@@ -13,8 +13,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "LibraryFolder.hpp"
 #include "ortung/base/InputFile.hpp"
+#include "ortung/base/LibraryFolder.hpp"
 
 namespace ortung {
 namespace {

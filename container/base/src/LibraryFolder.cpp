@@ -1,4 +1,4 @@
-#include "LibraryFolder.hpp"
+#include "ortung/base/LibraryFolder.hpp"
 
 #include <dlfcn.h>
 
@@ -26,7 +26,8 @@ std::filesystem::path libraryFolder() { return folderOfThisFile(); }
 
 std::filesystem::path libraryFolder() {
   const std::filesystem::path here = folderOfThisFile();
-  if (here.filename() == "plugins" && here.parent_path().filename() == "ortung")
+  const bool isModule = here.filename() == "plugins" || here.filename() == "commands";
+  if (isModule && here.parent_path().filename() == "ortung")
     return here.parent_path().parent_path();
   std::error_code none;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <span>
 
-#include "LibraryFolder.hpp"
 #include "ortung/base/InputFile.hpp"
 #include "ortung/core/PluginGuard.hpp"
+#include "ortung/base/LibraryFolder.hpp"
 
 namespace ortung {
 namespace {

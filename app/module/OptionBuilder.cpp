@@ -1,0 +1,131 @@
+#include "OptionBuilder.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "CommandGroup.hpp"
+
+namespace ortung::app {
+namespace {
+
+/// CLI11's own Range lets NaN pass.
+CLI::Validator withinBounds(double low, double high) {
+  const std::string what = fmt::format("a number from {:g} to {:g}", low, high);
+  return CLI::Validator(
+      [low, high, what](std::string& text) -> std::string {
+        double number = 0.0;
+        const char* end = text.data() + text.size();
+        const auto [behind, error] = std::from_chars(text.data(), end, number);
+        const bool fits = error == std::errc() && behind == end && number >= low && number <= high;
+        return fits ? "" : fmt::format("is '{}', expected {}", text, what);
+      },
+      "");
+}
+
+}  // namespace
+
+Option& Option::required() {
+  option_.required();
+  return *this;
+}
+Option& Option::showsDefault() {
+  option_.capture_default_str();
+  return *this;
+}
+Option& Option::within(double low, double high) {
+  option_.check(withinBounds(low, high));
+  return *this;
+}
+Option& Option::oneOf(const std::vector<std::string>& words) {
+  option_.check(CLI::IsMember(words));
+  return *this;
+}
+Option& Option::repeats() {
+  option_.expected(1)->take_all();
+  return *this;
+}
+Option& Option::splitsAt(char delimiter) {
+  option_.delimiter(delimiter);
+  return *this;
+}
+Option& Option::expects(int least, int most) {
+  option_.expected(least, most);
+  return *this;
+}
+Option& Option::hides() {
+  option_.group("");
+  return *this;
+}
+
+Builder::Builder(CLI::App& root, ParsedCommand& parsed, std::string commandLine)
+    : root_(root), parsed_(parsed), commandLine_(std::move(commandLine)) {}
+
+void Builder::begin(const std::string& name, const std::string& example, std::function<int()> run) {
+  current_ = &addCommand(root_, name);
+  current_->footer("Example:\n  " + example);
+  option("--plugin-seconds", parsed_.pluginSeconds,
+         "How long a plugin may take for one call before the program saves what it has and ends "
+         "[s]; 0: for ever")
+      .within(0.0, 1e6)
+      .showsDefault();
+  current_->callback([parsed = &parsed_, name, run = std::move(run)] {
+    parsed->name = name;
+    parsed->run = run;
+  });
+}
+
+template <class Value>
+Option Builder::option(const std::string& names, Value& value, const std::string& description) {
+  return Option(*current_->add_option(names, value, description));
+}
+template Option Builder::option(const std::string&, std::string&, const std::string&);
+template Option Builder::option(const std::string&, std::filesystem::path&, const std::string&);
+template Option Builder::option(const std::string&, double&, const std::string&);
+template Option Builder::option(const std::string&, unsigned&, const std::string&);
+template Option Builder::option(const std::string&, std::uint64_t&, const std::string&);
+template Option Builder::option(const std::string&, std::optional<std::string>&,
+                                const std::string&);
+template Option Builder::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Builder::option(const std::string&, std::optional<unsigned>&, const std::string&);
+template Option Builder::option(const std::string&, std::optional<std::uint64_t>&,
+                                const std::string&);
+template Option Builder::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Builder::option(const std::string&, std::vector<std::filesystem::path>&,
+                                const std::string&);
+
+void Builder::flag(const std::string& name, bool& value, const std::string& description) {
+  current_->add_flag(name, value, description);
+}
+
+void Builder::shortcut(const std::string& name, const std::string& description,
+                       std::function<void(const std::string&)> take) {
+  current_->add_option_function<std::string>(name, take, description);
+}
+
+void Builder::footer(std::function<std::string()> text) { current_->footer(std::move(text)); }
+
+std::size_t Builder::options() const { return current_->get_options().size(); }
+
+std::function<std::vector<std::string>()> Builder::given(std::size_t from) const {
+  const std::vector<CLI::Option*> all = current_->get_options();
+  const std::vector<CLI::Option*> ours(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
+  return [ours] {
+    std::vector<std::string> words;
+    for (const CLI::Option* option : ours) {
+      if (option->count() == 0) continue;
+      words.push_back("--" + option->get_lnames().front());
+      if (option->get_items_expected_max() == 0) continue;  // a flag
+      words.insert(words.end(), option->results().begin(), option->results().end());
+    }
+    return words;
+  };
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,70 @@
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "CommandLine.hpp"
+#include "CommandModule.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Rescue.hpp"
+#include "ortung/base/InstructionSet.hpp"
+#include "ortung/core/PluginGuard.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr int kBadInput = 1;
+constexpr int kWrongUsage = 2;
+constexpr int kSignalled = 128;
+
+/// What goes wrong with stdout first shows wherever something is printed.
+std::string outputError() {
+  if (std::ferror(stdout) == 0) return "";
+  try {
+    flushOutput();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+int run(const ParsedCommand& command) {
+  if (!command.run) {
+    flushOutput();
+    return command.exitCode;
+  }
+  setCommandName("ortung " + command.name);
+  catchInterrupts();
+  const PluginWatch watch(command.pluginSeconds, [](const std::string& late) {
+    Rescue::saveAllAndEnd(late + "; the program ends, see --plugin-seconds");
+  });
+  const int exitCode = command.run();
+  flushOutput();
+  return exitCode;
+}
+
+}  // namespace
+
+int runCommand(const std::vector<CommandDeclaration>& commands, int argc, char** argv) {
+  setCommandName("ortung");
+  try {
+    checkInstructionSet();
+    return run(parseCommandLine(commands, argc, argv));
+  } catch (const UsageError& error) {
+    fail(error.what());
+    return kWrongUsage;
+  } catch (const std::bad_alloc&) {
+    fail("not enough memory");
+  } catch (const std::exception& error) {
+    // Work that was stopped by a signal may call that by many names.
+    const std::string output = outputError();
+    const std::string what = output.empty() ? error.what() : output;
+    fail(interruptSignal() != 0 ? Interrupted().what() : what);
+  } catch (...) {
+    fail("something was thrown that is no std::exception");
+  }
+  return interruptSignal() != 0 ? kSignalled + interruptSignal() : kBadInput;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,65 @@
+#include "Calibrate.hpp"
+
+#include "CommandModule.hpp"
+#include "OptionBuilder.hpp"
+
+namespace ortung::app {
+namespace {
+
+void addCamera(Builder& build) {
+  const auto a = build.command<CalibrateCameraArguments>(
+      "calibrate camera", "ortung calibrate camera board*.png --board 9x6 --model fisheye",
+      runCalibrateCamera);
+  build.option("pictures", a->pictures, "Pictures of the board by one camera: JPEG, PNG, ...")
+      .required();
+  build
+      .option("--board", a->board,
+              "Inner corners of the board, in a row and rows: where four squares meet")
+      .showsDefault();
+  build.option("--model", a->model, "What kind of camera it is")
+      .oneOf({"perspective", "fisheye", "unified", "ocam"})
+      .showsDefault();
+  build.option("--out", a->out, "File to write: the table [sensor.camera] of a robot file");
+  build.flag("--force", a->force, kForce);
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addLines(Builder& build) {
+  const auto a = build.command<CalibrateLinesArguments>(
+      "calibrate lines",
+      "ortung calibrate lines cam0/*.jpg --world maps/fields/msl.toml --draw drawn",
+      runCalibrateLines);
+  build.option("pictures", a->pictures, "Pictures of one camera on one robot: JPEG, PNG, ...")
+      .required();
+  build
+      .option("--world", a->worlds,
+              "World with the field's lines; of several the one that fits best is taken")
+      .required();
+  build.option("--height", a->height, "About how high the camera is above the floor [m]")
+      .within(0.05, 10.0)
+      .showsDefault();
+  build.option("--height-share", a->heightShare, "How far off that may be, as a share (sigma)")
+      .within(0.001, 1.0)
+      .showsDefault();
+  build.option("--out", a->out, "File to write: the table [sensor.camera] of a robot file");
+  build.option("--draw", a->draw,
+               "Folder for the pictures with the points that were found (red) and the field's "
+               "lines as the camera would see them (blue)");
+  build.flag("--force", a->force, kForce);
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addColours(Builder& build) {
+  const auto a = build.command<CalibrateColoursArguments>(
+      "calibrate colours", "ortung calibrate colours cam0/*.jpg --draw drawn", runCalibrateColours);
+  build.option("pictures", a->pictures, "Pictures of a field: JPEG, PNG, ...").required();
+  build.option("--out", a->out, "File to write: the table [sensor.colours] of a robot file");
+  build.option("--draw", a->draw,
+               "Folder for the pictures with floor (green), ball (orange) and line points (red)");
+  build.flag("--force", a->force, kForce);
+}
+
+}  // namespace
+}  // namespace ortung::app
+
+ORTUNG_COMMAND_MODULE(ortung::app::addCamera, ortung::app::addLines, ortung::app::addColours)

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "Catalogue.hpp"
+#include "CommandModule.hpp"
+
+namespace ortung::app {
+
+/// Opens a command's module, which stays open: in the folders of $ORTUNG_COMMAND_PATH, else in
+/// ortung/commands beside libortung_container.so.
+/// @throws std::runtime_error saying which package has it if it is not installed, or that it is of
+///         another version than this program
+CommandModule loadModule(const CatalogueEntry& command);
+
+/// Whether it is there; it is not opened.
+bool isInstalled(const CatalogueEntry& command);
+
+}  // namespace ortung::app

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <exception>
+#include <set>
+#include <string>
+
+#include "Catalogue.hpp"
+#include "CommandGroup.hpp"
+#include "Console.hpp"
+#include "ModuleLoader.hpp"
+#include "UsageText.hpp"
+
+// The program itself knows what its commands are called. What they do, and with which libraries, is
+// their modules' business, and only the one that was asked for is opened.
+
+namespace ortung::app {
+namespace {
+
+constexpr int kBadInput = 1;
+constexpr int kWrongUsage = 2;
+
+/// The command that the line begins with; nullptr if none.
+const CatalogueEntry* commandOf(int argc, char** argv) {
+  const std::string one = argc > 1 ? argv[1] : "";
+  const std::string two = argc > 2 ? one + " " + argv[2] : one;
+  for (const CatalogueEntry& entry : catalogue())
+    if (entry.name == two || entry.name == one) return &entry;
+  return nullptr;
+}
+
+/// What there is to say without any module: help, the version, or what is wrong.
+int answer(int argc, char** argv) {
+  CLI::App app("Ortung: learn what sensors see, and localize with it.", "ortung");
+  app.set_version_flag("--version", "ortung " ORTUNG_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Example:\n  ortung learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml "
+      "--out f2000.ortung");
+  for (const CatalogueEntry& entry : catalogue()) addCommand(app, entry.name);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const std::string first = argc > 1 ? argv[1] : "";
+    const bool isUnknown = app.get_subcommands().empty() && !first.empty() && first[0] != '-';
+    if (!isUnknown) return printUsage(app, error);
+    setCommandName("ortung");
+    fail("there is no subcommand '" + first + "'; see `ortung --help`");
+    return kWrongUsage;
+  }
+  return kWrongUsage;  // not reached: a command would have been found before
+}
+
+/// All that is installed, a line of JSON each.
+int describeAll() {
+  std::set<std::string> done;
+  for (const CatalogueEntry& entry : catalogue())
+    if (isInstalled(entry) && done.insert(entry.module).second) loadModule(entry).describe();
+  return 0;
+}
+
+int runProgram(int argc, char** argv) {
+  setCommandName("ortung");
+  try {
+    if (argc == 2 && std::string(argv[1]) == "--describe") return describeAll();
+    if (const CatalogueEntry* command = commandOf(argc, argv))
+      return loadModule(*command).run(argc, argv);
+    const int exitCode = answer(argc, argv);
+    flushOutput();
+    return exitCode;
+  } catch (const std::exception& error) {
+    fail(error.what());
+    return kBadInput;
+  }
+}
+
+}  // namespace
+}  // namespace ortung::app
+
+int main(int argc, char** argv) {
+  ortung::app::reserveStandardStreams();
+  return ortung::app::runProgram(argc, argv);
+}
