@@ -2,7 +2,7 @@
 # deps.sh ROOT  scripts/install-deps.sh installs whatever CMake files and scripts look for.
 cd "$1" || exit 2
 status=0
-packages=$(sed -n '/^packages=(/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
+packages=$(sed -n '/^[a-z]*=($/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
 
 # The Debian package of what a CMake file or a script calls NAME; - for what is there already.
 package_of() {
