@@ -24,7 +24,7 @@ function(ortung_command name)
     set_property(GLOBAL APPEND_STRING PROPERTY ORTUNG_CATALOGUE_COMMANDS
                  "{\"${command}\", \"${summary}\", \"${name}\", \"${ARG_PACKAGE}\"},\n")
   endwhile()
-  set_property(GLOBAL PROPERTY ORTUNG_PLUGINS_OF_${name} ${ARG_PLUGINS})
+  set_property(GLOBAL PROPERTY ORTUNG_PLUGINS_OF_command_${name} ${ARG_PLUGINS})
   foreach(library IN LISTS ARG_LINK)
     if(NOT TARGET ${library})
       message(STATUS "The command ${name} is left out: ${library} is not built")

@@ -166,11 +166,12 @@ function(ortung_abi_tag name)
                  FILES ${dir}/ortung/${name}/Abi.hpp)
 endfunction()
 
-# ortung_plugin(lrf_data SOURCES x.cpp LINK ortung::container)
+# ortung_plugin(lrf_data SOURCES x.cpp LINK ortung::container [PLUGINS other_plugin])
 # Makes lib/ortung/plugins/ortung_lrf_data.so, a module nobody links. The file's name begins with
-# the plugin's own, by which the factory finds it first.
+# the plugin's own, by which the factory finds it first. PLUGINS are those that it asks for by name itself.
 function(ortung_plugin name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PLUGINS" ${ARGN})
+  set_property(GLOBAL PROPERTY ORTUNG_PLUGINS_OF_${name} ${ARG_PLUGINS})
   add_library(ortung_${name} MODULE ${ARG_SOURCES})
   target_link_libraries(ortung_${name} PRIVATE ${ARG_LINK})
   ortung_options(ortung_${name})
