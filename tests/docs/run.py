@@ -17,13 +17,14 @@ import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 
 import blocks
 import isolation
 from blocks import PageError
 
-SECONDS = 60        # for one command
-LONG_SECONDS = 3600
+SECONDS = 300  # for one command: so long that only one that hangs takes it
+LONG_SECONDS = 7200
 SKIPPED = 77
 PYTHON = "/usr/bin/python3"  # the one that the Python package is built for
 
@@ -83,8 +84,10 @@ class Session:
         return pathlib.Path(self.options.shelf or "/nowhere") / item
 
     def run(self, page, command, seconds):
-        """Runs a command and returns what it printed. One that serves goes on running."""
+        """Runs a command and returns what it printed. One that serves goes on running for those behind it, until another
+        one serves or the block ends."""
         if serves(command.text):
+            self.end_serving(page)
             job = Job(command, self)
             self.serving.append(job)
             job.await_port(page)
@@ -108,7 +111,7 @@ class Session:
 
     def end_serving(self, page):
         jobs, self.serving = self.serving, []
-        for job in reversed(jobs):  # clients, if any, before their servers
+        for job in jobs:
             job.interrupt(page)
 
 
@@ -119,28 +122,41 @@ class Job:
         self.command = command
         self.text = command.text.rstrip().removesuffix("&").rstrip()
         self.before = isolation.listening_ports()
-        self.out = tempfile.TemporaryFile("w+", errors="replace")
-        self.process = subprocess.Popen(["bash", "-c", self.text], cwd=session.folder, env=session.environment,
-                                        stdin=subprocess.DEVNULL, stdout=self.out, stderr=subprocess.STDOUT, text=True,
-                                        start_new_session=True)
+        self.out = session.top / f"told-{command.line}"  # a pipe that nobody reads would stop it
+        with self.out.open("w") as out:
+            self.process = subprocess.Popen(["bash", "-c", self.text], cwd=session.folder, env=session.environment,
+                                            stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT,
+                                            start_new_session=True)
 
     def told(self):
-        self.out.seek(0)
-        return self.out.read()
+        return self.out.read_text(errors="replace")
 
     def await_port(self, page):
         end = time.monotonic() + SECONDS
-        while not isolation.listening_ports() - self.before:
+        shows = re.match(r"ortung (demo|view)\b|ortung .*--view\b", self.text, re.DOTALL)
+        while not isolation.listening_ports() - self.before or (shows and "http://" not in self.told()):
             if self.process.poll() is not None:
                 raise PageError(page, self.command.line, f"'{self.text}' has ended with exit code {self.process.returncode}, "
                                 f"expected a server; it said:\n{last(self.told())}")
             if time.monotonic() > end:
-                raise PageError(page, self.command.line, f"'{self.text}' does not listen after {SECONDS} s; it said:\n"
+                raise PageError(page, self.command.line, f"'{self.text}' does not listen after {SECONDS} s, or does not say where its page is; it said:\n"
                                 + last(self.told()))
             time.sleep(0.05)
 
+    def look(self, page):
+        """Gets the page that the command says it serves."""
+        for url in re.findall(r"http://[\w.:\[\]]+/", self.told())[:1]:
+            try:
+                with urllib.request.build_opener(urllib.request.ProxyHandler({})).open(url, timeout=SECONDS) as answer:
+                    html = answer.read()
+            except OSError as error:
+                html = str(error).encode()
+            if b"<html" not in html:
+                raise PageError(page, self.command.line, f"'{self.text}' says that {url} is a page, but there is: {html[:200]}")
+
     def interrupt(self, page):
         """Control-C, or nothing if it has come to its end by itself. Either way it ends with 0."""
+        self.look(page)
         if self.process.poll() is None:
             os.killpg(self.process.pid, signal.SIGINT)
         try:
