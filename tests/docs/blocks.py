@@ -17,7 +17,8 @@ import pathlib
 import re
 import shlex
 
-PAGES = ("README.md", "CONTRIBUTING.md", "examples/README.md", "realsensors/README.md", "docs/*.md")
+PAGES = ("README.md", "CONTRIBUTING.md", "examples/README.md", "realsensors/README.md", "docs/*.md",
+         "plugins/*/*/README.md")
 COMMANDS = {"sh", "console", "python"}      # languages of which each block is run
 FILES = {"cpp", "toml"}                     # those that can be compiled or checked where they are whole
 SHOWN = {"text"}                            # what nobody runs: output, formulas, drawings
@@ -106,7 +107,7 @@ def blocks(root, page):
             if line.startswith("    ") and (not before or before.endswith(("-->", "```"))) and not _in_list(lines, at):
                 raise PageError(page, number, f"'{line.strip()}' is a block by indentation, expected a fence that says "
                                 "its language: ```sh, ```text, ...")
-            if "<!-- run" in line or re.match(r"\s*<!--\s*run\b", line):
+            if re.match(r"\s*<!--\s*run\b", line):
                 raise PageError(page, number, f"'{line.strip()}', expected a mark <!-- run: WORD ... --> on a line of its own")
         at += 1
     if marks:

@@ -98,7 +98,12 @@ def main():
     program = Program(sys.argv[1], sys.argv[2])
     wrong, count = [], 0
     for page in blocks.pages(sys.argv[2]):
-        for line, words, is_whole in shown(sys.argv[2], page):
+        try:
+            calls = list(shown(sys.argv[2], page))
+        except PageError as error:  # no more can be read of this page
+            wrong.append(str(error))
+            continue
+        for line, words, is_whole in calls:
             count += 1
             try:
                 program.check(page, line, words, is_whole)
