@@ -4,6 +4,7 @@ A mark is an HTML comment directly before a block, which a reader of the page do
 
   <!-- run: given run.rec robot.toml DIR=installed -->  the block finds these files of the shelf in its folder
   <!-- run: as cart.cpp -->            the block is that file, in the page's folder
+  <!-- run: within FILE.cpp -->        the block is compiled in the place of the line PLACE of tests/docs/within/FILE.cpp
   <!-- run: prints -->                 the block is what the commands of the block before print
   <!-- run: long: WHY -->              run only if ORTUNG_LONG_DOCS=1
   <!-- run: needs THING: WHY -->       never run: no test has the thing
@@ -23,8 +24,9 @@ COMMANDS = {"sh", "console", "python"}      # languages of which each block is r
 FILES = {"cpp", "toml"}                     # those that can be compiled or checked where they are whole
 SHOWN = {"text"}                            # what nobody runs: output, formulas, drawings
 OTHERS = {"cmake", "session", "replies", "recording", "json"}  # those that something else has to run
-WORDS = {"given", "as", "prints", "long", "needs", "fragment", "by"}
+WORDS = {"given", "as", "within", "prints", "long", "needs", "fragment", "by"}
 EXCUSES = {"long", "needs", "fragment", "by"}
+PLACE = "^ *// the block\n"                  # the line that `within` replaces
 THINGS = {"devices", "network", "packages", "build"}
 
 
@@ -150,7 +152,7 @@ def _mark(page, number, text):
         raise PageError(page, number, f"the mark '{text}' excuses a block from being run, expected ': ' and the reason")
     if mark.word == "needs" and (len(mark.words) != 1 or mark.words[0] not in THINGS):
         raise PageError(page, number, f"the mark '{text}', expected needs and one of {', '.join(sorted(THINGS))}")
-    wanted = {"given": mark.words, "as": len(mark.words) == 1, "by": len(mark.words) == 1}
+    wanted = {"given": mark.words, "as": len(mark.words) == 1, "within": len(mark.words) == 1, "by": len(mark.words) == 1}
     if not wanted.get(mark.word, mark.word == "needs" or not mark.words):
         raise PageError(page, number, f"the mark '{text}' has {len(mark.words)} words behind '{mark.word}', "
                         "see tests/docs/blocks.py")

@@ -2,7 +2,7 @@
 """Runs the commands of a page, in their order, in a folder of their own.
 
 run.py --list --source ROOT   the pages with something to run
-run.py PAGE --source ROOT --programs FOLDER[:FOLDER...] [--shelf FOLDER] [--python FOLDER] [--compile "COMMAND that makes ./block of block.cpp"]
+run.py PAGE --source ROOT --programs FOLDER[:FOLDER...] [--shelf FOLDER] [--python FOLDER] [--compiler "COMMAND"] [--link OPTIONS]
 
 Marks in the page (blocks.py) say what a block needs. Ends with 1 if a command fails, or prints something else than the
 page says; with 77 if all is well, but commands were left out since recordings of real robots are not here.
@@ -228,8 +228,16 @@ def run_block(session, block):
         place.write_text(block.text())
         return session.run(block.page, blocks.Command(f"{PYTHON} block.py", block.line), seconds)
     if block.language == "cpp":
-        (session.folder / "block.cpp").write_text(block.text())
-        session.run(block.page, blocks.Command(session.options.compile, block.line), seconds)
+        text = block.text()
+        if within := block.mark("within"):
+            text = (session.root / "tests/docs/within" / within.words[0]).read_text()
+            shown = f'#line {block.line + 1} "{block.page}"\n{block.text()}'
+            text = re.sub(blocks.PLACE, lambda place: shown, text, flags=re.MULTILINE)
+        (session.folder / "block.cpp").write_text(text)
+        compiler = f"{session.options.compiler} -I{session.root}/tests/support"
+        if within:
+            return session.run(block.page, blocks.Command(f"{compiler} -fsyntax-only block.cpp", block.line), seconds)
+        session.run(block.page, blocks.Command(f"{compiler} block.cpp -o block {session.options.link}", block.line), seconds)
         return session.run(block.page, blocks.Command("./block", block.line), seconds)
     if block.language == "toml":
         (session.folder / "block.toml").write_text(block.text())
@@ -291,7 +299,7 @@ def main():
     parser.add_argument("page", nargs="?")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--source", required=True)
-    for name in ("--programs", "--shelf", "--python", "--compile"):
+    for name in ("--programs", "--shelf", "--python", "--compiler", "--link"):
         parser.add_argument(name, default="")
     options = parser.parse_args()
     if options.list:

@@ -24,6 +24,11 @@ def check_mark(root, block, registered):
     for mark in block.marks:
         if wrong := [n for n in mark.commands if not 0 < n <= count]:
             raise PageError(block.page, mark.line, f"'{mark.word}' excuses command {wrong[0]}, but the block has {count}")
+    if within := block.mark("within"):
+        path = root / "tests/docs/within" / within.words[0]
+        if block.language != "cpp" or not path.is_file() or not re.search(blocks.PLACE, path.read_text(), re.MULTILINE):
+            raise PageError(block.page, within.line, f"within {within.words[0]}, expected a block of cpp and a file of "
+                            f"tests/docs/within with a line '// the block'")
     for by in (m for m in block.marks if m.word == "by"):
         path = root / by.words[0]
         if not path.is_file():
@@ -45,11 +50,11 @@ def check_block(block, before):
             if re.match(r"\s*(\$ |ortung [a-z]|cmake -|sudo )", line):
                 raise PageError(block.page, number, f"'{line.strip()}' in a block of text, expected ```sh or ```console")
         return
-    if block.excuse() or block.mark("as"):
+    if block.excuse() or block.mark("as") or block.mark("within"):
         return
     if language in blocks.OTHERS or (language == "cpp" and "int main(" not in block.text()):
-        raise PageError(block.page, block.line, f"a block of {language} that nothing runs, expected a mark: by PATH, as FILE "
-                        "or fragment, with the reason")
+        raise PageError(block.page, block.line, f"a block of {language} that nothing runs, expected a mark: by PATH, as FILE, "
+                        "within FILE or fragment, with the reason")
     for number, command in enumerate(block.commands(), 1):
         if STATEFUL.match(command.text) and not block.excuse(number):
             raise PageError(block.page, command.line, f"'{command.text}' changes the shell, but each command is run in one "

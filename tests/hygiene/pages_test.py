@@ -54,7 +54,7 @@ class Project(unittest.TestCase):
         """What is said of a page that is run, or '' if all is well."""
         self.write(*lines)
         told = io.StringIO()
-        session = run.Session(types.SimpleNamespace(source=self.root, programs=str(self.root / "bin"), python="", compile="",
+        session = run.Session(types.SimpleNamespace(source=self.root, programs=str(self.root / "bin"), python="", compiler="c++", link="",
                                                     shelf=self.root / "shelf"))
         try:
             with contextlib.redirect_stdout(told):
@@ -86,6 +86,7 @@ class Marks(Project):
             "docs/page.md:1: by tests/y.sh, expected a file": ["<!-- run: by tests/y.sh: x -->", "```sh", "a", "```"],
             "docs/page.md:1: by tests/x/nobody.sh, expected something that CI runs":
                 ["<!-- run: by tests/x/nobody.sh: x -->", "```sh", "a", "```"],
+            "docs/page.md:1: within a.cpp, expected a block of cpp": ["<!-- run: within a.cpp -->", "```cpp", "f();", "```"],
             "docs/page.md:1: 'prints', but the block before runs nothing": ["<!-- run: prints -->", "```text", "a", "```"],
             "docs/page.md:1: a block of '', expected one of cmake": ["```", "a", "```"],
             "docs/page.md:3: 'ortung learn' is a block by indentation": ["text", "", "    ortung learn"],
@@ -163,6 +164,15 @@ class Runs(Project):
         self.assertEqual(self.run_page("<!-- run: given data/log -->", "```sh", "false", "```"), "")
         self.assertFalse(self.complete)
         self.assertRegex(self.told, r"docs/page.md:2: Skipped\n\S*shared/data/log is not here")
+
+    def test_what_does_not_compile_is_named_by_the_page(self):
+        (self.root / "tests/docs/within").mkdir(parents=True)
+        (self.root / "tests/docs/within/a.cpp").write_text("int f();\nint main() {\n  // the block\n}\n")
+        self.assertEqual(self.run_page("<!-- run: within a.cpp -->", "```cpp", "f();", "```"), "")
+        self.assertRegex(self.run_page("<!-- run: within a.cpp -->", "```cpp", "f();", "g();", "```"),
+                         "(?s)docs/page.md:2: .*docs/page.md:4:.*g")
+        self.assertEqual(self.run_page("```cpp", "#include <cstdio>", "int main() { std::puts(\"1\"); }", "```",
+                                       "<!-- run: prints -->", "```text", "1", "```"), "")
 
     def test_what_is_excused_is_not_run(self):
         self.assertEqual(self.run_page("<!-- run: long 2: hours -->", "```sh", "true", "false", "```",
