@@ -27,8 +27,8 @@ packages=(
   libopencv-dev libopencv-contrib-dev
   # pictures of scenes, and the test that looks at them
   python3-pil
-  # the Python package
-  python3-dev pybind11-dev
+  # the Python package, its wheel, and what looks at its stubs
+  python3-dev pybind11-dev python3-build python3-wheel python3-pip python3-venv mypy
   # the viewer's page in a real browser; Node.js, which builds it, is not Debian 12's (20.19 or later)
   chromium
   # training of motion networks
