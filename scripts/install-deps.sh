@@ -33,8 +33,8 @@ test=(
   libopencv-dev libopencv-contrib-dev
   # pictures of scenes, and the test that looks at them
   python3-pil
-  # the Python package
-  python3-dev pybind11-dev
+  # the Python package, its wheel, and what looks at its stubs
+  python3-dev pybind11-dev python3-build python3-wheel python3-pip python3-venv mypy
   # training of motion networks
   libdlib-dev libblas-dev
   # tests
@@ -43,6 +43,8 @@ test=(
   chromium
 )
 all=(
+  # Debian packages, and what looks at them
+  dpkg-dev file debootstrap lintian
   # benchmarks, fuzz targets, format
   libbenchmark-dev clang-19 libclang-rt-19-dev clang-format-19
 )
