@@ -33,6 +33,8 @@ packages=(
   chromium
   # training of motion networks
   libdlib-dev libblas-dev
+  # Debian packages, and what looks at them
+  dpkg-dev file debootstrap lintian
   # tests and benchmarks
   libgtest-dev libbenchmark-dev librapidcheck-dev clang-19 libclang-rt-19-dev clang-format-19 python3 python3-numpy
 )
