@@ -17,7 +17,7 @@ endfunction()
 
 demo_words("\"\\$ortung\" ([a-z-]+)" commands)
 demo_words("--source ['\"]([a-z]+):" sources)
-demo_words("import ([a-z]+) " imports)
+demo_words("\"\\$ortung\" import ([a-z]+) " imports)
 demo_words("--robot (maps/[a-z0-9_/.]+)" robots)
 demo_words("--world (maps/[a-z0-9_/.]+)" worlds)
 set(needs)

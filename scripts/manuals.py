@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """manuals.py DESCRIPTION VERSION OUT  makes man pages and completion for shells of what `ortung --describe` printed into the
-file DESCRIPTION: OUT/man/*.1, OUT/completions/ortung.bash, _ortung (zsh) and ortung.fish."""
+file DESCRIPTION: OUT/man/*.1.gz, OUT/completions/ortung.bash, _ortung (zsh) and ortung.fish."""
+import gzip
 import json
 import pathlib
 import re
@@ -172,6 +173,11 @@ def fish(commands):
     return "\n".join(lines) + "\n"
 
 
+def write_page(file, text):
+    """The same bytes for the same text: without a name or a time within."""
+    file.write_bytes(gzip.compress(text.encode(), 9, mtime=0))
+
+
 def main():
     description, version, out = sys.argv[1:4]
     commands = [json.loads(line) for line in pathlib.Path(description).read_text().splitlines() if line]
@@ -184,8 +190,8 @@ def main():
         for old in folder.iterdir():
             old.unlink()
     for command in commands:
-        (man / f"{command['name'].replace(' ', '-')}.1").write_text(page(command, version))
-    (man / "ortung.1").write_text(main_page(commands, version))
+        write_page(man / f"{command['name'].replace(' ', '-')}.1.gz", page(command, version))
+    write_page(man / "ortung.1.gz", main_page(commands, version))
     (completions / "ortung.bash").write_text(bash(commands))
     (completions / "_ortung").write_text(zsh(commands))
     (completions / "ortung.fish").write_text(fish(commands))

@@ -15,7 +15,8 @@ package_of() {
     iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; lz4frame.h) echo liblz4-dev ;; ccache) echo ccache ;;
     clang-19 | clang-format-19 | python3 | cmake | pkg-config) echo "$1" ;; clang++-19) echo clang-19 ;;
     Ninja | ninja) echo ninja-build ;; readelf) echo binutils ;; javascript/dygraphs) echo libjs-dygraphs ;;
-    PIL) echo python3-pil ;; numpy) echo python3-numpy ;; Threads | ortung) echo - ;; *) echo "?" ;;
+    PIL) echo python3-pil ;; numpy) echo python3-numpy ;; dpkg-architecture | dpkg-shlibdeps) echo dpkg-dev ;; debootstrap | lintian) echo "$1" ;;
+    Threads | ortung | dpkg-deb) echo - ;; *) echo "?" ;;
   esac
 }
 
@@ -26,7 +27,7 @@ names=$({
            s/^ *find_path\([A-Z_]+ ([^ ]+).*/\1/p; s/.*COMPONENTS (iostreams).*/\1/p; s|.*/usr/share/(javascript/dygraphs).*|\1|p' \
     $cmake_files
   sed -nE 's/.*"CXX?": "([^"]+)".*/\1/p; s/.*"generator": "([^"]+)".*/\1/p' CMakePresets.json
-  grep -ohE 'clang-format-[0-9]+|\b(ninja|ccache|python3|cmake|pkg-config|readelf|zstdcat)\b' scripts/*.sh tests/hygiene/*.sh
+  grep -ohE 'clang-format-[0-9]+|\b(ninja|ccache|python3|cmake|pkg-config|readelf|zstdcat|debootstrap|lintian|dpkg-architecture)\b' scripts/*.sh tests/hygiene/*.sh
   grep -ohE '^ *(import|from) (PIL|numpy)' scripts/*.py examples/*.py tests/*/*.py 2> /dev/null | sed 's/.* //'
 } | sort -u)
 [ "$(echo "$names" | wc -l)" -gt 20 ] || { echo "too little was found to look for: $names"; exit 1; }
