@@ -68,7 +68,7 @@ TEST(CommandDescription, TellsAllCommandsWithTheirOptions) {
     EXPECT_TRUE(options.contains("--plugin-seconds")) << line;
     if (command["name"] != "ortung show") continue;
     for (const auto& option : command["options"]) {
-      if (option["names"].front() != "--scale") continue;
+      if (option["names"].empty() || option["names"].front() != "--scale") continue;
       EXPECT_EQ(option["default"], "auto");
       EXPECT_EQ(option["choices"], (std::vector<std::string>{"auto", "linear", "log"}));
     }
