@@ -43,8 +43,8 @@ test=(
   chromium
 )
 all=(
-  # Debian packages, and what looks at them
-  dpkg-dev file debootstrap lintian
+  # Debian packages and libraries, and what looks at them
+  dpkg-dev file debootstrap lintian abigail-tools
   # benchmarks, fuzz targets, format
   libbenchmark-dev clang-19 libclang-rt-19-dev clang-format-19
 )
