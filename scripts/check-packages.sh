@@ -13,7 +13,7 @@ status=0
 say() { echo "check-packages: $*"; }
 
 cmake --preset package > /dev/null
-cmake --build --preset package
+cmake --build --preset package --target all ortung_manuals
 rm -f "$packages"/*.deb
 (cd "$build" && cpack -G DEB > "$packages/cpack.log" 2>&1) || { cat "$packages/cpack.log"; exit 1; }
 say "$(find "$packages" -maxdepth 1 -name '*.deb' | wc -l) packages after $SECONDS s"

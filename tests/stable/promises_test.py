@@ -16,7 +16,7 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM, PROJECT = sys.argv[1], pathlib.Path(sys.argv[2])
+PROGRAM, PROJECT = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
 IS_WRITTEN = "--write" in sys.argv
 del sys.argv[1:]
 PROMISES = PROJECT / "tests" / "data" / "promises"
