@@ -5,7 +5,7 @@ run.py --list --source ROOT   the pages with something to run
 run.py PAGE --source ROOT --programs FOLDER[:FOLDER...] [--shelf FOLDER] [--python FOLDER] [--compiler "COMMAND"] [--link OPTIONS]
 
 Marks in the page (blocks.py) say what a block needs. Ends with 1 if a command fails, or prints something else than the
-page says; with 77 if all is well, but commands were left out since recordings of real robots are not here.
+page says; with 77 if all is well, but recordings of real robots are not here, or all of the page's commands are long.
 """
 import argparse
 import os
@@ -55,6 +55,7 @@ class Session:
         for name in ("DISPLAY", "WAYLAND_DISPLAY"):  # no browser is opened
             self.environment.pop(name, None)
         self.serving = []
+        self.count = 0  # of blocks that were run
 
     def close(self):
         for job in self.serving:
@@ -273,11 +274,14 @@ def run_page(session, page):
             continue
         try:
             session.give(block)
+            session.count += 1
             told = run_block(session, block)
         except Missing as missing:
             print(f"{page}:{block.line}: Skipped\n{missing} is not here", flush=True)
             complete = False
-    return complete
+    if complete and session.count == 0:
+        print(f"{page}: Skipped\nits commands are long: ORTUNG_LONG_DOCS=1 runs them")
+    return complete and session.count > 0
 
 
 def has_something(root, page):

@@ -178,6 +178,9 @@ class Runs(Project):
         self.assertEqual(self.run_page("<!-- run: long 2: hours -->", "```sh", "true", "false", "```",
                                        "<!-- run: needs devices: one -->", "```sh", "false", "```"), "")
         self.assertTrue(self.complete)
+        self.assertEqual(self.run_page("<!-- run: long: hours -->", "```sh", "false", "```"), "")
+        self.assertFalse(self.complete)
+        self.assertIn("docs/page.md: Skipped\nits commands are long", self.told)
 
     def test_servers_are_awaited_and_ended(self):
         self.assertIn("docs/page.md:2: 'ortung sim --listen 0' ends with exit code -2 after SIGINT, expected 0",
