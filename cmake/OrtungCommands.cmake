@@ -10,10 +10,11 @@ endfunction()
 
 # ortung_command(learn PACKAGE ortung-sim
 #   COMMANDS learn "Learn what a robot's sensors read all over a world" [further names and summaries]
-#   SOURCES options/Learn.cpp commands/Learn.cpp LINK app_console ortung::sim)
+#   SOURCES options/Learn.cpp commands/Learn.cpp LINK app_options ortung::sim [PLUGINS learner_player])
 # Makes lib/ortung/commands/ortung_command_learn.so, if all that it links is built.
+# PLUGINS are those that it asks for by name, whatever robot it is for.
 function(ortung_command name)
-  cmake_parse_arguments(ARG "" "PACKAGE" "COMMANDS;SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "PACKAGE" "COMMANDS;SOURCES;LINK;PLUGINS" ${ARGN})
   set(rest ${ARG_COMMANDS})
   while(rest)
     list(POP_FRONT rest command summary)
@@ -23,6 +24,7 @@ function(ortung_command name)
     set_property(GLOBAL APPEND_STRING PROPERTY ORTUNG_CATALOGUE_COMMANDS
                  "{\"${command}\", \"${summary}\", \"${name}\", \"${ARG_PACKAGE}\"},\n")
   endwhile()
+  set_property(GLOBAL PROPERTY ORTUNG_PLUGINS_OF_command_${name} ${ARG_PLUGINS})
   foreach(library IN LISTS ARG_LINK)
     if(NOT TARGET ${library})
       message(STATUS "The command ${name} is left out: ${library} is not built")
@@ -39,7 +41,11 @@ function(ortung_command name)
     INSTALL_RPATH $ORIGIN/../..)
   set_property(GLOBAL APPEND PROPERTY ORTUNG_COMMAND_TARGETS ${target})
   if(ORTUNG_INSTALL)
-    install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/ortung/commands)
+    ortung_package_of(${target} package)
+    if(NOT package STREQUAL ARG_PACKAGE)
+      message(FATAL_ERROR "The command ${name} is said to be in ${ARG_PACKAGE}, but what it links is in ${package}")
+    endif()
+    install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/ortung/commands COMPONENT ${package})
   endif()
 endfunction()
 

@@ -97,9 +97,16 @@ function(ortung_library name)
   list(FILTER private EXCLUDE REGEX "BUILD_INTERFACE")
   ortung_component(${name} "${ARG_PUBLIC}" "${private}")
   ortung_pkg_config(${name} "${ARG_PUBLIC}" "${private}")
-  install(TARGETS ${target} EXPORT ortung_${name} FILE_SET HEADERS FILE_SET abi)
+  ortung_package_of(${target} package)
+  ortung_development_of(${package} development)
+  install(TARGETS ${target} EXPORT ortung_${name}
+    LIBRARY COMPONENT ${package} NAMELINK_COMPONENT ${development}
+    ARCHIVE COMPONENT ${development}
+    FILE_SET HEADERS COMPONENT ${development} FILE_SET abi COMPONENT ${development})
   install(EXPORT ortung_${name} NAMESPACE ortung:: FILE ortung_${name}.cmake
-          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung)
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung COMPONENT ${development})
+  install(FILES ${PROJECT_BINARY_DIR}/pkgconfig/ortung-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+          COMPONENT ${development})
 endfunction()
 
 # Notes for the package what the component is built on: our libraries, which must be loaded before it, and
@@ -144,7 +151,6 @@ function(ortung_pkg_config name public private)
   list(TRANSFORM libraries PREPEND "-l" REGEX "^[^-]")
   list(JOIN libraries " " libraries)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/ortung.pc.in ${PROJECT_BINARY_DIR}/pkgconfig/ortung-${name}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/pkgconfig/ortung-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()
 
 # Writes <ortung/NAME/Abi.hpp>: a fingerprint of the public headers. It is part of every
@@ -166,11 +172,12 @@ function(ortung_abi_tag name)
                  FILES ${dir}/ortung/${name}/Abi.hpp)
 endfunction()
 
-# ortung_plugin(lrf_data SOURCES x.cpp LINK ortung::container)
+# ortung_plugin(lrf_data SOURCES x.cpp LINK ortung::container [PLUGINS other_plugin])
 # Makes lib/ortung/plugins/ortung_lrf_data.so, a module nobody links. The file's name begins with
-# the plugin's own, by which the factory finds it first.
+# the plugin's own, by which the factory finds it first. PLUGINS are those that it asks for by name itself.
 function(ortung_plugin name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PLUGINS" ${ARGN})
+  set_property(GLOBAL PROPERTY ORTUNG_PLUGINS_OF_${name} ${ARG_PLUGINS})
   add_library(ortung_${name} MODULE ${ARG_SOURCES})
   target_link_libraries(ortung_${name} PRIVATE ${ARG_LINK})
   ortung_options(ortung_${name})
@@ -179,7 +186,8 @@ function(ortung_plugin name)
     INSTALL_RPATH $ORIGIN/../..)
   set_property(GLOBAL APPEND PROPERTY ORTUNG_PLUGIN_TARGETS ortung_${name})
   if(ORTUNG_INSTALL)
-    install(TARGETS ortung_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/ortung/plugins)
+    ortung_package_of(ortung_${name} package)
+    install(TARGETS ortung_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/ortung/plugins COMPONENT ${package})
   endif()
 endfunction()
 
@@ -191,7 +199,8 @@ function(ortung_install_program target folder)
   GNUInstallDirs_get_absolute_install_dir(full folder BINDIR)
   file(RELATIVE_PATH libraries ${full} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(${target} PROPERTIES INSTALL_RPATH $ORIGIN/${libraries})
-  install(TARGETS ${target} RUNTIME DESTINATION ${folder})
+  ortung_package_of(${target} package)
+  install(TARGETS ${target} RUNTIME DESTINATION ${folder} COMPONENT ${package})
 endfunction()
 
 function(ortung_install_package)
@@ -202,6 +211,6 @@ function(ortung_install_package)
   configure_package_config_file(cmake/ortungConfig.cmake.in ortungConfig.cmake
     INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung)
   install(FILES ${PROJECT_BINARY_DIR}/ortungConfig.cmake ${PROJECT_BINARY_DIR}/ortungConfigVersion.cmake
-          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung)
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/ortung COMPONENT libortung-dev)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 endfunction()

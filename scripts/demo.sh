@@ -5,17 +5,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install-deps.sh
-cmake --preset release >/dev/null
-# The program and those plugins that are used here; `cmake --build --preset release` builds all the rest.
-parts=(ortung)
-for plugin in ground_truth_{data,sensor} odometry_{data,sensor} lrf_{data,sensor} landmarks_{data,sensor} \
-              differential_{motion,drive} sim_source mrclam_source; do
-  parts+=("ortung_$plugin")
-done
-cmake --build --preset release --target "${parts[@]}"
+scripts/install-deps.sh demo
+cmake --preset demo >/dev/null
+# What is called below and the plugins of its robot (cmake/OrtungDemo.cmake); `cmake --build --preset demo` builds all else.
+cmake --build --preset demo --target demo
 
-ortung=build/release/bin/ortung
+ortung=build/demo/bin/ortung
 out=out/demo
 mkdir -p "$out"
 
@@ -48,5 +43,4 @@ fi
 step "Done. Reports and pictures:"
 ls -1 "$out"/*.html "$out"/*.png
 echo
-echo "In a web browser, live: $ortung demo"
-echo "All plugins, libraries and examples: cmake --build --preset release"
+echo "In a web browser, live: cmake --build --preset demo && $ortung demo"

@@ -1,41 +1,60 @@
 #!/usr/bin/env bash
-# Installs what Ortung needs on Debian 12. Does nothing (and needs no rights) if all is there.
+# install-deps.sh [demo|test|all]  installs what Ortung needs on Debian 12. Does nothing, and needs no rights, if all of it is
+# there.
+#   demo  what scripts/demo.sh builds and runs
+#   test  that, and all else that is built and tested (the default)
+#   all   that, and what CI and developers use besides
 set -euo pipefail
 
-packages=(
+demo=(
   # tools
-  g++ cmake ninja-build ccache pkg-config binutils
+  g++ cmake ninja-build pkg-config binutils
   # container and mcl: Eigen, and headers that stay hidden behind the file readers
   libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev
   # records
   libzstd-dev zstd
   # simulator: rays, rigid bodies, maps
   libembree-dev libbox2d-dev libyaml-cpp-dev libpng-dev libboost-dev libboost-iostreams-dev
-  # pictures: OpenGL without a window; both are opened at run time, and one is enough
-  libosmesa6-dev libegl-dev libgl-dev libegl-mesa0
-  # readers of foreign logs
-  libmrpt-obs-dev libmrpt-maps-dev
-  # tests of files for MRPT: its own tools
-  mrpt-apps
-  # MCAP files of ROS 2
-  liblz4-dev
-  # drivers of laser scanners
-  libmrpt-hwdrivers-dev
   # the program: command line, messages, charts of the report
   libcli11-dev libspdlog-dev libfmt-dev libstb-dev libjs-dygraphs
+  # MCAP files of ROS 2
+  liblz4-dev
+)
+test=(
+  # compiling twice what has not changed
+  ccache
+  # pictures: OpenGL without a window; both are opened at run time, and one is enough
+  libosmesa6-dev libegl-dev libgl-dev libegl-mesa0
+  # readers of foreign logs, and drivers of laser scanners
+  libmrpt-obs-dev libmrpt-maps-dev libmrpt-hwdrivers-dev
+  # tests of files for MRPT: its own tools
+  mrpt-apps
   # images: features, calibration, cameras
   libopencv-dev libopencv-contrib-dev
   # pictures of scenes, and the test that looks at them
   python3-pil
-  # the Python package
-  python3-dev pybind11-dev
-  # the viewer's page in a real browser; Node.js, which builds it, is not Debian 12's (20.19 or later)
-  chromium
+  # the Python package, its wheel, and what looks at its stubs
+  python3-dev pybind11-dev python3-build python3-wheel python3-pip python3-venv mypy
   # training of motion networks
   libdlib-dev libblas-dev
-  # tests and benchmarks
-  libgtest-dev libbenchmark-dev librapidcheck-dev clang-19 libclang-rt-19-dev clang-format-19 python3 python3-numpy
+  # tests
+  libgtest-dev librapidcheck-dev python3 python3-numpy
+  # the viewer's page in a real browser; Node.js, which builds it, is not Debian 12's (20.19 or later)
+  chromium
 )
+all=(
+  # Debian packages and libraries, and what looks at them
+  dpkg-dev file debootstrap lintian abigail-tools
+  # benchmarks, fuzz targets, format
+  libbenchmark-dev clang-19 libclang-rt-19-dev clang-format-19
+)
+
+case ${1:-test} in
+  demo) packages=("${demo[@]}") ;;
+  test) packages=("${demo[@]}" "${test[@]}") ;;
+  all) packages=("${demo[@]}" "${test[@]}" "${all[@]}") ;;
+  *) echo "usage: $0 [demo|test|all]" >&2; exit 2 ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

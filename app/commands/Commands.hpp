@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -92,11 +91,11 @@ struct LocalizationArguments {
 };
 
 struct EvalArguments {
-  LocalizationArguments localization;                           ///< its source is not used
-  std::function<std::vector<std::string>()> localizationWords;  ///< as they were given
-  std::vector<std::string> sources;                             ///< that share robot and tables
-  std::size_t runs = 1;                                         ///< of each source
-  std::size_t kidnaps = 0;  ///< cases that are made of each source
+  LocalizationArguments localization;          ///< its source is not used
+  std::vector<std::string> localizationWords;  ///< options of localization as they were given
+  std::vector<std::string> sources;            ///< that share robot and tables
+  std::size_t runs = 1;                        ///< of each source
+  std::size_t kidnaps = 0;                     ///< cases that are made of each source
   std::size_t wakeUps = 0;
   std::optional<double> teleport;  ///< rate of kidnaps within a run [1/m]
   std::filesystem::path json;      ///< "" for none

@@ -135,7 +135,7 @@ void refuseLive(const EvalArguments& arguments, const std::vector<EvalJob>& jobs
 /// libraries an evaluation does without. Returns only if that fails.
 int viewAgain(const EvalArguments& arguments) {
   std::vector<std::string> words = {"ortung", "view", arguments.sources.front()};
-  for (std::string& word : arguments.localizationWords()) words.push_back(std::move(word));
+  words.insert(words.end(), arguments.localizationWords.begin(), arguments.localizationWords.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);

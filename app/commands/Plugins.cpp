@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20;  // of what a library offers
 
-/// "ortung.Source/0.1.0-3f2a" is a Source.
+/// "ortung.Source/0.2.0-3f2a" is a Source.
 std::string kindOf(const std::string& interface) {
   const std::size_t begin = interface.starts_with("ortung.") ? 7 : 0;
   return interface.substr(begin, interface.find('/', begin) - begin);

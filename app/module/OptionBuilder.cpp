@@ -113,19 +113,17 @@ void Builder::footer(std::function<std::string()> text) { current_->footer(std::
 
 std::size_t Builder::options() const { return current_->get_options().size(); }
 
-std::function<std::vector<std::string>()> Builder::given(std::size_t from) const {
+void Builder::keepGiven(std::size_t from, std::vector<std::string>& words) {
   const std::vector<CLI::Option*> all = current_->get_options();
   const std::vector<CLI::Option*> ours(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
-  return [ours] {
-    std::vector<std::string> words;
+  current_->parse_complete_callback([ours, &words] {
     for (const CLI::Option* option : ours) {
       if (option->count() == 0) continue;
       words.push_back("--" + option->get_lnames().front());
       if (option->get_items_expected_max() == 0) continue;  // a flag
       words.insert(words.end(), option->results().begin(), option->results().end());
     }
-    return words;
-  };
+  });
 }
 
 }  // namespace ortung::app

@@ -69,9 +69,9 @@ class Builder {
   const std::string& commandLine() const { return commandLine_; }
   /// How many options the command has by now.
   std::size_t options() const;
-  /// Once the command line is read: the words that gave the options from number @p from up to here,
-  /// for another command that has these, too.
-  std::function<std::vector<std::string>()> given(std::size_t from) const;
+  /// Fills in, once the command line is read, the words that gave the options from number @p from
+  /// up to here, for another command that has these, too.
+  void keepGiven(std::size_t from, std::vector<std::string>& words);
 
  private:
   void begin(const std::string& name, const std::string& example, std::function<int()> run);

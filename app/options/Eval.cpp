@@ -20,7 +20,7 @@ void addEval(Builder& build) {
   build.option("--source", a->sources, kSources).required().repeats();
   const std::size_t first = build.options();
   addLocalization(build, a->localization, Localizes::kAlways);
-  a->localizationWords = build.given(first);
+  build.keepGiven(first, a->localizationWords);
   build.flag("--force", a->localization.force, kForce);
   build.option("--json", a->json, "Write the figures as JSON");
   build.option("--report", a->report, "Write a page with map, charts and figures");

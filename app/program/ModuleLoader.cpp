@@ -16,14 +16,19 @@ namespace ortung::app {
 namespace {
 
 std::vector<std::filesystem::path> folders() {
+  const char* variable = std::getenv("ORTUNG_COMMAND_PATH");
+  if (variable == nullptr) return {libraryFolder() / "ortung/commands"};
   std::vector<std::filesystem::path> folders;
-  if (const char* variable = std::getenv("ORTUNG_COMMAND_PATH")) {
-    std::istringstream all(variable);
-    for (std::string folder; std::getline(all, folder, ':');)
-      if (!folder.empty()) folders.emplace_back(folder);
-  }
-  folders.push_back(libraryFolder() / "ortung/commands");
+  std::istringstream all(variable);
+  for (std::string folder; std::getline(all, folder, ':');) folders.emplace_back(folder);
   return folders;
+}
+
+std::string foldersText() {
+  std::string text;
+  for (const std::filesystem::path& folder : folders())
+    text += (text.empty() ? "" : ":") + folder.string();
+  return text;
 }
 
 /// The module's file; "" if there is none.
@@ -46,7 +51,7 @@ CommandModule loadModule(const CatalogueEntry& command) {
     throw std::runtime_error(
         fmt::format("the command '{}' is not installed: it is in the package {} (there is no "
                     "ortung_command_{}.so in {})",
-                    command.name, command.package, command.module, folders().back().string()));
+                    command.name, command.package, command.module, foldersText()));
   void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     const char* why = ::dlerror();

@@ -1,13 +1,14 @@
 """Ortung: robots that localize themselves, and environments in which they learn to play.
 
-Environments: make(), make_vec(), parallel_env(), Batch; see docs/learning.md.
-For notebooks: Robot, Localization, Tables, readings().
+Readings and how probable they are: SensorContainer, Robot, Localization, Tables, readings(), shipped_file().
+Environments: make(), make_vec(), parallel_env(), Batch; see docs/learning.md. They alone need the libraries
+of the simulator, which are loaded when the first environment is asked for.
 Errors of files and options (ConfigError, TableError, PluginError) name file, line and key.
 """
+from . import _base
 from ._core import (
-    Autoreset,
-    Batch,
     ConfigError,
+    FieldRegion,
     Localization,
     PluginError,
     PoseEstimate,
@@ -17,17 +18,34 @@ from ._core import (
     TableError,
     Tables,
     WorldMismatch,
-    blocking,
-    environments,
-    heuristic,
+    __version__,
     readings,
+    shipped_file,
 )
 from .single_agent import Env, VectorEnv, make, make_vec, register
 from .multi_agent import ParallelEnv, parallel_env
 
+_OF_LEARNING = ("Autoreset", "Batch", "blocking", "environments", "heuristic")
+
 __all__ = [
-    "Autoreset", "Batch", "ConfigError", "Env", "Localization", "ParallelEnv", "PluginError",
-    "PoseEstimate", "Readings", "Robot", "SensorContainer", "TableError", "Tables", "VectorEnv",
-    "WorldMismatch", "blocking", "environments", "heuristic", "make", "make_vec", "parallel_env",
-    "readings", "register",
+    "Autoreset", "Batch", "ConfigError", "Env", "FieldRegion", "Localization", "ParallelEnv",
+    "PluginError", "PoseEstimate", "Readings", "Robot", "SensorContainer", "TableError", "Tables",
+    "VectorEnv", "WorldMismatch", "__version__", "blocking", "environments", "heuristic", "make",
+    "make_vec", "parallel_env", "readings", "register", "shipped_file",
 ]
+
+
+def __getattr__(name):
+    if name in _OF_LEARNING:
+        return getattr(_base.learning(), name)
+    raise AttributeError(f"module 'ortung' has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})
+
+
+try:
+    register()  # Gymnasium finds environments by their ids once this package is imported
+except ImportError:
+    pass  # without the simulator's libraries there are none

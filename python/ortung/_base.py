@@ -5,8 +5,6 @@ import os
 
 import numpy as np
 
-from . import _core
-
 try:
     import gymnasium
     from gymnasium.spaces import Box
@@ -156,9 +154,24 @@ if AutoresetMode is None:
         DISABLED = "Disabled"
 
 
+# Of Debian 12: what the simulator links. They are not part of the package.
+SIMULATOR_PACKAGES = ("libembree3-3", "libbox2d2", "libboost-iostreams1.74.0", "libpng16-16", "libyaml-cpp0.7")
+
+
+def learning():
+    """The module of environments, which is loaded when the first is asked for: it needs the simulator's
+    libraries, without which the rest of the package works."""
+    try:
+        from . import _learning
+    except ImportError as error:
+        raise ImportError(f"environments need the libraries of the simulator, on Debian 12: "
+                          f"apt-get install {' '.join(SIMULATOR_PACKAGES)} ({error})") from error
+    return _learning
+
+
 def describe(env_id):
     """What there is to know of an environment. ValueError for an id that is none."""
-    known = {one["id"]: one for one in _core.environments()}
+    known = {one["id"]: one for one in learning().environments()}
     if env_id not in known:
         raise ValueError(f"there is no environment '{env_id}', expected {', '.join(known)}")
     return known[env_id]

@@ -1,8 +1,7 @@
 """Environments by the rules of PettingZoo's parallel API."""
 import numpy as np
 
-from . import _core
-from ._base import Box, ZooParallelEnv, box_of, check_action, check_seed, describe
+from ._base import Box, ZooParallelEnv, box_of, check_action, check_seed, describe, learning
 
 
 class ParallelEnv(ZooParallelEnv):
@@ -22,7 +21,7 @@ class ParallelEnv(ZooParallelEnv):
         self.observation_spaces = {a: box_of(info["observation"]) for a in self.possible_agents}
         self.action_spaces = {a: box_of(info["actions"][a]) for a in self.possible_agents}
         self.state_space = Box(-1000.0, 1000.0, (12,), np.float32)
-        self._batch = _core.Batch(id, options, autoreset=_core.Autoreset.DISABLED)
+        self._batch = learning().Batch(id, options, autoreset=learning().Autoreset.DISABLED)
         width = max(space.shape[0] for space in self.action_spaces.values())
         self._actions = np.zeros((1, len(self.possible_agents), width), np.float32)
         self._is_seeded = False
@@ -76,7 +75,7 @@ class ParallelEnv(ZooParallelEnv):
         terminated, truncated = bool(batch.terminated[0]), bool(batch.truncated[0])
         if terminated or truncated:
             for info in infos.values():
-                info["ending"] = _core.ending_name(int(batch.endings[0]))
+                info["ending"] = learning().ending_name(int(batch.endings[0]))
             self.agents = []
         rewards = {a: float(batch.rewards[0, i]) for i, a in enumerate(self.possible_agents)}
         return (self._observations(), rewards, dict.fromkeys(self.possible_agents, terminated),

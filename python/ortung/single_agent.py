@@ -1,10 +1,9 @@
 """Environments with one agent by Gymnasium's rules: alone (Env) and as many at a time (VectorEnv)."""
 import numpy as np
 
-from . import _core
 from ._base import (
     AutoresetMode, GymEnv, GymVectorEnv, batch_space, box_of, check_action, check_seed, describe,
-    gymnasium,
+    gymnasium, learning,
 )
 
 
@@ -42,7 +41,7 @@ class Env(GymEnv):
         self.observation_space = box_of(info["observation"])
         self.action_space = box_of(info["actions"][info["agents"][0]])
         self._shape = self.action_space.shape
-        self._batch = _core.Batch(id, options, autoreset=_core.Autoreset.DISABLED)
+        self._batch = learning().Batch(id, options, autoreset=learning().Autoreset.DISABLED)
         self._is_seeded = False
         self._is_running = False
 
@@ -82,7 +81,7 @@ class Env(GymEnv):
         info = self._info()
         if terminated or truncated:
             self._is_running = False
-            info["ending"] = _core.ending_name(int(self._endings[0]))
+            info["ending"] = learning().ending_name(int(self._endings[0]))
         return self._observation.copy(), float(self._rewards[0]), terminated, truncated, info
 
     def state(self):
@@ -120,8 +119,8 @@ class VectorEnv(GymVectorEnv):
         self.render_mode = None
         self.closed = False
         self._copy = copy
-        self._batch = _core.Batch(id, options, episodes=num_envs, threads=threads,
-                                  autoreset=_core.Autoreset.__members__[self._mode.name])
+        self._batch = learning().Batch(id, options, episodes=num_envs, threads=threads,
+                                  autoreset=learning().Autoreset.__members__[self._mode.name])
         self._is_seeded = False
 
     def _out(self, array):
@@ -224,12 +223,9 @@ def register():
     """Tells Gymnasium, if it is installed, our environments with one agent as "ortung/ID"."""
     if gymnasium is None:
         return
-    for info in _core.environments():
+    for info in learning().environments():
         name = f"ortung/{info['id']}"
         if len(info["agents"]) == 1 and name not in gymnasium.registry:
             gymnasium.register(name, entry_point="ortung.single_agent:Env",
                                vector_entry_point="ortung.single_agent:VectorEnv",
                                kwargs={"id": info["id"]})
-
-
-register()

@@ -12,6 +12,7 @@ namespace ortung::python {
 namespace py = pybind11;
 
 void bindLearning(py::module_& module);
+void bindContainer(py::module_& module);
 void bindRobots(py::module_& module);
 void bindLocalization(py::module_& module);
 

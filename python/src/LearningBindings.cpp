@@ -139,10 +139,13 @@ void bindLearning(py::module_& module) {
              py::arg("observations"), "What the shipped heuristic does, (N, action).");
   module.def("blocking", &blockingActions, py::arg("observations"),
              "What a keeper does that stands between ball and middle of its goal, (N, 2).");
-  module.def("ending_name", [](int ending) {
-    if (ending < 0 || ending > 4) throw py::value_error("there is no ending of this number");
-    return std::string(learning::nameOf(static_cast<learning::Ending>(ending)));
-  });
+  module.def(
+      "ending_name",
+      [](int ending) {
+        if (ending < 0 || ending > 4) throw py::value_error("there is no ending of this number");
+        return std::string(learning::nameOf(static_cast<learning::Ending>(ending)));
+      },
+      py::arg("ending"), "Of a number in Batch.endings; 0: the episode goes on.");
 
   py::class_<Batch>(
       module, "Batch",

@@ -4,7 +4,8 @@
 #include "ortung/run/Localization.hpp"
 #include "ortung/tables/TableFile.hpp"
 
-// What only this package imports; people import `ortung`.
+// What only this package imports; people import `ortung`. It needs no simulator:
+// LearningModule.cpp.
 PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   // Messages name file and line; a kind of their own tells what is wrong.
@@ -12,7 +13,8 @@ PYBIND11_MODULE(_core, module) {
   py::register_exception<ortung::TableError>(module, "TableError", PyExc_RuntimeError);
   py::register_exception<ortung::ConfigError>(module, "ConfigError", PyExc_ValueError);
   py::register_exception<ortung::WorldMismatch>(module, "WorldMismatch", PyExc_RuntimeError);
-  ortung::python::bindLearning(module);
+  module.attr("__version__") = ORTUNG_VERSION;
+  ortung::python::bindContainer(module);
   ortung::python::bindRobots(module);
   ortung::python::bindLocalization(module);
 }

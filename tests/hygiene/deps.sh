@@ -2,7 +2,7 @@
 # deps.sh ROOT  scripts/install-deps.sh installs whatever CMake files and scripts look for.
 cd "$1" || exit 2
 status=0
-packages=$(sed -n '/^packages=(/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
+packages=$(sed -n '/^[a-z]*=($/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
 
 # The Debian package of what a CMake file or a script calls NAME; - for what is there already.
 package_of() {
@@ -12,10 +12,11 @@ package_of() {
     box2d) echo libbox2d-dev ;; embree) echo libembree-dev ;; fmt) echo libfmt-dev ;; mrpt-maps) echo libmrpt-maps-dev ;;
     mrpt-hwdrivers) echo libmrpt-hwdrivers-dev ;; mrpt-obs) echo libmrpt-obs-dev ;; nlohmann_json) echo nlohmann-json3-dev ;; rapidcheck) echo librapidcheck-dev ;;
     spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;; zstd) echo libzstd-dev ;; zstdcat) echo zstd ;;
-    iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; lz4frame.h) echo liblz4-dev ;; ccache) echo ccache ;;
+    iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; GL/osmesa.h) echo libosmesa6-dev ;; EGL/egl.h) echo libegl-dev ;; lz4frame.h) echo liblz4-dev ;; ccache) echo ccache ;;
     clang-19 | clang-format-19 | python3 | cmake | pkg-config) echo "$1" ;; clang++-19) echo clang-19 ;;
     Ninja | ninja) echo ninja-build ;; readelf) echo binutils ;; javascript/dygraphs) echo libjs-dygraphs ;;
-    PIL) echo python3-pil ;; numpy) echo python3-numpy ;; Threads | ortung) echo - ;; *) echo "?" ;;
+    PIL) echo python3-pil ;; numpy) echo python3-numpy ;; dpkg-architecture | dpkg-shlibdeps) echo dpkg-dev ;; debootstrap | lintian) echo "$1" ;;
+    Threads | ortung | dpkg-deb) echo - ;; *) echo "?" ;;
   esac
 }
 
@@ -23,10 +24,10 @@ cmake_files=$(find . -name build -prune -o \( -name CMakeLists.txt -o -name '*.c
 names=$({
   # shellcheck disable=SC2086  # no blanks in our own names
   sed -nE 's/^ *find_package\(([A-Za-z0-9_-]+).*/\1/p; s/^ *find_program\([A-Z_]+ ([a-z0-9.-]+).*/\1/p;
-           s/^ *find_path\([A-Z_]+ ([^ ]+).*/\1/p; s/.*COMPONENTS (iostreams).*/\1/p; s|.*/usr/share/(javascript/dygraphs).*|\1|p' \
+           s/^ *find_path\([A-Z_]+ ([^ )]+).*/\1/p; s/.*COMPONENTS (iostreams).*/\1/p; s|.*/usr/share/(javascript/dygraphs).*|\1|p' \
     $cmake_files
   sed -nE 's/.*"CXX?": "([^"]+)".*/\1/p; s/.*"generator": "([^"]+)".*/\1/p' CMakePresets.json
-  grep -ohE 'clang-format-[0-9]+|\b(ninja|ccache|python3|cmake|pkg-config|readelf|zstdcat)\b' scripts/*.sh tests/hygiene/*.sh
+  grep -ohE 'clang-format-[0-9]+|\b(ninja|ccache|python3|cmake|pkg-config|readelf|zstdcat|debootstrap|lintian|dpkg-architecture)\b' scripts/*.sh tests/hygiene/*.sh
   grep -ohE '^ *(import|from) (PIL|numpy)' scripts/*.py examples/*.py tests/*/*.py 2> /dev/null | sed 's/.* //'
 } | sort -u)
 [ "$(echo "$names" | wc -l)" -gt 20 ] || { echo "too little was found to look for: $names"; exit 1; }

@@ -64,7 +64,7 @@ ortung=./ortung
 
 # The player of docs/players.md as a project of its own, which plays with what is installed.
 mkdir "$work/shy"
-awk -v folder="$work/shy/" '/^`ShyPlayer.cpp`/ { file = "ShyPlayer.cpp" } /^```cmake/ { file = "CMakeLists.txt" }
+awk -v folder="$work/shy/" '/^`ShyPlayer.cpp`/ { file = "ShyPlayer.cpp" } /^Outside the tree/ { file = "CMakeLists.txt" }
   /^```$/ { if (writes) file = ""; writes = 0 } writes { print > (folder file) } /^```(cpp|cmake)$/ && file != "" { writes = 1 }' "$source/docs/players.md"
 "$cmake" -S "$work/shy" -B "$work/shy/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
   > "$work/configure.log" 2>&1 || fail "$(cat "$work/configure.log")"

@@ -1,0 +1,20 @@
+#include <stdexcept>
+
+#include "Painters.hpp"
+
+// In place of Painters.cpp where OpenGL's headers are missing.
+namespace ortung {
+
+struct Painters::Painter {};
+
+Painters::Painters() = default;
+Painters::~Painters() = default;
+
+void Painters::draw(const WorldModel&, std::span<const WorldObject>, std::size_t, const Drawing&,
+                    const Sheet&) {
+  throw std::runtime_error(
+      "this program was built without OpenGL (libosmesa6-dev, libegl-dev), so cameras take no "
+      "pictures");
+}
+
+}  // namespace ortung

@@ -1,0 +1,8 @@
+#include "ortung/learning/Batch.hpp"
+
+#include <string>
+#include <vector>
+
+int main() {
+  // the block
+}

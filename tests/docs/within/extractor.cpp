@@ -1,0 +1,8 @@
+#include "ortung/core/Extractor.hpp"
+
+using namespace ortung;
+
+class NameExtractor : public Extractor {
+ public:
+  // the block
+};
