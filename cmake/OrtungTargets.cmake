@@ -120,7 +120,7 @@ function(ortung_component name public private)
   if(NOT ORTUNG_SHARED)  # whoever links it links all that it is built on
     list(APPEND packages ${private})
   endif()
-  list(FILTER packages EXCLUDE REGEX "^(ortung::|-l)")
+  list(FILTER packages EXCLUDE REGEX "^(ortung::|-l|opencv_)")
   list(TRANSFORM packages REPLACE "^Boost::(.*)" "Boost,COMPONENTS,\\1")
   list(TRANSFORM packages REPLACE "::.*" "")  # a target's package is what stands before its name
   set_property(GLOBAL APPEND PROPERTY ORTUNG_COMPONENTS ${name})

@@ -9,9 +9,10 @@
 #include "Outputs.hpp"
 #include "Progress.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/calibration/ImageFile.hpp"
+#include "ortung/calibration/LineCalibration.hpp"
 #include "ortung/sim/SimWorld.hpp"
-#include "ortung/vision/ImageFile.hpp"
-#include "ortung/vision/LineCalibration.hpp"
+#include "ortung/vision/FloorSight.hpp"
 #include "ortung/vision/LineFinder.hpp"
 
 namespace ortung::app {

@@ -8,8 +8,8 @@
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
-#include "ortung/vision/BoardCalibration.hpp"
-#include "ortung/vision/ImageFile.hpp"
+#include "ortung/calibration/BoardCalibration.hpp"
+#include "ortung/calibration/ImageFile.hpp"
 
 namespace ortung::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ortung/base/Random.hpp"
+#include "ortung/calibration/ImageFile.hpp"
 #include "ortung/vision/BlobFinder.hpp"
-#include "ortung/vision/ImageFile.hpp"
 #include "ortung/vision/LineFinder.hpp"
 
 namespace {

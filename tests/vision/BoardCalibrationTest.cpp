@@ -7,7 +7,7 @@
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Parameters.hpp"
-#include "ortung/vision/BoardCalibration.hpp"
+#include "ortung/calibration/BoardCalibration.hpp"
 
 namespace ortung {
 namespace {

@@ -7,8 +7,9 @@
 #include "MslLines.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Random.hpp"
-#include "ortung/vision/ImageFile.hpp"
-#include "ortung/vision/LineCalibration.hpp"
+#include "ortung/calibration/ImageFile.hpp"
+#include "ortung/calibration/LineCalibration.hpp"
+#include "ortung/vision/FloorSight.hpp"
 
 namespace ortung {
 namespace {

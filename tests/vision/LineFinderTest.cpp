@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "ortung/base/Random.hpp"
+#include "ortung/calibration/ImageFile.hpp"
 #include "ortung/vision/BlobFinder.hpp"
-#include "ortung/vision/ImageFile.hpp"
 #include "ortung/vision/LineFinder.hpp"
 
 namespace ortung {

@@ -6,8 +6,9 @@
 
 #include "MslLines.hpp"
 #include "ortung/base/Angles.hpp"
-#include "ortung/vision/ImageFile.hpp"
-#include "ortung/vision/LineCalibration.hpp"
+#include "ortung/calibration/ImageFile.hpp"
+#include "ortung/calibration/LineCalibration.hpp"
+#include "ortung/vision/FloorSight.hpp"
 
 namespace ortung {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "MarkedLines.hpp"
-#include "ortung/vision/ImageFile.hpp"
+#include "ortung/calibration/ImageFile.hpp"
 #include "ortung/vision/LineFinder.hpp"
 
 namespace ortung {

@@ -6,7 +6,7 @@
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/formats/ObjectsData.hpp"
-#include "ortung/vision/LineCalibration.hpp"
+#include "ortung/vision/FloorSight.hpp"
 
 namespace ortung {
 namespace {

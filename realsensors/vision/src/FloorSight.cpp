@@ -1,8 +1,8 @@
+#include "ortung/vision/FloorSight.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "ortung/vision/LineCalibration.hpp"
 
 namespace ortung {
 namespace {

@@ -9,12 +9,7 @@
 namespace ortung {
 namespace {
 
-using Corners = std::vector<cv::Point2f>;
-using Board = std::vector<cv::Point3f>;
-
 constexpr std::array<int, 4> kPowers = {0, 2, 3, 4};  // a slope at the centre would be a kink
-constexpr int kLens = 6;                              // centre, and a number for each power
-constexpr int kPose = 6;
 
 /// A board's rotation and its place but for the third number, which the lens tells.
 struct Seen {
@@ -96,75 +91,27 @@ void chooseSide(const Board& board, const std::vector<cv::Point2d>& corners, See
   seen.second[2] = -seen.second[2];
 }
 
-/// Distances between corners and where they should be seen, of all parameters: centre and numbers
-/// of the lens, then rotation and place of each board.
-class Reprojection final : public cv::LMSolver::Callback {
- public:
-  Reprojection(const Board& board, const std::vector<Corners>& corners, double unit)
-      : board_(board), corners_(corners), unit_(unit) {}
-
-  bool compute(cv::InputArray parameters, cv::OutputArray errors,
-               cv::OutputArray slopes) const override {
-    const cv::Mat_<double> all = parameters.getMat();
-    const int perBoard = static_cast<int>(2 * board_.size());
-    errors.create(perBoard * static_cast<int>(corners_.size()), 1, CV_64F);
-    cv::Mat_<double> e = errors.getMat();
-    for (std::size_t k = 0; k < corners_.size(); ++k)
-      add(all, k, e.ptr<double>() + index(k) * perBoard);
-    if (!slopes.needed()) return true;
-    slopes.create(e.rows, all.rows, CV_64F);
-    cv::Mat_<double> j = slopes.getMat();
-    j.setTo(0.0);
-    std::vector<double> moved(static_cast<std::size_t>(perBoard));
-    for (int p = 0; p < all.rows; ++p) {
-      cv::Mat_<double> other = all.clone();
-      const double step = 1e-6 * std::max(1.0, std::abs(all(p)));
-      other(p) += step;
-      for (std::size_t k = 0; k < corners_.size(); ++k) {
-        if (p >= kLens && (p - kLens) / kPose != index(k)) continue;
-        add(other, k, moved.data());
-        for (int i = 0; i < perBoard; ++i) {
-          const int row = index(k) * perBoard + i;
-          j(row, p) = (moved[static_cast<std::size_t>(i)] - e(row)) / step;
-        }
+/// The lens of a centre and a number for each power.
+/// @param unit half the image's diagonal [px]
+Lens lensOf(std::span<const double> numbers, double unit) {
+  return [all = std::vector<double>(numbers.begin(), numbers.end()), unit](
+             const cv::Vec3d& p, const cv::Point2d& near) {
+    const double side = std::hypot(p[0], p[1]);
+    if (!(side > 0.0)) return std::optional(cv::Point2d(all[0], all[1]));
+    double rho = std::hypot(near.x - all[0], near.y - all[1]) / unit;
+    for (int n = 0; n < 12; ++n) {
+      double f = 0.0;
+      double df = 0.0;
+      for (std::size_t m = 0; m < kPowers.size(); ++m) {
+        f += all[2 + m] * std::pow(rho, kPowers[m]);
+        if (kPowers[m] > 0) df += all[2 + m] * kPowers[m] * std::pow(rho, kPowers[m] - 1);
       }
+      rho -= (f * side - rho * p[2]) / (df * side - p[2]);
     }
-    return true;
-  }
-
- private:
-  static int index(std::size_t k) { return static_cast<int>(k); }
-
-  void add(const cv::Mat_<double>& all, std::size_t k, double* errors) const {
-    const int pose = kLens + kPose * index(k);
-    cv::Matx33d turn;
-    cv::Rodrigues(cv::Vec3d(all(pose), all(pose + 1), all(pose + 2)), turn);
-    const cv::Vec3d place(all(pose + 3), all(pose + 4), all(pose + 5));
-    for (std::size_t i = 0; i < board_.size(); ++i) {
-      const cv::Vec3d p = turn * cv::Vec3d(board_[i].x, board_[i].y, 0.0) + place;
-      const cv::Point2f& corner = corners_[k][i];
-      const double side = std::hypot(p[0], p[1]);
-      double rho = std::hypot(corner.x - all(0), corner.y - all(1)) / unit_;
-      for (int n = 0; n < 12; ++n) {
-        double f = 0.0;
-        double df = 0.0;
-        for (std::size_t m = 0; m < kPowers.size(); ++m) {
-          const double number = all(2 + static_cast<int>(m));
-          f += number * std::pow(rho, kPowers[m]);
-          if (kPowers[m] > 0) df += number * kPowers[m] * std::pow(rho, kPowers[m] - 1);
-        }
-        rho -= (f * side - rho * p[2]) / (df * side - p[2]);
-      }
-      const double scale = side > 0.0 ? unit_ * rho / side : 0.0;
-      *errors++ = all(0) + scale * p[0] - corner.x;
-      *errors++ = all(1) + scale * p[1] - corner.y;
-    }
-  }
-
-  const Board& board_;
-  const std::vector<Corners>& corners_;
-  double unit_;
-};
+    const double scale = unit * rho / side;
+    return std::optional(cv::Point2d(all[0] + scale * p[0], all[1] + scale * p[1]));
+  };
+}
 
 }  // namespace
 
@@ -180,10 +127,8 @@ OcamSolution solveOcam(const cv::Size& size, const Board& board,
     chooseSide(board, seenCorners.back(), seen.back());
   }
   const cv::Mat lens = solveLens(board, seenCorners, seen, kPowers.size());
-  cv::Mat_<double> all(kLens + kPose * static_cast<int>(corners.size()), 1);
-  all(0) = centre.x;
-  all(1) = centre.y;
-  for (int m = 0; m < 4; ++m) all(2 + m) = lens.at<double>(m);
+  BoardFit fit{{centre.x, centre.y}, {}, {}};
+  for (int m = 0; m < 4; ++m) fit.lens.push_back(lens.at<double>(m));
   for (std::size_t k = 0; k < corners.size(); ++k) {
     cv::Matx33d turn;
     const cv::Vec3d third = seen[k].first.cross(seen[k].second);
@@ -194,27 +139,21 @@ OcamSolution solveOcam(const cv::Size& size, const Board& board,
     }
     cv::Vec3d rotation;
     cv::Rodrigues(turn, rotation);
-    const double place[] = {seen[k].x, seen[k].y, lens.at<double>(4 + static_cast<int>(k))};
-    for (int i = 0; i < 3; ++i) {
-      all(kLens + kPose * static_cast<int>(k) + i) = rotation[i];
-      all(kLens + kPose * static_cast<int>(k) + 3 + i) = place[i];
-    }
+    fit.rotations.push_back(rotation);
+    fit.translations.emplace_back(seen[k].x, seen[k].y, lens.at<double>(4 + static_cast<int>(k)));
   }
-  cv::LMSolver::create(cv::makePtr<Reprojection>(board, corners, unit), 200)->run(all);
+  refine(board, corners, [unit](std::span<const double> all) { return lensOf(all, unit); }, fit);
   OcamSolution found;
-  found.centre = {all(0), all(1)};
-  found.polynomial = {unit * all(2), 0.0, all(3) / unit, all(4) / (unit * unit),
-                      all(5) / (unit * unit * unit)};
+  found.centre = {fit.lens[0], fit.lens[1]};
+  found.polynomial = {unit * fit.lens[2], 0.0, fit.lens[3] / unit, fit.lens[4] / (unit * unit),
+                      fit.lens[5] / (unit * unit * unit)};
   for (const double number : found.polynomial)
     if (!std::isfinite(number)) throw std::runtime_error("these boards do not determine the model");
   if (!(found.polynomial[0] > 0.0))
     throw std::runtime_error(
         "these boards do not determine the model: none lies before the camera");
-  for (int k = 0; k < static_cast<int>(corners.size()); ++k) {
-    found.rotations.push_back(all.rowRange(kLens + kPose * k, kLens + kPose * k + 3).clone());
-    found.translations.push_back(
-        all.rowRange(kLens + kPose * k + 3, kLens + kPose * (k + 1)).clone());
-  }
+  found.rotations = std::move(fit.rotations);
+  found.translations = std::move(fit.translations);
   return found;
 }
 

@@ -1,4 +1,4 @@
-#include "ortung/vision/LineCalibration.hpp"
+#include "ortung/calibration/LineCalibration.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -8,6 +8,7 @@
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Parameters.hpp"
+#include "ortung/vision/FloorSight.hpp"
 
 namespace ortung {
 namespace {

@@ -33,8 +33,9 @@ struct BoardCalibration {
 enum class BoardModel : std::uint8_t { kPerspective, kFisheye, kUnified, kOcam };
 
 /// The model of a camera that sees its boards where they were found, in the sense of least squares:
-/// by OpenCV (Zhang 2000; Kannala and Brandt; Mei and Rives), kOcam by the linear method of
-/// Scaramuzza, Martinelli and Siegwart (IROS 2006) and a refinement of all its parameters.
+/// by OpenCV (Zhang 2000; Kannala and Brandt), kOcam by the linear method of Scaramuzza, Martinelli
+/// and Siegwart (IROS 2006) and a refinement of all its parameters, kUnified (Mei and Rives 2007)
+/// by a refinement that begins there.
 /// @param boards corners of each picture, as findBoard() gives them; at least 3
 /// @throws std::runtime_error if they do not determine the model
 ORTUNG_API BoardCalibration calibrateByBoards(BoardModel model, const ImageSize& size,

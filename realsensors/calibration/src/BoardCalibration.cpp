@@ -1,25 +1,23 @@
-#include "ortung/vision/BoardCalibration.hpp"
+#include "ortung/calibration/BoardCalibration.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/ccalib/omnidir.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "OcamCalibration.hpp"
+#include "UnifiedCalibration.hpp"
 #include "ortung/base/Parameters.hpp"
 
 namespace ortung {
 namespace {
 
-using Corners = std::vector<cv::Point2d>;
-
 /// A model's settings, and where each board is.
 struct Solution {
   Parameters camera{"the calibration"};
-  std::vector<cv::Mat> rotations;  ///< vectors
-  std::vector<cv::Mat> translations;
+  std::vector<cv::Vec3d> rotations;  ///< vectors
+  std::vector<cv::Vec3d> translations;
 };
 
 std::vector<double> numbers(const cv::Mat& matrix) {
@@ -33,8 +31,8 @@ void setLens(Parameters& camera, const cv::Mat& k, const cv::Mat& distortion) {
   camera.set("distortion", numbers(distortion));
 }
 
-Solution perspective(const cv::Size& size, const std::vector<std::vector<cv::Point3f>>& points,
-                     const std::vector<std::vector<cv::Point2f>>& corners) {
+Solution perspective(const cv::Size& size, const std::vector<Board>& points,
+                     const std::vector<Corners>& corners) {
   Solution s;
   cv::Mat k;
   cv::Mat distortion;
@@ -44,8 +42,8 @@ Solution perspective(const cv::Size& size, const std::vector<std::vector<cv::Poi
   return s;
 }
 
-Solution fisheye(const cv::Size& size, const std::vector<std::vector<cv::Point3f>>& points,
-                 const std::vector<std::vector<cv::Point2f>>& corners) {
+Solution fisheye(const cv::Size& size, const std::vector<Board>& points,
+                 const std::vector<Corners>& corners) {
   Solution s;
   cv::Mat k;
   cv::Mat distortion;
@@ -57,40 +55,25 @@ Solution fisheye(const cv::Size& size, const std::vector<std::vector<cv::Point3f
   return s;
 }
 
-Solution unified(const cv::Size& size, const std::vector<std::vector<cv::Point3f>>& points,
-                 const std::vector<std::vector<cv::Point2f>>& corners) {
-  Solution s;
-  cv::Mat k;
-  cv::Mat xi;
-  cv::Mat distortion;
-  cv::Mat used;
-  cv::omnidir::calibrate(points, corners, size, k, xi, distortion, s.rotations, s.translations,
-                         cv::omnidir::CALIB_FIX_SKEW,
-                         {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 500, 1e-12}, used);
-  if (used.total() != points.size())
-    throw std::runtime_error("only " + std::to_string(used.total()) + " of " +
-                             std::to_string(points.size()) +
-                             " boards give this model a beginning; take out those at the edge");
-  s.camera.set("model", "unified");
-  s.camera.set("xi", numbers(xi)[0]);
-  setLens(s.camera, k, distortion);
-  return s;
+Solution unified(const ImageSize& size, const Board& board, const std::vector<Corners>& corners) {
+  UnifiedSolution found = solveUnified(size, board, corners);
+  return {std::move(found.camera), std::move(found.fit.rotations),
+          std::move(found.fit.translations)};
 }
 
-Solution ocam(const cv::Size& size, const std::vector<cv::Point3f>& board,
-              const std::vector<std::vector<cv::Point2f>>& corners) {
-  const OcamSolution found = solveOcam(size, board, corners);
+Solution ocam(const cv::Size& size, const Board& board, const std::vector<Corners>& corners) {
+  OcamSolution found = solveOcam(size, board, corners);
   Solution s;
   s.camera.set("model", "ocam");
   s.camera.set("centre_px", std::vector<double>{found.centre.x, found.centre.y});
   s.camera.set("polynomial", found.polynomial);
-  s.rotations = found.rotations;
-  s.translations = found.translations;
+  s.rotations = std::move(found.rotations);
+  s.translations = std::move(found.translations);
   return s;
 }
 
-std::vector<cv::Point3f> cornersOf(const BoardSize& board) {
-  std::vector<cv::Point3f> points;
+Board cornersOf(const BoardSize& board) {
+  Board points;
   for (int row = 0; row < board.rows; ++row)
     for (int column = 0; column < board.columns; ++column)
       points.emplace_back(static_cast<float>(column), static_cast<float>(row), 0.0F);
@@ -98,16 +81,13 @@ std::vector<cv::Point3f> cornersOf(const BoardSize& board) {
 }
 
 /// Sum of the squared distances between corners and where the model sees them [px^2].
-double squaredErrors(const CameraModel& model, const std::vector<cv::Point3f>& board,
-                     const std::vector<cv::Point2f>& corners, const cv::Mat& rotation,
-                     const cv::Mat& translation) {
-  cv::Mat turn;
+double squaredErrors(const CameraModel& model, const Board& board, const Corners& corners,
+                     const cv::Vec3d& rotation, const cv::Vec3d& translation) {
+  cv::Matx33d turn;
   cv::Rodrigues(rotation, turn);
-  const cv::Matx33d r(turn);
-  const std::vector<double> t = numbers(translation);
   double sum = 0.0;
   for (std::size_t i = 0; i < board.size(); ++i) {
-    const cv::Vec3d p = r * cv::Vec3d(board[i].x, board[i].y, 0.0) + cv::Vec3d(t[0], t[1], t[2]);
+    const cv::Vec3d p = turn * cv::Vec3d(board[i].x, board[i].y, 0.0) + translation;
     const auto pixel = model.project({p[0], p[1], p[2]});
     if (!pixel) throw std::runtime_error("a board is where the model that was found sees nothing");
     sum += std::pow(pixel->u - corners[i].x, 2) + std::pow(pixel->v - corners[i].y, 2);
@@ -115,16 +95,16 @@ double squaredErrors(const CameraModel& model, const std::vector<cv::Point3f>& b
   return sum;
 }
 
-Solution solve(BoardModel model, const cv::Size& size, const std::vector<cv::Point3f>& board,
-               const std::vector<std::vector<cv::Point2f>>& corners) {
-  const std::vector<std::vector<cv::Point3f>> points(corners.size(), board);
+Solution solve(BoardModel model, const cv::Size& size, const Board& board,
+               const std::vector<Corners>& corners) {
+  const std::vector<Board> points(corners.size(), board);
   switch (model) {
     case BoardModel::kPerspective:
       return perspective(size, points, corners);
     case BoardModel::kFisheye:
       return fisheye(size, points, corners);
     case BoardModel::kUnified:
-      return unified(size, points, corners);
+      return unified({size.width, size.height}, board, corners);
     case BoardModel::kOcam:
       break;
   }
@@ -163,11 +143,11 @@ std::optional<std::vector<Pixel>> findBoard(const ImageView& image, const BoardS
 
 BoardCalibration calibrateByBoards(BoardModel model, const ImageSize& size, const BoardSize& board,
                                    std::span<const std::vector<Pixel>> boards) {
-  const std::vector<cv::Point3f> points = cornersOf(board);
+  const Board points = cornersOf(board);
   if (boards.size() < 3)
     throw std::runtime_error("found " + std::to_string(boards.size()) +
                              " pictures of the board, expected 3 or more");
-  std::vector<std::vector<cv::Point2f>> corners(boards.size());
+  std::vector<Corners> corners(boards.size());
   for (std::size_t i = 0; i < boards.size(); ++i) {
     if (boards[i].size() != points.size())
       throw std::invalid_argument("a board has another number of corners");

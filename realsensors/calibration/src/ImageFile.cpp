@@ -1,4 +1,4 @@
-#include "ortung/vision/ImageFile.hpp"
+#include "ortung/calibration/ImageFile.hpp"
 
 #include <algorithm>
 #include <cmath>
