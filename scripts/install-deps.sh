@@ -29,8 +29,8 @@ test=(
   libmrpt-obs-dev libmrpt-maps-dev libmrpt-hwdrivers-dev
   # tests of files for MRPT: its own tools
   mrpt-apps
-  # images: features, calibration, cameras
-  libopencv-dev libopencv-contrib-dev
+  # images: features, calibration, cameras; not libopencv-dev, which wants windows (Qt) and 3D views (VTK)
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-videoio-dev
   # pictures of scenes, and the test that looks at them
   python3-pil
   # the Python package, its wheel, and what looks at its stubs

@@ -8,7 +8,7 @@ packages=$(sed -n '/^[a-z]*=($/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
 package_of() {
   case $1 in
     BLAS) echo libblas-dev ;; Boost) echo libboost-dev ;; CLI11) echo libcli11-dev ;; Eigen3) echo libeigen3-dev ;;
-    GTest) echo libgtest-dev ;; OpenCV) echo libopencv-dev ;; PNG) echo libpng-dev ;; Python3) echo python3 ;; Python) echo python3-dev ;; pybind11) echo pybind11-dev ;; benchmark) echo libbenchmark-dev ;;
+    GTest) echo libgtest-dev ;; OrtungOpenCV) echo libopencv-calib3d-dev ;; opencv2/core.hpp) echo libopencv-core-dev ;; PNG) echo libpng-dev ;; Python3) echo python3 ;; Python) echo python3-dev ;; pybind11) echo pybind11-dev ;; benchmark) echo libbenchmark-dev ;;
     box2d) echo libbox2d-dev ;; embree) echo libembree-dev ;; fmt) echo libfmt-dev ;; mrpt-maps) echo libmrpt-maps-dev ;;
     mrpt-hwdrivers) echo libmrpt-hwdrivers-dev ;; mrpt-obs) echo libmrpt-obs-dev ;; nlohmann_json) echo nlohmann-json3-dev ;; rapidcheck) echo librapidcheck-dev ;;
     spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;; zstd) echo libzstd-dev ;; zstdcat) echo zstd ;;

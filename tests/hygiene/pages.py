@@ -16,6 +16,7 @@ def places_that_ci_runs(root):
     """What says which tests and scripts are run."""
     texts = [(root / ".ci/run").read_text(), (root / "scripts/test.sh").read_text()]
     texts += [p.read_text() for p in (root / "tests").rglob("CMakeLists.txt")]
+    texts += [f"test_{name}.py" for name in re.findall(r"ortung_python_test\((\w+)", "\n".join(texts))]
     return "\n".join(texts)
 
 
