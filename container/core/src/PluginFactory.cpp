@@ -10,8 +10,8 @@
 #include <span>
 
 #include "ortung/base/InputFile.hpp"
-#include "ortung/core/PluginGuard.hpp"
 #include "ortung/base/LibraryFolder.hpp"
+#include "ortung/core/PluginGuard.hpp"
 
 namespace ortung {
 namespace {

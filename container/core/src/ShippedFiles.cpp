@@ -1,9 +1,9 @@
 #include "ortung/core/ShippedFiles.hpp"
-#include "ortung/base/LibraryFolder.hpp"
 
 #include <cstdlib>
 #include <vector>
 
+#include "ortung/base/LibraryFolder.hpp"
 
 namespace ortung {
 namespace {
