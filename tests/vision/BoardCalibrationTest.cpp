@@ -188,6 +188,56 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"ocam", BoardModel::kOcam, 4.5, 4.0, {}, {}, 0.0, {260.0, 0.0, -7e-4, 2e-7, -1e-9}}),
     [](const testing::TestParamInfo<Case>& one) { return one.param.name; });
 
+/// Corners where a camera sees them, without drawing a picture and looking for them in it.
+std::vector<std::vector<Pixel>> seenBy(const CameraModel& camera) {
+  std::vector<std::vector<Pixel>> boards;
+  for (const Pose& pose : poses(8.0, 4.0)) {
+    const auto axes = axesOf(pose);
+    std::vector<Pixel> corners;
+    for (int row = 0; row < kBoard.rows; ++row)
+      for (int column = 0; column < kBoard.columns; ++column) {
+        const double x = column - 0.5 * (kBoard.columns - 1);
+        const double y = row - 0.5 * (kBoard.rows - 1);
+        const auto pixel = camera.project({pose.x + x * axes[0].x + y * axes[1].x,
+                                           pose.y + x * axes[0].y + y * axes[1].y,
+                                           pose.z + x * axes[0].z + y * axes[1].z});
+        if (pixel && camera.contains(*pixel)) corners.push_back(*pixel);
+      }
+    if (corners.size() == static_cast<std::size_t>(kBoard.columns * kBoard.rows))
+      boards.push_back(std::move(corners));
+  }
+  return boards;
+}
+
+// From a plain lens to one that sees more than a parabolic mirror does; the fit begins with such a
+// mirror. Corners are rounded to single precision, which is 3e-5 px.
+TEST(BoardCalibration, FindsUnifiedModelsWhateverXiIs) {
+  for (const double xi : {0.0, 0.1, 0.5, 1.0, 1.6}) {
+    SCOPED_TRACE(xi);
+    Case c{"unified",
+           BoardModel::kUnified,
+           8.0,
+           4.0,
+           {250.0 * (1.0 + xi), 252.0 * (1.0 + xi)},
+           {-0.05, 0.01, 0.0004, -0.0006},
+           xi,
+           {}};
+    Parameters settings = cameraOf(c);
+    settings.set("xi", xi);
+    const auto camera = readCamera(settings);
+    const auto boards = seenBy(*camera);
+    ASSERT_GE(boards.size(), 10u);
+    const BoardCalibration found =
+        calibrateByBoards(BoardModel::kUnified, camera->size(), kBoard, boards);
+    EXPECT_LT(found.error, 0.001) << "[px]";
+    EXPECT_NEAR(scaleOf(*found.model), scaleOf(*camera), 1e-4 * scaleOf(*camera));
+    const auto axis = found.model->project({0.0, 0.0, 1.0});
+    ASSERT_TRUE(axis.has_value());
+    EXPECT_NEAR(axis->u, 324.0, 0.01);
+    EXPECT_NEAR(axis->v, 236.5, 0.01);
+  }
+}
+
 TEST(BoardCalibration, SaysWhatIsMissing) {
   const std::vector<std::uint8_t> nothing(640 * 480, 128);
   EXPECT_FALSE(findBoard({{640, 480}, PixelFormat::kGrey, nothing.data()}, kBoard).has_value());
