@@ -8,7 +8,7 @@ packages=$(sed -n '/^[a-z]*=($/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
 package_of() {
   case $1 in
     BLAS) echo libblas-dev ;; Boost) echo libboost-dev ;; CLI11) echo libcli11-dev ;; Eigen3) echo libeigen3-dev ;;
-    GTest) echo libgtest-dev ;; OrtungOpenCV) echo libopencv-calib3d-dev ;; opencv2/core.hpp) echo libopencv-core-dev ;; PNG) echo libpng-dev ;; Python3) echo python3 ;; Python) echo python3-dev ;; pybind11) echo pybind11-dev ;; benchmark) echo libbenchmark-dev ;;
+    GTest) echo libgtest-dev ;; OrtungOpenCV) echo - ;; opencv2/core.hpp) echo libopencv-core-dev ;; opencv_*) echo "libopencv-${1#opencv_}-dev" ;; PNG) echo libpng-dev ;; Python3) echo python3 ;; Python) echo python3-dev ;; pybind11) echo pybind11-dev ;; benchmark) echo libbenchmark-dev ;;
     box2d) echo libbox2d-dev ;; embree) echo libembree-dev ;; fmt) echo libfmt-dev ;; mrpt-maps) echo libmrpt-maps-dev ;;
     mrpt-hwdrivers) echo libmrpt-hwdrivers-dev ;; mrpt-obs) echo libmrpt-obs-dev ;; nlohmann_json) echo nlohmann-json3-dev ;; rapidcheck) echo librapidcheck-dev ;;
     spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;; zstd) echo libzstd-dev ;; zstdcat) echo zstd ;;
@@ -26,6 +26,8 @@ names=$({
   sed -nE 's/^ *find_package\(([A-Za-z0-9_-]+).*/\1/p; s/^ *find_program\([A-Z_]+ ([a-z0-9.-]+).*/\1/p;
            s/^ *find_path\([A-Z_]+ ([^ )]+).*/\1/p; s/.*COMPONENTS (iostreams).*/\1/p; s|.*/usr/share/(javascript/dygraphs).*|\1|p' \
     $cmake_files
+  # shellcheck disable=SC2086
+  sed -nE 's/^ *find_package\(OrtungOpenCV .*COMPONENTS ([a-z0-9 ]+)\).*/\1/p' $cmake_files | tr ' ' '\n' | sed 's/^/opencv_/'
   sed -nE 's/.*"CXX?": "([^"]+)".*/\1/p; s/.*"generator": "([^"]+)".*/\1/p' CMakePresets.json
   grep -ohE 'clang-format-[0-9]+|\b(ninja|ccache|python3|cmake|pkg-config|readelf|zstdcat|debootstrap|lintian|dpkg-architecture)\b' scripts/*.sh tests/hygiene/*.sh
   grep -ohE '^ *(import|from) (PIL|numpy)' scripts/*.py examples/*.py tests/*/*.py 2> /dev/null | sed 's/.* //'

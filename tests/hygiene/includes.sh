@@ -53,6 +53,12 @@ deny 'plugins' 'ortung/(mcl|run|realsensors)/|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
 deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt'
 
+# Of OpenCV, robots need core and imgproc; files and chessboards are for calibration, videos for the driver of cameras.
+deny 'container mcl sim plugins realsensors app' 'opencv2/' '(realsensors/vision/src/BlobFinder\.cpp|realsensors/calibration/src/|realsensors/devices/plugins/CameraDevice\.cpp)'
+deny 'realsensors/vision' 'ortung/calibration/|opencv2/(imgcodecs|calib3d|videoio|highgui|ccalib|opencv)'
+deny 'realsensors/calibration' 'opencv2/(videoio|highgui|ccalib|opencv)'
+deny 'container mcl sim plugins realsensors/core realsensors/devices' 'ortung/calibration/'
+
 # What runs on a robot knows no emulator of its devices; neither knows who opens it.
 deny 'container mcl sim plugins realsensors/core realsensors/devices realsensors/mrpt_devices' 'ortung/emulators/'
 deny 'realsensors/devices realsensors/emulators realsensors/mrpt_devices' "ortung/(run|server|served|client)/|toml|nlohmann|opencv" 'realsensors/devices/plugins/CameraDevice'
@@ -81,7 +87,7 @@ done
 # Public headers name no library but the standard one and Eigen.
 for folder in container/*/include mcl/include mcl/run/include mcl/player/include mcl/served/include sim/include sim/api/include sim/server/include \
               sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
-              sim/pictures/include sim/web/include realsensors/ros2/include realsensors/foxglove/include realsensors/devices/include realsensors/emulators/include; do
+              sim/pictures/include sim/web/include realsensors/ros2/include realsensors/foxglove/include realsensors/vision/include realsensors/calibration/include realsensors/devices/include realsensors/emulators/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 
