@@ -29,7 +29,7 @@ test=(
   libmrpt-obs-dev libmrpt-maps-dev libmrpt-hwdrivers-dev
   # tests of files for MRPT: its own tools
   mrpt-apps
-  # images: features, calibration, cameras; not libopencv-dev, which wants windows (Qt) and 3D views (VTK)
+  # images: features, calibration, cameras; of OpenCV no more than is used
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-videoio-dev
   # pictures of scenes, and the test that looks at them
   python3-pil
