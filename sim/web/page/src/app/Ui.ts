@@ -3,6 +3,7 @@ import { toFragment } from "../link/address";
 import type { Heat } from "../field/HeatLayer";
 import { kLayers, kLayerNames, type Layers } from "../field/layers";
 import type { Expected } from "../field/rays";
+import { DrivingKeys } from "./DrivingKeys";
 import { kept as sizeOf, kFieldHeight, kSideWidth } from "./sizes";
 import type { Point } from "../model/geometry";
 
@@ -39,6 +40,7 @@ export class Ui {
   follow = false;
   tool: Tool = "look";
   drivesByKeys = false;
+  readonly drivingKeys = new DrivingKeys(window, () => this.drivesByKeys);
   heat: Heat | null = null;
   expected: Expected | null = null;
   /** Where the user asked why, on the field. */
@@ -63,6 +65,7 @@ export class Ui {
   change(what: Partial<Ui>): void {
     Object.assign(this, what);
     this.frame++;
+    if (!this.drivesByKeys) this.drivingKeys.clear();
     this.showTheme();
     this.keep();
     for (const listener of this.listeners) listener();

@@ -1,4 +1,5 @@
 import type { Context } from "./context";
+import { isTypedInto } from "./typing";
 import { kPanels } from "./Ui";
 
 /** Keys of the whole page: what they do, for the help and for `installKeys`. */
@@ -49,11 +50,9 @@ export function installKeys({ session, ui }: Context): void {
   kPanels.forEach((panel, i) => (actions[String(i + 1)] = () => ui.change({ panel })));
   window.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
-    const isTyping = /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName) && !/^(checkbox|radio)$/.test((target as HTMLInputElement).type);
     const isPressing = event.key === " " && target.closest("button, summary, input, .robot, a");
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || isPressing) return;
-    if (isTyping && event.key !== "Escape") return;
-    if (ui.drivesByKeys && /^[wasdWASD]$/.test(event.key)) return;
+    if (isTypedInto(target) && event.key !== "Escape") return;
     const action = actions[event.key];
     if (!action) return;
     event.preventDefault();

@@ -1,55 +1,35 @@
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { usePage } from "../app/context";
 import { plain } from "../link/words";
 import type { Robot } from "../model/Robot";
 
 const kPeriod = 100;
 const kDead = 0.12;
-const kWays: Record<string, [number, number]> = {
-  w: [1, 0], s: [-1, 0], a: [0, 1], d: [0, -1], ArrowUp: [1, 0], ArrowDown: [-1, 0], ArrowLeft: [0, 1], ArrowRight: [0, -1],
-};
 
 /** Drives the selected robot by keys, buttons or a gamepad: VELOCITY, while something is held. */
 export function DriveControls({ robot }: { robot: Robot }) {
   const { session, ui } = usePage();
   const { board } = session;
   const [share, setShare] = useState(0.5);
+  const shareNow = useRef(share);
+  shareNow.current = share;
   const [pad, setPad] = useState("");
   const isOn = ui.drivesByKeys && board.isOperator;
   useEffect(() => {
     if (!isOn) return;
-    const held = new Set<string>();
     const sender = new Sender(session, robot);
-    const press = (event: KeyboardEvent) => {
-      const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-      if (!kWays[key] || /^(INPUT|SELECT)$/.test((event.target as Element).tagName)) return;
-      event.preventDefault();
-      if (event.type === "keydown") held.add(key);
-      else held.delete(key);
-    };
-    const drop = () => held.clear();
     const timer = setInterval(() => {
-      let [v, w] = [0, 0];
-      for (const key of held) {
-        v += kWays[key]![0];
-        w += kWays[key]![1];
-      }
+      let { v, w } = ui.drivingKeys.way();
       const stick = gamepad();
       setPad(stick?.id ?? "");
       if (stick) [v, w] = [v + stick.v, w + stick.w];
-      sender.want(clamp(v) * share * robot.speed, clamp(w) * share * robot.turn);
+      sender.want(clamp(v) * shareNow.current * robot.speed, clamp(w) * shareNow.current * robot.turn);
     }, kPeriod);
-    window.addEventListener("keydown", press, true);
-    window.addEventListener("keyup", press, true);
-    window.addEventListener("blur", drop);
     return () => {
       clearInterval(timer);
-      window.removeEventListener("keydown", press, true);
-      window.removeEventListener("keyup", press, true);
-      window.removeEventListener("blur", drop);
       sender.want(0, 0);
     };
-  }, [isOn, session, robot, share]);
+  }, [isOn, session, ui, robot]);
   return (
     <div class="drive">
       <div class="row">
