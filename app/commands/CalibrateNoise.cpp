@@ -16,7 +16,7 @@
 #include "ortung/robot/RobotText.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/run/Feeder.hpp"
-#include "ortung/run/NoiseLearner.hpp"
+#include "ortung/study/NoiseLearner.hpp"
 
 namespace ortung::app {
 namespace {

@@ -12,9 +12,9 @@
 #include "Localizing.hpp"
 #include "SimulatedBound.hpp"
 #include "SourceArguments.hpp"
-#include "ortung/mcl/Verdict.hpp"
-#include "ortung/run/Cases.hpp"
-#include "ortung/run/Disturbed.hpp"
+#include "ortung/study/Verdict.hpp"
+#include "ortung/study/Cases.hpp"
+#include "ortung/study/Disturbed.hpp"
 
 namespace ortung::app {
 namespace {

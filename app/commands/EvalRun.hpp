@@ -9,10 +9,10 @@
 
 #include "Commands.hpp"
 #include "RunResult.hpp"
-#include "ortung/mcl/Evaluation.hpp"
+#include "ortung/study/Evaluation.hpp"
 #include "ortung/records/RecordWriter.hpp"
-#include "ortung/run/Fault.hpp"
-#include "ortung/run/Recording.hpp"
+#include "ortung/study/Fault.hpp"
+#include "ortung/study/Recording.hpp"
 
 namespace ortung::app {
 

@@ -10,7 +10,7 @@
 #include "Numbers.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
-#include "ortung/mcl/MotionLearner.hpp"
+#include "ortung/study/MotionLearner.hpp"
 #include "ortung/run/Robot.hpp"
 
 namespace ortung::app {

@@ -6,7 +6,7 @@
 
 #include "Commands.hpp"
 #include "Outputs.hpp"
-#include "ortung/mcl/Evaluation.hpp"
+#include "ortung/study/Evaluation.hpp"
 #include "ortung/run/Localization.hpp"
 
 namespace ortung::app {

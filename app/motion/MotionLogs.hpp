@@ -5,7 +5,7 @@
 
 #include "MotionGrid.hpp"
 #include "Progress.hpp"
-#include "ortung/mcl/MotionLearner.hpp"
+#include "ortung/study/MotionLearner.hpp"
 
 namespace ortung::app {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ortung/base/Parameters.hpp"
-#include "ortung/mcl/MotionLearner.hpp"
+#include "ortung/study/MotionLearner.hpp"
 
 namespace ortung::app {
 

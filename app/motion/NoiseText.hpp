@@ -7,7 +7,7 @@
 #include "ortung/core/SensorData.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/RobotText.hpp"
-#include "ortung/run/NoiseLearner.hpp"
+#include "ortung/study/NoiseLearner.hpp"
 
 namespace ortung::app {
 

@@ -14,7 +14,7 @@
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/formats/ScanData.hpp"
-#include "ortung/mcl/NoiseFit.hpp"
+#include "ortung/study/NoiseFit.hpp"
 #include "ortung/run/Robot.hpp"
 #include "ortung/sim/SimWorld.hpp"
 #include "ortung/sim_api/Sensor.hpp"

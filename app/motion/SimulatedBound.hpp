@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ortung/core/SensorContainer.hpp"
-#include "ortung/mcl/PoseBound.hpp"
+#include "ortung/study/PoseBound.hpp"
 
 namespace ortung::app {
 

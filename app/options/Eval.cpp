@@ -2,7 +2,7 @@
 #include "Commands.hpp"
 #include "LocalizationOptions.hpp"
 #include "OptionBuilder.hpp"
-#include "ortung/run/Fault.hpp"
+#include "ortung/study/Fault.hpp"
 
 namespace ortung::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "Calibration.hpp"
-#include "ortung/mcl/Evaluation.hpp"
-#include "ortung/mcl/PoseBound.hpp"
+#include "ortung/study/Evaluation.hpp"
+#include "ortung/study/PoseBound.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TableInfo.hpp"
 

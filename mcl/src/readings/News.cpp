@@ -1,0 +1,45 @@
+#include "News.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "NominalTime.hpp"
+#include "Parallel.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr float kMostNats = 1e4F;  ///< of one moment's readings: ln 0 counts as this little
+
+}  // namespace
+
+PoseResolution coarsestOf(const std::vector<News>& news) {
+  PoseResolution coarsest;
+  for (const News& one : news) {
+    const PoseResolution its = one.weigher->resolution();
+    coarsest.metres = std::max(coarsest.metres, its.metres);
+    coarsest.radians = std::max(coarsest.radians, its.radians);
+  }
+  return coarsest;
+}
+
+double nanosecondsOf(const std::vector<News>& news) {
+  double sum = 0.0;
+  for (const News& one : news) sum += nominalNanoseconds(*one.weigher);
+  return sum;
+}
+
+void weigh(const std::vector<News>& news, const SampleSet& set, Workers* workers,
+           std::vector<float>& out) {
+  out.assign(set.size(), 0.0F);
+  forEachChunk(set.size(), workers, [&](std::size_t first, std::size_t count) {
+    const SampleView part = set.view().part(first, count);
+    const std::span<float> values = std::span(out).subspan(first, count);
+    for (const News& one : news) one.weigher->getProbability(part, values);
+    // A plugin that answers ln 0 or nonsense must not blind the filter for what comes after it.
+    for (float& v : values)
+      v = std::isfinite(v) ? std::clamp(v, -kMostNats, kMostNats) : -kMostNats;
+  });
+}
+
+}  // namespace ortung

@@ -1,0 +1,213 @@
+#include "ortung/study/Disturbed.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "Disturbance.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/run/Feeder.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr std::uint64_t kStream = 0xFA17ULL << 32;  ///< apart from those of MCL
+/// Features of a hostile log that get disturbances of their own.
+constexpr std::size_t kMostFeatures = 10000;
+constexpr Timestamp kFarthest = Timestamp{1} << 60;  ///< as far as FrameReader takes readings
+
+/// What a fault needs to know of the robot.
+struct Formats {
+  std::map<std::string, bool> isOdometry;  ///< of all features but ground truth
+  std::map<std::string, ScanData::Config> scans;
+  std::map<std::string, LandmarksData::Config> landmarks;
+};
+
+Formats formatsOf(const SensorContainer& robot) {
+  Formats formats;
+  for (const auto& data : robot.all()) {
+    if (data->id().type == kGroundTruth) continue;
+    const std::string name = toText(data->id());
+    formats.isOdometry[name] = dynamic_cast<const OdometryData*>(data.get()) != nullptr;
+    if (const auto* scan = dynamic_cast<const ScanData*>(data.get()))
+      formats.scans.emplace(name, scan->config());
+    if (const auto* landmarks = dynamic_cast<const LandmarksData*>(data.get()))
+      formats.landmarks.emplace(name, landmarks->config());
+  }
+  return formats;
+}
+
+bool isOdometry(const Formats& formats, const std::string& feature) {
+  const auto found = formats.isOdometry.find(feature);
+  return found != formats.isOdometry.end() && found->second;
+}
+
+/// Whether a fault alters a feature of the log that is not ground truth.
+bool concerns(const Fault& fault, const Formats& formats, const std::string& feature) {
+  const FaultOf of = groupOf(fault.kind);
+  if (of == FaultOf::kScan && !formats.scans.contains(feature) &&
+      !(fault.kind == Fault::Kind::kRandom && formats.landmarks.contains(feature)))
+    return false;
+  if (fault.what == "odometry") return isOdometry(formats, feature);
+  if (fault.what == "readings") return !isOdometry(formats, feature);
+  return fault.what == feature;
+}
+
+void check(const Fault& fault, const Formats& formats) {
+  std::string names;
+  bool concernsAny = false;
+  for (const auto& [feature, odometry] : formats.isOdometry) {
+    names += (names.empty() ? "" : ", ") + feature;
+    if (groupOf(fault.kind) == FaultOf::kOdometry && !odometry) continue;
+    concernsAny = concernsAny || concerns(fault, formats, feature);
+  }
+  if (concernsAny) return;
+  const char* wanted = "feature";
+  if (groupOf(fault.kind) == FaultOf::kScan) wanted = "scan";
+  if (groupOf(fault.kind) == FaultOf::kOdometry || fault.what == "odometry") wanted = "odometry";
+  throw FaultError("fault '" + fault.text + "': the robot has no " + wanted + " '" + fault.what +
+                   "', its features are " + (names.empty() ? "none" : names));
+}
+
+class Disturbed : public Source {
+ public:
+  Disturbed(std::unique_ptr<Source> source, const std::vector<Fault>& faults,
+            const SensorContainer& robot, std::uint64_t seed)
+      : source_(std::move(source)), formats_(formatsOf(robot)), seed_(seed) {
+    for (const Fault& fault : faults) {
+      check(fault, formats_);
+      faults_.push_back({fault, false});
+    }
+  }
+
+  bool next(Message& message) override {
+    while (!isReady()) read();
+    if (waiting_.empty()) return false;
+    message = std::move(waiting_.begin()->second.message);
+    waiting_.erase(waiting_.begin());
+    return true;
+  }
+
+  double progress() const override { return source_->progress(); }
+  bool isLive() const override { return source_->isLive(); }
+  std::string worldFingerprint() const override { return source_->worldFingerprint(); }
+  std::string robotToml() const override { return source_->robotToml(); }
+  void writeWorld(const std::filesystem::path& file) const override { source_->writeWorld(file); }
+  std::string remark() const override {
+    std::string text = source_->remark();
+    for (const Active& fault : faults_) {
+      if (fault.metReading) continue;
+      text += (text.empty() ? "" : "; ") + ("the fault '" + fault.fault.text + "' met no reading");
+    }
+    return text;
+  }
+
+ private:
+  struct Active {
+    Fault fault;
+    bool metReading;
+  };
+  struct Feature {
+    std::vector<std::pair<std::size_t, std::unique_ptr<Disturbance>>> faults;
+    Timestamp newest = 0;  ///< of what came in time, before it was altered
+  };
+  struct Waiting {
+    Message message;
+    Feature* feature;
+    Timestamp original;
+  };
+
+  /// Stamps only become later, so what is not behind the newest reading can't be overtaken. A
+  /// reading that comes after a newer one of its feature, as the clock is right again, never comes.
+  bool isReady() {
+    while (!waiting_.empty() && (atEnd_ || waiting_.begin()->first.first <= now_)) {
+      const Waiting& next = waiting_.begin()->second;
+      if (next.feature == nullptr || next.original >= next.feature->newest) {
+        if (next.feature != nullptr) next.feature->newest = next.original;
+        return true;
+      }
+      waiting_.erase(waiting_.begin());
+    }
+    return atEnd_;
+  }
+
+  void read() {
+    Message message;
+    if (!source_->next(message)) {
+      atEnd_ = true;
+      return;
+    }
+    if (!first_) first_ = message.stamp;
+    now_ = message.stamp;
+    const Timestamp original = message.stamp;
+    const bool isPassed =
+        message.id.type == kGroundTruth || original < -kFarthest || original > kFarthest;
+    Feature* feature = isPassed ? nullptr : featureOf(message.id);
+    if (feature != nullptr && !alter(message, *feature)) return;
+    const std::pair<Timestamp, std::uint64_t> place(message.stamp, count_++);
+    waiting_.emplace(place, Waiting{std::move(message), feature, original});
+  }
+
+  bool alter(Message& message, Feature& feature) {
+    const double seconds = toSeconds(message.stamp) - toSeconds(*first_);
+    for (const auto& [index, disturbance] : feature.faults) {
+      Active& active = faults_[index];
+      const bool isNow = seconds >= active.fault.from && seconds < active.fault.to;
+      active.metReading = active.metReading || isNow;
+      if (!disturbance->alter(message, seconds, isNow)) return false;
+    }
+    return true;
+  }
+
+  Feature* featureOf(const SensorId& id) {
+    const std::string name = toText(id);
+    const auto found = features_.find(name);
+    if (found != features_.end()) return &found->second;
+    if (features_.size() == kMostFeatures) return nullptr;
+    Feature& feature = features_[name];
+    const std::uint64_t number = features_.size();
+    for (std::size_t i = 0; i < faults_.size(); ++i) {
+      const Fault& fault = faults_[i].fault;
+      if (concerns(fault, formats_, name))
+        feature.faults.emplace_back(i,
+                                    make(fault, name, Random(seed_, kStream + (i << 16) + number)));
+    }
+    return &feature;
+  }
+
+  std::unique_ptr<Disturbance> make(const Fault& fault, const std::string& feature,
+                                    const Random& random) const {
+    switch (groupOf(fault.kind)) {
+      case FaultOf::kOdometry:
+        return makeOdometryFault(fault);
+      case FaultOf::kScan:
+        if (const auto list = formats_.landmarks.find(feature); list != formats_.landmarks.end())
+          return makeLandmarksFault(fault, list->second, random);
+        return makeScanFault(fault, formats_.scans.at(feature), random);
+      default:
+        return makeReadingFault(fault, random);
+    }
+  }
+
+  std::unique_ptr<Source> source_;
+  Formats formats_;
+  std::uint64_t seed_;
+  std::vector<Active> faults_;
+  std::map<std::string, Feature> features_;
+  /// By stamp, then in the order of the source.
+  std::map<std::pair<Timestamp, std::uint64_t>, Waiting> waiting_;
+  std::uint64_t count_ = 0;
+  std::optional<Timestamp> first_;
+  Timestamp now_ = 0;  ///< newest stamp of the source
+  bool atEnd_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Source> disturbed(std::unique_ptr<Source> source, const std::vector<Fault>& faults,
+                                  const SensorContainer& robot, std::uint64_t seed) {
+  return std::make_unique<Disturbed>(std::move(source), faults, robot, seed);
+}
+
+}  // namespace ortung
