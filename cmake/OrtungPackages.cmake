@@ -142,7 +142,7 @@ endfunction()
 # The licence, and those of what is linked into the program or part of its page.
 function(ortung_write_copyright)
   file(READ LICENSE licence)
-  file(READ sim/web/built/licences.md page)
+  file(READ board/web/built/licences.md page)
   set(charts "")
   if(EXISTS /usr/share/doc/libjs-dygraphs/copyright)
     file(READ /usr/share/doc/libjs-dygraphs/copyright charts)

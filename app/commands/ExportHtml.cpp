@@ -91,7 +91,7 @@ std::string fileOfPage(const std::filesystem::path& folder, const char* name) {
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in || text.empty())
     throw std::runtime_error((folder / name).string() +
-                             ": this part of the viewer's page is missing; see sim/web/page");
+                             ": this part of the viewer's page is missing; see board/web/page");
   return text;
 }
 

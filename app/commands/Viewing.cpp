@@ -101,7 +101,7 @@ void Viewing::open(const MessageBoard& board) {
   const std::string url = fmt::format("http://{}:{}/", reachable(address_), board.port());
   const std::string key = token_.empty() ? "" : "#token=" + token_;
   if (!door_.hasPage())
-    warn("this program has no viewer's page (sim/web/page was not built): clients only");
+    warn("this program has no viewer's page (board/web/page was not built): clients only");
   fmt::print("look and steer: {}{}\n", url, key);
   if (token_.empty())
     note("with #token=... behind it, the token of 'view' in the token file");

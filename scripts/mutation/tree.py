@@ -15,7 +15,7 @@ ROOMS = {
     "mcl": ("mcl/",),
     "sim": ("sim/src/", "sim/api/", "sim/include/"),
     "plugins": ("plugins/",),
-    "server": ("sim/server/", "sim/served/", "sim/client/"),
+    "server": ("board/server/", "board/worlds/served/", "board/client/"),
     "importers": ("realsensors/",),
 }
 

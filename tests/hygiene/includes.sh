@@ -22,33 +22,33 @@ deny 'container' "ortung/(mcl|sim|sim_api|realsensors|server|served|client)|$for
 deny 'container' 'toml\+\+|toml\.|nlohmann' 'container/robot/'
 deny 'container mcl sim plugins realsensors app' 'zstd\.h|lz4' '(container/records/src/Zstd|realsensors/ros2/src/Compression)\.cpp'
 deny 'mcl' "ortung/(sim|sim_api|realsensors|server|served|client)|toml|nlohmann|$foreign" 'mcl/(player/.*sim_api/|served/.*(server|sim)/)'
-deny 'container mcl/include mcl/src mcl/run sim/api sim/src sim/include sim/remote realsensors' 'ortung/mcl_player/'
+deny 'container mcl/include mcl/src mcl/run sim/api sim/src sim/include board/remote realsensors' 'ortung/mcl_player/'
 deny 'plugins/sensors plugins/motion plugins/sources plugins/referees' 'ortung/mcl_player/'
 # Filters for clients of a server: only who serves sees them; of the simulator they know the learner's tables alone.
-deny 'container mcl/include mcl/src mcl/run mcl/player sim plugins realsensors' 'ortung/mcl_served/'
-deny 'mcl/served' 'ortung/(served|sim_api|realsensors|client|remote)/|ortung/sim/[^T]'
+deny 'container mcl/include mcl/src mcl/run play/mcl_player sim plugins realsensors' 'ortung/mcl_served/'
+deny 'board/worlds/mcl_served' 'ortung/(served|sim_api|realsensors|client|remote)/|ortung/sim/[^T]'
 deny 'mcl/include mcl/src' 'ortung/(robot|run)/'
 # The main job as a library: whoever uses it prints by himself and has his own command line.
 headers_of_app=$(ls app/*/*.hpp | xargs -n1 basename | sed 's/\.hpp$//' | paste -sd '|')
 deny 'mcl/run' "(.*/)?($headers_of_app)\\.hpp|unistd|csignal|iostream"
 # MCL for players sees a seat, not who runs it.
-deny 'mcl/player' 'ortung/(sim|realsensors|server|served|client|remote|benchmark)/|toml|nlohmann'
+deny 'play/mcl_player' 'ortung/(sim|realsensors|server|served|client|remote|benchmark)/|toml|nlohmann'
 deny 'sim/api' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|nlohmann|$foreign"
 deny 'sim' 'ortung/(mcl|run|realsensors)/|mrpt|opencv'
-deny 'sim/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nlohmann|$foreign"
-deny 'sim/remote' "ortung/(mcl|sim|realsensors|server|served)/|toml|nlohmann|$foreign"
-deny 'sim/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
-deny 'sim/refbox' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|mrpt|opencv|embree|GL/|box2d"
-deny 'sim/web' "ortung/(mcl|run|sim|sim_api|realsensors|robot|server|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
+deny 'board/client' "ortung/(mcl|sim|sim_api|realsensors|server|served)/|toml|nlohmann|$foreign"
+deny 'board/remote' "ortung/(mcl|sim|realsensors|server|served)/|toml|nlohmann|$foreign"
+deny 'board/server' "ortung/(mcl|sim|sim_api|realsensors|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
+deny 'board/refbox' "ortung/(mcl|sim|realsensors|robot|server|served|client)/|toml|mrpt|opencv|embree|GL/|box2d"
+deny 'board/web' "ortung/(mcl|run|sim|sim_api|realsensors|robot|server|served|client)/|toml|nlohmann|mrpt|opencv|embree|GL/|box2d"
 deny 'sim/src sim/include' 'ortung/(server|served|client|refbox|web)/'
-deny 'sim/benchmark' 'ortung/(server|served|client|refbox|remote)/'
-deny 'sim/src sim/include sim/api sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/benchmark/'
+deny 'play/benchmark' 'ortung/(server|served|client|refbox|remote)/'
+deny 'sim/src sim/include sim/api board/server board/worlds/served board/client board/refbox board/remote' 'ortung/benchmark/'
 deny 'container mcl sim plugins realsensors app' 'boost/(asio|beast)' 'sim/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)|refbox/src/RefBoxClient\.cpp|web/src/)'
 # Pictures see the world through sim/api alone, as the plugins that take them do.
 deny 'sim/pictures' "ortung/(mcl|run|sim|server|served|client|refbox|remote|robot)/|toml|nlohmann|$foreign"
-deny 'container mcl sim/api sim/src sim/include sim/server sim/served sim/client sim/refbox sim/remote' 'ortung/pictures/'
-deny 'sim/environments' "ortung/(mcl|run|server|served|client|refbox|remote)/|toml|nlohmann|$foreign"
-deny 'container mcl sim/api sim/src sim/include sim/server sim/served sim/client sim/refbox sim/remote sim/benchmark plugins realsensors' 'ortung/learning/'
+deny 'container mcl sim/api sim/src sim/include board/server board/worlds/served board/client board/refbox board/remote' 'ortung/pictures/'
+deny 'play/learning' "ortung/(mcl|run|server|served|client|refbox|remote)/|toml|nlohmann|$foreign"
+deny 'container mcl sim/api sim/src sim/include board/server board/worlds/served board/client board/refbox board/remote play/benchmark plugins realsensors' 'ortung/learning/'
 deny 'plugins' 'ortung/(mcl|run|realsensors)/|mrpt|opencv|embree|GL/|box2d'
 deny 'realsensors' 'ortung/(mcl|sim|sim_api)/|embree|GL/|box2d'
 deny 'container mcl sim plugins realsensors app' 'mrpt' 'realsensors/mrpt'
@@ -85,9 +85,9 @@ for room in $later; do
 done
 
 # Public headers name no library but the standard one and Eigen.
-for folder in container/*/include mcl/include mcl/run/include mcl/player/include mcl/served/include sim/include sim/api/include sim/server/include \
-              sim/served/include sim/client/include sim/refbox/include sim/remote/include sim/benchmark/include \
-              sim/pictures/include sim/web/include realsensors/ros2/include realsensors/foxglove/include realsensors/vision/include realsensors/calibration/include realsensors/devices/include realsensors/emulators/include; do
+for folder in container/*/include mcl/include mcl/run/include play/mcl_player/include board/worlds/mcl_served/include sim/include sim/api/include board/server/include \
+              board/worlds/served/include board/client/include board/refbox/include board/remote/include play/benchmark/include \
+              sim/pictures/include board/web/include realsensors/ros2/include realsensors/foxglove/include realsensors/vision/include realsensors/calibration/include realsensors/devices/include realsensors/emulators/include; do
   deny "$folder" "toml|nlohmann|$foreign"
 done
 

@@ -2,7 +2,7 @@
 # page.sh ROOT PROGRAM  The viewer's page: types, unit tests, what is committed is what the source makes, and Chromium
 # with the real program. Skipped (77) without Node.js 20.19, npm's registry or Chromium.
 set -euo pipefail
-cd "$1/sim/web/page"
+cd "$1/board/web/page"
 skip() {
   printf 'page.sh: Skipped\n%s\n' "$1"
   exit 77
@@ -18,7 +18,7 @@ npx vitest run
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
 npx vite build --outDir "$folder" --logLevel warn
-diff -rq "$folder" ../built || { echo "sim/web/built is not what sim/web/page makes: npm run build"; exit 1; }
+diff -rq "$folder" ../built || { echo "board/web/built is not what board/web/page makes: npm run build"; exit 1; }
 most=153600 # bytes of gzip, without what is loaded when it is asked for
 size=$(cat ../built/index.html ../built/page.js ../built/page.css | gzip -9 | wc -c)
 ((size <= most)) || { echo "the page has $size bytes of gzip, more than $most"; exit 1; }

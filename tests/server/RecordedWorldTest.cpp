@@ -161,9 +161,9 @@ TEST(RecordedWorld, SaysThatTheDiskIsFullAndGoesOn) {
 
 TEST(ForwardedWorld, PassesOnWhateverAWorldIsAsked) {
   const std::string asked =
-      readBytes(ORTUNG_SOURCE_DIR "/sim/server/include/ortung/server/ServedWorld.hpp");
+      readBytes(ORTUNG_SOURCE_DIR "/board/server/include/ortung/server/ServedWorld.hpp");
   const std::string own =
-      readBytes(ORTUNG_SOURCE_DIR "/sim/server/include/ortung/server/ForwardedWorld.hpp");
+      readBytes(ORTUNG_SOURCE_DIR "/board/server/include/ortung/server/ForwardedWorld.hpp");
   const std::regex question("virtual [^;{]*?([A-Za-z]+)\\(");
   std::size_t questions = 0;
   for (std::sregex_iterator next(asked.begin(), asked.end(), question), end; next != end; ++next) {
