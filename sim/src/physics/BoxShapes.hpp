@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ortung/sim/Primitive.hpp"
-#include "ortung/sim/SimWorld.hpp"
+#include "ortung/sim/Solids.hpp"
 
 namespace ortung {
 

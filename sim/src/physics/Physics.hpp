@@ -7,7 +7,7 @@
 
 #include "ortung/base/Pose2.hpp"
 #include "ortung/sim/PhysicsConfig.hpp"
-#include "ortung/sim/SimWorld.hpp"
+#include "ortung/sim/Solids.hpp"
 
 namespace ortung {
 
