@@ -10,7 +10,7 @@ endfunction()
 
 # ortung_command(learn PACKAGE ortung-sim
 #   COMMANDS learn "Learn what a robot's sensors read all over a world" [further names and summaries]
-#   SOURCES options/Learn.cpp commands/Learn.cpp LINK app_options ortung::sim [PLUGINS learner_player])
+#   SOURCES learn/LearnOptions.cpp learn/Learn.cpp LINK app_options ortung::sim [PLUGINS learner_player])
 # Makes lib/ortung/commands/ortung_command_learn.so, if all that it links is built.
 # PLUGINS are those that it asks for by name, whatever robot it is for.
 function(ortung_command name)

@@ -9,6 +9,11 @@ class Builder;
 /// Declares one command.
 using CommandDeclaration = void (*)(Builder&);
 
+// A command is three files of one name in the folder of its kind: Learn.hpp has its arguments and the
+// function that does the work, LearnOptions.cpp says what it takes, Learn.cpp does it. The function
+// prints results to stdout and throws what went wrong; RunCommand.cpp turns that into a message and
+// an exit code.
+
 /// What a command's module shows of itself, and nothing else: the program opens it by the command's
 /// name, as sensors are opened by theirs. The version comes first, and tells whether the rest is
 /// what it seems.

@@ -5,7 +5,8 @@
 #include <span>
 #include <string>
 
-#include "Commands.hpp"
+#include "Learn.hpp"
+#include "Show.hpp"
 #include "DecodedPng.hpp"
 #include "Files.hpp"
 #include "Palette.hpp"

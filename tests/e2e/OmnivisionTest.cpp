@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "Commands.hpp"
+#include "Learn.hpp"
 #include "Files.hpp"
 #include "ortung/run/Localization.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Commands.hpp"
+#include "Learn.hpp"
 #include "Files.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/formats/LandmarksData.hpp"

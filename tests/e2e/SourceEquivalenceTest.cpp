@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "../server/RunningBoard.hpp"
-#include "Commands.hpp"
+#include "Learn.hpp"
 #include "Files.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/core/ReadingLine.hpp"

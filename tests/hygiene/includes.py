@@ -67,7 +67,7 @@ class House:
         rooms = set()
         for name in uses:
             if name == "all":
-                rooms |= set(self.order[self.order.index(room) + 1:])
+                rooms |= {below for below in self.order if not below.startswith("app/")}
             elif name == "container":
                 rooms |= {f"container/{part}" for part in CONTAINER} & set(self.order)
             elif f"container/{name}" in self.uses:

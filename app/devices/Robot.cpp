@@ -1,0 +1,298 @@
+#include "ortung/run/Robot.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "LocalizationArguments.hpp"
+#include "Robot.hpp"
+#include "ServingArguments.hpp"
+#include "Console.hpp"
+#include "DeviceTable.hpp"
+#include "EstimatesText.hpp"
+#include "Interrupt.hpp"
+#include "Localizing.hpp"
+#include "Outputs.hpp"
+#include "Serving.hpp"
+#include "SourceArguments.hpp"
+#include "ortung/base/NewFile.hpp"
+#include "ortung/devices/DeviceStatusData.hpp"
+#include "ortung/devices/DevicesSource.hpp"
+#include "ortung/mcl_served/LocalizationCommands.hpp"
+#include "ortung/mcl_served/LocalizedRobot.hpp"
+#include "ortung/records/RecordWriter.hpp"
+#include "ortung/run/Feeder.hpp"
+#include "ortung/server/RecordedWorld.hpp"
+#include "ortung/server/ServedContainer.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{200};
+constexpr std::chrono::milliseconds kBetweenStatus{500};
+constexpr RobotId kRobot = 1;  // as clients know it
+
+/// The devices as a source that ends when it is told to, or with a signal.
+class Readings : public Source {
+ public:
+  Readings(DevicesSource& devices, const std::atomic<bool>& isOver)
+      : devices_(devices), isOver_(isOver) {}
+  ~Readings() override = default;
+  bool next(Message& message) override {
+    while (!isOver_ && interruptSignal() == 0 && !devices_.isAtEnd()) {
+      if (auto reading = devices_.poll(kPatience)) {
+        message = std::move(*reading);
+        return true;
+      }
+    }
+    return false;
+  }
+  bool isLive() const override { return true; }
+
+ private:
+  DevicesSource& devices_;
+  const std::atomic<bool>& isOver_;
+};
+
+/// A robot that runs: its devices, its container and, if there are tables, where it is.
+class RunningRobot {
+ public:
+  explicit RunningRobot(const RobotArguments& arguments)
+      : arguments_(arguments),
+        clientRecords_(arguments.serving),
+        outputs_(arguments.localization.force),
+        devices_({arguments.localization.robot, arguments.dev, arguments.duration}) {
+    declareInputs(arguments.localization, outputs_);
+    outputs_.writes("--record", arguments.record, OutputKind::kRecord);
+    outputs_.writes("--out", arguments.out, OutputKind::kPoses);
+    if (!arguments.localization.tables.empty()) {
+      LocalizationArguments all = arguments.localization;
+      all.publish = true;
+      all.source = "devices:" + all.robot.string();
+      localization_ = openLocalization(
+          all, true, [this](Robot&) { return std::make_unique<Readings>(devices_, isOver_); });
+      localized_ = std::make_unique<LocalizedRobot>(localization_);
+    } else {
+      robot_ = openRobot(arguments.localization.robot);
+      readings_ = std::make_unique<Readings>(devices_, isOver_);
+      feeder_ = std::make_unique<Feeder>("devices", *readings_, robot_->container);
+    }
+    addStatus();
+    if (!arguments.record.empty()) {
+      record_.emplace(outputs_.ready(arguments.record), "", RecordWriter::Pace::kLive);
+      feeder().recordInto(*record_);
+    }
+    feeder().showTo([this](std::span<const Message> moment) {
+      clientRecords_.recordings().write(kRobot, moment);
+    });
+    if (!arguments.out.empty()) poses_.emplace(outputs_.ready(arguments.out));
+  }
+
+  SensorContainer& container() {
+    return localization_ ? localization_->container() : robot_->container;
+  }
+  DevicesSource& devices() { return devices_; }
+  Recordings& recordings() { return clientRecords_.recordings(); }
+  std::string name() const {
+    return localization_ ? localization_->robot().config.name : robot_->config.name;
+  }
+  std::string fingerprint() const {
+    return localization_ ? localization_->robot().tables.worldFingerprint : "";
+  }
+
+  /// Until the end of the devices, a signal or stop().
+  void run() {
+    writePoses(std::string(kEstimatesHeader));
+    std::string text;
+    while (localization_ ? localization_->advance() : feeder_->next()) {
+      if (!localization_) continue;
+      localized_->obey();
+      const auto estimate = localization_->update();
+      if (!estimate) continue;
+      {
+        const std::lock_guard lock(mutex_);
+        estimate_ = *estimate;
+        ++updates_;
+      }
+      text.clear();
+      appendEstimate(*estimate, text);
+      writePoses(text);
+    }
+  }
+  void stop() { isOver_ = true; }
+  /// For clients; null: it does not localize.
+  LocalizedRobot* localized() { return localized_.get(); }
+
+  void commit() {
+    if (record_) record_->commit();
+    if (poses_) poses_->commit();
+  }
+
+  /// How the devices are, for clients.
+  void publishStatus(const std::vector<DeviceStatus>& all) {
+    const Timestamp now = devices_.clock()();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      container().set(DeviceStatusData::message(status_[i], now, all[i]));
+  }
+  std::optional<PoseEstimate> estimate() const {
+    const std::lock_guard lock(mutex_);
+    return estimate_;
+  }
+  void print() {
+    fmt::print("{}", deviceTable(devices_.status(), estimate()));
+    if (record_)
+      fmt::print("{}: {} readings\n", printable(arguments_.record.string()), record_->messages());
+    if (localization_) fmt::print("{} updates of the pose\n", updates_);
+  }
+  void warn() const {
+    warnOf("the devices", devices_, localization_ ? localization_->feeder() : *feeder_);
+  }
+
+ private:
+  Feeder& feeder() { return localization_ ? localization_->feeder() : *feeder_; }
+  void addStatus() {
+    std::size_t number = 0;
+    for (const DeviceStatus& one : devices_.status()) {
+      const std::string plugin = one.name.substr(0, one.name.find(' '));
+      status_.push_back(DeviceStatusData::idOf(number, plugin));
+      container().add(std::make_unique<DeviceStatusData>(number++, plugin));
+    }
+  }
+  void writePoses(const std::string& text) {
+    if (!poses_) return;
+    poses_->write(text);
+    poses_->publish();
+  }
+
+  const RobotArguments& arguments_;
+  ClientRecords clientRecords_;
+  Outputs outputs_;
+  std::atomic<bool> isOver_ = false;
+  DevicesSource devices_;
+  std::shared_ptr<Localization> localization_;  ///< or those three:
+  std::unique_ptr<Robot> robot_;
+  std::unique_ptr<Readings> readings_;
+  std::unique_ptr<Feeder> feeder_;
+  std::unique_ptr<LocalizedRobot> localized_;
+  std::optional<RecordWriter> record_;
+  std::optional<NewFile> poses_;
+  std::vector<SensorId> status_;
+  mutable std::mutex mutex_;  ///< of what follows
+  std::optional<PoseEstimate> estimate_;
+  std::size_t updates_ = 0;
+};
+
+/// Tells clients and whoever sits before the terminal how the devices are: a table that stays in
+/// its place, or where there is no terminal a line for each change.
+class Watch {
+ public:
+  explicit Watch(RunningRobot& robot)
+      : robot_(robot),
+        isTerminal_(::isatty(STDERR_FILENO) == 1),
+        thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+ private:
+  void run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+      look();
+      wake_.wait_for(lock, stop, kBetweenStatus, [] { return false; });
+    }
+  }
+  void look() {
+    const std::vector<DeviceStatus> all = robot_.devices().status();
+    robot_.publishStatus(all);
+    if (isTerminal_) {
+      const std::string table = deviceTable(all, robot_.estimate());
+      const std::string up = lines_ == 0 ? "" : fmt::format("\033[{}A", lines_);
+      lines_ = static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n'));
+      fmt::print(stderr, "{}\033[J{}", up, table);
+      return;
+    }
+    states_.resize(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (states_[i] == all[i].state) continue;
+      states_[i] = all[i].state;
+      note(fmt::format("{}: {}{}", printable(all[i].name), toText(all[i].state),
+                       all[i].reason.empty() ? "" : ", " + printable(all[i].reason)));
+    }
+  }
+
+  RunningRobot& robot_;
+  bool isTerminal_;
+  std::size_t lines_ = 0;  ///< of the table that stands there
+  std::vector<std::optional<DeviceState>> states_;
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::jthread thread_;  ///< last, so that it ends before what it uses
+};
+
+void serveRobot(RunningRobot& robot, const ServingArguments& arguments,
+                const std::atomic<bool>& isDone) {
+  ServedContainer::Config config;
+  config.robot = robot.name();
+  config.fingerprint = robot.fingerprint();
+  config.period = 0.02;
+  RobotCommands* const commands = robot.devices().commands();
+  if (commands != nullptr) config.abilities = {"drive v,w"};
+  std::vector<BoardCommand> added;
+  if (LocalizedRobot* const localized = robot.localized()) {
+    added = localizationCommands(*localized);
+    config.onWant = [localized](std::span<const SensorId> features) { localized->want(features); };
+  }
+  ServedContainer world(robot.container(), robot.devices().clock(), config, commands);
+  RecordedWorld recorded(world, robot.recordings(), {.takesReadings = false});
+  added.push_back(recordCommand(recorded));
+  serve(recorded, arguments, std::move(added), [&] { return !isDone; });
+}
+
+}  // namespace
+
+int runRobot(const RobotArguments& arguments) {
+  const ServingArguments& serving = arguments.serving;
+  if (!serving.isServing() && (!serving.control.empty() || !serving.tokens.empty()))
+    throw UsageError("--allow-control and --token-file are for --listen and --view");
+  if (arguments.localization.tables.empty() && !arguments.out.empty())
+    throw UsageError("--out needs --tables: without them there are no poses");
+  RunningRobot robot(arguments);
+  std::exception_ptr problem;
+  std::atomic<bool> isDone = false;
+  {
+    const Watch watch(robot);
+    std::jthread work([&] {
+      try {
+        robot.run();
+      } catch (...) {
+        problem = std::current_exception();
+      }
+      isDone = true;
+    });
+    try {
+      if (serving.isServing()) serveRobot(robot, serving, isDone);
+    } catch (...) {
+      robot.stop();
+      throw;
+    }
+    work.join();
+  }
+  robot.commit();
+  if (problem) std::rethrow_exception(problem);
+  robot.warn();
+  robot.print();
+  return 0;
+}
+
+}  // namespace ortung::app

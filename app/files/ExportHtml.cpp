@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "Base64.hpp"
+#include "ExportHtml.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Outputs.hpp"
+#include "Progress.hpp"
+#include "ViewedRuns.hpp"
+#include "Viewing.hpp"
+#include "ortung/core/ReadingLine.hpp"
+#include "ortung/records/RecordSource.hpp"
+#include "ortung/server/DescribeText.hpp"
+
+namespace ortung::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostBytes = 256u << 20;  // of readings, before they are compressed
+constexpr std::size_t kMostWords = 8192;        // of a reading; pictures have more
+constexpr std::size_t kMostSamples = 300;       // of a belief
+constexpr std::size_t kWordsOfSample = 4;
+
+/// Some of a belief's samples, evenly chosen: a page has no room for all.
+void thin(Message& message) {
+  const std::size_t samples = message.words.size() / kWordsOfSample;
+  if (message.id != SensorId{"mcl", "LOCALIZATION", "samples"} || samples <= kMostSamples) return;
+  std::vector<std::uint32_t> few;
+  for (std::size_t i = 0; i < kMostSamples; ++i) {
+    const auto from = message.words.begin() +
+                      static_cast<std::ptrdiff_t>(i * samples / kMostSamples * kWordsOfSample);
+    few.insert(few.end(), from, from + kWordsOfSample);
+  }
+  message.words = std::move(few);
+}
+
+/// All readings of a record as lines, from time 0 on.
+struct Readings {
+  std::string lines;
+  std::size_t leftOut = 0;  ///< that are too large
+
+  explicit Readings(const std::filesystem::path& record) {
+    RecordSource source(record);
+    Message message;
+    for (std::optional<Timestamp> first; source.next(message);) {
+      if (!first) first = message.stamp;
+      message.stamp -= *first;
+      thin(message);
+      if (message.words.size() > kMostWords) {
+        ++leftOut;
+        continue;
+      }
+      writeLine(message, lines);
+      lines += '\n';
+      if (lines.size() > kMostBytes)
+        throw std::runtime_error(fmt::format(
+            "{}: has more than {} MiB of readings, too many for a page; export a part, e.g. "
+            "'record:FILE?from_s=0&to_s=60'",
+            record.string(), kMostBytes >> 20));
+    }
+  }
+};
+
+std::string compressed(const std::string& text) {
+  namespace io = boost::iostreams;
+  std::ostringstream out;
+  {
+    io::filtering_ostream stream;
+    stream.push(io::gzip_compressor(io::gzip::best_compression));
+    stream.push(out);
+    stream << text;
+  }
+  return std::move(out).str();
+}
+
+std::string textOf(const std::string& bytes) { return base64(std::as_bytes(std::span(bytes))); }
+
+std::string fileOfPage(const std::filesystem::path& folder, const char* name) {
+  std::ifstream in(folder / name, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in || text.empty())
+    throw std::runtime_error((folder / name).string() +
+                             ": this part of the viewer's page is missing; see board/web/page");
+  return text;
+}
+
+/// What the page would have been told by a server, for it to tell itself.
+json tale(const ServedPlayback& playback, const ServedPlayback::Config& config,
+          std::size_t& leftOut) {
+  json robots = json::array();
+  for (const Resident& resident : playback.residents()) {
+    const Readings readings(config.runs[resident.robot - 1].record);
+    leftOut += readings.leftOut;
+    robots.push_back(
+        {{"name", resident.name},
+         {"describe", robotText(resident.features, playback.abilities(resident.robot))},
+         {"readings", textOf(compressed(readings.lines))}});
+  }
+  json events = json::array();
+  for (const ServedPlayback::Mark& mark : playback.marks())
+    events.push_back(std::to_string(events.size()) + " " + std::to_string(mark.stamp) + " " +
+                     mark.text);
+  return {{"world", worldText(playback.describe())},
+          {"field", playback.field()},
+          {"truth", robotText(playback.truthFeatures(), {})},
+          {"events", events},
+          {"robots", robots},
+          {"end_us", playback.length()}};
+}
+
+/// One file: style, script and data within, and nothing from elsewhere.
+std::string pageOf(const json& told, const std::string& title) {
+  const std::filesystem::path folder = pageFolder();
+  std::string script = fileOfPage(folder, "page.js");
+  const std::string icon = "./icon.svg";  // the one file that the page shows by its name
+  for (std::size_t at = 0; (at = script.find(icon, at)) != script.npos;)
+    script.replace(at, icon.size(),
+                   "data:image/svg+xml;base64," + textOf(fileOfPage(folder, "icon.svg")));
+  // A text within a script must not end it.
+  if (script.find("</script") != script.npos)
+    throw std::runtime_error((folder / "page.js").string() + ": can't stand within a page");
+  std::string data = told.dump(-1, ' ', true, json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = data.find('<', at)) != data.npos; at += 6)
+    data.replace(at, 1, "\\u003c");
+  std::string name;
+  for (const char c : title) name += c == '<' || c == '>' || c == '&' ? '_' : c;
+  return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "<meta name=\"color-scheme\" content=\"light dark\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
+         "'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n<title>" +
+         name + "</title>\n<style>" + fileOfPage(folder, "page.css") +
+         "</style>\n</head>\n<body>\n<div id=\"page\"></div>\n"
+         "<script id=\"run\" type=\"application/json\">" +
+         data + "</script>\n<script type=\"module\">" + script + "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace
+
+int runExportHtml(const ExportHtmlArguments& arguments) {
+  Outputs outputs(arguments.force);
+  for (const std::string& source : arguments.runs.sources) outputs.reads(source);
+  outputs.writes("--out", arguments.out, OutputKind::kReport);
+  const ScratchFolder scratch;
+  const ServedPlayback::Config config = prepareRuns(arguments.runs, scratch);
+  Progress progress("reading", arguments.runs.localization.progress);
+  const ServedPlayback playback(config, [&](double done) {
+    progress.update(done);
+    return interruptSignal() == 0;
+  });
+  std::size_t leftOut = 0;
+  const std::string page = pageOf(tale(playback, config, leftOut), config.name);
+  outputs.write(arguments.out, page);
+  if (leftOut > 0) warn(fmt::format("{} pictures and other large readings are left out", leftOut));
+  fmt::print("{}: {:.1f} s of {} in {:.1f} MB\n", printable(arguments.out.string()),
+             toSeconds(playback.length()), printable(config.name),
+             static_cast<double>(page.size()) / 1e6);
+  return 0;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "ExportRawlog.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Outputs.hpp"
+#include "Progress.hpp"
+#include "SourceArguments.hpp"
+#include "Workshop.hpp"
+#include "ortung/base/HelperProgram.hpp"
+#include "ortung/core/ReadingLine.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/ScanData.hpp"
+#include "ortung/run/Feeder.hpp"
+#include "ortung/run/Robot.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr const char* kWriter = "ortung-mrpt-writer";
+
+/// What ortung-mrpt-writer is told of a feature; "" for one that no rawlog can hold.
+std::string declarationOf(const SensorData& data) {
+  const std::string name = toText(data.id());
+  const Pose2& mount = data.mount();
+  const auto line = [&](const char* kind, double a, double b, double c) {
+    return fmt::format("# {} {} {} {} {} {} {} {}\n", kind, name, mount.x, mount.y, mount.theta, a,
+                       b, c);
+  };
+  if (dynamic_cast<const OdometryData*>(&data) != nullptr) return "# odometry " + name + "\n";
+  if (const auto* scan = dynamic_cast<const ScanData*>(&data)) {
+    const ScanData::Config& config = scan->config();
+    return line("scan", config.firstAngle, config.angleStep, config.maxRange);
+  }
+  if (const auto* marks = dynamic_cast<const LandmarksData*>(&data))
+    return line("landmarks", marks->config().maxRange, marks->config().fieldOfView, 0.0);
+  if (const auto* cone = dynamic_cast<const ConeData*>(&data))
+    return line("cone", cone->config().openingAngle, cone->config().maxRange, 0.0);
+  return "";
+}
+
+/// What was given to the writer, and what was not.
+struct Handed {
+  std::size_t readings = 0;
+  std::map<std::string, std::size_t> leftOut;  ///< by feature, or a reason
+  std::string truth;
+};
+
+void addTruth(const Message& message, std::string& text) {
+  PoseData data(message.id);
+  data.setData(message.stamp, message.words);
+  const Pose2 pose = data.reading();
+  text += fmt::format("{}.{:06} {:.4f} {:.4f} {:.6f}\n", message.stamp / 1'000'000,
+                      std::abs(message.stamp % 1'000'000), pose.x, pose.y, pose.theta);
+}
+
+/// Writes the lines that the writer reads.
+Handed handOver(Source& source, const std::string& name, SensorContainer& container,
+                const std::filesystem::path& file) {
+  NewFile out(file);
+  std::map<const SensorData*, bool> isTaken;
+  for (const auto& data : container.all()) {
+    const std::string declared = declarationOf(*data);
+    isTaken[data.get()] = !declared.empty();
+    out.write(declared);
+  }
+  Handed handed;
+  std::string line;
+  for (Message message; unlessInterrupted(source, [&] { return source.next(message); });) {
+    const SensorData* data = container.findExactly(message.id);
+    if (message.id.type == kGroundTruth) {
+      addTruth(message, handed.truth);
+      continue;
+    }
+    if (data == nullptr || !isTaken[data]) {
+      ++handed
+            .leftOut[toText(message.id) + (data == nullptr ? ", which the robot file lacks" : "")];
+      continue;
+    }
+    try {
+      data->checkData(message.words);
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(
+          fmt::format("{}: reading at {} us: {}", name, message.stamp, error.what()));
+    }
+    line.clear();
+    writeLine(message, line);
+    out.write(line += '\n');
+    ++handed.readings;
+  }
+  out.commit();
+  return handed;
+}
+
+/// MRPT takes the first column of such a file for times only where neither of the first two is
+/// whole; else for numbers of observations.
+std::string forMrpt(std::string truth) {
+  const auto isWhole = [&](std::size_t line) {
+    return line != truth.npos && truth.compare(truth.find('.', line), 7, ".000000") == 0;
+  };
+  for (std::size_t second = truth.find('\n') + 1; second != 0 && second < truth.size();
+       second = truth.find('\n') + 1) {
+    if (!isWhole(0) && !isWhole(second)) break;
+    truth.erase(0, second);
+  }
+  return truth;
+}
+
+}  // namespace
+
+int runExportRawlog(const ExportRawlogArguments& arguments) {
+  constexpr std::size_t kMostSaid = 1U << 16;
+  Outputs outputs(arguments.force);
+  outputs.readsSource(arguments.source);
+  outputs.reads(arguments.robot);
+  outputs.writes("--out", arguments.out, OutputKind::kRawlog);
+  outputs.writes("--truth", arguments.truth, OutputKind::kSettings);
+  const auto writer = findHelper(kWriter, arguments.out.string());
+  const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
+  const auto source = openSourceArgument(arguments.source, arguments.robot, robot->factory);
+  const Workshop lines("--out", "lines.txt");
+  const Workshop made("--out", arguments.out);
+  const Handed handed = handOver(*source, arguments.source, robot->container, lines.file());
+  warnOf(*source);
+  for (const auto& [what, count] : handed.leftOut)
+    warn(fmt::format("{} readings were left out, of {}", count, what));
+  if (handed.readings == 0)
+    throw std::runtime_error(arguments.source + ": holds no reading that a rawlog can hold");
+  const std::string said =
+      runHelper(writer, {"rawlog", lines.file().string(), made.file().string()},
+                arguments.out.string(), kMostSaid);
+  if (said != std::to_string(handed.readings) + "\n")
+    throw std::runtime_error(fmt::format("{}: {} has written {} objects of {}",
+                                         arguments.out.string(), kWriter,
+                                         said.substr(0, said.find('\n')), handed.readings));
+  made.deliver(outputs);
+  outputs.write(arguments.truth, forMrpt(handed.truth));
+  fmt::print("{}: {} observations\n", printable(arguments.out.string()), handed.readings);
+  return 0;
+}
+
+}  // namespace ortung::app

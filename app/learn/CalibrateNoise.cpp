@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "CalibrateNoise.hpp"
+#include "LocalizationArguments.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Localizing.hpp"
+#include "NoiseText.hpp"
+#include "Outputs.hpp"
+#include "Progress.hpp"
+#include "SourceArguments.hpp"
+#include "ortung/robot/RobotText.hpp"
+#include "ortung/robot/TomlFile.hpp"
+#include "ortung/run/Feeder.hpp"
+#include "ortung/study/NoiseLearner.hpp"
+
+namespace ortung::app {
+namespace {
+
+std::string sourceOf(const std::string& text) {
+  return text.find(':') == std::string::npos ? "record:" + text : text;
+}
+
+/// Readings and ground truth, which may be none.
+NoiseLog readTruth(const CalibrateNoiseArguments& arguments, const std::string& name,
+                   Progress& progress) {
+  const std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
+  const std::unique_ptr<Source> source = openSourceArgument(name, arguments.robot, robot->factory);
+  Feeder feeder(name, *source, robot->container);
+  NoiseLog log;
+  NoiseLogger logger;
+  while (feeder.next()) {
+    checkInterrupt();
+    progress.update(feeder.progress());
+    if (feeder.truth()) log.reference.emplace_back(feeder.stamp(), *feeder.truth());
+    logger.look(robot->container, log);
+  }
+  return log;
+}
+
+/// The track that MCL finds with the robot file as it is, where it says that it tracks.
+void useTrack(const CalibrateNoiseArguments& arguments, const std::string& name, Progress& progress,
+              NoiseLog& log) {
+  LocalizationArguments how;
+  how.source = name;
+  how.robot = arguments.robot;
+  how.tables = arguments.tables;
+  how.seed = arguments.seed;
+  how.motion = arguments.motion;
+  how.anyWorld = arguments.anyWorld;
+  how.start = log.reference.empty() ? "global" : "truth";
+  log.reference.clear();
+  const std::unique_ptr<Localization> localization = openLocalization(how);
+  while (const auto step = nextStep(*localization, how)) {
+    progress.update(localization->feeder().progress());
+    if (step->estimate.status == TrackStatus::kTracking &&
+        (log.reference.empty() || log.reference.back().first < step->estimate.stamp))
+      log.reference.emplace_back(step->estimate.stamp, step->estimate.pose);
+  }
+}
+
+std::vector<NoiseLog> readLogs(const CalibrateNoiseArguments& arguments) {
+  std::vector<NoiseLog> logs;
+  for (const std::string& text : arguments.sources) {
+    const std::string name = sourceOf(text);
+    Progress progress("reading", arguments.progress);
+    logs.push_back(readTruth(arguments, name, progress));
+    const bool hasTruth = !logs.back().reference.empty();
+    if (arguments.reference == "truth" && !hasTruth) {
+      throw std::runtime_error(name +
+                               ": has no ground truth, expected a feature of type groundTruth; "
+                               "--reference track takes what MCL finds");
+    }
+    if (arguments.reference == "track" || !hasTruth)
+      useTrack(arguments, name, progress, logs.back());
+    if (logs.back().reference.size() < 2)
+      throw std::runtime_error(name + ": MCL never said that it tracks, so there is no reference");
+  }
+  return logs;
+}
+
+NoiseLearning howOf(const CalibrateNoiseArguments& arguments) {
+  NoiseLearning how;
+  for (const std::string& fixed : arguments.fixed) {
+    const auto set = [&](NoiseTerm term) { how.wanted[static_cast<std::size_t>(term)] = false; };
+    if (fixed == "bias") {
+      set(NoiseTerm::kRangeBias);
+      set(NoiseTerm::kBearingBias);
+      for (const NoiseTerm term :
+           {NoiseTerm::kRangePerMetre, NoiseTerm::kRangePerMetreRad, NoiseTerm::kRangePerMetreRad2,
+            NoiseTerm::kBearingPerRad, NoiseTerm::kBearingPerRad2})
+        set(term);
+    }
+    if (fixed == "mount") {
+      set(NoiseTerm::kMountX);
+      set(NoiseTerm::kMountY);
+      set(NoiseTerm::kMountTheta);
+    }
+    if (fixed == "latency") set(NoiseTerm::kLatency);
+  }
+  return how;
+}
+
+}  // namespace
+
+int runCalibrateNoise(const CalibrateNoiseArguments& arguments) {
+  Outputs outputs(arguments.force);
+  for (const std::string& source : arguments.sources) outputs.readsSource(sourceOf(source));
+  outputs.reads(arguments.robot);
+  outputs.reads(arguments.tables);
+  outputs.reads(arguments.motion);
+  outputs.writes("--out", arguments.out, OutputKind::kSettings);
+  const std::vector<NoiseLog> logs = readLogs(arguments);
+  const NoiseLearning how = howOf(arguments);
+  const std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
+  std::string text = readTomlText(arguments.robot);
+  std::size_t learnt = 0;
+  for (std::size_t sensor = 0; sensor < robot->devices.size(); ++sensor) {
+    std::vector<SensorData*> features;
+    for (SensorData* data : robot->devices[sensor].data)
+      if (data->localizes()) features.push_back(data);
+    if (features.empty()) continue;
+    checkInterrupt();
+    const std::string name = toText(features.front()->id());
+    try {
+      const LearnedNoise noise = learnNoise(features, robot->tables, logs, how);
+      ++learnt;
+      fmt::print("{}", noiseText(features, noise));
+      const SensorConfig& config = robot->config.sensors[sensor];
+      text = withSensorKeys(text, arguments.robot.string(), sensor, noiseEntries(config, noise));
+    } catch (const ConfigError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      warn(fmt::format("{}: {}", name, error.what()));
+    }
+  }
+  if (learnt == 0) throw std::runtime_error("nothing was learned");
+  outputs.write(arguments.out, text);
+  return 0;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "Learn.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Numbers.hpp"
+#include "Outputs.hpp"
+#include "Progress.hpp"
+#include "ortung/robot/RobotFile.hpp"
+#include "ortung/sim/SceneRun.hpp"
+
+namespace ortung::app {
+namespace {
+
+/// @throws UsageError unless it divides a turn
+void checkHeadingStep(double stepDeg) {
+  const double steps = 360.0 / stepDeg;
+  if (std::abs(steps - std::round(steps)) > 1e-6) {
+    throw UsageError(
+        fmt::format("--heading-step is {}, expected degrees that divide a turn, "
+                    "e.g. 1, 2 or 2.5",
+                    stepDeg));
+  }
+}
+
+/// What the player `learner` takes, and who it is for.
+PlayerWish wishOf(const LearnArguments& arguments, const std::filesystem::path& out) {
+  PlayerWish wish;
+  wish.plugin = "learner";
+  wish.robot = std::filesystem::absolute(arguments.robot);
+  wish.options = Parameters("ortung learn");
+  wish.options.set("out", std::filesystem::absolute(out).string());
+  wish.options.set("cell_m", arguments.cell);
+  wish.options.set("heading_step_deg", 360.0 / std::round(360.0 / arguments.headingStepDeg));
+  wish.options.set("threads", static_cast<double>(arguments.threads));
+  wish.options.set("area", arguments.area);
+  if (arguments.area != "auto" && arguments.area != "all") {
+    const std::vector<double> point = parseNumbers(arguments.area, "--area", {"x", "y"});
+    wish.options.set("area", fmt::format("{};{}", point[0], point[1]));
+  }
+  return wish;
+}
+
+/// Hears what the learner says.
+class Listener {
+ public:
+  Listener(const LearnArguments& arguments, SceneRun& run)
+      : arguments_(arguments), run_(run), progress_("learning", arguments.progress) {
+    run_.players().join(kName, "");
+  }
+  void listen() {
+    for (const Heard& heard : run_.players().takeHeard(kName)) {
+      double number = 0.0;
+      char what[200] = "";
+      if (std::sscanf(heard.text.c_str(), "learned %lf", &number) == 1) {
+        progress_.update(number / 100.0);
+      } else if (std::sscanf(heard.text.c_str(), "needs %lf headings for %199s", &number, what) ==
+                 2) {
+        needs.push_back(fmt::format("{} in {:g} headings", what, number));
+      } else if (std::sscanf(
+                     heard.text.c_str(),
+                     "wrote %zu bytes: %zu features, %zu x %zu cells, %zu open, %zu standable",
+                     &bytes, &features, &columns, &rows, &open, &standable) == 6) {
+        continue;
+      } else if (std::sscanf(heard.text.c_str(), "leaves out %lf", &number) == 1) {
+        note(fmt::format(
+            "{}: {:.1f} m^2 that walls part from where the robot is are left out (--area)",
+            arguments_.world.string(), number));
+      }
+    }
+  }
+
+  std::vector<std::string> needs;  ///< in how many headings each feature was learned
+  /// What was written.
+  std::size_t bytes = 0, features = 0, columns = 0, rows = 0, open = 0, standable = 0;
+
+ private:
+  static constexpr const char* kName = "ortung-learn";
+  const LearnArguments& arguments_;
+  SceneRun& run_;
+  Progress progress_;
+};
+
+/// Lets the player learn until it ends, and says what came of it.
+void letLearn(const LearnArguments& arguments, const std::filesystem::path& out) {
+  const auto begin = std::chrono::steady_clock::now();
+  Scene scene;
+  scene.world = arguments.world;
+  PluginFactory factory(PluginFactory::standardFolders());
+  Simulation::Config simulation;
+  simulation.noise = false;
+  std::string problem;
+  PlayerControl::Config players;
+  players.budget = 0.0;  // it takes what it needs
+  players.onProblem = [&problem](const std::string& what) { problem = what; };
+  SceneRun run(scene, simulation, factory, players);
+  Listener listener(arguments, run);
+  const std::string robot = run.addPlayer(wishOf(arguments, out), 0).config().name;
+  while (problem.empty() && interruptSignal() == 0 && !run.players().isEmpty()) {
+    run.step();
+    run.players().deliver();
+    listener.listen();
+  }
+  if (!problem.empty()) throw std::runtime_error(problem);
+  checkInterrupt();
+  if (listener.needs.empty())
+    warn(arguments.robot.string() +
+         ": has no feature that localizes, so there was nothing to learn");
+  for (const std::string& need : listener.needs) fmt::print("  {}\n", need);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const SimWorld& world = run.simulation().world();
+  fmt::print(
+      "{}: {} features of {} in {} ({}), {} x {} cells of {:g} m, {} open, {} standable, "
+      "{:.1f} MB, {:.2f} s\n",
+      arguments.out.string(), listener.features, robot, world.name(), world.fingerprint(),
+      listener.columns, listener.rows, arguments.cell, listener.open, listener.standable,
+      static_cast<double>(listener.bytes) / 1e6, seconds);
+}
+
+}  // namespace
+
+int runLearn(const LearnArguments& arguments) {
+  checkHeadingStep(arguments.headingStepDeg);
+  Outputs outputs(arguments.force);
+  outputs.reads(arguments.world);
+  outputs.reads(arguments.robot);
+  outputs.writes("--out", arguments.out, OutputKind::kTables);
+  readRobot(arguments.robot);
+  letLearn(arguments, outputs.ready(arguments.out));
+  return 0;
+}
+
+}  // namespace ortung::app

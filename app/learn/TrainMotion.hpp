@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ortung::app {
+
+struct TrainMotionArguments {
+  std::vector<std::string> sources;  ///< records, or "KIND:PATH?key=value"
+  std::filesystem::path robot;
+  std::filesystem::path out;
+  std::string commandsFrom = "auto";  ///< "velocities" or "motion_data" of odometry, or "auto"
+  double step = 0.1;                  ///< of a prediction [s]
+  std::size_t commands = 5;           ///< newest ones that the network sees
+  std::string hidden = "24,24";       ///< widths of layers
+  std::size_t iterations = 300;
+  double holdOut = 0.25;  ///< share of each log at its end
+  std::uint64_t seed = 1;
+  bool force = false;  ///< overwrite files of other kinds
+  bool progress = false;
+};
+int runTrainMotion(const TrainMotionArguments& arguments);
+
+}  // namespace ortung::app

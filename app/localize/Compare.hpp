@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+namespace ortung::app {
+
+struct CompareArguments {
+  std::filesystem::path before;  ///< JSON of eval
+  std::filesystem::path after;
+  std::filesystem::path json;  ///< "" for none
+  bool force = false;          ///< overwrite files of other kinds
+};
+int runCompare(const CompareArguments& arguments);
+
+}  // namespace ortung::app

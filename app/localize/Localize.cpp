@@ -1,0 +1,209 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "Localize.hpp"
+#include "Console.hpp"
+#include "EstimatesText.hpp"
+#include "EvenTimes.hpp"
+#include "Localizing.hpp"
+#include "Outputs.hpp"
+#include "Progress.hpp"
+#include "Rescue.hpp"
+#include "SourceArguments.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr double kPatience = 5.0;                  // for the first odometry of a live source [s]
+constexpr Timestamp kBetweenBeliefs = 10'000'000;  // of a live source [us]
+
+enum class Format : std::uint8_t { kText, kJson, kTum };
+
+Format formatOf(const LocalizeArguments& arguments) {
+  if (arguments.format == "json") return Format::kJson;
+  return arguments.format == "tum" ? Format::kTum : Format::kText;
+}
+
+OutputKind kindOf(Format format) {
+  if (format == Format::kJson) return OutputKind::kPosesJson;
+  return format == Format::kTum ? OutputKind::kPosesTum : OutputKind::kPoses;
+}
+
+/// Where the poses go: to a file, which appears whole or, of a live source, grows with each pose;
+/// or to stdout, where whoever reads it gets each pose as soon as it is known.
+class PoseOutput {
+ public:
+  PoseOutput(const Outputs& outputs, const LocalizeArguments& arguments, bool isLive)
+      : isLive_(isLive), format_(formatOf(arguments)), isEven_(arguments.rate.has_value()) {
+    if (!arguments.out.empty()) file_.emplace(outputs.ready(arguments.out));
+    if (format_ == Format::kTum) text_ = kTumHeader;
+    if (format_ != Format::kText) return;
+    text_ = kEstimatesHeader;
+    if (!isEven_) return;
+    text_.back() = ' ';
+    text_ += std::string(kAgeColumns) + "\n";
+  }
+  /// @param age of the newest weighing [s]
+  void add(const PoseEstimate& estimate, std::optional<double> age) {
+    if (format_ == Format::kJson) {
+      appendEstimateJson(estimate, age, text_);
+    } else if (format_ == Format::kTum) {
+      appendTum(estimate.stamp, estimate.pose, text_);
+    } else {
+      isEven_ ? appendEstimate(estimate, age, text_) : appendEstimate(estimate, text_);
+    }
+    if (file_) {
+      file_->write(text_);
+      if (isLive_) file_->publish();
+    } else {
+      fmt::print("{}", text_);
+      flushOutput();
+    }
+    text_.clear();
+  }
+  void commit() {
+    if (file_) file_->commit();
+  }
+
+ private:
+  bool isLive_;
+  Format format_;
+  bool isEven_;
+  std::optional<NewFile> file_;
+  std::string text_;
+};
+
+/// The belief in a file from one run to the next.
+class KeptBelief {
+ public:
+  /// Restores it if the file is there.
+  KeptBelief(std::filesystem::path file, Localization& localization)
+      : file_(std::move(file)), localization_(localization) {
+    if (!file_.empty() && std::filesystem::exists(file_)) localization_.restoreBelief(file_);
+  }
+  /// Of a live source, which may end without being asked: saves now and then. That it can't does
+  /// not keep the robot from going on.
+  void saveNowAndThen() {
+    const Timestamp now = localization_.feeder().stamp();
+    if (file_.empty() || !localization_.source().isLive()) return;
+    if (last_ && now >= *last_ && now - *last_ < kBetweenBeliefs) return;
+    last_ = now;
+    try {
+      save();
+    } catch (const std::exception& error) {
+      if (!warned_) warn(error.what());
+      warned_ = true;
+    }
+  }
+  /// @throws std::runtime_error
+  void save() const {
+    if (!file_.empty()) localization_.saveBelief(file_);
+  }
+
+ private:
+  std::filesystem::path file_;
+  Localization& localization_;
+  std::optional<Timestamp> last_;
+  bool warned_ = false;
+};
+
+/// Runs MCL over the source, and writes poses: one whenever the belief was weighed, or at even
+/// times.
+class LocalizeRun {
+ public:
+  LocalizeRun(const LocalizeArguments& arguments, const Outputs& outputs,
+              Localization& localization)
+      : arguments_(arguments),
+        localization_(localization),
+        belief_(arguments.belief, localization),
+        output_(outputs, arguments, localization.source().isLive()),
+        rescue_([this] { output_.commit(); }) {
+    if (arguments.rate) times_.emplace(*arguments.rate);
+    if (arguments.truth.empty()) return;
+    truth_.emplace(outputs.ready(arguments.truth));
+    truth_->write(kTumHeader);
+  }
+
+  void toTheEnd() {
+    Progress progress("localizing", arguments_.localization.progress);
+    const auto look = [this](const Feeder& feeder) { onMoment(feeder); };
+    while (const auto step = nextStep(localization_, arguments_.localization, look)) {
+      ++updates_;
+      weighed_ = step->estimate.stamp;
+      if (!warned_ && localization_.feeder().seconds() > kPatience)
+        warned_ = warnWithoutOdometry(localization_, arguments_.localization);
+      if (!times_) write(step->estimate);
+      belief_.saveNowAndThen();
+      if (!arguments_.out.empty()) progress.update(localization_.feeder().progress());
+    }
+  }
+  void finish() {
+    warnOf(arguments_.localization.source, localization_.source(), localization_.feeder());
+    requireUpdates(updates_, arguments_.localization);
+    if (times_) writeBefore(localization_.feeder().stamp() + 1);
+    if (!warned_) warnWithoutOdometry(localization_, arguments_.localization);
+    {
+      const auto held = rescue_.hold();
+      output_.commit();
+      if (truth_) truth_->commit();
+    }
+    belief_.save();
+  }
+
+ private:
+  /// A pose is as of the readings up to then and before all later ones; only of odometry the next
+  /// reading is known, so that the way between the two is.
+  void onMoment(const Feeder& feeder) {
+    if (truth_ && feeder.truth()) {
+      std::string line;
+      appendTum(feeder.stamp(), *feeder.truth(), line);
+      truth_->write(line);
+    }
+    if (!times_) return;
+    localization_.followOdometry();
+    writeBefore(feeder.stamp());
+  }
+  void writeBefore(Timestamp stamp) {
+    for (const Timestamp time : times_->before(stamp))
+      if (const auto estimate = localization_.estimate(time)) write(*estimate);
+  }
+  void write(const PoseEstimate& estimate) {
+    std::optional<double> age;
+    if (weighed_) age = std::max(0.0, toSeconds(estimate.stamp - *weighed_));
+    const auto held = rescue_.hold();
+    output_.add(estimate, age);
+  }
+
+  const LocalizeArguments& arguments_;
+  Localization& localization_;
+  KeptBelief belief_;
+  PoseOutput output_;
+  Rescue rescue_;
+  std::optional<NewFile> truth_;    ///< ground truth of the source, if it is wanted
+  std::optional<EvenTimes> times_;  ///< without: one pose an update
+  std::optional<Timestamp> weighed_;
+  std::size_t updates_ = 0;
+  bool warned_ = false;
+};
+
+}  // namespace
+
+int runLocalize(const LocalizeArguments& arguments) {
+  Outputs outputs(arguments.localization.force);
+  declareInputs(arguments.localization, outputs);
+  outputs.writes("--out", arguments.out, kindOf(formatOf(arguments)));
+  outputs.writes("--truth", arguments.truth, OutputKind::kPosesTum);
+  outputs.writes("--belief", arguments.belief, OutputKind::kBelief);
+  const std::unique_ptr<Localization> localization = openLocalization(arguments.localization);
+  LocalizeRun run(arguments, outputs, *localization);
+  run.toTheEnd();
+  run.finish();
+  return 0;
+}
+
+}  // namespace ortung::app

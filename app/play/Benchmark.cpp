@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <iterator>
+#include <stdexcept>
+
+#include "Benchmark.hpp"
+#include "Console.hpp"
+#include "Interrupt.hpp"
+#include "Outputs.hpp"
+#include "Progress.hpp"
+#include "ortung/base/InputFile.hpp"
+#include "ortung/benchmark/GoalMatrix.hpp"
+#include "ortung/benchmark/MatrixPage.hpp"
+
+namespace ortung::app {
+namespace {
+
+/// "2/4" @throws UsageError
+void readShard(const std::string& text, GoalMatrixConfig& config) {
+  const std::size_t slash = text.find('/');
+  const auto number = [&](const std::string& part) {
+    const bool isNumber = !part.empty() && part.size() <= 9 &&
+                          part.find_first_not_of("0123456789") == std::string::npos;
+    if (!isNumber) throw UsageError("--shard is '" + text + "', expected I/N, e.g. 2/4");
+    return std::stoull(part);
+  };
+  config.shard = number(text.substr(0, slash));
+  config.shards = number(slash == std::string::npos ? "" : text.substr(slash + 1));
+}
+
+GoalMatrix readMatrix(const std::filesystem::path& file) {
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) throw std::runtime_error(file.string() + ": " + why);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return readGoalMatrix(text, file.string());
+}
+
+GoalMatrixRun runOf(unsigned threads, Progress& progress) {
+  return {threads, [&progress](double share) {
+            checkInterrupt();
+            progress.update(share);
+            return true;
+          }};
+}
+
+std::string toText(const GoalEpisode& episode) {
+  return fmt::format("{} after {:.2f} s, digest {:08x}", nameOf(episode.outcome),
+                     toSeconds(episode.end), episode.digest);
+}
+
+/// Each keeper with each way to see.
+std::vector<std::string> keepersOf(const GoalkeeperBenchmarkArguments& a) {
+  std::vector<std::string> names = a.keepers;
+  if (names.empty())
+    for (const auto policy : goalkeeperPolicies()) names.emplace_back(policy);
+  std::vector<std::string> keepers;
+  for (const std::string& name : names) {
+    if (a.sees.empty()) keepers.push_back(keeperText(name));
+    for (const std::string& sees : a.sees) keepers.push_back(withSight(keeperText(name), sees));
+  }
+  return keepers;
+}
+
+void writeResults(const GoalMatrix& matrix, const std::filesystem::path& json,
+                  const std::filesystem::path& html, Outputs& outputs) {
+  if (!json.empty()) outputs.write(json, toJson(matrix, ORTUNG_VERSION));
+  if (!html.empty()) outputs.write(html, toHtml(matrix, ORTUNG_VERSION));
+}
+
+}  // namespace
+
+int runGoalkeeperBenchmark(const GoalkeeperBenchmarkArguments& a) {
+  GoalMatrixConfig config;
+  config.episodes = a.episodes;
+  config.seed = a.seed;
+  readShard(a.shard, config);
+  for (const std::string& name : a.strikers) config.strikers.push_back(strikerText(name));
+  config.keepers = keepersOf(a);
+  if (a.strikers.empty())
+    for (const auto kind : strikerKinds())
+      config.strikers.push_back(strikerText(std::string(kind)));
+  try {
+    config.check();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  Outputs outputs(a.force);
+  outputs.writes("--json", a.json, OutputKind::kBenchmark);
+  outputs.writes("--html", a.html, OutputKind::kPage);
+  GoalMatrix matrix;
+  {
+    Progress progress("playing", a.progress);
+    matrix = playMatrix(config, runOf(a.threads, progress));
+  }
+  writeResults(matrix, a.json, a.html, outputs);
+  fmt::print("{}", toText(matrix));
+  return 0;
+}
+
+int runBenchmarkVerify(const BenchmarkVerifyArguments& a) {
+  const GoalMatrix matrix = readMatrix(a.file);
+  if (const std::string here = GoalEpisodes().fingerprint(); here != matrix.world)
+    throw std::runtime_error(fmt::format("{}: was played in the world {}, but the one here is {}",
+                                         a.file.string(), matrix.world, here));
+  std::uint64_t played = 0;
+  std::vector<GoalMismatch> others;
+  {
+    Progress progress("playing", a.progress);
+    others = verify(matrix, a.sample, a.seed, runOf(a.threads, progress), played);
+  }
+  for (const GoalMismatch& one : others)
+    fail(
+        printable(fmt::format("{}: episode {} of '{}' against '{}' is {} in the file, but {} when "
+                              "it is played again",
+                              a.file.string(), one.number, one.striker, one.keeper,
+                              toText(one.told), toText(one.found))));
+  fmt::print("{} of {} episodes were played again, {} came out otherwise\n", played,
+             matrix.cells.size() * matrix.cells.front().episodes.size(), others.size());
+  return others.empty() ? 0 : 1;
+}
+
+int runBenchmarkMerge(const BenchmarkMergeArguments& a) {
+  Outputs outputs(a.force);
+  for (const auto& file : a.files) outputs.reads(file);
+  outputs.writes("--json", a.json, OutputKind::kBenchmark);
+  outputs.writes("--html", a.html, OutputKind::kPage);
+  std::vector<GoalMatrix> shards;
+  for (const auto& file : a.files) shards.push_back(readMatrix(file));
+  const GoalMatrix matrix = mergeShards(shards);
+  writeResults(matrix, a.json, a.html, outputs);
+  fmt::print("{}", toText(matrix));
+  return 0;
+}
+
+}  // namespace ortung::app

@@ -1,0 +1,74 @@
+#include "CommandModule.hpp"
+#include "Benchmark.hpp"
+#include "OptionBuilder.hpp"
+
+namespace ortung::app {
+namespace {
+
+void addGoalkeeper(Builder& build) {
+  const auto a = build.command<GoalkeeperBenchmarkArguments>(
+      "benchmark goalkeeper",
+      "ortung benchmark goalkeeper --episodes 1000 --threads 2 --json matrix.json",
+      runGoalkeeperBenchmark);
+  build
+      .option("--keepers", a->keepers,
+              "Goalkeepers: policies (still, random, pattern, blocking, intercepting, mixed) or "
+              "players PLUGIN[:key=value&...]; default: all policies")
+      .splitsAt(',');
+  build
+      .option("--strikers", a->strikers,
+              "Strikers: kinds (roll, shot, dribble, feint, seeker, yardstick-v1) or players "
+              "PLUGIN[:key=value&...]; default: all kinds")
+      .splitsAt(',');
+  build
+      .option("--sees", a->sees,
+              "How keepers know where they and the ball are; each plays in each way: truth, "
+              "features (the ball by its camera), scan (itself by single scans, too), localized "
+              "(by MCL)")
+      .splitsAt(',')
+      .oneOf({"truth", "features", "scan", "localized"});
+  build.option("--episodes", a->episodes, "Episodes of each pair").within(1, 1e7).showsDefault();
+  build.option("--seed", a->seed, "Seed of all situations").showsDefault();
+  build.option("--threads", a->threads, "Episodes that are played at the same time")
+      .within(1, 256)
+      .showsDefault();
+  build
+      .option("--shard", a->shard,
+              "I/N: play the I-th of N parts only; `ortung benchmark merge` joins them")
+      .showsDefault();
+  build.option("--json", a->json, "Also write all figures and episodes");
+  build.option("--html", a->html, "Also write a page with all figures and pictures of episodes");
+  build.flag("--force", a->force, kForce);
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addVerify(Builder& build) {
+  const auto a = build.command<BenchmarkVerifyArguments>(
+      "benchmark verify", "ortung benchmark verify matrix.json --sample 500", runBenchmarkVerify);
+  build.option("file", a->file, "JSON of `ortung benchmark goalkeeper`").required();
+  build
+      .option("--sample", a->sample,
+              "How many episodes are played again, of all pairs together; at least one of each")
+      .within(1, 1e7)
+      .showsDefault();
+  build.option("--seed", a->seed, "Seed of the choice").showsDefault();
+  build.option("--threads", a->threads, "Episodes that are played at the same time")
+      .within(1, 256)
+      .showsDefault();
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addMerge(Builder& build) {
+  const auto a = build.command<BenchmarkMergeArguments>(
+      "benchmark merge", "ortung benchmark merge part1.json part2.json --json matrix.json",
+      runBenchmarkMerge);
+  build.option("files", a->files, "JSON of all shards").required();
+  build.option("--json", a->json, "File to write");
+  build.option("--html", a->html, "Also write a page with all figures and pictures of episodes");
+  build.flag("--force", a->force, kForce);
+}
+
+}  // namespace
+}  // namespace ortung::app
+
+ORTUNG_COMMAND_MODULE(ortung::app::addGoalkeeper, ortung::app::addVerify, ortung::app::addMerge)

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include "ServingArguments.hpp"
+
+namespace ortung::app {
+
+struct ServeArguments {
+  std::filesystem::path record;
+  bool repeats = false;
+  ServingArguments serving;
+};
+int runServe(const ServeArguments& arguments);
+
+}  // namespace ortung::app

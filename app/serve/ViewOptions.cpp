@@ -1,0 +1,24 @@
+#include "CommandModule.hpp"
+#include "View.hpp"
+#include "ViewArguments.hpp"
+#include "LocalizationOptions.hpp"
+#include "OptionBuilder.hpp"
+#include "ServingOptions.hpp"
+
+namespace ortung::app {
+namespace {
+
+void addView(Builder& build) {
+  const auto a = build.command<ViewArguments>(
+      "view",
+      "ortung view run.rec\n"
+      "  ortung view run.rec other.rec --robot robot.toml --tables hall.ortung",
+      runView);
+  addRuns(build, *a);
+  addDoor(build, a->serving);
+}
+
+}  // namespace
+}  // namespace ortung::app
+
+ORTUNG_COMMAND_MODULE(ortung::app::addView)
