@@ -2,7 +2,8 @@
 # real_robot.sh ROOT ORTUNG  the commands of docs/real-robot.md, as they stand there.
 root=$1 ortung=$2
 folder=$(mktemp -d) || exit 2
-trap 'kill $(jobs -p) 2> /dev/null; rm -rf "$folder"' EXIT
+emulator=
+trap '[ -z "$emulator" ] || kill $emulator 2> /dev/null; rm -rf "$folder"' EXIT
 cd "$folder" || exit 2
 mkdir bin && ln -s "$ortung" bin/ortung && ln -s "$root/maps" maps
 PATH=$folder/bin:$PATH
@@ -14,6 +15,7 @@ fail() { cat told; echo "$1"; exit 1; }
 
 # The table of a terminal: as the page shows it, but for numbers and how sure the pose is. Faults may be told behind a line.
 ortung emulate --robot maps/robots/laboratory.toml --world maps/fields/arena.toml --dev dev --wait > emulated 2>&1 &
+emulator=$!
 script -qec 'ortung robot maps/robots/laboratory.toml --dev dev --tables lab.ortung --duration 8' /dev/null < /dev/null > screen 2>&1 ||
   { cat screen; echo "the robot fails at a terminal"; exit 1; }
 plain() { tr -d '\r' | sed -E 's/-?[0-9]+(\.[0-9]+)?/N/g; s/ +/ /g; s/ $//; s/degrees, [a-z]+$/degrees/'; }

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <limits>
+#include <map>
+#include <sstream>
+#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "Files.hpp"
 #include "ortung/base/Parameters.hpp"
@@ -20,79 +20,96 @@ std::string complaintAbout(const std::string& key, double value) {
   return test::messageOf<ConfigError>([&] { MclConfig::read(p); });
 }
 
+/// The next number beyond a limit that the option's kind has.
+double beyond(const MclConfig::Option& option, double limit, double direction) {
+  return limit + direction * (option.kind == MclConfig::Option::Kind::kInteger ? 1.0 : 1e-3);
+}
+
+MclConfig::Option optionOf(const std::string& key) {
+  for (const MclConfig::Option& option : MclConfig::options())
+    if (option.key == key) return option;
+  throw std::invalid_argument("there is no key " + key);
+}
+
 TEST(MclSettingsLimits, KeysTakeTheirWholeRangeAndNothingBeyond) {
-  struct Key {
-    const char* name;
-    double least;
-    double most;
-    double step;  ///< just beyond
-  };
-  for (const Key& key : std::vector<Key>{{"particles", 1, 5e6, 1},
-                                         {"min_particles", 1, 20000, 1},
-                                         {"resample_below", 0, 1, 1e-3},
-                                         {"kld_error", 1e-4, 0.999, 1e-5},
-                                         {"kld_quantile", 0.1, 9.9, 1e-3},
-                                         {"bin_m", 1e-3, 100, 1e-4},
-                                         {"bin_deg", 0.1, 360, 1e-3},
-                                         {"start_candidates_per_m2", 1, 1e5, 1e-3},
-                                         {"recover_fast", 0, 1, 1e-3},
-                                         {"recover_slow", 0, 1, 1e-3},
-                                         {"min_distance_m", 0, 100, 1e-3},
-                                         {"min_rotation_deg", 0, 360, 1e-3},
-                                         {"max_interval_s", 0, 1e6, 1e-3},
-                                         {"drift_m", 0, 100, 1e-3},
-                                         {"drift_deg", 0, 3600, 1e-3},
-                                         {"budget_ms", 1, 1e6, 1e-3}}) {
-    for (const double fine : {key.least, key.most})
-      EXPECT_EQ(complaintAbout(key.name, fine), "(nothing was thrown)") << key.name << " " << fine;
-    for (const double wrong : {key.least - key.step, key.most + key.step}) {
-      const std::string text = complaintAbout(key.name, wrong);
-      EXPECT_EQ(text.find(std::string("r.toml: ") + key.name + " is "), 0u) << text;
+  for (const MclConfig::Option& option : MclConfig::options()) {
+    if (option.kind == MclConfig::Option::Kind::kFlag) continue;
+    const auto [low, high] = option.range;
+    const double most = std::string(option.key) == "min_particles" ? 20000.0 : high;  // particles
+    for (const double fine : {low, most})
+      EXPECT_EQ(complaintAbout(option.key, fine), "(nothing was thrown)") << option.key << fine;
+    for (const double wrong : {beyond(option, low, -1.0), beyond(option, most, 1.0)}) {
+      const std::string text = complaintAbout(option.key, wrong);
+      EXPECT_EQ(text.find(std::string("r.toml: ") + option.key + " is "), 0u) << text;
       EXPECT_NE(text.find("must be in ["), text.npos) << text;
     }
   }
 }
 
+// The ranges themselves, for what would make no sense.
+TEST(MclSettingsLimits, RangesLeaveOutWhatMakesNoSense) {
+  EXPECT_GT(optionOf("particles").range.low, 0.0);
+  EXPECT_GT(optionOf("kld_error").range.low, 0.0);
+  EXPECT_LT(optionOf("kld_error").range.high, 1.0);
+  for (const char* share : {"resample_below", "recover_fast", "recover_slow"}) {
+    EXPECT_EQ(optionOf(share).range.low, 0.0) << share;
+    EXPECT_EQ(optionOf(share).range.high, 1.0) << share;
+  }
+  for (const char* size : {"bin_m", "bin_deg", "budget_ms"})
+    EXPECT_GT(optionOf(size).range.low, 0.0) << size;
+}
+
 // Whoever fills in the fields by hand is told, too.
 TEST(MclSettingsLimits, FieldsTakeTheirWholeRangeAndNothingBeyond) {
-  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  struct Field {
-    const char* name;
-    std::function<void(MclConfig&, double)> set;
-    std::vector<double> fine;
-    std::vector<double> wrong;
-  };
-  const std::vector<Field> fields = {
-      {"resampleBelow", [](auto& c, double v) { c.resampleBelow = v; }, {0, 1}, {-0.01, 1.01}},
-      {"kldError", [](auto& c, double v) { c.kldError = v; }, {0.01, 0.99}, {0, 1}},
-      {"kldQuantile", [](auto& c, double v) { c.kldQuantile = v; }, {0.01, 9.99}, {0, 10}},
-      {"binMetres", [](auto& c, double v) { c.binMetres = v; }, {1e-6}, {0, -1}},
-      {"binRadians", [](auto& c, double v) { c.binRadians = v; }, {1e-6}, {0, -1}},
-      {"startCandidates",
-       [](auto& c, double v) { c.startCandidates = v; },
-       {1, 1e5},
-       {0.9, 100001}},
-      {"recoverFast", [](auto& c, double v) { c.recoverFast = v; }, {0, 1}, {-0.01, 1.01}},
-      {"recoverSlow", [](auto& c, double v) { c.recoverSlow = v; }, {0, 1}, {-0.01, 1.01}},
-      {"minDistance", [](auto& c, double v) { c.minDistance = v; }, {0, kNoLimit}, {-0.01}},
-      {"minRotation", [](auto& c, double v) { c.minRotation = v; }, {0, kNoLimit}, {-0.01}},
-      {"maxInterval", [](auto& c, double v) { c.maxInterval = v; }, {0, kNoLimit}, {-0.01}},
-      {"driftMetres", [](auto& c, double v) { c.driftMetres = v; }, {0, 100}, {-0.01, 100.01}},
-      {"driftRadians", [](auto& c, double v) { c.driftRadians = v; }, {0, 100}, {-0.01, 100.01}},
-      {"threads", [](auto& c, double v) { c.threads = static_cast<int>(v); }, {1, 256}, {0, 257}}};
-  for (const Field& field : fields) {
+  for (const MclConfig::Option& option : MclConfig::options()) {
     const auto complaint = [&](double value) {
       MclConfig c;
-      field.set(c, value);
+      option.set(c, value);
       return test::messageOf<std::invalid_argument>([&] { c.check(); });
     };
-    for (const double fine : field.fine)
-      EXPECT_EQ(complaint(fine), "(nothing was thrown)") << field.name;
-    for (const double wrong : field.wrong)
-      EXPECT_EQ(complaint(wrong).find(std::string("MclConfig.") + field.name + " is "), 0u)
-          << field.name << " = " << wrong << ": " << complaint(wrong);
-    if (std::string(field.name) == "threads") continue;  // a whole number
-    EXPECT_NE(complaint(std::nan("")), "(nothing was thrown)") << field.name;
+    const auto [low, high] = option.range;
+    const double most = std::string(option.key) == "min_particles" ? 20000.0 : high;
+    EXPECT_EQ(complaint(most), "(nothing was thrown)") << option.key;
+    if (option.kind == MclConfig::Option::Kind::kFlag) continue;
+    if (std::string(option.key) != "particles")  // there are 500 at least
+      EXPECT_EQ(complaint(low), "(nothing was thrown)") << option.key;
+    for (const double wrong : {beyond(option, low, -1.0), beyond(option, most, 1.0)}) {
+      if (wrong < 0.0 && option.kind == MclConfig::Option::Kind::kInteger) continue;
+      EXPECT_EQ(complaint(wrong).find(std::string("MclConfig: ") + option.key + " is "), 0u)
+          << option.key << " = " << wrong << ": " << complaint(wrong);
+    }
+    if (option.kind == MclConfig::Option::Kind::kNumber)
+      EXPECT_NE(complaint(std::nan("")), "(nothing was thrown)") << option.key;
+  }
+  MclConfig c;
+  c.threads = 257;
+  EXPECT_THROW(c.check(), std::invalid_argument);
+  c.threads = 0;
+  EXPECT_THROW(c.check(), std::invalid_argument);
+}
+
+// The page's table is for people; what it says of keys and defaults is what the code does.
+TEST(MclSettingsLimits, ThePageHasEachKeyWithItsDefault) {
+  const std::string page = test::readBytes(ORTUNG_SOURCE_DIR "/docs/mcl.md");
+  std::map<std::string, std::string> rows;  // default by key
+  for (std::size_t at = page.find("\n| `"); at != page.npos; at = page.find("\n| `", at + 1)) {
+    std::istringstream row(page.substr(at + 1, page.find('\n', at + 1) - at - 1));
+    std::string nothing, keys, defaults;
+    std::getline(std::getline(std::getline(row, nothing, '|'), keys, '|'), defaults, '|');
+    std::istringstream all(keys), values(defaults);
+    for (std::string key, value; std::getline(all, key, ',') && std::getline(values, value, ',');) {
+      const auto strip = [](const std::string& text) {
+        const std::size_t first = text.find_first_not_of(" `");
+        return text.substr(first, text.find_last_not_of(" `") + 1 - first);
+      };
+      rows.emplace(strip(key), strip(value));
+    }
+  }
+  for (const MclConfig::Option& option : MclConfig::options()) {
+    ASSERT_TRUE(rows.contains(option.key)) << "docs/mcl.md has no row of `" << option.key << "`";
+    const std::string& row = rows[option.key];
+    const double value = row == "true" ? 1.0 : row == "false" ? 0.0 : std::stod(row);
+    EXPECT_NEAR(value, option.get(MclConfig()), 0.02 * std::abs(value)) << option.key;
   }
 }
 

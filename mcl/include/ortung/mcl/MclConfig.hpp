@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Parameters.hpp"
@@ -30,7 +31,18 @@ struct MclConfig {
   std::uint64_t seed = 1;
   unsigned threads = 1;  ///< the result does not depend on it
 
-  /// @throws std::invalid_argument naming the field, its value and the range
+  /// One key of [mcl]. What is read, refused and documented comes from the list of them.
+  struct Option {
+    enum class Kind : std::uint8_t { kNumber, kInteger, kFlag };
+    const char* key;  ///< as a robot file has it
+    Kind kind;
+    Range range;  ///< of values that are taken, in the unit that the key ends in
+    double (*get)(const MclConfig&);  ///< in that unit; a flag: 0 or 1
+    void (*set)(MclConfig&, double);
+  };
+  ORTUNG_API static std::span<const Option> options();
+
+  /// @throws std::invalid_argument naming the key that a field belongs to, its value and the range
   ORTUNG_API void check() const;
   /// Reads [mcl]; keys that are missing keep their default. @throws ConfigError
   ORTUNG_API static MclConfig read(const Parameters& mcl);
