@@ -276,7 +276,7 @@ TEST(MclSettings, WithoutOdometrySamplesDrift) {
     config.driftMetres = metres;
     config.driftRadians = radians;
     config.binMetres = 100;
-    config.binRadians = 7;
+    config.binRadians = 6.28;
     const auto mcl = robot.mcl(config);
     mcl->startAt({1, 2, 0.5}, 0.0, 0.0);
     for (int i = 0; i <= readings; ++i) {
