@@ -12,6 +12,7 @@
 #include "Console.hpp"
 #include "RunJson.hpp"
 #include "Statistics.hpp"
+#include "ortung/base/Statistics.hpp"
 
 namespace ortung::app {
 namespace {
@@ -88,8 +89,8 @@ class Figures {
   void addTo(std::vector<ComparedFigure>& all) {
     if (before_.empty()) return;
     result_.pairs = before_.size();
-    result_.medianBefore = quantileOf(before_, 0.5);
-    result_.medianAfter = quantileOf(after_, 0.5);
+    result_.medianBefore = quantile(before_, 0.5);
+    result_.medianAfter = quantile(after_, 0.5);
     result_.p = wilcoxonSignedRank(differences_);
     all.push_back(result_);
   }

@@ -9,6 +9,7 @@
 #include "Console.hpp"
 #include "RunJson.hpp"
 #include "Statistics.hpp"
+#include "ortung/base/Statistics.hpp"
 
 namespace ortung::app {
 namespace {
@@ -28,8 +29,8 @@ struct Spread {
 };
 
 Spread spreadOf(const std::vector<double>& values) {
-  return {quantileOf(values, 0.5), quantileOf(values, 0.95), quantileOf(values, 0.99),
-          quantileOf(values, 1.0)};
+  return {quantile(values, 0.5), quantile(values, 0.95), quantile(values, 0.99),
+          quantile(values, 1.0)};
 }
 
 /// What all runs of one source and kind say together.
@@ -144,7 +145,7 @@ std::vector<Summary> summariesOf(const std::vector<RunResult>& runs) {
 }
 
 Json jsonOf(const Share& share) {
-  const Interval interval = wilson95(share.count, share.of);
+  const Interval interval = wilson(share.count, share.of);
   const double rate =
       share.of > 0 ? static_cast<double>(share.count) / static_cast<double>(share.of) : kNan;
   return {{"count", share.count},
@@ -185,7 +186,7 @@ std::string line(const std::string& name, const std::string& value) {
 }
 
 std::string show(const Share& share) {
-  const Interval interval = wilson95(share.count, share.of);
+  const Interval interval = wilson(share.count, share.of);
   if (share.of == 0) return "- (none)";
   return fmt::format("{} of {}, {:.1f} % (95 %: {:.1f} to {:.1f})", share.count, share.of,
                      100.0 * static_cast<double>(share.count) / static_cast<double>(share.of),

@@ -1,8 +1,9 @@
 #include "Statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -52,26 +53,6 @@ double exactLowerTail(const std::vector<Rank>& ranks, long least) {
 
 }  // namespace
 
-Interval wilson95(std::size_t count, std::size_t all) {
-  if (all == 0) return {};
-  constexpr double z = 1.959963984540054;
-  const auto n = static_cast<double>(all);
-  const double p = static_cast<double>(count) / n;
-  const double middle = p + z * z / (2 * n);
-  const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  const double whole = 1 + z * z / n;
-  return {count == 0 ? 0.0 : (middle - half) / whole, count == all ? 1.0 : (middle + half) / whole};
-}
-
-double quantileOf(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::ranges::sort(values);
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-}
-
 double wilcoxonSignedRank(const std::vector<double>& differences) {
   double tieSum = 0.0;
   const std::vector<Rank> ranks = signedRanks(differences, tieSum);
@@ -88,20 +69,13 @@ double wilcoxonSignedRank(const std::vector<double>& differences) {
   const double mean = n * (n + 1) / 4;
   const double variance = n * (n + 1) * (2 * n + 1) / 24 - tieSum / 48;
   const double off = std::max(0.0, mean - static_cast<double>(least) / 2 - 0.5);
-  return std::erfc(off / std::sqrt(2 * variance));
+  return 2.0 * cdf(complement(boost::math::normal(), off / std::sqrt(variance)));
 }
 
 double mcNemarExact(std::size_t better, std::size_t worse) {
-  const std::size_t n = better + worse;
-  const std::size_t least = std::min(better, worse);
-  const auto logChoose = [&](std::size_t k) {
-    return std::lgamma(static_cast<double>(n) + 1) - std::lgamma(static_cast<double>(k) + 1) -
-           std::lgamma(static_cast<double>(n - k) + 1);
-  };
-  double tail = 0.0;
-  for (std::size_t k = 0; k <= least; ++k)
-    tail += std::exp(logChoose(k) - static_cast<double>(n) * std::log(2.0));
-  return std::min(1.0, 2 * tail);
+  if (better + worse == 0) return 1.0;
+  const boost::math::binomial chance(static_cast<double>(better + worse), 0.5);
+  return std::min(1.0, 2.0 * cdf(chance, static_cast<double>(std::min(better, worse))));
 }
 
 }  // namespace ortung::app

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "Statistics.hpp"
+#include "ortung/base/Statistics.hpp"
 
 namespace ortung::app {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 // methods", Statistics in Medicine 17 (1998), table I, method 3.
 TEST(Statistics, WilsonIntervalsAreThePublishedOnes) {
   const auto expectInterval = [](std::size_t count, std::size_t all, double low, double high) {
-    const Interval found = wilson95(count, all);
+    const Interval found = wilson(count, all);
     EXPECT_NEAR(found.low, low, 5e-5) << count << " of " << all;
     EXPECT_NEAR(found.high, high, 5e-5) << count << " of " << all;
   };
@@ -23,17 +24,17 @@ TEST(Statistics, WilsonIntervalsAreThePublishedOnes) {
 }
 
 TEST(Statistics, WilsonIntervalOfAllIsThatOfNoneTurnedRound) {
-  EXPECT_EQ(wilson95(20, 20).high, 1.0);
-  EXPECT_NEAR(wilson95(20, 20).low, 1.0 - wilson95(0, 20).high, 1e-12);
-  EXPECT_EQ(wilson95(0, 0).low, 0.0);
-  EXPECT_EQ(wilson95(0, 0).high, 1.0);
+  EXPECT_EQ(wilson(20, 20).high, 1.0);
+  EXPECT_NEAR(wilson(20, 20).low, 1.0 - wilson(0, 20).high, 1e-12);
+  EXPECT_EQ(wilson(0, 0).low, 0.0);
+  EXPECT_EQ(wilson(0, 0).high, 1.0);
 }
 
 TEST(Statistics, QuantilesInterpolateBetweenOrderStatistics) {
-  EXPECT_DOUBLE_EQ(quantileOf({3, 1, 2, 4}, 0.5), 2.5);
-  EXPECT_DOUBLE_EQ(quantileOf({3, 1, 2, 4}, 0.0), 1.0);
-  EXPECT_DOUBLE_EQ(quantileOf({3, 1, 2, 4}, 1.0), 4.0);
-  EXPECT_TRUE(std::isnan(quantileOf({}, 0.5)));
+  EXPECT_DOUBLE_EQ(quantile({3, 1, 2, 4}, 0.5), 2.5);
+  EXPECT_DOUBLE_EQ(quantile({3, 1, 2, 4}, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(quantile({3, 1, 2, 4}, 1.0), 4.0);
+  EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
 }
 
 // Hollander and Wolfe, "Nonparametric Statistical Methods", example 3.1 (depression of nine

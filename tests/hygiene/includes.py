@@ -29,6 +29,7 @@ FOREIGN = {
     r"boost/(asio|beast)": r"^board/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)"
     r"|refbox/src/RefBoxClient\.cpp|web/src/)",
     r"boost/crc": r"^realsensors/(devices|ros2)/src/",
+    r"boost/math/": r"^app/report/",
     r"boost/(iostreams|archive)": r"^(app/|realsensors/core/src/|sim/src/world/)",
     r"yaml-cpp/": r"^(app/images|sim/src/world)/",
     r"png\.h": r"^(app/|sim/src/world/)",

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "ortung/base/Statistics.hpp"
 #include "ortung/study/Verdict.hpp"
 
 namespace ortung {
@@ -15,16 +16,6 @@ namespace {
 
 constexpr double kNeesBound = 16.266;  ///< 99.9 % of chi-square with 3 degrees of freedom
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// Quantile by linear interpolation between order statistics; NaN of nothing.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return kNan;
-  std::sort(values.begin(), values.end());
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-}
 
 double rootMeanSquare(const std::vector<double>& values) {
   if (values.empty()) return kNan;

@@ -9,19 +9,6 @@
 
 namespace ortung {
 
-Interval wilson(std::uint64_t hits, std::uint64_t n) {
-  if (n == 0) return {0.0, 0.0, 1.0};
-  constexpr double kZ = 1.959963984540054;  // of 95 %
-  const auto count = static_cast<double>(n);
-  const double p = static_cast<double>(hits) / count;
-  const double scale = 1.0 + kZ * kZ / count;
-  const double middle = (p + kZ * kZ / (2.0 * count)) / scale;
-  const double half =
-      kZ / scale * std::sqrt(p * (1.0 - p) / count + kZ * kZ / (4.0 * count * count));
-  // Ends of 0 and 1 are exact; the formula rounds.
-  return {p, hits == 0 ? 0.0 : middle - half, hits == n ? 1.0 : middle + half};
-}
-
 Interval pairedBootstrap(std::span<const int> differences, std::uint64_t seed,
                          std::size_t resamples) {
   const std::size_t n = differences.size();
