@@ -12,6 +12,7 @@
 #include "Confirmation.hpp"
 #include "Drift.hpp"
 #include "GlobalStart.hpp"
+#include "Hypothesis.hpp"
 #include "Intake.hpp"
 #include "Kld.hpp"
 #include "Lateness.hpp"
@@ -48,7 +49,7 @@ struct Mcl::Impl {
   PoseSearch search;
   UpdateTime time;
   mutable Workers workers;
-  SampleSet samples;
+  Hypothesis belief;
   PoseEstimate estimate;    ///< of the newest weighing
   PoseResolution coarsest;  ///< of the tables that it was weighed by
   /// Of the samples as they are now; made when it is asked for.
@@ -74,7 +75,6 @@ struct Mcl::Impl {
   GlobalStart globalStart;
   Confirmation confirmation;  ///< of where that has found the robot
   bool hasStarted = false;    ///< there is an estimate that no update() has told of yet
-  std::vector<float> logProbability;
 
   Impl(const MclConfig& c, FieldRegion r, std::unique_ptr<MotionModel> m)
       : config((c.check(), c)),
@@ -130,40 +130,33 @@ struct Mcl::Impl {
   }
   /// Of the samples, and their bins, which whoever resamples them needs again.
   PoseEstimate estimateBy(const std::vector<double>& weights, std::optional<PoseBins>& bins) {
-    bins.emplace(config, samples.view(), &workers);
-    return estimateOf(*bins, samples.view(), weights, &workers);
+    bins.emplace(config, belief.samples().view(), &workers);
+    return estimateOf(*bins, belief.samples().view(), weights, &workers);
   }
-  std::vector<double> weightsNow() const { return normalized(samples.logWeight, &workers); }
   void waitAnywhere();
   void followMotion(const Pose2& odometry);
   void predict(const Pose2& odometry);
   void predictBlindly(Timestamp stamp);
   void spread(Timestamp stamp);
   void predictFor(Timestamp stamp);
-  void enlarge(SampleSet& set);
+  void enlarge();
   template <class Move>
   void move(const Move& moveSome);
   PoseEstimate estimateNow() const;
-  /// ln p of readings, for whoever searches among poses. @param news borrowed
-  PoseSearch::Weigh weigherOf(const std::vector<News>& news) {
-    return
-        [this, &news, each = nanosecondsOf(news)](const SampleSet& set, std::vector<float>& out) {
-          time.spend(each * static_cast<double>(set.size()));
-          weigh(news, set, &workers, out);
-        };
-  }
+  /// What readings say, for all hypotheses. @param news borrowed
+  Evidence evidenceOf(const std::vector<News>& news);
   void start(NewsByTime& news);
   void goOnStarting();
   static std::vector<const Weigher*> readingsOf(const std::vector<News>& news);
-  static double fitNow(const std::vector<News>& news, const SampleSet& set);
   void followFit(const std::vector<News>& news, const std::vector<double>& before);
-  std::vector<double> takeIn(const std::vector<News>& news, const std::vector<double>& before);
-  std::vector<double> takeInUnsure(const std::vector<News>& news,
-                                   const std::vector<double>& before);
+  std::vector<double> takeIn(const std::vector<News>& news, const Evidence& evidence,
+                             Hypothesis::Said said);
+  std::vector<double> takeInUnsure(const std::vector<News>& news, const Evidence& evidence,
+                                   Hypothesis::Said said);
+  Hypothesis::Climb climbFor(const std::vector<News>& news, std::size_t had);
   bool compareDelays(const std::vector<News>& news, const Lateness::Moment& moment);
-  bool compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment);
+  bool compareWithRivals(const Evidence& evidence, const Rivals::Moment& moment);
   void resample(const std::vector<double>& weights, const PoseBins& bins);
-  void sharpen(const std::vector<News>& news, const std::vector<double>& before);
   void keepResolution(PoseEstimate& e) const;
   PoseEstimate atStamp(const PoseEstimate& e, Timestamp stamp) const;
   /// Whether odometry says nothing of the way since the last weighing.

@@ -5,7 +5,6 @@
 #include "Drift.hpp"
 #include "MclImpl.hpp"
 #include "MotionPieces.hpp"
-#include "Parallel.hpp"
 #include "Resampling.hpp"
 #include "ortung/base/Random.hpp"
 
@@ -30,18 +29,10 @@ void Mcl::Impl::followMotion(const Pose2& odometry) {
 template <class Move>
 void Mcl::Impl::move(const Move& moveSome) {
   if (waitsForStart) return;
-  const auto moveAll = [&](SampleSet& set, std::size_t number) {
-    forEachChunk(set.size(), &workers, [&](std::size_t first, std::size_t count) {
-      moveSome(MovableSamples{std::span(set.x).subspan(first, count),
-                              std::span(set.y).subspan(first, count),
-                              std::span(set.theta).subspan(first, count)},
-               number + first);
-    });
-  };
-  moveAll(samples, 0);
+  belief.move(0, moveSome, &workers);
   std::size_t number = 0;
-  for (SampleSet* others : rivals.samples())
-    if (others != nullptr) moveAll(*others, ++number * kNumberOfRivals);
+  for (Hypothesis* rival : rivals.hypotheses())
+    if (rival != nullptr) rival->move(++number * kNumberOfRivals, moveSome, &workers);
   present.reset();
 }
 
@@ -86,7 +77,7 @@ void Mcl::Impl::predictBlindly(Timestamp stamp) {
   way += come;
   polish.forget();
   biases.forget();
-  if (!waitsForStart) enlarge(samples);
+  if (!waitsForStart) enlarge();
   const Pose2 ahead = momentum.changeAt(stamp);
   move([&](const MovableSamples& some, std::size_t first) {
     drift(config, some, ahead, seconds, stream(Purpose::kMotion), first);
@@ -98,21 +89,21 @@ void Mcl::Impl::predictBlindly(Timestamp stamp) {
 void Mcl::Impl::spread(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0 || waitsForStart) return;
-  Spread both = ortung::spread(config, samples, anchor, momentum.changeAt(stamp), seconds,
+  Spread both = ortung::spread(config, belief.samples(), anchor, momentum.changeAt(stamp), seconds,
                                kSpreadSamples, stream(Purpose::kSpread));
   polish.forget();
   biases.forget();
-  samples = std::move(both.samples);
+  belief.setSamples(std::move(both.samples));
   drifted = both.drifted;
   present.reset();
 }
 
 /// Samples drawn evenly, so many that they can go where a robot may go of which nothing is known.
-void Mcl::Impl::enlarge(SampleSet& set) {
+void Mcl::Impl::enlarge() {
   const std::size_t n = std::min(config.maxSamples, kSpreadSamples);
-  if (set.size() >= n) return;
+  if (belief.samples().size() >= n) return;
   Random random(config.seed, stream(Purpose::kResampling));
-  set = taken(set, lowVariance(normalized(set.logWeight), n, random.uniform()));
+  belief.setSamples(taken(belief.samples(), lowVariance(belief.weights(), n, random.uniform())));
 }
 
 }  // namespace ortung

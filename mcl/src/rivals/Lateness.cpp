@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "Annealing.hpp"
 #include "CarriedOn.hpp"
 #include "Kld.hpp"
 #include "Resampling.hpp"
@@ -67,7 +66,7 @@ std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose
 bool Lateness::isSuspected(Timestamp stamp) const {
   // A delay of one step is hardly one.
   if (inForce_ > 1 || std::any_of(jumps_.begin(), jumps_.end(), [](const Jump& jump) {
-        return jump.lead.nats() > kMostNatsOfAReading;
+        return jump.hypothesis.lead().nats() > kMostNatsOfAReading;
       }))
     return true;
   const auto places = placesAt(stamp, Pose2{});
@@ -138,21 +137,20 @@ void Lateness::keep(const SampleSet& belief, std::span<const double> weights,
 }
 
 /// With the same noise for each delay, so that only what odometry says makes a difference.
-SampleSet Lateness::moved(const SampleSet& from, const Pose2& change, const Moment& moment) const {
-  SampleSet set = from;
-  motion_.sampleMotion({set.x, set.y, set.theta}, change, config_.seed, moment.stream,
-                       kFirstNumber);
-  return set;
+void Lateness::move(Hypothesis& hypothesis, const Pose2& change, const Moment& moment) const {
+  hypothesis.move(kFirstNumber, [&](const MovableSamples& some, std::size_t first) {
+    motion_.sampleMotion(some, change, config_.seed, moment.stream, first);
+  });
 }
 
 std::optional<Lateness::Change> Lateness::follow(const Moment& moment, const Recovery& recovery,
-                                                 const PoseSearch::Weigh& weigh, const Fit& fit) {
+                                                 const Evidence& evidence) {
   if (!anchor_ || moment.stamp <= anchor_->stamp) return std::nullopt;
   const double gap = before_ ? toSeconds(moment.stamp - *before_) : 0.0;
   const bool isLonger = usualGap_ > 0.0 && gap > kLongGap * usualGap_;
   if (!isLonger) compare(moment);
-  goOn(moment, recovery, weigh, fit);
-  if (jumps_.empty() && (moment.isDoubtful || isLonger)) begin(moment, gap, weigh);
+  goOn(moment, recovery, evidence);
+  if (jumps_.empty() && (moment.isDoubtful || isLonger)) begin(moment, gap, evidence);
   return decide();
 }
 
@@ -174,81 +172,86 @@ void Lateness::compare(const Moment& moment) {
   delays_.follow(predicted, inForce_, moment.estimate, seconds);
 }
 
-/// Weighs samples that were moved to this reading. @returns whether they stay
-bool Lateness::weighJump(Jump& jump, const Moment& moment, const PoseSearch::Weigh& weigh,
-                         double part, const Recovery* recovery, const Fit* fit) const {
-  std::vector<float> logs;
-  weigh(jump.samples, logs);
-  const std::vector<double> before = normalized(jump.samples.logWeight);
-  const double ratio = logMean(before, logs) - moment.logEvidence;
-  SampleSet weighed = jump.samples;
-  for (std::size_t i = 0; i < logs.size(); ++i) weighed.logWeight[i] += logs[i];
-  if (effectiveSamples(normalized(weighed.logWeight)) < kEffective) {
-    const PoseEstimate whole = estimateOf(config_, jump.samples.view(), before);
+/// After it was moved to this reading.
+/// @returns what the reading says for it against the belief [nats]
+double Lateness::weigh(Jump& jump, const Moment& moment, const Evidence& evidence) const {
+  const auto climb = [&] {
     Random random = Random(config_.seed, moment.stream).fork(3 + jump.delay);
-    weighed = Annealing(weigh, whole.covariance, kSamples)
-                  .draw(taken(jump.samples, lowVariance(before, kSamples, random.uniform())),
-                        kSamples, random.fork(1))
-                  .samples;
-  }
-  jump.samples = std::move(weighed);
-  if (ratio < 0.0 || recovery == nullptr || recovery->isUsual((*fit)(jump.samples))) {
-    jump.lead.count(ratio, part);
+    return Hypothesis::Climb{kSamples, kSamples, random, random.fork(1)};
+  };
+  return jump.hypothesis.weigh(evidence, config_, kEffective, climb).logEvidence -
+         moment.logEvidence;
+}
+
+void Lateness::count(Jump& jump, double ratio, double part, bool isUsual) {
+  if (jump.hypothesis.count(ratio, part, isUsual))
     jump.sharp += part * std::clamp(ratio, -kMostSharp, kMostSharp);
-  }
-  return jump.lead.nats() > kDropped;
 }
 
 /// Where the robot is if another delay has begun since the last reading.
-void Lateness::begin(const Moment& moment, double gap, const PoseSearch::Weigh& weigh) {
+void Lateness::begin(const Moment& moment, double gap, const Evidence& evidence) {
   const std::optional<Pose2> present = odometryAt(moment.stamp, inForce_);
-  if (!present) return;
   const std::optional<Pose2>& then = anchor_->odometry[inForce_];
-  if (!then) return;
+  if (!present || !then) return;
   for (std::size_t i = 0; i < Delays::kCount; ++i) {
-    const double grown = Delays::secondsOf(i) - Delays::secondsOf(inForce_);
-    // After a longer silence odometry alone is to blame.
-    if (i == inForce_ || grown > gap || gap - std::max(0.0, grown) > kLongGap * usualGap_) continue;
     const std::optional<Pose2> now = odometryAt(moment.stamp, i);
-    if (!now) continue;
+    if (!mayBegin(i, gap) || !now) continue;
     const Pose2 change = inverse(*then) * *now;
     if (apart(change, inverse(*then) * *present) < kPlacesApart) continue;
-    Jump jump{i, moved(anchor_->samples, change, moment), *now};
-    if (weighJump(jump, moment, weigh, 1.0, nullptr, nullptr) && jump.lead.nats() > 0.0)
-      jumps_.push_back(std::move(jump));
+    Jump jump{i, Hypothesis(anchor_->samples), *now};
+    move(jump.hypothesis, change, moment);
+    // Where readings fit as they use to is asked once it has begun.
+    count(jump, weigh(jump, moment, evidence), 1.0, true);
+    if (jump.hypothesis.lead().nats() > 0.0) jumps_.push_back(std::move(jump));
   }
 }
 
-void Lateness::goOn(const Moment& moment, const Recovery& recovery, const PoseSearch::Weigh& weigh,
-                    const Fit& fit) {
+/// A delay that grows leaves a gap as long; after a longer silence odometry alone is to blame.
+bool Lateness::mayBegin(std::size_t delay, double gap) const {
+  const double grown = Delays::secondsOf(delay) - Delays::secondsOf(inForce_);
+  return delay != inForce_ && grown <= gap && gap - std::max(0.0, grown) <= kLongGap * usualGap_;
+}
+
+void Lateness::goOn(const Moment& moment, const Recovery& recovery, const Evidence& evidence) {
   std::erase_if(jumps_, [&](Jump& jump) {
     const std::optional<Pose2> now = odometryAt(moment.stamp, jump.delay);
     if (!now) return true;
     const Pose2 change = inverse(jump.odometry) * *now;
     jump.odometry = *now;
-    jump.samples = moved(jump.samples, change, moment);
-    const double part = apart(change, Pose2{}) / kIndependent;
-    return !weighJump(jump, moment, weigh, part, &recovery, &fit);
+    move(jump.hypothesis, change, moment);
+    const double ratio = weigh(jump, moment, evidence);
+    count(jump, ratio, apart(change, Pose2{}) / kIndependent,
+          recovery.isUsual(evidence.fit(jump.hypothesis.samples())));
+    return jump.hypothesis.lead().nats() <= kDropped;
   });
 }
 
-std::optional<Lateness::Change> Lateness::decide() {
-  const Jump* jump = nullptr;
+/// Of those that lead by enough, the one that sharper readings speak for; null: none does.
+const Lateness::Jump* Lateness::leading() const {
+  const Jump* leading = nullptr;
   for (const Jump& one : jumps_) {
-    const bool isEnough = one.delay == 0 ? one.lead.nats() >= kEnoughForNone : one.lead.isEnough();
-    if (isEnough && (jump == nullptr || one.sharp > jump->sharp)) jump = &one;
+    const Lead& lead = one.hypothesis.lead();
+    const bool isEnough = one.delay == 0 ? lead.nats() >= kEnoughForNone : lead.isEnough();
+    if (isEnough && (leading == nullptr || one.sharp > leading->sharp)) leading = &one;
   }
-  if (jump != nullptr) {
-    std::array<double, Delays::kCount> nats;
-    nats.fill(-std::numeric_limits<double>::infinity());
-    for (const Jump& one : jumps_) nats[one.delay] = one.lead.nats();
-    delays_.change(nats);
-    inForce_ = jump->delay;
-    Change found{jump->samples};
-    jumps_.clear();
-    anchor_.reset();
-    return found;
-  }
+  return leading;
+}
+
+/// The place changes with the delay.
+Lateness::Change Lateness::jumpTo(const Jump& jump) {
+  std::array<double, Delays::kCount> nats;
+  nats.fill(-std::numeric_limits<double>::infinity());
+  for (const Jump& one : jumps_) nats[one.delay] = one.hypothesis.lead().nats();
+  delays_.change(nats);
+  inForce_ = jump.delay;
+  Change change{jump.hypothesis.samples()};
+  jumps_.clear();
+  anchor_.reset();
+  return change;
+}
+
+std::optional<Lateness::Change> Lateness::decide() {
+  if (const Jump* jump = leading()) return jumpTo(*jump);
   const std::size_t best = delays_.mostProbable();
   if (probability(best) < kSurely * probability(inForce_)) return std::nullopt;
   inForce_ = best;
