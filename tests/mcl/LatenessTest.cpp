@@ -281,9 +281,9 @@ TEST(Lateness, EndsWithinThreeReadings) {
   robot.late = 1.0;
   robot.driveFor(40);
   EXPECT_NEAR(robot.lateness.seconds(), 1.0, 0.25);
-  robot.lateness.forgetBelief();
-  EXPECT_NEAR(robot.lateness.seconds(), 1.0, 0.25) << "that is of the devices";
   robot.lateness.forget();
+  EXPECT_NEAR(robot.lateness.seconds(), 1.0, 0.25) << "that is of the devices";
+  robot.lateness.forgetAll();
   EXPECT_EQ(robot.lateness.seconds(), 0.0);
 }
 

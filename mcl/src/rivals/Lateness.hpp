@@ -61,9 +61,10 @@ class ORTUNG_API Lateness {
   std::optional<Pose2> odometryAt(Timestamp stamp) const { return odometryAt(stamp, inForce_); }
   /// There is odometry of this time.
   void hear(Timestamp odometry);
-  void forget();
+  /// Time begins anew.
+  void forgetAll();
   /// Of another belief: the delay stays, for that is of the devices.
-  void forgetBelief();
+  void forget();
   /// Takes the belief that a reading has weighed. @param weights sum 1
   /// @param estimate of it
   void keep(const SampleSet& belief, std::span<const double> weights, const PoseEstimate& estimate,
@@ -88,6 +89,14 @@ class ORTUNG_API Lateness {
     SampleSet samples;
     Odometry odometry;
   };
+  /// What belongs to a belief, and is made anew with it.
+  struct OfBelief {
+    std::optional<Timestamp> before;  ///< of the last reading
+    Odometry odometry;                ///< then
+    double usualGap = 0.0;            ///< between readings [s]
+    std::optional<Anchor> anchor;
+    std::vector<Jump> jumps;
+  };
   std::optional<Pose2> odometryAt(Timestamp stamp, std::size_t delay) const;
   Odometry odometryByDelay(Timestamp stamp) const;
   std::array<Pose2, Delays::kCount> placesAt(Timestamp stamp, const Pose2& inForce) const;
@@ -107,11 +116,7 @@ class ORTUNG_API Lateness {
   Delays delays_;
   std::size_t inForce_ = 0;
   std::optional<Timestamp> odometrySince_;
-  std::optional<Timestamp> before_;  ///< of the last reading
-  Odometry odometry_;                ///< then
-  double usualGap_ = 0.0;            ///< between readings [s]
-  std::optional<Anchor> anchor_;
-  std::vector<Jump> jumps_;
+  OfBelief belief_;
 };
 
 }  // namespace ortung
