@@ -61,11 +61,12 @@ struct Robot {
   void read() {
     const auto steps = static_cast<std::size_t>(std::lround(late / kStep));
     const Pose2 there = truths[truths.size() - 1 - std::min(truths.size() - 1, steps)];
-    const PoseSearch::Weigh weigh = [&](const SampleSet& set, std::vector<float>& out) {
+    Evidence reading;
+    reading.weigh = [&](const SampleSet& set, std::vector<float>& out) {
       out.resize(set.size());
       for (std::size_t i = 0; i < set.size(); ++i) out[i] = logProbability(set, i, there);
     };
-    const Lateness::Fit fit = [&](const SampleSet& set) {
+    reading.fit = [&](const SampleSet& set) {
       const std::vector<double> weights = normalized(set.logWeight);
       double sum = 0.0;
       for (std::size_t i = 0; i < set.size(); ++i)
@@ -77,8 +78,8 @@ struct Robot {
     PoseEstimate seen;
     seen.pose = there;
     seen.covariance = {kSigma * kSigma, 0, 0, 0, kSigma * kSigma, 0, 0, 0, kTurn * kTurn};
-    const auto change = lateness.follow({now(), evidence, evidence < kDoubtful, seen, readings},
-                                        recovery, weigh, fit);
+    const auto change =
+        lateness.follow({now(), evidence, evidence < kDoubtful, seen, readings}, recovery, reading);
     if (change) {
       ++changes;
       changed = change->samples;
@@ -280,9 +281,9 @@ TEST(Lateness, EndsWithinThreeReadings) {
   robot.late = 1.0;
   robot.driveFor(40);
   EXPECT_NEAR(robot.lateness.seconds(), 1.0, 0.25);
-  robot.lateness.forgetBelief();
-  EXPECT_NEAR(robot.lateness.seconds(), 1.0, 0.25) << "that is of the devices";
   robot.lateness.forget();
+  EXPECT_NEAR(robot.lateness.seconds(), 1.0, 0.25) << "that is of the devices";
+  robot.lateness.forgetAll();
   EXPECT_EQ(robot.lateness.seconds(), 0.0);
 }
 

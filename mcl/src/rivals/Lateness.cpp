@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "Annealing.hpp"
 #include "CarriedOn.hpp"
 #include "Kld.hpp"
 #include "Resampling.hpp"
@@ -53,12 +52,12 @@ std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose
   std::array<Pose2, Delays::kCount> places;
   places.fill(inForce);
   const std::optional<Pose2> now = motion_.odometryAt(stamp);
-  const std::optional<Pose2>& then = odometry_[inForce_];
-  if (!now || !before_ || !then) return places;
+  const std::optional<Pose2>& then = belief_.odometry[inForce_];
+  if (!now || !belief_.before || !then) return places;
   // From the place of the last reading on, the way is longer or shorter.
   for (std::size_t i = 0; i < Delays::kCount; ++i)
-    if (i != inForce_ && odometry_[i] && probability(i) >= kNegligible) {
-      const Pose2 place = inForce * inverse(*now) * *then * inverse(*odometry_[i]) * *now;
+    if (i != inForce_ && belief_.odometry[i] && probability(i) >= kNegligible) {
+      const Pose2 place = inForce * inverse(*now) * *then * inverse(*belief_.odometry[i]) * *now;
       if (distance(place, inForce) < kFarthest) places[i] = place;
     }
   return places;
@@ -66,8 +65,8 @@ std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose
 
 bool Lateness::isSuspected(Timestamp stamp) const {
   // A delay of one step is hardly one.
-  if (inForce_ > 1 || std::any_of(jumps_.begin(), jumps_.end(), [](const Jump& jump) {
-        return jump.lead.nats() > kMostNatsOfAReading;
+  if (inForce_ > 1 || std::any_of(belief_.jumps.begin(), belief_.jumps.end(), [](const Jump& jump) {
+        return jump.hypothesis.lead().nats() > kMostNatsOfAReading;
       }))
     return true;
   const auto places = placesAt(stamp, Pose2{});
@@ -108,19 +107,14 @@ void Lateness::hear(Timestamp odometry) {
   if (!odometrySince_ || odometry < *odometrySince_) odometrySince_ = odometry;
 }
 
-void Lateness::forget() {
+void Lateness::forgetAll() {
   inForce_ = 0;
   delays_.forget();
   odometrySince_.reset();
-  forgetBelief();
+  forget();
 }
 
-void Lateness::forgetBelief() {
-  jumps_.clear();
-  anchor_.reset();
-  before_.reset();
-  usualGap_ = 0.0;
-}
+void Lateness::forget() { belief_ = {}; }
 
 std::optional<Pose2> Lateness::odometryAt(Timestamp stamp, std::size_t delay) const {
   return motion_.odometryAt(stamp - fromSeconds(Delays::secondsOf(delay)));
@@ -129,130 +123,142 @@ std::optional<Pose2> Lateness::odometryAt(Timestamp stamp, std::size_t delay) co
 void Lateness::keep(const SampleSet& belief, std::span<const double> weights,
                     const PoseEstimate& estimate, Timestamp stamp) {
   // Rises soon, not at once: a silence is not usual. Falls slowly.
-  const double gap = toSeconds(stamp - before_.value_or(stamp));
-  usualGap_ = usualGap_ > 0.0 ? std::clamp(gap, kGapKept * usualGap_, kGapMore * usualGap_) : gap;
-  before_ = stamp;
-  odometry_ = odometryByDelay(stamp);
-  if (anchor_ && stamp >= anchor_->stamp && toSeconds(stamp - anchor_->stamp) < kPiece) return;
-  anchor_ = Anchor{stamp, estimate, taken(belief, lowVariance(weights, kSamples, 0.5)), odometry_};
+  const double gap = toSeconds(stamp - belief_.before.value_or(stamp));
+  belief_.usualGap = belief_.usualGap > 0.0
+                         ? std::clamp(gap, kGapKept * belief_.usualGap, kGapMore * belief_.usualGap)
+                         : gap;
+  belief_.before = stamp;
+  belief_.odometry = odometryByDelay(stamp);
+  if (belief_.anchor && stamp >= belief_.anchor->stamp &&
+      toSeconds(stamp - belief_.anchor->stamp) < kPiece)
+    return;
+  belief_.anchor =
+      Anchor{stamp, estimate, taken(belief, lowVariance(weights, kSamples, 0.5)), belief_.odometry};
 }
 
 /// With the same noise for each delay, so that only what odometry says makes a difference.
-SampleSet Lateness::moved(const SampleSet& from, const Pose2& change, const Moment& moment) const {
-  SampleSet set = from;
-  motion_.sampleMotion({set.x, set.y, set.theta}, change, config_.seed, moment.stream,
-                       kFirstNumber);
-  return set;
+void Lateness::move(Hypothesis& hypothesis, const Pose2& change, const Moment& moment) const {
+  hypothesis.move(kFirstNumber, [&](const MovableSamples& some, std::size_t first) {
+    motion_.sampleMotion(some, change, config_.seed, moment.stream, first);
+  });
 }
 
 std::optional<Lateness::Change> Lateness::follow(const Moment& moment, const Recovery& recovery,
-                                                 const PoseSearch::Weigh& weigh, const Fit& fit) {
-  if (!anchor_ || moment.stamp <= anchor_->stamp) return std::nullopt;
-  const double gap = before_ ? toSeconds(moment.stamp - *before_) : 0.0;
-  const bool isLonger = usualGap_ > 0.0 && gap > kLongGap * usualGap_;
+                                                 const Evidence& evidence) {
+  if (!belief_.anchor || moment.stamp <= belief_.anchor->stamp) return std::nullopt;
+  const double gap = belief_.before ? toSeconds(moment.stamp - *belief_.before) : 0.0;
+  const bool isLonger = belief_.usualGap > 0.0 && gap > kLongGap * belief_.usualGap;
   if (!isLonger) compare(moment);
-  goOn(moment, recovery, weigh, fit);
-  if (jumps_.empty() && (moment.isDoubtful || isLonger)) begin(moment, gap, weigh);
+  goOn(moment, recovery, evidence);
+  if (belief_.jumps.empty() && (moment.isDoubtful || isLonger)) begin(moment, gap, evidence);
   return decide();
 }
 
 /// Which delay leads from the last place to this one.
 void Lateness::compare(const Moment& moment) {
-  const double seconds = toSeconds(moment.stamp - anchor_->stamp);
+  const double seconds = toSeconds(moment.stamp - belief_.anchor->stamp);
   // What odometry would have said before its first reading is not known.
   const Timestamp longest = fromSeconds(Delays::secondsOf(Delays::kCount - 1));
-  if (seconds < kPiece || !odometrySince_ || anchor_->stamp - longest < *odometrySince_) return;
+  if (seconds < kPiece || !odometrySince_ || belief_.anchor->stamp - longest < *odometrySince_)
+    return;
   Delays::Predicted predicted;
   for (std::size_t i = 0; i < Delays::kCount; ++i) {
     const std::optional<Pose2> now = odometryAt(moment.stamp, i);
-    const std::optional<Pose2>& then = anchor_->odometry[i];
+    const std::optional<Pose2>& then = belief_.anchor->odometry[i];
     if (!now || !then) return;
     const Pose2 change = inverse(*then) * *now;
     if (!(distance(change, Pose2{}) < kFarthest)) return;
-    predicted[i] = carriedOn(anchor_->estimate, motion_, change, config_.seed, moment.stream);
+    predicted[i] =
+        carriedOn(belief_.anchor->estimate, motion_, change, config_.seed, moment.stream);
   }
   delays_.follow(predicted, inForce_, moment.estimate, seconds);
 }
 
-/// Weighs samples that were moved to this reading. @returns whether they stay
-bool Lateness::weighJump(Jump& jump, const Moment& moment, const PoseSearch::Weigh& weigh,
-                         double part, const Recovery* recovery, const Fit* fit) const {
-  std::vector<float> logs;
-  weigh(jump.samples, logs);
-  const std::vector<double> before = normalized(jump.samples.logWeight);
-  const double ratio = logMean(before, logs) - moment.logEvidence;
-  SampleSet weighed = jump.samples;
-  for (std::size_t i = 0; i < logs.size(); ++i) weighed.logWeight[i] += logs[i];
-  if (effectiveSamples(normalized(weighed.logWeight)) < kEffective) {
-    const PoseEstimate whole = estimateOf(config_, jump.samples.view(), before);
+/// After it was moved to this reading.
+/// @returns what the reading says for it against the belief [nats]
+double Lateness::weigh(Jump& jump, const Moment& moment, const Evidence& evidence) const {
+  const auto climb = [&] {
     Random random = Random(config_.seed, moment.stream).fork(3 + jump.delay);
-    weighed = Annealing(weigh, whole.covariance, kSamples)
-                  .draw(taken(jump.samples, lowVariance(before, kSamples, random.uniform())),
-                        kSamples, random.fork(1))
-                  .samples;
-  }
-  jump.samples = std::move(weighed);
-  if (ratio < 0.0 || recovery == nullptr || recovery->isUsual((*fit)(jump.samples))) {
-    jump.lead.count(ratio, part);
+    return Hypothesis::Climb{kSamples, kSamples, random, random.fork(1)};
+  };
+  return jump.hypothesis.weigh(evidence, config_, kEffective, climb).logEvidence -
+         moment.logEvidence;
+}
+
+void Lateness::count(Jump& jump, double ratio, double part, bool isUsual) {
+  if (jump.hypothesis.count(ratio, part, isUsual))
     jump.sharp += part * std::clamp(ratio, -kMostSharp, kMostSharp);
-  }
-  return jump.lead.nats() > kDropped;
 }
 
 /// Where the robot is if another delay has begun since the last reading.
-void Lateness::begin(const Moment& moment, double gap, const PoseSearch::Weigh& weigh) {
+void Lateness::begin(const Moment& moment, double gap, const Evidence& evidence) {
   const std::optional<Pose2> present = odometryAt(moment.stamp, inForce_);
-  if (!present) return;
-  const std::optional<Pose2>& then = anchor_->odometry[inForce_];
-  if (!then) return;
+  const std::optional<Pose2>& then = belief_.anchor->odometry[inForce_];
+  if (!present || !then) return;
   for (std::size_t i = 0; i < Delays::kCount; ++i) {
-    const double grown = Delays::secondsOf(i) - Delays::secondsOf(inForce_);
-    // After a longer silence odometry alone is to blame.
-    if (i == inForce_ || grown > gap || gap - std::max(0.0, grown) > kLongGap * usualGap_) continue;
     const std::optional<Pose2> now = odometryAt(moment.stamp, i);
-    if (!now) continue;
+    if (!mayBegin(i, gap) || !now) continue;
     const Pose2 change = inverse(*then) * *now;
     if (apart(change, inverse(*then) * *present) < kPlacesApart) continue;
-    Jump jump{i, moved(anchor_->samples, change, moment), *now};
-    if (weighJump(jump, moment, weigh, 1.0, nullptr, nullptr) && jump.lead.nats() > 0.0)
-      jumps_.push_back(std::move(jump));
+    Jump jump{i, Hypothesis(belief_.anchor->samples), *now};
+    move(jump.hypothesis, change, moment);
+    // Where readings fit as they use to is asked once it has begun.
+    count(jump, weigh(jump, moment, evidence), 1.0, true);
+    if (jump.hypothesis.lead().nats() > 0.0) belief_.jumps.push_back(std::move(jump));
   }
 }
 
-void Lateness::goOn(const Moment& moment, const Recovery& recovery, const PoseSearch::Weigh& weigh,
-                    const Fit& fit) {
-  std::erase_if(jumps_, [&](Jump& jump) {
+/// A delay that grows leaves a gap as long; after a longer silence odometry alone is to blame.
+bool Lateness::mayBegin(std::size_t delay, double gap) const {
+  const double grown = Delays::secondsOf(delay) - Delays::secondsOf(inForce_);
+  return delay != inForce_ && grown <= gap &&
+         gap - std::max(0.0, grown) <= kLongGap * belief_.usualGap;
+}
+
+void Lateness::goOn(const Moment& moment, const Recovery& recovery, const Evidence& evidence) {
+  std::erase_if(belief_.jumps, [&](Jump& jump) {
     const std::optional<Pose2> now = odometryAt(moment.stamp, jump.delay);
     if (!now) return true;
     const Pose2 change = inverse(jump.odometry) * *now;
     jump.odometry = *now;
-    jump.samples = moved(jump.samples, change, moment);
-    const double part = apart(change, Pose2{}) / kIndependent;
-    return !weighJump(jump, moment, weigh, part, &recovery, &fit);
+    move(jump.hypothesis, change, moment);
+    const double ratio = weigh(jump, moment, evidence);
+    count(jump, ratio, apart(change, Pose2{}) / kIndependent,
+          recovery.isUsual(evidence.fit(jump.hypothesis.samples())));
+    return jump.hypothesis.lead().nats() <= kDropped;
   });
 }
 
+/// Of those that lead by enough, the one that sharper readings speak for; null: none does.
+const Lateness::Jump* Lateness::leading() const {
+  const Jump* leading = nullptr;
+  for (const Jump& one : belief_.jumps) {
+    const Lead& lead = one.hypothesis.lead();
+    const bool isEnough = one.delay == 0 ? lead.nats() >= kEnoughForNone : lead.isEnough();
+    if (isEnough && (leading == nullptr || one.sharp > leading->sharp)) leading = &one;
+  }
+  return leading;
+}
+
+/// The place changes with the delay.
+Lateness::Change Lateness::jumpTo(const Jump& jump) {
+  std::array<double, Delays::kCount> nats;
+  nats.fill(-std::numeric_limits<double>::infinity());
+  for (const Jump& one : belief_.jumps) nats[one.delay] = one.hypothesis.lead().nats();
+  delays_.change(nats);
+  inForce_ = jump.delay;
+  Change change{jump.hypothesis.samples()};
+  belief_.jumps.clear();
+  belief_.anchor.reset();
+  return change;
+}
+
 std::optional<Lateness::Change> Lateness::decide() {
-  const Jump* jump = nullptr;
-  for (const Jump& one : jumps_) {
-    const bool isEnough = one.delay == 0 ? one.lead.nats() >= kEnoughForNone : one.lead.isEnough();
-    if (isEnough && (jump == nullptr || one.sharp > jump->sharp)) jump = &one;
-  }
-  if (jump != nullptr) {
-    std::array<double, Delays::kCount> nats;
-    nats.fill(-std::numeric_limits<double>::infinity());
-    for (const Jump& one : jumps_) nats[one.delay] = one.lead.nats();
-    delays_.change(nats);
-    inForce_ = jump->delay;
-    Change found{jump->samples};
-    jumps_.clear();
-    anchor_.reset();
-    return found;
-  }
+  if (const Jump* jump = leading()) return jumpTo(*jump);
   const std::size_t best = delays_.mostProbable();
   if (probability(best) < kSurely * probability(inForce_)) return std::nullopt;
   inForce_ = best;
-  jumps_.clear();
+  belief_.jumps.clear();
   return Change{};
 }
 

@@ -3,14 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "Delays.hpp"
-#include "Lead.hpp"
-#include "PoseSearch.hpp"
+#include "Hypothesis.hpp"
 #include "Recovery.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
@@ -34,7 +32,6 @@ namespace ortung {
 /// Not thread-safe.
 class ORTUNG_API Lateness {
  public:
-  using Fit = std::function<double(const SampleSet&)>;
   /// A reading's moment, as the belief met it.
   struct Moment {
     Timestamp stamp = 0;
@@ -64,25 +61,25 @@ class ORTUNG_API Lateness {
   std::optional<Pose2> odometryAt(Timestamp stamp) const { return odometryAt(stamp, inForce_); }
   /// There is odometry of this time.
   void hear(Timestamp odometry);
-  void forget();
+  /// Time begins anew.
+  void forgetAll();
   /// Of another belief: the delay stays, for that is of the devices.
-  void forgetBelief();
+  void forget();
   /// Takes the belief that a reading has weighed. @param weights sum 1
   /// @param estimate of it
   void keep(const SampleSet& belief, std::span<const double> weights, const PoseEstimate& estimate,
             Timestamp stamp);
-  /// @param recovery, weigh, fit of the moment's readings
+  /// @param recovery, evidence of the moment's readings
   std::optional<Change> follow(const Moment& moment, const Recovery& recovery,
-                               const PoseSearch::Weigh& weigh, const Fit& fit);
+                               const Evidence& evidence);
 
  private:
-  /// Samples that follow another delay since it may have begun.
+  /// Another delay, followed since it may have begun.
   struct Jump {
     std::size_t delay;
-    SampleSet samples;
+    Hypothesis hypothesis;
     Pose2 odometry;
-    Lead lead = {};
-    double sharp = 0.0;
+    double sharp = 0.0;  ///< its lead as a reading counts that is sharper [nats]
   };
   /// Odometry by delay.
   using Odometry = std::array<std::optional<Pose2>, Delays::kCount>;
@@ -92,16 +89,26 @@ class ORTUNG_API Lateness {
     SampleSet samples;
     Odometry odometry;
   };
+  /// What belongs to a belief, and is made anew with it.
+  struct OfBelief {
+    std::optional<Timestamp> before;  ///< of the last reading
+    Odometry odometry;                ///< then
+    double usualGap = 0.0;            ///< between readings [s]
+    std::optional<Anchor> anchor;
+    std::vector<Jump> jumps;
+  };
   std::optional<Pose2> odometryAt(Timestamp stamp, std::size_t delay) const;
   Odometry odometryByDelay(Timestamp stamp) const;
   std::array<Pose2, Delays::kCount> placesAt(Timestamp stamp, const Pose2& inForce) const;
-  SampleSet moved(const SampleSet& from, const Pose2& change, const Moment& moment) const;
+  void move(Hypothesis& hypothesis, const Pose2& change, const Moment& moment) const;
   void compare(const Moment& moment);
-  void begin(const Moment& moment, double gap, const PoseSearch::Weigh& weigh);
-  void goOn(const Moment& moment, const Recovery& recovery, const PoseSearch::Weigh& weigh,
-            const Fit& fit);
-  bool weighJump(Jump& jump, const Moment& moment, const PoseSearch::Weigh& weigh, double part,
-                 const Recovery* recovery, const Fit* fit) const;
+  void begin(const Moment& moment, double gap, const Evidence& evidence);
+  bool mayBegin(std::size_t delay, double gap) const;
+  void goOn(const Moment& moment, const Recovery& recovery, const Evidence& evidence);
+  double weigh(Jump& jump, const Moment& moment, const Evidence& evidence) const;
+  static void count(Jump& jump, double ratio, double part, bool isUsual);
+  const Jump* leading() const;
+  Change jumpTo(const Jump& jump);
   std::optional<Change> decide();
 
   const MclConfig& config_;
@@ -109,11 +116,7 @@ class ORTUNG_API Lateness {
   Delays delays_;
   std::size_t inForce_ = 0;
   std::optional<Timestamp> odometrySince_;
-  std::optional<Timestamp> before_;  ///< of the last reading
-  Odometry odometry_;                ///< then
-  double usualGap_ = 0.0;            ///< between readings [s]
-  std::optional<Anchor> anchor_;
-  std::vector<Jump> jumps_;
+  OfBelief belief_;
 };
 
 }  // namespace ortung

@@ -29,10 +29,6 @@ class ORTUNG_API Recovery {
   /// @param fit of one moment's readings where they are expected, in [0, 1]
   /// @param stands odometry has said so since the readings before
   void follow(double fit, bool stands = false);
-  void forget() {
-    beginAnew();
-    best_.reset();
-  }
   /// Of another belief: how well readings fit where they fit best stays known, for that is of the
   /// sensors and the map.
   void beginAnew() {

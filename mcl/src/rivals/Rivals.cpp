@@ -85,12 +85,12 @@ void Rivals::forget() {
 }
 
 double Rivals::lead() const {
-  return std::max(
-      {0.0, around_ ? around_->lead.nats() : 0.0, elsewhere_ ? elsewhere_->lead.nats() : 0.0});
+  return std::max({0.0, around_ ? around_->hypothesis.lead().nats() : 0.0,
+                   elsewhere_ ? elsewhere_->hypothesis.lead().nats() : 0.0});
 }
 
-std::array<SampleSet*, 2> Rivals::samples() {
-  return {around_ ? &around_->samples : nullptr, elsewhere_ ? &elsewhere_->samples : nullptr};
+std::array<Hypothesis*, 2> Rivals::hypotheses() {
+  return {around_ ? &around_->hypothesis : nullptr, elsewhere_ ? &elsewhere_->hypothesis : nullptr};
 }
 
 void Rivals::searchOn() {
@@ -98,29 +98,29 @@ void Rivals::searchOn() {
 }
 
 std::optional<Rivals::Takeover> Rivals::follow(const Moment& moment, const Recovery& recovery,
-                                               const PoseSearch::Weigh& weigh, const Fit& fit) {
-  if (auto around = lookAround(moment, recovery, weigh, fit)) return around;
-  return lookElsewhere(moment, recovery, weigh, fit);
+                                               const Evidence& evidence) {
+  if (auto around = lookAround(moment, recovery, evidence)) return around;
+  return lookElsewhere(moment, recovery, evidence);
 }
 
 /// The reading that they are drawn from has chosen them, so it does not count for them.
-void Rivals::drawAround(const Moment& moment, const PoseSearch::Weigh& weigh) {
+void Rivals::drawAround(const Moment& moment, const Evidence& evidence) {
   const double seconds = toSeconds(moment.stamp - *doubtSince_);
   const PoseSearch::Ring ring{moment.predicted,
                               std::min(kRing + kRingPerSecond * seconds, kLargestRing),
                               std::min(kTurn + kTurnPerSecond * seconds, kLargestTurn)};
   SampleSet drawn = search_
-                        .draw(kSamplesAround, kCandidatesAround, weigh,
+                        .draw(kSamplesAround, kCandidatesAround, evidence.weigh,
                               Random(config_.seed, moment.stream).fork(0), ring)
                         .samples;
   const Centre centre = centreOf(drawn);
-  around_ = Around{drawn, drawn, centre.pose, centre.open, moment.stamp};
+  around_ = Around{Hypothesis(drawn), std::move(drawn), centre.pose, centre.open, moment.stamp};
   around_->trust.lose();
 }
 
 std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const Recovery& recovery,
-                                                   const PoseSearch::Weigh& weigh, const Fit& fit) {
-  if (!recovery.isDoubtful() && (!around_ || around_->lead.nats() <= 0.0)) {
+                                                   const Evidence& evidence) {
+  if (!recovery.isDoubtful() && (!around_ || around_->hypothesis.lead().nats() <= 0.0)) {
     doubtSince_.reset();
     around_.reset();
     return std::nullopt;
@@ -128,133 +128,148 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   // Since now, too, if the clock was set back meanwhile.
   doubtSince_ = std::min(doubtSince_.value_or(moment.stamp), moment.stamp);
   if (!around_) {
-    drawAround(moment, weigh);
+    drawAround(moment, evidence);
     return std::nullopt;
   }
+  Hypothesis& rival = around_->hypothesis;
+  const double ratio = weighAround(moment, evidence);
+  const double part = wayAround(moment) / kIndependentNear;
+  rival.count(ratio, part, recovery.isUsual(evidence.fit(rival.samples())));
+  const bool trustsOdometry = !around_->trust.isLost();
+  if (rival.lead().isEnough()) {
+    Takeover takeover{rival.samples(), kShareTaken, trustsOdometry};
+    around_.reset();
+    return takeover;
+  }
+  if (isSame(centreOf(rival.samples()).pose, moment.predicted) && trustsOdometry)
+    rival.forgetLead();
+  if (rival.lead().nats() < kDroppedAround || rival.unusual() >= kMostUnusual)
+    drawAround(moment, evidence);
+  return std::nullopt;
+}
+
+/// Half of them follow odometry and half go anywhere near; then both climb.
+/// @returns what the readings say for them against the belief [nats]
+double Rivals::weighAround(const Moment& moment, const Evidence& evidence) {
   Around& rival = *around_;
   const double seconds = driftSeconds(rival.stamp, moment.stamp);
-  Spread both =
-      spread(config_, rival.samples, rival.anchor, {}, seconds, kSpreadAround, moment.stream);
-  std::vector<float> logs;
-  weigh(both.samples, logs);
-  const std::vector<double> before = normalized(both.samples.logWeight);
-  const double ratio = logMeanOfPart(before, logs, 0, logs.size()) - moment.logEvidence;
-  const double trust = logMeanOfPart(before, logs, 0, both.drifted) -
-                       logMeanOfPart(before, logs, both.drifted, logs.size() - both.drifted);
-  rival.trust.compare(trust, moment.way);
-  rival.samples = Annealing(weigh, nullptr)
-                      .draw(std::move(both.samples), kSamplesAround,
-                            Random(config_.seed, moment.stream).fork(1))
-                      .samples;
-  rival.anchor = rival.samples;
+  Spread both = spread(config_, rival.hypothesis.samples(), rival.anchor, {}, seconds,
+                       kSpreadAround, moment.stream);
+  const std::size_t all = both.samples.size();
+  rival.hypothesis.setSamples(std::move(both.samples));
+  const Hypothesis::Said said = rival.hypothesis.ask(evidence);
+  rival.trust.compare(
+      said.logEvidenceOf(0, both.drifted) - said.logEvidenceOf(both.drifted, all - both.drifted),
+      moment.way);
+  rival.anchor = Annealing(evidence.weigh, nullptr)
+                     .draw(rival.hypothesis.samples(), kSamplesAround,
+                           Random(config_.seed, moment.stream).fork(1))
+                     .samples;
+  rival.hypothesis.setSamples(rival.anchor);
   rival.stamp = moment.stamp;
-  // The way is what odometry says of it, or the readings beyond what they leave open.
-  const Centre centre = centreOf(rival.samples);
+  return said.logEvidenceOf(0, all) - moment.logEvidence;
+}
+
+/// The way is what odometry says of it, or the readings beyond what they leave open.
+double Rivals::wayAround(const Moment& moment) {
+  Around& rival = *around_;
+  const Centre centre = centreOf(rival.anchor);
   const double seen = distance(rival.centre, centre.pose) +
                       std::abs(wrapAngle(centre.pose.theta - rival.centre.theta)) - rival.open -
                       centre.open;
   // By the readings alone, a slow robot comes far enough in some of them.
-  const bool stands = moment.way < kStands;
-  const double part = stands && seen < kIndependentNear ? 0.0 : std::max(moment.way, seen);
-  if (!stands || part > 0.0) {
-    rival.centre = centre.pose;
-    rival.open = centre.open;
+  if (moment.way < kStands && seen < kIndependentNear) return 0.0;
+  rival.centre = centre.pose;
+  rival.open = centre.open;
+  return std::max(moment.way, seen);
+}
+
+std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
+                                                      const Recovery& recovery,
+                                                      const Evidence& evidence) {
+  if (!elsewhere_) {
+    search(moment, recovery);
+    return std::nullopt;
   }
-  const bool isUsual = recovery.isUsual(fit(rival.samples));
-  rival.unusual = isUsual ? 0 : rival.unusual + 1;
-  if (ratio < 0.0 || isUsual) rival.lead.count(ratio, part / kIndependentNear);
-  if (rival.lead.isEnough()) {
-    Takeover takeover{std::move(rival.samples), kShareTaken, !rival.trust.isLost()};
-    around_.reset();
+  Hypothesis& rival = elsewhere_->hypothesis;
+  const double ratio = weighElsewhere(moment, evidence);
+  rival.count(ratio, moment.way / kIndependentFar, recovery.isUsual(evidence.fit(rival.samples())));
+  elsewhere_->way += moment.way;
+  ++elsewhere_->readings;
+  if (rival.lead().isEnough() && elsewhere_->way >= kWayElsewhere &&
+      elsewhere_->readings >= kReadingsElsewhere) {
+    Takeover takeover{rival.samples(), 1.0, true};
+    forget();
     return takeover;
   }
-  if (isSame(centre.pose, moment.predicted) && !rival.trust.isLost()) rival.lead = {};
-  if (rival.lead.nats() < kDroppedAround || rival.unusual >= kMostUnusual)
-    drawAround(moment, weigh);
+  if (rival.lead().isHopeless() || rival.unusual() >= kMostUnusual ||
+      (recovery.hasRecovered() && rival.lead().nats() <= 0.0) ||
+      isSame(centreOf(rival.samples()).pose, moment.predicted))
+    elsewhere_.reset();
   return std::nullopt;
 }
 
-/// The reading that was searched for has chosen its places, so it does not count for them.
-void Rivals::goOnSearching(const Moment& moment) {
+/// @returns what the readings say for it against the belief [nats]
+double Rivals::weighElsewhere(const Moment& moment, const Evidence& evidence) {
+  Hypothesis& rival = elsewhere_->hypothesis;
+  const Random random = Random(config_.seed, moment.stream).fork(2);
+  const auto climb = [&] {
+    return Hypothesis::Climb{rival.samples().size(), kSamplesElsewhere, random.fork(0),
+                             random.fork(1)};
+  };
+  return rival.weigh(evidence, config_, kEffectiveElsewhere, climb).logEvidence -
+         moment.logEvidence;
+}
+
+/// Begins to search the field, if readings call for that, and goes on.
+void Rivals::search(const Moment& moment, const Recovery& recovery) {
+  if (!searching_ && recovery.callsForSearch()) {
+    FieldSearch::Settings settings;
+    settings.workers = &workers_;
+    searching_.emplace(Searching{FieldSearch(region_, settings), moment});
+    searching_->job.begin(moment.readings);
+  }
+  if (!searching_) return;
   searchOn();
-  const FieldSearch& job = searching_->job;
-  if (!job.isDone()) return;
-  const Moment then = std::move(searching_->moment);
+  if (searching_->job.isDone()) drawElsewhere(moment);
+}
+
+/// The reading that was searched for has chosen its places, so it does not count for them.
+void Rivals::drawElsewhere(const Moment& moment) {
   std::vector<PoseSearch::Ring> rings;
-  for (const FieldSearch::Place& place : job.places()) {
-    if (place.logProbability > job.places().front().logProbability - kSearchNats)
+  const auto places = searching_->job.places();
+  for (const FieldSearch::Place& place : places) {
+    if (place.logProbability > places.front().logProbability - kSearchNats)
       rings.push_back({place.pose, kSearchRing, kSearchTurn});
   }
+  const Moment then = std::move(searching_->moment);
   searching_.reset();
   if (rings.empty()) return;
+  elsewhere_.emplace(Elsewhere{Hypothesis(drawnFrom(rings, then))});
+  carryOn(elsewhere_->hypothesis, then, moment);
+}
+
+SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Moment& then) const {
   std::vector<News> news;
   for (const auto& reading : then.readings) news.push_back({nullptr, 0, reading});
   const auto weigh = [&](const SampleSet& set, std::vector<float>& out) {
     ortung::weigh(news, set, &workers_, out);
   };
-  SampleSet found = search_
-                        .drawFrom(rings, kSamplesElsewhere, kCandidatesElsewhere, weigh,
-                                  Random(config_.seed, then.stream).fork(2))
-                        .samples;
-  if (then.odometry && moment.odometry) {
-    motion_.sampleMotion({found.x, found.y, found.theta},
-                         inverse(*then.odometry) * *moment.odometry, config_.seed, moment.stream,
-                         0);
-  } else {
-    drift(config_, {found.x, found.y, found.theta}, {}, driftSeconds(then.stamp, moment.stamp),
-          moment.stream, 0);
-  }
-  elsewhere_.emplace(std::move(found));
+  return search_
+      .drawFrom(rings, kSamplesElsewhere, kCandidatesElsewhere, weigh,
+                Random(config_.seed, then.stream).fork(2))
+      .samples;
 }
 
-std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
-                                                      const Recovery& recovery,
-                                                      const PoseSearch::Weigh& weigh,
-                                                      const Fit& fit) {
-  const Random random = Random(config_.seed, moment.stream).fork(2);
-  if (!elsewhere_) {
-    if (!searching_ && recovery.callsForSearch()) {
-      FieldSearch::Settings settings;
-      settings.workers = &workers_;
-      searching_.emplace(Searching{FieldSearch(region_, settings), moment});
-      searching_->job.begin(moment.readings);
-    }
-    if (searching_) goOnSearching(moment);
-    return std::nullopt;
-  }
-  Elsewhere& rival = *elsewhere_;
-  std::vector<float> logs;
-  weigh(rival.samples, logs);
-  const std::vector<double> before = normalized(rival.samples.logWeight);
-  const double ratio = logMean(before, logs) - moment.logEvidence;
-  for (std::size_t i = 0; i < logs.size(); ++i) rival.samples.logWeight[i] += logs[i];
-  const std::vector<double> weights = normalized(rival.samples.logWeight);
-  if (effectiveSamples(weights) < kEffectiveElsewhere) {
-    // Where nobody is left at the top of the hill, they climb.
-    Random offset = random.fork(0);
-    rival.samples =
-        Annealing(weigh, estimateOf(config_, rival.samples.view(), before).covariance, logs.size())
-            .draw(taken(rival.samples, lowVariance(before, logs.size(), offset.uniform())),
-                  kSamplesElsewhere, random.fork(1))
-            .samples;
-  }
-  const bool isUsual = recovery.isUsual(fit(rival.samples));
-  rival.unusual = isUsual ? 0 : rival.unusual + 1;
-  if (ratio < 0.0 || isUsual) rival.lead.count(ratio, moment.way / kIndependentFar);
-  rival.way += moment.way;
-  ++rival.readings;
-  if (rival.lead.isEnough() && rival.way >= kWayElsewhere && rival.readings >= kReadingsElsewhere) {
-    Takeover takeover{std::move(rival.samples), 1.0, true};
-    forget();
-    return takeover;
-  }
-  if (rival.lead.isHopeless() || rival.unusual >= kMostUnusual ||
-      (recovery.hasRecovered() && rival.lead.nats() <= 0.0) ||
-      isSame(centreOf(rival.samples).pose, moment.predicted)) {
-    elsewhere_.reset();
-    return std::nullopt;
-  }
-  return std::nullopt;
+/// From the moment that was searched for to now.
+void Rivals::carryOn(Hypothesis& found, const Moment& then, const Moment& now) const {
+  found.move(0, [&](const MovableSamples& some, std::size_t first) {
+    if (then.odometry && now.odometry)
+      motion_.sampleMotion(some, inverse(*then.odometry) * *now.odometry, config_.seed, now.stream,
+                           first);
+    else
+      drift(config_, some, {}, driftSeconds(then.stamp, now.stamp), now.stream, first);
+  });
 }
 
 }  // namespace ortung

@@ -2,14 +2,13 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "FieldSearch.hpp"
-#include "Lead.hpp"
+#include "Hypothesis.hpp"
 #include "OdometryTrust.hpp"
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
@@ -38,8 +37,6 @@ namespace ortung {
 /// Not thread-safe.
 class ORTUNG_API Rivals {
  public:
-  /// How well samples explain the readings, as fitOf() says.
-  using Fit = std::function<double(const SampleSet&)>;
   /// A reading's moment.
   struct Moment {
     Timestamp stamp = 0;
@@ -72,44 +69,45 @@ class ORTUNG_API Rivals {
   /// Of the one that is ahead of the belief, or 0 [nats].
   double lead() const;
   /// Those to be moved as the belief is, at most two; null: not there.
-  std::array<SampleSet*, 2> samples();
+  std::array<Hypothesis*, 2> hypotheses();
   bool isSearching() const { return searching_ && !searching_->job.isDone(); }
   /// Goes on with a search, though there is no reading.
   void searchOn();
-  /// @param recovery of the same moment
+  /// Weighs them. @param recovery, evidence of the same moment @returns the one that leads by far
   std::optional<Takeover> follow(const Moment& moment, const Recovery& recovery,
-                                 const PoseSearch::Weigh& weigh, const Fit& fit);
+                                 const Evidence& evidence);
 
  private:
   struct Around {
-    SampleSet samples;  ///< moved by odometry since the last reading
-    SampleSet anchor;   ///< as they were then
+    Hypothesis hypothesis;  ///< moved by odometry since the last reading
+    SampleSet anchor;       ///< its samples as they were then
     Pose2 centre;
     double open = 0.0;  ///< standard deviation, of metres and radians together
     Timestamp stamp = 0;
-    Lead lead = {};
     OdometryTrust trust = {};
-    int unusual = 0;  ///< readings on end that fit badly
   };
   struct Elsewhere {
-    explicit Elsewhere(SampleSet drawn) : samples(std::move(drawn)) {}
-    SampleSet samples;
-    Lead lead;
+    Hypothesis hypothesis;
     double way = 0.0;
     int readings = 0;
-    int unusual = 0;  ///< readings on end that fit badly
   };
   /// A search of the field, as of the moment of its readings.
   struct Searching {
     FieldSearch job;
     Moment moment;
   };
-  void goOnSearching(const Moment& moment);
   std::optional<Takeover> lookAround(const Moment& moment, const Recovery& recovery,
-                                     const PoseSearch::Weigh& weigh, const Fit& fit);
-  void drawAround(const Moment& moment, const PoseSearch::Weigh& weigh);
+                                     const Evidence& evidence);
+  void drawAround(const Moment& moment, const Evidence& evidence);
+  double weighAround(const Moment& moment, const Evidence& evidence);
+  double wayAround(const Moment& moment);
   std::optional<Takeover> lookElsewhere(const Moment& moment, const Recovery& recovery,
-                                        const PoseSearch::Weigh& weigh, const Fit& fit);
+                                        const Evidence& evidence);
+  double weighElsewhere(const Moment& moment, const Evidence& evidence);
+  void search(const Moment& moment, const Recovery& recovery);
+  void drawElsewhere(const Moment& moment);
+  SampleSet drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Moment& then) const;
+  void carryOn(Hypothesis& found, const Moment& then, const Moment& now) const;
 
   const MclConfig& config_;
   const FieldRegion& region_;

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "Biases.hpp"
+#include "Confirmation.hpp"
+#include "GlobalStart.hpp"
+#include "Hypothesis.hpp"
+#include "Lateness.hpp"
+#include "Momentum.hpp"
+#include "OdometryTrust.hpp"
+#include "Polish.hpp"
+#include "PoseSearch.hpp"
+#include "Recovery.hpp"
+#include "Rivals.hpp"
+#include "UpdateTime.hpp"
+#include "ortung/base/Workers.hpp"
+#include "ortung/mcl/MclConfig.hpp"
+#include "ortung/mcl/PoseEstimate.hpp"
+#include "ortung/mcl/SampleSet.hpp"
+#include "ortung/motion/MotionModel.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+
+namespace ortung {
+
+/// What the parts of a filter work with as long as it lives; they borrow it.
+struct Tools {
+  Tools(const MclConfig& c, FieldRegion r, std::unique_ptr<MotionModel> m)
+      : config((c.check(), c)),
+        region((r.check(), std::move(r))),
+        motion(std::move(m)),
+        search(region),
+        time(config),
+        workers(config.threads) {}
+
+  MclConfig config;
+  FieldRegion region;
+  std::unique_ptr<MotionModel> motion;
+  PoseSearch search;
+  UpdateTime time;
+  Workers workers;
+};
+
+/// Since the last weighing.
+struct Way {
+  double all = 0.0;     ///< [m]; a turn of 1 rad counts as 1 m
+  double metres = 0.0;  ///< without turns
+};
+
+/// All that belongs to one belief. Another belief gets another track, so nothing of the old one is
+/// left, whoever adds a member here.
+struct Track {
+  Track(Tools& tools, SampleSet samples, bool waits)
+      : belief(std::move(samples)),
+        waitsForStart(waits),
+        momentum(tools.config),
+        recovery(tools.config),
+        rivals(tools.config, tools.region, tools.search, *tools.motion, tools.time, tools.workers) {
+  }
+
+  /// Whether there are samples that anybody may be told of.
+  bool isKnown() const { return !waitsForStart && belief.samples().size() > 0; }
+
+  Hypothesis belief;
+  /// Of the samples as they are now; made when it is asked for.
+  mutable std::optional<PoseEstimate> present;
+  PoseResolution coarsest;  ///< of the tables that weighed it last
+  bool waitsForStart;       ///< a global start waits for the first reading, or searches
+  bool hasStarted = false;  ///< there is an estimate that no update() has told of yet
+  Way way;
+  bool isBlind = true;  ///< nobody tells how the robot moved up to this reading
+  Momentum momentum;    ///< where it is blind
+  OdometryTrust trust;
+  SampleSet anchor;  ///< the belief when it was weighed last, while odometry is not trusted
+  Recovery recovery;
+  Rivals rivals;
+  Confirmation confirmation;  ///< of where a global start has found the robot
+};
+
+/// Parts that keep something where another belief begins, for it is of devices, sensors and the
+/// map: delays, how far readings keep their promises, which devices there are, a cover of the
+/// floor.
+struct LastingParts {
+  Lateness lateness;
+  Polish polish;
+  Biases biases;
+  GlobalStart globalStart;
+
+  /// Each part forgets what it knows of the belief. With one part more, this does not compile until
+  /// it is named here.
+  void forget() {
+    const auto forgetAll = [](auto&... each) { (each.forget(), ...); };
+    auto& [first, second, third, fourth] = *this;
+    forgetAll(first, second, third, fourth);
+  }
+};
+
+}  // namespace ortung
