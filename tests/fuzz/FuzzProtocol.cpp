@@ -83,7 +83,7 @@ void require(bool holds) {
 
 /// Says the same again, and whatever the words are, as they are.
 BoardCommand echo() {
-  return {"ECHO", "", false, [](const BoardCommand::Call& call) {
+  return {"ECHO", "", BoardCommand::Role::kViewer, [](const BoardCommand::Call& call) {
             BoardCommand::Reply reply{"", call.words};
             for (const auto& [key, value] : call.keys) reply.lines.push_back(key + "=" + value);
             return reply;

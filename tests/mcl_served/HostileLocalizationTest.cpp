@@ -3,12 +3,18 @@
 
 #include "FakeRobots.hpp"
 #include "LocalizedArena.hpp"
+#include "ProtocolPage.hpp"
 
 namespace ortung::test {
 namespace {
 
 using Role = BoardCommand::Role;
 using Kind = LocalizationOrder::Kind;
+
+TEST(LocalizationCommands, AreThoseOfThePage) {
+  FakeRobots robots;
+  expectDocumented("Localization", localizationCommands(robots));
+}
 
 TEST(LocalizationCommands, TakeOrdersOfOperatorsAlone) {
   FakeRobots robots;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "Files.hpp"
+#include "ProtocolPage.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/served/PlayerCommands.hpp"
@@ -21,6 +22,11 @@ BoardConfig withPlayers(ServedSimulation& world) {
   BoardConfig config = controlledConfig();
   config.commands = playerCommands(world);
   return config;
+}
+
+TEST(ServedPlayers, HaveTheCommandsOfThePage) {
+  ServedSimulation world(kField, {.noise = false});
+  expectDocumented("Players", playerCommands(world));
 }
 
 TEST(ServedPlayers, AreStartedListedAndStopped) {

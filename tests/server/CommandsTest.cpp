@@ -13,7 +13,7 @@ namespace {
 
 /// Says what it was told: its caller, words and keys.
 BoardCommand echo(const std::string& name = "ECHO") {
-  return {name, "WORD ... [key=value ...], the same again", false,
+  return {name, "WORD ... [key=value ...], the same again", BoardCommand::Role::kViewer,
           [](const BoardCommand::Call& call) {
             if (call.words.empty()) throw ServeError("syntax", "ECHO needs words");
             BoardCommand::Reply reply;
@@ -58,7 +58,7 @@ TEST(Commands, SomeAreForOperators) {
   BoardConfig config;
   config.control = {"olga"};
   config.commands = {echo("SECRET")};
-  config.commands.front().needsControl = true;
+  config.commands.front().least = BoardCommand::Role::kOperator;
   const RunningBoard board(world, config);
   TestClient anna(board.port());
   anna.ask("HELLO ortung/1 name=anna");
@@ -72,11 +72,12 @@ TEST(Commands, SomeAreForOperators) {
 TEST(Commands, TheirErrorsAndStrangeTextsHarmNobody) {
   CountingWorld world;
   BoardConfig config;
-  config.commands = {
-      {"BREAK", "", false,
-       [](const auto&) -> BoardCommand::Reply { throw std::runtime_error("ouch"); }},
-      {"THROW", "", false, [](const auto&) -> BoardCommand::Reply { throw 5; }},
-      {"BELL", "", false, [](const auto&) { return BoardCommand::Reply{"a\nb", {"\x07"}}; }}};
+  config.commands = {{"BREAK", "", BoardCommand::Role::kViewer,
+                      [](const auto&) -> BoardCommand::Reply { throw std::runtime_error("ouch"); }},
+                     {"THROW", "", BoardCommand::Role::kViewer,
+                      [](const auto&) -> BoardCommand::Reply { throw 5; }},
+                     {"BELL", "", BoardCommand::Role::kViewer,
+                      [](const auto&) { return BoardCommand::Reply{"a\nb", {"\x07"}}; }}};
   const RunningBoard board(world, config);
   TestClient client(board.port());
   client.ask("HELLO ortung/1");
@@ -157,7 +158,7 @@ TEST(Commands, KnowWhoMayDoWhat) {
   CountingWorld world;
   BoardConfig config;
   config.control = {"olga"};
-  config.commands = {{"WHO", "", false, [](const BoardCommand::Call& call) {
+  config.commands = {{"WHO", "", BoardCommand::Role::kViewer, [](const BoardCommand::Call& call) {
                         return BoardCommand::Reply{std::to_string(static_cast<int>(call.role))};
                       }}};
   const RunningBoard board(world, config);
@@ -183,7 +184,8 @@ TEST(Commands, ThatMakeNoSenseAreRefusedAtConstruction) {
   EXPECT_EQ(complaint({echo(), echo()}), "the command 'ECHO' is there twice");
   for (const char* name : {"", "echo", "E CHO", "1ECHO", "E\n"})
     EXPECT_NE(complaint({echo(name)}).find("must be of capitals"), std::string::npos) << name;
-  EXPECT_EQ(complaint({{"ECHO", "", false, {}}}), "the command 'ECHO' has nobody who executes it");
+  EXPECT_EQ(complaint({{"ECHO", "", BoardCommand::Role::kViewer, {}}}),
+            "the command 'ECHO' has nobody who executes it");
   BoardCommand chatty = echo();
   chatty.help = "two\nlines";
   EXPECT_NE(complaint({chatty}).find("has a help that is not one line"), std::string::npos);

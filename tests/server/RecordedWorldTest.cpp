@@ -5,6 +5,7 @@
 
 #include "CountingWorld.hpp"
 #include "Files.hpp"
+#include "ProtocolPage.hpp"
 #include "RunningBoard.hpp"
 #include "SmallFiles.hpp"
 #include "TestClient.hpp"
@@ -173,6 +174,13 @@ TEST(ForwardedWorld, PassesOnWhateverAWorldIsAsked) {
     ++questions;
   }
   EXPECT_GE(questions, 25U);
+}
+
+TEST(RecordedWorld, HasTheCommandOfThePage) {
+  CountingWorld counting;
+  Recordings recordings({.folder = {}});
+  RecordedWorld world(counting, recordings, {});
+  expectDocumented("Recording", {recordCommand(world)});
 }
 
 TEST(Recordings, MakesNamesThatNoFileSystemMinds) {

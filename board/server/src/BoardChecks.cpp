@@ -4,7 +4,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "Conversation.hpp"
+#include "Command.hpp"
+#include "Request.hpp"
 
 namespace ortung::server {
 namespace {
@@ -22,12 +23,13 @@ bool isCommandName(const std::string& name) {
 }
 
 void checkCommands(const std::vector<BoardCommand>& commands) {
+  const CommandTable protocol;
   std::set<std::string> names;
   for (const BoardCommand& command : commands) {
     const std::string which = "the command '" + printable(command.name) + "' ";
     if (!isCommandName(command.name))
       refuse(which + "must be of capitals, digits and '_', 1 to 32, beginning with a capital");
-    if (Conversation::knows(command.name)) refuse(which + "is one of the protocol's own");
+    if (protocol.find(command.name) != nullptr) refuse(which + "is one of the protocol's own");
     if (!names.insert(command.name).second) refuse(which + "is there twice");
     if (!command.handle) refuse(which + "has nobody who executes it");
     if (printable(command.help, kLongestHelp) != command.help)

@@ -23,6 +23,7 @@ void Outlet::add(Output&& output) {
 
 Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worldKeeper)
     : config(boardConfig),
+      commands(boardConfig.commands),
       description(world.describe()),
       plugins(world.plugins()),
       players(world.players()),

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "Command.hpp"
 #include "Doorkeeper.hpp"
 #include "Output.hpp"
 #include "TalkBudget.hpp"
@@ -67,6 +68,7 @@ class Host {
   virtual void countSubscribers(int change) = 0;
 
   const BoardConfig config;
+  const CommandTable commands;
   const WorldDescription description;
   const std::vector<std::string> plugins;
   const std::vector<std::string> players;     ///< as DESCRIBE gives them

@@ -7,6 +7,8 @@
 namespace ortung {
 namespace {
 
+using Role = BoardCommand::Role;
+
 /// What a client wants, as the text of a player. It names shipped robot files only, never a path.
 PlayerWish wishOf(ServedSimulation& simulation, const BoardCommand::Call& call) {
   if (call.words.size() != 1)
@@ -52,18 +54,18 @@ BoardCommand::Reply eventsSince(const ServedSimulation& simulation, std::uint64_
 std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
   std::vector<BoardCommand> commands(6);
   commands[0] = {
-      "PLAY", "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player", true,
-      [&simulation](const BoardCommand::Call& call) {
+      "PLAY", "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
+      Role::kOperator, [&simulation](const BoardCommand::Call& call) {
         return BoardCommand::Reply{"robot=" + simulation.startPlayer(wishOf(simulation, call)), {}};
       }};
-  commands[1] = {"STOP", "ROBOT: ends the player that plays it", true,
+  commands[1] = {"STOP", "ROBOT: ends the player that plays it", Role::kOperator,
                  [&simulation](const BoardCommand::Call& call) {
                    if (call.words.size() != 1)
                      throw ServeError("argument", "STOP names one robot; PLAYERS lists them");
                    simulation.stopPlayer(call.words.front());
                    return BoardCommand::Reply{};
                  }};
-  commands[2] = {"PLAYERS", "who plays", false, [&simulation](const BoardCommand::Call&) {
+  commands[2] = {"PLAYERS", "who plays", Role::kViewer, [&simulation](const BoardCommand::Call&) {
                    BoardCommand::Reply reply;
                    for (const PlayerControl::Seated& one : simulation.seated())
                      reply.lines.push_back("robot=" + one.robot + " player=" + one.plugin +
@@ -71,7 +73,7 @@ std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
                                            " since=" + std::to_string(one.since));
                    return reply;
                  }};
-  commands[3] = {"REFEREE", "ORDER: e.g. start, stop, kick-off blue", true,
+  commands[3] = {"REFEREE", "ORDER: e.g. start, stop, kick-off blue", Role::kOperator,
                  [&simulation](const BoardCommand::Call& call) {
                    std::string order;
                    for (const std::string& word : call.words)
@@ -79,10 +81,11 @@ std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
                    simulation.orderReferee(order);
                    return BoardCommand::Reply{};
                  }};
-  commands[4] = {"GAME", "how the game stands", false, [&simulation](const BoardCommand::Call&) {
+  commands[4] = {"GAME", "how the game stands", Role::kViewer,
+                 [&simulation](const BoardCommand::Call&) {
                    return BoardCommand::Reply{toText(simulation.game()), {}};
                  }};
-  commands[5] = {"EVENTS", "[since=N]: what the referee has seen and decided", false,
+  commands[5] = {"EVENTS", "[since=N]: what the referee has seen and decided", Role::kViewer,
                  [&simulation](const BoardCommand::Call& call) {
                    return eventsSince(simulation, sinceOf(call));
                  }};

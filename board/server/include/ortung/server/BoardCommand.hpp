@@ -31,9 +31,9 @@ struct BoardCommand {
     std::string bytes = {};
   };
 
-  std::string name;           ///< capitals, digits and '_', beginning with a capital, at most 32
-  std::string help;           ///< its arguments and what it does, one line; may be empty
-  bool needsControl = false;  ///< whether it is for operators; otherwise it is for all
+  std::string name;            ///< capitals, digits and '_', beginning with a capital, at most 32
+  std::string help;            ///< its arguments and what it does, one line; may be empty
+  Role least = Role::kViewer;  ///< that may use it
   /// Executes it, on the thread of MessageBoard::run(), between two steps of the world: it may use
   /// the world, and whatever takes long holds it up.
   /// @throws ServeError to refuse it, answered as "ERR code text"; other errors as the board's own
