@@ -170,7 +170,7 @@ export class FieldPainter {
 
   private takeSamples(cloud: Cloud): boolean {
     const { session, ui } = this.context;
-    const samples = (ui.layers.samples && session.board.robot?.readings.get("mcl/LOCALIZATION/samples")?.words) || null;
+    const samples = (ui.layers.samples && session.board.robot?.heldOf("samples")?.words) || null;
     if (samples === this.drawnSamples) return false;
     cloud.setArrows(samples ? arrowsOf(samples) : new Float32Array());
     this.drawnSamples = samples;

@@ -108,7 +108,7 @@ export class World3d {
   }
 
   private updateArrows(layers: Layers): void {
-    const words = layers.samples ? this.board.robot?.readings.get("mcl/LOCALIZATION/samples")?.words : undefined;
+    const words = layers.samples ? this.board.robot?.heldOf("samples")?.words : undefined;
     const data = words ? arrowsOf(words) : new Float32Array();
     const matrix = new Matrix4();
     const count = Math.min(kMostArrows, data.length / 4);
