@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { Rays } from "../src/field/rays";
-import { kLayerNames, type Layers } from "../src/field/layers";
+import { kLayerNames, type Layers } from "../src/ui/layers";
 import { fixOf, pictureOf, placesOf, statusOf } from "../src/model/decode";
 import { parseFormat } from "../src/model/Format";
 import { kindOf, type Kind } from "../src/model/kinds";

@@ -2,9 +2,10 @@ import { bearingOf, headingOf, lengthOf } from "../model/decode";
 import type { Feature } from "../model/features";
 import { compose, place, polar, type Point, type Pose } from "../model/geometry";
 import type { Rows } from "../model/kinds";
+import type { Expected } from "../model/maps";
 import type { Held, Robot } from "../model/Robot";
 import { rowsOf, type Row } from "../model/rows";
-import type { Layers } from "./layers";
+import type { Layers } from "../ui/layers";
 
 type Rgba = readonly [number, number, number, number];
 const kRay: Rgba = [0.34, 0.71, 0.91, 0.28];
@@ -15,9 +16,6 @@ const kObject: Rgba = [1, 0.6, 0.15, 0.95];
 const kExpected: Rgba = [0.95, 0.85, 0.2, 1];
 const kRayLength = 6;
 const kMostRows = 8192;
-
-/** What a feature should read: values by their number, in metres or radians. */
-export type Expected = Map<string, Map<number, number>>;
 
 /** Lines and dots for the readings of a robot, as Cloud takes them. */
 export class Rays {

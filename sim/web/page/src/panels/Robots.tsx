@@ -1,4 +1,4 @@
-import { useBoard, usePage } from "../app/context";
+import { useBoard, usePage } from "../ui/context";
 import { robotColour } from "../field/palette";
 import { degrees } from "../model/geometry";
 import { DriveControls } from "./Drive";

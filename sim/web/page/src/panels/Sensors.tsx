@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { useBoard, usePage } from "../app/context";
+import { useBoard, usePage } from "../ui/context";
 import { pictureOf } from "../model/decode";
 import type { Feature } from "../model/features";
 import type { Robot } from "../model/Robot";

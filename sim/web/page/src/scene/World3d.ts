@@ -23,12 +23,12 @@ import {
   type Object3D,
   type Scene,
 } from "three";
-import type { Layers } from "../field/layers";
 import { paint, robotColour } from "../field/palette";
 import { Rays, arrowsOf } from "../field/rays";
 import type { Board } from "../model/Board";
 import type { Robot } from "../model/Robot";
 import type { FieldArc, FieldLine } from "../model/world";
+import type { Layers } from "../ui/layers";
 
 const kPaint = 0.004;
 const kMostArrows = 10000;
