@@ -50,6 +50,12 @@ TEST(ImageData, RefusesPicturesOfAnotherSizeThanItsCamera) {
   EXPECT_NO_THROW(data.checkData(words));
 }
 
+TEST(ImageData, ItsFormatTellsTheSizeThatACalibratedCameraHas) {
+  const CameraView camera(cameraOf(kPerspective), {.z = 0.5});
+  EXPECT_EQ(ImageData(kId, {}, camera).format().toText(), "image width=640 height=480");
+  EXPECT_EQ(ImageData(kId, {}).format().toText(), "image");
+}
+
 TEST(ImageData, RoomForPixelsIsWrittenInPlace) {
   std::vector<std::uint32_t> words;
   ImageData::start({3, 1}, PixelFormat::kRgb, words);

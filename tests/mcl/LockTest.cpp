@@ -38,6 +38,7 @@ struct SlowWeigher : Weigher {
 /// A feature whose first reading takes as long to weigh as the test wants.
 struct SlowData : SensorData {
   explicit SlowData(Rendezvous& r) : SensorData({"slow", "test", "x"}), rendezvous(r) {}
+  Format format() const override { return Format("told"); }
   std::string wordsHelp() const override { return ""; }
   bool localizes() const override { return true; }
   void check(std::span<const std::uint32_t>) const override {}

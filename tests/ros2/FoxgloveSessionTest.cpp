@@ -7,7 +7,6 @@
 
 #include "ortung/core/BinaryReading.hpp"
 #include "ortung/formats/OdometryData.hpp"
-#include "ortung/formats/PoseData.hpp"
 #include "ortung/foxglove/FoxgloveSession.hpp"
 #include "ortung/ros2/Messages.hpp"
 
@@ -16,6 +15,9 @@ namespace {
 
 using nlohmann::json;
 using namespace std::string_literals;
+
+constexpr const char* kSimulation =
+    "world=f2000 kind=simulation x_min_m=-2 y_min_m=-1 x_max_m=2 y_max_m=1";
 
 class FoxgloveSessionTest : public ::testing::Test {
  protected:
@@ -34,9 +36,15 @@ class FoxgloveSessionTest : public ::testing::Test {
   }
   void client(const json& message) { session_.fromClient(message.dump(), false); }
 
-  /// Goes as far as a world with one robot that has odometry and truth.
-  void meet(const std::string& world =
-                "world=f2000 kind=simulation x_min_m=-2 y_min_m=-1 x_max_m=2 y_max_m=1") {
+  /// What the board says of a robot that has odometry and truth. Texts for people may say anything.
+  static std::vector<std::string> described() {
+    return {"odometry/odometry/pose how far it went", "format odometry/odometry/pose odometry",
+            "reference/groundTruth/pose [distance mm] of each of 9 beams from 0 deg",
+            "format reference/groundTruth/pose pose", "some/thing/else"};
+  }
+  /// Goes as far as a world with one robot.
+  void meet(const std::string& world = kSimulation,
+            const std::vector<std::string>& robot = described()) {
     EXPECT_EQ(saidToBoard(), "HELLO ortung/1 name=foxglove role=viewer\nDESCRIBE world\n");
     session_.fromBoard("OK HELLO client=1 role=viewer kind=simulation now=1000000 state=running\n");
     session_.fromBoard("OK DESCRIBE lines=1\n" + world + "\n");
@@ -47,11 +55,8 @@ class FoxgloveSessionTest : public ::testing::Test {
         "OK DESCRIBE lines=1\nwall x0_m=-0.98 y0_m=1.02 x1_m=0.98 y1_m=1.02 z0_m=0 z1_m=1\n"
         "ERR unknown-robot\nOK LIST lines=1\nrobot=3 name=my-robot client=0\n");
     EXPECT_EQ(saidToBoard(), "DESCRIBE robot robot=3\n");
-    session_.fromBoard("OK DESCRIBE lines=3\nodometry/odometry/pose " +
-                       OdometryData({"odometry", "odometry", "pose"}).wordsHelp() +
-                       "\nreference/groundTruth/pose " +
-                       PoseData({"reference", "groundTruth", "pose"}).wordsHelp() +
-                       "\nsome/thing/else [words]\n");
+    session_.fromBoard("OK DESCRIBE lines=" + std::to_string(robot.size()) + "\n");
+    for (const std::string& line : robot) session_.fromBoard(line + "\n");
   }
   /// Channels by topic, as the session has advertised them.
   std::map<std::string, json> channels() {
@@ -88,6 +93,70 @@ TEST_F(FoxgloveSessionTest, AdvertisesARobotsTopicsUnderItsNameAndAsksForWhatIsS
             "odometry/odometry/pose\n");
   client({{"op", "unsubscribe"}, {"subscriptionIds", {7, 8}}});
   EXPECT_EQ(saidToBoard(), "UNSUBSCRIBE robot=3\n");
+}
+
+/// The type of a topic's messages; "" without it.
+std::string typeOf(const std::map<std::string, json>& channels, const std::string& topic) {
+  const auto found = channels.find(topic);
+  return found == channels.end() ? "" : found->second.at("schemaName").get<std::string>();
+}
+
+TEST_F(FoxgloveSessionTest, KnowsFeaturesByTheirFormatsAndNotByTheirTexts) {
+  meet(kSimulation,
+       {"format laser/LRF/scan scan beams=3 first_deg=-90 step_deg=90 max_m=8",  // may come before
+        "laser/LRF/scan", "sonar/US/front [identity, distance mm, bearing", "camera/camera/image",
+        "gps/GPS/fix", "format sonar/US/front cone opening_deg=30 max_m=3",
+        "format camera/camera/image image width=64 height=48", "format gps/GPS/fix fix",
+        "mount laser/LRF/scan x_m=0.5 y_m=0 theta_rad=0", "odometry/odometry/pose [x mm + 2^31"});
+  const auto found = channels();
+  EXPECT_EQ(typeOf(found, "/my_robot/scan"), "sensor_msgs/msg/LaserScan");
+  EXPECT_EQ(typeOf(found, "/my_robot/range/sonar/front"), "sensor_msgs/msg/Range");
+  EXPECT_EQ(typeOf(found, "/my_robot/image"), "sensor_msgs/msg/Image");
+  EXPECT_EQ(typeOf(found, "/my_robot/pose_fix"), "geometry_msgs/msg/PoseWithCovarianceStamped");
+  EXPECT_FALSE(found.contains("/my_robot/odom"));  // nothing has said so
+  EXPECT_TRUE(found.contains("/my_robot/ortung/odometry/odometry/pose"));
+
+  client({{"op", "subscribe"},
+          {"subscriptions", {{{"id", 7}, {"channelId", found.at("/my_robot/scan")["id"]}}}}});
+  saidToClient();
+  session_.fromBoard(
+      "OK SUBSCRIBE robot=3\n" +
+      binary({{2'000'000, {"laser", "LRF", "scan"}, {1000, 2000, 8000}}}, "2100000"));
+  const auto frames = saidToClient();
+  ASSERT_FALSE(frames.empty());
+  std::string why;
+  const auto scan = ros2::fromCdr<ros2::LaserScan>(frames[0].bytes.substr(13), why);
+  ASSERT_TRUE(scan) << why;
+  EXPECT_FLOAT_EQ(scan->angleMin, -1.57079633F);
+  EXPECT_FLOAT_EQ(scan->angleIncrement, 1.57079633F);
+  EXPECT_EQ(scan->ranges.size(), 3u);
+}
+
+TEST_F(FoxgloveSessionTest, WhatHasNoFormatOrABadOneIsWords) {
+  const std::vector<std::string> bad{"scan",
+                                     "scan beams=0 first_deg=0 step_deg=1 max_m=8",
+                                     "scan beams=1e300 first_deg=0 step_deg=1 max_m=8",
+                                     "scan beams=2.5 first_deg=0 step_deg=1 max_m=8",
+                                     "scan beams=2 first_deg=nan step_deg=1 max_m=8",
+                                     "cone opening_deg=x max_m=1",
+                                     "Scan beams=2",
+                                     "scan beams=2 beams=2",
+                                     std::string(2000, 'a'),
+                                     " ",
+                                     "mine row=,",
+                                     "mine",
+                                     "talk"};
+  std::vector<std::string> lines{"format", "format a/b", "format nobody/has/it pose", "mount"};
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    const std::string name = "a/b/c" + std::to_string(i);
+    lines.push_back(name +
+                    " [distance mm]; 0: not valid; from 8000 on: nothing seen, within 5 deg");
+    lines.push_back("format " + name + " " + bad[i]);
+  }
+  meet(kSimulation, lines);
+  const auto found = channels();
+  for (std::size_t i = 0; i < bad.size(); ++i)
+    EXPECT_TRUE(found.contains("/my_robot/ortung/a/b/c" + std::to_string(i))) << bad[i];
 }
 
 TEST_F(FoxgloveSessionTest, GivesReadingsAsMessagesHoweverTheBoardsBytesAreCut) {

@@ -143,5 +143,11 @@ TEST_F(Publishing, APoseOffTheMapIsRefusedBeforeItIsSet) {
   EXPECT_THROW(localization.checkPose({std::nan(""), 0.0, 0.0}, 0.3), std::invalid_argument);
 }
 
+TEST(PublishedFormats, AreOfTheirNames) {
+  EXPECT_EQ(ClustersData().format().toText(), "clusters");
+  EXPECT_EQ(WorkData().format().toText(), "work");
+  EXPECT_EQ(SamplesData().format().toText(), "samples");
+}
+
 }  // namespace
 }  // namespace ortung::test

@@ -19,6 +19,7 @@ struct Told : SensorData {
     beginLearning(Room{}.region(0.5, 0.2), 0.1);
     endLearning();
   }
+  Format format() const override { return Format("told"); }
   std::string wordsHelp() const override { return ""; }
   bool localizes() const override { return true; }
   void check(std::span<const std::uint32_t>) const override {}

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "ortung/formats/FormatNames.hpp"
+
 namespace ortung {
 namespace {
 
@@ -60,6 +62,14 @@ std::vector<std::uint32_t> ImageData::encode(const ImageView& image) {
   start(image.size, image.format, words);
   std::memcpy(pixelsOf(words).data(), image.pixels, image.bytes());
   return words;
+}
+
+Format ImageData::format() const {
+  Format format(formats::kImage);
+  if (camera_)
+    format.with("width", camera_->model().size().width)
+        .with("height", camera_->model().size().height);
+  return format;
 }
 
 std::string ImageData::wordsHelp() const {

@@ -2,6 +2,7 @@
 
 #include "CellWeigher.hpp"
 #include "FormatTools.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -27,6 +28,8 @@ void BearingData::check(std::span<const std::uint32_t> words) const {
 void BearingData::decode(std::span<const std::uint32_t> words) {
   reading_ = words.empty() ? Reading() : Reading(words::toAngle(words[0]));
 }
+
+Format BearingData::format() const { return Format(formats::kBearing); }
 
 std::string BearingData::wordsHelp() const {
   return "[bearing 1/100 degree + 18000], or none: looked and saw nothing";

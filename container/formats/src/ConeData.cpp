@@ -9,6 +9,7 @@
 #include "TableSlope.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Polishable.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -141,6 +142,12 @@ void ConeData::decode(std::span<const std::uint32_t> words) {
   } else {
     reading_ = range >= config_.maxRange ? std::numeric_limits<double>::infinity() : range;
   }
+}
+
+Format ConeData::format() const {
+  return Format(formats::kCone)
+      .withAngle("opening_deg", config_.openingAngle)
+      .with("max_m", config_.maxRange);
 }
 
 std::string ConeData::wordsHelp() const {

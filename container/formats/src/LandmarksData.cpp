@@ -7,6 +7,7 @@
 #include "TableSlope.hpp"
 #include "TableWeigher.hpp"
 #include "UnidentifiedSight.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -182,6 +183,8 @@ void LandmarksData::decode(std::span<const std::uint32_t> words) {
     reading_.push_back({words[i], words::toMetres(words[i + 1]), words::toAngle(words[i + 2])});
   }
 }
+
+Format LandmarksData::format() const { return Format(formats::kLandmarks); }
 
 std::string LandmarksData::wordsHelp() const {
   return "[identity, distance mm, bearing 1/100 degree + 18000] a landmark in sight, or none: "

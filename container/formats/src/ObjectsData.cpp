@@ -1,6 +1,7 @@
 #include "ortung/formats/ObjectsData.hpp"
 
 #include "FormatTools.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -46,6 +47,8 @@ void ObjectsData::decode(std::span<const std::uint32_t> words) {
     reading_.push_back({words[i], words[i + 1], words::toMetres(words[i + 2]),
                         words::toAngle(words[i + 3]), words::toMetres(words[i + 4])});
 }
+
+Format ObjectsData::format() const { return Format(formats::kObjects); }
 
 std::string ObjectsData::wordsHelp() const {
   return "[identity or 0, colour 0xRRGGBB or 2^24, distance mm, bearing 1/100 degree + 18000, "

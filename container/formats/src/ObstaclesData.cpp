@@ -1,6 +1,7 @@
 #include "ortung/formats/ObstaclesData.hpp"
 
 #include "FormatTools.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -52,6 +53,8 @@ void ObstaclesData::decode(std::span<const std::uint32_t> words) {
     reading_.push_back(o);
   }
 }
+
+Format ObstaclesData::format() const { return Format(formats::kObstacles); }
 
 std::string ObstaclesData::wordsHelp() const {
   return "[0, x mm + 2^31, y mm + 2^31, radius mm, 0] a circle, [1, x, y, x, y of both ends mm + "

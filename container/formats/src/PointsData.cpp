@@ -5,6 +5,7 @@
 
 #include "EndPointWeigher.hpp"
 #include "FormatTools.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -48,6 +49,8 @@ void PointsData::decode(std::span<const std::uint32_t> words) {
   for (std::size_t i = 0; i < words.size(); i += kWordsAPoint)
     reading_.push_back({words::toMetres(words[i]), words::toAngle(words[i + 1])});
 }
+
+Format PointsData::format() const { return Format(formats::kPoints); }
 
 std::string PointsData::wordsHelp() const {
   return "[distance mm, bearing 1/100 degree + 18000] a point, or none: looked and saw nothing";

@@ -1,6 +1,7 @@
 #include "ortung/formats/PoseData.hpp"
 
 #include "FormatTools.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -27,6 +28,8 @@ void PoseData::decode(std::span<const std::uint32_t> words) {
   reading_ = {words::toSignedMetres(words[0]), words::toSignedMetres(words[1]),
               words::toAngle(words[2])};
 }
+
+Format PoseData::format() const { return Format(formats::kPose); }
 
 std::string PoseData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000] in the field frame";

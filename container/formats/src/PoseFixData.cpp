@@ -12,6 +12,7 @@
 #include "FormatTools.hpp"
 #include "TableSlope.hpp"
 #include "ortung/core/Polishable.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -135,6 +136,8 @@ void PoseFixData::decode(std::span<const std::uint32_t> words) {
     reading_.push_back(fixIn(words.subspan(i, kWordsAFix)));
   }
 }
+
+Format PoseFixData::format() const { return Format(formats::kFix); }
 
 std::string PoseFixData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000, sigma x um, sigma y um, sigma "

@@ -2,6 +2,7 @@
 
 #include "CellWeigher.hpp"
 #include "FormatTools.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -24,6 +25,12 @@ void ScalarData::check(std::span<const std::uint32_t> words) const {
 
 void ScalarData::decode(std::span<const std::uint32_t> words) {
   reading_ = words.empty() ? Reading() : Reading(words::toMetres(words[0]));
+}
+
+Format ScalarData::format() const {
+  Format format(formats::kRange);
+  if (std::isfinite(config_.maxRange)) format.with("max_m", config_.maxRange);
+  return format;
 }
 
 std::string ScalarData::wordsHelp() const {

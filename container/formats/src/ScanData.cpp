@@ -7,6 +7,7 @@
 #include "FormatTools.hpp"
 #include "SurfaceRay.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -104,6 +105,14 @@ void ScanData::decode(std::span<const std::uint32_t> words) {
                  : range >= config_.maxRange ? std::numeric_limits<float>::infinity()
                                              : static_cast<float>(range);
   }
+}
+
+Format ScanData::format() const {
+  return Format(formats::kScan)
+      .with("beams", config_.beams)
+      .withAngle("first_deg", config_.firstAngle)
+      .withAngle("step_deg", config_.angleStep)
+      .with("max_m", config_.maxRange);
 }
 
 std::string ScanData::wordsHelp() const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ortung/formats/FormatNames.hpp"
+
 namespace ortung {
 namespace {
 
@@ -45,6 +47,8 @@ std::vector<std::uint32_t> ClustersData::encode(std::span<const PoseEstimate> pl
 Message ClustersData::message(Timestamp stamp, std::span<const PoseEstimate> places) {
   return {stamp, ownId(), encode(places)};
 }
+
+Format ClustersData::format() const { return Format(formats::kClusters); }
 
 std::string ClustersData::wordsHelp() const {
   return "[share of the belief 1/10000, then the nine words of mcl/LOCALIZATION/pose] a place "

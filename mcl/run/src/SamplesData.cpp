@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ortung/base/Angles.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/Words.hpp"
 
 namespace ortung {
@@ -66,6 +67,8 @@ SamplesData::Reading SamplesData::reading() const {
                        static_cast<double>(words[i + 3]) / kHeaviest});
   return reading;
 }
+
+Format SamplesData::format() const { return Format(formats::kSamples); }
 
 std::string SamplesData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree, weight of the heaviest's 1/65535] a "

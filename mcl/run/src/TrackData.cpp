@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ortung/formats/FormatNames.hpp"
+
 namespace ortung {
 namespace {
 
@@ -17,6 +19,15 @@ SensorId ownId() { return {"mcl", "LOCALIZATION", "status"}; }
 std::uint32_t shareWord(double share) {
   if (std::isnan(share)) return 0;
   return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kOne));
+}
+
+/// Of all values of an enumeration, in their order.
+template <class Enumeration>
+std::vector<const char*> namesOf() {
+  std::vector<const char*> names;
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Enumeration::kLast); ++i)
+    names.push_back(nameOf(static_cast<Enumeration>(i)));
+  return names;
 }
 
 void checkBelow(const char* what, std::uint32_t word, std::uint32_t most) {
@@ -37,6 +48,12 @@ std::vector<std::uint32_t> TrackData::encode(const PoseEstimate& estimate) {
 
 Message TrackData::message(const PoseEstimate& estimate) {
   return {estimate.stamp, ownId(), encode(estimate)};
+}
+
+Format TrackData::format() const {
+  return Format(formats::kTrack)
+      .with("status", namesOf<TrackStatus>())
+      .with("reason", namesOf<TrackReason>());
 }
 
 std::string TrackData::wordsHelp() const {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ortung/formats/FormatNames.hpp"
+
 namespace ortung {
 namespace {
 
@@ -32,6 +34,8 @@ std::vector<std::uint32_t> WorkData::encode(const Reading& reading) {
 Message WorkData::message(Timestamp stamp, const Reading& reading) {
   return {stamp, ownId(), encode(reading)};
 }
+
+Format WorkData::format() const { return Format(formats::kWork); }
 
 std::string WorkData::wordsHelp() const {
   return "[samples, their worth in equal samples, duration of the newest update us, estimates so "

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ortung/formats/FormatNames.hpp"
+
 namespace ortung {
 namespace {
 
@@ -37,6 +39,13 @@ Message DeviceStatusData::message(const SensorId& id, Timestamp now, const Devic
            wordOf(1000.0 * status.rate), status.age ? wordOf(1000.0 * *status.age) : kMost,
            wordOf(status.refused), wordOf(status.repeated), wordOf(status.flooded),
            wordOf(status.late), wordOf(status.clockJumps)}};
+}
+
+Format DeviceStatusData::format() const {
+  std::vector<const char*> states;
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(DeviceState::kFailed); ++i)
+    states.push_back(toText(static_cast<DeviceState>(i)));
+  return Format(formats::kDevice).with("status", states);
 }
 
 std::string DeviceStatusData::wordsHelp() const {

@@ -16,13 +16,17 @@ const fields = [
   "goal name=yellow x_m=6.25 y_m=0 theta_rad=3.141592653589793 dx_m=0.25 dy_m=1 height_m=1 colour=yellow",
   ...[[-6.5, -4.5], [-6.5, 4.5], [6.5, 4.5], [6.5, -4.5]].map(([x, y], i) => `landmark kind=post id=${i + 1} x_m=${x} y_m=${y} z_m=0`),
 ];
+const formats = {
+  "LMS200/LRF/180DegreeScan": "scan beams=180 first_deg=-90 step_deg=1.00558659 max_m=8",
+  "mcl/LOCALIZATION/pose": "fix",
+  "mcl/LOCALIZATION/status": "track status=tracking,uncertain,lost reason=readings_fit",
+  "mcl/LOCALIZATION/samples": "samples",
+  "mcl/LOCALIZATION/places": "clusters",
+  "mcl/LOCALIZATION/work": "work",
+};
 const robot = [
-  "LMS200/LRF/180DegreeScan [distance mm] of each of 180 beams from -90 deg in steps of 1.00558659 deg; 0: not valid; from 8000 on: nothing seen",
-  "mcl/LOCALIZATION/pose [x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000, sigma x um] a pose",
-  "mcl/LOCALIZATION/status [status (0 tracking)]",
-  "mcl/LOCALIZATION/samples [x mm + 2^31, y mm + 2^31, heading 1/100 degree, weight] a sample",
-  "mcl/LOCALIZATION/places [share] a place",
-  "mcl/LOCALIZATION/work [samples]",
+  ...Object.keys(formats),
+  ...Object.entries(formats).map(([name, format]) => `format ${name} ${format}`),
   "body radius_m=0.25 height_m=0.5 mass_kg=30",
   "limits v_m_s=1.5 w_rad_s=4 a_m_s2=2 alpha_rad_s2=15",
   "manipulator kicker rest kick",

@@ -33,6 +33,19 @@ async function checkAccess(page, what) {
   }
 }
 
+/** Each feature of the robot is of a format that the page knows, and its scan and its localization read what they do. */
+async function checkReadings(page, what) {
+  await tab(page, "Sensors").click();
+  const read = () => page.locator(".features .reading").allTextContents();
+  await until("all features have readings", async () => (await read()).every((text) => text !== "–"));
+  const texts = await read();
+  assert.deepEqual(texts.filter((text) => / words: /.test(text)), []);
+  assert.match(texts.join("\n"), /^180 beams, \d+ valid, nearest /m);
+  assert.match(texts.join("\n"), /^(tracking|uncertain|lost): [a-z ]+, \d+ %$/m);
+  await page.screenshot({ path: join(out, `${what}-readings.png`) });
+  await tab(page, "Localization").click();
+}
+
 async function checkPanels(page, what) {
   for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
     await tab(page, panel).click();
@@ -349,6 +362,7 @@ describe("the page of a robot that is localized", () => {
     const client = await startClient(program);
     const page = await openPage(browser, `${program.url}&panel=localization`);
     await page.getByText("tracking").first().waitFor({ timeout: 60000 });
+    await checkReadings(page, "localized");
     await client.ask("PAUSE");
     await client.ask("PLACE robot=1 x_m=-2.5 y_m=1.5 theta_deg=30");
     await client.ask("STEP cycles=20");

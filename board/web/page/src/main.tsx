@@ -2,14 +2,14 @@ import "uplot/dist/uPlot.min.css";
 import "./page.css";
 import { render } from "preact";
 import { App } from "./app/App";
-import { PageContext, type Context } from "./app/context";
-import { installKeys } from "./app/keys";
-import { Ui } from "./app/Ui";
 import { boardAddress, parseAddress } from "./link/address";
 import type { Line } from "./link/Connection";
 import { RecordedBoard, type RecordedRun } from "./link/RecordedBoard";
 import { Insight } from "./model/Insight";
 import { Session } from "./model/Session";
+import { PageContext, type Context } from "./ui/context";
+import { installKeys } from "./ui/keys";
+import { Ui } from "./ui/Ui";
 
 const address = parseAddress(location.hash);
 const ui = new Ui(address);

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { DrivingKeys } from "../src/app/DrivingKeys";
+import { DrivingKeys } from "../src/ui/DrivingKeys";
 
 function press(target: EventTarget, type: string, key: string, more = {}): Event {
   const event = Object.assign(new Event(type, { cancelable: true }), { key, repeat: false }, more);

@@ -1,35 +1,197 @@
 import { describe, expect, it } from "vitest";
-import { fixOf, kindOf, pictureOf, placesOf, sightingsOf, statusOf, summary, valuesOf } from "../src/model/features";
-import { parsePlayerKinds, scoresOf, parseHappenings } from "../src/model/soccer";
-import { parseDrawing, parseOutline, parseWorld } from "../src/model/world";
+import { Rays } from "../src/field/rays";
+import { kLayerNames, type Layers } from "../src/ui/layers";
+import { fixOf, pictureOf, placesOf, statusOf } from "../src/model/decode";
+import { parseFormat } from "../src/model/Format";
+import { kindOf, type Kind } from "../src/model/kinds";
 import { Robot } from "../src/model/Robot";
+import { rowsOf } from "../src/model/rows";
+import { parsePlayerKinds, scoresOf, parseHappenings } from "../src/model/soccer";
+import { summary, valuesOf } from "../src/model/values";
+import { parseDrawing, parseOutline, parseWorld } from "../src/model/world";
 
 const kMiddle = 2 ** 31;
-const kScan =
-  "[distance mm] of each of 180 beams from -90 deg in steps of 1.00558659 deg; 0: not valid; from 8000 on: nothing seen";
+const kinded = (text: string): Kind => kindOf(parseFormat(text));
+const kTrack = "track status=tracking,uncertain,lost reason=readings_fit,several_places_fit,no_reading_comes";
 
-describe("readings of features", () => {
-  it("are known by what the server says of their words", () => {
-    const scan = kindOf("LMS200/LRF/180DegreeScan", kScan);
-    expect(scan).toMatchObject({ name: "scan", most: 8 });
-    expect(scan.name === "scan" && [scan.first, scan.step]).toEqual([-Math.PI / 2, (1.00558659 * Math.PI) / 180]);
-    expect(kindOf("a/b/c", "[distance mm]; 0: not valid; from 3000 on: nothing seen")).toEqual({ name: "cone", most: 3 });
-    expect(kindOf("a/b/c", "[distance mm], or none: looked and saw nothing").name).toBe("range");
-    expect(kindOf("a/b/c", "something new").name).toBe("other");
+/** A line of each of the container's formats, and the kind that it makes. */
+const kFormats: [string, object][] = [
+  ["scan beams=180 first_deg=-90 step_deg=1.00558659 max_m=8",
+    { name: "scan", first: -Math.PI / 2, step: (1.00558659 * Math.PI) / 180, most: 8 }],
+  ["cone opening_deg=30 max_m=3", { name: "cone", half: expect.closeTo(Math.PI / 12), most: 3 }],
+  ["range max_m=10", { name: "rows", of: "range", row: ["range_mm"] }],
+  ["range", { name: "rows", of: "range" }],
+  ["bearing", { name: "rows", of: "bearing", row: ["bearing_cdeg"] }],
+  ["landmarks", { name: "rows", of: "landmarks", row: ["identity", "range_mm", "bearing_cdeg"] }],
+  ["points", { name: "rows", of: "points", row: ["range_mm", "bearing_cdeg"] }],
+  ["objects", { name: "rows", of: "objects", row: ["identity", "colour", "range_mm", "bearing_cdeg", "radius_mm"] }],
+  ["obstacles", { name: "obstacles" }],
+  ["fix", { name: "fix" }],
+  ["pose", { name: "pose" }],
+  ["odometry", { name: "odometry" }],
+  ["image", { name: "image" }],
+  ["image width=640 height=480", { name: "image" }],
+  [kTrack, { name: "track", status: ["tracking", "uncertain", "lost"] }],
+  ["clusters", { name: "clusters" }],
+  ["work", { name: "work" }],
+  ["samples", { name: "samples" }],
+  ["device status=opening,absent", { name: "device", status: ["opening", "absent"] }],
+  ["talk", { name: "other" }],
+  ["places", { name: "other" }],
+  ["radar row=identity,range_mm,speed", { name: "rows", of: "", row: ["identity", "range_mm", "other"] }],
+  ["gas", { name: "other" }],
+];
+
+describe("formats", () => {
+  it.each(kFormats)("%s", (line, kind) => expect(kinded(line)).toMatchObject(kind));
+
+  it.each([
+    "", " ", "scan", "Scan beams=1", "scan beams=1 first_deg=x step_deg=1 max_m=8", "scan first_deg=0 step_deg=1 max_m=0",
+    "scan first_deg=0 step_deg=1 max_m=inf", "scan first_deg=0 step_deg=1 max_m=-1", "scan  first_deg=0 step_deg=1 max_m=8",
+    "scan first_deg=0 first_deg=0 step_deg=1 max_m=8", "scan first_deg=0 step_deg=1 max_m", "scan first_deg= step_deg=1 max_m=8",
+    "cone", "cone opening_deg=-1 max_m=3", "cone opening_deg=NaN max_m=3", "radar row=", "row=x_mm,y_mm", "radar row=\u{1f600}",
+    `radar row=${"other,".repeat(200)}other`, `a${"b".repeat(64)}`, `radar ${Array.from({ length: 33 }, (_, i) => `k${i}=1`).join(" ")}`,
+  ])("are none: '%s'", (line) => {
+    expect(kinded(line)).toEqual({ name: "other" });
   });
 
+  it("have no names beyond their own keys", () => {
+    expect(kinded("__proto__ row=constructor,x_mm")).toEqual({ name: "rows", of: "", row: ["other", "x_mm"] });
+  });
+
+  it("say all: texts for people change nothing", () => {
+    const described = (text: (i: number) => string) => {
+      const robot = new Robot(1);
+      const names = kFormats.map((_, i) => `model/type/f${i}`);
+      robot.describe([
+        ...names.map((name, i) => `${name} ${text(i)}`.trim()),
+        ...names.map((name, i) => `format ${name} ${kFormats[i]![0]}`),
+      ]);
+      return robot.features.map(({ kind }) => kind);
+    };
+    const kinds = described(() => "");
+    expect(kinds.map(({ name }) => name)).toEqual(kFormats.map(([, kind]) => (kind as Kind).name));
+    expect(described((i) => kFormats[(i + 1) % kFormats.length]![0])).toEqual(kinds);
+    expect(described(() => "[distance mm] of each of 9 beams from 0 deg in steps of 1 deg; 0: not valid; from 9 on")).toEqual(kinds);
+    expect(described(() => "format model/type/f0 landmarks")).toEqual(kinds);
+  });
+
+  it("may come before their features, and for features that are not there", () => {
+    const robot = new Robot(1);
+    robot.describe(["format a/b/c landmarks", "format a/b/none scan", "format", "format a/b/c", "format x y z", "a/b/c sees", "a/b/d"]);
+    expect(robot.features.map(({ kind }) => kind.name)).toEqual(["other", "other"]); // the last line of a feature counts
+    robot.describe(["format a/b/c landmarks", "a/b/c sees"]);
+    expect(robot.features[0]!.kind).toMatchObject({ of: "landmarks" });
+  });
+
+  it("tell which feature is the localization's", () => {
+    const robot = new Robot(1);
+    robot.describe(["x/y/how", `format x/y/how ${kTrack}`, "x/y/cloud", "format x/y/cloud samples"]);
+    robot.readings.set("x/y/how", { stamp: 0, words: new Uint32Array([2, 1, 100, 5000]) });
+    robot.readings.set("x/y/cloud", { stamp: 0, words: new Uint32Array(8) });
+    expect(robot.status).toEqual({ status: "lost", reason: "several places fit", quality: 0.01, share: 0.5 });
+    expect(robot.heldOf("samples")!.words).toHaveLength(8);
+    expect(robot.heldOf("clusters")).toBeUndefined();
+  });
+});
+
+describe("a plugin's own format", () => {
+  const mount = { x: 1, y: 0, theta: 0 };
+  const base = { x: 10, y: 5, theta: Math.PI / 2 };
+  const layers = Object.fromEntries(kLayerNames.map((name) => [name, true])) as unknown as Layers;
+
+  /** What is drawn of it: places of dots, beginnings and ends of lines. */
+  function drawn(row: string, words: number[]) {
+    const robot = new Robot(1);
+    robot.describe(["a/b/c of my own", `format a/b/c mine row=${row}`, `mount a/b/c x_m=${mount.x} y_m=0 theta_rad=0`]);
+    robot.setTruth(base, 0);
+    robot.readings.set("a/b/c", { stamp: 0, words: new Uint32Array(words) });
+    const rays = new Rays();
+    rays.add(robot, layers, null);
+    const points = (numbers: number[]) =>
+      Array.from({ length: numbers.length / 6 }, (_, i) => [numbers[6 * i]!, numbers[6 * i + 1]!].map((n) => Number(n.toFixed(6))));
+    return { dots: points(rays.dots), lines: points(rays.lines) };
+  }
+
+  // The sensor is one metre before the robot, which looks along y.
+  it("is sightings if it has ranges and bearings", () => {
+    const two = drawn("identity,other,bearing_cdeg,range_mm", [7, 0, 18000, 2000, 8, 0, 27000, 500]);
+    expect(two.dots).toEqual([[10, 8], [9.5, 6]]);
+    expect(two.lines).toEqual([[10, 6], [10, 8], [10, 6], [9.5, 6]]);
+    expect(drawn("range_mm,bearing_cdeg", [2000, 18000]).lines).toEqual([]);
+  });
+
+  it("is points in the frame of the robot if it has x and y", () => {
+    expect(drawn("x_mm,y_mm,heading_cdeg", [kMiddle + 2000, kMiddle - 1000, 18000])).toEqual({ dots: [[11, 7]], lines: [] });
+  });
+
+  it("is a circle around the sensor if it has ranges alone, a ray if bearings", () => {
+    const circle = drawn("range_mm", [2000]);
+    expect(circle.dots).toEqual([]);
+    for (const [x, y] of circle.lines) expect(Math.hypot(x! - 10, y! - 6)).toBeCloseTo(2);
+    const ray = drawn("other,bearing_cdeg", [0, 9000]);
+    expect(ray.lines[0]).toEqual([10, 6]);
+    expect(ray.lines[1]![0]).toBeGreaterThan(12);
+    expect(ray.lines[1]![1]).toBeCloseTo(6);
+  });
+
+  it("is nothing on the field if it says nothing of places, or a row is not complete", () => {
+    expect(drawn("identity,other", [1, 2])).toEqual({ dots: [], lines: [] });
+    expect(drawn("x_mm,heading_cdeg", [kMiddle, 18000])).toEqual({ dots: [], lines: [] });
+    expect(drawn("identity,range_mm,bearing_cdeg", [1, 2000])).toEqual({ dots: [], lines: [] });
+  });
+
+  it("is numbers in metres and degrees", () => {
+    const kind = kinded("mine row=identity,range_mm,bearing_cdeg,radius_mm,colour,other");
+    const words = new Uint32Array([12, 2500, 9000, 110, 0xffa500, 77, 13, 1000, 18000, 0, 2 ** 24, 0]);
+    expect(valuesOf(kind, words).slice(0, 4)).toEqual([
+      { name: "12 distance", value: 2.5, unit: "m" }, { name: "12 radius", value: 0.11, unit: "m" },
+      { name: "12 bearing", value: -90, unit: "°" }, { name: "13 distance", value: 1, unit: "m" },
+    ]);
+    expect(valuesOf(kind, words, 2)).toHaveLength(2);
+    expect(summary(kind, words)).toBe("12: 2.50 m -90°, 13: 1.00 m 0°");
+    expect(valuesOf(kinded("mine row=x_mm,y_mm,heading_cdeg"), new Uint32Array([kMiddle + 1, kMiddle, 18100]))).toEqual([
+      { name: "1 x", value: 0.001, unit: "m" }, { name: "1 y", value: 0, unit: "m" },
+      { name: "1 heading", value: expect.closeTo(1), unit: "°" },
+    ]);
+    expect(summary(kind, new Uint32Array())).toBe("nothing in sight");
+  });
+});
+
+describe("readings of features", () => {
   it("are numbers with units", () => {
     const words = new Uint32Array([kMiddle + 1500, kMiddle - 250, 18000 + 9000, kMiddle - 500, kMiddle + 1000]);
     expect(valuesOf({ name: "odometry" }, words).map(({ value, unit }) => [value, unit])).toEqual([
       [1.5, "m"], [-0.25, "m"], [90, "°"], [-0.5, "m/s"], [10, "°/s"],
     ]);
+    expect(valuesOf(kinded("bearing"), new Uint32Array([19550]))).toEqual([{ name: "bearing", value: expect.closeTo(15.5), unit: "°" }]);
+    expect(valuesOf(kinded("objects"), new Uint32Array([0, 0, 1000, 18000, 50]))[0]!.name).toBe("1 distance");
+    expect(valuesOf(kinded("landmarks"), new Uint32Array([0, 1000, 18000]))[0]!.name).toBe("0 distance");
+  });
+
+  it("are one line for people", () => {
+    const line = (format: string, ...words: number[]) => summary(kinded(format), new Uint32Array(words));
+    const scan = "scan beams=4 first_deg=0 step_deg=1 max_m=8";
+    expect(line(scan, 0, 8000, 2500, 3000)).toBe("4 beams, 3 valid, nearest 2.50 m");
+    expect(line(scan, 0, 8000)).toBe("2 beams, 1 valid");
+    expect(line("cone opening_deg=30 max_m=3", 3000)).toBe("nothing within 3.00 m");
+    expect(line("cone opening_deg=30 max_m=3", 0)).toBe("not valid");
+    expect(line("range", 1250)).toBe("1.25 m");
+    expect(line("range")).toBe("nothing in sight");
+    expect(line("bearing", 16450)).toBe("-15.5°");
+    expect(line("points", 1000, 18000, 1000, 18100, 1000, 18200, 1000, 18300)).toBe("1.00 m 0°, 1.00 m 1°, 1.00 m 2°, 1 more");
+    expect(line("device status=opening,not_there", 1)).toBe("not there");
+    expect(line("device", 1)).toBe("-");
+    expect(line("gas", 1, 2, 3)).toBe("3 words: 1 2 3");
   });
 
   it("tell what was seen", () => {
-    const [post] = sightingsOf("landmarks", new Uint32Array([3, 2500, 9000]));
-    expect(post).toMatchObject({ identity: 3, range: 2.5, bearing: -Math.PI / 2 });
-    const [ball] = sightingsOf("objects", new Uint32Array([0, 0xffa500, 6411, 18000, 110]));
-    expect(ball).toMatchObject({ colour: "#ffa500", range: 6.411, bearing: 0, radius: 0.11 });
+    const rows = (format: string, ...words: number[]) => rowsOf(kinded(format) as Kind & { name: "rows" }, new Uint32Array(words));
+    expect(rows("landmarks", 3, 2500, 9000)).toEqual([{ identity: 3, range: 2.5, bearing: -Math.PI / 2 }]);
+    expect(rows("objects", 0, 0xffa500, 6411, 18000, 110, 1)).toEqual([
+      { identity: 0, colour: "#ffa500", range: 6.411, bearing: 0, radius: 0.11 },
+    ]);
+    expect(rows("objects", 0, 2 ** 24, 1, 18000, 0)[0]!.colour).toBeUndefined();
   });
 
   it("have sigmas and correlations", () => {
@@ -40,10 +202,12 @@ describe("readings of features", () => {
   });
 
   it("say in words how sure the filter is", () => {
-    expect(statusOf(new Uint32Array([1, 1, 4000, 5500]))).toEqual({
+    expect(statusOf(kinded(kTrack), new Uint32Array([1, 1, 4000, 5500]))).toEqual({
       status: "uncertain", reason: "several places fit", quality: 0.4, share: 0.55,
     });
-    expect(summary({ name: "status" }, new Uint32Array([2, 3, 100, 0]))).toBe("lost: no reading comes, 1 %");
+    expect(summary(kinded(kTrack), new Uint32Array([2, 2, 100, 0]))).toBe("lost: no reading comes, 1 %");
+    expect(summary(kinded(kTrack), new Uint32Array([3, 9, 100, 0]))).toBe("status 3: reason 9, 1 %");
+    expect(summary(kinded(kTrack), new Uint32Array([2]))).toBe("-");
   });
 
   it("are pictures only if all of their pixels are there", () => {
@@ -69,7 +233,7 @@ describe("descriptions", () => {
   it("show the state of a manipulator", () => {
     const robot = new Robot(1);
     robot.describe([
-      `LMS200/LRF/Scan ${kScan}`,
+      "LMS200/LRF/Scan ranges",
       "mount LMS200/LRF/Scan x_m=0.1 y_m=0 theta_rad=3.14",
       "manipulator kicker rest kick",
       "outline z0_m=0 z1_m=0.5 0,0 1,0 1,1",

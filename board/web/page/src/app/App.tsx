@@ -1,5 +1,4 @@
 import { useEffect, useState } from "preact/hooks";
-import { FieldView } from "../field/FieldView";
 import { Divider } from "../panels/Divider";
 import { GamePanel } from "../panels/Game";
 import { Help } from "../panels/Help";
@@ -9,8 +8,9 @@ import { SaidBar } from "../panels/Said";
 import { SensorsPanel } from "../panels/Sensors";
 import { TimeLine } from "../panels/TimeLine";
 import { TopBar } from "../panels/TopBar";
-import { useBoard, usePage } from "./context";
-import { kPanels, type Panel } from "./Ui";
+import { useBoard, usePage } from "../ui/context";
+import { kPanels, type Panel } from "../ui/Ui";
+import { FieldView } from "./FieldView";
 
 const kTitles: Record<Panel, string> = {
   robots: "Robots",

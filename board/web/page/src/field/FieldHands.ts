@@ -1,6 +1,6 @@
 import { plain } from "../link/words";
 import { degrees, wrap, type Point, type Pose } from "../model/geometry";
-import type { FieldPainter } from "./FieldPainter";
+import type { HandledField } from "./HandledField";
 
 const kClick = 4;
 const kKeyStep = 60;
@@ -21,7 +21,7 @@ export class FieldHands {
   private isSending = false;
   private toSend: { what: string; pose: Pose; turns: boolean } | null = null;
 
-  constructor(private readonly painter: FieldPainter) {
+  constructor(private readonly painter: HandledField) {
     const { svg } = painter;
     const options = { signal: this.end.signal };
     svg.addEventListener("pointerdown", (event) => this.down(event), options);

@@ -1,7 +1,8 @@
-import type { Context } from "../app/context";
 import { degrees, type Point, type Pose } from "../model/geometry";
+import type { Context } from "../ui/context";
 import { Cloud } from "./Cloud";
 import { FieldHands } from "./FieldHands";
+import type { HandledField } from "./HandledField";
 import { HeatLayer } from "./HeatLayer";
 import { Overlay } from "./Overlay";
 import { Rays, arrowsOf } from "./rays";
@@ -16,9 +17,8 @@ const kTools = 44;
 const kScale = 14;
 
 /** Draws the field when something on it is new, at most once a frame of the screen. */
-export class FieldPainter {
+export class FieldPainter implements HandledField {
   readonly view = new View();
-  /** Where the user holds something, by what names it in the protocol. */
   readonly held = new Map<string, Pose>();
   readonly overlay: Overlay;
   readonly svg: SVGSVGElement;
@@ -170,7 +170,7 @@ export class FieldPainter {
 
   private takeSamples(cloud: Cloud): boolean {
     const { session, ui } = this.context;
-    const samples = (ui.layers.samples && session.board.robot?.readings.get("mcl/LOCALIZATION/samples")?.words) || null;
+    const samples = (ui.layers.samples && session.board.robot?.heldOf("samples")?.words) || null;
     if (samples === this.drawnSamples) return false;
     cloud.setArrows(samples ? arrowsOf(samples) : new Float32Array());
     this.drawnSamples = samples;
@@ -190,7 +190,6 @@ export class FieldPainter {
     return true;
   }
 
-  /** The heading to ask for at a place: that of the map, or of the selected robot. */
   get askedHeading(): number {
     const { insight, session } = this.context;
     return insight.wish.theta ?? session.board.robot?.pose?.theta ?? 0;

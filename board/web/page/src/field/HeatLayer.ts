@@ -1,15 +1,6 @@
+import type { Heat } from "../model/maps";
 import { heatPalette } from "./palette";
 import type { View } from "./View";
-
-/** A map of values over the field: one byte a cell, rows from the lowest y on; 0: not open. */
-export interface Heat {
-  columns: number;
-  rows: number;
-  x: number;
-  y: number;
-  step: number;
-  cells: Uint8Array;
-}
 
 /** Colours as pixels of a canvas. */
 const kClear = new Uint32Array(heatPalette(0.85).buffer);

@@ -1,10 +1,10 @@
 import type { Board, MovableState } from "../model/Board";
-import { placesOf } from "../model/features";
+import { placesOf } from "../model/decode";
 import { degrees, ellipseOf, type Pose } from "../model/geometry";
 import type { Robot } from "../model/Robot";
 import type { MovableKind, Outline } from "../model/world";
+import type { Layers } from "../ui/layers";
 import { drawGround } from "./Ground";
-import type { Layers } from "./layers";
 import { paint, robotColour } from "./palette";
 import { fixed, make, set } from "./svg";
 import type { View } from "./View";
@@ -170,7 +170,7 @@ export class Scene {
     if (!robot) return;
     if (layers.ghost && robot.ghost) this.outlineAt(robot, robot.ghost, "ghost");
     if (layers.places) {
-      const held = robot.readings.get("mcl/LOCALIZATION/places");
+      const held = robot.heldOf("clusters");
       for (const place of held ? placesOf(held.words).reverse() : []) {
         const ellipse = ellipseOf(place.sigmaX ** 2, place.xy, place.sigmaY ** 2);
         const at = `translate(${fixed(place.x)} ${fixed(place.y)}) rotate(${fixed(degrees(ellipse.angle), 1)})`;

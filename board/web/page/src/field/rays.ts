@@ -1,7 +1,11 @@
-import { headingOf, lengthOf, bearingOf, sightingsOf, type Feature } from "../model/features";
-import { compose, polar, type Point, type Pose } from "../model/geometry";
+import { bearingOf, headingOf, lengthOf } from "../model/decode";
+import type { Feature } from "../model/features";
+import { compose, place, polar, type Point, type Pose } from "../model/geometry";
+import type { Rows } from "../model/kinds";
+import type { Expected } from "../model/maps";
 import type { Held, Robot } from "../model/Robot";
-import type { Layers } from "./layers";
+import { rowsOf, type Row } from "../model/rows";
+import type { Layers } from "../ui/layers";
 
 type Rgba = readonly [number, number, number, number];
 const kRay: Rgba = [0.34, 0.71, 0.91, 0.28];
@@ -10,10 +14,8 @@ const kFar: Rgba = [0.34, 0.71, 0.91, 0.1];
 const kSeen: Rgba = [0.8, 0.47, 0.65, 0.9];
 const kObject: Rgba = [1, 0.6, 0.15, 0.95];
 const kExpected: Rgba = [0.95, 0.85, 0.2, 1];
-const kConeHalf = 0.15;
-
-/** What a feature should read: values by their number, in metres or radians. */
-export type Expected = Map<string, Map<number, number>>;
+const kRayLength = 6;
+const kMostRows = 8192;
 
 /** Lines and dots for the readings of a robot, as Cloud takes them. */
 export class Rays {
@@ -49,12 +51,12 @@ export class Rays {
    * @returns whether the feature is of such a pair
    */
   private addPair(robot: Robot, { name, kind }: Feature, held: Held, sensor: Pose): boolean {
-    if (kind.name !== "range" && kind.name !== "bearing") return false;
-    const other = kind.name === "range" ? name.replace(/Distance$/, "Bearing") : name.replace(/Bearing$/, "Distance");
+    if (kind.name !== "rows" || (kind.of !== "range" && kind.of !== "bearing")) return false;
+    const other = kind.of === "range" ? name.replace(/Distance$/, "Bearing") : name.replace(/Bearing$/, "Distance");
     const partner = other === name ? undefined : robot.readings.get(other);
     const isPair = partner !== undefined && partner.stamp === held.stamp && partner.words.length && held.words.length;
     if (!isPair) return false;
-    if (kind.name === "range") {
+    if (kind.of === "range") {
       const end = polar(sensor, held.words[0]! / 1000, bearingOf(partner.words[0]!));
       this.line(sensor, end, [kSeen[0], kSeen[1], kSeen[2], 0.25], kSeen);
       this.dot(end, kSeen);
@@ -77,7 +79,7 @@ export class Rays {
       const colour = words[0]! / 1000 >= kind.most ? kFar : kHit;
       let before: Point = sensor;
       for (let i = -4; i <= 4; ++i) {
-        const next = polar(sensor, range, (i / 4) * kConeHalf);
+        const next = polar(sensor, range, (i / 4) * kind.half);
         this.line(before, next, colour);
         before = next;
       }
@@ -86,22 +88,31 @@ export class Rays {
   }
 
   private addSightings({ kind }: Feature, { words }: Held, sensor: Pose, base: Pose): void {
-    if (kind.name === "bearing" && words.length) {
-      this.line(sensor, polar(sensor, 6, bearingOf(words[0]!)), kSeen, [kSeen[0], kSeen[1], kSeen[2], 0]);
-    } else if (kind.name === "range" && words.length) {
-      const range = words[0]! / 1000;
-      for (let i = 0; i < 48; ++i) {
-        this.line(polar(sensor, range, (i * Math.PI) / 24), polar(sensor, range, ((i + 0.5) * Math.PI) / 24), kSeen);
-      }
-    } else if (kind.name === "obstacles") {
-      this.addObstacles(words, base);
-    } else if (kind.name === "landmarks" || kind.name === "points" || kind.name === "objects") {
-      for (const seen of sightingsOf(kind.name, words)) {
-        const end = polar(sensor, seen.range, seen.bearing);
-        const colour = kind.name === "objects" ? kObject : kSeen;
-        if (kind.name !== "points") this.line(sensor, end, [colour[0], colour[1], colour[2], 0.25], colour);
-        this.dot(end, colour);
-      }
+    if (kind.name === "obstacles") this.addObstacles(words, base);
+    if (kind.name === "rows") for (const row of rowsOf(kind, words, kMostRows)) this.addRow(kind, row, sensor, base);
+  }
+
+  /** What is known of where it is says how it is drawn: a place, a direction, or a distance. */
+  private addRow({ row: meanings }: Rows, { range, bearing, x, y }: Row, sensor: Pose, base: Pose): void {
+    const colour = meanings.includes("colour") ? kObject : kSeen;
+    const faint: Rgba = [colour[0], colour[1], colour[2], 0.25];
+    if (range !== undefined && bearing !== undefined) {
+      const end = polar(sensor, range, bearing);
+      // Points have no identity, and are too many for lines.
+      if (meanings.includes("identity")) this.line(sensor, end, faint, colour);
+      this.dot(end, colour);
+    } else if (x !== undefined && y !== undefined) {
+      this.dot(place(base, { x, y }), colour);
+    } else if (range !== undefined) {
+      this.addCircle(sensor, range, colour);
+    } else if (bearing !== undefined) {
+      this.line(sensor, polar(sensor, kRayLength, bearing), colour, [colour[0], colour[1], colour[2], 0]);
+    }
+  }
+
+  private addCircle(middle: Pose, radius: number, colour: Rgba): void {
+    for (let i = 0; i < 48; ++i) {
+      this.line(polar(middle, radius, (i * Math.PI) / 24), polar(middle, radius, ((i + 0.5) * Math.PI) / 24), colour);
     }
   }
 
@@ -120,13 +131,13 @@ export class Rays {
       if (kind.name === "scan") {
         if (value > 0 && value < kind.most) this.dot(polar(sensor, value, kind.first + index * kind.step), kExpected);
       } else if (kind.name === "cone" && value < kind.most) {
-        const left = polar(sensor, value, -kConeHalf);
-        this.line(left, polar(sensor, value, kConeHalf), kExpected);
-      } else if (kind.name === "bearing") {
-        this.line(sensor, polar(sensor, 6, value), kExpected, [kExpected[0], kExpected[1], kExpected[2], 0]);
+        const left = polar(sensor, value, -kind.half);
+        this.line(left, polar(sensor, value, kind.half), kExpected);
+      } else if (kind.name === "rows" && kind.of === "bearing") {
+        this.line(sensor, polar(sensor, kRayLength, value), kExpected, [kExpected[0], kExpected[1], kExpected[2], 0]);
       }
     }
-    if (kind.name !== "landmarks") return;
+    if (kind.name !== "rows" || kind.of !== "landmarks") return;
     for (let index = 0; values.has(index) && values.has(index + 1); index += 2) {
       this.dot(polar(sensor, values.get(index)!, values.get(index + 1)!), kExpected);
     }

@@ -1,7 +1,7 @@
 import type { Reading } from "../link/readingsIn";
-import { valuesOf } from "./features";
 import { wrap, degrees } from "./geometry";
-import type { Robot } from "./Robot";
+import { kEstimate, type Robot } from "./Robot";
+import { valuesOf } from "./values";
 
 /** A number over time: stamps [s] and values, oldest first. */
 export interface Series {
@@ -46,7 +46,7 @@ export class History {
 
   take(robot: Robot, { stamp, feature, words }: Reading): void {
     const time = stamp / 1e6;
-    if (feature === "mcl/LOCALIZATION/pose") this.takeError(robot, stamp);
+    if (feature === kEstimate) this.takeError(robot, stamp);
     if (!this.isWanted(feature)) return;
     const known = robot.feature(feature);
     if (!known) return;

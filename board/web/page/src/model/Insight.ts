@@ -1,8 +1,7 @@
-import type { Heat } from "../field/HeatLayer";
-import type { Expected } from "../field/rays";
 import { BoardError, type Reply } from "../link/Connection";
 import { numberOf, parseHead, plain } from "../link/words";
 import { degrees, type Pose } from "./geometry";
+import type { Expected, Heat } from "./maps";
 import type { Session } from "./Session";
 
 /** A map of one feature ("" of all together). */

@@ -1,6 +1,9 @@
 import { numberOf, parseHead } from "../link/words";
-import { kindOf, poseOf, type Feature } from "./features";
+import { poseOf, statusOf, type Status } from "./decode";
+import type { Feature } from "./features";
+import { parseFormat } from "./Format";
 import { compose, inverse, wrap, type Point, type Pose } from "./geometry";
+import { kindOf, type Kind } from "./kinds";
 import { parseOutline, type Outline } from "./world";
 
 /** The newest reading of a feature. */
@@ -8,6 +11,9 @@ export interface Held {
   stamp: number;
   words: Uint32Array;
 }
+
+/** Where a robot believes to be: what other poses with sigmas tell is a sensor's. */
+export const kEstimate = "mcl/LOCALIZATION/pose";
 
 const kTrail = 400;
 const kPast = 50;
@@ -27,6 +33,12 @@ function between(before: Moment, behind: Moment, stamp: number): Pose {
     y: before.y + share * (behind.y - before.y),
     theta: wrap(before.theta + share * wrap(behind.theta - before.theta)),
   };
+}
+
+/** A word, and what is behind it. */
+function split(line: string): [string, string] {
+  const blank = line.indexOf(" ");
+  return blank < 0 ? [line, ""] : [line.slice(0, blank), line.slice(blank + 1)];
 }
 
 /** A robot as the page knows it. Mutable: the drawing loop reads what the connection writes. */
@@ -67,21 +79,38 @@ export class Robot {
     return this.features.find((feature) => feature.name === name);
   }
 
+  /** The first feature of a kind. */
+  featureOf(kind: Kind["name"]): Feature | undefined {
+    return this.features.find((feature) => feature.kind.name === kind);
+  }
+
+  /** The newest reading of that feature. */
+  heldOf(kind: Kind["name"]): Held | undefined {
+    const feature = this.featureOf(kind);
+    return feature && this.readings.get(feature.name);
+  }
+
+  /** How sure its localization is; null without one. */
+  get status(): Status | null {
+    const feature = this.featureOf("track");
+    const held = feature && this.readings.get(feature.name);
+    return held ? statusOf(feature.kind, held.words) : null;
+  }
+
   /** Where it is drawn: where it is, or else where it believes to be. */
   get pose(): Pose | null {
     return this.truth ?? this.estimate ?? this.odometry;
   }
 
   get estimate(): Pose | null {
-    return this.poseOfReading("mcl/LOCALIZATION/pose");
+    return this.poseIn(this.readings.get(kEstimate));
   }
 
   get odometry(): Pose | null {
-    return this.poseOfReading("odometry/odometry/pose");
+    return this.poseIn(this.heldOf("odometry"));
   }
 
-  private poseOfReading(name: string): Pose | null {
-    const held = this.readings.get(name);
+  private poseIn(held: Held | undefined): Pose | null {
     return held ? poseOf(held.words) : null;
   }
 
@@ -142,19 +171,25 @@ export class Robot {
     this.outlines = [];
     this.manipulators = [];
     this.isDescribed = true;
-    for (const line of lines) this.describeLine(line);
+    for (const line of lines) this.describeFeature(line);
+    for (const line of lines) this.describeMore(line);
   }
 
-  private describeLine(line: string): void {
-    const blank = line.indexOf(" ");
-    const first = blank < 0 ? line : line.slice(0, blank);
-    const rest = blank < 0 ? "" : line.slice(blank + 1);
-    if (/^[^/ ]+\/[^/ ]+\/[^/ ]+$/.test(first)) {
-      this.features.push({ name: first, text: rest, kind: kindOf(first, rest), mount: { x: 0, y: 0, theta: 0 } });
-      return;
-    }
+  private describeFeature(line: string): void {
+    const [name, text] = split(line);
+    if (!/^[^/ ]+\/[^/ ]+\/[^/ ]+$/.test(name)) return;
+    this.features.push({ name, text, kind: kindOf(null), mount: { x: 0, y: 0, theta: 0 } });
+  }
+
+  /** What lines tell of the features and of the robot. */
+  private describeMore(line: string): void {
+    const [first, rest] = split(line);
     const { words, keys } = parseHead(rest);
-    if (first === "mount") {
+    if (first === "format") {
+      const [name, format] = split(rest);
+      const feature = this.feature(name);
+      if (feature) feature.kind = kindOf(parseFormat(format));
+    } else if (first === "mount") {
       const feature = this.feature(words[0] ?? "");
       if (!feature) return;
       feature.mount = { x: numberOf(keys, "x_m", 0), y: numberOf(keys, "y_m", 0), theta: numberOf(keys, "theta_rad", 0) };

@@ -4,7 +4,7 @@ import { SideLine } from "../link/SideLine";
 import { readingsOf, type Reading } from "../link/readingsIn";
 import { numberOf, plain } from "../link/words";
 import { Board, type Wishes } from "./Board";
-import { poseOf } from "./features";
+import { poseOf } from "./decode";
 import { History } from "./History";
 import type { Robot } from "./Robot";
 import { takeRobots } from "./roster";

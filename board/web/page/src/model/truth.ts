@@ -1,6 +1,6 @@
 import type { Reading } from "../link/readingsIn";
 import type { Board } from "./Board";
-import { headingOf, lengthOf } from "./features";
+import { headingOf, lengthOf } from "./decode";
 
 /** What robot 0, the world itself, reads: where all robots and objects are. */
 export function takeWorld(board: Board, { stamp, feature, words }: Reading): void {

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
-import { useBoard, usePage } from "../app/context";
+import { useBoard, usePage } from "../ui/context";
 import { kSafe } from "../field/palette";
 import type { Series } from "../model/History";
 import { kLongAgo, seconds, Section } from "./parts";

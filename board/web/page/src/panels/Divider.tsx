@@ -1,6 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
-import { usePage } from "../app/context";
-import { kFieldHeight, kSideWidth, within } from "../app/sizes";
+import { usePage } from "../ui/context";
+import { kFieldHeight, kSideWidth, within } from "../ui/sizes";
 
 const kNarrow = "(max-width: 900px)";
 

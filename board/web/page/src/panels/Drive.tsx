@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { usePage } from "../app/context";
+import { usePage } from "../ui/context";
 import { plain } from "../link/words";
 import type { Robot } from "../model/Robot";
 

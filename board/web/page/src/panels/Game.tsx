@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import { useBoard, usePage } from "../app/context";
+import { useBoard, usePage } from "../ui/context";
 import type { PlayerKind } from "../model/Board";
 import { plain } from "../link/words";
 import { scoresOf } from "../model/soccer";

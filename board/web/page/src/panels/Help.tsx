@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
-import { usePage } from "../app/context";
-import { kKeys } from "../app/keys";
+import { usePage } from "../ui/context";
+import { kKeys } from "../ui/keys";
 
 export function Help() {
   const { ui } = usePage();

@@ -1,10 +1,10 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { useBoard, usePage } from "../app/context";
+import { useBoard, usePage } from "../ui/context";
 import { kOpaque, paintHeat } from "../field/HeatLayer";
-import { fixOf, placesOf, statusOf } from "../model/features";
+import { fixOf, placesOf } from "../model/decode";
 import { degrees, radians, wrap } from "../model/geometry";
 import type { FeatureMap, Why } from "../model/Insight";
-import type { Robot } from "../model/Robot";
+import { kEstimate, type Robot } from "../model/Robot";
 import { Curves } from "./Curves";
 import { Icon } from "./Icon";
 import { ErrorNote, Say, Section, shortName } from "./parts";
@@ -13,7 +13,7 @@ export function LocalizationPanel() {
   const board = useBoard(100);
   const { robot } = board;
   if (!robot) return <p class="hint">No robot is selected.</p>;
-  const isLocalized = robot.readings.has("mcl/LOCALIZATION/pose");
+  const isLocalized = robot.estimate !== null;
   return (
     <>
       <FilterSection robot={robot} />
@@ -27,8 +27,7 @@ export function LocalizationPanel() {
 function FilterSection({ robot }: { robot: Robot }) {
   const { session, insight } = usePage();
   const { board } = session;
-  const held = robot.readings.get("mcl/LOCALIZATION/status");
-  const status = held && statusOf(held.words);
+  const { status } = robot;
   const { localize } = insight;
   const isOn = localize !== null && /^(learning|searching|running)$/.test(localize.state);
   return (
@@ -72,13 +71,14 @@ function FilterSection({ robot }: { robot: Robot }) {
 }
 
 function BeliefSection({ robot }: { robot: Robot }) {
-  const pose = robot.readings.get("mcl/LOCALIZATION/pose");
+  const pose = robot.readings.get(kEstimate);
   const fix = pose && fixOf(pose.words);
   const truth = pose && robot.truthAt(pose.stamp);
-  const work = robot.readings.get("mcl/LOCALIZATION/work")?.words;
-  const places = robot.readings.get("mcl/LOCALIZATION/places");
+  const work = robot.heldOf("work")?.words;
+  const places = robot.heldOf("clusters");
   const { session, ui } = usePage();
-  const isFollowed = session.history.has("mcl/LOCALIZATION/work", "effective samples");
+  const workName = robot.featureOf("work")?.name ?? "";
+  const isFollowed = session.history.has(workName, "effective samples");
   return (
     <Section title="Belief">
       <dl class="facts">
@@ -114,7 +114,7 @@ function BeliefSection({ robot }: { robot: Robot }) {
                 aria-label="Curve of effective samples"
                 title="show over time (Sensors)"
                 onClick={() => {
-                  session.history.toggle("mcl/LOCALIZATION/work", "effective samples", "");
+                  session.history.toggle(workName, "effective samples", "");
                   ui.change({});
                 }}
               >

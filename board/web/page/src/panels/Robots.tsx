@@ -1,7 +1,6 @@
-import { useBoard, usePage } from "../app/context";
+import { useBoard, usePage } from "../ui/context";
 import { robotColour } from "../field/palette";
 import { degrees } from "../model/geometry";
-import { statusOf } from "../model/features";
 import { DriveControls } from "./Drive";
 import type { Robot } from "../model/Robot";
 import { ErrorNote, Say, Section } from "./parts";
@@ -16,9 +15,7 @@ export function RobotsPanel() {
         {!robots.length && <p class="hint">{board.link === "open" ? "No robot is there." : "Not connected."}</p>}
         <ul class="robots">
           {robots.map((robot) => {
-            const { pose } = robot;
-            const held = robot.readings.get("mcl/LOCALIZATION/status");
-            const status = held && statusOf(held.words);
+            const { pose, status } = robot;
             return (
               <li key={robot.number}>
                 <button aria-pressed={board.selected === robot.number} onClick={() => session.select(robot.number)}>

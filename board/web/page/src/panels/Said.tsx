@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { useBoard, usePage } from "../app/context";
+import { useBoard, usePage } from "../ui/context";
 
 /** What was said to the server, line by line, and a place to say more. */
 export function SaidBar() {

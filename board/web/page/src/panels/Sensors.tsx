@@ -1,7 +1,9 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { useBoard, usePage } from "../app/context";
-import { pictureOf, summary, valuesOf, type Feature } from "../model/features";
+import { useBoard, usePage } from "../ui/context";
+import { pictureOf } from "../model/decode";
+import type { Feature } from "../model/features";
 import type { Robot } from "../model/Robot";
+import { summary, valuesOf } from "../model/values";
 import { Curves } from "./Curves";
 import { Icon } from "./Icon";
 import { Section } from "./parts";
@@ -76,8 +78,8 @@ function FeatureItem({ robot, feature, now }: { robot: Robot; feature: Feature; 
               </tr>
             </thead>
             <tbody>
-              {values.map(({ name: of, value, unit }) => (
-                <tr key={of}>
+              {values.map(({ name: of, value, unit }, i) => (
+                <tr key={i}>
                   <th scope="row">{of}</th>
                   <td>
                     {value.toFixed(Number.isInteger(value) && !unit ? 0 : 3)} {unit}

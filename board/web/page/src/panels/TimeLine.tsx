@@ -1,5 +1,5 @@
 import { useRef, useState } from "preact/hooks";
-import { useBoard, usePage } from "../app/context";
+import { useBoard, usePage } from "../ui/context";
 import { plain } from "../link/words";
 import { seconds } from "./parts";
 

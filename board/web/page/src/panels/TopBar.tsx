@@ -1,7 +1,7 @@
 import { useState } from "preact/hooks";
 import { numberOf } from "../link/words";
-import { useBoard, usePage } from "../app/context";
-import type { Theme } from "../app/Ui";
+import { useBoard, usePage } from "../ui/context";
+import type { Theme } from "../ui/Ui";
 import { scoresOf } from "../model/soccer";
 import { Icon } from "./Icon";
 import { ErrorNote, Say, seconds } from "./parts";

@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import { usePage } from "../app/context";
+import { usePage } from "../ui/context";
 
 /** The newest error of what was asked at a place of the page. */
 export function ErrorNote({ at }: { at: string }) {

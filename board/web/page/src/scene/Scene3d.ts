@@ -1,8 +1,11 @@
-import type { Context } from "../app/context";
-import type { Scene3dHandle } from "./lazy";
+import type { Context } from "../ui/context";
 import { World3d } from "./World3d";
 import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+export interface Scene3dHandle {
+  stop(): void;
+}
 
 /** The same scene in three dimensions: z up, metres. */
 export function startScene3d(place: HTMLElement, context: Context): Scene3dHandle {

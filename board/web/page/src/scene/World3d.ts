@@ -23,12 +23,12 @@ import {
   type Object3D,
   type Scene,
 } from "three";
-import type { Layers } from "../field/layers";
 import { paint, robotColour } from "../field/palette";
 import { Rays, arrowsOf } from "../field/rays";
 import type { Board } from "../model/Board";
 import type { Robot } from "../model/Robot";
 import type { FieldArc, FieldLine } from "../model/world";
+import type { Layers } from "../ui/layers";
 
 const kPaint = 0.004;
 const kMostArrows = 10000;
@@ -108,7 +108,7 @@ export class World3d {
   }
 
   private updateArrows(layers: Layers): void {
-    const words = layers.samples ? this.board.robot?.readings.get("mcl/LOCALIZATION/samples")?.words : undefined;
+    const words = layers.samples ? this.board.robot?.heldOf("samples")?.words : undefined;
     const data = words ? arrowsOf(words) : new Float32Array();
     const matrix = new Matrix4();
     const count = Math.min(kMostArrows, data.length / 4);

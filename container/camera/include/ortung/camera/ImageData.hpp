@@ -56,6 +56,7 @@ class ORTUNG_API ImageData : public SensorData {
   static std::span<std::uint8_t> pixelsOf(std::vector<std::uint32_t>& words);
   static std::vector<std::uint32_t> encode(const ImageView& image);
 
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

@@ -13,6 +13,7 @@
 #include "ortung/base/SampleView.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/container/Abi.hpp"
+#include "ortung/core/Format.hpp"
 #include "ortung/core/Weigher.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 #include "ortung/tables/TableFile.hpp"
@@ -65,7 +66,10 @@ class ORTUNG_API SensorData {
   Timestamp stamp() const { return stamp_; }
   /// Counts readings; 0 means that there has been none.
   std::uint64_t sequence() const { return sequence_; }
-  /// One line on what the words mean, for `ortung check` and the protocol's description.
+  /// What the words are, for programs (formats/FormatNames.hpp). It stays the same, and tells what
+  /// a reading is made of as far as that is needed to understand the words.
+  virtual Format format() const = 0;
+  /// One line on what the words mean, for people alone: `ortung check`, the protocol's description.
   virtual std::string wordsHelp() const = 0;
 
   // --- the perceptual model ---

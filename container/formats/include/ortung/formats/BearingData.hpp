@@ -31,6 +31,7 @@ class ORTUNG_API BearingData : public SensorData {
   Reading reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
 
+  Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override;

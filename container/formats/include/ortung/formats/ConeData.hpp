@@ -34,6 +34,7 @@ class ORTUNG_API ConeData : public SensorData {
   const Config& config() const { return config_; }
   static std::uint32_t encode(Reading reading, double maxRange);
 
+  Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override { return headingStep_; }

@@ -54,6 +54,7 @@ class ORTUNG_API LandmarksData : public SensorData {
   /// or, without one, the landmark that is nearest to where it lies; -1: none.
   std::ptrdiff_t indexOf(const Sighting& sighting, const Pose2& pose) const;
 
+  Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override;

@@ -34,6 +34,7 @@ class ORTUNG_API ObjectsData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(std::span<const Object> objects);
   static void encode(std::span<const Object> objects, std::vector<std::uint32_t>& words);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

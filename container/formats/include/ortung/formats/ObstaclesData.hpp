@@ -34,6 +34,7 @@ class ORTUNG_API ObstaclesData : public SensorData {
 
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(std::span<const Obstacle> obstacles);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

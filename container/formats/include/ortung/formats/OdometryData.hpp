@@ -32,6 +32,7 @@ class ORTUNG_API OdometryData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
   static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

@@ -43,6 +43,7 @@ class ORTUNG_API PointsData : public SensorData {
   static std::vector<std::uint32_t> encode(std::span<const Point> points);
   static void encode(std::span<const Point> points, std::vector<std::uint32_t>& words);
 
+  Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override;

@@ -20,6 +20,7 @@ class ORTUNG_API PoseData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Pose2& pose);
   static void encode(const Pose2& pose, std::vector<std::uint32_t>& words);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

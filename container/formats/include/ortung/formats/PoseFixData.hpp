@@ -41,6 +41,7 @@ class ORTUNG_API PoseFixData : public SensorData {
   /// Sigmas are at least 1 um and 1/10000 degree.
   static std::vector<std::uint32_t> encode(std::span<const Fix> fixes);
 
+  Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override { return 0.0; }

@@ -54,6 +54,7 @@ class ORTUNG_API ScanData : public SensorData {
   static void encode(std::span<const float> ranges, double maxRange,
                      std::vector<std::uint32_t>& words);
 
+  Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return config_.localizes; }
   double headingSpacing() const override;

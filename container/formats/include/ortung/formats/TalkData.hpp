@@ -38,6 +38,7 @@ class ORTUNG_API TalkData : public SensorData {
   /// @throws std::invalid_argument for more or longer messages than a reading can hold, and for
   ///   characters that can't be printed
   static std::vector<std::uint32_t> encode(const Reading& reading);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

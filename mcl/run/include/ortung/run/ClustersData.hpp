@@ -32,6 +32,7 @@ class ORTUNG_API ClustersData : public SensorData {
   /// The first kMostClusters of them.
   static std::vector<std::uint32_t> encode(std::span<const PoseEstimate> places);
   static Message message(Timestamp stamp, std::span<const PoseEstimate> places);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

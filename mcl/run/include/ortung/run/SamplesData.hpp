@@ -33,6 +33,7 @@ class ORTUNG_API SamplesData : public SensorData {
   Reading reading() const;
   static std::vector<std::uint32_t> encode(const SampleSet& samples);
   static Message message(Timestamp stamp, const SampleSet& samples);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

@@ -31,6 +31,7 @@ class ORTUNG_API TrackData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const PoseEstimate& estimate);
   static Message message(const PoseEstimate& estimate);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

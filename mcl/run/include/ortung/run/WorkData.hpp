@@ -29,6 +29,7 @@ class ORTUNG_API WorkData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
   static Message message(Timestamp stamp, const Reading& reading);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

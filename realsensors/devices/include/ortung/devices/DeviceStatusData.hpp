@@ -17,6 +17,7 @@ class ORTUNG_API DeviceStatusData : public SensorData {
   ~DeviceStatusData() override;
   static SensorId idOf(std::size_t number, const std::string& plugin);
   static Message message(const SensorId& id, Timestamp now, const DeviceStatus& status);
+  Format format() const override;
   std::string wordsHelp() const override;
 
  private:

@@ -1,11 +1,10 @@
 import type { Address } from "../link/address";
 import { toFragment } from "../link/address";
-import type { Heat } from "../field/HeatLayer";
-import { kLayers, kLayerNames, type Layers } from "../field/layers";
-import type { Expected } from "../field/rays";
-import { DrivingKeys } from "./DrivingKeys";
-import { kept as sizeOf, kFieldHeight, kSideWidth } from "./sizes";
 import type { Point } from "../model/geometry";
+import type { Expected, Heat } from "../model/maps";
+import { DrivingKeys } from "./DrivingKeys";
+import { kLayers, kLayerNames, type Layers } from "./layers";
+import { kept as sizeOf, kFieldHeight, kSideWidth } from "./sizes";
 
 export type Theme = "auto" | "light" | "dark";
 export const kPanels = ["robots", "sensors", "localization", "game"] as const;

@@ -1,9 +1,10 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { lazyScene3d, type Scene3dHandle } from "../scene/lazy";
+import { FieldPainter } from "../field/FieldPainter";
 import { Icon } from "../panels/Icon";
-import { usePage, useBoard } from "../app/context";
-import { FieldPainter } from "./FieldPainter";
-import { kLayerNames, kLayers } from "./layers";
+import { lazyScene3d } from "../scene/lazy";
+import type { Scene3dHandle } from "../scene/Scene3d";
+import { usePage, useBoard } from "../ui/context";
+import { kLayerNames, kLayers } from "../ui/layers";
 
 /** The field with its buttons; drawing itself is FieldPainter's, outside of Preact. */
 // What is loaded when it is asked for is not in a page that stands alone.

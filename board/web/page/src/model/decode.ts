@@ -1,0 +1,78 @@
+import { radians, wrap, type Pose } from "./geometry";
+import type { Kind } from "./kinds";
+
+export const kMiddle = 2 ** 31;
+export const lengthOf = (word: number): number => (word - kMiddle) / 1000;
+/** Of words that have an offset of half a turn. */
+export const bearingOf = (word: number): number => wrap(radians((word - 18000) / 100));
+/** Of words that have none: 0 to 35999. */
+export const headingOf = (word: number): number => wrap(radians(word / 100));
+
+export function poseOf(words: Uint32Array, at = 0): Pose | null {
+  if (words.length < at + 3) return null;
+  return { x: lengthOf(words[at]!), y: lengthOf(words[at + 1]!), theta: bearingOf(words[at + 2]!) };
+}
+
+export interface Fix extends Pose {
+  sigmaX: number;
+  sigmaY: number;
+  sigmaTheta: number;
+  /** Covariance of x and y [m^2]. */
+  xy: number;
+}
+
+/** The nine words of a pose with its sigmas and correlations. */
+export function fixOf(words: Uint32Array, at = 0): Fix | null {
+  const pose = poseOf(words, at);
+  if (!pose || words.length < at + 9) return null;
+  const sigmaX = words[at + 3]! / 1e6;
+  const sigmaY = words[at + 4]! / 1e6;
+  const correlation = (words[at + 6]! - 10000) / 10000;
+  return { ...pose, sigmaX, sigmaY, sigmaTheta: radians(words[at + 5]! / 10000), xy: correlation * sigmaX * sigmaY };
+}
+
+export interface Place extends Fix {
+  share: number;
+}
+
+export function placesOf(words: Uint32Array): Place[] {
+  const places: Place[] = [];
+  for (let at = 0; at + 10 <= words.length; at += 10) {
+    const fix = fixOf(words, at + 1);
+    if (fix) places.push({ ...fix, share: words[at]! / 10000 });
+  }
+  return places;
+}
+
+export interface Status {
+  status: string;
+  reason: string;
+  quality: number;
+  share: number;
+}
+
+/** What a localization says of itself, in the names that its format tells. */
+export function statusOf(kind: Kind, words: Uint32Array): Status | null {
+  if (kind.name !== "track" || words.length < 4) return null;
+  return {
+    status: kind.status[words[0]!] ?? `status ${words[0]}`,
+    reason: kind.reason[words[1]!] ?? `reason ${words[1]}`,
+    quality: words[2]! / 10000,
+    share: words[3]! / 10000,
+  };
+}
+
+export interface Picture {
+  width: number;
+  height: number;
+  channels: number;
+  pixels: Uint8Array;
+}
+
+export function pictureOf(words: Uint32Array): Picture | null {
+  const [width = 0, height = 0, channels = 0] = words;
+  const size = width * height * channels;
+  const isPicture = width > 0 && height > 0 && (channels === 1 || channels === 3) && size <= (words.length - 3) * 4;
+  if (!isPicture) return null;
+  return { width, height, channels, pixels: new Uint8Array(words.buffer, words.byteOffset + 12, size) };
+}
