@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "ortung/server/ServedWorld.hpp"
+#include "ortung/server/PlainWorld.hpp"
 
 namespace ortung::test {
 
 /// A world without physics: each robot has a counter of cycles and an image of many words, and
 /// remembers what it was told. Cycles take 10 ms, if nothing else is said.
-class CountingWorld : public ServedWorld, private RobotCommands {
+class CountingWorld : public PlainWorld, private RobotCommands {
  public:
   explicit CountingWorld(std::size_t imageWords = 0) : imageWords_(imageWords) {}
   ~CountingWorld() override = default;

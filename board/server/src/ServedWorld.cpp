@@ -8,11 +8,10 @@
 namespace ortung {
 
 ServeError::~ServeError() = default;
+ServedField::~ServedField() = default;
+ServedTime::~ServedTime() = default;
+ServedRobots::~ServedRobots() = default;
 ServedWorld::~ServedWorld() = default;
-
-void ServedWorld::seek(Timestamp) {
-  throw ServeError("state", "this world has no time line: SEEK is for a record that is viewed");
-}
 
 std::uint32_t headingWord(double radians) {
   const double turns = radians / (2.0 * std::numbers::pi);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ortung/server/ServedWorld.hpp"
+#include "ortung/server/PlainWorld.hpp"
 
 namespace ortung {
 
@@ -14,7 +14,7 @@ namespace ortung {
 /// created, placed, paused or reset.
 /// The board's thread looks into the container now and then, with the container's read lock held
 /// for as long as copying takes. Otherwise not thread-safe: one thread owns it.
-class ORTUNG_API ServedContainer : public ServedWorld {
+class ORTUNG_API ServedContainer : public PlainWorld {
  public:
   struct Config {
     std::string robot = "robot";         ///< its name: [A-Za-z0-9_-], 1 to 32 characters

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ortung/server/BoardCommand.hpp"
-#include "ortung/server/ServedWorld.hpp"
+#include "ortung/server/PlainWorld.hpp"
 
 namespace ortung {
 
@@ -14,7 +14,7 @@ namespace ortung {
 /// that are in it, and all begin at time 0. Clients pause, seek and change the speed. Unlike a
 /// ServedRecord it lets no robots of clients in: it is for who looks on.
 /// Not thread-safe.
-class ORTUNG_API ServedPlayback : public ServedWorld {
+class ORTUNG_API ServedPlayback : public PlainWorld {
  public:
   struct Run {
     std::filesystem::path record;

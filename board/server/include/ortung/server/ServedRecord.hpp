@@ -9,7 +9,7 @@
 
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/records/RecordSource.hpp"
-#include "ortung/server/ServedWorld.hpp"
+#include "ortung/server/PlainWorld.hpp"
 
 namespace ortung {
 
@@ -17,7 +17,7 @@ namespace ortung {
 /// and every robot gets those of its readings that its configuration has. It begins when the first
 /// robot is there. Commands of motion and manipulators are taken and come to nothing.
 /// Not thread-safe.
-class ORTUNG_API ServedRecord : public ServedWorld {
+class ORTUNG_API ServedRecord : public PlainWorld {
  public:
   /// @param repeats whether it starts over at the end, time going on
   /// @throws std::runtime_error if it is no record

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "ortung/core/PluginFactory.hpp"
-#include "ortung/server/ServedWorld.hpp"
+#include "ortung/server/PlainWorld.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
 namespace ortung {
@@ -17,7 +17,7 @@ class Truth;
 /// a script's end is not the world's. Robots of clients start and wander as those of the source
 /// `sim` do: the first robot of a server started with the same seed does the same, bit for bit.
 /// Not thread-safe.
-class ORTUNG_API ServedSimulation : public ServedWorld {
+class ORTUNG_API ServedSimulation : public PlainWorld {
  public:
   /// @param file of a world or a scene
   /// @throws ConfigError, PluginError, std::invalid_argument for what SceneRun refuses
