@@ -9,11 +9,12 @@
 namespace ortung {
 namespace {
 
-constexpr double kWidest = 2.0 * std::numbers::pi / 180.0;  ///< between rays of a slice [rad]
-constexpr double kFewest = 5.0;                             ///< rays between axis and edge
+/// Greatest angle between rays of a slice [rad].
+constexpr double kWidest = 2.0 * std::numbers::pi / 180.0;
+constexpr double kFewest = 5.0;  ///< least number of rays between axis and edge
 
-/// Elevations of slices as shares of the way to the cone's edge. At 0.6 of it, the cone is 0.8 as
-/// wide; at 0.28 it is 0.96, at 0.96 it is 0.28.
+/// Elevations of the slices as shares of the angle to the cone's edge. At 0.6 of it the cone is 0.8
+/// times as wide as at its axis, at 0.28 it is 0.96 times and at 0.96 it is 0.28 times as wide.
 constexpr std::array<double, 7> kSlices = {0.0, -0.28, 0.28, -0.6, 0.6, -0.96, 0.96};
 
 }  // namespace
@@ -21,7 +22,7 @@ constexpr std::array<double, 7> kSlices = {0.0, -0.28, 0.28, -0.6, 0.6, -0.96, 0
 void World::castCones(const ConeFan& fan, RobotNumber ignore, std::span<float> ranges) const {
   std::fill(ranges.begin(), ranges.end(), static_cast<float>(fan.maxRange));
   if (ranges.empty() || !(fan.halfAngle > 0.0 && fan.halfAngle < 1.5)) return;
-  // Cones that stand close share their rays.
+  // Neighbouring cones share their rays.
   const double least = std::max(std::ceil(fan.halfAngle / kWidest), kFewest);
   const bool shares = ranges.size() > 1 && fan.angleStep > 0.0;
   const double raysACone =

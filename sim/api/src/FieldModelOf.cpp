@@ -5,7 +5,7 @@
 namespace ortung {
 namespace {
 
-/// The sides of a rectangle, clockwise: outside is on the left.
+/// Adds the sides of a rectangle, clockwise: its outside is on their left.
 void addSides(const WorldObject& o, std::vector<FieldWall>& walls) {
   const Pose2 corners[] = {
       o.pose * Pose2{-o.halfX, -o.halfY, 0.0}, o.pose * Pose2{-o.halfX, o.halfY, 0.0},

@@ -15,14 +15,14 @@ constexpr std::array<std::string_view, 5> kPhases = {"free", "stopped", "ready",
 constexpr std::array<std::string_view, 8> kRestarts = {
     "none", "kick-off", "throw-in", "goal-kick", "corner", "free-kick", "penalty", "dropped-ball"};
 
-/// Place of a name in a table.
+/// Returns the index of a name in a table.
 std::optional<std::size_t> placeOf(std::string_view name, std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// Shortest text that is this number again.
+/// Returns the shortest text that is read as this number again.
 std::string shortest(double number) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof text, number);
@@ -99,7 +99,7 @@ Game gameIn(std::string_view text) {
       game.clock = numberIn<double>(value, text);
     } else if (key == "left") {
       left = value;
-    } else if (teams < game.teams.size()) {  // whatever the teams are called
+    } else if (teams < game.teams.size()) {  // any other key is the name of a team
       game.teams.at(teams++) = {std::string(key), numberIn<int>(value, text)};
     } else {
       failOn(text);

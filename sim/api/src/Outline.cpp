@@ -7,7 +7,7 @@
 namespace ortung {
 namespace {
 
-/// Twice the area, above 0 if the corners go against the clock.
+/// Returns twice the signed area, positive if the corners are in counter-clockwise order.
 double winding(const std::array<FloorPoint, 3>& c) {
   return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
 }

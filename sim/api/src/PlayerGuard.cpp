@@ -17,7 +17,7 @@ PlayerGuard::PlayerGuard(const std::string& plugin, const std::string& robot, do
 
 PlayerGuard::~PlayerGuard() = default;
 
-/// Time that this thread has used of a processor [s].
+/// Returns the processor time that this thread has used [s].
 double PlayerGuard::processorTime() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

@@ -9,7 +9,7 @@
 namespace ortung {
 namespace {
 
-/// Roots of a t^2 + 2 b t + c in ascending order.
+/// The roots of a t^2 + 2 b t + c in ascending order.
 struct Roots {
   int count = 0;
   std::array<double, 2> at{};
@@ -18,7 +18,7 @@ struct Roots {
 Roots rootsOf(double a, double b, double c) {
   const double inside = b * b - a * c;
   if (!(a > 0.0) || !(inside >= 0.0)) return {};
-  // The root of larger size first: subtracting what is nearly equal loses digits.
+  // The root of larger magnitude comes first: subtracting nearly equal numbers loses digits.
   const double far = b > 0.0 ? -b - std::sqrt(inside) : -b + std::sqrt(inside);
   const double other = far == 0.0 ? 0.0 : c / far;
   return {2, {std::min(far / a, other), std::max(far / a, other)}};
@@ -36,7 +36,7 @@ void addSpot(const Ray2& ray, const FieldLine& spot, std::vector<double>& ranges
 
 void addArc(const Ray2& ray, const FieldLine& arc, std::vector<double>& ranges) {
   if (!(arc.radiusX > 0.0 && arc.radiusY > 0.0)) return;
-  // Most rays pass it by: that is seen without turning anything.
+  // Most rays miss it, which can be tested without a rotation.
   constexpr double kHair = 1.000001;
   const double aside = (arc.x - ray.x) * ray.dy - (arc.y - ray.y) * ray.dx;
   if (std::abs(aside) > kHair * std::max(arc.radiusX, arc.radiusY)) return;
@@ -70,7 +70,7 @@ std::optional<double> rangeToSegment(const Ray2& ray, double x0, double y0, doub
   const double dy = y0 - ray.y;
   const double range = (dx * ey - dy * ex) / across;
   const double share =
-      (dx * ray.dy - dy * ray.dx) / across;  // of the way from the first end to the second
+      (dx * ray.dy - dy * ray.dx) / across;  // where the ray crosses, as a share of the segment
   if (!(range >= 0.0 && share >= 0.0 && share <= 1.0)) return std::nullopt;
   return range;
 }

@@ -8,11 +8,11 @@
 namespace ortung {
 namespace {
 
-constexpr double kSeen[] = {-0.8, -0.4, 0.0, 0.4, 0.8};  // places across a body, of its half width
-constexpr double kOwn =
-    0.02;  // a body does not hide itself where it is not as round as its circle [m]
+constexpr double kSeen[] = {-0.8, -0.4, 0.0, 0.4, 0.8};  // targets, in half widths of the body
+// A body that is not as round as its circle must not hide itself [m].
+constexpr double kOwn = 0.02;
 
-/// Half of a body's width across a line of sight [m].
+/// Returns half of a body's width across a line of sight [m].
 double halfWidthAcross(const WorldObject& object, double angle) {
   const double turn = angle - object.pose.theta;
   const double x = object.halfX * std::sin(turn);
@@ -41,10 +41,10 @@ double visibleShare(const World& world, const Eye& eye, const WorldObject& objec
   const double dx = object.pose.x - eye.pose.x;
   const double dy = object.pose.y - eye.pose.y;
   const double way = std::hypot(dx, dy);
-  if (way <= object.radius) return 1.0;  // the eye is within it or above it
+  if (way <= object.radius) return 1.0;  // the eye is inside it or above it
   const double half = halfWidthAcross(object, std::atan2(dy, dx));
   const double z = (object.zLow + object.zHigh) / 2.0;
-  // Seen from above, the line enters it through its top: how far before its middle.
+  // A line of sight from above enters the body through its top, this far before its middle.
   const double drop = std::abs(eye.z - z);
   const double line = std::hypot(way, drop);
   const double side = object.radius * line / way;

@@ -8,17 +8,19 @@
 
 namespace ortung {
 
-/// Plans of the floor for robots of several sizes, each made when it is first asked for. Not
+/// Plans of the floor for robots of several sizes, each made when it is first needed. Not
 /// thread-safe.
 class ORTUNG_API FloorPlans {
  public:
   /// @param world borrowed
   explicit FloorPlans(const SimWorld& world) : world_(world) {}
 
+  /// Returns the plan for robots of a size, and makes it if there is none yet.
   /// @throws std::invalid_argument if such a robot fits nowhere
   std::shared_ptr<const RoutePlanner> of(const RobotSize& size);
+  /// Returns whether the plan for a size has been made.
   bool has(const RobotSize& size) const { return plans_.contains(size); }
-  /// Who uses the plan keeps it.
+  /// Drops the plan for a size; those who use it keep it alive.
   void forget(const RobotSize& size) { plans_.erase(size); }
 
  private:

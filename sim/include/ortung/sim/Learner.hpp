@@ -13,37 +13,41 @@
 
 namespace ortung {
 
+/// The resolution with which tables are learned.
 struct LearnOptions {
-  double cell = 0.1;                  ///< edge of a cell [m]
-  double headingStep = 0.0349065850;  ///< [rad], 2 degrees; must divide a turn
+  double cell = 0.1;                  ///< edge length of a cell [m]
+  double headingStep = 0.0349065850;  ///< angle between headings [rad]; must divide a turn
 };
 
-/// What of a world is learned.
+/// The part of a world for which tables are learned.
 struct LearnArea {
-  FieldRegion region;    ///< standable in one part of the floor alone: where the robot is
-  double leftOut = 0.0;  ///< floor of other parts, on which it could stand, too [m^2]
+  /// Cells to learn; only the connected part of the floor that holds the robot is standable.
+  FieldRegion region;
+  double leftOut = 0.0;  ///< area of the other parts on which it could stand [m^2]
 };
-/// Closed rooms, and what walls leave over of their bounding box, are not where a robot is: their
-/// poses would be tried and believed.
-/// @param inside a point of the part that is wanted; nothing: FieldParts::main() says which
+/// Returns the area to learn for a robot. Closed rooms, and the space outside of the walls within
+/// their bounding box, are left out: no robot is there, but MCL would try such poses and might
+/// believe them.
+/// @param cell edge length of a cell [m]
+/// @param inside a point [m] of the part to learn; nothing: the part that FieldParts::main()
+///   chooses
 /// @throws std::invalid_argument as SimWorld::region(); if there is no room at @p inside, or none
 /// at
 ///   all
 ORTUNG_API LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
                                const std::optional<std::array<double, 2>>& inside = {});
 
-/// The model learner (paper, section 5.2), a piece at a time: puts each sensor on the centre of
-/// every open cell, in as many headings as it needs, generates noise-free data and calls
-/// learnProbability. Features that are made of others learn what is made of those there. What is
-/// learned does not depend on the number of threads. Not thread-safe.
+/// The model learner (paper, section 5.2), which works in steps: it puts each sensor on the centre
+/// of every open cell, in as many headings as it needs, generates noise-free data and calls
+/// learnProbability. Derived features learn what is extracted from their inputs there. The tables
+/// do not depend on the number of threads. Not thread-safe.
 class ORTUNG_API Learner {
  public:
   /// @param world, devices, factory borrowed @param devices of the robot that learns
   /// @param helpers the same devices of further robots of the same file, one set for each thread
   ///   that generates data; none: the caller's thread does it with @p devices
   /// @throws std::invalid_argument for a heading step that does not divide a turn, and for a
-  /// feature
-  ///   that nothing gives
+  ///   feature that no sensor or extractor provides
   Learner(const World& world, const FieldRegion& region, const std::vector<Device>& devices,
           std::span<const std::vector<Device>> helpers, PluginFactory& factory,
           const LearnOptions& options);
@@ -51,18 +55,18 @@ class ORTUNG_API Learner {
   Learner(const Learner&) = delete;
   Learner& operator=(const Learner&) = delete;
 
-  /// Learns at some cells more. @returns whether there are others left; if not, all features have
-  /// learned
+  /// Learns at some more cells. @returns whether cells are left; if not, all features have learned
   bool step();
-  /// Of all poses, in [0, 1].
+  /// Returns the share of all poses that have been learned, in [0, 1].
   double share() const;
-  /// Where the robot stood last, in the field frame.
+  /// Returns the robot's last pose in the field frame.
   const Pose2& pose() const;
-  /// In how many headings each feature is learned; 0: it needs no tables.
+  /// The number of headings in which a feature is learned; 0: it needs no tables.
   struct Need {
     SensorId feature;
     std::size_t headings = 0;
   };
+  /// Returns the needs of all features that localize.
   const std::vector<Need>& needs() const;
 
  private:
@@ -70,7 +74,7 @@ class ORTUNG_API Learner {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Lets a robot learn all at once, by the caller's thread.
+/// Learns everything in one call, in the caller's thread.
 /// @throws as Learner
 ORTUNG_API void learn(const World& world, const FieldRegion& region,
                       const std::vector<Device>& devices, PluginFactory& factory,

@@ -22,27 +22,28 @@ namespace ortung {
 
 /// Supervises players and their robots in a simulation (paper, section 4): if one of the two ends,
 /// the other is removed. It also carries what players say to their teams.
-///
-/// Players act one after the other, in the order of their coming, after all robots have sensed; so
-/// the same seed gives the same bits. What goes wrong with one of them ends that one alone.
+/// Players act one after the other, in the order in which they were added, after all robots have
+/// sensed; so the same seed gives the same bits. A player that fails is ended; the others go on.
 /// Not thread-safe.
 class ORTUNG_API PlayerControl {
  public:
+  /// The settings of the supervision.
   struct Config {
-    /// Of a processor's time for one call [s]; who takes more is stopped. 0: as long as it likes.
+    /// Processor time that one call may take [s]; a player that takes more is stopped. 0: no limit.
     double budget = 1.0;
-    /// Told of each player that was stopped, and why; may be empty.
+    /// Called with the reason whenever a player is stopped; may be empty.
     std::function<void(const std::string&)> onProblem = {};
-    /// Of this world, for robots whose players need tables and name none; null: they are refused.
+    /// Tables of this world for robots whose players need tables and name none; null: such players
+    /// are refused.
     std::shared_ptr<TableStore> tables = nullptr;
   };
-  /// A player that is there.
+  /// A player that is playing.
   struct Seated {
     std::string robot;
     std::string plugin;
     std::string team;
-    Timestamp since = 0;
-    bool isGuest = false;  ///< on a robot that stays when the player ends
+    Timestamp since = 0;   ///< time at which it began [us]
+    bool isGuest = false;  ///< whether the robot stays when the player ends
   };
 
   /// @param simulation, plans, factory borrowed
@@ -52,43 +53,49 @@ class ORTUNG_API PlayerControl {
   PlayerControl(const PlayerControl&) = delete;
   PlayerControl& operator=(const PlayerControl&) = delete;
 
-  /// A player that the factory makes, on a robot that is there already and stays when it ends. It
-  /// ends as soon as somebody else tells the robot to move.
+  /// Makes a player for a robot that is already there and stays when the player ends. The player
+  /// ends as soon as the robot is commanded from elsewhere.
   void lead(SimRobot& robot, const PlayerWish& wish, const Random& random);
-  /// The same on a robot that is the player's own: it leaves the field when the player ends.
-  /// @throws std::invalid_argument for what it needs and does not get; TableError for its tables
+  /// Seats a player on a robot of its own, which leaves the field when the player ends.
+  /// @throws std::invalid_argument for something that it needs and does not get; TableError for its
+  ///   tables
   void own(SimRobot& robot, std::unique_ptr<Player> player, const PlayerWish& wish,
            const Random& random);
-  /// Makes a player, as it is before it takes its seat. @throws PluginError, ConfigError
+  /// Makes a player without seating it. @throws PluginError, ConfigError
   std::unique_ptr<Player> make(const PlayerWish& wish);
 
   /// Ends the player on a robot. @returns whether there was one
   bool stop(std::string_view robot);
-  /// What was said in the last cycle comes to all others of the team, and to the robots' features
+  /// Delivers the messages of the last cycle to all others of the team, and to the robots' features
   /// of the format TalkData. To be called before Simulation::sense().
   void deliver();
-  /// Lets all players act whose time has come. @pre Simulation::sense()
+  /// Lets all players act whose period is over. @pre Simulation::sense() was called
   void act(const Game& game);
-  /// Takes robots off the field whose players have ended; those must not be used any more.
+  /// Removes robots whose players have ended; references to these robots are no longer valid.
   void clear();
 
-  /// The world's state, for referees and whoever else sets situations up.
+  /// Returns the world's true state, for referees and for code that prepares situations.
   Stage& stage();
-  /// Of a robot's team, "" if it has none. @param robot that a player does not sit on, too
+  /// Set and return the team of a robot, with or without a player; "": none.
   void setTeam(std::string_view robot, std::string_view team);
   std::string teamOf(std::string_view robot) const;
 
-  // --- robots without player here, as those of clients: their team's talk reaches them, too
+  // --- robots without a player in this process, e.g. those of clients: they hear their team, too
+  /// Registers such a robot as a listener of its team, or removes it.
   void join(std::string_view robot, std::string_view team);
   void leave(std::string_view robot);
-  /// To all others of its team, as PlayerSeat::say(). @throws std::invalid_argument
+  /// Sends a message to all others of the robot's team, as PlayerSeat::say() does. @throws
+  /// std::invalid_argument
   void say(std::string_view robot, std::string_view text);
-  /// What a robot that has joined was told since it was last asked, in the order of time.
+  /// Returns the messages that a joined robot has received since the last call, in the order of
+  /// time.
   std::vector<Heard> takeHeard(std::string_view robot);
 
+  /// Returns all players in the order in which they were added.
   std::vector<Seated> players() const;
-  /// Where the player of a robot believed it to be when it acted last.
+  /// Returns the pose that the player of a robot believed it to have when it acted last.
   std::optional<BelievedPose> believedPose(const SimRobot& robot);
+  /// Returns whether there are no players.
   bool isEmpty() const;
 
  private:
@@ -96,7 +103,7 @@ class ORTUNG_API PlayerControl {
   std::unique_ptr<Parts> parts_;
 };
 
-/// The simulation that a player's or referee's stage shows; null if that is no simulation.
+/// Returns the simulation behind a player's or referee's stage; null if there is none.
 ORTUNG_API Simulation* simulationOf(Stage& stage);
 
 }  // namespace ortung

@@ -13,45 +13,46 @@
 
 namespace ortung {
 
-/// One of the ways in which a manipulator can be set.
+/// A state that a manipulator can be in.
 struct ManipulatorState {
   std::string name;
-  std::vector<Primitive> pieces;       ///< in the robot frame; may be none
-  double ballSpeed = 0.0;              ///< a ball in reach gets this, seen from the robot [m/s]
-  double direction = 0.0;              ///< towards here, in the robot frame [rad]
-  std::optional<double> returnsAfter;  ///< to the first state [s]; none: stays
+  std::vector<Primitive> pieces;  ///< its pieces in the robot frame; may be none
+  double ballSpeed = 0.0;         ///< speed, relative to the robot, that a ball in reach gets [m/s]
+  double direction = 0.0;         ///< direction of the kick in the robot frame [rad]
+  /// Time until it returns to the first state [s]; none: it stays.
+  std::optional<double> returnsAfter;
 };
 
 /// A variable part of a robot's geometry (paper, section 2.1): a kicker, flaps to dribble.
 struct Manipulator {
   std::string name;
-  std::vector<ManipulatorState> states;  ///< the first is that of the beginning
+  std::vector<ManipulatorState> states;  ///< its states; the first is the initial one
 
-  /// Place of a state, or nothing.
+  /// Returns the index of a state; nothing if there is none of this name.
   ORTUNG_API std::optional<std::size_t> find(std::string_view state) const;
 };
 
-/// What a simulated robot is made of, from [robot], [[body]] and [[manipulator]] of its file.
+/// The body of a simulated robot, from [robot], [[body]] and [[manipulator]] of its file.
 struct RobotShape {
   std::string name;
   std::string colour;
-  double mass = 10.0;             ///< [kg]
-  double height = 0.5;            ///< [m]
-  std::vector<Primitive> pieces;  ///< in the robot frame, without manipulators
+  double mass = 10.0;   ///< mass [kg]
+  double height = 0.5;  ///< height of the body, for `[[body]]` without heights of its own [m]
+  std::vector<Primitive> pieces;  ///< pieces in the robot frame, without those of manipulators
   std::vector<Manipulator> manipulators;
 
-  /// @throws ConfigError
+  /// Reads the shape from a robot file. @throws ConfigError
   ORTUNG_API static RobotShape read(const RobotConfig& config);
-  /// The height that the robot may reach, whatever its manipulators do [m].
+  /// Returns the greatest height of the robot over all states of its manipulators [m].
   ORTUNG_API double top() const;
-  /// How many convex parts it may have at a time, whatever its manipulators do; an ellipse that is
-  /// no circle has eight.
+  /// Returns the greatest number of convex parts over all states of its manipulators; an ellipse
+  /// that is not a circle has eight.
   ORTUNG_API std::size_t parts() const;
-  /// All pieces with the manipulators in these states. @pre one state for each manipulator
+  /// Returns all pieces with the manipulators in these states. @pre one state for each manipulator
   ORTUNG_API std::vector<Primitive> piecesWith(std::span<const std::size_t> states) const;
 };
 
-/// The room that a robot takes. @throws ConfigError
+/// Returns the size of a robot from its file. @throws ConfigError
 ORTUNG_API RobotSize sizeOf(const RobotConfig& config);
 
 }  // namespace ortung

@@ -12,20 +12,21 @@
 
 namespace ortung {
 
-/// Where a robot can be and how it gets there: the largest connected part of the floor on which
-/// its body fits, as cells. Not thread-safe.
+/// Plans routes on a grid: on the largest connected part of the floor on which the robot's body
+/// fits. Not thread-safe.
 class ORTUNG_API RoutePlanner : public FloorPlan {
  public:
-  /// @param clearance how far from walls routes stay [m], less where there is no room
+  /// @param clearance distance that routes keep from walls [m]; it is less where there is no room
   /// @throws std::invalid_argument if the robot fits nowhere
   RoutePlanner(const SimWorld& world, const RobotSize& robot, double clearance = 0.1);
   ~RoutePlanner() override;
 
   Pose2 randomPose(Random& random) const override;
-  /// Both ends are moved to the nearest cell of the free space first.
+  /// Returns a route by A*. Both ends are moved to the nearest cell of the free space first.
   std::vector<FloorPoint> route(const FloorPoint& from, const FloorPoint& to) const override;
   const FieldGrid& grid() const override { return grid_; }
   const std::vector<std::uint32_t>& cells() const override { return cells_; }
+  /// Returns whether a point [m] lies in a cell of the free space.
   bool contains(double x, double y) const;
 
  private:

@@ -9,13 +9,14 @@
 
 namespace ortung {
 
-/// A hash of all that happens in a run: FNV-1a, a word at a time. Two runs of the same program with
-/// the same digest have done the same to the bit, whatever they were watched with. Not thread-safe.
+/// A digest of a run: FNV-1a over 64-bit words. Two runs of the same program with the same digest
+/// are the same to the bit, whether they were watched or not. Not thread-safe.
 class ORTUNG_API RunDigest {
  public:
-  /// Once after each cycle: where everything is and how it moves, what manipulators do, what was
-  /// sensed, how the game stands.
+  /// Adds a cycle; to be called once after each: poses and velocities, states of manipulators,
+  /// readings and the state of the game.
   void add(const SceneRun& run);
+  /// Adds an event of the referee.
   void add(const RefereeEvent& event);
   std::uint64_t value() const { return hash_; }
 

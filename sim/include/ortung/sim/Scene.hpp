@@ -18,26 +18,27 @@ namespace ortung {
 struct SceneRobot {
   std::filesystem::path file;
   std::string name;
-  std::optional<Pose2> start;         ///< in the field frame; none: anywhere
-  bool wanders = false;               ///< drives about until its first command
-  std::vector<FloorPoint> waypoints;  ///< it goes from one to the next, and stands at the last
-  std::optional<double> speed;        ///< with which it wanders or follows [m/s]
-  /// When it is carried elsewhere, unnoticed by its odometry; rising. At most once a cycle.
+  std::optional<Pose2> start;  ///< start pose in the field frame; none: a random one
+  bool wanders = false;        ///< whether it drives to random places until its first command
+  std::vector<FloorPoint> waypoints;  ///< points through which it drives; it stops at the last
+  std::optional<double> speed;        ///< its speed while it wanders or follows waypoints [m/s]
+  /// Times at which it is kidnapped, i.e. moved to a random pose, unnoticed by its odometry, in
+  /// ascending order; at most one per cycle.
   std::vector<Timestamp> kidnaps;
 };
 
-/// What a robot is told at some time. What is not there stays as it is.
+/// A command to a robot at a time. Values that are not given stay as they are.
 struct SceneCommand {
   Timestamp at = 0;
   std::string robot;
-  std::optional<double> translational;  ///< [m/s]
-  std::optional<double> rotational;     ///< [rad/s]
-  std::vector<double> vector;           ///< the drive's own command; empty: none
-  std::string manipulator;              ///< empty: none
+  std::optional<double> translational;  ///< forward velocity [m/s]
+  std::optional<double> rotational;     ///< turn rate [rad/s]
+  std::vector<double> vector;           ///< the drive's own command vector; empty: none
+  std::string manipulator;              ///< name of the manipulator to be set; empty: none
   std::string state;                    ///< of the manipulator
 };
 
-/// Something movable of the world, put somewhere at some time.
+/// A placement of a movable thing at a time.
 struct ScenePlacement {
   Timestamp at = 0;
   std::string thing;  ///< its name in the world file
@@ -45,23 +46,23 @@ struct ScenePlacement {
   Twist velocity;
 };
 
-/// A scripted play: a world, robots in it, and what they are told when.
+/// A scripted simulation: a world, robots in it, and their commands with their times.
 struct Scene {
   static constexpr std::size_t kMostRobots = 256;
 
   std::filesystem::path world;
-  std::optional<double> duration;  ///< [s]
+  std::optional<double> duration;  ///< length of the run [s]
   std::vector<SceneRobot> robots;
-  std::vector<PlayerWish> players;  ///< on robots of their own
+  std::vector<PlayerWish> players;  ///< players, each on a robot of its own
   std::optional<RefereeWish> referee;
-  std::vector<SceneCommand> commands;      ///< in the order of time
-  std::vector<ScenePlacement> placements;  ///< in the order of time
+  std::vector<SceneCommand> commands;      ///< commands in the order of time
+  std::vector<ScenePlacement> placements;  ///< placements in the order of time
 
-  /// Whether a TOML file is a scene: it has [scene]. @throws ConfigError
+  /// Returns whether a TOML file is a scene, i.e. has a table [scene]. @throws ConfigError
   ORTUNG_API static bool isScene(const std::filesystem::path& file);
-  /// @throws ConfigError
+  /// Reads a scene file. @throws ConfigError
   ORTUNG_API static Scene read(const std::filesystem::path& file);
-  /// The scene of a file, or the world of a file with nobody in it. @throws ConfigError
+  /// Reads a scene file, or a world file as a scene without robots. @throws ConfigError
   ORTUNG_API static Scene open(const std::filesystem::path& file);
 };
 

@@ -21,13 +21,12 @@
 
 namespace ortung {
 
-/// One robot of a simulation: shape, drive, sensors, and the container that they fill.
-/// A plugin that throws, or gives numbers that make no sense, is switched off, and problems() tells
-/// which one and why.
+/// One robot of a simulation: shape, drive, sensors, and the container that they fill. A plugin
+/// that throws, or returns invalid numbers, is switched off, and problems() says which one and why.
 /// Not thread-safe; readers of the container hold its lock.
 class ORTUNG_API SimRobot : public RobotCommands {
  public:
-  /// @param random of this robot alone
+  /// @param random generator of this robot alone
   /// @param noise whether sensors and odometry have noise
   /// @throws ConfigError, PluginError
   SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start,
@@ -40,47 +39,48 @@ class ORTUNG_API SimRobot : public RobotCommands {
   void setTranslationalVelocity(double metresPerSecond) override;
   void setRotationalVelocity(double radiansPerSecond) override;
   void setMotion(std::span<const double> numbers) override;
-  /// It moves in the cycle that begins, or as soon as it has room.
+  /// Sets a manipulator; it moves in the next cycle, or as soon as there is room.
   void setManipulator(std::string_view manipulator, std::string_view state) override;
 
-  /// The voice of the player that sits on this robot. Unlike commands from outside it says nothing
-  /// once the drive has failed, which is among the problems().
+  /// Returns the commands interface of this robot's player. Unlike commands from outside it does
+  /// not throw once the drive has failed; that is reported by problems().
   RobotCommands& voice() { return voice_; }
-  /// How many times it was told from outside to move.
+  /// Returns the number of motion commands from outside.
   std::uint64_t orders() const { return orders_; }
-  /// Whether it stands where it is, whatever it is told.
+  /// Holds the robot in place, whatever its commands, or releases it.
   void hold(bool isHeld) { isHeld_ = isHeld; }
   bool isHeld() const { return isHeld_; }
 
-  /// What its team has told it: its features of the format TalkData have it with the readings that
-  /// are sensed next. @param said all that is new, in the order of time
+  /// Receives the messages of its team: its features of the format TalkData get them with the next
+  /// readings. @param said all new messages, in the order of time
   void hear(Timestamp now, std::span<const Heard> said);
-  /// Whether it has such a feature.
+  /// Returns whether it has such a feature.
   bool hasEars() const { return !ears_.empty(); }
 
-  /// Places of a manipulator and of one of its states, in shape().
+  /// Indices of a manipulator and of one of its states in shape().
   struct WantedState {
     std::size_t manipulator = 0;
     std::size_t state = 0;
   };
-  /// @throws std::invalid_argument that names the robot and what it has
+  /// Finds a manipulator and its state by name, or the state by its number.
+  /// @throws std::invalid_argument that names the robot and lists what it has
   WantedState findManipulator(std::string_view manipulator, std::string_view state) const;
 
-  /// The present state of each manipulator of shape(), as its place among the states.
+  /// Returns the current state of each manipulator of shape(), as its index among the states.
   std::span<const std::size_t> manipulatorStates() const { return manipulatorStates_; }
 
-  /// What drivers command and tell limits by. Numbers that are not finite, and command vectors of
-  /// another size, are refused with std::invalid_argument that names the robot.
+  /// Returns the drive, which takes commands and gives limits. It refuses numbers that are not
+  /// finite, and command vectors of another size, with std::invalid_argument that names the robot.
   Drive& drive() { return *drive_; }
   const Drive& drive() const { return *drive_; }
 
-  /// Says whether somebody reads what matches: sensors that sense on demand do so only then, or
-  /// while another of the robot's features is made of theirs.
+  /// Declares whether readings of the matching features are wanted: sensors on demand sense only
+  /// then, or while another feature of the robot is derived from theirs.
   void setWanted(const SensorQuery& query, bool wanted);
 
-  /// What its sensors cost [rays/s] in a world with cycles of a length [s], see Sensor::rays().
+  /// Returns the cost of its sensors [rays/s] at a given cycle [s], see Sensor::rays().
   double raysPerSecond(double cycle) const;
-  /// The same for one reading of each sensor: about what they take of memory.
+  /// Returns the rays of one reading of each sensor, to which their memory is about proportional.
   double raysAtOnce() const;
 
   const RobotConfig& config() const { return config_; }
@@ -88,25 +88,25 @@ class ORTUNG_API SimRobot : public RobotCommands {
   SensorContainer& container() { return container_; }
   const SensorContainer& container() const { return container_; }
   const RobotState& state() const { return state_; }
-  /// What went wrong with its plugins, in the order of time.
+  /// Returns the failures of its plugins, in the order of time.
   std::span<const std::string> problems() const { return problems_; }
 
  private:
   friend class Simulation;
 
-  /// Generates the readings that are due. If there are any, the true pose is one of them.
-  /// @returns the readings of this moment, valid until the next call
+  /// Generates the readings that are due. If there are any, the true pose is one of them. @returns
+  /// the readings of this cycle, valid until the next call
   std::span<Message> sense(const World& world, Timestamp now);
-  /// The state that a manipulator is to enter, if that is not the one it is in.
+  /// Returns the state that a manipulator should enter; nothing if it is in that state.
   std::optional<std::size_t> nextState(std::size_t manipulator, Timestamp now);
   void enterState(std::size_t manipulator, std::size_t state, Timestamp now);
-  /// The change of pose that the drive wants within @p dt [s].
+  /// Returns the change of pose that the drive intends within @p dt [s].
   Pose2 plan(Timestamp now, double dt);
-  /// Goes where the physics brought it.
+  /// Takes over the pose from the physics.
   /// @param velocity in the field frame
-  /// @param wasDisturbed whether that is not what plan() said
+  /// @param wasDisturbed whether the motion differs from plan()
   void move(const Pose2& pose, const Twist& velocity, bool wasDisturbed);
-  /// Carries the robot elsewhere, unnoticed by its odometry.
+  /// Moves the robot to another pose, unnoticed by its odometry.
   void place(const Pose2& pose);
 
   class Voice : public RobotCommands {
@@ -139,13 +139,13 @@ class ORTUNG_API SimRobot : public RobotCommands {
   RobotShape shape_;
   SensorContainer container_;
   std::vector<Mounted> sensors_;
-  std::vector<SensorData*> ears_;  ///< TalkData
-  bool hasHeard_ = false;          ///< what no message tells of yet
-  SensorData* truth_ = nullptr;    ///< ground truth that no sensor gives, or null
+  std::vector<SensorData*> ears_;  ///< its features of the format TalkData
+  bool hasHeard_ = false;          ///< whether it has received talk that no reading contains yet
+  SensorData* truth_ = nullptr;    ///< its ground truth feature if no sensor provides it, or null
   std::unique_ptr<Drive> drive_;
   bool driveWorks_ = true;
   bool extracts_ = false;  ///< whether it has extractors, and none has failed
-  Pose2 planned_;          ///< change of pose that the drive wanted last
+  Pose2 planned_;          ///< change of pose that the drive intended last
   Voice voice_{*this};
   std::uint64_t orders_ = 0;
   bool isHeld_ = false;
@@ -153,10 +153,10 @@ class ORTUNG_API SimRobot : public RobotCommands {
   Random odometryRandom_;
   Random slipRandom_;
   bool noise_;
-  std::vector<Message> frame_;  ///< messages are used again, so that none is allocated in a cycle
+  std::vector<Message> frame_;  ///< messages, which are reused so that a cycle allocates nothing
   std::size_t inFrame_ = 0;
-  Timestamp now_ = 0;      ///< of the cycle
-  Timestamp nextDue_ = 0;  ///< no sensor is due before
+  Timestamp now_ = 0;      ///< time of the current cycle
+  Timestamp nextDue_ = 0;  ///< earliest time at which a sensor is due
   std::vector<std::uint32_t> truthWords_;
   std::vector<std::size_t> manipulatorStates_;
   std::vector<std::size_t> wantedStates_;

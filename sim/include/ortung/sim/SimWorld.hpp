@@ -20,45 +20,50 @@ struct MovingBody {
   std::string kind = "robot";
   std::string name;
   std::string colour;
-  std::vector<Primitive> pieces;  ///< in the body's own frame; at least one
+  std::vector<Primitive> pieces;  ///< its pieces in the body's own frame; at least one
 };
 
 /// The simulated world: primitives and occupancy grids extruded in z, and bodies that move in it.
-/// Moving bodies have numbers like robots, since rays ignore them by these.
-/// Queries are thread-safe while nobody moves bodies.
+/// Moving bodies have numbers, by which rays can ignore them. Queries are thread-safe while nobody
+/// moves bodies.
 class ORTUNG_API SimWorld : public World {
  public:
   ~SimWorld() override;
   virtual const std::string& name() const = 0;
+  /// Returns the table [physics] of the world file.
   virtual const PhysicsConfig& physics() const = 0;
+  /// Returns everything fixed that bodies can collide with.
   virtual Solids solids() const = 0;
-  /// The same place for another simulation, as it was read: nothing moves in it yet. What stands is
-  /// shared, so it costs little; each may be used by a thread of its own.
+  /// Returns a copy for another simulation, in its initial state without moving bodies. The fixed
+  /// parts are shared, so it is cheap; each copy may be used by a thread of its own.
   virtual std::unique_ptr<SimWorld> another() const = 0;
-  /// What is movable, where it is at the beginning. It takes part once addBody() was called for it.
+  /// Returns the movable primitives at their initial poses. They take part once addBody() has been
+  /// called for them.
   virtual std::span<const Primitive> movables() const { return {}; }
 
-  /// 16 hexadecimal digits over everything that shapes what sensors learn: not names, not comments,
-  /// not the order in the file, nothing that moves.
+  /// Returns a digest of 16 hexadecimal digits over everything that determines what sensors learn:
+  /// not names, comments, the order in the file, nor anything that moves.
   virtual std::string fingerprint() const = 0;
 
-  /// The cells to learn: `open` where the centre is free up to the robot's height, `standable`
-  /// where all of the robot is. Nothing that moves counts.
+  /// Returns the cells to learn: `open` where the centre is free up to the robot's height,
+  /// `standable` where the whole robot has room. Moving bodies are ignored.
   /// @param cell edge of a cell [m], at least 0.001
   /// @throws std::invalid_argument for bad sizes and for more than 2^26 cells
   virtual FieldRegion region(double cell, const RobotSize& robot) const = 0;
 
+  /// Adds a moving body at a pose in the field frame. @returns its number
   /// @throws std::invalid_argument for sizes outside [0.001, 100] m, for a pose that is not finite
   ///   and for more than 4096 bodies
   virtual RobotNumber addBody(const MovingBody& body, const Pose2& pose) = 0;
-  /// @param velocity in the field frame, for sensors to see
-  /// @throws std::invalid_argument for a body that is not there or a pose that is not finite
+  /// Moves a body to a pose in the field frame.
+  /// @param velocity velocity in the field frame, which sensors see
+  /// @throws std::invalid_argument for an unknown body or a pose that is not finite
   virtual void moveBody(RobotNumber body, const Pose2& pose, const Twist& velocity = {}) = 0;
-  /// Gives a body other pieces, in its own frame. @throws std::invalid_argument
+  /// Replaces the pieces of a body, given in its own frame. @throws std::invalid_argument
   virtual void reshapeBody(RobotNumber body, std::span<const Primitive> pieces) = 0;
-  /// Gives a robot the marker of a team, for cameras to see. @throws std::invalid_argument
+  /// Gives a robot the marker of a team, which cameras see. @throws std::invalid_argument
   virtual void markBody(RobotNumber body, const std::string& team);
-  /// Takes a body off the field; its number is not used again. @throws std::invalid_argument
+  /// Removes a body; its number is not used again. @throws std::invalid_argument
   virtual void removeBody(RobotNumber body) = 0;
 };
 

@@ -10,16 +10,17 @@
 
 namespace ortung {
 
-/// A simulated run as a source's text names it, "sim:FILE?key=value": a scene, or one robot alone
-/// in a world.
+/// A simulated run as the source "sim:FILE?key=value" describes it: a scene, or one robot alone in
+/// a world.
 struct SimulatedRun {
   Scene scene;
   Simulation::Config config;
-  Timestamp duration = 0;    ///< of the last readings
-  std::string robot;         ///< whose readings are meant; "": of the simulation's first
-  bool hasPictures = false;  ///< whether somebody reads what sensors sense on demand
+  Timestamp duration = 0;    ///< time of the last readings [us]
+  std::string robot;         ///< the robot whose readings are wanted; "": the first one
+  bool hasPictures = false;  ///< whether readings of sensors on demand are wanted
 
-  /// @param options "path" and "robot_file", and what stands behind the "?" @throws ConfigError
+  /// Reads the description. @param options "path" and "robot_file", and the keys behind the "?"
+  /// @throws ConfigError
   ORTUNG_API static SimulatedRun read(const Parameters& options);
 };
 

@@ -18,87 +18,90 @@ namespace ortung {
 class Physics;
 class Workers;
 
-/// There is no room for something where it is to be put.
+/// Thrown when there is no room for a robot or thing at the pose where it should be placed.
 class ORTUNG_API NoRoom : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
   ~NoRoom() override;
 };
 
-/// Runs robots and everything movable in a world in cycles of fixed length: rigid bodies that
-/// collide, roll and are kicked.
-/// The same seed and the same commands give the same bits, with any number of threads.
-/// Not thread-safe.
+/// Simulates robots and movable things in a world in cycles of fixed length: rigid bodies that
+/// collide, roll and are kicked. The same seed and the same commands give the same bits, with any
+/// number of threads. Not thread-safe.
 class ORTUNG_API Simulation {
  public:
+  /// The settings of a simulation.
   struct Config {
-    std::optional<double> cycle = std::nullopt;  ///< [s]; none: the world's
+    std::optional<double> cycle = std::nullopt;  ///< length of a cycle [s]; none: the world's
     std::uint64_t seed = 1;
-    bool noise = true;     ///< of sensors, odometry and slipping wheels
-    unsigned threads = 1;  ///< that sense
-    /// Told at the end of a cycle what went wrong in it with a robot's plugins; may be empty.
+    bool noise = true;     ///< whether sensors, odometry and slipping wheels have noise
+    unsigned threads = 1;  ///< number of threads that sense
+    /// Called at the end of a cycle with each failure of a robot's plugins; may be empty.
     std::function<void(const std::string&)> onProblem = {};
-    /// @throws std::invalid_argument naming the field, its value and the range
+    /// Checks the settings. @throws std::invalid_argument naming the field, its value and the range
     void check() const;
   };
 
-  /// Something movable that is no robot: a ball, a crate.
+  /// A movable thing that is not a robot: a ball, a crate.
   struct Thing {
-    std::string name;  ///< as in the world file
+    std::string name;  ///< its name in the world file
     std::string kind;
-    Pose2 pose;         ///< in the field frame
-    Twist velocity;     ///< in the field frame
-    double mass = 0.0;  ///< [kg]
+    Pose2 pose;         ///< pose in the field frame
+    Twist velocity;     ///< velocity in the field frame
+    double mass = 0.0;  ///< mass [kg]
   };
 
-  /// @throws std::invalid_argument for movable things of the world that overlap something
+  /// Places the world's movable things.
+  /// @throws std::invalid_argument for one that overlaps something
   Simulation(std::unique_ptr<SimWorld> world, const Config& config);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
+  /// Adds a robot. @param start pose in the field frame
   /// @throws NoRoom if the robot does not fit there; std::invalid_argument if another one has its
   ///   name or all robots together have too many pieces; ConfigError, PluginError
   SimRobot& addRobot(const RobotConfig& config, PluginFactory& factory, const Pose2& start);
-  /// Takes a robot off the field, and all that is known of it.
+  /// Removes a robot and its readings.
   void removeRobot(const SimRobot& robot);
 
-  /// One cycle: all robots sense at now(), and everything moves until the next cycle. Whoever
-  /// commands by what is sensed in this cycle calls the two halves.
+  /// Simulates one cycle: all robots sense at now(), and everything moves until the next cycle. A
+  /// caller that commands robots by this cycle's readings calls the two halves.
   void step() {
     sense();
     move();
   }
-  /// All robots sense at now().
+  /// Lets all robots sense at now().
   void sense();
-  /// Everything moves until the next cycle.
+  /// Moves everything until the next cycle.
   void move();
-  /// The robot with this number, which no other one ever has, or null if it has left.
+  /// Returns the robot with this number, which is never reused; null if it has left.
   SimRobot* find(RobotNumber robot) const;
-  /// What a robot's sensors gave in the last cycle; valid until the next.
+  /// Returns the readings of a robot's sensors in the last cycle; valid until the next.
   std::span<const Message> readings(std::size_t robot) const { return readings_[robot]; }
-  /// The same of the robot with a number; none if it has left.
+  /// Returns the same by a robot's number; none if it has left.
   std::span<const Message> readingsOf(RobotNumber robot) const;
-  /// For who takes words away, so that nobody else gets them.
+  /// Returns the readings for callers that move the words out of them.
   std::span<Message> readingsOf(RobotNumber robot);
 
-  /// Carries a robot elsewhere (kidnaps it). @throws NoRoom if it does not fit there
+  /// Moves a robot to another pose, unnoticed by its odometry (kidnaps it). @throws NoRoom if it
+  /// does not fit there
   void place(SimRobot& robot, const Pose2& pose);
 
-  /// Shows cameras which team a robot is of; "": none.
+  /// Gives a robot the marker of its team, which cameras see; "": none.
   void setTeam(const SimRobot& robot, const std::string& team);
 
-  /// Everything movable that is no robot.
+  /// Returns all movable things that are not robots.
   std::span<const Thing> things() const { return things_; }
-  /// Puts a thing somewhere, moving as given. @throws std::invalid_argument if it does not fit
-  /// there
+  /// Moves a thing to a pose and gives it a velocity, both in the field frame. @throws
+  /// std::invalid_argument if it does not fit there
   void placeThing(std::size_t thing, const Pose2& pose, const Twist& velocity = {});
 
   Timestamp now() const { return now_; }
-  double cycle() const { return toSeconds(cycle_); }  ///< [s]
+  double cycle() const { return toSeconds(cycle_); }  ///< length of a cycle [s]
   const SimWorld& world() const { return *world_; }
   std::span<const std::unique_ptr<SimRobot>> robots() const { return robots_; }
-  /// Random numbers of the seed for whatever is not a robot's own.
+  /// Returns a random generator by the seed, for streams that do not belong to a robot.
   Random random(std::uint64_t stream) const;
 
  private:
@@ -113,17 +116,17 @@ class ORTUNG_API Simulation {
 
   Config config_;
   std::unique_ptr<SimWorld> world_;
-  std::shared_ptr<const FieldModel> field_;  ///< what robots know of the world beforehand
+  std::shared_ptr<const FieldModel> field_;  ///< what robots know of the world in advance
   std::unique_ptr<Physics> physics_;
   std::unique_ptr<Workers> workers_;
   std::vector<std::unique_ptr<SimRobot>> robots_;
   std::vector<std::span<Message>> readings_;
-  std::vector<std::size_t> robotBodies_;  ///< of the physics, by robot
+  std::vector<std::size_t> robotBodies_;  ///< the robots' bodies in the physics
   std::vector<Thing> things_;
-  std::vector<std::size_t> thingBodies_;   ///< of the physics, by thing
-  std::vector<RobotNumber> thingNumbers_;  ///< of the world, by thing
+  std::vector<std::size_t> thingBodies_;   ///< the things' bodies in the physics
+  std::vector<RobotNumber> thingNumbers_;  ///< the things' numbers in the world
   std::vector<std::vector<Primitive>> thingPieces_;
-  std::uint64_t added_ = 0;  ///< robots there ever were: each has random numbers of its own
+  std::uint64_t added_ = 0;  ///< number of robots ever added: each has a random stream of its own
   Timestamp now_ = 0;
   Timestamp cycle_ = 0;
 };

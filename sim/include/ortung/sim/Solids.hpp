@@ -9,13 +9,13 @@ namespace ortung {
 
 /// A straight piece of an upright wall.
 struct WallSegment {
-  Point2 from;         ///< [m]
-  Point2 to;           ///< [m]
-  double zLow = 0.0;   ///< [m]
-  double zHigh = 0.0;  ///< [m]
+  Point2 from;         ///< one end [m]
+  Point2 to;           ///< other end [m]
+  double zLow = 0.0;   ///< height of its bottom [m]
+  double zHigh = 0.0;  ///< height of its top [m]
 };
 
-/// What bodies can run into, of what does not move.
+/// The fixed obstacles that bodies can collide with.
 struct Solids {
   Box2 bounds;  ///< nothing leaves the field
   std::vector<Primitive> primitives;

@@ -15,28 +15,29 @@
 
 namespace ortung {
 
-/// What robots of one world learn, when they are first asked for it: tables in memory, for any
-/// number of simulations of that world and robots with the same sensors. Thread-safe; who asks
-/// while others learn waits.
+/// The tables of robots in one world, which are learned when they are first needed and kept in
+/// memory, for any number of simulations of that world and robots with the same sensors.
+/// Thread-safe; callers wait while another one learns.
 class ORTUNG_API TableStore {
  public:
-  /// Edge of a cell [m]: half of what `ortung learn` takes, since MCL's error goes with it.
+  /// Edge length of a cell [m]: half the default of `ortung learn`, since MCL's error grows with
+  /// it.
   static constexpr double kCell = 0.05;
-  /// More open cells are not learned on the way.
+  /// Largest number of open cells that are learned while a run waits.
   static constexpr std::size_t kMostCells = 500'000;
 
-  /// @param world its file
+  /// @param world the world file
   /// @param cell edge of a cell [m]
   explicit TableStore(std::filesystem::path world, double cell = kCell)
       : world_(std::move(world)), cell_(cell) {}
 
-  /// As `ortung learn --cell 0.05` learns them.
+  /// Returns the tables of a robot, as `ortung learn --cell 0.05` learns them.
   /// @throws std::runtime_error for a world that is too large; ConfigError, PluginError, TableError
   std::shared_ptr<const RobotTables> of(const SimRobot& robot, PluginFactory& factory);
-  /// The same for a robot that need not be simulated.
-  /// @param container with its features
-  /// @param goOn asked many times a second, with the share that is learned; false: gives up, with
-  ///   null
+  /// Returns the same for a robot that need not be simulated.
+  /// @param container the robot's features
+  /// @param goOn called many times a second with the share that is learned; if it returns false,
+  ///   learning is given up and null is returned
   std::shared_ptr<const RobotTables> of(const RobotConfig& robot, const SensorContainer& container,
                                         PluginFactory& factory,
                                         const std::function<bool(double)>& goOn = {});
@@ -49,9 +50,10 @@ class ORTUNG_API TableStore {
   double cell_;
   std::mutex mutex_;
   std::condition_variable done_;
-  bool isLearning_ = false;                                          ///< somebody
-  double share_ = 0.0;                                               ///< of what he learns
-  std::map<std::string, std::shared_ptr<const RobotTables>> known_;  ///< by what was learned
+  bool isLearning_ = false;  ///< whether a caller is learning
+  double share_ = 0.0;       ///< share that it has learned, in [0, 1]
+  /// Tables by world, robot and sensors.
+  std::map<std::string, std::shared_ptr<const RobotTables>> known_;
 };
 
 }  // namespace ortung

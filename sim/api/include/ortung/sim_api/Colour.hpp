@@ -8,7 +8,8 @@
 
 namespace ortung {
 
-/// 0xRRGGBB of "#rrggbb" or of a name that world files use; nothing for others.
+/// Returns the colour 0xRRGGBB that "#rrggbb" or a name of world files ("blue") stands for; nothing
+/// for any other text.
 ORTUNG_API std::optional<std::uint32_t> rgbOf(std::string_view colour);
 
 }  // namespace ortung

@@ -10,15 +10,15 @@
 
 namespace ortung {
 
-/// What a referee tells everybody: whether the ball is in play, what comes next, time and score.
-/// Where there is no referee, everybody plays as he likes.
+/// The state of the game that a referee announces to all: whether the ball is in play, which
+/// restart is next, time and score. Without a referee all robots play freely.
 struct ORTUNG_API Game {
   enum class Phase {
-    kFree,     ///< nobody referees
-    kStopped,  ///< all stand, the referee may place robots and ball
-    kReady,    ///< a restart was given: who has it may take it, the others keep away
-    kPlaying,
-    kOver
+    kFree,     ///< there is no referee
+    kStopped,  ///< all robots are held; the referee may place robots and the ball
+    kReady,    ///< a restart was awarded: its team may take it, the other keeps its distance
+    kPlaying,  ///< the ball is in play
+    kOver      ///< the match is over
   };
   enum class Restart {
     kNone,
@@ -28,28 +28,29 @@ struct ORTUNG_API Game {
     kCorner,
     kFreeKick,
     kPenalty,
-    kDroppedBall  ///< for both teams
+    kDroppedBall  ///< the ball is dropped for both teams
   };
-  /// A team is called by its colour.
+  /// A team, which is named after its colour, and its goals.
   struct Team {
     std::string name;
     int score = 0;
   };
 
   Phase phase = Phase::kFree;
-  Restart restart = Restart::kNone;      ///< what comes, or what was last
-  std::optional<std::size_t> restartOf;  ///< place among the teams; nothing: of both, or of nobody
+  Restart restart = Restart::kNone;  ///< the next restart, or the last one
+  /// Index of the team that takes it; nothing: both teams or none.
+  std::optional<std::size_t> restartOf;
   std::array<Team, 2> teams = {Team{"blue"}, Team{"yellow"}};
-  std::size_t teamOnTheLeft = 0;  ///< defends the goal at negative x
-  int half = 0;                   ///< from 1; 0: it has not begun
-  double clock = 0.0;             ///< of this half [s]
+  std::size_t teamOnTheLeft = 0;  ///< index of the team that defends the goal at negative x
+  int half = 0;                   ///< the current half, from 1; 0: the match has not begun
+  double clock = 0.0;             ///< time since the half began [s]
 
-  /// Place of a team among the two, or nothing.
+  /// Returns the index of a team, 0 or 1; nothing if it does not take part.
   std::optional<std::size_t> find(std::string_view team) const;
-  /// Direction in which a team plays: 1 towards positive x, -1 towards negative; of a team that
-  /// does not take part, 1.
+  /// Returns the direction in which a team plays: 1 towards positive x, -1 towards negative x; 1
+  /// for a team that does not take part.
   double directionOf(std::string_view team) const;
-  /// Whether a robot of this team may drive and kick now.
+  /// Returns whether robots of this team may drive and kick now.
   bool mayPlay(std::string_view team) const;
 
   bool operator==(const Game&) const = default;
@@ -58,14 +59,15 @@ inline bool operator==(const Game::Team& a, const Game::Team& b) {
   return a.name == b.name && a.score == b.score;
 }
 
-/// "playing", "kick-off": words of messages, files and the protocol.
+/// Return "playing", "kick-off", ...: the words of messages, files and the protocol.
 ORTUNG_API std::string_view nameOf(Game::Phase phase);
 ORTUNG_API std::string_view nameOf(Game::Restart restart);
-/// "phase=ready restart=kick-off restart_of=blue half=1 clock_s=12.5 blue=0 yellow=1 left=blue".
+/// Writes a game as one line: "phase=ready restart=kick-off restart_of=blue half=1 clock_s=12.5
+/// blue=0 yellow=1 left=blue".
 ORTUNG_API std::string toText(const Game& game);
-/// What toText() has written. @throws std::invalid_argument for what is no such text
+/// Reads what toText() has written. @throws std::invalid_argument for any other text
 ORTUNG_API Game gameIn(std::string_view text);
-/// Nothing if there is none of this name.
+/// Return the phase or restart of this name; nothing if there is none.
 ORTUNG_API std::optional<Game::Phase> phaseOf(std::string_view name);
 ORTUNG_API std::optional<Game::Restart> restartOf(std::string_view name);
 

@@ -9,24 +9,25 @@
 /// What makes simulated readings as bad as real ones.
 namespace ortung {
 
-/// How a sensor that detects things errs.
+/// The errors of a sensor that detects things.
 struct SightingNoise {
-  double rangeSigma = 0.0;          ///< at range 0 [m]
-  double rangeSigmaPerMetre = 0.0;  ///< grows by this per metre
-  double bearingSigma = 0.0;        ///< [rad]
-  double missedShare = 0.0;         ///< of what is visible
-  double falseShare = 0.0;          ///< chance that something is detected that is not there
+  double rangeSigma = 0.0;          ///< standard deviation of the range error at range 0 [m]
+  double rangeSigmaPerMetre = 0.0;  ///< growth of that standard deviation with range [m/m]
+  double bearingSigma = 0.0;        ///< standard deviation of the bearing error [rad]
+  double missedShare = 0.0;         ///< probability that something visible is missed
+  double falseShare = 0.0;          ///< probability of a false detection per call
 };
 
-/// A range with Gaussian noise that grows with range [m]; not below 0.
+/// Returns a range with Gaussian noise that grows with range [m]; not below 0.
 ORTUNG_API double noisyRange(double range, double sigma, double sigmaPerMetre, Random& noise);
 
-/// What becomes of something visible: nothing if it is missed, else its place with noise.
+/// Simulates the detection of something visible: returns its place with noise, or nothing if it is
+/// missed.
 ORTUNG_API std::optional<Sighting> detected(const Sighting& truth, const SightingNoise& noise,
                                             Random& random);
 
-/// Now and then (falseShare of the calls) a sighting of nothing, anywhere the eye looks: evenly in
-/// range and bearing.
+/// Returns a false detection with probability falseShare, evenly distributed in range and bearing
+/// within the eye's field of view; otherwise nothing.
 ORTUNG_API std::optional<Sighting> falseSighting(const Eye& eye, const SightingNoise& noise,
                                                  Random& random);
 

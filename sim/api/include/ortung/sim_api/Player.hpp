@@ -23,126 +23,130 @@
 
 namespace ortung {
 
-/// What a player's robot is and can be told.
+/// The size of a player's robot and the commands that it takes.
 struct RobotAbilities {
   struct Manipulator {
     std::string name;
-    std::vector<std::string> states;  ///< it begins in the first
+    std::vector<std::string> states;  ///< names of its states; the first is the initial one
   };
-  double radius = 0.0;  ///< of the circle around its body [m]
-  double height = 0.0;  ///< [m]
+  double radius = 0.0;  ///< radius of the circle around its body [m]
+  double height = 0.0;  ///< height of its body [m]
   DriveLimits limits;
   std::string motionHelp;  ///< what the numbers of setMotion() mean
   std::vector<Manipulator> manipulators;
 };
 
-/// What a robot was taught, so that its player can tell where it is: ortung/mcl_player.
+/// What a robot has learned, so that its player can localize it: see ortung/mcl_player.
 struct Taught {
-  Parameters mcl;     ///< [mcl] of its file
-  Parameters motion;  ///< [motion]
-  /// Where it can stand, by its tables; null: its features have none.
+  Parameters mcl;     ///< table [mcl] of the robot file
+  Parameters motion;  ///< table [motion] of the robot file
+  /// Region in which the robot can stand according to its tables; null: its features have none.
   std::shared_ptr<const FieldRegion> region;
 };
 
-/// In the field frame.
+/// The pose that a player believes its robot to have.
 struct BelievedPose {
-  Timestamp stamp = 0;  ///< by the clock of the readings
-  Pose2 pose;
+  Timestamp stamp = 0;  ///< time by the clock of the readings [us]
+  Pose2 pose;           ///< pose in the field frame
 };
 
-/// What somebody has said to all of his team.
+/// A message that a robot sent to all of its team.
 struct Heard {
-  std::string from;     ///< name of the robot
-  Timestamp stamp = 0;  ///< when he said it, by the clock of the readings
+  std::string from;     ///< name of the sender
+  Timestamp stamp = 0;  ///< time of sending by the clock of the readings [us]
   std::string text;
 };
 
-/// Where a player sits: its robot's sensors and commands, its team, and what the referee says. It
-/// is the same inside the simulator and as a client of a server, but that there is no stage.
-/// Not thread-safe.
+/// A player's interface to the world: its robot's sensors and commands, its team, and the referee's
+/// decisions. It is the same inside the simulator and in a client of a server, except that a client
+/// has no stage. Not thread-safe.
 class ORTUNG_API PlayerSeat {
  public:
   virtual ~PlayerSeat();
 
-  /// Of its robot; no other on the field has it.
+  /// Returns the name of its robot, which is unique on the field.
   virtual const std::string& name() const = 0;
-  virtual const std::string& team() const = 0;  ///< "": none
-  /// By the clock of the readings.
+  /// Returns the name of its team; "": none.
+  virtual const std::string& team() const = 0;
+  /// Returns the current time by the clock of the readings [us].
   virtual Timestamp now() const = 0;
-  /// What its robot senses.
+  /// Returns the features of its robot with their newest readings.
   virtual SensorContainer& container() = 0;
-  /// The one voice that commands its robot; what it throws may be left to whoever runs the player.
+  /// Returns the interface that commands its robot. A player need not catch what it throws: its
+  /// supervisor does.
   virtual RobotCommands& robot() = 0;
+  /// Returns its robot's size, limits and manipulators.
   virtual const RobotAbilities& abilities() const = 0;
-  /// What is known of the field beforehand; empty if nothing is.
+  /// Returns what is known of the field in advance; empty if nothing is.
   virtual const FieldModel& field() const = 0;
-  /// Nothing, if whoever runs the player has not taught its robot.
+  /// Returns what its robot has learned; empty unless its supervisor provides tables.
   virtual const Taught& taught() const;
+  /// Returns the state of the game, as the referee announced it last.
   virtual const Game& game() const = 0;
-  /// Chance of its own, by the seed of the run.
+  /// Returns a random generator of its own, which is seeded by the seed of the run.
   virtual Random& random() = 0;
 
-  /// To all others of its team, who hear it in the next cycle. Without a team: to all who have
-  /// none.
+  /// Sends a message to all others of its team, who receive it in the next cycle; a robot without a
+  /// team sends it to all others without one.
   /// @param text printable ASCII, at most 400 characters @throws std::invalid_argument
   virtual void say(std::string_view text) = 0;
-  /// What was said since it was last asked to act, in the order of time.
+  /// Returns the messages received since the last call of senseAndAct(), in the order of time.
   virtual std::span<const Heard> heard() const = 0;
 
-  /// The world's true state, or null: on a real field, for clients, and for players that are not to
-  /// see it.
+  /// Returns the world's true state; null on a real field, for clients, and for players that must
+  /// not see it.
   virtual Stage* stage() = 0;
 };
 
-/// One option of a player, as its constructor reads it.
+/// An option of a player's constructor, for help texts.
 struct PlayerOption {
   std::string key;
-  std::string unit;      ///< "m/s", "still|random"; "" if there is none
-  std::string fallback;  ///< what holds without the option
-  std::string meaning;
+  std::string unit;      ///< unit or choices, e.g. "m/s", "still|random"; "" if there is none
+  std::string fallback;  ///< default value
+  std::string meaning;   ///< description in one line
 };
 
 /// A robot's behaviour (paper, section 4): it reads what the robot senses and commands its motion
 /// and manipulators. Its constructor takes its options.
-///
 /// The same plugin runs inside the simulator and as a client of a server. A player that throws, or
-/// commands numbers that are none, is stopped, and the message names it; its robot leaves the
-/// field. Not thread-safe: one player is called by one thread at a time, other ones by others.
+/// commands numbers that are not finite, is stopped with a message that names it, and its robot
+/// leaves the field. Not thread-safe: a player is called by one thread at a time, but different
+/// players may be called by different threads.
 class ORTUNG_API Player {
  public:
   static constexpr const char* kInterface = "ortung.Player/" ORTUNG_SIM_API_ABI;
   virtual ~Player();
 
-  /// The robot file that it plays with where none is given: absolute, or a name in the folder
-  /// `robots` of the maps. Empty: whoever starts it says which.
+  /// Returns the robot file that it uses if none is given: an absolute path, or a name in the
+  /// folder `robots` of the maps. Empty: the user must give one.
   virtual std::filesystem::path robotFile() const { return {}; }
-  /// Between two calls of senseAndAct() [s]; 0: once in each cycle.
+  /// Returns the time between two calls of senseAndAct() [s]; 0: it is called in each cycle.
   virtual double period() const { return 0.0; }
-  /// Whether it does nothing without PlayerSeat::stage().
+  /// Returns whether it needs PlayerSeat::stage().
   virtual bool needsStage() const { return false; }
-  /// Whether it does nothing without tables of its robot for this world, see PlayerSeat::taught().
+  /// Returns whether it needs its robot's tables for this world, see PlayerSeat::taught().
   virtual bool needsTables() const { return false; }
-  /// Whether it looks at readings of sensors that sense on demand: pictures themselves, not what is
-  /// found in them.
+  /// Returns whether it reads sensors that sense on demand: pictures themselves, not the features
+  /// extracted from them.
   virtual bool needsPictures() const { return false; }
-  /// Where it believed its robot to be when it acted last; nothing if it does not know or does not
-  /// say. For whoever shows that or compares it with the truth.
+  /// Returns the pose that it believed its robot to have when it acted last, to be shown or
+  /// compared with the truth; nothing if it does not know or does not say.
   virtual std::optional<BelievedPose> believedPose() const { return std::nullopt; }
-  /// It has taken its seat; its robot stands on the field and has sensed nothing yet.
+  /// Called once before it acts; its robot is on the field and has sensed nothing yet.
   virtual void begin(PlayerSeat&) {}
-  /// Retrieves what the sensors say, and commands. @returns whether it goes on; else it has
+  /// Reads the sensors and commands the robot. @returns whether it continues; otherwise it has
   /// accomplished its task, and its robot leaves the field
   virtual bool senseAndAct(PlayerSeat& seat) = 0;
-  /// It is over, whoever ended it; its robot is still there.
+  /// Called once when the player ends, for whatever reason; its robot is still on the field.
   virtual void end(PlayerSeat&) {}
 };
 
-/// What a player says of itself, without playing: a plugin beside it, under the same name, which a
-/// player may have or not. Immutable.
+/// A player's description of itself: an optional plugin with the player's name, so that help can be
+/// shown without making the player. Immutable.
 class ORTUNG_API PlayerHelp {
  public:
   static constexpr const char* kInterface = "ortung.PlayerHelp/" ORTUNG_SIM_API_ABI;
-  /// @param what it does, one line
+  /// @param what one line on what the player does
   PlayerHelp(std::string what, std::vector<PlayerOption> options);
   virtual ~PlayerHelp();
 

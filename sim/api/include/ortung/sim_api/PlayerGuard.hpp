@@ -11,17 +11,19 @@
 
 namespace ortung {
 
-/// The way into one player, for whoever supervises it: tells what it throws, and when it computes
-/// for longer than it may. One thread calls the player, and its time counts.
+/// Wraps the calls of one player for its supervisor: it reports exceptions, and calls that take
+/// more processor time than the budget. It counts the time of the calling thread.
 class ORTUNG_API PlayerGuard {
  public:
-  /// @param budget of a processor's time for one call [s]; 0: as long as it likes
+  /// @param plugin name of the player's plugin @param robot name of its robot
+  /// @param budget processor time that one call may take [s]; 0: no limit
   PlayerGuard(const std::string& plugin, const std::string& robot, double budget);
   ~PlayerGuard();
   PlayerGuard(const PlayerGuard&) = delete;
   PlayerGuard& operator=(const PlayerGuard&) = delete;
 
-  /// @param what name of the player's function; text that lives on
+  /// Calls the player.
+  /// @param what name of the player's function; the text must outlive the guard
   /// @returns why the player must be stopped; "" if nothing is wrong
   template <class Call>
   std::string operator()(const char* what, Call&& call) const {
@@ -43,18 +45,19 @@ class ORTUNG_API PlayerGuard {
   PluginGuard guard_;
 };
 
-/// What a player wants before it takes its seat.
+/// What a player needs before it can begin.
 struct PlayerNeeds {
-  std::filesystem::path robotFile;  ///< empty: whoever starts it says which
-  double period = 0.0;              ///< [s]
-  bool stage = false;
-  bool tables = false;
-  bool pictures = false;
+  std::filesystem::path robotFile;  ///< its robot file; empty: the user must give one
+  double period = 0.0;              ///< time between two calls of senseAndAct() [s]
+  bool stage = false;               ///< whether it needs the world's true state
+  bool tables = false;              ///< whether it needs tables of its robot
+  bool pictures = false;            ///< whether it reads sensors that sense on demand
 };
-/// Asks it. @throws PluginFailure that names it for what it throws and for a period that is none
+/// Asks a player what it needs. @throws PluginFailure that names the player if it throws or if its
+/// period is not in [0, 1e6] s
 ORTUNG_API PlayerNeeds needsOf(const Player& player, const std::string& plugin);
 
-/// @throws std::invalid_argument for what PlayerSeat::say() refuses
+/// Checks a message. @throws std::invalid_argument for one that PlayerSeat::say() refuses
 ORTUNG_API void checkSaid(std::string_view text);
 
 }  // namespace ortung

@@ -13,34 +13,36 @@
 
 namespace ortung {
 
-/// Something that a referee has seen or decided.
+/// An event that a referee has observed or a decision that it has made.
 struct RefereeEvent {
-  Timestamp stamp = 0;
-  std::string what;  ///< one word: "goal", "throw-in", "half-time", ...
-  std::string team;  ///< whom it is for; "": both or none
-  std::string text;  ///< one line for people
+  Timestamp stamp = 0;  ///< time of the event [us]
+  std::string what;     ///< kind of event in one word: "goal", "throw-in", "half-time", ...
+  std::string team;     ///< the team that benefits; "": both or none
+  std::string text;     ///< description in one line
 };
 
-/// "goal blue: 1 : 0": printable ASCII, at most 400 characters.
+/// Writes an event as "goal blue: 1 : 0": printable ASCII, at most 400 characters.
 ORTUNG_API std::string toText(const RefereeEvent& event);
 
 /// Restricts what robots do by a set of rules (paper, section 2). Its constructor takes its
-/// options, `rules` among them, a file. Not thread-safe.
+/// options, among them the file `rules`. Not thread-safe.
 class ORTUNG_API Referee {
  public:
   static constexpr const char* kInterface = "ortung.Referee/" ORTUNG_SIM_API_ABI;
   virtual ~Referee();
 
-  /// Looks at the world once a cycle, after robots have sensed and before players act; it may place
-  /// robots and things.
-  /// @returns what players and clients are told from now on
+  /// Observes the world. It is called once a cycle, after robots have sensed and before players
+  /// act; it may place robots and things.
+  /// @returns the state of the game that players and clients see from now on
   virtual const Game& watch(Stage& stage) = 0;
-  /// What has happened since the last call, in the order of time.
+  /// Returns the events since the last call, in the order of time.
   virtual std::vector<RefereeEvent> takeEvents() = 0;
-  /// Whether a robot is held: it stands where it is until the restart, whatever it is told.
+  /// Returns whether a robot is held: it stays where it is until the restart, whatever its
+  /// commands.
   virtual bool holds(std::string_view robot) const = 0;
-  /// A person, or a referee box, orders: "start", "stop", "kick-off blue", "goal yellow", ...
-  /// @throws std::invalid_argument for an order that is none, with those that there are
+  /// Obeys an order of a person or of a referee box: "start", "stop", "kick-off blue", "goal
+  /// yellow", ...
+  /// @throws std::invalid_argument for an unknown order, with a list of those that are known
   virtual void order(std::string_view order) = 0;
 };
 

@@ -17,57 +17,65 @@
 
 namespace ortung {
 
-/// Where a robot of one size can be, and how it gets there.
+/// The floor that a robot of one size can reach, and routes on it.
 class ORTUNG_API FloorPlan {
  public:
   virtual ~FloorPlan();
-  /// Corners of a short way, without its beginning; the last is the cell of @p to.
+  /// Returns the corners of a short route [m], without its start; the last is the centre of the
+  /// cell of @p to.
   virtual std::vector<FloorPoint> route(const FloorPoint& from, const FloorPoint& to) const = 0;
-  /// A pose from which routes lead everywhere else, every cell and heading as likely.
+  /// Returns a random pose in the free space, with each cell and heading equally likely; routes
+  /// lead from there to all other cells.
   virtual Pose2 randomPose(Random& random) const = 0;
+  /// Returns the grid that the plan is made of.
   virtual const FieldGrid& grid() const = 0;
-  /// Indices of the grid's cells that belong to the free space.
+  /// Returns the indices of the grid's cells that belong to the free space.
   virtual const std::vector<std::uint32_t>& cells() const = 0;
 };
 
-/// A robot as it really is.
+/// The true state of a robot.
 struct StagedRobot {
   std::string name;
-  std::string team;     ///< "": none
-  Pose2 pose;           ///< in the field frame
-  Twist velocity;       ///< in the field frame
-  double radius = 0.0;  ///< [m]
+  std::string team;     ///< name of its team; "": none
+  Pose2 pose;           ///< pose in the field frame
+  Twist velocity;       ///< velocity in the field frame
+  double radius = 0.0;  ///< radius of the circle around its body [m]
 };
 
-/// Something movable that is no robot, as it really is: a ball, a crate.
+/// The true state of something movable that is not a robot: a ball, a crate.
 struct StagedThing {
   std::string name;
-  std::string kind;
-  Pose2 pose;      ///< in the field frame
-  Twist velocity;  ///< in the field frame
+  std::string kind;  ///< "ball", "obstacle", ...
+  Pose2 pose;        ///< pose in the field frame
+  Twist velocity;    ///< velocity in the field frame
 };
 
-/// The state of a simulated world, to look at and to change: for referees, for perfect players and
-/// for situations that are made (paper, section 4). A real field has none. Robots and things are in
-/// the order of their coming. Not thread-safe; what is returned is valid until the cycle is over.
+/// The true state of a simulated world, which can be read and changed: for referees, for players
+/// with perfect sight and for prepared situations (paper, section 4). A real field has none. Robots
+/// and things are in the order in which they were added. Not thread-safe; what is returned is valid
+/// until the cycle is over.
 class ORTUNG_API Stage {
  public:
   virtual ~Stage();
 
+  /// Returns the simulated time [us].
   virtual Timestamp now() const = 0;
-  virtual double cycle() const = 0;  ///< [s]
-  /// What sensors ask: bodies, lines, rays.
+  /// Returns the length of a cycle [s].
+  virtual double cycle() const = 0;
+  /// Returns the world as sensors see it: bodies, lines, rays.
   virtual const World& world() const = 0;
+  /// Return the true states of all robots and of all other movable things.
   virtual std::span<const StagedRobot> robots() const = 0;
   virtual std::span<const StagedThing> things() const = 0;
 
-  /// Carries a robot elsewhere, unnoticed by its odometry. @throws std::invalid_argument if there
-  /// is no robot of this name, or no room (NoRoom)
+  /// Moves a robot to a pose in the field frame, unnoticed by its odometry. @throws
+  /// std::invalid_argument if there is no robot of this name, or no room (NoRoom)
   virtual void placeRobot(std::string_view robot, const Pose2& pose) = 0;
-  /// Puts a thing somewhere, moving as given. @throws as placeRobot()
+  /// Moves a thing to a pose and gives it a velocity, both in the field frame. @throws as
+  /// placeRobot()
   virtual void placeThing(std::string_view thing, const Pose2& pose,
                           const Twist& velocity = {}) = 0;
-  /// Of robots of a size; made when it is first asked for, and kept.
+  /// Returns the plan for robots of a size; it is made at the first call, and kept.
   /// @throws std::invalid_argument if such a robot fits nowhere
   virtual std::shared_ptr<const FloorPlan> floorPlan(const RobotSize& size) = 0;
 };

@@ -2,8 +2,8 @@
 
 namespace ortung {
 
-/// A velocity in the plane: of a point [m/s] and of turning [rad/s]. In the robot frame unless its
-/// name says otherwise.
+/// A velocity in the plane: translation [m/s] and turn rate [rad/s]. It is given in the robot frame
+/// unless its name says otherwise.
 struct Twist {
   double x = 0.0;      ///< [m/s]
   double y = 0.0;      ///< [m/s]
