@@ -104,7 +104,7 @@ TEST(LogFile, SaysWhereCompressedFilesAreCutOffOrDamaged) {
       folder.write("a" + ending, whole.substr(0, kept));
       const std::string error = errorOf([&] { linesOf(path); });
       EXPECT_TRUE(
-          error.starts_with(path + ": found damaged or cut off data after decompressed byte "))
+          error.starts_with(path + ": found damaged or truncated data after decompressed byte "))
           << ending << " " << kept << ": " << error;
     }
     std::string broken = whole;

@@ -160,7 +160,7 @@ TEST_F(ScanlogSource, GoesByTheOrderOfLinesWhereStampsStandStill) {
   EXPECT_EQ(errorOf(text()),
             path() +
                 ": found 2 reference poses for 3 scans, expected one a scan, since the"
-                " stamps of the scans are not used (they stand still, or the option"
+                " stamps of the scans are not used (they do not change, or the option"
                 " period_s is set)");
 }
 

@@ -13,10 +13,10 @@
 namespace ortung {
 namespace {
 
-/// A model's settings, and where each board is.
+/// A model's settings, and the pose of each board in the camera's frame.
 struct Solution {
   Parameters camera{"the calibration"};
-  std::vector<cv::Vec3d> rotations;  ///< vectors
+  std::vector<cv::Vec3d> rotations;  ///< rotation vectors [rad]
   std::vector<cv::Vec3d> translations;
 };
 
@@ -80,7 +80,7 @@ Board cornersOf(const BoardSize& board) {
   return points;
 }
 
-/// Sum of the squared distances between corners and where the model sees them [px^2].
+/// Returns the sum of the corners' squared reprojection errors [px^2].
 double squaredErrors(const CameraModel& model, const Board& board, const Corners& corners,
                      const cv::Vec3d& rotation, const cv::Vec3d& translation) {
   cv::Matx33d turn;
@@ -89,7 +89,8 @@ double squaredErrors(const CameraModel& model, const Board& board, const Corners
   for (std::size_t i = 0; i < board.size(); ++i) {
     const cv::Vec3d p = turn * cv::Vec3d(board[i].x, board[i].y, 0.0) + translation;
     const auto pixel = model.project({p[0], p[1], p[2]});
-    if (!pixel) throw std::runtime_error("a board is where the model that was found sees nothing");
+    if (!pixel)
+      throw std::runtime_error("a board is outside the field of view of the fitted model");
     sum += std::pow(pixel->u - corners[i].x, 2) + std::pow(pixel->v - corners[i].y, 2);
   }
   return sum;
@@ -111,7 +112,7 @@ Solution solve(BoardModel model, const cv::Size& size, const Board& board,
   return ocam(size, board, corners);
 }
 
-/// Distance between the corners that are nearest to each other [px].
+/// Returns the least distance between two consecutive corners [px].
 double nearest(const std::vector<cv::Point2f>& corners) {
   double least = 1e9;
   for (std::size_t i = 1; i < corners.size(); ++i)
@@ -132,7 +133,7 @@ std::optional<std::vector<Pixel>> findBoard(const ImageView& image, const BoardS
   if (!cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_ACCURACY) &&
       !cv::findChessboardCorners(grey, size, corners))
     return std::nullopt;
-  // Where squares are curved, what is close to a corner tells best where it is.
+  // Distortion curves the squares' edges, so only pixels close to a corner are used to locate it.
   const int window = std::clamp(static_cast<int>(nearest(corners) / 3.0), 2, 5);
   cv::cornerSubPix(grey, corners, {window, window}, {-1, -1},
                    {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});

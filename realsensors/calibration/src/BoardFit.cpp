@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kPose = 6;
 constexpr int kMostRounds = 300;
-constexpr double kNoChange = 1e-9;  ///< a share of the sum of squares that is not worth a round
-constexpr int kIdleRounds = 4;      ///< so many of them are the end
+constexpr double kNoChange = 1e-9;  ///< relative decrease below which an iteration is idle
+constexpr int kIdleRounds = 4;      ///< consecutive idle iterations that end the refinement
 constexpr double kLeastDamping = 1e-12;
 constexpr double kMostDamping = 1e12;
 constexpr double kUnseen = std::numeric_limits<double>::infinity();
@@ -25,21 +25,22 @@ Pose poseOf(const BoardFit& fit, std::size_t k) {
   return (Pose() << r[0], r[1], r[2], t[0], t[1], t[2]).finished();
 }
 
-/// Equations of one board for small changes of the lens (L numbers) and of its pose.
+/// Blocks of the normal equations that belong to one board, for small changes of the lens (L
+/// parameters) and of the board's pose.
 struct BoardEquations {
-  Eigen::MatrixXd mixed;  ///< L x 6
+  Eigen::MatrixXd mixed;  ///< block of lens and pose, L x 6
   Eigen::Matrix<double, kPose, kPose> own;
   Pose right;
 };
 
-/// Normal equations. A board's pose is no concern of other boards, so they meet in the lens alone.
+/// Normal equations. The poses of two boards share no residual: only the lens couples them.
 struct Equations {
-  Eigen::MatrixXd lens;  ///< L x L
+  Eigen::MatrixXd lens;  ///< block of the lens, L x L
   Eigen::VectorXd right;
   std::vector<BoardEquations> boards;
 };
 
-/// How far corners are from where they should be seen.
+/// Reprojection errors of the corners, and their derivatives.
 class Reprojection {
  public:
   Reprojection(const Board& board, const std::vector<Corners>& corners, const LensOf& lensOf)
@@ -90,7 +91,7 @@ class Reprojection {
  private:
   static double stepOf(double number) { return 1e-5 * std::max(1.0, std::abs(number)); }
 
-  /// A corner that comes out of sight on the way tells nothing.
+  /// A corner that leaves the field of view within the step has no slope: 0.
   static Eigen::VectorXd slope(const Eigen::VectorXd& up, const Eigen::VectorXd& down,
                                double step) {
     const Eigen::VectorXd out = (up - down) / (2.0 * step);
@@ -117,7 +118,8 @@ class Reprojection {
   const LensOf& lensOf_;
 };
 
-/// The fit after a step. Poses are eliminated first, which leaves equations of the lens alone.
+/// Returns the fit after a step. Poses are eliminated first (Schur complement), which leaves
+/// equations of the lens alone.
 BoardFit stepped(const BoardFit& fit, const Equations& equations, double damping) {
   const double more = 1.0 + damping;
   Eigen::MatrixXd lens = equations.lens;

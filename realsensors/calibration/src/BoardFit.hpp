@@ -8,23 +8,24 @@
 
 namespace ortung {
 
-using Board = std::vector<cv::Point3f>;    ///< its corners, in squares
-using Corners = std::vector<cv::Point2f>;  ///< where they are in a picture [px]
+using Board = std::vector<cv::Point3f>;    ///< corners in the board's plane [squares]
+using Corners = std::vector<cv::Point2f>;  ///< the same corners in a picture [px]
 
-/// A camera that looks at boards: its lens, and where each board is.
+/// Parameters of a lens, and the pose of each board in the camera's frame.
 struct BoardFit {
-  std::vector<double> lens;             ///< numbers, whatever they mean
-  std::vector<cv::Vec3d> rotations;     ///< of each board, vectors
-  std::vector<cv::Vec3d> translations;  ///< in squares
+  std::vector<double> lens;             ///< parameters, whose meaning LensOf knows
+  std::vector<cv::Vec3d> rotations;     ///< rotation vector of each board [rad]
+  std::vector<cv::Vec3d> translations;  ///< place of each board's first corner [squares]
 };
 
-/// The pixel that shows a point of the camera's frame, if one does; it is looked for near another.
+/// Projects a point of the camera's frame to its pixel, if it has one; the search for that begins
+/// near a given pixel.
 using Lens = std::function<std::optional<cv::Point2d>(const cv::Vec3d&, const cv::Point2d& near)>;
-/// The lens that numbers mean.
+/// Makes the lens that has these parameters.
 using LensOf = std::function<Lens(std::span<const double>)>;
 
-/// Changes all numbers of a fit until corners are seen where they were found, in the sense of least
-/// squares (Levenberg and Marquardt).
+/// Changes all parameters of a fit so that the sum of the corners' squared reprojection errors is
+/// least (Levenberg and Marquardt).
 void refine(const Board& board, const std::vector<Corners>& corners, const LensOf& lensOf,
             BoardFit& fit);
 

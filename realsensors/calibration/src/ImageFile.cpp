@@ -31,7 +31,7 @@ Picture readPicture(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
   if (image.empty())
-    throw std::runtime_error(file.string() + ": is no picture that can be read (JPEG, PNG, ...)");
+    throw std::runtime_error(file.string() + ": is not an image that can be read (JPEG, PNG, ...)");
   if (std::max(image.cols, image.rows) > ImageData::kMostSide)
     throw std::runtime_error(file.string() + ": has " + std::to_string(image.cols) + " x " +
                              std::to_string(image.rows) + " pixels, at most 4096 a side");
@@ -49,7 +49,8 @@ std::vector<std::uint8_t> toPng(const ImageView& image) {
   cv::Mat bgr = rgb;
   if (image.format == PixelFormat::kRgb) cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", bgr, bytes)) throw std::runtime_error("a picture can't be made PNG");
+  if (!cv::imencode(".png", bgr, bytes))
+    throw std::runtime_error("a picture can't be encoded as PNG");
   return bytes;
 }
 

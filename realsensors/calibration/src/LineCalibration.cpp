@@ -13,13 +13,14 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kMostPoints = 150;  ///< of a picture that are used
-constexpr double kAboveFloor = 0.02;      ///< what is so far above the floor's end is no line
-constexpr double kNear = 5.0;             ///< range within which a fit is told [m]
-constexpr double kFar = 15.0;             ///< range up to which points are used [m]
+constexpr std::size_t kMostPoints = 150;  ///< greatest number of points that are used of a picture
+constexpr double kAboveFloor =
+    0.02;                      ///< points so far above the floor's end are ignored, as a share
+constexpr double kNear = 5.0;  ///< range within which a fit is reported [m]
+constexpr double kFar = 15.0;  ///< range up to which points are used [m]
 constexpr double kMostCost = 9.0;
 
-/// What is looked for. Logarithms keep lengths positive.
+/// The parameters that are estimated. Lengths are their logarithms, which keeps them positive.
 enum Setting { kFocal, kK1, kK2, kCentreU, kCentreV, kTilt, kRoll, kHeight, kSettings };
 using Settings = Eigen::Matrix<double, kSettings, 1>;
 
@@ -34,7 +35,7 @@ CameraView viewOf(ImageSize size, const Settings& s) {
   return {readCamera(p), {.z = std::exp(s[kHeight]), .tilt = s[kTilt], .roll = s[kRoll]}};
 }
 
-/// One way to see all pictures.
+/// A hypothesis: settings of the camera, and the pose at which each picture was taken.
 struct Solution {
   Settings settings;
   std::vector<Pose2> poses;
@@ -63,7 +64,8 @@ class Calibrator {
         guess.tiltSigma, guess.rollSigma, guess.heightShare;
   }
 
-  /// Settings to begin with. The horizon is a little above where the floor ends.
+  /// Returns the settings with which a search begins. The horizon is a little above the row at
+  /// which the floor ends.
   /// @param far how far away the floor ends [m]
   Settings start(double focalShare, double height, double far) const {
     const double side = std::max(size_.width, size_.height);
@@ -95,7 +97,7 @@ class Calibrator {
       }
       const std::vector<LinePose> best = field_.search(places, sigmas, 1);
       solution.poses.push_back(best.empty() ? Pose2{} : best[0].pose);
-      // Points that see no floor fit nothing.
+      // Points above the horizon show no floor: each has the greatest cost.
       const double lost = kMostCost * static_cast<double>(pixels.size() - places.size());
       sum += lost + (best.empty() ? 0.0 : best[0].cost * static_cast<double>(places.size()));
       count += pixels.size();
@@ -163,13 +165,13 @@ class Calibrator {
   }
 
  private:
-  /// How one point lies to its line.
+  /// A point and the nearest line.
   struct Match {
     Pixel pixel;
-    double x, y;      ///< in the sensor's frame [m]
-    double nx, ny;    ///< from the line to it, in the field frame
+    double x, y;      ///< the point in the sensor's frame [m]
+    double nx, ny;    ///< unit normal from the line to the point, in the field frame
     double distance;  ///< [m]
-    double sigma;     ///< of the distance [m]
+    double sigma;     ///< standard deviation of the distance [m]
   };
 
   template <typename What>
@@ -194,7 +196,7 @@ class Calibrator {
         m.nx = (x - n.x) / n.distance;
         m.ny = (y - n.y) / n.distance;
       }
-      // A pixel's error, seen across the line: the normal in the sensor's frame.
+      // The normal in the sensor's frame: only a pixel's error across the line counts.
       const double lx = c * m.nx + s * m.ny;
       const double ly = c * m.ny - s * m.nx;
       const double alongU = 2.0 * ((right->x - here->x) * lx + (right->y - here->y) * ly);
@@ -204,7 +206,7 @@ class Calibrator {
     }
   }
 
-  /// Geman and McClure's: r^2 near 0, never more than kMostCost.
+  /// The loss of Geman and McClure: r^2 near 0, never more than kMostCost.
   static double robust(double r) { return r * r / (1.0 + r * r / kMostCost); }
   static double weight(double r) {
     const double d = 1.0 + r * r / kMostCost;
@@ -225,7 +227,7 @@ class Calibrator {
            static_cast<double>(std::max<std::size_t>(1, count));
   }
 
-  /// Points of one line err together: the prior counts as much as several of them.
+  /// Errors of points on one line are correlated, so the prior counts as much as several of them.
   static double priorWeight() { return 5.0; }
 
   void gather(const Solution& solution, const Settings& prior, Eigen::MatrixXd& information,
@@ -291,9 +293,9 @@ class Calibrator {
   ImageSize size_;
   const LinePoseSearch& field_;
   LineCalibrationGuess guess_;
-  std::vector<std::vector<Pixel>> pixels_;  ///< by picture
-  double floorTop_ = 0.0;                   ///< highest of all pictures [px]
-  Settings sigmas_;                         ///< of the prior
+  std::vector<std::vector<Pixel>> pixels_;  ///< pixels of each picture's points
+  double floorTop_ = 0.0;                   ///< highest row at which a picture's floor ends [px]
+  Settings sigmas_;                         ///< standard deviations of the prior
 };
 
 }  // namespace

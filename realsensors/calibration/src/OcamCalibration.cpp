@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::array<int, 4> kPowers = {0, 2, 3, 4};  // a slope at the centre would be a kink
 
-/// A board's rotation and its place but for the third number, which the lens tells.
+/// A board's rotation and its place without the depth, which depends on the lens.
 struct Seen {
-  cv::Vec3d first, second;  ///< columns of the rotation
+  cv::Vec3d first, second;  ///< the first two columns of the rotation
   double x = 0.0, y = 0.0;
 };
 
-/// Corners as seen from the centre, in half diagonals of the image.
+/// Returns corners relative to the centre, in half diagonals of the image.
 std::vector<cv::Point2d> centred(const Corners& corners, const cv::Point2d& centre, double unit) {
   std::vector<cv::Point2d> out;
   for (const cv::Point2f& corner : corners)
@@ -25,8 +25,9 @@ std::vector<cv::Point2d> centred(const Corners& corners, const cv::Point2d& cent
   return out;
 }
 
-/// Radial lines alone: a point is seen in the direction in which it lies from the axis.
-/// @returns up to the sign of what leads along the axis
+/// Solves for what the direction from the centre determines alone: a point is seen in the direction
+/// in which it lies from the optical axis.
+/// @returns the pose up to the sign of the components along the axis
 Seen radial(const Board& board, const std::vector<cv::Point2d>& seen) {
   cv::Mat_<double> rows(static_cast<int>(board.size()), 6);
   for (int i = 0; i < rows.rows; ++i) {
@@ -55,7 +56,7 @@ Seen radial(const Board& board, const std::vector<cv::Point2d>& seen) {
   return out;
 }
 
-/// Numbers of the lens, of the given powers, and the third number of each board's place.
+/// Solves for the lens's coefficients of the given powers, and for the depth of each board.
 cv::Mat solveLens(const Board& board, const std::vector<std::vector<cv::Point2d>>& corners,
                   std::span<const Seen> seen, std::size_t powers) {
   const int unknown = static_cast<int>(powers + corners.size());
@@ -83,7 +84,7 @@ cv::Mat solveLens(const Board& board, const std::vector<std::vector<cv::Point2d>
   return solution;
 }
 
-/// The lens by which the board lies before the camera, not behind it.
+/// Chooses the sign for which the board lies in front of the camera, not behind it.
 void chooseSide(const Board& board, const std::vector<cv::Point2d>& corners, Seen& seen) {
   const cv::Mat lens = solveLens(board, {corners}, {&seen, 1}, 2);
   if (lens.at<double>(0) >= 0.0) return;
@@ -91,7 +92,7 @@ void chooseSide(const Board& board, const std::vector<cv::Point2d>& corners, See
   seen.second[2] = -seen.second[2];
 }
 
-/// The lens of a centre and a number for each power.
+/// Makes the lens that has this centre and a coefficient for each power.
 /// @param unit half the image's diagonal [px]
 Lens lensOf(std::span<const double> numbers, double unit) {
   return [all = std::vector<double>(numbers.begin(), numbers.end()), unit](
@@ -151,7 +152,7 @@ OcamSolution solveOcam(const cv::Size& size, const Board& board,
     if (!std::isfinite(number)) throw std::runtime_error("these boards do not determine the model");
   if (!(found.polynomial[0] > 0.0))
     throw std::runtime_error(
-        "these boards do not determine the model: none lies before the camera");
+        "these boards do not determine the model: none lies in front of the camera");
   found.rotations = std::move(fit.rotations);
   found.translations = std::move(fit.translations);
   return found;

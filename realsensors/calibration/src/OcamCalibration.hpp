@@ -4,11 +4,12 @@
 
 namespace ortung {
 
+/// Parameters of an omnidirectional camera (Scaramuzza), and the pose of each board.
 struct OcamSolution {
-  cv::Point2d centre;                   ///< [px]
-  std::vector<double> polynomial;       ///< of the distance to the centre [px], its second number 0
-  std::vector<cv::Vec3d> rotations;     ///< of each board, vectors
-  std::vector<cv::Vec3d> translations;  ///< in squares
+  cv::Point2d centre;                   ///< image of the optical axis [px]
+  std::vector<double> polynomial;       ///< coefficients by powers of the radius [px]; [1] is 0
+  std::vector<cv::Vec3d> rotations;     ///< rotation vector of each board [rad]
+  std::vector<cv::Vec3d> translations;  ///< place of each board's first corner [squares]
 };
 
 /// See calibrateByBoards(). @throws std::runtime_error

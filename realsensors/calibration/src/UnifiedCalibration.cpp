@@ -9,8 +9,8 @@
 namespace ortung {
 namespace {
 
-/// Numbers of the lens. The square keeps xi from being negative; the scale is that of the image's
-/// middle, focal length / (1 + xi), which the boards tell whatever xi is.
+/// Parameters of the lens. xi is a square, so that it can't be negative; the scale is that of the
+/// image's middle, focal length / (1 + xi), which the boards determine whatever xi is.
 enum Number { kRootOfXi, kScaleU, kScaleV, kCentreU, kCentreV, kDistortion, kNumbers = 9 };
 
 Parameters cameraOf(const ImageSize& size, std::span<const double> lens) {
@@ -26,7 +26,7 @@ Parameters cameraOf(const ImageSize& size, std::span<const double> lens) {
   return camera;
 }
 
-/// The model, or nothing if it has numbers that no model has.
+/// Makes the model, or nothing if its parameters are out of range.
 std::shared_ptr<const CameraModel> modelOf(const ImageSize& size, std::span<const double> lens) {
   try {
     return readCamera(cameraOf(size, lens));
@@ -39,7 +39,7 @@ std::shared_ptr<const CameraModel> modelOf(const ImageSize& size, std::span<cons
 
 UnifiedSolution solveUnified(const ImageSize& size, const Board& board,
                              const std::vector<Corners>& corners) {
-  // A mirror of Scaramuzza's kind that is a parabola is this model's with xi = 1.
+  // The polynomial of a parabolic mirror is this model with xi = 1.
   const OcamSolution start = solveOcam({size.width, size.height}, board, corners);
   const double scale = start.polynomial[0];
   BoardFit fit{{1.0, scale, scale, start.centre.x, start.centre.y, 0.0, 0.0, 0.0, 0.0},

@@ -6,8 +6,9 @@
 
 namespace ortung {
 
+/// Settings of a unified camera model (Mei and Rives), and the fit that led to them.
 struct UnifiedSolution {
-  Parameters camera;  ///< what readCamera() reads
+  Parameters camera;  ///< settings as readCamera() reads them
   BoardFit fit;
 };
 

@@ -27,7 +27,7 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
-/// An empty field is one, too: it is no number, which whoever reads it says.
+/// Splits a line at its commas. Empty fields are kept: reading a number from one is an error.
 void splitAtCommas(std::string_view line, std::vector<std::string_view>& fields) {
   while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
   if (line.empty()) return;
@@ -103,7 +103,7 @@ std::optional<double> parseNumber(std::string_view text) {
 struct LogFile::Stream {
   Stream(const std::filesystem::path& path, std::uint64_t maxBytes) : bytes(path, maxBytes) {}
 
-  /// Appends what is left up to the end of the line; whether the line ended here.
+  /// Appends the rest of the block up to the end of the line; returns whether the line ended here.
   bool take(std::string& line) {
     const char* start = block.data() + begin;
     const void* found = std::memchr(start, '\n', end - begin);

@@ -50,7 +50,7 @@ void LogSource::finish(const std::string& where) {
 }
 
 std::vector<std::uint32_t> PoseOdometry::words(Timestamp stamp, const Pose2& pose) {
-  constexpr double kShortest = 1e-3;  // [s]; over less, jitter of the clock makes huge velocities
+  constexpr double kShortest = 1e-3;  // [s]; in less, the clock's jitter makes huge velocities
   const double seconds = last_ ? toSeconds(stamp - last_->first) : 0.0;
   if (seconds >= kShortest) {
     const Pose2 change = inverse(last_->second) * pose;
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> PoseOdometry::words(Timestamp stamp, const Pose2& pos
 }
 
 Pose2 alongArc(const Pose2& pose, double v, double w, double seconds) {
-  // The chord of the arc leads in the direction that the robot has half way.
+  // The chord of the arc has the direction of the robot at half the time.
   const double half = w * seconds / 2;
   const double chord = v * seconds * (std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half);
   return pose * Pose2{chord * std::cos(half), chord * std::sin(half), wrapAngle(2 * half)};

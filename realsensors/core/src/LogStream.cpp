@@ -23,7 +23,7 @@ std::size_t LogStream::read(char* buffer, std::size_t size) {
   const auto count = static_cast<std::size_t>(out_.gcount());
   if (out_.bad() || in_.bad()) {
     throw std::runtime_error(path_.string() +
-                             ": found damaged or cut off data after decompressed byte " +
+                             ": found damaged or truncated data after decompressed byte " +
                              std::to_string(limit_ - left_ + count) + ", expected a whole file");
   }
   if (count > left_) {

@@ -7,12 +7,12 @@
 
 namespace ortung {
 
-/// Bytes of a file, decompressed as its name says, with a limit.
+/// Reads the bytes of a file, decompressed as the name's ending says, up to a limit.
 class LogStream {
  public:
   LogStream(const std::filesystem::path& path, std::uint64_t maxBytes);
-  /// Fills @p buffer; 0 at the end.
-  /// @throws std::runtime_error for damaged or cut off compression, and beyond the limit
+  /// Fills @p buffer. @return the number of bytes; 0 at the end
+  /// @throws std::runtime_error for damaged or truncated compression, and beyond the limit
   std::size_t read(char* buffer, std::size_t size);
 
  private:

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kMaxYamlBytes = 64u << 10;
 constexpr std::uint64_t kMaxImageBytes = 512u << 20;
 
-/// The text behind "image:", quotes and blanks taken off; empty if there is none.
+/// Returns the text behind "image:" without quotes and blanks; empty if the line has none.
 std::string imageName(const std::string& line) {
   const std::string key = "image:";
   if (line.compare(0, key.size(), key) != 0) return "";
@@ -43,7 +43,8 @@ void writeWorldText(const std::filesystem::path& world, const std::filesystem::p
                        tomlText(map.filename().string()) + "\nsurface_depth_cells = 0.5\n" + more);
 }
 
-/// Copies a map that needs no other file; its endings (".gridmap.gz") tell its kind and stay.
+/// Copies a map that needs no other file. It keeps its endings (".gridmap.gz"), which give its
+/// kind.
 void copyMap(const std::filesystem::path& world, const std::filesystem::path& map,
              const std::string& more) {
   std::string ending = map.extension().string();
@@ -59,7 +60,7 @@ void copyMap(const std::filesystem::path& world, const std::filesystem::path& ma
   writeWorldText(world, copy, more);
 }
 
-/// Copies a map_server YAML and its image. The image's name in it becomes that of the copy.
+/// Copies a map_server YAML and its image, and changes the image's name in it to that of the copy.
 void copyMapServer(const std::filesystem::path& world, const std::filesystem::path& map,
                    const std::string& more) {
   std::istringstream yaml(readLogBytes(map, kMaxYamlBytes));
@@ -125,7 +126,7 @@ std::filesystem::path fileOption(const Parameters& options, const std::string& k
     if (const auto found = findLogFile(file)) return *found;
   }
   options.fail(key, "found no file " + inQuotes(name) + " in " + folder.string() +
-                        " nor from here, expected one (it may end in .xz or .gz)");
+                        " or the working directory, expected one (it may end in .xz or .gz)");
 }
 
 }  // namespace ortung

@@ -9,8 +9,8 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kMostLandmarks = 256;  // of a [[sensor]] that sees them
-constexpr double kFarthest = 1000.0;         // [m]; a world as large has a table, still
+constexpr std::size_t kMostLandmarks = 256;  // as many as a [[sensor]] can see
+constexpr double kFarthest = 1000.0;         // [m]; a world of this size still has a table
 
 }  // namespace
 

@@ -22,7 +22,7 @@ ScanLogSource::ScanLogSource(const Parameters& options)
       odometryClock_(scanClock_),
       truthClock_(scanClock_),
       commandClock_(scanClock_) {
-  options.textOr("robot_file", "");  // the log knows its own scanner
+  options.textOr("robot_file", "");  // accepted but not used: the log describes its own scanner
 }
 
 ScanLogSource::~ScanLogSource() = default;
@@ -56,13 +56,13 @@ void ScanLogSource::addCommand(const LogFile& file, Timestamp stamp, double v, d
   commands_.push_back({commandClock_(file, stamp), v, w});
 }
 
-/// Some logs lost the digits of their stamps; the order of their lines is what is left.
+/// Sets stamps in the order of lines, for logs whose stamps have lost their digits.
 void ScanLogSource::setInLineOrder(const std::string& where) {
   const auto wrong = [&](const std::string& what, std::size_t found) {
     throw std::runtime_error(where + ": found " + std::to_string(found) + " " + what + " for " +
                              std::to_string(scanStamps_.size()) +
                              " scans, expected one a scan, since the stamps of the scans are not"
-                             " used (they stand still, or the option period_s is set)");
+                             " used (they do not change, or the option period_s is set)");
   };
   if (!truth_.empty() && truth_.size() != scanStamps_.size())
     wrong("reference poses", truth_.size());
@@ -87,7 +87,7 @@ void ScanLogSource::finishLog(const std::string& where) {
   const auto scanId = addFeature({"laser", "LRF", "scan"});
   const auto truthId = addFeature({"reference", "groundTruth", "pose"});
   std::size_t command = 0;
-  PoseOdometry odometry;  // one of both only: their frames differ
+  PoseOdometry odometry;  // of one of the two only, since their frames differ
   for (const auto& [stamp, pose] : odometry_.empty() ? scanOdometry_ : odometry_) {
     std::vector<std::uint32_t> reading = odometry.words(stamp, pose);
     while (command + 1 < commands_.size() && commands_[command + 1].stamp <= stamp) ++command;
@@ -122,7 +122,7 @@ std::vector<SourceOption> withScanLogOptions(std::vector<SourceOption> options) 
   options = withScannerOptions(std::move(options));
   options.push_back({"jitter_s", "s", "1", "how far stamps may fall back before it is an error"});
   options.push_back({"period_s", "s", "the log's stamps",
-                     "ignore the stamps of scans: they are this far apart, in the order of lines"});
+                     "time between scans, in the order of lines; their stamps are ignored"});
   return options;
 }
 

@@ -12,10 +12,11 @@
 namespace ortung {
 namespace {
 
-constexpr double kUsefulRange = 30.0;  // [m]; beyond, old SICK scanners see little and spread much
+constexpr double kUsefulRange =
+    30.0;  // [m]; beyond, old SICK scanners see little, with large errors
 constexpr int kMaxBeams = 8192;
 
-/// Millionths are enough, and logs have not more.
+/// Rounds to millionths of a degree: logs have no more digits.
 double shortDegrees(double radians) { return std::round(degrees(radians) * 1e6) / 1e6; }
 
 }  // namespace
@@ -50,8 +51,8 @@ Scanner ScannerOptions::apply(Scanner scanner, const std::string& where) const {
 
 std::vector<SourceOption> withScannerOptions(std::vector<SourceOption> options) {
   options.push_back({"laser_x", "m", "the log's", "place of the laser on the robot's x axis"});
-  options.push_back({"laser_y", "m", "the log's", "and on its y axis"});
-  options.push_back({"laser_yaw_deg", "deg", "the log's", "where the laser looks"});
+  options.push_back({"laser_y", "m", "the log's", "place of the laser on the robot's y axis"});
+  options.push_back({"laser_yaw_deg", "deg", "the log's", "direction of the laser's x axis"});
   options.push_back({"max_range_m", "m", "the log's, at most 30",
                      "ranges from here on mean that nothing was seen"});
   return options;
@@ -71,8 +72,8 @@ std::string robotHead(const std::string& path) {
   if (!file.has_filename()) file = file.parent_path();
   const std::string name = file.stem().string();
   return "[robot]\nname = " + tomlText(name.empty() ? "robot" : name) +
-         "\nradius_m = 0.15  # small: what was seen of people is in maps made of scans, "
-         "too\n\n[[sensor]]\nplugin = \"odometry\"\n";
+         "\nradius_m = 0.15  # small: maps that were made of scans contain people\n"
+         "\n[[sensor]]\nplugin = \"odometry\"\n";
 }
 
 std::string scannerToml(const Scanner& scanner, double period, const SensorId& id) {
@@ -86,7 +87,7 @@ std::string scannerToml(const Scanner& scanner, double period, const SensorId& i
          "\nfirst_angle_deg = " + tomlNumber(shortDegrees(scanner.firstAngle)) +
          "\nangle_step_deg = " + tomlNumber(step) +
          "\nmax_range_m = " + tomlNumber(*scanner.maxRange) + "\nperiod_s = " + tomlNumber(period) +
-         "\n# Buildings are full of what no map holds.\n"
+         "\n# Buildings are full of things that are not in the map.\n"
          "perception = \"endpoints\"\nsigma_m = 0.05\nsigma_per_m = 0.0\noutliers = 0.2\n";
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t kMostMotionData = 16;
 constexpr std::size_t kMostNumbers = 80;
-constexpr std::int64_t kFarthest = 2'000'000'000;  ///< of a number but motion data and time
+constexpr std::int64_t kFarthest =
+    2'000'000'000;  ///< greatest absolute number, except motion data and time
 
 std::uint16_t checksum(std::string_view text) {
   boost::crc_ccitt_type crc;
@@ -70,9 +71,9 @@ std::string bodyOf(const Velocity& v) {
 
 std::string bodyOf(const Question&) { return "?I"; }
 
-/// What stands between "$" and "*", if the checksum is right.
+/// Returns the characters between "$" and "*", if the checksum is right.
 std::optional<std::string_view> checked(std::string_view line) {
-  line.remove_prefix(std::min(line.rfind('$'), line.size()));  // noise may stand before it
+  line.remove_prefix(std::min(line.rfind('$'), line.size()));  // noise may precede it
   if (line.size() < 7 || line.size() > kLongest || line.front() != '$') return std::nullopt;
   const std::size_t star = line.size() - 5;
   if (line[star] != '*') return std::nullopt;
@@ -85,7 +86,7 @@ std::optional<std::string_view> checked(std::string_view line) {
   return body;
 }
 
-/// All numbers behind the first comma; nothing if one of them is none.
+/// Returns all numbers behind the first comma; nothing if one of them is invalid.
 std::optional<std::vector<std::int64_t>> numbersOf(std::string_view text) {
   std::vector<std::int64_t> numbers;
   while (!text.empty()) {
@@ -186,7 +187,7 @@ std::optional<std::string> LineCutter::next() {
   while (true) {
     const std::size_t end = bytes_.find('\n', begin_);
     if (end == std::string::npos) {
-      if (bytes_.size() - begin_ > longest_) {  // nothing of it can become a line
+      if (bytes_.size() - begin_ > longest_) {  // no line can be as long
         refused_ += isSkipping_ ? 0 : 1;
         isSkipping_ = true;
         bytes_.clear();

@@ -8,10 +8,10 @@ namespace ortung {
 namespace {
 
 constexpr Timestamp kSecond = 1'000'000;
-constexpr std::size_t kKept = 60;                    ///< seconds that tell of the drift
-constexpr Timestamp kNeeded = 10 * kSecond;          ///< below that, noise looks like a drift
-constexpr double kMostDrift = 1e-3;                  ///< crystals are a hundred times better
-constexpr Timestamp kFarthest = Timestamp{1} << 60;  ///< of a hostile device's clock
+constexpr std::size_t kKept = 60;                    ///< number of seconds that are used
+constexpr Timestamp kNeeded = 10 * kSecond;          ///< least time that shows a drift, not noise
+constexpr double kMostDrift = 1e-3;                  ///< greatest drift; crystals are 100 x better
+constexpr Timestamp kFarthest = Timestamp{1} << 60;  ///< latest device time that is accepted
 
 }  // namespace
 
@@ -39,17 +39,18 @@ Timestamp DeviceClock::toHost(Timestamp device, Timestamp arrival) {
   return inOrder(device + base_ + offset - fromSeconds(config_.latency), arrival);
 }
 
-/// @param above how far the difference lies above the envelope [us]: the reading's delay
+/// Returns whether the device's clock was set.
+/// @param above difference above the envelope [us]: the reading's delay
 bool DeviceClock::hasJumped(Timestamp device, Timestamp arrival, double above) {
   const double jump = config_.jump * kMicrosecondsPerSecond;
-  if (above < -jump) return true;                 // it came before it could have been measured
-  if (device_ && device < *device_) return true;  // time runs forwards
+  if (above < -jump) return true;                 // arrived before it was measured
+  if (device_ && device < *device_) return true;  // device time decreased
   if (above <= jump) {
     lateSince_.reset();
     return false;
   }
-  // Held up on its way, with others behind it; or the clock was set back by less than it has run
-  // since its last reading, or stood still.
+  // Either this reading and the following ones are delayed, or the clock was set back by less than
+  // it has run since its last reading, or it stood still.
   if (!lateSince_) lateSince_ = arrival;
   return toSeconds(arrival - *lateSince_) > config_.patience;
 }
@@ -69,7 +70,7 @@ void DeviceClock::note(Timestamp device, double difference) {
   fit();
 }
 
-/// The lower hull's edge below the middle of all.
+/// Finds the edge of the lower convex hull that lies below the middle of all minima.
 void DeviceClock::fit() {
   const Timestamp first = least_.front().device;
   const auto x = [first](const Least& one) { return static_cast<double>(one.device - first); };

@@ -6,8 +6,8 @@
 namespace ortung {
 namespace {
 
-constexpr Timestamp kRateOver = 2'000'000;  ///< [us]
-constexpr std::size_t kCounted = 20'000;    ///< readings in that time, at most
+constexpr Timestamp kRateOver = 2'000'000;  ///< time over which the rate is measured [us]
+constexpr std::size_t kCounted = 20'000;    ///< greatest number of readings in that time
 
 std::string seconds(double value) {
   char text[32];

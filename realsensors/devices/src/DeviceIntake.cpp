@@ -44,7 +44,7 @@ std::optional<Message> DeviceIntake::take(DeviceReading reading, Timestamp arriv
   return Message{stamp, feature.data->id(), std::move(reading.words)};
 }
 
-/// What the feature does not take must not get as far as a container, whose readers would end.
+/// Checks the words: those that the feature refuses would end the readers of the container.
 bool DeviceIntake::isSense(const Feature& feature, const DeviceReading& reading) {
   try {
     feature.data->checkData(reading.words);
@@ -54,7 +54,7 @@ bool DeviceIntake::isSense(const Feature& feature, const DeviceReading& reading)
   }
 }
 
-/// Its clock stands still: it can't have measured since.
+/// Returns whether the device's time did not advance: it can't have measured since.
 bool DeviceIntake::repeatsItsTime(Feature& feature, const DeviceReading& reading) {
   return reading.deviceTime && feature.deviceTime && *reading.deviceTime == *feature.deviceTime;
 }

@@ -12,11 +12,12 @@
 namespace ortung {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{100};  ///< of one look at the device
-constexpr std::chrono::milliseconds kBreath{2};      ///< after each read: a flood shall not heat
-constexpr std::chrono::seconds kLongestEnd{3};
+constexpr std::chrono::milliseconds kPatience{100};  ///< longest wait for a reading
+constexpr std::chrono::milliseconds kBreath{
+    2};  ///< sleep after each read, to limit the load of a flood
+constexpr std::chrono::seconds kLongestEnd{3};  ///< longest wait for the thread's end
 
-/// Threads that are started meanwhile get no signals.
+/// Blocks all signals in threads that are started while it lives.
 class SignalsElsewhere {
  public:
   SignalsElsewhere() {
@@ -39,7 +40,7 @@ struct DeviceThread::Shared {
   std::string name;
   std::function<Timestamp()> clock;
   std::function<void(Message)> sink;
-  std::mutex mutex;  ///< of what follows
+  std::mutex mutex;  ///< guards the members that follow
   std::condition_variable_any wake;
   DeviceIntake intake;
   std::uint64_t refused = 0;
@@ -78,7 +79,7 @@ struct DeviceThread::Shared {
       if (message) sink(std::move(*message));
     }
   }
-  /// One look. @throws what the driver throws, and DeviceAbsent if the device is to be closed
+  /// Reads the device once. @throws what the driver throws, and DeviceAbsent if it must be closed
   void look() {
     std::vector<DeviceReading> readings;
     driver->read(kPatience, readings);

@@ -7,9 +7,10 @@
 
 namespace ortung {
 
+/// A speed of a serial line, and its code in termios.
 struct LineSpeed {
-  int baud;
-  speed_t code;
+  int baud;      ///< speed [bit/s]
+  speed_t code;  ///< constant of termios
 };
 
 /// The speeds that serial lines have.
@@ -20,6 +21,7 @@ inline constexpr std::array kLineSpeeds{
     LineSpeed{460800, B460800},  LineSpeed{500000, B500000}, LineSpeed{921600, B921600},
     LineSpeed{1000000, B1000000}};
 
+/// Returns the code of a speed [bit/s], or nothing.
 inline std::optional<speed_t> codeOf(int baud) {
   for (const LineSpeed& speed : kLineSpeeds)
     if (speed.baud == baud) return speed.code;

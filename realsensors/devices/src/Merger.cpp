@@ -7,7 +7,7 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kMostWaiting = 1024;  ///< readings of one device
+constexpr std::size_t kMostWaiting = 1024;  ///< greatest number of waiting readings of a device
 
 }  // namespace
 
@@ -24,7 +24,7 @@ bool Merger::push(std::size_t device, Message message) {
     ++lane.late;
     return false;
   }
-  if (lane.waiting == kMostWaiting) {  // nobody asks for them: what is oldest is worth least
+  if (lane.waiting == kMostWaiting) {  // they are not taken: the oldest one is the least useful
     const auto oldest = std::find_if(waiting_.begin(), waiting_.end(),
                                      [&](const Waiting& one) { return one.device == device; });
     waiting_.erase(oldest);

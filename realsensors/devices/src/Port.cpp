@@ -18,13 +18,13 @@
 namespace ortung {
 namespace {
 
-constexpr int kConnecting = 2000;  // [ms]
-constexpr int kWriting = 500;      // [ms]
+constexpr int kConnecting = 2000;  // longest wait for a connection [ms]
+constexpr int kWriting = 500;      // longest wait for a write [ms]
 constexpr std::string_view kTcp = "tcp:";
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// Waits until @p events or trouble; false after @p milliseconds.
+/// Waits for @p events or an error; false after @p milliseconds.
 bool waitFor(int descriptor, short events, int milliseconds) {
   pollfd one{descriptor, events, 0};
   return ::poll(&one, 1, milliseconds) > 0;
@@ -33,7 +33,7 @@ bool waitFor(int descriptor, short events, int milliseconds) {
 void setUp(int line, const std::string& name, int baud) {
   termios settings{};
   if (::tcgetattr(line, &settings) != 0)
-    throw DeviceAbsent(name + ": is no serial line: " + reason(errno));
+    throw DeviceAbsent(name + ": is not a serial line: " + reason(errno));
   ::cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
@@ -43,7 +43,7 @@ void setUp(int line, const std::string& name, int baud) {
   if (::tcsetattr(line, TCSANOW, &settings) != 0)
     throw DeviceAbsent(name + ": can't be set to " + std::to_string(baud) +
                        " baud: " + reason(errno));
-  ::tcflush(line, TCIFLUSH);  // what came before is old
+  ::tcflush(line, TCIFLUSH);  // what came before is out of date
 }
 
 int openLine(const std::string& name) {
@@ -52,7 +52,7 @@ int openLine(const std::string& name) {
   return line;
 }
 
-/// Connects within a stated time; -1 and errno if that fails.
+/// Connects within kConnecting. @return the socket, or -1 and errno
 int connectTo(const addrinfo& address) {
   const int socket = ::socket(address.ai_family, address.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC,
                               address.ai_protocol);
@@ -139,7 +139,7 @@ void Port::write(std::string_view bytes) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::milliseconds(kWriting);
   while (!bytes.empty()) {
-    // A socket's end must not become a signal.
+    // A connection that was closed must not raise a signal.
     ssize_t count = ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (count < 0 && errno == ENOTSOCK) count = ::write(descriptor_, bytes.data(), bytes.size());
     if (count > 0) {

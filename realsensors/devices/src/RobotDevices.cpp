@@ -16,7 +16,7 @@ constexpr std::string_view kDev = "/dev/";
 
 std::string placeOf(const std::string& port, const std::filesystem::path& dev) {
   if (dev.empty() || !port.starts_with(kDev)) return port;
-  // Drivers of others take what is no absolute path for a name within /dev.
+  // Drivers of other libraries take a relative path for a name within /dev.
   return (std::filesystem::absolute(dev) / port.substr(kDev.size())).string();
 }
 
@@ -40,7 +40,7 @@ DeviceSettings readDevice(const Parameters& table, const std::filesystem::path& 
 void refuseSettings(const Parameters& table, const DeviceSettings& first) {
   for (const std::string& key : table.keys())
     if (key != "plugin" && key != "port")
-      table.fail(key, "stands in the second table of " + first.plugin + " at " + first.port +
+      table.fail(key, "is in the second table of " + first.plugin + " at " + first.port +
                           "; expected all settings in the first one, plugin and port alone here");
 }
 
@@ -115,7 +115,7 @@ void RobotDevices::push(std::size_t device, Message message) {
   [[maybe_unused]] const ssize_t written = ::write(wake_, &one, sizeof(one));
 }
 
-/// Nobody waits for what does not come.
+/// Lets readings wait for running devices only.
 void RobotDevices::awaitThoseThatRun() {
   for (std::size_t i = 0; i < threads_.size(); ++i) {
     const bool runs = threads_[i]->status().state == DeviceState::kRunning;

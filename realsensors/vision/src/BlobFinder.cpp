@@ -7,14 +7,14 @@
 namespace ortung {
 namespace {
 
-/// Share of its bounding box that a disc fills is pi / 4; partly hidden or in bad light less.
+/// A disc fills pi / 4 of its bounding box; partly hidden or in bad light it fills less.
 constexpr double kLeastFilled = 0.45;
 constexpr double kMostStretched = 2.2;
-/// How far off a ball's area may be.
+/// Least and greatest ratio of a blob's area to the expected area of a ball.
 constexpr double kSmallest = 0.3;
 constexpr double kLargest = 2.2;
 
-/// Area in pixels that a ball at a place fills: from how far apart its sides appear.
+/// Returns the area [px] that a ball at a place fills, computed from the images of its sides.
 std::optional<double> areaOfBall(const CameraView& view, const Point3& middle, double radius) {
   const double distance = std::hypot(middle.x, middle.y);
   if (distance < 1e-6) return std::nullopt;
@@ -27,7 +27,7 @@ std::optional<double> areaOfBall(const CameraView& view, const Point3& middle, d
   if (!left || !right || !top || !bottom) return std::nullopt;
   const double across = std::hypot(left->u - right->u, left->v - right->v);
   const double along = std::hypot(top->u - bottom->u, top->v - bottom->v);
-  // Seen from above a ball is as tall as it is wide, though its axis appears shorter.
+  // From above, a ball appears as tall as it is wide although its vertical axis appears shorter.
   return 0.25 * CV_PI * across * std::max(across, along);
 }
 

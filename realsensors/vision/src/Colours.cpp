@@ -6,8 +6,8 @@
 namespace ortung {
 namespace {
 
-constexpr int kHues = 72;  ///< of 5 degrees
-/// Floors are green, from yellowish to bluish light.
+constexpr int kHues = 72;  ///< number of bins, each 5 degrees wide
+/// Floors are green, in yellowish to bluish light.
 constexpr double kFirstFloorHue = 70.0;
 constexpr double kLastFloorHue = 200.0;
 
@@ -21,7 +21,7 @@ bool mayBeFloor(const Hsv& colour) {
          colour.value > 0.06;
 }
 
-/// Calls what for pixels of the lower half, every third in each direction.
+/// Calls @p what for every third pixel of the lower half, in both directions.
 template <typename What>
 void eachLowerPixel(std::span<const ImageView> images, const What& what) {
   for (const ImageView& image : images) {
@@ -89,7 +89,7 @@ bool ColourRange::has(const Hsv& colour) const {
          colour.value <= maxValue && hueDistance(colour.hue, hue) <= hueTolerance;
 }
 
-/// The commonest hue among greens, and how far the others of its peak lie from it.
+// Takes the commonest green hue, and as its tolerance the spread of the peak around it.
 Colours findColours(std::span<const ImageView> images) {
   Colours colours;
   std::array<double, kHues> weights{};

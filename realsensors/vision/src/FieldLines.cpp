@@ -23,7 +23,7 @@ FieldLines::Nearest nearestOnStraight(const FieldLine& line, double x, double y)
   return n;
 }
 
-/// Exact for circles; of an ellipse the point in the same direction of its own angle t.
+/// Exact for circles; for an ellipse it is the point with the same parametric angle t.
 FieldLines::Nearest nearestOnArc(const FieldLine& line, double x, double y) {
   const double c = std::cos(line.angle);
   const double s = std::sin(line.angle);
@@ -51,7 +51,7 @@ FieldLines::Nearest nearestOnArc(const FieldLine& line, double x, double y) {
 }  // namespace
 
 FieldLines::FieldLines(std::span<const FieldLine> lines) : lines_(lines.begin(), lines.end()) {
-  // The border of something painted that has no width is no line.
+  // What has no width is the border of a painted area, not a line.
   std::erase_if(lines_, [](const FieldLine& line) { return line.width <= 0.0; });
   if (lines_.empty()) throw std::invalid_argument("the world has no painted lines");
   if (lines_.size() > 10000)

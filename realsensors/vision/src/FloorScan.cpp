@@ -8,9 +8,9 @@
 namespace ortung {
 namespace {
 
-constexpr double kFirstRange = 0.3;  ///< [m]
-constexpr double kGrowth = 1.03;     ///< from one step to the next
-constexpr double kSameBody = 0.35;   ///< of neighbours' ranges [m]
+constexpr double kFirstRange = 0.3;  ///< range of the first step [m]
+constexpr double kGrowth = 1.03;     ///< ratio of a step's range to that of the step before
+constexpr double kSameBody = 0.35;   ///< greatest difference of neighbours' ranges on one body [m]
 
 }  // namespace
 
@@ -30,8 +30,8 @@ FloorScan::FloorScan(const CameraView& view, const Config& config)
   }
 }
 
-/// Where the floor begins to be hidden. Nothing: never, or all along (it is not known then what is
-/// in between).
+/// Returns the range from which on the floor is hidden [m]. Nothing: it is hidden nowhere or
+/// everywhere (then the range is not known), or a ball hides it.
 std::optional<double> FloorScan::firstHidden(const ImageView& image, const ColourTable& colours,
                                              std::span<const Step> steps) const {
   bool hasFloor = false;
@@ -59,12 +59,12 @@ std::vector<FloorBody> FloorScan::find(const ImageView& image, const ColourTable
   for (std::size_t k = 0; k < n; ++k)
     ranges[k] = firstHidden(image, colours,
                             std::span(steps_).subspan(begins_[k], begins_[k + 1] - begins_[k]));
-  const auto continues = [&](std::size_t k) {  // from the direction before
+  const auto continues = [&](std::size_t k) {  // the body of the direction before
     const auto& a = ranges[(k + n - 1) % n];
     const auto& b = ranges[k % n];
     return a && b && std::abs(*a - *b) <= kSameBody;
   };
-  std::size_t first = 0;  // a direction that begins something, so that nothing is cut by the turn
+  std::size_t first = 0;  // a direction with which a body begins, so that none is cut into two
   while (first < n && continues(first)) ++first;
   for (std::size_t i = 0; i < n;) {
     const std::size_t k = (first + i) % n;

@@ -7,8 +7,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kLeastSigma = 0.02;  ///< of paint and floor [m]
-constexpr int kFloorRun = 12;         ///< pixels of floor that are not by chance
+constexpr double kLeastSigma = 0.02;  ///< error of paint and floor [m]
+constexpr int kFloorRun = 12;         ///< consecutive floor pixels that are not random
 
 }  // namespace
 
@@ -26,7 +26,7 @@ std::optional<FloorSight> floorSightOf(const CameraView& view, const Pixel& pixe
 double floorTopOf(const ImageView& image, const ColourTable& colours) {
   std::vector<int> tops;
   const auto pitch = static_cast<std::size_t>(image.size.width) * 3;
-  const int mostGap = image.size.height / 8;  // a robot's or a ball's
+  const int mostGap = image.size.height / 8;  // greatest gap, made by a robot or a ball
   for (int k = 0; k < 100 && image.format == PixelFormat::kRgb; ++k) {
     const int u = (2 * k + 1) * image.size.width / 200;
     int run = 0;

@@ -6,19 +6,19 @@
 namespace ortung {
 namespace {
 
-/// Pixels on each side of a crossing that must mostly be floor: a share of its width.
+/// Width beside a crossing that must mostly be floor, as a share of the crossing's width.
 constexpr double kFloorBeside = 0.5;
-constexpr int kLeastBeside = 3;      ///< [px]
-constexpr int kMostBeside = 12;      ///< [px]
-constexpr double kFloorShare = 0.7;  ///< of them
-constexpr int kRough = 60;           ///< floor pixels before a crossing that tell how rough it is
-constexpr double kRougher = 3.0;     ///< a line is whiter than the floor by so many of its sigmas
+constexpr int kLeastBeside = 3;      ///< least such width [px]
+constexpr int kMostBeside = 12;      ///< greatest such width [px]
+constexpr double kFloorShare = 0.7;  ///< least share of floor pixels in it
+constexpr int kRough = 60;           ///< floor pixels before a crossing that give its sigma
+constexpr double kRougher = 3.0;     ///< least rise of whiteness / the floor's sigma
 constexpr int kEdge = 2;             ///< pixels between floor and white that are neither
 
-constexpr double kReach = 4.0;  ///< how far a point's neighbours are, in spacings
-constexpr int kNeighbours = 3;  ///< that lie in a row with a point
+constexpr double kReach = 4.0;  ///< greatest distance of a point's neighbours [spacings]
+constexpr int kNeighbours = 3;  ///< least number of neighbours in line with a point
 
-/// Whether enough neighbours lie on one line through the point. @param around: relative to it
+/// Whether enough neighbours lie on one line through a point. @param around places relative to it
 bool isInChain(std::span<const Pixel> around, double spacing) {
   for (const Pixel& end : around) {
     const double length = std::hypot(end.u, end.v);
@@ -55,7 +55,7 @@ std::span<const LinePoint> LineFinder::find(const ImageView& image, const Colour
   return points_;
 }
 
-/// Keeps points that lie in a row with others: what crosses a line is crossed again beside it.
+/// Keeps points in line with others: the scan lines beside one that crosses a line cross it, too.
 void LineFinder::keepChains(int width, int height) {
   const double reach = kReach * config_.spacing;
   const int columns = static_cast<int>(width / reach) + 1;
@@ -110,7 +110,7 @@ void LineFinder::readProfile(const std::uint8_t* first, std::size_t step, int co
   }
 }
 
-/// Crossings along one scan line.
+/// Finds the crossings along one scan line.
 void LineFinder::scan(const std::uint8_t* first, std::size_t step, int count,
                       const ColourTable& colours) {
   crossings_.clear();
@@ -142,7 +142,7 @@ void LineFinder::scan(const std::uint8_t* first, std::size_t step, int count,
            std::max({rough, static_cast<double>(config_.minStep), config_.minContrast * floor});
   };
   for (int i = kLeastBeside + kEdge; i < count - 1; ++i) {
-    // A rise from the floor just before.
+    // Whiteness must rise from that of the floor just before.
     const int before = std::max(0, i - kMostBeside);
     if (floorIn(std::max(0, i - kLeastBeside - kEdge), i) < kLeastBeside) continue;
     const double left = whiteOfFloor(before, i);
@@ -166,7 +166,7 @@ void LineFinder::scan(const std::uint8_t* first, std::size_t step, int count,
     const bool hasFloor =
         floorIn(from, i) >= kFloorShare * beside && floorIn(end, to) >= kFloorShare * beside;
     if (hasFloor && peak > threshold(right)) {
-      // Edges where half the step is reached, between two pixels.
+      // Edges are where half the rise is reached, between two pixels.
       const double halfLeft = 0.5 * (left + peak);
       const double halfRight = 0.5 * (right + peak);
       int a = i;

@@ -11,9 +11,9 @@
 namespace ortung {
 namespace {
 
-constexpr double kMargin = 2.0;    ///< of the table beyond the lines [m]
-constexpr float kOutside = 10.0F;  ///< of the table: so far from any line [m]
-constexpr double kMostCost = 9.0;  ///< of one point
+constexpr double kMargin = 2.0;    ///< width of the table's margin around the lines [m]
+constexpr float kOutside = 10.0F;  ///< distance to a line outside the table [m]
+constexpr double kMostCost = 9.0;  ///< greatest cost of a point
 
 }  // namespace
 
@@ -47,7 +47,7 @@ std::ptrdiff_t LinePoseSearch::cellAt(double x, double y) const {
   return static_cast<std::ptrdiff_t>(row) * columns_ + column;
 }
 
-/// The lines that are nearest to the cell and to its neighbours two cells away.
+// Compares the lines that are nearest to the cell and to its neighbours two cells away.
 FieldLines::Nearest LinePoseSearch::nearest(double x, double y) const {
   const std::ptrdiff_t middle = cellAt(x, y);
   if (middle < 0) return lines_.nearest(x, y);
@@ -117,7 +117,7 @@ std::vector<LinePose> LinePoseSearch::search(std::span<const LinePlace> points,
   const auto isBetter = [](const LinePose& a, const LinePose& b) { return a.cost < b.cost; };
   std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(tried), found.end(),
                     isBetter);
-  // One start for each hill, then the hills' tops, one for each place.
+  // The refinement starts once near each local minimum; of its results one is kept for each place.
   const auto isAt = [](const Pose2& a, const Pose2& b, double way, double turn) {
     return distance(a, b) < way && std::abs(wrapAngle(a.theta - b.theta)) < turn;
   };
@@ -142,7 +142,7 @@ LinePose LinePoseSearch::polish(std::span<const LinePlace> points, std::span<con
                                 const Pose2& start) const {
   Pose2 pose = start;
   for (int step = 0; step < 25; ++step) {
-    // Wide at first, so that it finds its way, then as narrow as the points are good.
+    // Sigmas are wide at first, so that distant points attract, and then the points' own.
     const double widen = std::max(1.0, 4.0 * std::pow(0.7, step));
     Eigen::Matrix3d information = Eigen::Matrix3d::Identity() * 1e-6;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
@@ -156,7 +156,7 @@ LinePose LinePoseSearch::polish(std::span<const LinePlace> points, std::span<con
       const double nx = (pose.x + dx - n.x) / n.distance;
       const double ny = (pose.y + dy - n.y) / n.distance;
       const double r = n.distance / (sigmas[i] * widen);
-      // Geman and McClure's weight: what lies far off says nothing.
+      // The weight of Geman and McClure: distant points have almost none.
       const double w = 1.0 / ((1.0 + r * r / 4.0) * (1.0 + r * r / 4.0)) / (sigmas[i] * sigmas[i]);
       const Eigen::Vector3d slope(nx, ny, ny * dx - nx * dy);
       information += w * slope * slope.transpose();

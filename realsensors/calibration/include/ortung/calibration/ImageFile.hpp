@@ -10,20 +10,21 @@
 
 namespace ortung {
 
-/// A picture with its own pixels, red, green, blue.
+/// A picture that owns its pixels.
 struct ORTUNG_API Picture {
-  ImageSize size;
-  std::vector<std::uint8_t> pixels;
+  ImageSize size;                    ///< [px]
+  std::vector<std::uint8_t> pixels;  ///< red, green, blue; row by row from the top
 
+  /// A view of the pixels; it is valid as long as they are.
   ImageView view() const { return {size, PixelFormat::kRgb, pixels.data()}; }
-  /// Draws a filled square of 2 r + 1 pixels around a place; what is outside is left out.
+  /// Draws a filled square with sides of 2 r + 1 pixels around @p at, clipped at the border.
   void dot(const Pixel& at, int r, std::uint8_t red, std::uint8_t green, std::uint8_t blue);
 };
 
-/// Reads a JPEG, PNG, ... (what OpenCV reads); at most 4096 pixels a side.
-/// @throws std::runtime_error naming the file
+/// Reads an image file: JPEG, PNG and the other formats of OpenCV.
+/// @throws std::runtime_error that names the file, also for more than 4096 pixels a side
 ORTUNG_API Picture readPicture(const std::filesystem::path& file);
-/// Bytes of a PNG file. @throws std::runtime_error
+/// Encodes an image as a PNG file. @return the file's bytes @throws std::runtime_error
 ORTUNG_API std::vector<std::uint8_t> toPng(const ImageView& image);
 
 }  // namespace ortung

@@ -16,64 +16,72 @@
 
 namespace ortung {
 
-inline constexpr std::size_t kMaxLogLine = 1u << 20;       ///< bytes of one line
-inline constexpr std::uint64_t kMaxLogBytes = 1ull << 31;  ///< of a file, decompressed
-inline constexpr double kMaxLogSeconds = 1e10;             ///< of a time stamp, either sign
-inline constexpr double kMaxLogMetres = 1e6;               ///< of a coordinate, either sign
+inline constexpr std::size_t kMaxLogLine = 1u << 20;  ///< greatest length of a line [bytes]
+inline constexpr std::uint64_t kMaxLogBytes =
+    1ull << 31;                                 ///< greatest length of a decompressed file [bytes]
+inline constexpr double kMaxLogSeconds = 1e10;  ///< greatest absolute time stamp [s]
+inline constexpr double kMaxLogMetres = 1e6;    ///< greatest absolute coordinate [m]
 
-/// The file itself, or the same name with .xz or .gz behind it; nothing if there is none of them.
+/// Returns @p path if there is such a file, or the same name with .xz or .gz appended, or nothing.
 ORTUNG_API std::optional<std::filesystem::path> findLogFile(const std::filesystem::path& path);
 
-/// All bytes of a file that may be compressed.
+/// Reads all bytes of a file, and decompresses them if its name ends in .xz or .gz.
 /// @throws std::runtime_error if it is missing, damaged or longer than @p maxBytes
 ORTUNG_API std::string readLogBytes(const std::filesystem::path& file,
                                     std::uint64_t maxBytes = kMaxLogBytes);
 
-/// Text in quotes for an error: bytes nobody can print escaped, cut after 40.
+/// Quotes text for an error: unprintable bytes are escaped, and it is cut after 40 bytes.
 ORTUNG_API std::string inQuotes(std::string_view text);
 
-/// The finite number that the whole of @p text is, or nothing.
+/// Parses a finite number; nothing if anything else is in @p text.
 ORTUNG_API std::optional<double> parseNumber(std::string_view text);
 
-/// A text file of a foreign log, line by line, in fields parted by blanks. It may be compressed
-/// (.xz, .gz). Every error names file and line, what was found and what was expected.
+/// A text file of a foreign log, line by line, in fields separated by blanks. It may be compressed
+/// (.xz, .gz). Every error names the file and the line, what was found and what was expected.
 /// Not thread-safe.
 class ORTUNG_API LogFile {
  public:
-  /// Opens @p path or, if there is none, the same name with .xz or .gz behind it.
+  /// Opens @p path or, if it does not exist, the same name with .xz or .gz appended.
   /// @throws std::runtime_error if there is none of them
   explicit LogFile(const std::filesystem::path& path, std::uint64_t maxBytes = kMaxLogBytes);
   enum Commas { kCommas };
-  /// A file whose fields are parted by commas, with or without blanks: numbers, nothing in quotes.
+  /// Opens a file whose fields are separated by commas, with or without blanks; nothing is quoted.
   LogFile(const std::filesystem::path& path, Commas);
   ~LogFile();
   LogFile(const LogFile&) = delete;
   LogFile& operator=(const LogFile&) = delete;
 
-  /// The next line that has a field; false at the end. What is a comment begins with '#' or '%'.
+  /// Reads the next line that has a field; false at the end. Comments begin with '#' or '%'.
   /// @throws std::runtime_error for a line or a file beyond its limit, or damaged compression
   bool nextLine();
-  /// The next one that is no comment.
+  /// Reads the next line that has a field and is not a comment; false at the end.
   bool nextRecord();
 
+  /// Whether the current line is a comment.
   bool isComment() const;
+  /// The current line without its end; valid until the next one is read.
   std::string_view line() const { return line_; }
+  /// The current line's number, from 1.
   std::size_t lineNumber() const { return lineNumber_; }
+  /// The file that was opened, with the .xz or .gz that was found.
   const std::filesystem::path& path() const { return path_; }
   std::string place() const;  ///< "FILE:LINE"
 
-  // --- fields of the line ---
+  // --- Fields of the current line, from 0. All functions throw as fail() does. ---
+  /// Number of fields.
   std::size_t size() const { return fields_.size(); }
+  /// The field as it was written.
   std::string_view text(std::size_t field) const;
-  /// A finite number within @p range. @param what for the error, e.g. "a range [m]"
+  /// Reads a finite number within @p range.
+  /// @param what names the quantity in the error, e.g. "a range [m]"
   double number(std::size_t field, const char* what, const Range& range = {}) const;
-  /// A whole number within @p range.
+  /// Reads a whole number within @p range.
   std::int64_t integer(std::size_t field, const char* what, const Range& range) const;
-  /// A time stamp in seconds.
+  /// Reads a time stamp that is written in seconds.
   Timestamp stamp(std::size_t field) const;
-  /// Three fields: x [m], y [m], theta [rad].
+  /// Reads a pose from three fields: x [m], y [m], theta [rad].
   Pose2 pose(std::size_t field) const;
-  /// @throws std::runtime_error unless the line has @p count fields: those that @p what names
+  /// Fails unless the line has @p count fields. @param what names them in the error
   void needFields(std::size_t count, const char* what) const;
 
   /// @throws std::runtime_error "FILE:LINE: found FOUND, expected EXPECTED"
@@ -90,19 +98,20 @@ class ORTUNG_API LogFile {
   bool torn_ = false;
 };
 
-/// Keeps the stamps of one stream rising. Clocks of old logs jitter, while their lines are in the
-/// right order: a stamp that falls back a little, or stands still, becomes the last one and 1 us.
+/// Makes the stamps of one stream strictly increasing. The clocks of old logs jitter, while their
+/// lines are in the right order: a stamp that is equal to the last one or a little earlier is
+/// replaced by the last one + 1 us.
 /// Not thread-safe.
 class ORTUNG_API LogClock {
  public:
-  /// @param jitter greatest step back that is put up with [s]
+  /// @param jitter greatest step back that is tolerated [s]
   explicit LogClock(double jitter) : jitter_(jitter) {}
-  /// @throws std::runtime_error for a greater one
+  /// Returns the corrected stamp. @throws std::runtime_error for a greater step back
   Timestamp operator()(const LogFile& file, Timestamp stamp);
 
  private:
-  double jitter_;
-  std::optional<Timestamp> last_;
+  double jitter_;                  ///< greatest step back that is tolerated [s]
+  std::optional<Timestamp> last_;  ///< newest stamp that was returned
 };
 
 }  // namespace ortung

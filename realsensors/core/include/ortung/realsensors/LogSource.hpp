@@ -16,19 +16,23 @@
 
 namespace ortung {
 
-/// A foreign log as a source: a derived class reads the whole log when it is made and adds readings
-/// in any order; they are given in the order of time. Not thread-safe.
+/// A foreign log as a source: the constructor of a derived class reads the whole log and adds
+/// readings in any order; next() returns them in the order of time. Not thread-safe.
 class ORTUNG_API LogSource : public Source {
  public:
   ~LogSource() override;
+  /// The next reading; false at the end.
   bool next(Message& message) final;
+  /// Share of the readings that were returned, in [0, 1].
   double progress() const final;
 
  protected:
-  /// A feature's number. Readings of one moment come in the order of these numbers.
+  /// Adds a feature. @return its number; readings of one time come in the order of these numbers
   std::uint32_t addFeature(SensorId id);
+  /// Adds a reading. @param words as the feature's SensorData reads them
   void add(std::uint32_t feature, Timestamp stamp, std::span<const std::uint32_t> words);
-  /// Puts readings in the order of time. Of two of a feature at one moment the later added stays.
+  /// Sorts the readings by time. Of two readings of a feature at one time the last added one stays.
+  /// @param where file for the error
   /// @throws std::runtime_error if there is no reading at all
   void finish(const std::string& where);
 
@@ -39,37 +43,40 @@ class ORTUNG_API LogSource : public Source {
     std::uint32_t count;
     std::size_t firstWord;
   };
-  std::vector<SensorId> features_;
-  std::vector<Entry> entries_;
-  std::vector<std::uint32_t> words_;
-  std::size_t at_ = 0;
+  std::vector<SensorId> features_;    ///< features by their numbers
+  std::vector<Entry> entries_;        ///< readings, sorted by finish()
+  std::vector<std::uint32_t> words_;  ///< words of all readings
+  std::size_t at_ = 0;                ///< index of the next reading
 };
 
-/// Odometry poses, whose velocities follow from their differences. Not thread-safe.
+/// Makes readings of odometry from poses; velocities are their differences. Not thread-safe.
 class ORTUNG_API PoseOdometry {
  public:
-  /// Words of OdometryData for the pose at a time; stamps must not fall.
+  /// Returns the words of OdometryData for a pose. @pre stamps do not decrease
   std::vector<std::uint32_t> words(Timestamp stamp, const Pose2& pose);
 
  private:
   std::optional<std::pair<Timestamp, Pose2>> last_;
-  double translational_ = 0.0;  ///< [m/s]
-  double rotational_ = 0.0;     ///< [rad/s]
+  double translational_ = 0.0;  ///< newest translational velocity [m/s]
+  double rotational_ = 0.0;     ///< newest rotational velocity [rad/s]
 };
 
-/// Pose after moving with constant velocities: along an arc, exactly.
-/// @param v [m/s] @param w [rad/s] @param seconds [s]
+/// Returns the pose after moving with constant velocities along an arc (exact).
+/// @param pose pose at the beginning
+/// @param v translational velocity [m/s]
+/// @param w rotational velocity [rad/s]
+/// @param seconds duration [s]
 ORTUNG_API Pose2 alongArc(const Pose2& pose, double v, double w, double seconds);
 
-/// Directions of the way along @p places [rad], for truths that know no heading: of each the one
-/// from the last to the next of those that are @p step [m] apart. Those before the first step are 0
-/// if there is none.
+/// Returns a direction of travel for each place [rad], for ground truths that have no heading: the
+/// direction from the last to the next of those places that are @p step [m] apart; 0 for all if
+/// there is no such step.
 ORTUNG_API std::vector<double> headingsOfWay(std::span<const Pose2> places, double step);
 
-/// "1.5", as short as it reads back the same; always with a point, so that TOML takes it for a
-/// float.
+/// Formats a number as TOML, e.g. "1.5": the shortest text that reads back the same, with a decimal
+/// point, so that TOML reads it as a float.
 ORTUNG_API std::string tomlNumber(double value);
-/// A TOML string with everything escaped that must be.
+/// Formats text as a quoted and escaped TOML string.
 ORTUNG_API std::string tomlText(const std::string& text);
 
 }  // namespace ortung

@@ -11,39 +11,41 @@
 
 namespace ortung {
 
-/// A world of landmarks alone: what logs of beacons come from. Its bounds reach a margin beyond
-/// them. Not thread-safe.
+/// A world that consists of landmarks, for logs of beacons. Its bounds are the landmarks' bounding
+/// box and a margin around it. Not thread-safe.
 class ORTUNG_API OpenWorld {
  public:
-  /// @param kind of the landmarks, e.g. "beacon" @param margin [m]
+  /// @param kind   kind of the landmarks, e.g. "beacon"
+  /// @param margin distance from the outermost landmarks to the bounds [m]
   OpenWorld(std::string kind, double margin) : kind_(std::move(kind)), margin_(margin) {}
 
-  /// A landmark whose coordinates [m] are fields @p x and the one or, with @p hasHeight, two
-  /// behind it, @p step fields apart.
-  /// @throws std::runtime_error for an identity that is already there, or more than 256 of them
+  /// Adds a landmark whose coordinates x, y and, with @p hasHeight, z [m] are fields of the current
+  /// line, the first one @p x, each @p step fields behind the last.
+  /// @throws std::runtime_error for an identity that is already there, or more than 256 landmarks
   void read(const LogFile& file, std::uint32_t identity, std::size_t x, std::size_t step = 1,
             bool hasHeight = false);
 
-  /// A landmark at a place [m] that the file's line tells. @throws as read()
+  /// Adds a landmark at a place [m] of the current line. @throws std::runtime_error as read() does
   void add(const LogFile& file, std::uint32_t identity, double x, double y);
 
+  /// Whether there is a landmark with this identity.
   bool has(std::uint32_t identity) const;
   bool isEmpty() const { return landmarks_.empty(); }
   const std::string& kind() const { return kind_; }
-  std::string identities() const;  ///< "1, 2, 7": as they were read
-  /// Longest distance within the bounds [m].
+  std::string identities() const;  ///< identities in the order of reading, e.g. "1, 2, 7"
+  /// Returns the longest distance within the bounds [m].
   double diagonal() const;
-  /// The world as TOML. @throws std::runtime_error
+  /// Writes the world as TOML. @throws std::runtime_error if there is no landmark
   void write(const std::filesystem::path& file) const;
 
  private:
   struct Place {
     std::uint32_t identity;
-    double x, y;              ///< [m]
-    std::optional<double> z;  ///< [m]
+    double x, y;              ///< place in the field frame [m]
+    std::optional<double> z;  ///< height, if it is known [m]
   };
   struct Bounds {
-    double xLow, xHigh, yLow, yHigh;  ///< [m]
+    double xLow, xHigh, yLow, yHigh;  ///< bounds in the field frame [m]
   };
   void add(const LogFile& file, const Place& place);
   Bounds bounds() const;

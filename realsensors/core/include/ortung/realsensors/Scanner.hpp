@@ -13,39 +13,41 @@
 
 namespace ortung {
 
-/// Where a laser scanner sits and where its beams go. Angles counter-clockwise.
+/// The mount of a laser scanner and the directions of its beams. Angles are counter-clockwise.
 struct Scanner {
-  Pose2 mount;                     ///< in the robot frame
-  int beams = 0;                   ///< 1 to 8192
-  double firstAngle = 0.0;         ///< of beam 0 in the sensor's frame [rad]
-  double angleStep = 0.0;          ///< [rad], positive; beams * angleStep <= 2 pi
-  std::optional<double> maxRange;  ///< from which on nothing was seen, if it is known [m]
+  Pose2 mount;                     ///< pose of the scanner in the robot frame
+  int beams = 0;                   ///< number of beams, in [1, 8192]
+  double firstAngle = 0.0;         ///< angle of beam 0 in the sensor's frame [rad]
+  double angleStep = 0.0;          ///< angle between beams [rad], > 0; beams * angleStep <= 2 pi
+  std::optional<double> maxRange;  ///< least range that means that nothing was seen [m]
 };
 
-/// What options say of the scanner, instead of its log: laser_x, laser_y [m], laser_yaw_deg: its
-/// mount; max_range_m: readings from here on mean that nothing was seen. Immutable once made.
+/// Options that override what a log says about its scanner: laser_x, laser_y [m], laser_yaw_deg:
+/// its mount; max_range_m: ranges from here on mean that nothing was seen. Immutable once made.
 class ORTUNG_API ScannerOptions {
  public:
-  /// @throws ConfigError
+  /// @throws ConfigError for values out of range
   explicit ScannerOptions(const Parameters& options);
-  /// The scanner as the options want it, with a greatest range: at most 30 m unless they say so.
-  /// @param where file and line for the error
-  /// @throws std::runtime_error if it is no possible scanner
+  /// Returns the scanner with the options applied and a greatest range: at most 30 m unless the
+  /// options set it.
+  /// @param scanner the scanner as the log describes it
+  /// @param where   file and line for the error
+  /// @throws std::runtime_error if the number of beams or their angles are impossible
   Scanner apply(Scanner scanner, const std::string& where) const;
 
  private:
   std::optional<double> x_, y_, yaw_, maxRange_;
 };
 
-/// @p options and those of ScannerOptions, for the help of a source.
+/// Appends those of ScannerOptions to @p options, for the help of a source.
 ORTUNG_API std::vector<SourceOption> withScannerOptions(std::vector<SourceOption> options);
 
-/// Time between two scans, in the middle of all [s]; 1 if there are less than two.
+/// Returns the median time between two scans [s]; 1 if there are fewer than two.
 ORTUNG_API double medianPeriod(const std::vector<Timestamp>& stamps);
 
-/// Robot file up to its first sensor, named after the log at @p path; with odometry.
+/// Returns the beginning of a robot file (TOML), with odometry, named after the log at @p path.
 ORTUNG_API std::string robotHead(const std::string& path);
-/// [[sensor]] of the scanner, @p period [s] between scans.
+/// Returns the [[sensor]] table of the scanner. @param period time between scans [s]
 ORTUNG_API std::string scannerToml(const Scanner& scanner, double period,
                                    const SensorId& id = {"laser", "LRF", "scan"});
 

@@ -9,44 +9,45 @@
 
 namespace ortung {
 
-/// Puts the stamps of a device's own clock on ours.
+/// Converts the time stamps of a device's clock to the host's clock.
 ///
-/// Arrival minus device time is the offset of the two clocks and a delay that is never negative. So
-/// the offset is the lower envelope of that difference: the edge of the lower convex hull of the
+/// Arrival minus device time is the offset of the two clocks plus a delay that is never negative.
+/// So the offset is the lower envelope of that difference: the edge of the lower convex hull of the
 /// newest minute's minima that lies below their middle, whose slope is the drift of the clocks.
 /// (Moon, Skelly, Towsley: Estimation and removal of clock skew from network delay measurements,
 /// 1999; the hull's edge solves their linear program.)
-/// The stamps that it gives never run backwards and are never later than the arrival. A clock that
-/// was set is noticed, and the estimate starts over. Not thread-safe.
+/// The stamps that it returns never decrease and are never later than the arrival. If the device's
+/// clock was set, the estimate starts over. Not thread-safe.
 class ORTUNG_API DeviceClock {
  public:
   struct Config {
-    double latency = 0.0;   ///< [s]: what the shortest delay is known to be
-    double jump = 0.5;      ///< [s]: more than the delays of readings that come in time
-    double patience = 2.0;  ///< [s]: readings later than `jump` for so long are a clock set back
+    double latency = 0.0;   ///< the shortest delay [s], if it is known
+    double jump = 0.5;      ///< least change of the difference that may be a clock set [s]
+    double patience = 2.0;  ///< duration of delays above `jump` after which it was set back [s]
   };
   DeviceClock() = default;
   explicit DeviceClock(const Config& config) : config_(config) {}
 
-  /// Our time of a reading that the device measured at @p device on its clock, and that came at
-  /// @p arrival on ours. Readings of one device time have one stamp.
+  /// Returns the host time of a reading. Readings of one device time have one stamp.
+  /// @param device  time of measurement by the device's clock
+  /// @param arrival time of arrival by the host's clock
   Timestamp toHost(Timestamp device, Timestamp arrival);
-  /// The same of a device without a clock: its arrival, later than all before.
+  /// Returns the stamp of a device without a clock: the arrival, but later than all stamps before.
   Timestamp toHost(Timestamp arrival);
 
-  /// The device was opened anew: its clock may have begun again. Stamps go on rising.
+  /// Call after the device was reopened: its clock may have restarted. Stamps go on increasing.
   void restart();
 
   std::uint64_t jumps() const { return jumps_; }  ///< how often the device's clock was set
-  /// How much faster the device's clock runs than ours, parts per million; 0 before 10 s are known.
+  /// How much faster the device's clock runs than the host's [ppm]; 0 in the first 10 s.
   double driftPpm() const { return -1e6 * slope_; }
-  /// Our time minus the device's at its newest reading [us]; nothing without one.
+  /// Host time minus device time at the newest reading [us]; nothing before the first one.
   std::optional<Timestamp> offset() const;
 
  private:
   struct Least {
-    Timestamp begin = 0;      ///< of a second
-    Timestamp device = 0;     ///< of its reading with the shortest delay
+    Timestamp begin = 0;      ///< begin of a second of the device
+    Timestamp device = 0;     ///< device time of that second's reading with the shortest delay
     double difference = 0.0;  ///< arrival minus device time, minus base_ [us]
   };
   double envelope(Timestamp device) const;
@@ -56,13 +57,13 @@ class ORTUNG_API DeviceClock {
   Timestamp inOrder(Timestamp stamp, Timestamp arrival);
 
   Config config_;
-  std::deque<Least> least_;  ///< by seconds of the device, in the order of time
+  std::deque<Least> least_;  ///< one for each second of the device, by time
   Timestamp base_ = 0;       ///< difference of the first reading, so that numbers stay small [us]
-  double slope_ = 0.0;       ///< of the envelope [us/us]
-  double intercept_ = 0.0;   ///< at device time 0 of least_.front() [us]
+  double slope_ = 0.0;       ///< slope of the envelope [us/us]
+  double intercept_ = 0.0;   ///< the envelope at least_.front().device [us]
   std::optional<Timestamp> device_;     ///< newest device time
-  std::optional<Timestamp> lateSince_;  ///< arrival of the first of the readings that are late
-  std::optional<Timestamp> stamp_;      ///< newest stamp that was given
+  std::optional<Timestamp> lateSince_;  ///< arrival of the first late reading
+  std::optional<Timestamp> stamp_;      ///< newest stamp that was returned
   std::uint64_t jumps_ = 0;
 };
 

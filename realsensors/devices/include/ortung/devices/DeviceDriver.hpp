@@ -17,8 +17,8 @@
 
 namespace ortung {
 
-/// What a device says does not fit the robot file: other beams, no such sonar. Asking again is of
-/// no use before somebody has changed one of the two.
+/// A device does not fit the robot file: it has other beams, or not the sonar. Trying again does
+/// not help until the user changes one of the two.
 class ORTUNG_API DeviceMisfit : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,42 +27,45 @@ class ORTUNG_API DeviceMisfit : public std::runtime_error {
 
 /// One reading as it came from a device.
 struct DeviceReading {
-  std::size_t feature = 0;  ///< index of the feature among those of serve()
-  std::vector<std::uint32_t> words;
-  /// When the device measured, on its own clock [us]; nothing if it has none.
+  std::size_t feature = 0;           ///< index of the feature among those of serve()
+  std::vector<std::uint32_t> words;  ///< words as the feature's SensorData reads them
+  /// Time of measurement by the device's clock [us]; nothing if it has none.
   std::optional<Timestamp> deviceTime;
 };
 
-/// What speaks to one kind of device: a plugin, made from the `device` table of a robot file
-/// without the keys that all devices have in common. One thread calls all of it, and none of it may
-/// wait much longer than it is told: a device that does not answer is the usual case.
+/// The driver of one kind of device: a plugin, made from the `device` table of a robot file without
+/// the keys that all devices have in common. One thread calls all functions but commands(), and
+/// none may wait much longer than its @p patience: a device that does not answer is usual.
 /// All functions may throw DeviceAbsent (not there, or gone) and DeviceMisfit; other exceptions
-/// count as failures of the driver. After any of them the device is closed, and opened again later.
+/// count as failures of the driver. After any of them the device is closed, and reopened later.
 class ORTUNG_API DeviceDriver {
  public:
+  /// Name and version of the interface, which plugins and program compare.
   static constexpr const char* kInterface = "ortung.DeviceDriver/" ORTUNG_DEVICES_ABI;
   virtual ~DeviceDriver();
 
-  /// The features that the device fills, in the order of the robot file, before the first open().
-  /// Names and settings of these may be read, readings not.
-  /// @throws std::invalid_argument if it can't fill them
+  /// Sets the features that the device fills. Called once, before the first open().
+  /// @param features in the order of the robot file; their names and settings may be read, their
+  ///   readings not
+  /// @throws std::invalid_argument if the driver can't fill them
   virtual void serve(std::span<const SensorData* const> features) = 0;
 
-  /// Connects, and makes the device measure. May take seconds where the device does.
+  /// Connects, and makes the device measure. May take as many seconds as the device needs.
   virtual void open() = 0;
-  /// Appends what the device has measured, having waited for it until @p patience is over.
+  /// Appends what the device has measured; waits for it for at most @p patience.
   virtual void read(std::chrono::milliseconds patience, std::vector<DeviceReading>& readings) = 0;
+  /// Disconnects. Also called for a device that is not open.
   virtual void close() noexcept = 0;
 
-  /// How long ago a reading was measured when it comes, at least [s]: of sending it over a slow
-  /// line. Of devices with a clock of their own it only shifts all stamps alike.
+  /// The least delay between measurement and arrival of a reading [s], e.g. of sending it over a
+  /// slow line. For devices with a clock it shifts all stamps by the same time.
   virtual double latency() const { return 0.0; }
-  /// What was thrown away so far since it made no sense: damaged telegrams, unknown lines.
+  /// Number of items that were refused so far: damaged telegrams, unknown lines.
   virtual std::uint64_t refused() const { return 0; }
-  /// The robot's voice, if this device drives it; called from any thread.
+  /// The interface for commands if this device drives the robot, or null; called from any thread.
   virtual RobotCommands* commands() { return nullptr; }
-  /// Equal readings in a row from which on the device is taken to repeat its last one; 0: never.
-  /// A scanner's noise never gives the same scan twice, while a robot at rest has equal odometry.
+  /// Number of equal consecutive readings after which the device counts as frozen; 0: never. A
+  /// scanner's noise never gives the same scan twice, while a robot at rest has equal odometry.
   virtual std::size_t repeatsOfFrozen() const { return 0; }
 };
 

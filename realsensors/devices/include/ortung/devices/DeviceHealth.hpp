@@ -10,61 +10,66 @@
 
 namespace ortung {
 
-/// How a device is. What MCL may use comes from kRunning alone.
+/// The state of a device. MCL may use its readings in kRunning only.
 enum class DeviceState : std::uint8_t {
-  kOpening,  ///< it is being connected, or has not measured yet
-  kAbsent,   ///< it can't be reached; it is tried again
-  kRunning,  ///< it measures
-  kStale,    ///< it is connected, but has given no reading for a while
-  kFrozen,   ///< it repeats its last reading
-  kFailed    ///< what it says does not fit, or its driver has failed; it is tried again
+  kOpening,  ///< the device is being connected, or has not measured yet
+  kAbsent,   ///< the device can't be reached; it is tried again
+  kRunning,  ///< the device measures
+  kStale,    ///< the device is connected, but has sent no reading for a while
+  kFrozen,   ///< the device repeats its last reading
+  kFailed    ///< the device does not fit, or its driver has failed; it is tried again
 };
+/// Returns the state in a word, e.g. "running".
 ORTUNG_API const char* toText(DeviceState state);
 
-/// What there is to say of a device.
+/// State and counters of a device.
 struct DeviceStatus {
-  std::string name;  ///< plugin and port
-  DeviceState state = DeviceState::kOpening;
-  std::string reason;              ///< why it is not running; kept until it runs again
-  std::uint64_t readings = 0;      ///< that were taken
-  double rate = 0.0;               ///< of these, in the last two seconds [1/s]
-  std::optional<double> age;       ///< of the newest one [s]
-  std::uint64_t openings = 0;      ///< how often it was connected
-  std::uint64_t refused = 0;       ///< what made no sense: damaged telegrams, unknown lines
-  std::uint64_t repeated = 0;      ///< readings that repeated the last one, not taken
-  std::uint64_t flooded = 0;       ///< readings that came too fast, not taken
-  std::uint64_t late = 0;          ///< readings that came after those of later stamps, not taken
+  std::string name;                           ///< plugin and port
+  DeviceState state = DeviceState::kOpening;  ///< its state now
+  std::string reason;                         ///< why it is not running; kept until it runs again
+  std::uint64_t readings = 0;                 ///< number of readings that were accepted
+  double rate = 0.0;                          ///< their rate in the last two seconds [1/s]
+  std::optional<double> age;                  ///< time since the newest one [s]
+  std::uint64_t openings = 0;                 ///< how often it was connected
+  std::uint64_t refused = 0;                  ///< damaged telegrams, unknown lines, invalid words
+  std::uint64_t repeated = 0;      ///< readings dropped because they repeated the last one
+  std::uint64_t flooded = 0;       ///< readings dropped because they came too fast
+  std::uint64_t late = 0;          ///< readings dropped because later ones were passed on
   std::uint64_t clockJumps = 0;    ///< how often its clock was set
-  std::optional<double> driftPpm;  ///< its clock's; nothing if it has none
+  std::optional<double> driftPpm;  ///< drift of its clock [ppm]; nothing if it has none
 };
 
-/// Follows how a device is, and says when it is to be opened and closed. Knows no clock: times are
-/// passed in, and never run backwards. Not thread-safe.
+/// Tracks the state of a device, and decides when it is opened and closed. It has no clock: times
+/// are passed in, and never decrease. Not thread-safe.
 class ORTUNG_API DeviceHealth {
  public:
   struct Config {
-    double staleAfter = 1.0;     ///< without a reading [s]
-    double openAfter = 0.5;      ///< from the first failure to the next try [s]; doubles each time
-    double openAfterMost = 8.0;  ///< [s]
-    double reopenAfter = 5.0;    ///< without a reading: close it, and try again [s]
+    double staleAfter = 1.0;     ///< time without a reading after which it is stale [s]
+    double openAfter = 0.5;      ///< wait after the first failure [s]; doubles with each one
+    double openAfterMost = 8.0;  ///< greatest wait after a failure [s]
+    double reopenAfter = 5.0;    ///< time without a reading after which it is reopened [s]
   };
   explicit DeviceHealth(const Config& config) : config_(config) {}
 
+  /// Whether the device is open.
   bool isOpen() const { return isOpen_; }
-  /// Whether to open it now.
+  /// Whether the device is to be opened now.
   bool mayOpen(Timestamp now) const { return !isOpen_ && now >= nextTry_; }
+  /// Time at which it may be opened again.
   Timestamp nextTry() const { return nextTry_; }
-  /// Whether to give it up for now: it has been silent for too long.
+  /// Whether the device is to be closed now: it has been silent for too long.
   bool mustClose(Timestamp now) const;
 
+  /// Reports that it was opened.
   void opened(Timestamp now);
-  /// It could not be opened, or is gone. @param isMisfit it is there, and does not fit
+  /// Reports that it could not be opened, or was closed.
+  /// @param isMisfit whether the device is there, but does not fit
   void closed(Timestamp now, bool isMisfit, const std::string& why);
-  void tookReading(Timestamp now);
-  void sawRepeat(Timestamp now);  ///< it gave its last reading once more
+  void tookReading(Timestamp now);  ///< reports a reading
+  void sawRepeat(Timestamp now);    ///< reports a reading that repeats the last one
 
-  DeviceState state(Timestamp now) const;
-  /// All but name and what others count.
+  DeviceState state(Timestamp now) const;  ///< the state
+  /// Returns the status without the name and the counters that others keep.
   DeviceStatus status(Timestamp now) const;
 
  private:
@@ -72,15 +77,15 @@ class ORTUNG_API DeviceHealth {
   Config config_;
   bool isOpen_ = false;
   bool isMisfit_ = false;
-  bool hasFailed_ = false;  ///< since it last ran
+  bool hasFailed_ = false;  ///< whether it has failed since it last ran
   bool repeats_ = false;
   std::string reason_;
-  double wait_ = 0.0;  ///< before the next try [s]
+  double wait_ = 0.0;  ///< wait before the next try [s]
   Timestamp nextTry_ = 0;
   Timestamp openedAt_ = 0;
   std::optional<Timestamp> lastReading_;
-  std::optional<Timestamp> lastSign_;  ///< of life: readings, repeated ones, too
-  std::deque<Timestamp> recent_;       ///< readings of the last two seconds
+  std::optional<Timestamp> lastSign_;  ///< time of the newest reading, repeated or not
+  std::deque<Timestamp> recent_;       ///< times of the readings of the last two seconds
   std::uint64_t readings_ = 0;
   std::uint64_t openings_ = 0;
 };

@@ -13,29 +13,30 @@
 
 namespace ortung {
 
-/// What becomes of the readings of one device: they are stamped by our clock, and those that make
-/// no sense, are no news, or too many, are left out. Knows no clock: times are passed in. Not
-/// thread-safe.
+/// Filters the readings of one device: stamps them by the host's clock, and drops those that are
+/// invalid, repeated or too many. It has no clock: times are passed in. Not thread-safe.
 class ORTUNG_API DeviceIntake {
  public:
   struct Config {
-    DeviceClock::Config clock;
-    DeviceHealth::Config health;
-    std::size_t repeatsOfFrozen = 0;  ///< equal readings in a row; 0: never
-    double mostPerSecond = 500.0;     ///< of one feature; more are left out
+    DeviceClock::Config clock;        ///< how stamps are converted
+    DeviceHealth::Config health;      ///< times until the device is stale, and reopened
+    std::size_t repeatsOfFrozen = 0;  ///< equal consecutive readings of a frozen device; 0: never
+    double mostPerSecond = 500.0;     ///< greatest rate of a feature [1/s]; more are dropped
   };
-  /// @param features by the index in DeviceReading; borrowed, their readings are not looked at
+  /// @param features features by the index in DeviceReading; borrowed, their readings are not used
   DeviceIntake(std::vector<const SensorData*> features, const Config& config);
 
-  /// @param arrival when it came, on our clock
-  /// @returns what to pass on, or nothing
-  /// @throws std::invalid_argument for a feature that is not there
+  /// Takes a reading.
+  /// @param arrival time of arrival by the host's clock
+  /// @returns the message to pass on, or nothing if the reading is dropped
+  /// @throws std::invalid_argument for an index that is no feature's
   std::optional<Message> take(DeviceReading reading, Timestamp arrival);
 
+  /// The state of the device.
   DeviceHealth& health() { return health_; }
-  /// The device was opened: its clock may have begun again.
+  /// Reports that the device was opened: its clock may have restarted.
   void opened(Timestamp now);
-  /// All but name, what the driver has refused and what was late.
+  /// Returns the status without the name, and without what the driver refused and what was late.
   DeviceStatus status(Timestamp now) const;
 
  private:
@@ -43,9 +44,9 @@ class ORTUNG_API DeviceIntake {
     const SensorData* data;
     std::optional<Timestamp> deviceTime;
     std::vector<std::uint32_t> words;
-    std::size_t equal = 0;  ///< readings like the newest one, in a row
-    Timestamp second = 0;   ///< in which `inSecond` are counted
-    std::size_t inSecond = 0;
+    std::size_t equal = 0;     ///< number of consecutive readings equal to the newest
+    Timestamp second = 0;      ///< begin of the second in which readings are counted
+    std::size_t inSecond = 0;  ///< number of readings in that second
   };
   static bool isSense(const Feature& feature, const DeviceReading& reading);
   static bool repeatsItsTime(Feature& feature, const DeviceReading& reading);

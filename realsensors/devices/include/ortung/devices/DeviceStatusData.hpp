@@ -7,17 +7,21 @@
 
 namespace ortung {
 
-/// How a device is, as a feature for clients: device/status/NAME. Words: [state as in DeviceState,
-/// readings, rate 1/1000 a second, age ms, refused, repeated, flooded, late, clock jumps]; an age
-/// of 4294967295: there was no reading. Not thread-safe, see SensorData.
+/// The status of a device as a feature for clients: device/status/NAME. Words: [state as in
+/// DeviceState, readings, rate 1/1000 a second, age ms, refused, repeated, flooded, late, clock
+/// jumps]; an age of 4294967295: there was no reading. Not thread-safe, see SensorData.
 class ORTUNG_API DeviceStatusData : public SensorData {
  public:
-  /// @param number from 0, the device's place in the robot file
+  /// @param number the device's place in the robot file, from 0
+  /// @param plugin name of the driver's plugin
   DeviceStatusData(std::size_t number, const std::string& plugin);
   ~DeviceStatusData() override;
+  /// Returns the feature's name.
   static SensorId idOf(std::size_t number, const std::string& plugin);
+  /// Returns the status as a reading.
   static Message message(const SensorId& id, Timestamp now, const DeviceStatus& status);
   Format format() const override;
+  /// Describes the words for users.
   std::string wordsHelp() const override;
 
  private:

@@ -15,32 +15,33 @@
 
 namespace ortung {
 
-/// A thread that keeps one device running: opens it, takes its readings, closes it when something
-/// is wrong and tries again, a little later each time. Signals are for other threads.
+/// A thread that keeps one device running: it opens the device, takes its readings, closes it when
+/// something is wrong and tries again, each time a little later. It blocks all signals.
 class ORTUNG_API DeviceThread {
  public:
   struct Config {
-    std::string name;  ///< plugin and port, for people
-    DeviceIntake::Config intake;
+    std::string name;             ///< plugin and port, for users
+    DeviceIntake::Config intake;  ///< how readings are filtered
   };
-  /// Begins at once.
-  /// @param features what the driver serves, borrowed
-  /// @param clock our time; called from the thread
-  /// @param sink is given readings, in the order of their stamps; called from the thread
+  /// Starts the thread.
+  /// @param features the features that the driver fills; borrowed
+  /// @param clock returns the host's time; called from the thread
+  /// @param sink gets the readings in the order of their stamps; called from the thread
   DeviceThread(std::unique_ptr<DeviceDriver> driver, std::vector<const SensorData*> features,
                const Config& config, std::function<Timestamp()> clock,
                std::function<void(Message)> sink);
-  /// Waits a few seconds for the thread; one that hangs in its driver is left to itself.
+  /// Waits a few seconds for the thread; a thread that hangs in its driver is abandoned.
   ~DeviceThread();
   DeviceThread(const DeviceThread&) = delete;
   DeviceThread& operator=(const DeviceThread&) = delete;
 
-  /// All but what came too late. Thread-safe.
+  /// Returns the status without what came too late. Thread-safe.
   DeviceStatus status() const;
+  /// The driver's interface for commands, or null. Thread-safe.
   RobotCommands* commands() const;
 
  private:
-  struct Shared;  ///< outlives this, if the thread does
+  struct Shared;  ///< state that lives as long as the thread
   static void run(const std::stop_token& stop, Shared& shared);
   std::shared_ptr<Shared> shared_;
   std::jthread thread_;

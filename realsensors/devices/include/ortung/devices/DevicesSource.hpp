@@ -13,39 +13,45 @@
 
 namespace ortung {
 
-/// The devices of a robot as a source, "devices:ROBOT.toml": live, without an end but a signal's.
-/// Stamps are the time of day. Not thread-safe, but for what says so.
+/// The devices of a robot as a source, "devices:ROBOT.toml": live, until the duration is over or a
+/// signal comes. Stamps are the time of day. Not thread-safe, except where stated.
 class ORTUNG_API DevicesSource : public Source {
  public:
   struct Config {
-    std::filesystem::path robot;          ///< robot file
-    std::filesystem::path dev = {};       ///< in place of "/dev"; "": the real one
-    std::optional<double> duration = {};  ///< [s] from the opening on; nothing: until a signal
+    std::filesystem::path robot;          ///< the robot file
+    std::filesystem::path dev = {};       ///< folder in place of "/dev"; "": the real one
+    std::optional<double> duration = {};  ///< time from the opening on [s]; nothing: unlimited
   };
   /// Opens all devices; those that are absent are tried again and again.
   /// @throws ConfigError, PluginError
   explicit DevicesSource(const Config& config);
   ~DevicesSource() override;
 
-  /// Waits for as long as it takes. @throws std::runtime_error if a signal ends the wait
+  /// Waits for the next reading; false at the end. @throws std::runtime_error at a signal
   bool next(Message& message) override;
+  /// Always: readings come in real time.
   bool isLive() const override { return true; }
-  std::string remark() const override;  ///< what was wrong with devices
+  std::string remark() const override;  ///< problems of devices, or ""
+  /// The robot file's text.
   std::string robotToml() const override { return robotToml_; }
 
-  /// Like next(), but nothing after @p patience, at the end and when a signal comes.
+  /// Returns the next reading, or nothing after @p patience, at the end and at a signal.
   std::optional<Message> poll(std::chrono::milliseconds patience);
+  /// Whether the duration is over.
   bool isAtEnd() const;
 
+  /// The clock of the stamps.
   const HostClock& clock() const { return clock_; }
-  std::vector<DeviceStatus> status() const { return devices_->status(); }  ///< thread-safe
+  /// The status of each device. Thread-safe.
+  std::vector<DeviceStatus> status() const { return devices_->status(); }
+  /// The robot's interface for commands, or null. Thread-safe.
   RobotCommands* commands() const { return devices_->commands(); }
 
  private:
   std::string robotToml_;
   RobotConfig robot_;
   PluginFactory factory_;
-  SensorContainer container_;  ///< tells the drivers what is to be filled
+  SensorContainer container_;  ///< features that the drivers fill
   std::vector<Device> features_;
   HostClock clock_;
   std::optional<Timestamp> end_;

@@ -11,32 +11,34 @@
 
 namespace ortung {
 
-/// A device that can't be reached, or is there no more: unplugged, switched off, refused.
+/// A device that can't be reached (any more): unplugged, switched off, refused.
 class ORTUNG_API DeviceAbsent : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
   ~DeviceAbsent() override;
 };
 
-/// Bytes from and to a device: a serial line ("/dev/ttyUSB0", 8 data bits, no parity, no flow
-/// control) or a server ("tcp:HOST:PORT"). Nothing waits longer than it is told. Not thread-safe.
+/// A stream of bytes from and to a device: a serial line ("/dev/ttyUSB0", 8 data bits, no parity,
+/// no flow control) or a server ("tcp:HOST:PORT"). All waits are limited. Not thread-safe.
 class ORTUNG_API Port {
  public:
-  /// @param baud speed of a serial line [bit/s]; a server has none
+  /// Opens a port.
+  /// @param baud speed of a serial line [bit/s]; not used for a server
   /// @throws DeviceAbsent naming the port and why it can't be opened; std::invalid_argument for a
-  ///   speed that serial lines do not have, and a text that is no port
+  ///   speed that serial lines do not have, and a text that names no port
   static std::unique_ptr<Port> open(const std::string& name, int baud);
   ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  /// Appends what has come, at most @p most bytes, having waited for the first one until
-  /// @p patience is over. Returns whether anything came.
-  /// @throws DeviceAbsent if the other side is gone
+  /// Appends the bytes that have come, at most @p most; waits for the first one for at most
+  /// @p patience. @return whether any came
+  /// @throws DeviceAbsent if the connection is lost
   bool read(std::string& bytes, std::chrono::milliseconds patience, std::size_t most = 4096);
-  /// @throws DeviceAbsent if not all of it could be sent within half a second
+  /// Sends all bytes. @throws DeviceAbsent if that takes more than half a second
   void write(std::string_view bytes);
 
+  /// The port's name.
   const std::string& name() const { return name_; }
 
  private:
@@ -45,7 +47,7 @@ class ORTUNG_API Port {
   int descriptor_;
 };
 
-/// Whether @p baud is a speed that Port can set.
+/// Returns whether Port can set a line to this speed [bit/s].
 ORTUNG_API bool isLineSpeed(int baud);
 
 }  // namespace ortung

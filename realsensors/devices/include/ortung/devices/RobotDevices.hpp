@@ -20,33 +20,34 @@
 
 namespace ortung {
 
-/// One device of a robot file: what `device` of one or several [[sensor]] tables says. Tables with
-/// the same plugin and port are one device; its settings stand in the first one of them.
+/// One device of a robot file, from the `device` of one or several [[sensor]] tables. Tables with
+/// the same plugin and port are one device; the first one of them has its settings.
 struct DeviceSettings {
-  std::string plugin;
-  std::string port;       ///< as the robot file has it
-  Parameters parameters;  ///< what the driver reads, port included
-  DeviceIntake::Config intake;
-  std::optional<double> latency;            ///< [s]; nothing: the driver's
-  std::optional<std::size_t> repeats;       ///< of a frozen device; nothing: the driver's
-  std::vector<const SensorData*> features;  ///< that it fills, borrowed
+  std::string plugin;                       ///< name of the driver's plugin
+  std::string port;                         ///< port as the robot file has it
+  Parameters parameters;                    ///< settings that the driver reads, port included
+  DeviceIntake::Config intake;              ///< how readings are filtered
+  std::optional<double> latency;            ///< least delay [s]; nothing: the driver's
+  std::optional<std::size_t> repeats;       ///< repeatsOfFrozen; nothing: the driver's
+  std::vector<const SensorData*> features;  ///< features that the device fills; borrowed
 };
 
-/// Reads the `device` tables.
-/// @param dev in place of "/dev": where the links of emulated devices are; "": the real one
+/// Reads the `device` tables of a robot file.
+/// @param devices features of the robot, with their tables
+/// @param dev folder in place of "/dev", with the links of emulated devices; "": the real one
 /// @throws ConfigError, also if there is no device at all
 ORTUNG_API std::vector<DeviceSettings> readDevices(const RobotConfig& robot,
                                                    std::span<const Device> devices,
                                                    const std::filesystem::path& dev);
 
-/// All devices of a robot, each with a thread of its own, and their readings in the order of time.
+/// All devices of a robot, each with its own thread, and their readings in the order of time.
 /// One thread calls next(); the rest is thread-safe.
 class ORTUNG_API RobotDevices {
  public:
-  /// Begins at once.
-  /// @param wait how long readings of one device wait for those of others, beyond the greatest
-  ///   latency that a device is known to have [s]
-  /// @param clock our time, called from all threads
+  /// Starts the threads of all devices.
+  /// @param wait greatest time that readings of one device wait for those of others, in addition
+  ///   to the greatest latency of the devices [s]
+  /// @param clock returns the host's time; called from all threads
   /// @throws ConfigError, PluginError
   RobotDevices(const std::vector<DeviceSettings>& devices, double wait, PluginFactory& factory,
                std::function<Timestamp()> clock);
@@ -54,12 +55,13 @@ class ORTUNG_API RobotDevices {
   RobotDevices(const RobotDevices&) = delete;
   RobotDevices& operator=(const RobotDevices&) = delete;
 
-  /// The next reading, having waited for it until @p patience is over, or nothing. A signal to the
+  /// Returns the next reading; waits for it for at most @p patience, then nothing. A signal to the
   /// waiting thread ends the wait.
   std::optional<Message> next(std::chrono::milliseconds patience);
 
+  /// Returns the status of each device.
   std::vector<DeviceStatus> status() const;
-  /// The robot's voice, of the first device that has one, or null.
+  /// The interface for commands of the first device that has one, or null.
   RobotCommands* commands() const;
 
  private:
@@ -67,9 +69,9 @@ class ORTUNG_API RobotDevices {
   void awaitThoseThatRun();
 
   std::function<Timestamp()> clock_;
-  mutable std::mutex mutex_;  ///< of merger_
+  mutable std::mutex mutex_;  ///< guards merger_
   Merger merger_{0, 0.0};
-  int wake_ = -1;  ///< an eventfd, since a signal ends waiting for it
+  int wake_ = -1;  ///< eventfd that new readings wake: unlike a condition, a signal interrupts it
   std::vector<std::unique_ptr<DeviceThread>> threads_;  ///< last: they end before what they use
 };
 

@@ -13,24 +13,28 @@ namespace ortung {
 
 /// A connected part of an image whose pixels are of one class of colours.
 struct Blob {
-  Pixel middle;  ///< of its pixels
-  double uMin = 0.0, uMax = 0.0, vMin = 0.0, vMax = 0.0;
-  double pixels = 0.0;  ///< how many
+  Pixel middle;                                           ///< centroid of its pixels
+  double uMin = 0.0, uMax = 0.0, vMin = 0.0, vMax = 0.0;  ///< bounding box [px]
+  double pixels = 0.0;                                    ///< its area [px]
 };
 
 /// A ball on the floor, in the sensor's frame.
 struct SeenBall {
-  double range = 0.0;    ///< to its middle, along the floor [m]
-  double bearing = 0.0;  ///< [rad]
+  double range = 0.0;    ///< distance to its middle along the floor [m]
+  double bearing = 0.0;  ///< direction to its middle, counter-clockwise [rad]
 };
 
-/// Connected parts of one class, the largest first; those of less than @p leastPixels are left out.
-/// Works on every second pixel of large images. (OpenCV's connected components.)
+/// Finds the connected parts of one class, the largest first, by OpenCV's connected components.
+/// Of large images every second pixel is used.
+/// @param leastPixels least area of a part [px]
+/// @return nothing for a grey image
 ORTUNG_API std::vector<Blob> findBlobs(const ImageView& image, const ColourTable& colours,
                                        ColourClass what, double leastPixels);
 
-/// Blobs that are as large as a ball of this radius [m] would be where they are, and about round,
-/// the nearest first.
+/// Finds blobs that are about round and about as large as a ball would be at their place, the
+/// nearest first.
+/// @param radius   the ball's radius [m]
+/// @param maxRange greatest distance along the floor [m]
 ORTUNG_API std::vector<SeenBall> findBalls(const ImageView& image, const ColourTable& colours,
                                            const CameraView& view, double radius, double maxRange);
 
