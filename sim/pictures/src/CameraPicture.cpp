@@ -27,7 +27,7 @@ CameraView checked(CameraView camera) {
 struct CameraPicture::Effects {
   Effects(const SensorEffects& all, ImageSize size)
       : share(static_cast<std::uint32_t>(std::lround(256.0F * all.blur))), rows(all, size) {}
-  std::uint32_t share;  ///< that blurs
+  std::uint32_t share;  ///< share of a pixel's light that goes to each neighbour, of 256
   EffectRows rows;
   std::vector<std::uint32_t> row;
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr long kShares = 128;
 
-/// Place of a direction on the sheet, with the middles of texels at whole numbers.
+/// Returns the place of a direction on the sheet; the middles of texels are at whole numbers.
 CameraSheet::Place placeOf(const SheetFace& face, const Point3& r, int sheetWidth) {
   const std::array<double, 9>& m = face.inCamera;
   const double z = m[2] * r.x + m[5] * r.y + m[8] * r.z;

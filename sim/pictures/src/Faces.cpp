@@ -9,20 +9,21 @@
 namespace ortung {
 namespace {
 
-constexpr double kWidestFace = 1.7;      ///< tangent up to which one face forward will do
+constexpr double kWidestFace = 1.7;      ///< largest tangent for which one forward face is enough
 constexpr double kFaceCosts = 12'000.0;  ///< what a further face costs, in pixels
-constexpr double kWorthIt = 0.85;        ///< of its costs have to be left, or a face is not divided
+/// A face is divided only if at most this share of its costs is left.
+constexpr double kWorthIt = 0.85;
 constexpr std::size_t kMostFaces = 48;
-constexpr double kMargin = 1.5;      ///< around what is needed [pixels]
-constexpr double kQuantile = 0.98;   ///< of pixels that are drawn as finely as they need
-constexpr double kMostTexels = 6.0;  ///< of all faces for each of the camera's pixels
+constexpr double kMargin = 1.5;      ///< margin around the needed part of a face [pixels]
+constexpr double kQuantile = 0.98;   ///< share of pixels that are drawn at their full resolution
+constexpr double kMostTexels = 6.0;  ///< greatest number of texels per pixel of the camera
 constexpr double kRoomForAll = 1.05;
 
 struct Tangents {
   double x, y;
 };
 
-/// Where a direction is on a face; nothing behind it or far off.
+/// Returns the place of a direction on a face; nothing if it is behind it or far off.
 std::optional<Tangents> tangentsOn(const std::array<double, 9>& inCamera, const Point3& r) {
   const std::array<double, 9>& m = inCamera;
   const double z = m[2] * r.x + m[5] * r.y + m[8] * r.z;
@@ -31,7 +32,7 @@ std::optional<Tangents> tangentsOn(const std::array<double, 9>& inCamera, const 
                   (m[1] * r.x + m[4] * r.y + m[7] * r.z) / z};
 }
 
-/// The six faces of a cube around the camera's axes; the first looks forward.
+/// Returns the six faces of a cube around the camera's axes; the first looks forward.
 std::array<std::array<double, 9>, 6> cube() {
   using Vector = std::array<double, 3>;
   const auto cross = [](const Vector& a, const Vector& b) {
@@ -63,17 +64,17 @@ std::size_t nearestFace(const Point3& r) {
   return r.y > 0.0 ? 4 : 5;
 }
 
-/// Some pixels on a face, and what they need of it.
+/// Some pixels on a face, and the extent and resolution that they need.
 struct Region {
   std::vector<std::uint32_t> pixels;
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-  double finenessX = 0.0, finenessY = 0.0;  ///< [pixels a tangent]
+  double finenessX = 0.0, finenessY = 0.0;  ///< resolution [pixels per tangent]
   double width() const { return std::ceil((right - left) * finenessX) + 2.0 * kMargin; }
   double height() const { return std::ceil((bottom - top) * finenessY) + 2.0 * kMargin; }
   double costs() const { return width() * height() + kFaceCosts; }
 };
 
-/// Divides what lies on one face of the cube.
+/// Divides the pixels on one face of the cube among smaller faces.
 class Divider {
  public:
   Divider(const PixelRays& rays, const std::array<double, 9>& inCamera)
@@ -118,7 +119,7 @@ class Divider {
   }
 
  private:
-  /// How large a pixel is on the face, in each direction [tangents].
+  /// Returns the size of a pixel on the face in each direction [tangents].
   Tangents sizeOf(std::uint32_t pixel, const Tangents& here) const {
     const auto width = static_cast<std::uint32_t>(rays_.size.width);
     const std::uint32_t column = pixel % width;
@@ -246,7 +247,7 @@ std::vector<FacePart> facesFor(const PixelRays& rays) {
   return parts;
 }
 
-/// Rows of faces, the highest first.
+// The faces are packed in rows, the highest first.
 ImageSize pack(std::span<FacePart> parts) {
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -14,7 +14,7 @@ namespace ortung {
 /// The directions of all pixels of a camera.
 struct PixelRays {
   ImageSize size;
-  std::vector<Point3> rays;  ///< of length 1; all 0: it sees nothing
+  std::vector<Point3> rays;  ///< unit vectors in the camera frame; (0, 0, 0) where it sees nothing
   explicit PixelRays(const CameraModel& model);
   bool isSeen(std::size_t pixel) const {
     const Point3& r = rays[pixel];
@@ -24,17 +24,19 @@ struct PixelRays {
 
 /// A face and the pixels that are taken from it.
 struct FacePart {
-  SheetFace face;                     ///< its column and row are not known yet
-  std::vector<std::uint32_t> pixels;  ///< of the camera
+  SheetFace face;                     ///< the face; its column and row are not known yet
+  std::vector<std::uint32_t> pixels;  ///< indices of the camera's pixels
 };
 
-/// The face that is the camera's whole picture, if it is a plain perspective one.
+/// Returns the face that is the camera's whole picture if the camera is perspective and without
+/// distortion; otherwise nothing.
 std::optional<SheetFace> plainFace(const PixelRays& rays);
 
-/// Faces that show all pixels, each as finely as its pixels need, and as few pixels as that takes.
+/// Returns faces that show all pixels, each at the resolution that its pixels need, with as few
+/// texels as possible.
 std::vector<FacePart> facesFor(const PixelRays& rays);
 
-/// Puts the faces beside one another. @returns the size of the sheet
+/// Places the faces on the sheet. @returns the size of the sheet
 ImageSize pack(std::span<FacePart> parts);
 
 }  // namespace ortung

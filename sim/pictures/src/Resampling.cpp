@@ -9,17 +9,17 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kGroup = 16;  ///< pixels that are mixed together
+constexpr std::size_t kGroup = 16;  ///< number of pixels that are mixed together
 constexpr std::size_t kBytes = 4 * kGroup;
 
-/// The four texels of each pixel, two by two, and its shares once for each byte.
+/// The four texels of each pixel, in pairs, and its shares repeated for each byte.
 struct Corners {
   std::array<std::uint64_t, kGroup> upper, lower;
   std::array<std::uint32_t, kGroup> right, below;
 };
 
-/// Whole numbers only, so that all instruction sets agree. Shares are of 128, so that the sum of
-/// two products fits 16 bits.
+/// Mixes the texels of a group. Integers only, so that all instruction sets agree; shares are in
+/// units of 1/128, so that the sum of two products fits 16 bits.
 ORTUNG_INLINE void mixGroup(const Corners& corners, std::uint32_t* out) {
   std::array<std::uint8_t, kBytes> a, b, c, d, right, below, mixed;
   std::array<std::uint32_t, kGroup> left4, right4;
@@ -91,7 +91,7 @@ ORTUNG_AVX512 void mixAvx512(const std::uint32_t* sheet, std::size_t width,
 constexpr MixRow mixAvx2 = mixPortable, mixAvx512 = mixPortable;
 #endif
 
-/// Four pixels at a time. @returns how many are done
+/// Packs four pixels at a time. @returns the number of pixels packed
 std::size_t packPortable(std::span<const std::uint32_t> pixels, std::uint8_t* out) {
   const std::size_t whole = pixels.size() / 4;
   for (std::size_t i = 0; i < whole; ++i) {
@@ -105,7 +105,8 @@ std::size_t packPortable(std::span<const std::uint32_t> pixels, std::uint8_t* ou
 }
 
 #if defined(ORTUNG_X86) && defined(__GNUC__) && !defined(__clang__)
-/// The same in one instruction; what it writes behind the twelve bytes is written again.
+/// Packs four pixels with one instruction; what it writes behind the twelve bytes is overwritten
+/// later.
 ORTUNG_AVX2 std::size_t packAvx2(std::span<const std::uint32_t> pixels, std::uint8_t* out) {
   using Bytes = std::uint8_t __attribute__((vector_size(16)));
   constexpr Bytes kOrder{0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15};

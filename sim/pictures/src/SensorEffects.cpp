@@ -10,7 +10,7 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kGroup =
-    32;  ///< bytes that are done together; vectors of every width divide it
+    32;  ///< number of bytes in a group, a multiple of every vector width
 
 inline std::uint32_t mixed(std::uint32_t before, std::uint32_t here, std::uint32_t after,
                            std::uint32_t share) {
@@ -24,7 +24,8 @@ inline std::uint32_t mixed(std::uint32_t before, std::uint32_t here, std::uint32
   return (even & kEven) | (odd & ~kEven);
 }
 
-/// One group of bytes: additions and multiplications only, so that all instruction sets agree.
+/// Exposes one group of bytes, with additions and multiplications only, so that all instruction
+/// sets agree.
 ORTUNG_INLINE void expose(const float* gains, const float* losses, float squared,
                           const float* numbers, float noise, float shot, std::uint8_t* bytes) {
   for (std::size_t i = 0; i < kGroup; ++i) {
@@ -117,7 +118,7 @@ EffectRows::EffectRows(const SensorEffects& effects, ImageSize size)
 
 void EffectRows::apply(int row, const std::optional<Noise>& noise, std::span<std::uint8_t> rgb) {
   if (noise) {
-    const std::uint64_t stride = gains_.size();  // even, as the numbers want it
+    const std::uint64_t stride = gains_.size();  // even, as the random numbers come in pairs
     fillGaussian(noise->seed, noise->stream, stride * static_cast<std::uint64_t>(row), numbers_);
   } else {
     std::fill(numbers_.begin(), numbers_.end(), 0.0F);

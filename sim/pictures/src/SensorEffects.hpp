@@ -10,17 +10,17 @@
 
 namespace ortung {
 
-/// Lets light go to neighbouring pixels. @param share of a pixel that goes to each of the two
-/// along each axis, of 256
+/// Blurs a picture. @param share the share of a pixel's light that goes to each of its two
+/// neighbours along each axis, of 256
 void blur(std::span<std::uint32_t> pixels, ImageSize size, std::uint32_t share,
           std::vector<std::uint32_t>& row);
 
-/// Exposure, white balance, vignetting and noise, on rows of bytes red, green, blue.
+/// Applies exposure, white balance, vignetting and noise to rows of bytes red, green, blue.
 class EffectRows {
  public:
   EffectRows(const SensorEffects& effects, ImageSize size);
 
-  /// Noise of a whole picture is one stream of a seed's numbers.
+  /// The random stream of one picture's noise.
   struct Noise {
     std::uint64_t seed = 0;
     std::uint64_t stream = 0;
@@ -30,8 +30,9 @@ class EffectRows {
  private:
   SensorEffects effects_;
   ImageSize size_;
-  std::vector<float> gains_;   ///< by byte of a row
-  std::vector<float> losses_;  ///< of gains, for each unit of squared distance from the middle row
+  std::vector<float> gains_;  ///< gain of each byte of a row
+  /// Loss of gain of each byte per squared distance from the middle row.
+  std::vector<float> losses_;
   std::vector<float> numbers_;
 };
 

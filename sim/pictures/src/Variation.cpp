@@ -9,23 +9,23 @@
 namespace ortung {
 namespace {
 
-// Streams of the seed.
+// Random streams of the seed.
 constexpr std::uint64_t kLight = 1;
 constexpr std::uint64_t kEffects = 2;
 
-/// Numbers around a usual one, the farther from it the stronger the variation.
+/// Draws numbers around usual ones; the stronger the variation, the farther they are from them.
 class Dice {
  public:
   Dice(const Variation& variation, std::uint64_t stream)
       : strength_(std::clamp(variation.strength, 0.0, 1.0)), random_(variation.seed, stream) {}
-  /// At least @p low, at most @p high at full strength; @p usual without.
+  /// Returns a number in [low, high] at full strength; @p usual at strength 0.
   float around(double usual, double low, double high) {
     const double drawn = random_.uniform(low, high);
     return static_cast<float>(usual + strength_ * (drawn - usual));
   }
-  /// In [0, most].
+  /// Returns a number in [0, most].
   float upTo(double most) { return around(0.0, 0.0, most); }
-  /// A factor of at most e^most, or at least its inverse.
+  /// Returns a factor in [e^-most, e^most].
   float factor(double most) {
     return static_cast<float>(std::exp(strength_ * random_.uniform(-most, most)));
   }

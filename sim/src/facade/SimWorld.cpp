@@ -22,7 +22,7 @@ void SimWorld::markBody(RobotNumber, const std::string&) {}
 namespace {
 
 constexpr std::size_t kMaxBodies = 4096;
-constexpr Range kBodySize{0.001, 100.0};  ///< [m]
+constexpr Range kBodySize{0.001, 100.0};  ///< size of a moving body's pieces [m]
 
 bool isSane(const RayFan& fan) {
   for (const double value : {fan.x, fan.y, fan.z, fan.firstAngle, fan.angleStep, fan.elevation})
@@ -37,10 +37,11 @@ bool isSane(const ConeFan& fan) {
          fan.halfAngle < 1.5;
 }
 
-constexpr RobotNumber kFixed = std::numeric_limits<RobotNumber>::max();  ///< nobody's number
+/// A number that no moving body has.
+constexpr RobotNumber kFixed = std::numeric_limits<RobotNumber>::max();
 
-/// What stands in a world, for all worlds that stand on the same ground. Thread-safe: immutable,
-/// but for the painters.
+/// The fixed part of a world, which all its copies share. Thread-safe: immutable, except for the
+/// painters, which are thread-safe.
 struct Ground {
   explicit Ground(WorldModel read)
       : model(std::move(read)),
@@ -65,7 +66,7 @@ struct Ground {
   std::vector<FieldLine> lines;
   std::vector<FieldWall> mapWalls;
   std::vector<WorldObject> objects;
-  BodyRays solids;  ///< what is no map, for cones
+  BodyRays solids;  ///< fixed bodies except maps, for cones
   mutable Painters painters;
 };
 
@@ -211,7 +212,7 @@ class ModelledWorld final : public SimWorld {
     }
   }
 
-  /// The extent of a body around its own origin.
+  /// Measures the extent of a body around its own origin.
   static void measure(std::span<const Primitive> pieces, WorldObject& object) {
     object.pieces = worldPiecesOf(pieces);
     object.halfX = object.halfY = object.radius = 0.0;
@@ -236,9 +237,10 @@ class ModelledWorld final : public SimWorld {
   }
 
   std::shared_ptr<const Ground> ground_;
-  std::vector<WorldObject> objects_;  ///< first what stands, then what moves
+  std::vector<WorldObject> objects_;  ///< all objects: first fixed, then moving ones
   BodyRays bodies_;
-  std::vector<RobotNumber> numbers_;  ///< of moving bodies, in the order of objects_, rising
+  /// Numbers of the moving bodies in the order of objects_, ascending.
+  std::vector<RobotNumber> numbers_;
   RobotNumber lastNumber_ = 0;
 };
 

@@ -7,7 +7,8 @@
 namespace ortung {
 namespace {
 
-/// The part of the field that a point lies in. @throws std::invalid_argument
+/// Returns the part of the field in which a point lies. @throws std::invalid_argument if there is
+/// none
 std::size_t partAround(const std::array<double, 2>& point, const FieldParts& parts) {
   const auto found = parts.partAt(point[0], point[1]);
   if (!found || parts.parts()[*found].cells == 0)

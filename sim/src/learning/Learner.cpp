@@ -14,8 +14,8 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kCellsAPiece = 8;  ///< of work of a thread
-constexpr std::size_t kPieces = 8;       ///< in a step
+constexpr std::size_t kCellsAPiece = 8;  ///< number of cells in a thread's piece of work
+constexpr std::size_t kPieces = 8;       ///< number of pieces in a step
 
 void checkStep(double headingStep) {
   const double turns = kTurn / headingStep;
@@ -26,16 +26,18 @@ void checkStep(double headingStep) {
                                 " degrees, must divide 360 degrees");
 }
 
-/// A cell in which a sweep stands, and when.
+/// A cell at which a sweep learns, and its simulated time.
 struct Stop {
   const Sweep* sweep;
   std::size_t cell;
-  Timestamp now;  ///< a sensor may keep what it knows of one moment: turning on the spot takes none
+  /// Time [us]; it stands still while the sensor turns, so the sensor may cache what it sees.
+  Timestamp now;
 };
 
-/// What some stops have given, as words one after the other.
+/// The readings of some stops, as consecutive words.
 struct Readings {
-  static constexpr std::uint32_t kNone = 0xffffffff;  ///< in place of their number
+  /// Marks a missing reading, in place of its number of words.
+  static constexpr std::uint32_t kNone = 0xffffffff;
   std::vector<Stop> stops;
   std::vector<std::uint32_t> words;
 };
@@ -47,20 +49,21 @@ struct Learner::Parts {
   FieldRegion region;
   Rig own;
   std::vector<Rig> helpers;
-  std::vector<Rig*> idle;  ///< of the helpers
-  std::mutex mutex;        ///< of idle and failure
+  std::vector<Rig*> idle;  ///< helpers that are not in use
+  std::mutex mutex;        ///< guards idle and failure
   std::exception_ptr failure;
   std::vector<SensorData*> learning;
   std::vector<Sweep> sweeps;
   std::vector<Need> needs;
   Workers workers;
-  std::size_t total = 0;  ///< headings and groups, of all cells
+  std::size_t total = 0;  ///< number of readings to learn: headings times groups over all cells
   std::size_t done = 0;
-  std::size_t sweep = 0;  ///< where the next stop is
+  std::size_t sweep = 0;  ///< index of the next stop's sweep
   std::size_t cell = 0;
   Timestamp now = 0;
   Pose2 pose;
-  std::vector<Readings> made;  ///< by the helpers, and not yet learned
+  /// Readings that the helpers have generated and that are not yet learned.
+  std::vector<Readings> made;
   bool isOver = false;
 
   Parts(const World& w, const FieldRegion& r, const std::vector<Device>& devices,
@@ -115,7 +118,7 @@ std::vector<Stop> Learner::Parts::nextStops(std::size_t most) {
   return stops;
 }
 
-/// Calls use(state, group) in all headings.
+/// Calls use(state, group) for all headings and groups.
 template <class Use>
 void Learner::Parts::standAt(const Stop& stop, const Use& use) {
   RobotState state;
@@ -141,7 +144,7 @@ void Learner::Parts::learnAt(const Stop& stop) {
   });
 }
 
-/// With a rig that is idle; there are as many as threads.
+/// Generates readings with an idle helper; there is one for each thread.
 void Learner::Parts::generateAll(Readings& readings) {
   Rig* rig = nullptr;
   {
@@ -174,7 +177,7 @@ void Learner::Parts::generateAll(Readings& readings) {
   idle.push_back(rig);
 }
 
-/// What helpers have generated, in the order in which one alone would have.
+/// Learns the readings of helpers in the order in which a single thread would generate them.
 void Learner::Parts::learnFrom(const Readings& readings) {
   std::span<const std::uint32_t> rest = readings.words;
   for (const Stop& stop : readings.stops)
@@ -191,7 +194,7 @@ void Learner::Parts::learnFrom(const Readings& readings) {
     });
 }
 
-/// The last step's readings are learned while others are generated.
+/// Learns the last step's readings while the next ones are generated.
 void Learner::Parts::stepWithHelpers() {
   std::vector<Readings> next;
   for (std::size_t i = 0; i < kPieces * helpers.size(); ++i) {

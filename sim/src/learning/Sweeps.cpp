@@ -14,8 +14,8 @@ bool isSame(const Pose2& a, const Pose2& b) {
   return a.x == b.x && a.y == b.y && a.theta == b.theta;
 }
 
-/// The devices whose readings a feature is made of, directly or not; none for what a sensor
-/// measures.
+/// Returns the devices from whose readings a feature is derived, directly or not; none for a
+/// feature that a sensor measures.
 std::vector<std::size_t> inputsOf(const SensorData& made, const Rig& rig) {
   std::vector<std::size_t> found;
   std::vector<const SensorData*> open = {&made};
@@ -50,7 +50,7 @@ std::size_t addTo(std::vector<Sweep>& sweeps, const FieldRegion& region, const R
     return s.spacing == spacing && s.positionSpacing == apart;
   });
   if (sweep == sweeps.end()) {
-    // Headings that are no whole number a turn overlap at its end instead of leaving a gap.
+    // If the spacing does not divide a turn, headings overlap at its end instead of leaving a gap.
     const auto headings = static_cast<std::size_t>(std::ceil(kTurn / spacing - 1e-6));
     sweep =
         sweeps.insert(sweeps.end(), {spacing, apart, headings, openCellsApart(region, apart), {}});
@@ -85,7 +85,7 @@ void generate(const World& world, const RobotState& state, const SweepGroup& gro
   }
   std::vector<std::uint64_t> before;
   for (const SensorData* data : features) before.push_back(data->sequence());
-  // Who knows what would be made of perfect inputs says so, and those need not be generated.
+  // A device that simulates its derived feature itself needs no inputs.
   if (const auto& own = rig.sensors[group.device]) {
     own->generateData(world, state, nullptr, now, features);
     bool isAll = true;

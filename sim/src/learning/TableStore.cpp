@@ -15,7 +15,7 @@
 namespace ortung {
 namespace {
 
-/// A folder that nobody else has, gone with all in it at the end.
+/// A temporary folder of its own, which is removed with its content at the end.
 class OwnFolder {
  public:
   OwnFolder() : path_((std::filesystem::temp_directory_path() / "ortung-tables-XXXXXX").string()) {
@@ -36,7 +36,7 @@ class OwnFolder {
   std::string path_;
 };
 
-/// All that decides what a robot learns in a world.
+/// Returns everything that determines what a robot learns in a world.
 std::string keyOf(const RobotConfig& robot, const SensorContainer& container) {
   const RobotSize size = sizeOf(robot);
   std::string key = std::to_string(size.radius) + " " + std::to_string(size.height);
@@ -114,7 +114,7 @@ std::shared_ptr<const RobotTables> TableStore::learnFor(const RobotConfig& robot
   info.headingStep = options.headingStep;
   info.region = std::move(area.region);
   info.field = fieldModelOf(*world);
-  const OwnFolder folder;  // what is mapped stays though its file goes
+  const OwnFolder folder;  // mapped memory stays valid when its file is removed
   const auto file = folder / "learned.tables";
   writeTables(file, container, info);
   return std::make_shared<const RobotTables>(file);

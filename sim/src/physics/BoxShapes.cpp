@@ -10,17 +10,18 @@
 namespace ortung {
 namespace {
 
-constexpr double kSkin = 0.01 / kScale;  ///< the engine's own for polygons [m]
+constexpr double kSkin = 0.01 / kScale;  ///< skin that the engine gives polygons [m]
 constexpr int kEllipseCorners = 48;
-constexpr int kWedgeCorners = 6;  ///< of the ellipse in one wedge; the engine takes 8 corners
+/// Corners on the ellipse per wedge; the engine takes at most 8 corners.
+constexpr int kWedgeCorners = 6;
 
 Point2 add(const Point2& p, const Point2& q, double factor) {
   return {p.x + factor * q.x, p.y + factor * q.y};
 }
 Point2 away(const Point2& from, const Point2& to) { return {to.x - from.x, to.y - from.y}; }
 
-/// A convex polygon. The engine's own way to make one welds corners, and ends the program where
-/// that leaves no area.
+/// Makes a convex polygon. The engine's own function welds corners, and aborts the program if no
+/// area is left.
 std::unique_ptr<b2Shape> polygon(std::vector<Point2> corners, double skin) {
   double twiceArea = 0.0;
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
@@ -46,10 +47,10 @@ std::unique_ptr<b2Shape> polygon(std::vector<Point2> corners, double skin) {
 
 struct Inscribed {
   Point2 centre;
-  double radius = 0.0;  ///< [m]
+  double radius = 0.0;  ///< radius [m]
 };
 
-/// The circle inscribed in a triangle.
+/// Returns the circle inscribed in a triangle.
 Inscribed inscribedIn(const std::array<Point2, 3>& corners) {
   std::array<double, 3> sides{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -66,7 +67,7 @@ Inscribed inscribedIn(const std::array<Point2, 3>& corners) {
   return circle;
 }
 
-/// Wedges around the middle of an ellipse.
+/// Returns wedges around the middle of an ellipse.
 std::vector<std::unique_ptr<b2Shape>> wedgesOf(const Primitive& ellipse, double skin) {
   const double c = std::cos(ellipse.angle);
   const double s = std::sin(ellipse.angle);
@@ -85,7 +86,7 @@ std::vector<std::unique_ptr<b2Shape>> wedgesOf(const Primitive& ellipse, double 
   return wedges;
 }
 
-/// Half of what is thinnest in a primitive [m].
+/// Returns half the smallest width of a primitive [m].
 double thinnest(const Primitive& primitive) {
   return primitive.shape == Primitive::Shape::triangle ? inscribedIn(primitive.corners).radius
                                                        : std::min(primitive.halfX, primitive.halfY);
@@ -97,7 +98,7 @@ Primitive seenFrom(Primitive primitive, const Point2& origin) {
   return primitive;
 }
 
-/// Whether a piece lies in another one for sure. All are convex.
+/// Returns whether a piece certainly lies within another one. All are convex.
 bool isWithin(const Primitive& inner, const Primitive& outer) {
   if (inner.zLow < outer.zLow || inner.zHigh > outer.zHigh) return false;
   if (inner.friction != outer.friction || inner.restitution != outer.restitution) return false;
@@ -105,7 +106,7 @@ bool isWithin(const Primitive& inner, const Primitive& outer) {
     const Point2 apart = away(inner.centre, outer.centre);
     return std::hypot(apart.x, apart.y) + inner.halfX <= outer.halfX;
   }
-  Primitive around = inner;  // of an ellipse: the rectangle around it
+  Primitive around = inner;  // the bounding rectangle if it is an ellipse
   if (inner.shape == Primitive::Shape::ellipse) around.shape = Primitive::Shape::rectangle;
   const std::vector<Point2> corners = cornersOf(around);
   return std::all_of(corners.begin(), corners.end(),
@@ -181,7 +182,7 @@ std::vector<Primitive> withoutHidden(std::span<const Primitive> pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     bool isHidden = false;
     for (std::size_t k = 0; k < pieces.size() && !isHidden; ++k)
-      // Of two that are the same the first stays.
+      // The first one of two equal pieces stays.
       isHidden =
           k != i && isWithin(pieces[i], pieces[k]) && (k < i || !isWithin(pieces[k], pieces[i]));
     if (!isHidden) seen.push_back(pieces[i]);

@@ -5,7 +5,8 @@
 namespace ortung {
 namespace {
 
-// Of one body. Robots of ten pieces that push each other have about ten, maps give dozens.
+// Greatest numbers of contacts of one body. Robots of ten pieces that push each other have about
+// ten, with maps there are dozens.
 constexpr int kMostWithMoving = 64;
 constexpr int kMostWithGround = 256;
 

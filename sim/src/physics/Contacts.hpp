@@ -9,23 +9,24 @@
 
 namespace ortung {
 
-/// What the engine keeps with every shape.
+/// The data that the engine keeps with every shape.
 struct Heights {
-  double low = 0.0, high = 0.0;       ///< [m]
-  std::optional<double> restitution;  ///< of its own
+  double low = 0.0, high = 0.0;       ///< heights of bottom and top [m]
+  std::optional<double> restitution;  ///< the shape's own restitution; none: the world's
 };
 bool overlap(const Heights& a, const Heights& b);
 const Heights& heightsOf(const b2Fixture& fixture);
 
-/// What the engine keeps with every body that moves.
+/// The data that the engine keeps with every moving body.
 struct Crowd {
   // Pairs of its shapes and others' that the engine looks at:
   int withGround = 0;
   int withMoving = 0;
 };
 
-/// Bodies meet where their heights overlap. One body has a limited number of contacts, so that no
-/// shapes, however many pieces they have, hold up the world: those with many get into each other.
+/// Lets bodies collide where their heights overlap. The number of contacts of a body is limited, so
+/// that bodies of many pieces can't slow down the simulation; beyond the limit they penetrate each
+/// other.
 class HeightFilter : public b2ContactFilter {
  public:
   /// To be called before each step of the engine, which may make contacts.
@@ -33,23 +34,23 @@ class HeightFilter : public b2ContactFilter {
   bool ShouldCollide(b2Fixture* a, b2Fixture* b) override;
 };
 
-/// Says how much two bodies bounce: as the one says that has a restitution of its own, or as the
-/// one says that bounces less.
+/// Sets the restitution of a contact: that of the body with a restitution of its own, or the
+/// smaller one.
 class Bouncing : public b2ContactListener {
  public:
   void BeginContact(b2Contact* contact) override;
 };
 
-/// Looks for bodies that a shape at a place touches.
+/// Finds the bodies that a shape at a place touches.
 class Touching : public b2QueryCallback {
  public:
-  /// @param self is not looked at
-  /// @param isOneEnough whether to end at the first
+  /// @param self the body that is ignored
+  /// @param isOneEnough whether the search ends at the first body
   Touching(const b2Shape& shape, const Heights& heights, const b2Transform& place,
            const b2Body* self, bool isOneEnough = true);
   bool ReportFixture(b2Fixture* fixture) override;
   const std::vector<b2Body*>& found() const { return found_; }
-  /// Asks the world.
+  /// Searches the world. @returns whether a body was found
   bool lookIn(const b2World& world);
 
  private:
@@ -61,7 +62,7 @@ class Touching : public b2QueryCallback {
   std::vector<b2Body*> found_;
 };
 
-/// Looks for anything near a body.
+/// Tests whether anything is near a body.
 class Neighbours : public b2QueryCallback {
  public:
   explicit Neighbours(const b2Body* self) : self_(self) {}
@@ -73,7 +74,8 @@ class Neighbours : public b2QueryCallback {
   bool found_ = false;
 };
 
-/// Looks for anything between two points but a body and new shapes of another one.
+/// Tests whether anything is between two points, ignoring one body and the new shapes of another
+/// one.
 class Barrier : public b2RayCastCallback {
  public:
   Barrier(const Heights& heights, const b2Body* self,

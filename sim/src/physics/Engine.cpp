@@ -10,15 +10,19 @@ namespace {
 
 constexpr int32 kVelocityIterations = 8;
 constexpr int32 kPositionIterations = 3;
-constexpr double kLongestStep = 0.02;    ///< [s]; longer ones are done in parts
-constexpr double kFarthestStep = 0.125;  ///< that a body goes in a part [m]; the engine takes 0.25
-constexpr int kMostParts = 8;            ///< for the sake of speed: 100 m/s at 10 ms
-constexpr double kDrift = 2e-5;          ///< of the engine's single precision from ours [m], [rad]
-constexpr double kRoom = 0.1;            ///< that bodies need around them to move freely [m]
-constexpr int kPatience = 8;             ///< steps until it is looked for room again
-constexpr float kStill = 1e-4f;          ///< velocities that are the engine's rounding
+/// Longest step of the engine [s]; longer ones are divided.
+constexpr double kLongestStep = 0.02;
+/// Distance that a body travels in a part at most [m]; the engine allows 0.25.
+constexpr double kFarthestStep = 0.125;
+/// Greatest number of parts, to limit the cost: enough for 100 m/s at 10 ms.
+constexpr int kMostParts = 8;
+/// Tolerated deviation of the engine's single precision from ours [m], [rad].
+constexpr double kDrift = 2e-5;
+constexpr double kRoom = 0.1;    ///< free space around bodies that move without the engine [m]
+constexpr int kPatience = 8;     ///< steps until free space is looked for again
+constexpr float kStill = 1e-4f;  ///< velocities below are the engine's rounding errors
 
-/// Brings @p value nearer to 0 by at most @p step.
+/// Returns @p value moved towards 0 by at most @p step.
 double braked(double value, double step) {
   return value > 0.0 ? std::max(value - step, 0.0) : std::min(value + step, 0.0);
 }
@@ -36,9 +40,10 @@ Point2 Physics::Engine::Item::arm(double heading) const {
   return {c * centre.x - s * centre.y, s * centre.x + c * centre.y};
 }
 
-/// Brings a body to what it wants, as far as its wheels have grip.
+/// Accelerates a body to its wanted velocity, as far as its wheels have grip.
 void Physics::Engine::drive(Item& item, double dt) const {
-  const double grip = kScale * config.floorFriction * kGravity * dt;  // in units of velocity
+  const double grip =
+      kScale * config.floorFriction * kGravity * dt;  // change of velocity in engine units
   const b2Vec2 is = item.body->GetLinearVelocity();
   const b2Vec2 missing = item.wanted - is;
   const double needed = static_cast<double>(missing.Length());
@@ -48,7 +53,7 @@ void Physics::Engine::drive(Item& item, double dt) const {
     item.isDisturbed = true;
   }
   item.freeGrip = std::max(grip - needed, 0.0) / dt;
-  // Wheels stand at about 0.7 of the body's radius, and all of them help to turn.
+  // Wheels are at about 0.7 of the body's radius, and all of them contribute to turning.
   const double turnGrip =
       config.floorFriction * kGravity * dt * item.properties.mass * 0.7 * item.reach / item.inertia;
   const double isTurn = static_cast<double>(item.body->GetAngularVelocity());
@@ -61,7 +66,7 @@ void Physics::Engine::drive(Item& item, double dt) const {
   item.freeTurnGrip = std::max(turnGrip - std::abs(missingTurn), 0.0) / dt;
 }
 
-/// A ball rolls on and slows down little; what slides, much.
+/// Decelerates a body: a rolling ball little, a sliding body much.
 void Physics::Engine::brake(Item& item, double dt) const {
   const bool rolls = item.properties.floor == Floor::rolls;
   const double friction = rolls ? config.rollingResistance : config.floorFriction;
@@ -69,7 +74,7 @@ void Physics::Engine::brake(Item& item, double dt) const {
   const b2Vec2 is = item.body->GetLinearVelocity();
   const double speed = static_cast<double>(is.Length());
   item.given = speed > 0.0 ? single(braked(speed, kScale * step) / speed) * is : is;
-  // Friction evenly over a disc of radius r makes a torque of 2/3 mu m g r.
+  // Friction that is uniform over a disc of radius r has a torque of 2/3 mu m g r.
   const double turnStep = step * item.properties.mass * 2.0 / 3.0 * item.reach / item.inertia;
   item.givenTurn = single(braked(static_cast<double>(item.body->GetAngularVelocity()), turnStep));
 }
@@ -81,7 +86,8 @@ void Physics::Engine::plan(Item& item, double dt) {
     brake(item, dt);
 }
 
-/// The engine itself brakes what slides, by the joint that holds it to the floor.
+/// Passes velocities to the engine. Sliding bodies are left out: the engine brakes them by the
+/// joint that holds them to the floor.
 void Physics::Engine::launch(Item& item) const {
   if (item.properties.floor == Floor::slides) return;
   item.body->SetLinearVelocity(item.given);
@@ -106,7 +112,7 @@ void Physics::Engine::end(Item& item) const {
   item.isDisturbed = true;
 }
 
-/// Where the engine brought a body.
+/// Takes over the pose that the engine computed.
 void Physics::Engine::follow(Item& item) {
   const b2Vec2 moved = item.body->GetPosition() - item.before;
   item.pose.x += toMetres(moved.x);
@@ -115,7 +121,7 @@ void Physics::Engine::follow(Item& item) {
       wrapAngle(item.pose.theta + static_cast<double>(item.body->GetAngle() - item.beforeAngle));
 }
 
-/// The engine's single precision must not drift away from our double precision.
+/// Corrects the engine's single precision if it has drifted from our double precision.
 void Physics::Engine::synchronize(Item& item) const {
   const b2Vec2 is = item.body->GetPosition();
   const double away =
@@ -125,8 +131,8 @@ void Physics::Engine::synchronize(Item& item) const {
   if (away > kDrift) transform(item);
 }
 
-/// Whether nothing can touch anything in this step: all bodies had room around them, and none has
-/// used up its half of it. Then the engine has nothing to do.
+/// Returns whether no bodies can touch in this step: all had free space around them, and none has
+/// used up its half of it. Then the engine is not needed.
 bool Physics::Engine::isFlight(double dt) {
   if (!hasRoom) return false;
   for (Item& item : items) {
@@ -138,7 +144,7 @@ bool Physics::Engine::isFlight(double dt) {
   return isFlying = true;
 }
 
-/// Moves a body with its velocity.
+/// Moves a body by its velocity, without the engine.
 void Physics::Engine::fly(Item& item, double dt) {
   const Point2 arm = item.arm(item.pose.theta);
   const double theta = item.pose.theta + static_cast<double>(item.givenTurn) * dt;
@@ -148,7 +154,7 @@ void Physics::Engine::fly(Item& item, double dt) {
   item.pose.theta = wrapAngle(theta);
 }
 
-/// Tells the engine where bodies flew to.
+/// Passes the poses of bodies that moved without the engine to it.
 void Physics::Engine::land() {
   if (!isFlying) return;
   isFlying = false;
@@ -160,7 +166,7 @@ void Physics::Engine::land() {
   }
 }
 
-/// Looks whether all bodies have room around them.
+/// Tests whether all bodies have free space around them.
 void Physics::Engine::lookForRoom() {
   if (world.GetContactCount() > 0 || --patience > 0) return;
   for (Item& item : items) {
@@ -179,7 +185,7 @@ void Physics::Engine::lookForRoom() {
   hasRoom = true;
 }
 
-/// In how many parts a step is done: none too long, and none in which something goes too far.
+/// Returns the number of parts of a step: none is too long, and no body travels too far in one.
 int Physics::Engine::partsOf(double dt) const {
   double fastest = 0.0;
   for (const Item& item : items)
@@ -236,7 +242,7 @@ void Physics::Engine::step(double dt) {
   if (!isFlying) lookForRoom();
 }
 
-/// Velocity of the body's origin.
+/// Returns the velocity of the body's origin.
 Twist Physics::Engine::velocityOf(const Item& item) const {
   const b2Vec2 v = item.body->GetLinearVelocity();
   const double turn = static_cast<double>(item.body->GetAngularVelocity());

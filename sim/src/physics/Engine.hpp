@@ -20,28 +20,30 @@ struct Physics::Engine {
   struct Item {
     b2Body* body = nullptr;  ///< null: the place is free
     Properties properties;
-    double reach = 0.0;         ///< of its shape from its origin [m]
-    double inertia = 0.0;       ///< [kg m^2]
-    Point2 centre;              ///< of mass, in its own frame [m]
-    Pose2 pose;                 ///< in double precision
-    Pose2 planned;              ///< where a driving body will be if nothing is in the way
-    b2Vec2 wanted{0.0f, 0.0f};  ///< velocity of the centre of mass
-    float wantedTurn = 0.0f;    ///< [rad/s]
-    b2Vec2 given{0.0f, 0.0f};   ///< velocity with which it goes into the engine's step
+    double reach = 0.0;         ///< greatest distance of its shape from its origin [m]
+    double inertia = 0.0;       ///< moment of inertia around its centre of mass [kg m^2]
+    Point2 centre;              ///< centre of mass in its own frame [m]
+    Pose2 pose;                 ///< pose in double precision
+    Pose2 planned;              ///< pose of a driving body after the step if nothing is in the way
+    b2Vec2 wanted{0.0f, 0.0f};  ///< wanted velocity of the centre of mass
+    float wantedTurn = 0.0f;    ///< wanted turn rate [rad/s]
+    b2Vec2 given{0.0f, 0.0f};   ///< velocity before the engine's step
     float givenTurn = 0.0f;
     b2Vec2 before{0.0f, 0.0f};  ///< position before the engine's step
     float beforeAngle = 0.0f;
-    double roamed = 0.0;  ///< what its farthest point may have moved since there was room [m]
+    double roamed = 0.0;  ///< upper bound of its points' motion since it had free space [m]
     bool isDisturbed = false;
-    int rest = 0;  ///< tries to change shape in which it pushes nothing away, for the last failed
-    b2Body* floor = nullptr;          ///< moves as the wheels turn; stands still under what slides
-    b2FrictionJoint* grip = nullptr;  ///< between body and floor; none of a ball
-    double freeGrip = 0.0;  ///< that driving leaves over to hold against pushes: an acceleration
-    double freeTurnGrip = 0.0;                      ///< [rad/s^2]
-    std::unique_ptr<Crowd> crowd;                   ///< stays where it is, for the engine
-    std::vector<std::unique_ptr<Heights>> heights;  ///< of its shapes
+    int rest = 0;  ///< remaining changes of shape for which pushing is not tried, since it failed
+    b2Body* floor = nullptr;  ///< moves as the wheels turn; is stationary under sliding bodies
+    b2FrictionJoint* grip = nullptr;  ///< joint between body and floor; none for a ball
+    /// Acceleration that is left of the grip to resist pushes, in engine units.
+    double freeGrip = 0.0;
+    double freeTurnGrip = 0.0;     ///< angular acceleration that is left of the grip [rad/s^2]
+    std::unique_ptr<Crowd> crowd;  ///< its contacts; the engine keeps a pointer to it
+    std::vector<std::unique_ptr<Heights>> heights;  ///< heights of its shapes
 
-    /// From its origin to its centre of mass if it has this heading, in the field [m].
+    /// Returns the vector from its origin to its centre of mass at this heading, in the field frame
+    /// [m].
     Point2 arm(double heading) const;
   };
 
@@ -63,7 +65,7 @@ struct Physics::Engine {
   // --- room for other shapes: EngineRoom.cpp
   bool isFree(const b2Body& body, const b2Transform& at) const;
   bool findObstacles(const Item& item, std::span<const Primitive> added, std::vector<Item*>& found);
-  using Fresh = std::vector<std::unique_ptr<Heights>>;  ///< of shapes that are new
+  using Fresh = std::vector<std::unique_ptr<Heights>>;  ///< heights of new shapes
   bool isOpen(const Item& thing, const b2Vec2& way, const Fresh& fresh) const;
   std::optional<b2Vec2> wayOut(const Item& thing, const Item& from, const Fresh& fresh) const;
   Item& itemOf(const b2Body* body);
@@ -83,7 +85,7 @@ struct Physics::Engine {
   bool isFlight(double dt);
   void land();
   void lookForRoom();
-  /// Something changed by hand: nothing is known of room any more.
+  /// Resets the free-space test after something was changed from outside.
   void wake() {
     land();
     hasRoom = false;
@@ -98,18 +100,18 @@ struct Physics::Engine {
   }
 
   PhysicsConfig config;
-  Point2 middle;  ///< of the field, where the engine has its origin [m]
+  Point2 middle;  ///< middle of the field, where the engine has its origin [m]
   HeightFilter filter;
   Bouncing bouncing;
   b2World world;
   b2Body* ground = nullptr;
-  std::map<std::pair<int, int>, b2Body*> tiles;  ///< of the ground, with origins of their own
+  std::map<std::pair<int, int>, b2Body*> tiles;  ///< parts of the ground, with origins of their own
   Heights fence;
-  std::vector<std::unique_ptr<Heights>> fixedHeights;  ///< of what does not move
+  std::vector<std::unique_ptr<Heights>> fixedHeights;  ///< heights of the fixed shapes
   std::vector<Item> items;
   bool hasRoom = false;
-  bool isFlying = false;  ///< the engine does not know yet where bodies are
-  int patience = 0;       ///< steps until it is worth looking for room
+  bool isFlying = false;  ///< whether bodies have moved without the engine
+  int patience = 0;       ///< steps until free space is looked for again
 };
 
 }  // namespace ortung

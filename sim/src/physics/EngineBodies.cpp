@@ -7,9 +7,9 @@
 namespace ortung {
 namespace {
 
-constexpr double kFenceThickness = 1.0;  ///< around the field [m]
+constexpr double kFenceThickness = 1.0;  ///< thickness of the fence around the field [m]
 constexpr double kHuge = 1e9;            ///< [m]
-constexpr double kTile = 64.0;           ///< edge of a part of the ground [m]
+constexpr double kTile = 64.0;           ///< edge length of a part of the ground [m]
 
 Point2 middleOf(const Box2& box) {
   return {(box.xLow + box.xHigh) / 2.0, (box.yLow + box.yHigh) / 2.0};
@@ -49,8 +49,8 @@ void Physics::Engine::attach(b2Body* body, const b2Shape& shape, Heights& range,
   body->CreateFixture(&definition);
 }
 
-/// The part of the ground around a place. Each has an origin of its own, so that single precision
-/// is enough for small shapes anywhere.
+/// Returns the part of the ground around a place. Each has an origin of its own, so that single
+/// precision is enough for small shapes anywhere.
 b2Body* Physics::Engine::groundAt(const Point2& place, Point2& origin) {
   const std::pair<int, int> tile{static_cast<int>(std::round((place.x - middle.x) / kTile)),
                                  static_cast<int>(std::round((place.y - middle.y) / kTile))};
@@ -102,7 +102,7 @@ void Physics::Engine::weigh(Item& item, std::span<const Primitive> pieces) {
   b2MassData data;
   data.mass = single(item.properties.mass);
   data.center = toEngine(item.centre);
-  // The engine takes the moment around the body's origin.
+  // The engine expects the moment of inertia around the body's origin.
   data.I = single(kScale * kScale *
                   (item.inertia + item.properties.mass * (item.centre.x * item.centre.x +
                                                           item.centre.y * item.centre.y)));
@@ -111,7 +111,7 @@ void Physics::Engine::weigh(Item& item, std::span<const Primitive> pieces) {
 }
 
 /// Joins a body to the floor at its centre of mass. The joint is solved together with contacts, so
-/// that what is pushed too weakly does not move at all.
+/// that a body that is pushed too weakly does not move at all.
 void Physics::Engine::holdOn(Item& item) {
   if (item.properties.floor == Floor::rolls) return;
   if (item.grip != nullptr) world.DestroyJoint(item.grip);
@@ -123,7 +123,7 @@ void Physics::Engine::holdOn(Item& item) {
   if (item.properties.floor == Floor::slides) {
     const double force = config.floorFriction * kGravity * item.properties.mass;
     joint.maxForce = single(kScale * force);
-    // Friction evenly over a disc of radius r makes a torque of 2/3 mu m g r.
+    // Friction that is uniform over a disc of radius r has a torque of 2/3 mu m g r.
     joint.maxTorque = single(kScale * kScale * force * 2.0 / 3.0 * item.reach);
   }
   item.grip = static_cast<b2FrictionJoint*>(world.CreateJoint(&joint));
@@ -135,7 +135,7 @@ void Physics::Engine::create(Item& item, std::span<const Primitive> pieces) {
   definition.type = b2_dynamicBody;
   definition.position = positionOf(item.pose);
   definition.angle = single(item.pose.theta);
-  definition.bullet = true;  // never passes through other moving bodies between two steps either
+  definition.bullet = true;  // does not tunnel through other moving bodies between two steps
   definition.allowSleep = false;
   definition.userData.pointer = reinterpret_cast<uintptr_t>(item.crowd.get());
   item.body = world.CreateBody(&definition);

@@ -8,14 +8,16 @@
 namespace ortung {
 namespace {
 
-constexpr double kSlack = 0.003;        ///< that bodies in contact may overlap by [m]
-constexpr int kDirections = 16;         ///< in which it is looked for a way out
-constexpr double kNearest = 0.005;      ///< shortest way out that is tried [m]
-constexpr double kFarthest = 0.6;       ///< longest [m]
-constexpr double kPrecision = 0.0005;   ///< of a way out [m]
-constexpr double kFlank = 0.6;          ///< of a thing's greatest reach
-constexpr std::size_t kMostPushed = 8;  ///< things that one change of shape pushes away
-constexpr int kRest = 10;               ///< tries to change shape until it is pushed again
+constexpr double kSlack = 0.003;       ///< overlap that bodies in contact may have [m]
+constexpr int kDirections = 16;        ///< number of directions in which a way out is searched
+constexpr double kNearest = 0.005;     ///< shortest way out that is tried [m]
+constexpr double kFarthest = 0.6;      ///< longest way out that is tried [m]
+constexpr double kPrecision = 0.0005;  ///< precision of a way out [m]
+/// Distance of a thing's flanks from its middle, as a share of its reach.
+constexpr double kFlank = 0.6;
+/// Number of things that one change of shape pushes away at most.
+constexpr std::size_t kMostPushed = 8;
+constexpr int kRest = 10;  ///< changes of shape without pushing after one that failed
 
 }  // namespace
 
@@ -24,7 +26,7 @@ Physics::Engine::Item& Physics::Engine::itemOf(const b2Body* body) {
                        [&](const Item& item) { return item.body == body; });
 }
 
-/// Whether a body would touch nothing at a place.
+/// Returns whether a body would touch nothing at a place.
 bool Physics::Engine::isFree(const b2Body& body, const b2Transform& at) const {
   for (const b2Fixture* f = body.GetFixtureList(); f != nullptr; f = f->GetNext()) {
     Touching touching(*f->GetShape(), heightsOf(*f), at, &body);
@@ -33,8 +35,8 @@ bool Physics::Engine::isFree(const b2Body& body, const b2Transform& at) const {
   return true;
 }
 
-/// What is in the way of pieces that a body is to get. False: something that stands fast, or too
-/// much.
+/// Finds the bodies in the way of pieces that a body is to get. @returns false if one of them can't
+/// be pushed, or if there are too many
 bool Physics::Engine::findObstacles(const Item& item, std::span<const Primitive> added,
                                     std::vector<Item*>& found) {
   std::vector<b2Body*> bodies;
@@ -55,7 +57,7 @@ bool Physics::Engine::findObstacles(const Item& item, std::span<const Primitive>
   return found.size() <= kMostPushed;
 }
 
-/// Whether a way leads through nothing: neither a thing's middle nor its flanks meet something.
+/// Returns whether a way is free: neither a thing's middle nor its flanks meet anything on it.
 bool Physics::Engine::isOpen(const Item& thing, const b2Vec2& way, const Fresh& fresh) const {
   const b2Vec2 across = (toEngine(kFlank * thing.reach) / way.Length()) * b2Vec2(-way.y, way.x);
   Barrier barrier(*thing.heights.front(), thing.body, fresh);
@@ -66,7 +68,7 @@ bool Physics::Engine::isOpen(const Item& thing, const b2Vec2& way, const Fresh& 
   return !barrier.isFound();
 }
 
-/// The shortest way to where a thing touches nothing, but through nothing.
+/// Returns the shortest free way to a place where a thing touches nothing.
 std::optional<b2Vec2> Physics::Engine::wayOut(const Item& thing, const Item& from,
                                               const Fresh& fresh) const {
   const b2Vec2 here = thing.body->GetPosition();
@@ -96,7 +98,7 @@ std::optional<b2Vec2> Physics::Engine::wayOut(const Item& thing, const Item& fro
   return std::nullopt;
 }
 
-/// Moves things out of a body; all of them, or none.
+/// Moves all things out of a body, or none if one of them has no way out.
 bool Physics::Engine::pushOut(const Item& item, const Fresh& fresh, std::span<Item* const> things) {
   std::vector<b2Vec2> places;
   bool haveRoom = true;

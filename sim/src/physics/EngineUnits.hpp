@@ -10,7 +10,7 @@ namespace ortung {
 /// The engine is tuned for bodies of metres: it lets them overlap by up to 15 mm, welds corners
 /// that are nearer than 2.5 mm and gives polygons a skin of 10 mm. Its metre is an eighth of ours,
 /// which makes these 1.9, 0.3 and 1.25 mm. (A power of two: nothing is rounded.)
-inline constexpr double kScale = 8.0;  ///< engine units in a metre
+inline constexpr double kScale = 8.0;  ///< engine units per metre
 
 inline float single(double value) { return static_cast<float>(value); }
 inline float toEngine(double metres) { return single(kScale * metres); }

@@ -11,19 +11,19 @@
 
 namespace ortung {
 
-/// Rigid bodies in the plane (paper, section 2.1). This folder alone knows the physics engine.
-/// Bodies meet where their ranges of height overlap. Impacts obey eqs. (1) to (5) at every speed;
+/// Rigid bodies in the plane (paper, section 2.1). Only this folder uses the physics engine. Bodies
+/// collide where their ranges of height overlap. Impacts obey eqs. (1) to (5) at every speed;
 /// friction lies between none and sticking. Not thread-safe.
 class Physics {
  public:
-  /// How a body holds on to the floor.
+  /// How a body is in contact with the floor.
   enum class Floor {
     rolls,   ///< a ball
     slides,  ///< a crate
-    drives   ///< a robot: goes where it wants as far as its wheels have grip
+    drives   ///< a robot: moves as it wants as far as its wheels have grip
   };
   struct Properties {
-    double mass = 1.0;  ///< [kg]
+    double mass = 1.0;  ///< mass [kg]
     Floor floor = Floor::slides;
   };
   using Body = std::size_t;
@@ -33,37 +33,39 @@ class Physics {
   Physics(const Physics&) = delete;
   Physics& operator=(const Physics&) = delete;
 
+  /// Adds a body at a pose in the field frame.
   Body add(std::span<const Primitive> pieces, const Properties& properties, const Pose2& pose);
-  /// Another shape of the same mass, where it has room. What rolls or slides and is in the way is
-  /// pushed aside; what drives or stands fast is not.
-  /// @param added those of the pieces that may run into something
+  /// Gives a body another shape of the same mass, if there is room. Rolling and sliding bodies in
+  /// the way are pushed aside; driving and fixed ones are not.
+  /// @param added the pieces that may collide with something
   /// @returns whether it has the shape now; if not, nothing was changed
   bool reshape(Body body, std::span<const Primitive> pieces, std::span<const Primitive> added);
-  /// The body's place is used for another one later on.
+  /// Removes a body; its index is reused.
   void remove(Body body);
-  /// Puts a body somewhere, with this velocity in the field frame.
+  /// Moves a body to a pose and gives it a velocity, both in the field frame.
   void place(Body body, const Pose2& pose, const Twist& velocity = {});
 
-  /// What a driving body wants to do in the next step: a change of pose in its own old frame.
+  /// Sets the motion that a driving body wants in the next step: a change of pose in its own old
+  /// frame.
   void want(Body body, const Pose2& change);
-  /// Hits a body: an impulse [N s] through a point, both in the field frame.
+  /// Applies an impulse [N s] at a point, both in the field frame.
   void hit(Body body, const Point2& impulse, const Point2& point);
 
-  /// Whether pieces at a pose would touch nothing but @p self.
+  /// Returns whether pieces at a pose would touch nothing except @p self.
   /// @param self a body, or kNobody
   bool isFree(std::span<const Primitive> pieces, const Pose2& pose, Body self) const;
-  /// Whether pieces in a body's frame are within @p reach [m] of another body.
+  /// Returns whether pieces in a body's frame are within @p reach [m] of another body.
   bool reaches(Body body, std::span<const Primitive> pieces, Body other, double reach) const;
 
   /// Moves everything on by @p dt [s].
   void step(double dt);
 
   const Pose2& pose(Body body) const;
-  Twist velocity(Body body) const;  ///< of its origin, in the field frame
+  Twist velocity(Body body) const;  ///< velocity of its origin in the field frame
   double mass(Body body) const;
-  double inertia(Body body) const;       ///< around its centre of mass [kg m^2]
-  Point2 centreOfMass(Body body) const;  ///< in the field
-  /// Whether something kept a driving body from what it wanted.
+  double inertia(Body body) const;       ///< moment of inertia around its centre of mass [kg m^2]
+  Point2 centreOfMass(Body body) const;  ///< centre of mass in the field frame [m]
+  /// Returns whether something kept a driving body from its wanted motion.
   bool wasDisturbed(Body body) const;
 
   static constexpr Body kNobody = static_cast<Body>(-1);

@@ -14,7 +14,7 @@
 namespace ortung {
 namespace {
 
-constexpr std::ptrdiff_t kMostSaid = 64;  // by one robot in a cycle
+constexpr std::ptrdiff_t kMostSaid = 64;  // greatest number of messages of one robot in a cycle
 
 std::shared_ptr<const FieldRegion> give(const RobotTables& tables, SimRobot& robot) {
   tables.giveTo(robot.container());
@@ -33,8 +33,8 @@ struct PlayerControl::Parts {
     Timestamp since = 0;
     Timestamp period = 0;
     Timestamp due = 0;
-    std::uint64_t orders = 0;  ///< from outside, that the robot had when it began
-    RobotNumber number = 0;    ///< of the robot, which no other one ever has
+    std::uint64_t orders = 0;  ///< commands from outside that the robot had when the player began
+    RobotNumber number = 0;    ///< the robot's number, which is never reused
     bool isGuest = false;
     bool isOver = false;
   };
@@ -46,9 +46,10 @@ struct PlayerControl::Parts {
   SimStage stage;
   FieldModel field;
   std::vector<std::unique_ptr<Seating>> seatings;
-  std::map<std::string, std::string, std::less<>> teams;        ///< by robot
-  std::map<std::string, std::vector<Heard>, std::less<>> ears;  ///< of robots without player
-  std::vector<Heard> said;                                      ///< in this cycle
+  std::map<std::string, std::string, std::less<>> teams;  ///< teams by robot
+  /// Messages for robots without a player.
+  std::map<std::string, std::vector<Heard>, std::less<>> ears;
+  std::vector<Heard> said;  ///< messages sent in this cycle
 
   Parts(Simulation& s, FloorPlans& p, PluginFactory& f, const Config& c)
       : simulation(s),
@@ -112,7 +113,8 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
   call(one, "begin", [&] { one.player->begin(*one.seat); });
 }
 
-/// Gives a robot its tables. @returns where it can stand; null: nobody asks for them
+/// Gives a robot its tables. @returns the region in which it can stand; null if its player does not
+/// need tables
 std::shared_ptr<const FieldRegion> PlayerControl::Parts::teach(SimRobot& robot,
                                                                const PlayerWish& wish, bool needs) {
   const std::string who = "robot " + robot.config().name + ": the player '" + wish.plugin + "'";
@@ -129,7 +131,7 @@ std::shared_ptr<const FieldRegion> PlayerControl::Parts::teach(SimRobot& robot,
   return give(tables, robot);
 }
 
-/// What a player does wrong ends it, and nobody else.
+/// Calls a player; a failure ends this player alone.
 template <class Call>
 void PlayerControl::Parts::call(Seating& one, const char* what, const Call& call) {
   const std::string why = (*one.guard)(what, call);
@@ -152,7 +154,7 @@ void PlayerControl::Parts::say(std::string_view robot, std::string_view text) {
 void PlayerControl::Parts::deliver() {
   if (said.empty()) return;
   std::vector<Heard> messages = std::exchange(said, {});
-  // Whose words came first over a network is chance.
+  // The order in which messages arrive over a network is random.
   std::stable_sort(messages.begin(), messages.end(), [](const Heard& a, const Heard& b) {
     return std::tie(a.stamp, a.from) < std::tie(b.stamp, b.from);
   });
@@ -168,7 +170,7 @@ void PlayerControl::Parts::deliver() {
     if (robot->hasEars()) tell(*robot, messages);
 }
 
-/// Its features are for all of its team, whoever leads it.
+/// Delivers messages to a robot's features, whether or not it has a player.
 void PlayerControl::Parts::tell(SimRobot& robot, const std::vector<Heard>& messages) const {
   const std::string& name = robot.config().name;
   const std::string team = teamOf(name);
@@ -200,7 +202,7 @@ void PlayerControl::Parts::finish(Seating& one) {
   simulation.removeRobot(one.seat->simRobot());
 }
 
-/// Players whose robots are gone, or are told by others where to go.
+/// Ends players whose robots are gone, or are commanded from outside.
 void PlayerControl::Parts::drop() {
   for (const auto& one : seatings) {
     if (one->isOver) continue;
@@ -245,7 +247,7 @@ void PlayerControl::deliver() { parts_->deliver(); }
 void PlayerControl::act(const Game& game) {
   parts_->stage.forget();
   parts_->drop();
-  parts_->deliver();  // if nobody has
+  parts_->deliver();  // if the caller has not done so
   for (std::size_t i = 0; i < parts_->seatings.size(); ++i) parts_->act(*parts_->seatings[i], game);
 }
 

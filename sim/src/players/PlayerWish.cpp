@@ -10,7 +10,7 @@
 namespace ortung {
 namespace {
 
-/// What a value of a text means to a plugin.
+/// Sets a plugin's option from the text of its value.
 void setOption(Parameters& options, const std::string& key, const std::string& text) {
   const auto numbers = parseNumbers(text);
   if (text == "yes" || text == "no") {
@@ -24,7 +24,7 @@ void setOption(Parameters& options, const std::string& key, const std::string& t
   }
 }
 
-/// Cuts @p text at the first @p mark. @returns what is behind it; nothing: there is none
+/// Cuts @p text at the first @p mark. @returns the text behind it; nothing if there is no mark
 std::optional<std::string_view> cut(std::string_view& text, char mark) {
   const std::size_t place = text.find(mark);
   if (place == std::string_view::npos) return std::nullopt;
@@ -40,7 +40,7 @@ bool isTeam(const std::string& name) {
              std::string::npos;
 }
 
-/// @param kind what the text is of: "player"
+/// @param kind "player" or "referee", for error messages
 PlayerWish parse(const std::string& kind, const std::string& text) {
   const std::string where = kind + " '" + text + "'";
   const auto refuse = [&](const std::string& why) {
@@ -48,7 +48,7 @@ PlayerWish parse(const std::string& kind, const std::string& text) {
   };
   std::string_view rest = text;
   PlayerWish wish;
-  // A team is a word, so that an "@" of a file's name is none.
+  // A team is a word, so an "@" in a file's name does not begin one.
   const std::size_t at = rest.rfind('@');
   if (at != std::string_view::npos) {
     wish.team = rest.substr(at + 1);
@@ -113,7 +113,7 @@ PlayerWish readPlayer(const Parameters& table, const std::filesystem::path& fold
     start.refuseUnread();
   }
   wish.seesStage = table.flagOr("stage", true);
-  wish.options = table.takeTable("options");  // what they may be the plugin says
+  wish.options = table.takeTable("options");  // they are checked by the plugin
   table.refuseUnread();
   return wish;
 }

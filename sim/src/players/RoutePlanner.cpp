@@ -14,18 +14,19 @@
 namespace ortung {
 namespace {
 
-constexpr double kCell = 0.1;                // [m]
-constexpr std::size_t kMaxCells = 1u << 20;  // of a plan; larger worlds get larger cells
+constexpr double kCell = 0.1;  // [m]
+constexpr std::size_t kMaxCells =
+    1u << 20;  // greatest number of cells of a plan; larger worlds get larger cells
 
-/// Edge of the cells of a plan: coarser in larger worlds [m].
+/// Returns the edge length of a plan's cells, which grows with the world [m].
 double cellFor(const SimWorld& world) {
   const Box2 b = world.solids().bounds;
   return std::max(kCell, std::sqrt((b.xHigh - b.xLow + kCell) * (b.yHigh - b.yLow + kCell) /
                                    static_cast<double>(kMaxCells)));
 }
 
-/// Cells with room for a robot, coarse enough to plan on. Between the middles of two of them there
-/// is no wall, however thin: it would be within 0.71 of a cell of one of them.
+/// Returns the cells with room for a robot, coarse enough to plan on. Between the middles of two
+/// neighbours there is no wall, however thin: it would be within 0.71 of a cell of one of them.
 FieldRegion coarseRegion(const SimWorld& world, RobotSize robot) {
   double cell = cellFor(world);
   for (;;) {
@@ -40,7 +41,7 @@ bool hasRoom(const FieldRegion& region) {
   return std::find(region.standable.begin(), region.standable.end(), 1) != region.standable.end();
 }
 
-/// Column and row of a cell.
+/// A cell by column and row.
 struct Place {
   std::ptrdiff_t column;
   std::ptrdiff_t row;
@@ -66,7 +67,7 @@ constexpr std::array<Neighbour, 8> kNeighbours{{{1, 0, 1.0F},
                                                 {-1, -1, kDiagonal},
                                                 {1, -1, kDiagonal}}};
 
-/// Calls visit(neighbour, way) for all free cells beside @p cell; no corner is cut.
+/// Calls visit(neighbour, distance) for all free cells beside @p cell; corners are not cut.
 template <class Visit>
 void visitNeighbours(const FieldGrid& grid, const std::vector<std::uint8_t>& isFree,
                      std::size_t cell, Visit visit) {
@@ -98,7 +99,7 @@ RoutePlanner::RoutePlanner(const SimWorld& world, const RobotSize& robot, double
   if (!hasRoom(region))
     throw std::invalid_argument("world " + world.name() + ": a robot of radius " +
                                 std::to_string(robot.radius) + " m fits nowhere");
-  const FieldParts parts = floorParts(world, region, robot);  // as the learner's
+  const FieldParts parts = floorParts(world, region, robot);  // the same parts as the learner's
   grid_ = region.grid;
   free_ = parts.only(mainPart(world, parts)).standable;
   keepLargestPart();
@@ -159,7 +160,7 @@ bool RoutePlanner::isClear(std::size_t a, std::size_t b) const {
   return true;
 }
 
-/// A*: cells from @p to back to @p from.
+/// Searches by A*. @returns the cells from @p to back to @p from
 std::vector<std::uint32_t> RoutePlanner::search(std::size_t from, std::size_t to) const {
   constexpr std::uint32_t kNone = 0xFFFFFFFF;
   std::vector<std::uint32_t> previous(free_.size(), kNone);
@@ -179,7 +180,7 @@ std::vector<std::uint32_t> RoutePlanner::search(std::size_t from, std::size_t to
     const Entry entry = open.top();
     const std::uint32_t here = entry.second;
     open.pop();
-    if (entry.first > way[here] + ahead(here)) continue;  // a shorter way was found since
+    if (entry.first > way[here] + ahead(here)) continue;  // a shorter route has been found since
     visitNeighbours(grid_, free_, here, [&](std::size_t next, float step) {
       if (way[here] + step >= way[next]) return;
       way[next] = way[here] + step;
@@ -198,7 +199,7 @@ std::vector<FloorPoint> RoutePlanner::route(const FloorPoint& from, const FloorP
   std::reverse(cells.begin(), cells.end());
   std::vector<FloorPoint> corners;
   if (!contains(from.x, from.y)) corners.push_back(centre(cells.front()));
-  // Pull the string tight: from each corner to the farthest cell in sight along the way.
+  // The route is shortened: from each corner it goes straight to the farthest cell in sight.
   std::size_t corner = 0;
   while (corner + 1 < cells.size()) {
     std::size_t next = corner + 1;

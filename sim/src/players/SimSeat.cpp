@@ -5,7 +5,8 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kMostHeard = 1000;  ///< messages that wait for a player; older ones are lost
+/// Greatest number of messages that wait for a player; older ones are lost.
+constexpr std::size_t kMostHeard = 1000;
 
 RobotAbilities abilitiesOf(const SimRobot& robot) {
   RobotAbilities abilities;

@@ -11,16 +11,16 @@
 
 namespace ortung {
 
-/// Adds what waits for a listener; of too many the oldest are lost.
+/// Adds a message to a listener's queue; if there are too many, the oldest are lost.
 void keepHeard(std::vector<Heard>& waiting, const Heard& message);
 
 /// A player's seat on a simulated robot.
 class SimSeat : public PlayerSeat {
  public:
   /// @param robot, field borrowed
-  /// @param stage null: it is not to see it
-  /// @param region where its robot can stand, if it has tables; may be null
-  /// @param say tells others
+  /// @param stage the stage, or null if the player must not see it
+  /// @param region region in which its robot can stand; null: it has no tables
+  /// @param say sends a message to the team
   SimSeat(SimRobot& robot, std::string team, const FieldModel& field, Stage* stage,
           std::shared_ptr<const FieldRegion> region, const Random& random,
           std::function<void(std::string_view)> say);
@@ -39,7 +39,7 @@ class SimSeat : public PlayerSeat {
   std::span<const Heard> heard() const override { return heard_; }
   Stage* stage() override { return stage_; }
 
-  // --- for whoever supervises
+  // --- for the supervisor
   SimRobot& simRobot() { return robot_; }
   void setTime(Timestamp now) { now_ = now; }
   void setGame(const Game& game) {
@@ -50,7 +50,7 @@ class SimSeat : public PlayerSeat {
 
  private:
   SimRobot& robot_;
-  std::string name_;  ///< which outlives the robot
+  std::string name_;  ///< copy of the name, which outlives the robot
   std::string team_;
   const FieldModel& field_;
   Stage* stage_;

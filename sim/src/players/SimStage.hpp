@@ -35,7 +35,7 @@ class SimStage : public Stage {
 
   Simulation& simulation() { return simulation_; }
 
-  /// Robots have come or gone, or were moved, within a cycle.
+  /// Drops the cached states after robots were added, removed or moved within a cycle.
   void forget() { seen_.reset(); }
 
  private:
@@ -43,7 +43,7 @@ class SimStage : public Stage {
   Simulation& simulation_;
   FloorPlans& plans_;
   std::function<std::string(std::string_view)> teamOf_;
-  /// Bodies stand still while players act, but for those that they place.
+  /// Time of the cached states. Bodies do not move while players act, except those that they place.
   mutable std::optional<Timestamp> seen_;
   mutable std::vector<StagedRobot> robots_;
   mutable std::vector<StagedThing> things_;

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a ray is within something: from entry to exit.
+/// The interval of a ray that is inside something.
 struct Within {
   double entry = -kInfinity;
   double exit = kInfinity;
 
-  /// Keeps the part with position + t * speed <= limit.
+  /// Keeps the part where position + t * speed <= limit.
   void keepBelow(double position, double speed, double limit) {
     if (speed > 0.0) exit = std::min(exit, (limit - position) / speed);
     if (speed < 0.0) entry = std::max(entry, (limit - position) / speed);
@@ -100,7 +100,7 @@ void BodyRays::remove(std::size_t place) {
   bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(place));
 }
 
-/// Distance to the first surface, from outside or inside.
+/// Returns the distance to the first surface, from outside or inside.
 std::optional<double> BodyRays::hit(const Piece& piece, const Ray& ray) {
   const double x = ray.x - piece.middle.x;
   const double y = ray.y - piece.middle.y;
@@ -177,7 +177,8 @@ void BodyRays::castAt(const Piece& piece, const RayFan& fan, const FanTurn& turn
   const double middle = sign * (std::atan2(dy, dx) - fan.firstAngle);
   const double last = step * static_cast<double>(n - 1);
   double low = middle - half;
-  low -= kTurn * std::floor((low + 2.0 * half) / kTurn);  // the first one that ends behind beam 0
+  low -=
+      kTurn * std::floor((low + 2.0 * half) / kTurn);  // the first interval that ends behind beam 0
   for (; low <= last; low += kTurn) {
     const double from = std::max(std::ceil(low / step), 0.0);
     const double to = std::min(std::floor((low + 2.0 * half) / step), static_cast<double>(n - 1));
@@ -187,10 +188,10 @@ void BodyRays::castAt(const Piece& piece, const RayFan& fan, const FanTurn& turn
 
 bool BodyRays::isBlocked(const std::array<double, 3>& from, const std::array<double, 3>& direction,
                          double stop, RobotNumber ignore) const {
-  constexpr double kHair = 1.0 + 1e-9;  // for rounding
+  constexpr double kHair = 1.0 + 1e-9;  // margin for rounding errors
   const Ray ray{from[0], from[1], from[2], direction[0], direction[1], direction[2]};
   const double level2 = ray.dx * ray.dx + ray.dy * ray.dy;
-  // Most are too far off, or beside the ray.
+  // Most bodies are too far away or beside the ray.
   const auto isAway = [&](double toX, double toY, double size) {
     const double reach = kHair * size;
     const double x = toX - ray.x;

@@ -23,7 +23,7 @@ bool isInside(std::span<const Point2> outline, const Point2& p) {
   return left || right;
 }
 
-/// The point of an edge that is nearest to the origin.
+/// Returns the point of an edge that is nearest to the origin.
 Point2 nearestOf(const Point2& a, const Point2& b) {
   const double ux = b.x - a.x;
   const double uy = b.y - a.y;

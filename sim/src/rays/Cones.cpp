@@ -13,11 +13,13 @@ namespace {
 
 constexpr double kFinestRays = 0.1 * kTurn / 360.0;
 constexpr double kWidestRays = 2.0 * kTurn / 360.0;
-constexpr double kSagitta = 0.0005;  ///< of the chords that stand for a round outline [m]
+/// Sagitta of the chords that approximate a round outline [m].
+constexpr double kSagitta = 0.0005;
 constexpr std::size_t kFewestChords = 16;
 constexpr std::size_t kMostChords = 96;
 
-/// Cones of level rays that are at most this far apart; what they share is cast once.
+/// Casts cones of horizontal rays that are at most @p widest [rad] apart; shared rays are cast
+/// once.
 void castLevel(const World& world, double widest, const ConeFan& fan, RobotNumber ignore,
                std::span<float> ranges) {
   const bool shares = ranges.size() > 1 && fan.angleStep > 0.0;
@@ -26,7 +28,7 @@ void castLevel(const World& world, double widest, const ConeFan& fan, RobotNumbe
   const double step = span / pieces;
   const auto between = static_cast<std::size_t>(shares ? pieces : 1.0);
   const auto toEachSide = static_cast<std::size_t>(std::floor(fan.halfAngle / step + 1e-9));
-  thread_local std::vector<float> rays;  // a cone a cycle and robot: none of them allocates
+  thread_local std::vector<float> rays;  // reused, so that a cone does not allocate in each cycle
   rays.resize((ranges.size() - 1) * between + 2 * toEachSide + 1);
   world.castFan({.x = fan.x,
                  .y = fan.y,
@@ -68,8 +70,8 @@ void BodyRays::castCones(const ConeFan& fan, RobotNumber ignore, std::span<float
   }
 }
 
-/// The corners of a piece's outline around @p middle; of a round piece, ends of chords.
-/// @returns how many
+/// Writes the corners of a piece's outline around @p middle; for a round piece, the ends of chords.
+/// @returns their number
 std::size_t BodyRays::outlineOf(const Piece& piece, const Point2& middle,
                                 std::span<Point2> outline) {
   if (!piece.isRound) {
@@ -79,7 +81,7 @@ std::size_t BodyRays::outlineOf(const Piece& piece, const Point2& middle,
   }
   const double chords = kTurn / 2.0 / std::sqrt(2.0 * kSagitta / std::max(piece.reach, kSagitta));
   const std::size_t n = std::clamp(static_cast<std::size_t>(chords), kFewestChords, kMostChords);
-  const auto& m = piece.normals;  // leads to the unit circle
+  const auto& m = piece.normals;  // maps the ellipse to the unit circle
   const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   for (std::size_t i = 0; i < n; ++i) {
     const double t = kTurn * static_cast<double>(i) / static_cast<double>(n);
@@ -102,7 +104,7 @@ void BodyRays::castConesAt(const Piece& piece, const ConeFan& fan, std::span<flo
   const double aside = distance > piece.reach ? std::asin(piece.reach / distance) : kTurn;
   std::array<Point2, kMostChords> outline;
   std::array<Point2, kMostChords> seen;
-  std::size_t n = 0;  // most pieces are in no cone, or behind others: nobody asks for their outline
+  std::size_t n = 0;  // computed only when needed: most pieces are in no cone or are hidden
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     if (least >= static_cast<double>(ranges[k])) continue;
     const double axis = fan.firstAngle + static_cast<double>(k) * fan.angleStep;

@@ -8,8 +8,8 @@
 
 namespace ortung {
 
-/// Shortens those ranges of the cones in which a wall of a map is nearer. Maps are met by rays: of
-/// a map that is as high as the apex, level ones so dense that no cell of it lies between two.
+/// Shortens the ranges of the cones in which a wall of a map is nearer. Maps are tested by rays:
+/// for a map at the height of the apex by horizontal ones, so dense that no cell lies between two.
 void castConesAtMaps(const World& world, const std::vector<GridBody>& maps, const ConeFan& fan,
                      RobotNumber ignore, std::span<float> ranges);
 

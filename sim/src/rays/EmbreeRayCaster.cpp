@@ -95,7 +95,7 @@ void attachRound(RTCDevice device, RTCScene scene, RoundGeometry& round) {
   attach(scene, geometry);
 }
 
-/// Cosines and sines of 0, step, 2 step, ... by turning on: the error stays at some 1e-15.
+/// Cosines and sines of 0, step, 2 step, ... by recursion; the error stays at some 1e-15.
 struct Turns {
   std::array<double, kPacket> cosine;
   std::array<double, kPacket> sine;
@@ -111,11 +111,12 @@ struct Turns {
   }
 };
 
-/// Moves hits on outlines of maps on to the surface behind. A cell of a map made from scans says
-/// that the surface was somewhere in it, so its middle is the best guess, not its near side.
+/// Moves hits on outlines of maps to the surface behind them. An occupied cell of a map made from
+/// scans means that the surface is somewhere in it, so its middle is a better estimate than its
+/// near side.
 void moveToSurfaces(const std::vector<Mesh::Depth>& depths, double maxRange, std::size_t n,
                     RTCRayHit16& packet) {
-  constexpr unsigned kWalls = 0;  // attached to the scene before all else
+  constexpr unsigned kWalls = 0;  // the first geometry attached to the scene
   for (std::size_t i = 0; i < n; ++i) {
     if (packet.hit.geomID[i] != kWalls) continue;
     double depth = 0.0;
@@ -125,7 +126,8 @@ void moveToSurfaces(const std::vector<Mesh::Depth>& depths, double maxRange, std
     const auto across = static_cast<double>(std::abs(packet.ray.dir_x[i] * packet.hit.Ng_x[i] +
                                                      packet.ray.dir_y[i] * packet.hit.Ng_y[i]));
     const auto normal = static_cast<double>(std::hypot(packet.hit.Ng_x[i], packet.hit.Ng_y[i]));
-    // Along a wall the way to the surface behind is long: at most two depths of it count.
+    // For rays nearly along a wall the distance to the surface behind is long: at most two depths
+    // of it count.
     const double way = across > 0.5 * normal ? depth * normal / across : 2.0 * depth;
     packet.ray.tfar[i] =
         static_cast<float>(std::min(maxRange, static_cast<double>(packet.ray.tfar[i]) + way));
@@ -138,8 +140,8 @@ struct RayCaster::Scenes {
   Device device;
   Point2 middle;
   RoundGeometry round;
-  Scene upright;  ///< what level rays can meet
-  Scene caps;     ///< null if there are none
+  Scene upright;  ///< what horizontal rays can meet
+  Scene caps;     ///< horizontal surfaces; null if there are none
   std::vector<Mesh::Depth> depths;
 
   Scene makeScene() const {
@@ -153,14 +155,14 @@ struct RayCaster::Scenes {
     if (error != RTC_ERROR_NONE)
       throw std::runtime_error("Embree cannot build the world, error " + std::to_string(error));
   }
-  /// The scenes that matter to a ray.
+  /// Returns the scenes that a ray can meet.
   std::array<RTCScene, 2> scenesFor(bool isLevel) const {
     return {upright.get(), isLevel ? nullptr : caps.get()};
   }
 };
 
 RayCaster::RayCaster(const Mesh& mesh) : scenes_(std::make_unique<Scenes>()) {
-  // One thread: worlds build in milliseconds, and no pool of threads stays behind.
+  // One thread: worlds are built in milliseconds, and no thread pool is left behind.
   scenes_->device.reset(rtcNewDevice("threads=1"));
   if (!scenes_->device) throw std::runtime_error("Embree cannot be started");
   scenes_->middle = mesh.middle;
@@ -232,7 +234,7 @@ bool RayCaster::isBlocked(const std::array<double, 3>& from, const std::array<do
   RTCIntersectContext context = makeContext();
   for (const RTCScene scene : scenes_->scenesFor(direction[2] == 0.0)) {
     if (scene != nullptr) rtcOccluded1(scene, &context, &ray);
-    if (ray.tfar < 0.0f) return true;  // Embree says so by -infinity
+    if (ray.tfar < 0.0f) return true;  // Embree reports a hit by -infinity
   }
   return false;
 }

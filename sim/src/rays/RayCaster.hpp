@@ -9,8 +9,7 @@
 
 namespace ortung {
 
-/// Casts rays against what does not move; the only part that knows the ray tracing library.
-/// Thread-safe.
+/// Casts rays against fixed bodies; the only part that uses the ray tracing library. Thread-safe.
 class RayCaster {
  public:
   /// @throws std::runtime_error when the ray tracing library fails
@@ -19,10 +18,10 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  /// As World::castFan(). @pre all numbers are finite, maxRange is not negative
+  /// Casts a fan as World::castFan() does. @pre all numbers are finite, maxRange is not negative
   void castFan(const RayFan& fan, std::span<float> ranges) const;
 
-  /// Whether anything is met from one point towards another before @p stop metres from it.
+  /// Returns whether the ray from a point in a direction meets anything before @p stop [m].
   bool isBlocked(const std::array<double, 3>& from, const std::array<double, 3>& direction,
                  double stop) const;
 

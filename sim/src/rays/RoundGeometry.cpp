@@ -18,7 +18,7 @@ RoundGeometry::RoundGeometry(const std::vector<RoundBody>& bodies, const Point2&
 
 std::array<std::array<float, 3>, 2> RoundGeometry::boundsOf(std::size_t body) const {
   const Unit& b = bodies_[body];
-  // A little wider, since the tracer's own box test rounds.
+  // The bounds are slightly enlarged, since the tracer's box test rounds.
   const auto low = [](double middle, double reach) {
     return std::nextafter(static_cast<float>(middle - 1.000001 * reach),
                           -std::numeric_limits<float>::infinity());

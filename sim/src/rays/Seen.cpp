@@ -1,4 +1,4 @@
-// What sensors may see of a world: lines and bodies.
+// Makes the lines and bodies that sensors see from a world's primitives.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ FieldLine straight(const Point2& from, const Point2& to, double width, const std
   return line;
 }
 
-/// A rectangle is a line along its longer sides.
+/// Returns the line of a rectangle, along its longer sides.
 FieldLine lineOf(const Primitive& rectangle) {
   const bool isAlongX = rectangle.halfX >= rectangle.halfY;
   const double half = isAlongX ? rectangle.halfX : rectangle.halfY;
@@ -30,7 +30,7 @@ FieldLine lineOf(const Primitive& rectangle) {
                   2.0 * (isAlongX ? rectangle.halfY : rectangle.halfX), rectangle.colour);
 }
 
-/// The stroke of an ellipse lies within its size; a filled one is all stroke.
+/// Returns the line of an ellipse. Its stroke lies within its size; a filled ellipse is all stroke.
 FieldLine arcOf(const Primitive& ellipse) {
   const double smaller = std::min(ellipse.halfX, ellipse.halfY);
   const double width = ellipse.stroke > 0.0 ? std::min(ellipse.stroke, smaller) : smaller;

@@ -7,7 +7,7 @@
 
 namespace ortung {
 
-/// What a face of a drawing sees. Places are relative to the camera, with the field's axes.
+/// The view of a face of a drawing. Positions are relative to the camera, with the field's axes.
 class FaceView {
  public:
   FaceView(const CameraPose& camera, const SheetFace& face) {
@@ -29,7 +29,7 @@ class FaceView {
     }
   }
 
-  /// Whether any of a ball may be seen.
+  /// Returns whether any part of a sphere may be visible.
   bool sees(double x, double y, double z, double reach) const {
     if (toFace_[6] * x + toFace_[7] * y + toFace_[8] * z < -reach) return false;
     for (const auto& n : inward_)
@@ -37,7 +37,8 @@ class FaceView {
     return true;
   }
 
-  /// OpenGL's matrix, column by column. The first row of pixels is the top one.
+  /// Returns the projection matrix for OpenGL, column by column. The first row of pixels is the top
+  /// one.
   std::array<float, 16> toClip(const SheetFace& face, double near, double far) const {
     const double sx = 2.0 / (face.right - face.left);
     const double sy = 2.0 / (face.bottom - face.top);
@@ -57,8 +58,8 @@ class FaceView {
   }
 
  private:
-  std::array<double, 9> toFace_{};                 ///< rows: the face's axes
-  std::array<std::array<double, 3>, 4> inward_{};  ///< normals of the sides
+  std::array<double, 9> toFace_{};                 ///< rows: the face's axes in the field frame
+  std::array<std::array<double, 3>, 4> inward_{};  ///< inward normals of the sides of the view
 };
 
 }  // namespace ortung

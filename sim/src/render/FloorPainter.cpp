@@ -5,7 +5,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kBeyond = 2500.0;  ///< the floor goes on beside the field [m]
+constexpr double kBeyond = 2500.0;  ///< how far the floor extends beyond the field [m]
 
 const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
 
@@ -20,7 +20,7 @@ GLuint arrayOf(const GlFunctions& gl, const void* data, std::size_t bytes) {
   return array;
 }
 
-/// The field, and the floor around it: nothing is drawn twice.
+/// Returns the triangles of the field and of the floor around it, without overlaps.
 std::vector<std::array<float, 3>> floorOf(const Box2& field) {
   std::vector<std::array<float, 3>> vertices;
   const auto rectangle = [&](double x0, double x1, double y0, double y1, float isField) {

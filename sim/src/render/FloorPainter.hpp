@@ -22,11 +22,11 @@ class FloorPainter {
  private:
   const GlFunctions& gl_;
   const StandingScene& scene_;
-  GLuint floor_ = 0;  ///< vertex arrays
+  GLuint floor_ = 0;  ///< vertex array of the floor
   GLuint lines_ = 0;
   GLsizei floorVertices_ = 0;
   GLuint indexBuffer_ = 0;
-  std::vector<std::uint32_t> indices_;  ///< of the lines that a face sees
+  std::vector<std::uint32_t> indices_;  ///< indices of the lines that a face sees
 };
 
 }  // namespace ortung

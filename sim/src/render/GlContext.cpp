@@ -19,7 +19,7 @@ namespace {
 class Library {
  public:
   explicit Library(const char* name) : name_(name) {
-    // Before the renderer looks at it; it may be the user's already.
+    // Set before the renderer reads it; a value of the user is kept.
     ::setenv("LP_NUM_THREADS", "0", 0);
     handle_ = ::dlopen(name, RTLD_NOW | RTLD_LOCAL);
     if (handle_ == nullptr) throw std::runtime_error(::dlerror());
@@ -87,7 +87,7 @@ class OsMesaContext final : public GlContext {
 
  protected:
   void bind() override {
-    // We draw into buffers of our own, so the one that it wants is never touched.
+    // We draw into buffers of our own, so the buffer that OSMesa requires is never touched.
     if (mesa_.makeCurrent(context_, unused_.data(), GL_UNSIGNED_BYTE, 1, 1) == 0)
       throw std::runtime_error("OSMesa's context can't be used");
   }
@@ -156,7 +156,7 @@ class EglContext final : public GlContext {
 
  protected:
   void bind() override {
-    egl_.bindApi(EGL_OPENGL_API);  // which each thread has for itself
+    egl_.bindApi(EGL_OPENGL_API);  // the bound API is a setting of each thread
     if (egl_.makeCurrent(egl_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
       throw std::runtime_error("EGL's context can't be used without a surface");
   }
@@ -169,7 +169,7 @@ class EglContext final : public GlContext {
   ::EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-/// Libraries that were opened once are never closed: they do not survive it.
+/// Opens a library once and never closes it, which these libraries do not survive.
 template <class Opened>
 const Opened& opened() {
   static const Opened* const kOpened = new Opened;
@@ -191,7 +191,8 @@ std::unique_ptr<GlContext> attempt(std::string& why) {
 GlContext::~GlContext() = default;
 
 std::unique_ptr<GlContext> GlContext::make() {
-  static std::mutex* const mutex = new std::mutex;  // never gone before the last thread
+  static std::mutex* const mutex =
+      new std::mutex;  // never destroyed, so that it outlives all threads
   const std::lock_guard lock(*mutex);
   const char* const set = ::getenv("ORTUNG_GL");
   const std::string wanted = set == nullptr ? "" : set;

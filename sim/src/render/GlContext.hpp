@@ -6,7 +6,7 @@
 
 namespace ortung {
 
-/// What we call of OpenGL 3.3 core.
+/// The functions of OpenGL 3.3 core that we use.
 #define ORTUNG_GL_FUNCTIONS(X)                                 \
   X(PFNGLATTACHSHADERPROC, AttachShader)                       \
   X(PFNGLBINDBUFFERPROC, BindBuffer)                           \
@@ -72,7 +72,7 @@ struct GlFunctions {
 /// the machine has, OSMesa first; $ORTUNG_GL = osmesa or egl says which. The libraries are loaded
 /// when the first context is made, so nothing links them. Drawing stays in the calling thread
 /// unless $LP_NUM_THREADS says otherwise: many robots' cameras share the cores better than the
-/// parts of one picture. Current in one thread at a time, see Current.
+/// parts of one picture. It is current in one thread at a time, see Current.
 class GlContext {
  public:
   /// Thread-safe.
@@ -83,9 +83,9 @@ class GlContext {
   GlContext& operator=(const GlContext&) = delete;
 
   const GlFunctions& gl() const { return gl_; }
-  virtual const char* backEnd() const = 0;  ///< "osmesa" or "egl"
+  virtual const char* backEnd() const = 0;  ///< name of the back end: "osmesa" or "egl"
 
-  /// Makes a context the calling thread's for as long as this lives.
+  /// Makes a context current in the calling thread during its own lifetime.
   class Current {
    public:
     explicit Current(GlContext& context) : context_(context) { context_.bind(); }

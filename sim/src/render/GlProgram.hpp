@@ -17,7 +17,7 @@ class GlProgram {
             std::initializer_list<const char*> vertex, std::initializer_list<const char*> fragment);
 
   void use() const { gl_->UseProgram(program_); }
-  /// Uniforms that the compiler left out are passed over, as OpenGL does with -1.
+  /// Returns the location of a uniform; -1, which OpenGL ignores, if the compiler removed it.
   GLint find(const char* name) const { return gl_->GetUniformLocation(program_, name); }
 
  private:

@@ -5,13 +5,13 @@
 
 namespace ortung {
 
-/// The memory that OpenGL draws into: colours, or what is where, and depths.
+/// The buffers into which OpenGL draws: colours, or things and ranges, and depths.
 /// @pre its context is current, whenever it is used
 class GlSheet {
  public:
   explicit GlSheet(const GlFunctions& gl);
 
-  /// Grows to at least this size. @throws std::runtime_error if there is no memory
+  /// Enlarges the buffers to at least this size. @throws std::runtime_error if there is no memory
   void resize(int width, int height);
   void beginColours(const Rgb& background);
   void readColours(int width, int height, std::uint32_t* out);

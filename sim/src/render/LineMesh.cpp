@@ -8,8 +8,9 @@
 namespace ortung {
 namespace {
 
-constexpr double kPiece = 2.0;     ///< longest piece of a straight line [m]
-constexpr double kArcStep = 0.05;  ///< of an arc's parameter [rad]: 0.6 mm off a circle of 2 m
+constexpr double kPiece = 2.0;  ///< longest piece of a straight line [m]
+/// Step of an arc's parameter [rad]: an error of 0.6 mm for a radius of 2 m.
+constexpr double kArcStep = 0.05;
 constexpr std::size_t kMostVertices = std::size_t{1} << 22;
 constexpr Rgba kWhite{255, 255, 255, 255};
 constexpr double kEndless = 2000.0;  ///< length of a line without ends [m]
@@ -84,7 +85,7 @@ void LineMesh::addArc(const FieldLine& line, Rgba colour) {
 void LineMesh::addSpot(double x, double y, double radius, Rgba colour) {
   const std::size_t first = scene_.lines.size();
   const auto corner = [&](float u, float v) {
-    // Its corners grow like those of lines: `end` is the second direction.
+    // Its corners are enlarged like those of lines; `end` is the second direction.
     return LineVertex{static_cast<float>(x - scene_.middle.x),
                       static_cast<float>(y - scene_.middle.y),
                       0.0F,
@@ -123,7 +124,7 @@ void LineMesh::piece(const Node& from, const Node& to, double half, double lengt
   close(first);
 }
 
-/// The chunk of the vertices from @p firstVertex on.
+/// Makes a chunk of the vertices from @p firstVertex on.
 void LineMesh::close(std::size_t firstVertex) {
   Chunk chunk;
   chunk.first = static_cast<std::uint32_t>(firstVertex);

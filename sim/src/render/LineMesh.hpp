@@ -12,10 +12,10 @@ class LineMesh {
 
  private:
   struct Node {
-    double x, y;              ///< of the line's middle, relative to the scene's
-    double acrossX, acrossY;  ///< to the left
-    double endX, endY;        ///< out of the line at its ends
-    double along;             ///< [m]
+    double x, y;              ///< point on the line's centre, relative to the scene's middle [m]
+    double acrossX, acrossY;  ///< direction to the left
+    double endX, endY;        ///< direction out of the line at its ends
+    double along;             ///< distance along the line [m]
   };
   void addStraight(const FieldLine& line, Rgba colour);
   void addArc(const FieldLine& line, Rgba colour);

@@ -10,14 +10,15 @@
 
 namespace ortung {
 
-/// Painters of one scene: as many as threads draw at a time. The scene is prepared, and OpenGL
-/// looked for, when something is drawn first. Thread-safe.
+/// The painters of one scene, one for each thread that draws at the same time. The scene is
+/// prepared, and OpenGL loaded, at the first drawing. Thread-safe.
 class Painters {
  public:
   Painters();
   ~Painters();
 
-  /// @param objects of the world: first what stands, then what moves
+  /// Draws the scene.
+  /// @param objects objects of the world: first @p standing fixed ones, then the moving ones
   /// @throws std::runtime_error if there is no OpenGL
   void draw(const WorldModel& world, std::span<const WorldObject> objects, std::size_t standing,
             const Drawing& drawing, const Sheet& sheet);

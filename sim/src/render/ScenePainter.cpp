@@ -14,10 +14,10 @@
 namespace ortung {
 namespace {
 
-constexpr double kNear = 0.03;   ///< what is nearer is not drawn [m]
-constexpr double kFar = 4000.0;  ///< [m]
+constexpr double kNear = 0.03;   ///< distance of the near plane [m]
+constexpr double kFar = 4000.0;  ///< distance of the far plane [m]
 
-/// A program of the floor or of lines or of solids, with the places of what all of them are told.
+/// A program for the floor, for lines or for solids, with the locations of their common uniforms.
 struct Program : GlProgram {
   Program(const GlFunctions& gl, const char* definitions, const char* vertex, const char* fragment)
       : GlProgram(gl, definitions, {shaders::kHead, vertex}, {shaders::kHead, fragment}) {}
@@ -26,7 +26,7 @@ struct Program : GlProgram {
   GLint pixel = find("pixel");
 };
 
-/// The three programs of one way to draw.
+/// The three programs of one mode of drawing.
 struct Programs {
   Programs(const GlFunctions& gl, const char* definitions)
       : floor(gl, definitions, shaders::kFloorVertex, shaders::kFloorFragment),
@@ -53,7 +53,7 @@ struct ScenePainter::Parts {
     gl.Enable(GL_SCISSOR_TEST);
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
-    gl.FrontFace(GL_CW);  // rows run downwards, so that all is mirrored
+    gl.FrontFace(GL_CW);  // rows go downwards, so everything is mirrored
   }
 
   /// Programs are compiled when they are first needed.
@@ -80,7 +80,7 @@ struct ScenePainter::Parts {
   std::vector<FaceView> faces;
 };
 
-/// What is the same for all faces.
+/// Sets the uniforms that are the same for all faces.
 void ScenePainter::Parts::tell(const Drawing& drawing, const Programs& programs) const {
   const Lighting& light = drawing.lighting;
   const std::array<double, 3>& camera = drawing.camera.position;
@@ -109,7 +109,8 @@ void ScenePainter::Parts::tell(const Drawing& drawing, const Programs& programs)
   gl.Uniform1ui(floorIs.find("seed"), light.seed);
 }
 
-/// The floor hides nothing, and lines lie on it: so neither is compared with what is there.
+/// Draws the floor and its lines. The floor hides nothing and lines lie on it, so no depth test is
+/// needed.
 void ScenePainter::Parts::paintFloor(const Programs& programs, std::size_t face, float pixel,
                                      bool annotates, const std::array<float, 16>& toClip,
                                      const std::array<double, 3>& camera) {

@@ -8,16 +8,16 @@
 
 namespace ortung {
 
-/// Draws a scene with a context of OpenGL of its own. Used by one thread at a time.
+/// Draws a scene with an OpenGL context of its own. It is used by one thread at a time.
 class ScenePainter {
  public:
-  /// @param scene must stay @throws std::runtime_error if there is no OpenGL
+  /// @param scene borrowed @throws std::runtime_error if there is no OpenGL
   explicit ScenePainter(const StandingScene& scene);
   ~ScenePainter();
   ScenePainter(const ScenePainter&) = delete;
   ScenePainter& operator=(const ScenePainter&) = delete;
 
-  /// @param moving what moves, and is to be drawn
+  /// @param moving the moving bodies to be drawn
   void draw(const Drawing& drawing, std::span<const Instance> moving, const Sheet& sheet);
   const char* backEnd() const;
 

@@ -2,7 +2,8 @@
 
 namespace ortung::shaders {
 
-// Places are relative to the camera, with the field's axes: so single precision serves everywhere.
+// Positions are relative to the camera, with the field's axes, so single precision is enough
+// everywhere.
 const char* const kHead = R"glsl(
 uniform mat4 toClip;
 uniform vec3 light;       // towards it

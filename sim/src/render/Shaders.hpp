@@ -2,9 +2,9 @@
 
 namespace ortung::shaders {
 
-/// The programs' parts in GLSL 3.30. `#define ANNOTATE` makes those that tell what is where
-/// instead of what it looks like; `#define VARIED` those whose floor has a pattern.
-extern const char* const kHead;  ///< behind the version and the definitions, before all others
+/// The programs' parts in GLSL 3.30. `#define ANNOTATE` makes those that write things and ranges
+/// instead of colours; `#define VARIED` those whose floor has a pattern.
+extern const char* const kHead;  ///< the common part, behind the version and the definitions
 extern const char* const kFloorVertex;
 extern const char* const kFloorFragment;
 extern const char* const kLineVertex;

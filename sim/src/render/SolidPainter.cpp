@@ -5,9 +5,9 @@
 namespace ortung {
 namespace {
 
-constexpr std::uint8_t kNetCovers = 80;  ///< of 255: how much of what is behind a net it hides
+constexpr std::uint8_t kNetCovers = 80;  ///< opacity of a net, of 255
 
-// Places of the attributes, as in the shader.
+// Locations of the attributes, as in the shader.
 enum : GLuint { kPlace, kNormal, kMatrix, kStands, kPaint, kBand, kWhat };
 
 const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }

@@ -10,13 +10,13 @@
 
 namespace ortung {
 
-/// Draws bodies: each face only those that it may see, each shape's in one call.
+/// Draws bodies: for each face only those that may be visible, and all of one shape in one call.
 /// @pre its context is current, whenever it is used
 class SolidPainter {
  public:
   SolidPainter(const GlFunctions& gl, const StandingScene& scene);
 
-  /// Chooses and sorts what each face sees.
+  /// Selects and sorts the bodies that each face sees.
   void prepare(std::span<const FaceView> faces, const std::array<double, 3>& camera,
                std::span<const Instance> moving);
   /// @pre a program of solids is in use
@@ -25,7 +25,7 @@ class SolidPainter {
   void paintWalls(const FaceView& face, const std::array<double, 3>& camera);
 
  private:
-  /// As the shader takes it.
+  /// An instance as the shader reads it.
   struct Stretched {
     std::array<float, 4> matrix;
     std::array<float, 4> stands;
@@ -37,7 +37,8 @@ class SolidPainter {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
   };
-  static constexpr std::size_t kGroups = 2 * kUnitShapes;  ///< bodies, then nets
+  /// Number of groups: bodies by shape, then nets by shape.
+  static constexpr std::size_t kGroups = 2 * kUnitShapes;
   static Stretched stretched(const Instance& instance, const std::array<double, 3>& camera);
   void attributes(std::size_t firstInstance) const;
   void paint(std::size_t face, std::size_t fromGroup, std::size_t toGroup) const;
@@ -45,11 +46,11 @@ class SolidPainter {
   const GlFunctions& gl_;
   const StandingScene& scene_;
   UnitMesh mesh_;
-  GLuint bodies_ = 0;  ///< vertex arrays
+  GLuint bodies_ = 0;  ///< vertex array of the bodies
   GLuint walls_ = 0;
   GLuint stretchedBuffer_ = 0;
   std::vector<Stretched> seen_;
-  std::vector<std::array<Run, kGroups>> runs_;  ///< by face
+  std::vector<std::array<Run, kGroups>> runs_;  ///< runs of instances in seen_, by face and group
   std::array<std::vector<const Instance*>, kGroups> groups_;
   std::vector<GLint> firsts_;
   std::vector<GLsizei> counts_;

@@ -10,9 +10,9 @@
 namespace ortung {
 namespace {
 
-constexpr double kChunk = 8.0;  ///< edge of the squares by which walls lie together [m]
+constexpr double kChunk = 8.0;  ///< edge length of the squares into which walls are grouped [m]
 constexpr Rgba kWallGrey{200, 200, 195, 255};
-constexpr double kBandShare = 0.25;  ///< of a robot's height that shows its team
+constexpr double kBandShare = 0.25;  ///< share of a robot's height that shows its team
 
 PixelClass classOf(const std::string& kind) {
   if (kind == "goal") return PixelClass::goal;
@@ -38,14 +38,14 @@ Rgba usualColour(PixelClass kind) {
   }
 }
 
-/// Columns are where the unit shape's axes go.
+/// Places a unit shape: the columns of the matrix are the images of its axes.
 void place(const WorldPiece& piece, const Pose2& object, Instance& instance) {
   if (piece.shape == WorldPiece::Shape::triangle) {
     std::array<FloorPoint, 3> c = piece.corners;
     const auto twiceArea = [&] {
       return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
     };
-    if (twiceArea() < 0.0) std::swap(c[1], c[2]);  // or its inside would be outside
+    if (twiceArea() < 0.0) std::swap(c[1], c[2]);  // otherwise its faces would point inwards
     const double cos = std::cos(object.theta);
     const double sin = std::sin(object.theta);
     const auto turned = [&](double x, double y) {
@@ -73,7 +73,7 @@ void place(const WorldPiece& piece, const Pose2& object, Instance& instance) {
       isRound ? 1.01 * std::max(piece.halfX, piece.halfY) : std::hypot(piece.halfX, piece.halfY);
 }
 
-/// Triangles of a map's walls, those that lie together behind one another.
+/// Adds the triangles of a map's walls, grouped by location.
 void addWalls(const WorldModel& world, StandingScene& scene) {
   WorldModel maps;
   maps.bounds = world.bounds;

@@ -10,74 +10,73 @@
 
 namespace ortung {
 
-/// Shapes that are drawn again and again, stretched and turned.
+/// The shapes of which all bodies are drawn, stretched and turned.
 enum class UnitShape : std::uint8_t { box, cylinder, prism, ball };
 inline constexpr std::size_t kUnitShapes = 4;
 
 using Rgba = std::array<std::uint8_t, 4>;
 
-/// One stretched unit shape: (x, y) of the unit shape go to matrix * (x, y) + (x, y).
+/// A stretched unit shape: points p of the unit shape are moved to matrix * p + (x, y).
 struct Instance {
   UnitShape shape = UnitShape::box;
-  std::array<double, 4> matrix{1, 0, 0, 1};  ///< row by row
-  double x = 0.0, y = 0.0;                   ///< in the field frame [m]
-  double zLow = 0.0, zHigh = 0.0;            ///< [m]
-  double reach = 0.0;                        ///< of all of it from (x, y, middle of z) [m]
+  std::array<double, 4> matrix{1, 0, 0, 1};  ///< matrix, row by row
+  double x = 0.0, y = 0.0;                   ///< position in the field frame [m]
+  double zLow = 0.0, zHigh = 0.0;            ///< heights of bottom and top [m]
+  double reach = 0.0;  ///< greatest distance of its points from (x, y, middle of z) [m]
   Rgba colour{};
-  Rgba band{};              ///< of its upper part; alpha: the share of its height, of 255
-  std::uint32_t thing = 0;  ///< as Sheet::things
-  bool isNet = false;       ///< one looks through it
+  Rgba band{};  ///< colour of its upper part; alpha is that part's share of the height, of 255
+  std::uint32_t thing = 0;  ///< its word in Sheet::things
+  bool isNet = false;       ///< whether cameras see through it
 };
 
 /// A corner of a piece of a line: drawn a little larger than the line, so that its edges can be
 /// smooth at every distance. Relative to the scene's middle [m].
 struct LineVertex {
-  float x, y;              ///< of the line's middle
-  float acrossX, acrossY;  ///< to the left, about of length 1
-  float endX, endY;        ///< out of the line, at its ends; else 0
-  float side;              ///< -1 or 1
+  float x, y;              ///< point on the line's centre
+  float acrossX, acrossY;  ///< direction to the left, with a length of about 1
+  float endX, endY;        ///< direction out of the line at its ends; otherwise 0
+  float side;              ///< side of the centre line, -1 or 1
   float half;              ///< half the line's width; below 0: the radius of a spot
-  float along, length;     ///< of the way from the line's beginning
+  float along, length;     ///< distance from the line's beginning, and the line's length
   Rgba colour;
 };
 
-/// What is drawn of a wall: its corner and normal, relative to the scene's middle.
+/// A vertex of a wall: position relative to the scene's middle, and normal.
 struct WallVertex {
   std::array<float, 3> place;
   std::array<float, 3> normal;
 };
 
-/// Some pieces that lie together, for leaving out what a camera does not see.
+/// A group of neighbouring pieces, which is left out if a camera does not see it.
 struct Chunk {
-  std::uint32_t first = 0;  ///< of vertices
+  std::uint32_t first = 0;  ///< index of its first vertex
   std::uint32_t count = 0;
-  double x = 0.0, y = 0.0, z = 0.0;  ///< relative to the scene's middle [m]
-  double reach = 0.0;                ///< of all of it from there [m]
+  double x = 0.0, y = 0.0, z = 0.0;  ///< its centre relative to the scene's middle [m]
+  double reach = 0.0;                ///< greatest distance of its points from its centre [m]
 };
 
-/// All that stands in a world, as it is drawn. Immutable.
+/// Everything fixed in a world, ready to be drawn. Immutable.
 struct StandingScene {
   Point2 middle;
-  Box2 field;                     ///< relative to the middle
-  bool isPitch = false;           ///< it has lines: it is a field to play on
-  std::vector<LineVertex> lines;  ///< four to a piece, in order around it
-  std::vector<Chunk> lineChunks;  ///< the pieces
-  std::vector<WallVertex> walls;  ///< triangles of maps
+  Box2 field;                     ///< bounds of the field relative to the middle
+  bool isPitch = false;           ///< whether the floor has lines and is drawn as turf
+  std::vector<LineVertex> lines;  ///< vertices of the lines, four per piece, in order around it
+  std::vector<Chunk> lineChunks;  ///< one chunk per piece of a line
+  std::vector<WallVertex> walls;  ///< triangles of the maps' walls
   std::vector<Chunk> wallChunks;
   std::vector<Instance> instances;
 };
 
-/// @param objects what stands, in the order of World::objects()
+/// Prepares a world for drawing. @param objects the fixed objects, in the order of World::objects()
 StandingScene standingScene(const WorldModel& world, std::span<const WorldObject> objects);
 
-/// Adds what an object is made of. @param place of the object among World::objects()
+/// Adds the pieces of an object. @param place index of the object in World::objects()
 void addInstances(const WorldObject& object, std::size_t place, std::vector<Instance>& instances);
 
-/// Colours as bytes; the fallback for a colour that is none.
+/// Returns a colour as bytes; the fallback for an unknown colour.
 Rgba rgbaOf(const std::string& colour, Rgba fallback);
 
-/// The unit shapes as triangles, one behind the other. x and y in [-1, 1], z in [0, 1]; normals
-/// are those of the unit shape.
+/// The triangles of all unit shapes in a row, with x and y in [-1, 1] and z in [0, 1].
 struct UnitMesh {
   std::vector<WallVertex> vertices;
   std::array<std::uint32_t, kUnitShapes> first{};

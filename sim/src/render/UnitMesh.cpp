@@ -6,8 +6,8 @@
 namespace ortung {
 namespace {
 
-constexpr int kCorners = 40;  ///< of a circle: its edge is off by 0.3 % of the radius
-constexpr int kRings = 14;    ///< of a ball
+constexpr int kCorners = 40;  ///< corners of a circle, whose edge is off by 0.3 % of the radius
+constexpr int kRings = 14;    ///< rings of a ball
 
 using Vector = std::array<float, 3>;
 
@@ -22,7 +22,7 @@ class Shapes {
   void end() {
     mesh_.count[shape_] = static_cast<std::uint32_t>(mesh_.vertices.size()) - mesh_.first[shape_];
   }
-  /// Against the clock, seen from outside.
+  /// Adds a triangle, counter-clockwise seen from outside.
   void triangle(const WallVertex& a, const WallVertex& b, const WallVertex& c) {
     mesh_.vertices.insert(mesh_.vertices.end(), {a, b, c});
   }
@@ -30,8 +30,8 @@ class Shapes {
     triangle(a, b, c);
     triangle(a, c, d);
   }
-  /// An upright prism over a polygon whose corners go against the clock.
-  /// @param isSmooth normals are those of a circle
+  /// Adds an upright prism over a polygon in counter-clockwise order.
+  /// @param isSmooth whether normals are those of a circle
   void prism(const std::vector<std::array<float, 2>>& corners, bool isSmooth) {
     const std::size_t n = corners.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -85,7 +85,7 @@ UnitMesh unitMesh() {
   shapes.prism({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, false);
   shapes.end();
   shapes.begin(UnitShape::cylinder);
-  // As far outside the circle as within it.
+  // The corners are as far outside the circle as the edges are inside.
   const double radius = 2.0 / (1.0 + std::cos(kTurn / (2 * kCorners)));
   std::vector<std::array<float, 2>> circle;
   for (int i = 0; i < kCorners; ++i)

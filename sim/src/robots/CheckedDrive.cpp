@@ -6,7 +6,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kFastest = 1000.0;  ///< that any base may claim to be [m/s], [rad/s]
+/// Fastest motion that is accepted from a drive [m/s], [rad/s].
+constexpr double kFastest = 1000.0;
 constexpr std::size_t kMostMotionData = 16;
 
 }  // namespace
@@ -24,7 +25,7 @@ void CheckedDrive::checkCommand(const char* what, double value) const {
                                 ", expected a finite number");
 }
 
-/// @param most of each number, in its unit
+/// @param most greatest magnitude of each number, in its unit
 void CheckedDrive::checkMotion(const char* what, double x, double y, double theta,
                                double most) const {
   if (std::abs(x) <= most && std::abs(y) <= most && std::abs(theta) <= most) return;  // NaN is not

@@ -8,9 +8,9 @@
 
 namespace ortung {
 
-/// A drive as its robot calls it. Commands that are not finite or of the wrong size, which come
-/// from clients and players, are refused with std::invalid_argument; what the drive throws, and
-/// numbers of it that are none or that no base could do, are a PluginFailure that names it.
+/// Wraps a drive and checks its calls. Commands of clients and players that are not finite or of
+/// the wrong size are refused with std::invalid_argument; exceptions of the drive, and numbers that
+/// are not finite or faster than any base, become a PluginFailure that names it.
 class CheckedDrive final : public Drive {
  public:
   CheckedDrive(std::unique_ptr<Drive> drive, const std::string& plugin, std::string robot);
@@ -37,7 +37,7 @@ class CheckedDrive final : public Drive {
   std::unique_ptr<Drive> drive_;
   std::string robot_;
   PluginGuard guard_;
-  double dt_ = 0.0;  ///< of the last relocate() [s]
+  double dt_ = 0.0;  ///< time step of the last relocate() [s]
 };
 
 }  // namespace ortung

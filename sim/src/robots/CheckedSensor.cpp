@@ -3,8 +3,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kLongestPeriod = 1e6;  ///< [s]
-constexpr double kMostRays = 1e12;      ///< a reading
+constexpr double kLongestPeriod = 1e6;  ///< longest period of a sensor [s]
+constexpr double kMostRays = 1e12;      ///< greatest number of rays per reading
 
 std::string nameOf(const Device& device, const std::string& robot) {
   std::string name = "the sensor plugin '" + device.config->plugin + "'";

@@ -9,11 +9,11 @@
 
 namespace ortung {
 
-/// The simulation half of a device as robots and the learner call it: what it throws, and numbers
-/// that make no sense, are a PluginFailure that names plugin, robot and features.
+/// Wraps the simulation half of a device for robots and the learner: exceptions and invalid numbers
+/// become a PluginFailure that names plugin, robot and features.
 class CheckedSensor final : public Sensor {
  public:
-  /// @param robot its name; "": none, while tables are learned
+  /// @param robot the robot's name; "" while tables are learned
   CheckedSensor(std::unique_ptr<Sensor> sensor, const Device& device, const std::string& robot);
   ~CheckedSensor() override;
 
@@ -32,7 +32,7 @@ class CheckedSensor final : public Sensor {
   PluginGuard guard_;
 };
 
-/// The simulation half of a device; null for one that only makes features of others.
+/// Makes the simulation half of a device; null for a device that only derives features from others.
 /// @throws ConfigError, PluginError
 std::unique_ptr<Sensor> makeSensor(const Device& device, PluginFactory& factory,
                                    const std::string& robot = "");

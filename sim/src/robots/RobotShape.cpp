@@ -10,10 +10,10 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostPieces = 64;
-constexpr std::size_t kMostParts = 128;  ///< at a time
+constexpr std::size_t kMostParts = 128;  ///< greatest number of convex parts at a time
 constexpr std::size_t kMostManipulators = 16;
 constexpr std::size_t kMostStates = 16;
-constexpr Range kKickSpeed{0.0, 50.0};  ///< [m/s]
+constexpr Range kKickSpeed{0.0, 50.0};  ///< speed of a kicked ball [m/s]
 
 Primitive readPiece(const Parameters& table, double height) {
   Primitive piece;

@@ -15,8 +15,8 @@
 namespace ortung {
 namespace {
 
-// Streams of a robot's random numbers; sensors have those from kFirstSensor on, so that a sensor
-// more does not change what the others measure.
+// Streams of a robot's random numbers. Sensors have those from kFirstSensor on, so that a further
+// sensor does not change the readings of the others.
 constexpr std::uint64_t kOdometryStream = 0;
 constexpr std::uint64_t kSlipStream = 1;
 constexpr std::uint64_t kFirstSensor = 16;
@@ -26,14 +26,14 @@ constexpr std::size_t kMostProblems = 100;
 
 bool isGroundTruth(const SensorData& data) { return data.id().type == "groundTruth"; }
 
-/// A velocity in the frame of a robot that faces @p heading.
+/// Returns a velocity in the frame of a robot with this heading [rad].
 Twist toRobot(const Twist& inField, double heading) {
   const double c = std::cos(heading);
   const double s = std::sin(heading);
   return {c * inField.x + s * inField.y, c * inField.y - s * inField.x, inField.theta};
 }
 
-/// Place of the state that has this name, or else this number.
+/// Returns the index of the state with this name, or else with this number.
 std::optional<std::size_t> findState(const Manipulator& manipulator, std::string_view state) {
   if (const auto named = manipulator.find(state)) return named;
   for (std::size_t i = 0; i < manipulator.states.size(); ++i)
@@ -46,13 +46,14 @@ std::optional<std::size_t> findState(const Manipulator& manipulator, std::string
 struct SimRobot::Mounted {
   std::unique_ptr<Sensor> sensor;  ///< null once it has thrown
   std::vector<SensorData*> data;
-  std::vector<std::uint64_t> seen;  ///< by data: sequence number of the last reading sent
+  /// Sequence number of each feature's last reading that was sent.
+  std::vector<std::uint64_t> seen;
   Random random;
   Timestamp period = 0;
   Timestamp due = 0;
   bool isOnDemand = false;
-  bool isInput = false;      ///< another feature is made of its readings
-  std::vector<char> wanted;  ///< by data
+  bool isInput = false;      ///< whether another feature is derived from its readings
+  std::vector<char> wanted;  ///< whether each feature is wanted
   bool senses() const {
     return sensor && (!isOnDemand || isInput ||
                       std::find(wanted.begin(), wanted.end(), char{1}) != wanted.end());
@@ -102,7 +103,7 @@ void SimRobot::report(Timestamp now, const std::string& what) {
     problems_.push_back("at " + std::to_string(toSeconds(now)) + " s: " + what);
 }
 
-/// Finds those whose readings are what others are made of.
+/// Marks the sensors from whose readings other features are derived.
 void SimRobot::markInputs() {
   for (const auto& made : container_.all())
     for (const SensorData* input : container_.inputsOf(*made))
@@ -138,7 +139,8 @@ std::span<Message> SimRobot::sense(const World& world, Timestamp now) {
   for (Mounted& mounted : sensors_) {
     if (!mounted.sensor) continue;
     const bool isDue = now >= mounted.due;
-    // Keeps the rhythm when a period is no multiple of the cycle; one reading a cycle at most.
+    // Keeps the rate even if the period is not a multiple of the cycle; at most one reading per
+    // cycle.
     if (isDue) mounted.due = std::max(mounted.due + mounted.period, now + 1);
     nextDue_ = std::min(nextDue_, mounted.due);
     if (!isDue || !mounted.senses()) continue;
@@ -177,7 +179,7 @@ void SimRobot::hear(Timestamp now, std::span<const Heard> said) {
   hasHeard_ = true;
 }
 
-/// Features that are made of others: after all sensors, whichever order they have.
+/// Extracts derived features, after all sensors have sensed, in any order of the file.
 void SimRobot::extract(Timestamp now) {
   if (!extracts_ || inFrame_ == 0) return;
   try {
@@ -190,7 +192,7 @@ void SimRobot::extract(Timestamp now) {
   for (Mounted& mounted : sensors_) collect(mounted, now);
 }
 
-/// Messages of what is new.
+/// Appends messages for new readings.
 void SimRobot::collect(Mounted& mounted, Timestamp now) {
   for (std::size_t i = 0; i < mounted.data.size(); ++i) {
     const SensorData& data = *mounted.data[i];
@@ -214,7 +216,8 @@ void SimRobot::addGroundTruth(Timestamp now) {
   message.words = truthWords_;
 }
 
-/// Whoever commands is told of a drive that fails, and so are those who look at problems().
+/// Passes a command to the drive. A failure of the drive is thrown to the caller and added to
+/// problems().
 template <class Command>
 void SimRobot::command(const Command& command) {
   if (!driveWorks_)
@@ -248,7 +251,7 @@ void SimRobot::Voice::command(const Command& command) {
   try {
     robot_.command(command);
   } catch (const PluginFailure&) {
-    // The drive is switched off, which is among the robot's problems.
+    // The drive is switched off, which problems() reports.
   }
 }
 
@@ -316,7 +319,7 @@ Pose2 SimRobot::plan(Timestamp now, double dt) {
       drive_->setRotationalVelocity(0.0);
     }
     const Pose2 change = drive_->relocate(dt, noise_ ? &slipRandom_ : nullptr);
-    drive_->velocity();  // of which odometry may be made
+    drive_->velocity();  // called for its check: odometry may be derived from it
     return planned_ = change;
   } catch (const std::exception& error) {
     switchDriveOff(error);
@@ -344,7 +347,8 @@ void SimRobot::move(const Pose2& pose, const Twist& velocity, bool wasDisturbed)
   }
 }
 
-/// From now on it stands, unless somebody pushes it, and odometry says so.
+/// Switches the drive off. The robot is stationary from now on unless it is pushed, and odometry
+/// reports so.
 void SimRobot::switchDriveOff(const std::exception& why) {
   report(now_, std::string(why.what()) + "; it is switched off");
   driveWorks_ = false;

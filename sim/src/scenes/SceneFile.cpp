@@ -10,9 +10,9 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostCommands = 65536;
-constexpr Range kTime{0.0, 1e6};               ///< [s]
-constexpr Range kVelocity{-100.0, 100.0};      ///< [m/s]
-constexpr Range kTurnRate{-36000.0, 36000.0};  ///< [degree/s]
+constexpr Range kTime{0.0, 1e6};               ///< times [s]
+constexpr Range kVelocity{-100.0, 100.0};      ///< velocities [m/s]
+constexpr Range kTurnRate{-36000.0, 36000.0};  ///< turn rates [degree/s]
 
 Pose2 readPose(const Parameters& table) {
   Pose2 pose;

@@ -12,11 +12,11 @@
 namespace ortung {
 namespace {
 
-constexpr int kAttempts = 200;       // to find room on a crowded field
-constexpr double kLook = 0.05;       // along the way to a waypoint [m]
-constexpr double kMostLooks = 4000;  // on a way
+constexpr int kAttempts = 200;       // number of attempts to find room on a crowded field
+constexpr double kLook = 0.05;       // step of the test along the path to a waypoint [m]
+constexpr double kMostLooks = 4000;  // greatest number of tests on a path
 
-/// The player that drives one of the scene's robots.
+/// Returns the request for a player that drives one of the scene's robots.
 PlayerWish wishOf(const char* plugin, const std::string& robot, std::optional<double> speed) {
   PlayerWish wish;
   wish.plugin = plugin;
@@ -33,21 +33,22 @@ PlayerWish followWish(const SceneRobot& robot) {
   return wish;
 }
 
-/// Does something with a robot somewhere on its floor. @throws NoRoom if none is found for it
+/// Calls action(pose) at random poses on the robot's floor until there is room. @throws NoRoom if
+/// no room is found
 template <class Action>
 decltype(auto) anywhere(const RoutePlanner& floor, Random& placing, const std::string& robot,
                         const Action& action) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     try {
       return action(floor.randomPose(placing));
-    } catch (const NoRoom&) {  // there
+    } catch (const NoRoom&) {  // another pose is tried
     }
   }
   throw NoRoom("found no room for robot " + robot + " at " + std::to_string(kAttempts) + " places");
 }
 
-/// Robots go straight from one waypoint to the next, so all of the way must be free of what stands
-/// fast. @throws std::invalid_argument
+/// Checks the waypoints of a robot. It goes straight from one to the next, so the whole path must
+/// be free of fixed obstacles. @throws std::invalid_argument
 void checkWaypoints(const SimWorld& world, const SimRobot& robot, const SceneRobot& wanted) {
   const RobotSize size = sizeOf(robot.config());
   FloorPoint from{robot.state().pose.x, robot.state().pose.y};
@@ -60,7 +61,7 @@ void checkWaypoints(const SimWorld& world, const SimRobot& robot, const SceneRob
                                   std::to_string(size.radius) + " m");
     const double way = std::hypot(to.x - from.x, to.y - from.y);
     const double step = std::max(kLook, way / kMostLooks);
-    // One that is carried elsewhere comes from anywhere.
+    // A kidnapped robot comes from anywhere.
     for (double done = step; done < way && wanted.kidnaps.empty(); done += step) {
       const double x = from.x + done / way * (to.x - from.x);
       const double y = from.y + done / way * (to.y - from.y);
@@ -73,7 +74,7 @@ void checkWaypoints(const SimWorld& world, const SimRobot& robot, const SceneRob
   }
 }
 
-/// Players that localize themselves learn how their robots see the scene's world.
+/// Adds a table store for the scene's world, for players that localize themselves.
 PlayerControl::Config withTables(PlayerControl::Config players,
                                  const std::filesystem::path& world) {
   if (!players.tables) players.tables = std::make_shared<TableStore>(world);
@@ -92,7 +93,7 @@ SceneRun::SceneRun(const Scene& scene, const Simulation::Config& config, PluginF
       players_(std::make_unique<PlayerControl>(*simulation_, *plans_, factory, playerConfig_)) {
   if (scene_.referee)
     referee_ = factory.make<Referee>(scene_.referee->plugin, scene_.referee->options);
-  // Those with a place of their own first, so that nobody stands there already.
+  // Robots with a given start come first, so that no other robot is there already.
   for (const bool hasStart : {true, false})
     for (std::size_t i = 0; i < scene_.robots.size(); ++i)
       if (scene_.robots[i].start.has_value() == hasStart) addRobot(scene_.robots[i], i, factory);
@@ -163,7 +164,7 @@ SimRobot& SceneRun::addPlayer(const PlayerWish& wish, std::uint64_t number) {
   SimRobot& robot = addRobot(config, factory_, wish.start, number);
   try {
     players_->own(robot, std::move(player), wish, simulation_->random(2 * number + 1));
-  } catch (...) {  // nobody plays it
+  } catch (...) {  // a robot without its player is removed
     simulation_->removeRobot(robot);
     throw;
   }
@@ -185,7 +186,7 @@ std::size_t SceneRun::need(const std::string& robot) const {
   return *found;
 }
 
-/// Before time begins: a run that ends in the middle of the scene has lost that time.
+/// Checks a command before the run, so that a bad one does not end the run in the middle.
 void SceneRun::check(const SceneCommand& command) const {
   const SimRobot& robot = *simulation_->robots()[need(command.robot)];
   if (!command.manipulator.empty()) robot.findManipulator(command.manipulator, command.state);
@@ -227,7 +228,8 @@ void SceneRun::move() {
   players_->clear();
 }
 
-/// A referee that fails goes; the game goes on without one.
+/// Lets the referee observe the world. A referee that fails is removed, and the game goes on
+/// without one.
 void SceneRun::watch() {
   if (!referee_) return;
   std::string why;
@@ -256,14 +258,14 @@ void SceneRun::put(const ScenePlacement& placement) {
 
 void SceneRun::obey(const SceneCommand& command) {
   const auto place = find(command.robot);
-  if (!place) return;  // its player has ended
+  if (!place) return;  // its player has ended and it has left
   SimRobot& robot = *simulation_->robots()[*place];
   try {
     if (command.translational) robot.setTranslationalVelocity(*command.translational);
     if (command.rotational) robot.setRotationalVelocity(*command.rotational);
     if (!command.vector.empty()) robot.setMotion(command.vector);
   } catch (const PluginFailure&) {
-    // Its drive is switched off, which is among the robot's problems; the others go on.
+    // Its drive is switched off, which problems() reports; the other robots go on.
   }
   if (!command.manipulator.empty()) robot.setManipulator(command.manipulator, command.state);
 }

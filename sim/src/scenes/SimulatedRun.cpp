@@ -10,7 +10,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kUsualDuration = 60.0;  ///< [s]
+constexpr double kUsualDuration = 60.0;  ///< default duration [s]
 
 std::uint64_t seedOption(const Parameters& p) {
   if (!p.has("seed")) return 1;
@@ -39,7 +39,7 @@ std::vector<FloorPoint> waypointsOption(const Parameters& p) {
   }
 }
 
-/// Moments at which the robot is carried elsewhere.
+/// Returns the times at which the robot is kidnapped.
 std::vector<Timestamp> kidnapsOption(const Parameters& p) {
   std::vector<Timestamp> moments;
   if (!p.has("kidnap")) return moments;
@@ -47,7 +47,7 @@ std::vector<Timestamp> kidnapsOption(const Parameters& p) {
   const auto numbers = parseNumbers(text);
   if (!numbers) p.fail("kidnap", "is \"" + text + "\", must be times in seconds, t,t,...");
   for (const double seconds : *numbers) {
-    const bool isTime = seconds >= 0.0 && seconds <= 1e6;  // or it is no time stamp either
+    const bool isTime = seconds >= 0.0 && seconds <= 1e6;  // otherwise it does not fit a time stamp
     if (!isTime || (!moments.empty() && fromSeconds(seconds) <= moments.back()))
       p.fail("kidnap", "is \"" + text + "\", must be rising times in [0, 1e6] s");
     moments.push_back(fromSeconds(seconds));
@@ -55,7 +55,7 @@ std::vector<Timestamp> kidnapsOption(const Parameters& p) {
   return moments;
 }
 
-/// The scene of the file; who goes where it says itself.
+/// Reads the scene of the file, which itself says which robots drive where.
 Scene readScene(const Parameters& p) {
   for (const char* key : {"start", "waypoints", "speed", "kidnap"})
     if (p.has(key)) p.fail(key, "does not fit a scene, which says itself who goes where");
@@ -63,7 +63,7 @@ Scene readScene(const Parameters& p) {
   return Scene::read(p.text("path"));
 }
 
-/// A scene of one robot in the world of the file: it wanders about, or follows waypoints.
+/// Makes a scene of one robot in the world of the file, which wanders about or follows waypoints.
 Scene sceneOfOne(const Parameters& p) {
   Scene scene;
   scene.world = p.text("path");

@@ -11,14 +11,15 @@
 namespace ortung {
 namespace {
 
-// Streams of the simulation's seed: robots have the first half, random() the second.
+// Random streams of the simulation's seed: robots have the first half, random() the second.
 constexpr std::uint64_t kRobots = std::uint64_t{1} << 32;
 constexpr std::uint64_t kOthers = std::uint64_t{1} << 63;
 
-/// Of all robots together. A cycle in which all of them push each other costs by their number.
+/// Greatest number of parts of all robots together: the cost of a cycle in which all robots push
+/// each other grows with it.
 constexpr std::size_t kMostParts = 2048;
 
-constexpr double kKickReach = 0.03;  ///< a ball this near to a kicker is kicked [m]
+constexpr double kKickReach = 0.03;  ///< distance from a kicker within which a ball is kicked [m]
 
 std::string toText(const Pose2& pose) {
   return "(" + std::to_string(pose.x) + ", " + std::to_string(pose.y) + ")";
@@ -29,7 +30,7 @@ std::string describe(const Simulation::Thing& thing) {
          toText(thing.pose);
 }
 
-/// What a robot is made of at present.
+/// Returns the pieces of a robot in its current state.
 std::vector<Primitive> piecesOf(const SimRobot& robot) {
   return robot.shape().piecesWith(robot.manipulatorStates());
 }
@@ -106,7 +107,7 @@ SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory
   checkEntry(config, shape);
   const std::vector<Primitive> pieces =
       shape.piecesWith(std::vector<std::size_t>(shape.manipulators.size(), 0));
-  // Before its plugins are made, which takes long: many places may be tried.
+  // Tested before its plugins are made, which takes long, since many places may be tried.
   if (!fits(pieces, start, Physics::kNobody))
     throw NoRoom("robot " + config.name + ": start " + toText(start) + " has no room for it");
   const Random random(config_.seed, kRobots * (added_ + 1));
@@ -132,7 +133,7 @@ void Simulation::removeRobot(const SimRobot& robot) {
   robots_.erase(found);
 }
 
-/// Robots are in the order of their coming, and so are their numbers.
+/// Robots are in the order in which they were added, and so are their numbers.
 SimRobot* Simulation::find(RobotNumber robot) const {
   const auto found = std::lower_bound(
       robots_.begin(), robots_.end(), robot,
@@ -181,7 +182,7 @@ void Simulation::moveManipulators() {
   }
 }
 
-/// Brings a manipulator into a state, if it has room for that.
+/// Sets a manipulator to a state if there is room. @returns whether there was
 bool Simulation::moveManipulator(std::size_t place, std::size_t manipulator, std::size_t state) {
   SimRobot& robot = *robots_[place];
   const std::size_t body = robotBodies_[place];
@@ -195,8 +196,8 @@ bool Simulation::moveManipulator(std::size_t place, std::size_t manipulator, std
   return true;
 }
 
-/// Balls in reach get the speed that the state says, seen from the robot; across to its direction
-/// they keep theirs. The robot feels the recoil.
+/// Kicks balls in reach: they get the speed of the state, relative to the robot, in its direction,
+/// and keep their speed across it. The robot gets the recoil.
 void Simulation::kick(const SimRobot& robot, std::size_t body, const ManipulatorState& state) {
   const double angle = robot.state().pose.theta + state.direction;
   const Point2 towards{std::cos(angle), std::sin(angle)};
@@ -268,7 +269,7 @@ void Simulation::placeThing(std::size_t thing, const Pose2& pose, const Twist& v
 
 bool Simulation::fits(std::span<const Primitive> pieces, const Pose2& pose,
                       std::size_t self) const {
-  // The physics knows what bodies run into, but not what lies beyond it.
+  // The physics tests collisions with bodies, but not whether the place is in the field.
   return isFinite(pose) && world_->isFree(pose.x, pose.y, {0.0, topOf(pieces)}) &&
          physics_->isFree(pieces, pose, self);
 }

@@ -69,7 +69,7 @@ std::string readUnpacked(const std::filesystem::path& file, std::size_t maxBytes
     return drain(file, stream, maxBytes);
   } catch (const MapError&) {
     throw;
-  } catch (const std::exception& error) {  // what Boost throws for corrupt and for torn files
+  } catch (const std::exception& error) {  // thrown by Boost for corrupt and truncated files
     refuse(file, std::string("cannot be unpacked: ") + error.what());
   }
 }

@@ -17,10 +17,11 @@ constexpr std::string_view kLabel = "CARMENMAPFILEv020";
 constexpr int kGridChunk = 1;
 constexpr int kNamedFlag = 128;
 constexpr std::size_t kDescriptionBytes = 10;
-constexpr float kOccupiedAbove = 0.6f;  ///< between the two: unknown
+/// Cells above are occupied; between the two they are unknown.
+constexpr float kOccupiedAbove = 0.6f;
 constexpr float kFreeBelow = 0.4f;
 
-/// Reads numbers one after the other and never beyond the end.
+/// Reads consecutive numbers, never beyond the end.
 class Bytes {
  public:
   Bytes(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
@@ -61,7 +62,7 @@ void skipComments(Bytes& bytes) {
   bytes.take(kLabel.size());
 }
 
-/// The data of the grid chunk: a byte of kind, a length and that many bytes.
+/// Finds the data of the grid chunk. A chunk is a byte of kind, a length and that many bytes.
 Bytes findGridChunk(const std::filesystem::path& file, Bytes& bytes) {
   while (!bytes.atEnd()) {
     const int kind = bytes.number<std::uint8_t>();
@@ -88,9 +89,8 @@ GridCell toCell(const Bytes& chunk, float occupied) {
 
 }  // namespace
 
-// Written from the format that CARMEN's map library keeps to: columns, rows, resolution, then the
-// columns from left to right, each from bottom to top. Such maps have no origin: the lower left
-// corner is (0, 0).
+// Follows the format of CARMEN's map library: columns, rows, resolution, then the columns from left
+// to right, each from bottom to top. Such maps have no origin: the lower left corner is (0, 0).
 GridMap readCarmenMap(const std::filesystem::path& file) {
   const std::string all = readUnpacked(file, kMaxBytes);
   Bytes bytes(file, all);

@@ -9,9 +9,9 @@ namespace ortung {
 namespace {
 
 constexpr double kMaxCells = 67108864.0;  // 2^26
-constexpr double kHair = 1e-9;            ///< what rounding may do to a coordinate [m]
+constexpr double kHair = 1e-9;            ///< rounding error of a coordinate [m]
 
-/// The cells of a row or column of @p n that [low, high] meets, half open.
+/// The half-open range of cells in a row or column of @p n that [low, high] meets.
 struct Cells {
   int from, to;
 };
@@ -36,7 +36,7 @@ FieldGrid gridOver(const Box2& bounds, double cell) {
           std::max(1, static_cast<int>(rows))};
 }
 
-/// Whether a body is where something stands that is so high.
+/// Returns whether a body is in the way of something of this height on the floor.
 template <class Body>
 bool isMetBy(const Body& body, double height) {
   return body.zLow < height && body.zHigh > 0.0;
@@ -72,7 +72,8 @@ bool FreeSpace::touches(const Grid& grid, double x, double y, double radius) {
     const double between =
         map.cell * static_cast<double>(
                        grid.toOccupied[map.index(static_cast<int>(column), static_cast<int>(row))]);
-    // From centre to centre; point and surface are each within half a diagonal of theirs.
+    // The distance is from centre to centre; point and surface are each within half a diagonal of
+    // theirs.
     if (between - map.cell * std::sqrt(2.0) > radius + kHair) return false;
     if (between + map.cell * std::sqrt(0.5) < radius) return true;
   }
@@ -112,7 +113,7 @@ bool FreeSpace::isFree(double x, double y, const RobotSize& size) const {
   });
 }
 
-/// Clears the cells around whose centre a body is in the way.
+/// Clears the cells at whose centre a body is in the robot's way.
 void FreeSpace::block(const FieldGrid& grid, const RobotSize& size,
                       std::vector<std::uint8_t>& mask) const {
   const double radius = size.radius;

@@ -8,23 +8,24 @@
 
 namespace ortung {
 
-/// Where there is room among everything that does not move. As for the physics, bodies meet where
-/// their ranges of height overlap. Thread-safe.
+/// The free space among all fixed bodies. As in the physics, bodies collide where their ranges of
+/// height overlap. Thread-safe.
 class FreeSpace {
  public:
   /// @param world borrowed
   explicit FreeSpace(const WorldModel& world);
 
-  /// Whether a cylinder touches nothing solid, lies in the field, and has its centre in known
-  /// space.
+  /// Returns whether a cylinder touches nothing solid, lies in the field, and has its centre in
+  /// known space.
   bool isFree(double x, double y, const RobotSize& size) const;
-  /// Cells with room for a robot, as SimWorld::region() gives them.
+  /// Returns the cells with room for a robot, see SimWorld::region().
   FieldRegion region(double cell, const RobotSize& robot) const;
 
  private:
   struct Grid {
     const GridBody* body;
-    std::vector<float> toOccupied;  ///< [cells], centre to centre
+    /// Distance to the nearest occupied cell, centre to centre [cells].
+    std::vector<float> toOccupied;
   };
   static bool isKnown(const Grid& grid, double x, double y);
   static bool touches(const Grid& grid, double x, double y, double radius);

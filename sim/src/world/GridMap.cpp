@@ -8,7 +8,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kFarthest = 1e4;  ///< [m], of any coordinate
+constexpr double kFarthest = 1e4;  ///< greatest coordinate [m]
 
 struct Spread {
   int column, row;              ///< a cell that was reached
@@ -51,7 +51,7 @@ void markUnknownNearFree(GridMap& map, double margin) {
   for (int row = 0; row < map.rows; ++row)
     for (int column = 0; column < map.columns; ++column)
       if (map.at(column, row) == GridCell::free) visitNeighbours({column, row, column, row});
-  while (!front.empty()) {  // one ring after the other
+  while (!front.empty()) {  // ring by ring
     std::vector<Spread> ring;
     ring.swap(front);
     for (const Spread& from : ring) visitNeighbours(from);

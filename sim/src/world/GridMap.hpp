@@ -24,15 +24,15 @@ enum class GridCell : std::uint8_t {
   occupied
 };
 
-/// An occupancy grid. Cell (column, row) covers [originX + column * cell, ...), row 0 at the
-/// bottom.
+/// An occupancy grid. Cell (column, row) begins at originX + column * cell and originY + row *
+/// cell; row 0 is at the bottom.
 struct GridMap {
   int columns = 0;
   int rows = 0;
-  double cell = 0.05;           ///< edge of a cell [m]
-  double originX = 0.0;         ///< lower left corner [m]
-  double originY = 0.0;         ///< [m]
-  std::vector<GridCell> cells;  ///< row by row
+  double cell = 0.05;           ///< edge length of a cell [m]
+  double originX = 0.0;         ///< x of the lower left corner [m]
+  double originY = 0.0;         ///< y of the lower left corner [m]
+  std::vector<GridCell> cells;  ///< cells, row by row
 
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -41,24 +41,24 @@ struct GridMap {
   GridCell at(int column, int row) const { return cells[index(column, row)]; }
 };
 
-/// A grid as it stands in the world.
+/// A grid as a body of the world, extruded in z.
 struct GridBody {
   double surfaceDepth = 0.0;  ///< rays end this far behind the outline of occupied cells [m]
   GridMap map;
-  double zLow = 0.0;   ///< [m]
-  double zHigh = 1.0;  ///< [m]
+  double zLow = 0.0;   ///< height of its bottom [m]
+  double zHigh = 1.0;  ///< height of its top [m]
 };
 
 /// Reads an occupancy grid: map_server YAML (.yaml, .yml), CARMEN map (.map, .cmf, .carmen, also
 /// with .gz) or MRPT grid map (.gridmap, .gridmap.gz). @throws MapError
 GridMap readGridMap(const std::filesystem::path& file);
 
-// The readers behind it. All throw MapError.
+// The readers of the single formats. All throw MapError.
 GridMap readMapServer(const std::filesystem::path& yaml);
 GridMap readCarmenMap(const std::filesystem::path& file);
 GridMap readMrptGridMap(const std::filesystem::path& file);
 
-/// @throws MapError unless size and place of the grid are sane
+/// Checks size and place of a grid. @throws MapError
 void checkGrid(const std::filesystem::path& file, double columns, double rows, double cell,
                double originX, double originY);
 
@@ -67,8 +67,8 @@ void checkGrid(const std::filesystem::path& file, double columns, double rows, d
 /// stays unknown.
 void markUnknownNearFree(GridMap& map, double margin);
 
-/// Distance from the centre of each cell to the centre of the nearest occupied one, in cells;
-/// infinity if there is none. Exact.
+/// Returns the exact distance from the centre of each cell to the centre of the nearest occupied
+/// one, in cells; infinity if there is none.
 std::vector<float> distanceToOccupied(const GridMap& map);
 
 }  // namespace ortung

@@ -19,7 +19,7 @@ struct PnmHeader {
   std::size_t bytes = 0;  ///< length of the header
   long width = 0;
   long height = 0;
-  long white = 0;  ///< greatest value
+  long white = 0;  ///< value of white, the greatest one
 };
 
 /// The header of a binary PGM or PPM (netpbm's pgm(5), ppm(5)), or nothing.
@@ -73,7 +73,7 @@ MapImage decodePnm(const std::filesystem::path& file, const std::string& bytes,
     long value = 0;
     if (channels == 1) {
       value = next();
-    } else {  // ITU-R BT.601, in units that make grey of equal parts exact
+    } else {  // ITU-R BT.601, in integers, so that equal parts give exactly that grey
       const long red = next();
       const long green = next();
       value = (299 * red + 587 * green + 114 * next()) / 1000;

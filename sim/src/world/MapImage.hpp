@@ -11,13 +11,14 @@ namespace ortung {
 struct MapImage {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> grey;    ///< width * height, 0 black
-  std::vector<std::uint8_t> opaque;  ///< empty (all is), or width * height: 0 where transparent
+  std::vector<std::uint8_t> grey;  ///< width * height values, 0: black
+  /// Width * height values, 0: transparent; empty: all is opaque.
+  std::vector<std::uint8_t> opaque;
 };
 
 /// Decodes a PGM, PPM (binary) or PNG image of at most 2^26 pixels; sizes are checked against those
 /// of the file before memory is taken.
-/// @param file what errors call it @throws MapError
+/// @param file the file's name for error messages @throws MapError
 MapImage decodeImage(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace ortung

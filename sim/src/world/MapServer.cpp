@@ -13,12 +13,12 @@ namespace {
 constexpr std::size_t kMaxYamlBytes = std::size_t{64} << 10;
 constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
 
-/// What a map_server YAML says.
+/// The content of a map_server YAML file.
 struct MapDescription {
   std::string image;
-  double resolution = 0.0;  ///< [m]
-  double originX = 0.0;     ///< [m]
-  double originY = 0.0;     ///< [m]
+  double resolution = 0.0;  ///< edge length of a cell [m]
+  double originX = 0.0;     ///< x of the lower left corner [m]
+  double originY = 0.0;     ///< y of the lower left corner [m]
   bool negate = false;
   double occupiedAbove = 0.65;
   double freeBelow = 0.196;
@@ -127,8 +127,8 @@ std::filesystem::path findImage(const std::filesystem::path& yaml, const std::st
 
 }  // namespace
 
-// As map_server: the darker the more occupied (or the lighter, with negate); the image's bottom row
-// is the grid's first.
+// Interprets the image as map_server does: darker cells are more likely occupied (lighter ones with
+// negate); the image's bottom row is the grid's first.
 GridMap readMapServer(const std::filesystem::path& yaml) {
   const MapDescription about = describe(yaml);
   const std::filesystem::path file = findImage(yaml, about.image);

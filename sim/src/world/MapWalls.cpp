@@ -10,10 +10,11 @@ namespace {
 
 constexpr double kShortest = 0.3;  // [m]
 constexpr std::size_t kMostWalls = 4096;
-constexpr double kRaggedCells = 1.2;  // how far from straight a drawn wall may be
+constexpr double kRaggedCells =
+    1.2;  // how far a drawn wall may deviate from a straight line [cells]
 
-/// Directions of an outline: the way goes along the edge of an occupied cell with the free cell on
-/// its left. In the order of turning left.
+/// Directions of an outline, which goes along the edge of an occupied cell with the free cell on
+/// its left. They are in the order of left turns.
 enum Way : std::uint8_t { kEast, kNorth, kWest, kSouth, kWays };
 constexpr std::array<int, kWays> kColumns = {1, 0, -1, 0};
 constexpr std::array<int, kWays> kRows = {0, 1, 0, -1};
@@ -31,7 +32,7 @@ class Outlines {
           if (isEdge(column, row, way)) at(column, row) |= bit(way);
   }
 
-  /// Calls found(points, isClosed) with the middles of the edges of each outline.
+  /// Calls found with the middles of the edges of each outline.
   template <class Found>
   void forEach(const Found& found) {
     for (int row = 0; row <= map_.rows; ++row)
@@ -51,7 +52,8 @@ class Outlines {
     return occupied ? cell == GridCell::occupied
                     : cell == GridCell::free || cell == GridCell::unknownNearFree;
   }
-  /// Whether the edge from a corner of cells has a free cell on its left and a solid on its right.
+  /// Returns whether the edge from a corner has a free cell on its left and an occupied one on its
+  /// right.
   bool isEdge(int column, int row, int way) const {
     constexpr std::array<int, kWays> leftColumn = {0, -1, -1, 0};
     constexpr std::array<int, kWays> leftRow = {0, 0, -1, -1};
@@ -67,7 +69,7 @@ class Outlines {
     const int firstRow = row;
     int way = 0;
     while (at(column, row) != 0) {
-      // Where two outlines touch, turn left: they stay two.
+      // Where two outlines touch, turning left keeps them separate.
       for (const int turn : {1, 0, 3, 2}) {
         const int next = (way + turn) % kWays;
         if ((at(column, row) & bit(next)) == 0) continue;
@@ -85,8 +87,8 @@ class Outlines {
     return points;
   }
 
-  /// Closed outlines must not begin in the middle of a wall: what is farthest from the middle is a
-  /// corner.
+  /// Rotates a closed outline so that it does not begin in the middle of a wall: the point that is
+  /// farthest from the mean is a corner.
   static void beginAtACorner(std::vector<PlanePoint>& points) {
     PlanePoint mean;
     for (const PlanePoint& p : points) {
@@ -101,7 +103,8 @@ class Outlines {
   }
 
   const GridMap& map_;
-  std::vector<std::uint8_t> isLeft_;  ///< by corner of cells: ways of edges that begin there
+  /// Directions, as bits, of the edges left to follow at each corner of cells.
+  std::vector<std::uint8_t> isLeft_;
 };
 
 }  // namespace
@@ -112,7 +115,7 @@ void addMapWalls(const GridBody& body, std::vector<FieldWall>& walls) {
   std::vector<FieldWall> found;
   Outlines(body.map).forEach([&](const std::vector<PlanePoint>& outline) {
     for (const StraightPiece& piece : straightPiecesOf(outline, config)) {
-      // Rays end behind the outline: so does the wall that is seen.
+      // Rays end behind the outline, so the wall as it is seen is there.
       const double length = distance(piece.from, piece.to);
       const double x = body.surfaceDepth * (piece.to.y - piece.from.y) / length;
       const double y = -body.surfaceDepth * (piece.to.x - piece.from.x) / length;

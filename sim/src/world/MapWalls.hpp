@@ -7,9 +7,9 @@
 
 namespace ortung {
 
-/// Adds the straight walls of a map, as seen from its free cells: outlines of occupied cells, split
-/// into straight pieces and evened out by least squares. Short pieces are left out; there are at
-/// most 4096, the longest.
+/// Adds the straight walls of a map, as seen from its free cells: outlines of occupied cells are
+/// split into straight pieces, which are fitted by least squares. Short pieces are left out, and
+/// only the longest 4096 are kept.
 void addMapWalls(const GridBody& body, std::vector<FieldWall>& walls);
 
 }  // namespace ortung

@@ -16,7 +16,8 @@ class Builder {
   void addWall(const Point2& a, const Point2& b, double zLow, double zHigh) {
     addFace({vertex(a, zLow), vertex(b, zLow), vertex(b, zHigh), vertex(a, zHigh)}, mesh_.walls);
   }
-  /// A triangle or rectangle as bottom and top. Nothing looks up from below the floor.
+  /// Adds a triangle or rectangle as bottom and top, except below the floor, from where nothing
+  /// looks up.
   void addCaps(const std::vector<Point2>& corners, double zLow, double zHigh) {
     for (const double z : {zLow, zHigh}) {
       if (z <= 0.0) continue;
@@ -84,7 +85,7 @@ void addCaps(const GridBody& body, Builder& builder) {
   };
   std::vector<int> begun(static_cast<std::size_t>(map.columns), -1);
   std::vector<int> end(begun.size(),
-                       -1);  // of the run that begins at a column; begun: its first row
+                       -1);  // end of the run that begins at a column; begun: its first row
   const auto close = [&](int from, int row) {
     const auto i = static_cast<std::size_t>(from);
     if (begun[i] >= 0) rectangle(from, end[i], begun[i], row);

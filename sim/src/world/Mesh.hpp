@@ -11,35 +11,35 @@ namespace ortung {
 
 /// An upright cylinder with an elliptic base, in the field frame.
 struct RoundBody {
-  Point2 centre;       ///< [m]
-  double halfX = 0.0;  ///< half the axis along its own x axis [m]
-  double halfY = 0.0;  ///< [m]
-  double angle = 0.0;  ///< of its own x axis [rad]
-  double zLow = 0.0;   ///< [m]
-  double zHigh = 0.0;  ///< [m]
+  Point2 centre;       ///< centre of the base [m]
+  double halfX = 0.0;  ///< half its size along its own x axis [m]
+  double halfY = 0.0;  ///< half its size along its own y axis [m]
+  double angle = 0.0;  ///< direction of its own x axis [rad]
+  double zLow = 0.0;   ///< height of its bottom [m]
+  double zHigh = 0.0;  ///< height of its top [m]
 };
 
 struct Triangles {
-  std::vector<std::array<float, 3>> vertices;         ///< [m], relative to the mesh's middle
-  std::vector<std::array<std::uint32_t, 3>> corners;  ///< of vertices
+  std::vector<std::array<float, 3>> vertices;  ///< vertices relative to the mesh's middle [m]
+  std::vector<std::array<std::uint32_t, 3>> corners;  ///< indices of each triangle's vertices
 };
 
-/// What rays can hit, relative to a middle of its own, so that single precision serves far from the
-/// field's origin too.
+/// Everything that rays can hit, relative to a middle of its own, so that single precision is also
+/// enough far from the field's origin.
 struct Mesh {
-  Point2 middle;    ///< [m], field frame
-  Triangles walls;  ///< upright
-  Triangles caps;   ///< level, so that only rays that rise or fall meet them
+  Point2 middle;    ///< origin of the mesh in the field frame [m]
+  Triangles walls;  ///< vertical triangles
+  Triangles caps;   ///< horizontal triangles, which only inclined rays meet
   std::vector<RoundBody> round;
   /// Triangles of `walls` from this one on are outlines of maps whose surfaces lie `depth` behind.
   struct Depth {
     std::size_t firstTriangle = 0;
-    double depth = 0.0;  ///< [m]
+    double depth = 0.0;  ///< distance of the surface behind the outline [m]
   };
-  std::vector<Depth> depths;  ///< one a map, in the order of triangles; empty if all are 0
+  std::vector<Depth> depths;  ///< one entry per map, in the order of triangles; empty if all are 0
 };
 
-/// Calls for every straight piece of the edges between occupied cells and others.
+/// Calls found(from, to) for every straight piece of the edges between occupied cells and others.
 void forOutline(const GridBody& body,
                 const std::function<void(const Point2&, const Point2&)>& found);
 

@@ -12,14 +12,14 @@
 namespace ortung {
 namespace {
 
-/// A deflated byte stands for no more than this many.
+/// The greatest number of bytes to which one deflated byte expands.
 constexpr std::size_t kMostPacked = 1032;
 
-/// What the decoder's callbacks see.
+/// The data that the decoder's callbacks see.
 struct Input {
   const char* at;
   std::size_t left;
-  char why[160];  ///< it can't be decoded
+  char why[160];  ///< reason why it can't be decoded
 };
 
 void take(png_structp png, png_bytep out, std::size_t n) {
@@ -38,8 +38,8 @@ void take(png_structp png, png_bytep out, std::size_t n) {
 
 void passOver(png_structp, png_const_charp) {}
 
-/// The library's two structures. It leaves by longjmp, past destructors: whatever calls it has none
-/// of its own.
+/// Holds the library's two structures. The library reports errors by longjmp, past destructors, so
+/// functions that call it have no objects with destructors.
 class Decoder {
  public:
   explicit Decoder(const std::string& bytes)
@@ -56,19 +56,19 @@ class Decoder {
   std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
   bool hasAlpha() const { return png_get_channels(png_, info_) == 2; }
 
-  /// Reads what stands before the pixels.
+  /// Reads everything before the pixels.
   bool readHeader() {
     if (info_ == nullptr) return false;
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, &input_, take);
     png_set_user_limits(png_, kMaxGridCells, kMaxGridCells);
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-    png_set_benign_errors(png_, 0);  // more pixels than there is room for, and the like
+    png_set_benign_errors(png_, 0);  // e.g. more pixels than there is room for are errors
     png_read_info(png_, info_);
     return true;
   }
 
-  /// Has the pixels made grey, of 8 bits, with or without alpha.
+  /// Makes the library convert pixels to grey of 8 bits, with or without alpha.
   bool makeGrey() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_expand(png_);

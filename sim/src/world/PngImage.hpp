@@ -7,9 +7,9 @@
 
 namespace ortung {
 
-/// Decodes a PNG of any kind of pixels; sizes are checked before memory is taken, checksums are.
-/// What it says of colours (gamma, profiles) is passed over: cells are no light.
-/// @param file what errors call it @throws MapError
+/// Decodes a PNG with any format of pixels. Sizes are checked before memory is allocated, and
+/// checksums are verified. Gamma and colour profiles are ignored, since cells are not light.
+/// @param file the file's name for error messages @throws MapError
 MapImage decodePng(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace ortung

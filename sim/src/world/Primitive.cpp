@@ -54,7 +54,7 @@ double distanceToEllipse(double a, double b, double x, double y) {
     const double v = b * y / (t + b * b);
     return u * u + v * v - 1.0;
   };
-  double low = 0.0;  // outside the ellipse F(0) is positive
+  double low = 0.0;  // outside of the ellipse F(0) is positive
   double high = std::hypot(a * x, b * y);
   for (int i = 0; i < 200 && low < high; ++i) {
     const double middle = 0.5 * (low + high);

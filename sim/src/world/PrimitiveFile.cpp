@@ -9,8 +9,8 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMaxNameLength = 64;
-constexpr Range kHeight{-100.0, 1000.0};  ///< [m]
-constexpr Range kAngle{-3600.0, 3600.0};  ///< [degree]
+constexpr Range kHeight{-100.0, 1000.0};  ///< heights [m]
+constexpr Range kAngle{-3600.0, 3600.0};  ///< angles [degree]
 
 void readTriangle(const Parameters& table, Primitive& triangle) {
   const auto c = table.numbers("corners_m", 6, kCoordinate);
@@ -21,7 +21,7 @@ void readTriangle(const Parameters& table, Primitive& triangle) {
   for (std::size_t i = 0; i < 3; ++i)
     longest = std::max(
         longest, std::hypot(c[(2 * i + 2) % 6] - c[2 * i], c[(2 * i + 3) % 6] - c[2 * i + 1]));
-  // The least of its heights. Rounding must not refuse one of a millimetre.
+  // The smallest height of the triangle is checked. Rounding must not refuse one of a millimetre.
   if (!(std::abs(twiceArea) >= kSize.low * longest * (1.0 - 1e-6)) || longest == 0.0)
     table.fail("corners_m",
                "are on one line, or nearly: of a triangle " +

@@ -8,7 +8,8 @@
 
 namespace ortung {
 
-/// The tables of an array of a world or scene file. @throws ConfigError if there are too many
+/// Returns the tables of an array in a world or scene file. @throws ConfigError if there are too
+/// many
 inline std::vector<Parameters> readTables(const Parameters& file, const char* key,
                                           std::size_t most) {
   auto tables = file.tables(key);

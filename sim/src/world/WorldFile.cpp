@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::size_t kMaxPrimitives = 65536;
 constexpr std::size_t kMaxGrids = 16;
-constexpr double kDefaultMarkHeight = 0.5;  ///< [m]
+constexpr double kDefaultMarkHeight = 0.5;  ///< default height of a landmark [m]
 constexpr Range kIdentity{0.0, 4294967295.0};
-constexpr double kBallMass = 0.43;  ///< of a football of size 5 [kg]
+constexpr double kBallMass = 0.43;  ///< mass of a football of size 5 [kg]
 constexpr std::size_t kMaxMovables = 256;
 
-/// A kind that nothing here knows is most likely misspelt, unless it is that of a landmark.
+/// Reads a kind. An unknown kind is most likely misspelt, unless it is that of a landmark.
 std::string readKind(const Parameters& table, bool hasIdentity) {
   static constexpr std::array kKinds{"wall", "goal", "post", "line", "ball", "obstacle", "other"};
   const std::string kind = table.textOr("kind", "obstacle");
@@ -31,7 +31,7 @@ std::string readKind(const Parameters& table, bool hasIdentity) {
                          "[A-Za-z0-9_-]{1,64}");
 }
 
-/// A ball rolls unless the file says otherwise; all else stands unless it says so.
+/// Reads whether a primitive is movable, and its mass. By default only balls are movable.
 void readMechanics(const Parameters& table, Primitive& primitive) {
   if (table.has("friction")) primitive.friction = table.number("friction", {0.0, 10.0});
   if (table.has("restitution")) primitive.restitution = table.number("restitution", {0.0, 1.0});
@@ -72,7 +72,7 @@ Primitive readPrimitive(const Parameters& table, Primitive::Shape shape) {
   readCommon(table, primitive);
   readOutline(table, primitive);
   if (primitive.isSolid() || shape != Primitive::Shape::ellipse) return primitive;
-  // Circles painted on the floor.
+  // Circles and arcs painted on the floor.
   primitive.stroke = table.numberOr("stroke_m", 0.0, {0.0, 10.0});
   const auto arc = table.numbersOr("arc_deg", {0.0, 360.0}, 2, {-360.0, 720.0});
   if (!(arc[0] < arc[1] && arc[1] - arc[0] <= 360.0))
@@ -151,7 +151,7 @@ void readBounds(const Parameters& file, const Parameters& table, WorldModel& wor
   if (extent.isEmpty()) {
     for (const char* key : {"x_m", "y_m"})
       if (table.has(key)) table.numbers(key, 2, kCoordinate);
-    file.refuseUnread();  // most likely a misspelt [[rectangle]]
+    file.refuseUnread();  // an unread table is most likely a misspelt [[rectangle]]
     throw ConfigError(file.where() +
                       ": the world is empty, expected at least one [[rectangle]], "
                       "[[ellipse]], [[triangle]], [[grid]] or [[landmark]]");

@@ -12,31 +12,31 @@
 
 namespace ortung {
 
-/// Everything that a world file says.
+/// The content of a world file.
 struct WorldModel {
   std::string name;
   PhysicsConfig physics;
-  Box2 bounds;                        ///< the field: robots stay within
-  std::vector<Primitive> primitives;  ///< what does not move
-  std::vector<Primitive> movables;    ///< where they are at the beginning
+  Box2 bounds;                        ///< bounds of the field, which robots can't leave
+  std::vector<Primitive> primitives;  ///< the fixed primitives
+  std::vector<Primitive> movables;    ///< the movable primitives at their initial poses
   std::vector<GridBody> grids;
-  std::vector<Landmark> landmarks;  ///< of primitives with an identity, and marks without body
+  std::vector<Landmark> landmarks;  ///< primitives with an identity, and marks without a body
 };
 
 /// Reads a world file and the maps that it names. @throws ConfigError
 WorldModel readWorldModel(const std::filesystem::path& file);
 
-/// What sensors may see of lines painted on the floor.
+/// Returns the lines painted on the floor, as sensors see them.
 std::vector<FieldLine> linesOf(const WorldModel& world);
-/// What sensors may see of a body at its place in the world.
+/// Returns a body at its place in the world, as sensors see it.
 WorldObject objectOf(const Primitive& primitive);
-/// What sensors may see of pieces in the frame of their body.
+/// Returns pieces in the frame of their body, as sensors see them.
 std::vector<WorldPiece> worldPiecesOf(std::span<const Primitive> pieces);
 
-/// 16 hexadecimal digits over shapes, kinds, colours, heights, grids, landmarks and bounds,
-/// whatever their order and names; of what
-/// does not move alone, since tables know nothing else. Lengths count in micrometres, so that no
-/// rounding shows.
+/// Returns a digest of 16 hexadecimal digits over shapes, kinds, colours, heights, grids, landmarks
+/// and bounds of everything fixed, independent of order and names. Moving bodies are left out,
+/// since tables do not contain them. Lengths are rounded to micrometres, so that rounding errors do
+/// not matter.
 std::string fingerprintOf(const WorldModel& world);
 
 }  // namespace ortung

@@ -36,8 +36,8 @@ struct Manipulator {
 struct RobotShape {
   std::string name;
   std::string colour;
-  double mass = 10.0;   ///< mass [kg]
-  double height = 0.5;  ///< height of the body, for `[[body]]` without heights of its own [m]
+  double mass = 10.0;             ///< mass [kg]
+  double height = 0.5;            ///< height of the pieces without heights of their own [m]
   std::vector<Primitive> pieces;  ///< pieces in the robot frame, without those of manipulators
   std::vector<Manipulator> manipulators;
 

@@ -37,7 +37,7 @@ class ORTUNG_API RoutePlanner : public FloorPlan {
   FloorPoint centre(std::size_t cell) const { return {grid_.centreX(cell), grid_.centreY(cell)}; }
 
   FieldGrid grid_;
-  std::vector<std::uint8_t> free_;  ///< 1 for cells of the free space
+  std::vector<std::uint8_t> free_;  ///< whether a cell belongs to the free space (1) or not (0)
   std::vector<std::uint32_t> cells_;
 };
 

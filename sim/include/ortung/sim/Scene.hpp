@@ -35,7 +35,7 @@ struct SceneCommand {
   std::optional<double> rotational;     ///< turn rate [rad/s]
   std::vector<double> vector;           ///< the drive's own command vector; empty: none
   std::string manipulator;              ///< name of the manipulator to be set; empty: none
-  std::string state;                    ///< of the manipulator
+  std::string state;                    ///< the state that the manipulator is to enter
 };
 
 /// A placement of a movable thing at a time.

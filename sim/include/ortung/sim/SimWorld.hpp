@@ -24,8 +24,8 @@ struct MovingBody {
 };
 
 /// The simulated world: primitives and occupancy grids extruded in z, and bodies that move in it.
-/// Moving bodies have numbers, by which rays can ignore them. Queries are thread-safe while nobody
-/// moves bodies.
+/// Moving bodies have numbers, by which rays can ignore them. Queries are thread-safe while bodies
+/// are not moved.
 class ORTUNG_API SimWorld : public World {
  public:
   ~SimWorld() override;

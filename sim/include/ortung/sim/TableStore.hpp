@@ -52,7 +52,7 @@ class ORTUNG_API TableStore {
   std::condition_variable done_;
   bool isLearning_ = false;  ///< whether a caller is learning
   double share_ = 0.0;       ///< share that it has learned, in [0, 1]
-  /// Tables by world, robot and sensors.
+  /// Tables by robot size and features.
   std::map<std::string, std::shared_ptr<const RobotTables>> known_;
 };
 

@@ -15,10 +15,11 @@
 
 namespace ortung {
 
-/// Where a camera is that sits on a sensor's mount. @param sensor in the field frame
+/// Returns the pose of a camera that is attached to a sensor's mount. @param sensor the sensor's
+/// pose in the field frame
 ORTUNG_API CameraPose cameraPoseOf(const CameraView& camera, const Pose2& sensor);
 
-/// Makes the pictures of one camera in a simulated world. Not thread-safe: it keeps its memory.
+/// Takes the pictures of one camera in a simulated world. Not thread-safe: it reuses its buffers.
 class ORTUNG_API CameraPicture {
  public:
   /// @throws std::invalid_argument for a camera that sees nothing or whose pictures have more than
@@ -28,23 +29,26 @@ class ORTUNG_API CameraPicture {
 
   const CameraView& camera() const { return camera_; }
   const CameraSheet& sheet() const { return sheet_; }
-  /// Another look from the next picture on.
+  /// Changes how the venue looks from the next picture on.
   void setVariation(const Variation& variation);
 
-  /// Numbers of the noise of one picture; the same ones give the same noise.
+  /// The random stream of one picture's noise; the same numbers give the same noise.
   struct Noise {
     std::uint64_t seed = 0;
     std::uint64_t stream = 0;
   };
 
   /// Takes a picture, as words of ImageData.
-  /// @param sensor in the field frame @param self the robot that carries it, which is not drawn
-  /// @param noise nothing: without noise @throws std::runtime_error as World::draw()
+  /// @param sensor the sensor's pose in the field frame
+  /// @param self the robot that carries the camera, which is not drawn
+  /// @param noise nothing: without noise
+  /// @param words out: the picture
+  /// @throws std::runtime_error as World::draw()
   void take(const World& world, const Pose2& sensor, RobotNumber self,
             const std::optional<Noise>& noise, std::vector<std::uint32_t>& words);
 
-  /// What each pixel shows, as Sheet::things and Sheet::ranges, for the same picture; either may be
-  /// empty. @pre they have as many entries as the picture has pixels, or none
+  /// Writes what each pixel of the same picture shows, as Sheet::things and Sheet::ranges; either
+  /// may be empty. @pre they have as many entries as the picture has pixels, or none
   void annotate(const World& world, const Pose2& sensor, RobotNumber self,
                 std::span<std::uint32_t> things, std::span<float> ranges);
 
@@ -56,7 +60,7 @@ class ORTUNG_API CameraPicture {
   CameraView camera_;
   CameraSheet sheet_;
   Lighting lighting_;
-  std::unique_ptr<Effects> effects_;  ///< null: none
+  std::unique_ptr<Effects> effects_;  ///< the effects to be applied; null: none
   std::vector<std::uint32_t> colours_;
   std::vector<std::uint32_t> pixels_;
   std::vector<std::uint32_t> things_;
