@@ -12,7 +12,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kCorrectedFrom = 0.05;  // [m] that a laser may be from its odometry by rounding
+constexpr double kCorrectedFrom = 0.05;  // [m]; less is the rounding of the laser's pose
 const Range kBeams{1, 8192};
 
 /// Messages are named in capitals: FLASER, NMEA-GGA, SCANMARK_1.
@@ -22,7 +22,8 @@ bool isMessageName(std::string_view text) {
          });
 }
 
-/// Half a turn in beams 1 or 0.5 degrees apart, with the last one or without it.
+/// Returns a scanner of 180 degrees with beams 1 or 0.5 degrees apart, with or without the last
+/// one.
 Scanner halfTurn(int beams) {
   Scanner scanner;
   scanner.beams = beams;
@@ -31,8 +32,8 @@ Scanner halfTurn(int beams) {
   return scanner;
 }
 
-/// Odometry out of a corrected log, where ODOM lines continue from the last corrected pose: the
-/// changes from line to line are those of the wheels, but for the jump at each correction.
+/// Odometry from a corrected log, where ODOM lines continue from the last corrected pose: the
+/// changes from line to line are those of the wheels, except for the jump at each correction.
 class ChainedOdometry {
  public:
   void move(const Pose2& seen) {
@@ -75,12 +76,12 @@ class CarmenSource : public ScanLogSource {
 
   std::string path_;
   std::string laser_;
-  bool isChained_ = false;          ///< ODOM lines continue from corrected poses
-  bool isCorrected_ = false;        ///< the laser's poses are not odometry
-  double offset_ = 0.0;             ///< of the laser along the robot's x axis [m]
-  std::optional<Pose2> laserPose_;  ///< of a scan since the last ODOM line
+  bool isChained_ = false;          ///< whether ODOM lines continue from corrected poses
+  bool isCorrected_ = false;        ///< whether the laser's poses are not odometry
+  double offset_ = 0.0;             ///< place of the laser on the robot's x axis [m]
+  std::optional<Pose2> laserPose_;  ///< pose of a scan since the last ODOM line
   ChainedOdometry chain_;
-  std::optional<Pose2> odometry_;  ///< of the last ODOM line
+  std::optional<Pose2> odometry_;  ///< pose of the last ODOM line
 };
 
 bool CarmenSource::nextMessage(LogFile& file) const {
@@ -90,15 +91,15 @@ bool CarmenSource::nextMessage(LogFile& file) const {
   return true;
 }
 
-/// Behind a scan, corrected logs have "ODOM x y theta 0 0 0 0 HOST 0" with the scan's own pose:
-/// odometry is set to the corrected pose. The time is not always 0: some are any number.
+/// Returns whether a line sets odometry to the corrected pose: behind a scan, corrected logs have
+/// "ODOM x y theta 0 0 0 0 HOST 0" with the scan's own pose. The time may also be another number.
 bool CarmenSource::isReset(const LogFile& file) const {
   const Pose2 pose = file.pose(1);
   return isChained_ && laserPose_ && pose.x == laserPose_->x && pose.y == laserPose_->y &&
          pose.theta == laserPose_->theta;
 }
 
-/// What kind of log it is can only be told from the whole.
+/// Reads the whole log to find out of which kind it is.
 void CarmenSource::survey() {
   LogFile file(path_);
   std::size_t lasers = 0;
@@ -161,7 +162,7 @@ void CarmenSource::readFront(const LogFile& file) {
 }
 
 /// RAWLASER1 and ROBOTLASER1: type, first angle, field of view, step, greatest range, accuracy,
-/// remission mode, n, n ranges, m, m remissions; then the latter's poses of laser and robot and
+/// remission mode, n, n ranges, m, m remissions; in ROBOTLASER1 the poses of laser and robot and
 /// five numbers; time, host, time.
 void CarmenSource::readNewer(const LogFile& file) {
   constexpr std::size_t kRanges = 9;
@@ -189,14 +190,14 @@ void CarmenSource::readNewer(const LogFile& file) {
   addScan(file, file.stamp(file.size() - 3), kRanges, odometry_);
 }
 
-/// What `ortung import carmen --help` tells.
+/// The text of `ortung import carmen --help`.
 class CarmenHelp : public SourceHelp {
  public:
   explicit CarmenHelp(const Parameters&)
       : SourceHelp("log file of CARMEN",
                    withScanLogOptions(
                        {{"laser", "", "FLASER",
-                         "which messages are the scans: FLASER, RAWLASER1 or ROBOTLASER1"},
+                         "messages that are used as scans: FLASER, RAWLASER1 or ROBOTLASER1"},
                         {"map", "", "none",
                          "map_server YAML, CARMEN map or grid map of MRPT, for --world"}})) {}
 };

@@ -18,23 +18,24 @@ namespace ortung {
 namespace {
 
 constexpr double kMillimetre = 0.001;
-// The robot and its scanner, as the lectures that the log is from tell them.
+// The robot and its scanner, according to the lectures that the log is from.
 constexpr double kMetresPerTick = 0.000349;
-constexpr double kWidth = 0.173;                     // [m] between the tracks
-constexpr double kScannerAhead = 0.030;              // [m]
-constexpr double kAnglePerBeam = 0.006135923151543;  // [rad]
-constexpr double kAngleOff = -0.06981317;            // [rad] of the beam in the middle
-constexpr double kLatency = 0.42;  // [s] of scans against the reference; first half of the log
+constexpr double kWidth = 0.173;                     // distance between the tracks [m]
+constexpr double kScannerAhead = 0.030;              // distance of the scanner ahead [m]
+constexpr double kAnglePerBeam = 0.006135923151543;  // angle between beams [rad]
+constexpr double kAngleOff = -0.06981317;            // angle of the beam in the middle [rad]
+constexpr double kLatency =
+    0.42;  // delay of scans after the reference [s], in the first half of the log
 constexpr double kMaxRange = 4.0;  // [m]; the arena is 2 m wide
-constexpr double kMargin = 0.5;    // [m] that the field goes beyond the cylinders
-constexpr double kWayStep = 0.02;  // [m] that tells a heading
+constexpr double kMargin = 0.5;    // distance from the outermost cylinders to the bounds [m]
+constexpr double kWayStep = 0.02;  // distance travelled over which a heading is taken [m]
 constexpr std::int64_t kMostTicks = 1LL << 40;
 constexpr double kMostMillimetres = 1e5;
 
 /// A run of the robot of C. Brenner's lectures on SLAM (Hannover): motor ticks, scans of an arena
-/// with cylinders, and where an overhead camera saw the scanner. The path is what its files' names
-/// begin with, e.g. "lego_brenner/robot4"; the cylinders are in robot_arena_landmarks.txt beside
-/// them. Stamps are milliseconds.
+/// with cylinders, and places of the scanner by an overhead camera. The path is the beginning of
+/// the files' names, e.g. "lego_brenner/robot4"; the cylinders are in robot_arena_landmarks.txt
+/// beside them. Stamps are in milliseconds.
 class LegoSource : public LogSource {
  public:
   explicit LegoSource(const Parameters& options)
@@ -65,17 +66,17 @@ class LegoSource : public LogSource {
   void readReference();
 
   std::string path_;
-  double latency_;  ///< of scans [s]
+  double latency_;  ///< delay of scans [s]
   double jitter_;   ///< how far stamps may fall back [s]
   OpenWorld cylinders_{"cylinder", kMargin};
-  double radius_ = 0.0;  ///< of all cylinders [m]
+  double radius_ = 0.0;  ///< radius of all cylinders [m]
   std::uint32_t odometryId_ = 0;
   std::uint32_t scanId_ = 0;
   int beams_ = 0;
   std::vector<Timestamp> scanStamps_;
 };
 
-/// Lines "L C x y radius" [mm]. (That it is the radius, scans tell: cylinders are 0.1 m wide.)
+/// Reads lines "L C x y radius" [mm]. (Scans show that it is the radius: cylinders are 0.1 m wide.)
 void LegoSource::readCylinders() {
   const auto folder = std::filesystem::path(path_).parent_path();
   LogFile file(folder / "robot_arena_landmarks.txt");
@@ -93,7 +94,7 @@ void LegoSource::readCylinders() {
   if (count == 0) file.fail("no cylinder", "at least one");
 }
 
-/// Lines "M time left ... right ...": the tracks' ticks are in fields 3 and 7.
+/// Reads lines "M time left ... right ...": the tracks' ticks are in fields 3 and 7.
 void LegoSource::readMotors() {
   constexpr std::size_t kLeft = 2;
   constexpr std::size_t kRight = 6;
@@ -120,7 +121,7 @@ void LegoSource::readMotors() {
   }
 }
 
-/// Lines "S time n r1 ... rn" [mm].
+/// Reads lines "S time n r1 ... rn" [mm].
 void LegoSource::readScans() {
   constexpr std::size_t kBeforeRanges = 3;
   LogFile file(this->file("_scan.txt"));
@@ -145,7 +146,7 @@ void LegoSource::readScans() {
   if (beams_ == 0) file.fail("no scan", "at least one");
 }
 
-/// Lines "P time x y" [mm]: the scanner. Headings are those of the way.
+/// Reads lines "P time x y" [mm], places of the scanner. Headings are directions of travel.
 void LegoSource::readReference() {
   if (!findLogFile(this->file("_reference.txt"))) return;
   const std::uint32_t feature = addFeature({"reference", "groundTruth", "pose"});
@@ -174,24 +175,24 @@ std::string LegoSource::robotToml() const {
   scanner.angleStep = kAnglePerBeam;
   scanner.maxRange = kMaxRange;
   return robotHead(path_) + scannerToml(scanner, medianPeriod(scanStamps_)) +
-         // The walls of the arena are in no map: cylinders alone say where the robot is.
+         // The arena's walls are not in the map, so the scans alone can't localize.
          "localizes = false\n\n[[sensor]]\nplugin = \"lrf_cylinders\"\nmodel = \"laser\"\n"
          "type = \"landmarks\"\nreads = \"laser/LRF/scan\"\npose = { x_m = " +
          tomlNumber(kScannerAhead) + " }\nidentities = [" + cylinders_.identities() +
          "]\nradius_m = " + tomlNumber(radius_) + "\nmax_range_m = " + tomlNumber(kMaxRange) +
-         // As `ortung calibrate noise` learns it from the first half of the log.
+         // `ortung calibrate noise` learns these from the first half of the log.
          "\nrange_bias_m = -0.12\nrange_bias_per_m = -0.02\nrange_sigma_m = 0.04\n"
          "bearing_sigma_deg = 3.0\noutliers = 0.1\nexponent = 0.3\n";
 }
 
-/// What `ortung import lego --help` tells.
+/// The text of `ortung import lego --help`.
 class LegoHelp : public SourceHelp {
  public:
   explicit LegoHelp(const Parameters&)
-      : SourceHelp(
-            "what the names of NAME_motors.txt, NAME_scan.txt, NAME_reference.txt begin with",
-            {{"latency_s", "s", "0.42", "taken off the stamps of scans"},
-             {"jitter_s", "s", "0", "how far stamps may fall back before it is an error"}}) {}
+      : SourceHelp("path and NAME of NAME_motors.txt, NAME_scan.txt, NAME_reference.txt",
+                   {{"latency_s", "s", "0.42", "delay of scans, subtracted from their stamps"},
+                    {"jitter_s", "s", "0", "how far stamps may fall back before it is an error"}}) {
+  }
 };
 
 }  // namespace

@@ -19,19 +19,19 @@ namespace {
 
 constexpr int kRobots = 5;  // subjects 1 to 5 are robots, the others landmarks
 constexpr double kMaxSubject = 1e6;
-// The field reaches this far beyond the landmarks [m]; robots went 1.25 m beyond at most. It does
-// not depend on the robot, so that one world, and one table, serves all robots of a run.
+// Distance from the outermost landmarks to the field's bounds [m]; robots went 1.25 m beyond them
+// at most. It does not depend on the robot, so that all robots of a run share a world and a table.
 constexpr double kMargin = 2.0;
 constexpr double kMaxRange = 10.0;      // [m]; the farthest reading of all runs is 9.6
-constexpr double kLatency = 0.04;       // [s]; run 6 says 0.034 to 0.049, each robot
+constexpr double kLatency = 0.04;       // [s]; in run 6 0.034 to 0.049, by robot
 constexpr double kMaxVelocity = 100.0;  // [m/s], [rad/s]
 
-// Near those measured against Vicon over all robots of run 6 (realsensors/README.md). Ranges and
-// bearings err alike from image to image (each robot has its own bias, of bearings up to 0.8
-// degrees), hence the exponent and a sigma of bearings wider than the spread.
+// These are near the values measured against Vicon over all robots of run 6
+// (realsensors/README.md). Errors are correlated from image to image (each robot has its own bias,
+// of bearings up to 0.8 degrees), hence the exponent and a sigma of bearings above the spread.
 // Ranges are measured along the optical axis, so they are too short towards the edges of the image,
-// by the cosine; biases are means over the five robots. Only sightings that are whole have them: a
-// distance alone does not know how far from the axis it was.
+// by the cosine; biases are means over the five robots. Only sightings with range and bearing have
+// them: a range alone does not contain the angle to the axis.
 constexpr const char* kBiases = R"(range_bias_m = 0.04
 range_bias_per_m = 0.023
 range_bias_per_m_rad2 = -0.48
@@ -62,8 +62,8 @@ slip_share = 0.15
 )";
 
 struct Place {
-  double x = 0.0;  ///< [m]
-  double y = 0.0;  ///< [m]
+  double x = 0.0;  ///< place in the field frame [m]
+  double y = 0.0;  ///< place in the field frame [m]
 };
 
 /// A box that grows to hold points.
@@ -119,17 +119,17 @@ class MrclamSource : public LogSource {
 
   std::filesystem::path folder_;
   int robot_;
-  double latency_;                            ///< of the camera [s]
+  double latency_;                            ///< delay of the camera's images [s]
   double jitter_;                             ///< how far stamps may fall back [s]
   bool each_;                                 ///< whether every landmark has features of its own
-  std::map<std::uint32_t, Place> landmarks_;  ///< by subject
-  std::map<std::int64_t, std::uint32_t> subjects_;  ///< by barcode
+  std::map<std::uint32_t, Place> landmarks_;  ///< places of landmarks by subject
+  std::map<std::int64_t, std::uint32_t> subjects_;  ///< subjects by barcode
   std::uint32_t odometryId_ = 0;
   std::uint32_t truthId_ = 0;
   std::uint32_t listId_ = 0;
   std::map<std::uint32_t, std::uint32_t> distanceIds_;  ///< feature by subject; the bearing follows
-  Timestamp first_ = 0;                                 ///< of odometry
-  Timestamp last_ = 0;                                  ///< of odometry
+  Timestamp first_ = 0;                                 ///< first stamp of odometry
+  Timestamp last_ = 0;                                  ///< last stamp of odometry
   Box field_;
 };
 
@@ -173,7 +173,7 @@ void MrclamSource::addLandmarkFeatures() {
   }
 }
 
-/// A line's velocities hold until the next line, so they are those of the time behind it.
+/// Reads velocities. Those of a line hold from its time until that of the next line.
 void MrclamSource::readOdometry() {
   if (!findLogFile(robotFile("Odometry"))) {
     throw std::runtime_error(robotFile("Odometry").string() + ": found no odometry of robot " +
@@ -219,7 +219,7 @@ void MrclamSource::readMeasurements() {
     const auto subject = subjects_.find(file.integer(1, "a barcode", {0, kMaxSubject}));
     const double range = file.number(2, "a range [m]", {0.0, 1000.0});
     const double bearing = file.number(3, "a bearing [rad]", {-10.0, 10.0});
-    // Barcodes of nobody are misread ones; other robots are no landmarks.
+    // Unknown barcodes are misread ones; those of other robots are not landmarks.
     if (subject == subjects_.end() || !landmarks_.contains(subject->second)) continue;
     sightings.push_back({subject->second, range, wrapAngle(bearing)});
   }
@@ -248,7 +248,7 @@ void MrclamSource::readTruth() {
 }
 
 void MrclamSource::addTruth(Timestamp stamp, const Pose2& pose) {
-  if (stamp < first_ || stamp > last_) return;  // Vicon ran longer than the robot
+  if (stamp < first_ || stamp > last_) return;  // Vicon recorded longer than the robot
   add(truthId_, stamp, PoseData::encode(pose));
 }
 
@@ -261,7 +261,7 @@ void MrclamSource::readVicon() {
   }
 }
 
-/// The robot stood from tmin to tmax; several lines of one t are poses from this time.
+/// Reads poses of the stationary robot, each valid from tmin to tmax; lines of one t share a time.
 void MrclamSource::readStanding() {
   LogFile file(robotFile("SparseGroundtruth"));
   std::optional<Timestamp> last;
@@ -307,7 +307,7 @@ void MrclamSource::writeWorld(const std::filesystem::path& file) const {
   writeFile(file, text);
 }
 
-/// What `ortung import mrclam --help` tells.
+/// The text of `ortung import mrclam --help`.
 class MrclamHelp : public SourceHelp {
  public:
   explicit MrclamHelp(const Parameters&)
@@ -316,7 +316,7 @@ class MrclamHelp : public SourceHelp {
                     {"features", "", "list",
                      "list: all landmarks of an image in one feature; each: distance and bearing "
                      "of each are features"},
-                    {"latency_s", "s", "0.04", "taken off the stamps of images"},
+                    {"latency_s", "s", "0.04", "delay of images, subtracted from their stamps"},
                     {"jitter_s", "s", "0", "how far stamps may fall back before it is an error"}}) {
   }
 };

@@ -1,9 +1,9 @@
-/// ortung-mrpt-reader: prints MRPT's binary files as text, for those who do not want to link MRPT
-/// nor to trust its readers, which believe every length that a file states.
+/// ortung-mrpt-reader: prints MRPT's binary files as text, for programs that neither link MRPT nor
+/// trust its readers, which believe every length that a file states.
 ///   ortung-mrpt-reader rawlog FILE    "# ortung-mrpt-reader 1", the number of the format, then
 ///                                     readings as lines of a record (see RawlogPrinter.hpp)
 ///   ortung-mrpt-reader gridmap FILE   "ortung-gridmap WIDTH HEIGHT RESOLUTION ORIGIN_X ORIGIN_Y",
-///                                     then a byte a cell, 255 free, 0 occupied, bottom row first
+///                                     then a byte a cell: 255 free, 0 occupied; bottom row first
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -23,7 +23,7 @@ namespace ortung {
 namespace {
 
 constexpr rlim_t kMaxMemory = 4ull << 30;  // bytes of address space; MRPT's libraries take 1.2 GB
-constexpr rlim_t kMaxSeconds = 300;        // of the processor
+constexpr rlim_t kMaxSeconds = 300;        // seconds of the processor
 constexpr std::size_t kMaxCells = 1u << 26;
 
 void limitOurselves() {
@@ -31,7 +31,7 @@ void limitOurselves() {
     const rlimit both{most, most};
     if (setrlimit(what, &both) != 0) throw std::runtime_error("limits cannot be set");
   };
-// Sanitizers take terabytes of addresses for themselves.
+// Sanitizers reserve terabytes of addresses.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   limit(RLIMIT_AS, kMaxMemory);
 #endif
@@ -39,7 +39,7 @@ void limitOurselves() {
   limit(RLIMIT_CORE, 0);
 }
 
-/// MRPT writes to the standard output when it likes; ours goes where nothing else does.
+/// MRPT writes to the standard output, too, so this program's output gets a descriptor of its own.
 std::FILE* ownOutput() {
   const int copy = dup(STDOUT_FILENO);
   std::FILE* const out = copy < 0 ? nullptr : fdopen(copy, "wb");
@@ -65,7 +65,7 @@ void printRawlog(mrpt::serialization::CArchive& archive, std::FILE* out) {
 
 void printGrid(mrpt::serialization::CArchive& archive, std::FILE* out) {
   mrpt::maps::COccupancyGridMap2D map;
-  archive >> map;  // refuses grids without a place or with cells of no size
+  archive >> map;  // throws for grids without an origin or cell size
   const std::size_t width = map.getSizeX();
   const std::size_t height = map.getSizeY();
   if (width == 0 || height == 0 || width > kMaxCells / height) {
@@ -88,7 +88,7 @@ void printGrid(mrpt::serialization::CArchive& archive, std::FILE* out) {
   if (std::fflush(out) != 0) throw std::runtime_error("the output cannot be written");
 }
 
-/// One line out of what MRPT says, which is a stack trace.
+/// Returns the one line that matters of MRPT's message, which is a stack trace.
 std::string oneLine(const std::string& text) {
   const std::string mark = "Message:";
   const std::size_t at = text.find(mark);

@@ -1,4 +1,4 @@
-/// ortung-mrpt-writer: makes MRPT's binary files of text, for those who do not want to link MRPT.
+/// ortung-mrpt-writer: makes MRPT's binary files from text, for programs that do not link MRPT.
 ///   ortung-mrpt-writer rawlog IN OUT    IN: lines of a record (see RawlogMaker.hpp)
 ///   ortung-mrpt-writer gridmap IN OUT   IN: as `ortung-mrpt-reader gridmap` prints it
 /// Prints how many objects it has written, or "# error" and why not.
@@ -49,7 +49,7 @@ std::size_t writeGrid(std::istream& in, mrpt::serialization::CArchive& archive) 
   map.setSize(static_cast<float>(x), far(x, width), static_cast<float>(y), far(y, height),
               static_cast<float>(resolution));
   if (map.getSizeX() != width || map.getSizeY() != height)
-    throw std::runtime_error("the grid's origin is no multiple of its resolution");
+    throw std::runtime_error("the grid's origin is not a multiple of its resolution");
   std::string row(width, 0);
   for (std::size_t iy = 0; iy < height; ++iy) {
     if (!in.read(row.data(), static_cast<std::streamsize>(width)))

@@ -22,13 +22,14 @@ namespace {
 using namespace mrpt::obs;
 using Words = std::vector<std::uint32_t>;
 
-/// MRPT counts steps of 100 ns from the year 1601 on.
+/// Converts a stamp. MRPT counts steps of 100 ns from the year 1601 on.
 mrpt::system::TTimeStamp timeOf(Timestamp stamp) {
   constexpr std::int64_t kSteps = 10;  // a microsecond
   constexpr std::int64_t kFrom1601 = 116'444'736'000'000'000;
   constexpr std::int64_t kMost = (std::numeric_limits<std::int64_t>::max() - kFrom1601) / kSteps;
   if (stamp <= -kFrom1601 / kSteps || stamp > kMost)
-    throw std::runtime_error("the time " + std::to_string(stamp) + " us is none of MRPT's");
+    throw std::runtime_error("the time " + std::to_string(stamp) +
+                             " us can't be written as MRPT's");
   return mrpt::system::TTimeStamp(mrpt::system::TTimeStamp::duration(stamp * kSteps + kFrom1601));
 }
 
@@ -48,7 +49,7 @@ CObservation::Ptr odometryOf(const Message& message) {
   return made;
 }
 
-/// MRPT's beams lie evenly on both sides of the scanner's axis.
+/// Makes a scan. MRPT's beams lie symmetrically on both sides of the scanner's axis.
 CObservation::Ptr scanOf(const Pose2& mount, const double (&numbers)[3], const Words& words) {
   const auto [firstAngle, step, maxRange] = numbers;
   auto made = CObservation2DRangeScan::Create();
@@ -136,7 +137,7 @@ RawlogMaker::Observation::Ptr RawlogMaker::observationOf(std::string_view line) 
   const std::string name = toText(message->id);
   const auto feature = features_.find(name);
   if (feature == features_.end())
-    throw std::runtime_error("found a reading of " + name + ", which nobody has declared");
+    throw std::runtime_error("found a reading of " + name + ", which was not declared");
   Observation::Ptr made = make(feature->second, *message);
   made->timestamp = timeOf(message->stamp);
   made->sensorLabel = name;

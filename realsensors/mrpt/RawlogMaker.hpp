@@ -14,8 +14,8 @@
 
 namespace ortung {
 
-/// Makes MRPT's observations of readings. What it is given are lines of a record, and before them
-/// what each feature is, NAME being MODEL/TYPE/FEATURE [m, rad]:
+/// Makes MRPT's observations from readings. Its input are the lines of a record, preceded by a line
+/// that describes each feature, where NAME is MODEL/TYPE/FEATURE [m, rad]:
 ///   # odometry NAME
 ///   # scan NAME X Y YAW FIRST_ANGLE ANGLE_STEP MAX_RANGE
 ///   # landmarks NAME X Y YAW MAX_RANGE FIELD_OF_VIEW
@@ -25,14 +25,14 @@ class RawlogMaker {
  public:
   using Observation = mrpt::obs::CObservation;
   /// @throws std::runtime_error saying what is wrong with the line
-  /// @returns nothing for a line that is no reading
+  /// @returns the observation; nothing for a line that is not a reading
   Observation::Ptr observationOf(std::string_view line);
 
  private:
   struct Feature {
     std::string kind;
     Pose2 mount;
-    double numbers[3] = {};  ///< behind the mount
+    double numbers[3] = {};  ///< numbers that follow the mount
   };
   void declare(const std::string& line);
   Observation::Ptr make(const Feature& feature, const Message& message) const;

@@ -52,8 +52,8 @@ void RawlogPrinter::print(const mrpt::serialization::CSerializable& object) {
   }
 }
 
-/// A frame belongs to increments of odometry, unless it has odometry of its own. What has no stamp
-/// in it was seen when the others were. Clocks too coarse for the frames must not merge them.
+/// A frame belongs to increments of odometry, unless it has odometry of its own. Observations
+/// without a stamp get that of the others. Frames of one stamp, by a coarse clock, stay separate.
 void RawlogPrinter::printFrame(const mrpt::obs::CSensoryFrame& frame) {
   ++steps_;
   const auto before = time_;
@@ -132,7 +132,7 @@ void RawlogPrinter::printBeacons(const mrpt::obs::CObservationBeaconRanges& beac
   const Timestamp stamp = stampOf(beacons);
   for (const auto& sensed : beacons.sensedData) {
     if (sensed.beaconID < 0 || sensed.beaconID > kMaxIdentity || !isLength(sensed.sensedDistance)) {
-      ++skipped_["ranges of no known beacon or of 0"];
+      ++skipped_["ranges of unknown beacons, or of 0"];
       continue;
     }
     const auto& place = sensed.sensorLocationOnRobot;
@@ -150,7 +150,7 @@ void RawlogPrinter::printLandmarks(const mrpt::obs::CObservationBearingRange& la
     const bool isKnown = sensed.landmarkID >= 0 && sensed.landmarkID <= kMaxIdentity;
     if (!isKnown || !isLength(sensed.range) || !std::isfinite(sensed.yaw) ||
         std::abs(sensed.yaw) > 100) {
-      ++skipped_["sightings of no known landmark"];
+      ++skipped_["sightings of unknown landmarks"];
       continue;
     }
     sightings.push_back(
@@ -169,7 +169,7 @@ void RawlogPrinter::move(const mrpt::obs::CActionCollection& actions) {
     const auto* movement =
         dynamic_cast<const mrpt::obs::CActionRobotMovement2D*>(action.get_ptr().get());
     if (!movement) {
-      ++skipped_["actions that are no movement in the plane"];
+      ++skipped_["actions other than movements in the plane"];
       continue;
     }
     const auto& change = movement->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry
@@ -199,7 +199,7 @@ void RawlogPrinter::write(Timestamp stamp, SensorId id, std::span<const std::uin
 
 void RawlogPrinter::comment(const std::string& text) { std::fprintf(out_, "# %s\n", text.c_str()); }
 
-/// Some simulated logs have no stamps at all; their frames are taken to be a second apart.
+/// Returns the stamp. Some simulated logs have none: their frames get stamps a second apart.
 Timestamp RawlogPrinter::stampOf(const mrpt::obs::CObservation& observation) {
   if (observation.timestamp == INVALID_TIMESTAMP) {
     return time_.value_or(fromSeconds(static_cast<double>(steps_)));

@@ -22,12 +22,12 @@
 
 namespace ortung {
 
-/// Prints what a rawlog holds as lines of a record, with comments for what a record cannot hold:
+/// Prints a rawlog as the lines of a record, with comments for what a record cannot hold:
 ///   # scanner X Y YAW FIRST_ANGLE ANGLE_STEP MAX_RANGE BEAMS
 ///   # beacons X Y YAW MAX_RANGE          where the receiver of beacons' ranges sits
 ///   # landmarks X Y YAW MAX_RANGE FOV    where the observer of landmarks sits
 ///   # skipped COUNT WHAT
-///   # end COUNT                          number of readings; a whole output ends with it
+///   # end COUNT                          number of readings; a complete output ends with it
 class RawlogPrinter {
  public:
   explicit RawlogPrinter(std::FILE* out) : out_(out) {}
@@ -49,16 +49,16 @@ class RawlogPrinter {
   std::FILE* out_;
   std::string line_;
   Message message_;
-  Pose2 pose_;  ///< by the increments so far
+  Pose2 pose_;  ///< sum of the increments so far
   PoseOdometry odometry_;
   bool isChained_ = false;  ///< whether odometry comes as increments
   std::string laser_;       ///< label of the scanner whose scans are printed
   std::size_t beams_ = 0;
-  std::set<std::string> told_;  ///< comments that stand only once
+  std::set<std::string> told_;  ///< comments that are printed only once
   std::map<std::string, std::size_t> skipped_;
-  std::size_t steps_ = 0;          ///< frames so far: the time of a log without stamps
-  std::optional<Timestamp> time_;  ///< of what has none itself
-  Timestamp shift_ = 0;            ///< that makes frames of one stamp differ [us]
+  std::size_t steps_ = 0;          ///< number of frames: the time of a log without stamps
+  std::optional<Timestamp> time_;  ///< stamp of observations that have none themselves
+  Timestamp shift_ = 0;            ///< offset that makes frames of one stamp differ [us]
   std::size_t readings_ = 0;
 };
 

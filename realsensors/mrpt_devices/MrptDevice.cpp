@@ -1,5 +1,5 @@
-/// ortung-mrpt-device: runs one of MRPT's drivers and prints what it reads, for those who do not
-/// want its 330 libraries in their program, nor to trust it with what comes over a line.
+/// ortung-mrpt-device: runs one of MRPT's drivers and prints what it reads, for programs that
+/// neither load its 330 libraries nor trust it with bytes from a line.
 ///   ortung-mrpt-device sick PORT BAUD VIEW RESOLUTION UNIT    [degrees], [1/100 degree], mm or cm
 ///   ortung-mrpt-device hokuyo PORT                             a serial port, or tcp:HOST:PORT
 /// It prints "# open" once the device measures, then lines of a record for mrpt/device/scan:
@@ -34,9 +34,9 @@ namespace {
 using mrpt::obs::CObservation2DRangeScan;
 constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
 constexpr int kSilentLooks =
-    200;  ///< without a scan before we give up; each waits some 10 ms or more
+    200;  ///< consecutive reads without a scan (each >= 10 ms) that are an error
 
-/// MRPT writes to the standard output when it likes; ours goes where nothing else does.
+/// MRPT writes to the standard output, too, so this program's output gets a descriptor of its own.
 std::FILE* ownOutput() {
   const int copy = dup(STDOUT_FILENO);
   std::FILE* const out = copy < 0 ? nullptr : fdopen(copy, "wb");
@@ -52,14 +52,14 @@ int numberOf(const std::string& text) {
   return number;
 }
 
-/// What a driver and its scans are.
+/// A driver of MRPT, and how its scans are read.
 class Scanner {
  public:
   virtual ~Scanner() = default;
   virtual mrpt::hwdrivers::C2DRangeFinderAbstract& driver() = 0;
   virtual bool start() = 0;
   virtual bool hasClock() const = 0;
-  /// [rad]
+  /// Angle of the first beam in the scanner's frame [rad].
   virtual double firstAngle(std::size_t beams) const = 0;
   virtual double angleStep(std::size_t beams) const = 0;
   virtual std::uint32_t wordOf(float metres) const = 0;
@@ -91,7 +91,7 @@ class Sick : public Scanner {
     return 0.01 * resolution_ * std::numbers::pi / 180.0;
   }
   /// The greatest values are codes (SICK, list of telegrams of the LMS 2xx): "greater than can be
-  /// said" and "too little light comes back" mean that nothing is there.
+  /// said" and "too little light comes back" both become "nothing seen".
   std::uint32_t wordOf(float metres) const override {
     const auto value =
         static_cast<std::uint32_t>(std::lround(metres * (isMillimetres_ ? 1000.0F : 100.0F)));
@@ -108,7 +108,7 @@ class Sick : public Scanner {
   bool isMillimetres_;
 };
 
-/// The driver keeps for itself what the scanner says of its beams.
+/// Gives access to what the scanner says about its beams, which the driver does not publish.
 class HokuyoDriver : public mrpt::hwdrivers::CHokuyoURG {
  public:
   const TSensorInfo& info() const { return m_sensor_info; }
@@ -136,7 +136,7 @@ class Hokuyo : public Scanner {
   double firstAngle(std::size_t beams) const override {
     return (hokuyo_.info().scan_first - hokuyo_.info().scan_front) * angleStep(beams);
   }
-  /// Below 20 mm are codes of errors; 0 and 16 mean that an object would be far away.
+  /// Values below 20 are codes of errors; 0 and 16 mean that no object is near.
   std::uint32_t wordOf(float metres) const override {
     const auto value = static_cast<std::uint32_t>(std::lround(metres * 1000.0F));
     if (value == 0 || value == 16 || value > 1000.0 * hokuyo_.info().d_max) return kNothing;
@@ -166,11 +166,11 @@ Message messageOf(const CObservation2DRangeScan& scan, const Scanner& scanner) {
 
 void print(const std::string& line, std::FILE* out) {
   const bool isWritten = std::fputs(line.c_str(), out) >= 0 && std::fflush(out) == 0;
-  if (!isWritten) throw std::runtime_error("nobody reads any more");
+  if (!isWritten) throw std::runtime_error("the output was closed");
 }
 
 void readOn(Scanner& scanner, std::FILE* out) {
-  if (!scanner.start()) throw std::runtime_error("does not answer as a scanner would");
+  if (!scanner.start()) throw std::runtime_error("does not answer like a scanner");
   print("# open\n", out);
   int silent = 0;
   std::string line;
@@ -179,21 +179,21 @@ void readOn(Scanner& scanner, std::FILE* out) {
     bool isThere = false;
     bool isBroken = false;
     scanner.driver().doProcessSimple(isThere, scan, isBroken);
-    if (isBroken) throw std::runtime_error("the line is gone, or what came makes no sense");
+    if (isBroken) throw std::runtime_error("the connection is lost, or the data are invalid");
     if (isThere) {
       silent = 0;
       line.clear();
       writeLine(messageOf(scan, scanner), line);
       print(line + "\n", out);
     } else if (++silent > kSilentLooks) {
-      throw std::runtime_error("gives no scan any more");
+      throw std::runtime_error("sends no scans any more");
     } else {
       usleep(1000);
     }
   }
 }
 
-/// One line out of what MRPT says, which is a stack trace.
+/// Returns the one line that matters of MRPT's message, which is a stack trace.
 std::string oneLine(const std::string& text) {
   const std::string mark = "Message:";
   const std::size_t at = text.find(mark);
@@ -221,7 +221,7 @@ int run(const std::vector<std::string>& words, std::FILE* out) {
     std::fprintf(out, "# error %s\n", oneLine(error.what()).c_str());
     std::fflush(out);
   }
-  // Drivers say goodbye when they are destroyed, which can take long on a line that is gone.
+  // Destructors of drivers send a last command, which can take long on a lost connection.
   std::_Exit(1);
 }
 
@@ -229,7 +229,7 @@ int run(const std::vector<std::string>& words, std::FILE* out) {
 }  // namespace ortung
 
 int main(int count, char** arguments) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody else would end us
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // this process must not outlive its parent
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   std::signal(SIGPIPE, SIG_IGN);

@@ -16,9 +16,10 @@
 namespace ortung {
 namespace {
 
-constexpr double kMargin = 10.0;  // [m] beyond the beacons; the mower went 2 m beyond
+constexpr double kMargin =
+    10.0;  // distance from the outermost beacons to the bounds [m]; the mower went 2 m beyond them
 constexpr double kMaxIdentity = 1e6;
-// What is read of a metre, fitted to the first half of plaza1 against GPS; 1.070 to 1.073 in the
+// Measured range / distance, fitted to the first half of plaza1 against GPS; 1.070 to 1.073 in the
 // second half.
 constexpr double kScale = 1.07;
 
@@ -53,7 +54,7 @@ class PlazaSource : public LogSource {
   std::string run_;
   double jitter_;  ///< how far stamps may fall back [s]
   OpenWorld beacons_{"beacon", kMargin};
-  std::map<std::uint32_t, std::uint32_t> features_;  ///< by beacon
+  std::map<std::uint32_t, std::uint32_t> features_;  ///< number of each beacon's feature
   std::uint32_t odometryId_ = 0;
 };
 
@@ -73,22 +74,22 @@ void PlazaSource::readBeacons() {
   if (beacons_.isEmpty()) log.fail("no beacon", "at least one");
 }
 
-/// A line's way and turn are those since the line before.
+/// Reads odometry: each line has the distance travelled and the turn since the line before.
 void PlazaSource::readOdometry() {
   LogFile log(file("_DR.txt"));
   LogClock clock(jitter_);
   PoseOdometry odometry;
   Pose2 pose;
   while (log.nextRecord()) {
-    log.needFields(3, "time [s], way [m], turn [rad]");
+    log.needFields(3, "time [s], distance travelled [m], turn [rad]");
     const Timestamp stamp = clock(log, log.stamp(0));
-    const double way = log.number(1, "a way [m]", {-100.0, 100.0});
-    pose = alongArc(pose, way, log.number(2, "a turn [rad]", {-10.0, 10.0}), 1.0);
+    const double travelled = log.number(1, "a distance travelled [m]", {-100.0, 100.0});
+    pose = alongArc(pose, travelled, log.number(2, "a turn [rad]", {-10.0, 10.0}), 1.0);
     add(odometryId_, stamp, odometry.words(stamp, pose));
   }
 }
 
-/// Some come a minute late in the file, with the right stamps.
+/// Reads ranges. Some are a minute late in the file, with the right stamps.
 void PlazaSource::readRanges() {
   LogFile log(file("_TD.txt"));
   while (log.nextRecord()) {
@@ -101,7 +102,7 @@ void PlazaSource::readRanges() {
   }
 }
 
-/// Of some runs the heading is the other way round: the comment says "add NUMBER to heading".
+/// Reads GPS poses. Headings of some runs are reversed: a comment says "add NUMBER to heading".
 void PlazaSource::readTruth() {
   if (!findLogFile(file("_GT.txt"))) return;
   const auto feature = addFeature({"reference", "groundTruth", "pose"});
@@ -135,16 +136,16 @@ std::string PlazaSource::robotToml() const {
          "\nrange_scale = " + tomlNumber(kScale) +
          "\nrange_sigma_m = 0.55\noutliers = 0.02\n"
          "\n[mcl]\nmin_distance_m = 0.0\nmin_rotation_deg = 0.0\nmax_interval_s = 0.2\n"
-         "\n# The gyro is the one of the GPS's inertial system.\n[motion]\nturn_per_turn = 0.02\n"
+         "\n# The gyro belongs to the GPS's inertial system.\n[motion]\nturn_per_turn = 0.02\n"
          "turn_per_m = 0.005\nway_per_m = 0.02\nway_per_turn = 0.02\n";
 }
 
-/// What `ortung import plaza --help` tells.
+/// The text of `ortung import plaza --help`.
 class PlazaHelp : public SourceHelp {
  public:
   explicit PlazaHelp(const Parameters&)
       : SourceHelp("folder with NAME_DR.txt, NAME_TD.txt, NAME_TL.txt",
-                   {{"run", "", "plaza1", "NAME, with which the files' names begin"},
+                   {{"run", "", "plaza1", "NAME, the beginning of the files' names"},
                     {"jitter_s", "s", "1", "how far stamps may fall back before it is an error"}}) {
   }
 };

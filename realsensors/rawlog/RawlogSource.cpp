@@ -25,15 +25,15 @@ const SensorId kOdometry{"odometry", "odometry", "pose"};
 const SensorId kScan{"laser", "LRF", "scan"};
 const SensorId kLandmarks{"camera", "landmarks", "posts"};
 
-/// What the reader says of a sensor of landmarks or beacons.
+/// A sensor of landmarks or beacons, as the reader describes it.
 struct Observer {
   Pose2 mount;
-  double maxRange = 0.0;     ///< [m]; 0: not known
-  double fieldOfView = 0.0;  ///< [rad]; 0: all around
+  double maxRange = 0.0;     ///< greatest range [m]; 0: not known
+  double fieldOfView = 0.0;  ///< field of view [rad]; 0: all around
 };
 
-/// A rawlog of MRPT. MRPT's own readers believe whatever a file says, so a program of its own,
-/// ortung-mrpt-reader, reads it; what that prints is taken for hostile, too.
+/// A rawlog of MRPT. MRPT's readers believe whatever a file says, so a separate program,
+/// ortung-mrpt-reader, reads it; its output is checked as hostile input, too.
 class RawlogSource : public LogSource {
  public:
   explicit RawlogSource(const Parameters& options)
@@ -74,7 +74,7 @@ class RawlogSource : public LogSource {
   ScannerOptions scannerOptions_;
   double jitter_;
   std::filesystem::path map_;
-  std::filesystem::path beaconFile_;  ///< where the beacons are
+  std::filesystem::path beaconFile_;  ///< file with the places of the beacons
   std::map<std::string, std::uint32_t> features_;
   std::size_t lineNumber_ = 0;
   std::size_t readings_ = 0;
@@ -203,7 +203,7 @@ void RawlogSource::readTruth(const std::filesystem::path& path) {
   }
 }
 
-/// [[sensor]] of something that sees landmarks.
+/// Returns the [[sensor]] table of a sensor of landmarks.
 std::string observerToml(const Observer& observer, const std::string& names,
                          const std::set<std::uint32_t>& identities) {
   std::string list;
@@ -239,12 +239,12 @@ std::string RawlogSource::robotToml() const {
 
 void RawlogSource::writeWorld(const std::filesystem::path& file) const {
   if (map_.empty()) {
-    throw std::runtime_error(path_ + ": a rawlog holds no map; the option map=FILE names one");
+    throw std::runtime_error(path_ + ": a rawlog has no map; the option map=FILE names one");
   }
   writeGridWorld(file, map_, beaconFile_.empty() ? "" : landmarksToml(beaconFile_, "beacon"));
 }
 
-/// What `ortung import rawlog --help` tells.
+/// The text of `ortung import rawlog --help`.
 class RawlogHelp : public SourceHelp {
  public:
   explicit RawlogHelp(const Parameters&)

@@ -15,11 +15,12 @@
 namespace ortung {
 namespace {
 
-constexpr double kMargin = 0.5;  // [m] beyond the beacons, which stand at the corners
+constexpr double kMargin =
+    0.5;  // distance from the beacons, which are at the corners, to the bounds [m]
 
-/// Bearings of beacons, seen from a place where the robot stood (Roh, KAIST, in the Triangulation
-/// Toolbox): a CSV file with a bearing [deg] of each beacon in a line, whose name "(X1.5,Y3.0).csv"
-/// says where that was, heading 90 degrees; landmark.csv beside it has the beacons.
+/// Bearings of beacons, measured by a stationary robot (Roh, KAIST, in the Triangulation Toolbox):
+/// a CSV file with a bearing [deg] of each beacon in a line. Its name "(X1.5,Y3.0).csv" is the
+/// robot's place, with a heading of 90 degrees; landmark.csv beside it has the beacons.
 class RohSource : public LogSource {
  public:
   explicit RohSource(const Parameters& options)
@@ -47,12 +48,12 @@ class RohSource : public LogSource {
   Timestamp readBearings();
 
   std::filesystem::path path_;
-  double period_;  ///< between two lines, whose times are not known [s]
+  double period_;  ///< time between two lines, which have no stamps [s]
   std::uint32_t count_ = 0;
   OpenWorld beacons_{"beacon", kMargin};
 };
 
-/// The pose that a file's name tells.
+/// Returns the pose in a file's name.
 Pose2 RohSource::placeOf(std::string_view name) const {
   const std::size_t comma = name.find(",Y");
   const std::size_t end = name.find(')');
@@ -63,7 +64,7 @@ Pose2 RohSource::placeOf(std::string_view name) const {
       return {*x, *y, std::numbers::pi / 2};
   }
   throw std::runtime_error(path_.string() + ": found the name " + inQuotes(name) +
-                           ", expected one like '(X1.5,Y3.0).csv', which says where the robot was");
+                           ", expected one like '(X1.5,Y3.0).csv', the place of the robot");
 }
 
 void RohSource::readBeacons() {
@@ -76,7 +77,7 @@ void RohSource::readBeacons() {
   if (beacons_.isEmpty()) file.fail("no beacon", "at least one");
 }
 
-/// Gives the time of the last line.
+/// Reads all bearings. @return the time of the last line
 Timestamp RohSource::readBearings() {
   LogFile file(path_, LogFile::kCommas);
   Timestamp stamp = 0;
@@ -101,12 +102,12 @@ std::string RohSource::robotToml() const {
          "bearing_sigma_deg = 3.0\noutliers = 0.05\nexponent = 0.1\n";
 }
 
-/// What `ortung import roh --help` tells.
+/// The text of `ortung import roh --help`.
 class RohHelp : public SourceHelp {
  public:
   explicit RohHelp(const Parameters&)
       : SourceHelp("file '(X1.5,Y3.0).csv' with bearings, beside landmark.csv",
-                   {{"period_s", "s", "0.1", "between two lines, whose times are not known"}}) {}
+                   {{"period_s", "s", "0.1", "time between two lines, which have no stamps"}}) {}
 };
 
 }  // namespace

@@ -15,11 +15,11 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kBeforeRanges = 5;  // time, three of odometry, number of beams
-constexpr int kFoldersAbove = 2;          // how far up a map is looked for
+constexpr int kFoldersAbove = 2;          // number of parent folders in which a map is searched
 
 const SensorId kReflectors{"laser", "landmarks", "reflectors"};
 
-/// The number right behind @p key in a comment, e.g. "x=" in "sensor at x=+0.78 m".
+/// Returns the number right behind @p key in a comment, e.g. "x=" in "sensor at x=+0.78 m".
 std::optional<double> numberBehind(const std::string& text, const std::string& key) {
   const std::size_t at = text.find(key);
   if (at == std::string::npos) return std::nullopt;
@@ -30,8 +30,8 @@ std::optional<double> numberBehind(const std::string& text, const std::string& k
 }
 
 /// A folder of plain text files: scans ("time odom_x odom_y odom_theta n r1 ... rn"), a reference
-/// (gt or ref: "time x y theta ..."), odometry of its own if one asks for it, and a map (YAML).
-/// Where the beams go stands in the comment above the scans.
+/// (gt or ref: "time x y theta ..."), a separate odometry if the options name one, and a map
+/// (YAML). The comment above the scans has the beams' angles.
 class ScanlogSource : public ScanLogSource {
  public:
   explicit ScanlogSource(const Parameters& options)
@@ -59,9 +59,9 @@ class ScanlogSource : public ScanLogSource {
 
   std::filesystem::path folder_;
   std::filesystem::path reflectorMap_;
-  std::string reflectorIdentities_;  ///< "1, 2, 7"; "": there are none
+  std::string reflectorIdentities_;  ///< identities, e.g. "1, 2, 7"; "": there are none
   Pose2 reflectorMount_;
-  double farthestReflector_ = 1.0;  ///< [m]
+  double farthestReflector_ = 1.0;  ///< greatest range of a sighting [m]
 };
 
 Scanner ScanlogSource::scannerOf(const LogFile& file, const std::string& comment) const {
@@ -115,8 +115,8 @@ void ScanlogSource::readScans() {
   }
 }
 
-/// By default the odometry that stands beside each scan is all: it is of the very same time. A file
-/// of its own is denser, but may have another start, so it takes the place of the other.
+/// By default the odometry in each scan's line is used: it has the scan's time. A separate file is
+/// denser, but may begin elsewhere, so it replaces the other.
 void ScanlogSource::readOdometry(const Parameters& options) {
   const auto path = fileOption(options, "odom", folder_);
   if (path.empty()) return;
@@ -144,7 +144,7 @@ void ScanlogSource::readTruth(const Parameters& options) {
   if (options.textOr("gt", "") == "none") return;
   auto path = fileOption(options, "gt", folder_);
   if (path.empty()) {
-    // Who adds a reference to a truth does so because the truth is wanting.
+    // If both files exist, ref.txt is preferred: it was added because gt.txt is not good enough.
     for (const char* name : {"gt.txt", "ref.txt"}) {
       if (findLogFile(folder_ / name)) path = folder_ / name;
     }
@@ -157,8 +157,7 @@ void ScanlogSource::readTruth(const Parameters& options) {
   }
 }
 
-/// Sightings of reflectors, of which nobody says which they are; all of one time are of one
-/// reading.
+/// Reads sightings of reflectors without identity; those of one time are one reading.
 void ScanlogSource::readReflectors(const Parameters& options) {
   const auto path = fileOption(options, "reflectors", folder_);
   reflectorMap_ = fileOption(options, "reflector_map", folder_);
@@ -203,7 +202,7 @@ void ScanlogSource::readReflectors(const Parameters& options) {
 std::string ScanlogSource::robotToml() const {
   std::string text = ScanLogSource::robotToml();
   if (reflectorIdentities_.empty()) return text;
-  // Navigation scanners look over all that is lower than their reflectors.
+  // Navigation scanners are as high as their reflectors and see over everything lower.
   return text + "\n[[sensor]]\nplugin = \"landmarks\"\nmodel = " + tomlText(kReflectors.model) +
          "\ntype = " + tomlText(kReflectors.type) + "\nfeature = " + tomlText(kReflectors.feature) +
          "\nfeatures = \"list\"\nidentified = false\nkind = \"reflector\"\nidentities = [" +
@@ -221,7 +220,7 @@ void ScanlogSource::writeWorld(const std::filesystem::path& file) const {
   }
 }
 
-/// map.yaml or the only YAML file, in the folder or up to two above.
+/// Finds map.yaml or the only YAML file, in the folder or up to two folders above.
 void ScanlogSource::findMap() {
   std::error_code error;
   std::filesystem::path folder = std::filesystem::absolute(folder_, error).lexically_normal();
@@ -239,7 +238,7 @@ void ScanlogSource::findMap() {
   }
 }
 
-/// What `ortung import scanlog --help` tells.
+/// The text of `ortung import scanlog --help`.
 class ScanlogHelp : public SourceHelp {
  public:
   explicit ScanlogHelp(const Parameters&)
@@ -247,7 +246,7 @@ class ScanlogHelp : public SourceHelp {
             "folder with scans.txt",
             withScanLogOptions(
                 {{"gt", "", "ref.txt, else gt.txt",
-                  "file with the reference: t x y theta; none: without one"},
+                  "file with the reference: t x y theta; none: no reference"},
                  {"odom", "", "that beside the scans", "file with odometry: t x y theta"},
                  {"commands", "", "none", "file with commanded velocities: t v w"},
                  {"reflectors", "", "none",

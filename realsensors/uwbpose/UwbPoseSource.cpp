@@ -16,18 +16,19 @@ namespace {
 
 constexpr std::size_t kMostTags = 16;
 constexpr std::int64_t kMostAnchors = 64;
-constexpr double kMargin = 1.0;         // [m] beyond the anchors, which hang at the walls
-constexpr double kWayStep = 0.15;       // [m] over which the way's direction is taken
-constexpr double kDefaultHeight = 1.0;  // [m] of the tags, where no truth tells it
+constexpr double kMargin =
+    1.0;  // distance from the anchors, which are at the walls, to the bounds [m]
+constexpr double kWayStep = 0.15;       // distance travelled over which a heading is taken [m]
+constexpr double kDefaultHeight = 1.0;  // height of the tags without ground truth [m]
 
 struct Tag {
-  double x, y;  ///< in the robot frame [m]
+  double x, y;  ///< place in the robot frame [m]
 };
 
 /// Ranges between the tags of a trolley and anchors at the walls, poses by motion capture
 /// ("Efficient planar pose estimation via UWB measurements", CUHK Shenzhen): NAME_ranges.txt with a
-/// column for each anchor and tag, NAME_gt.txt, and README_source.md, whose tables say where they
-/// are.
+/// column for each anchor and tag, NAME_gt.txt, and README_source.md, whose tables have the places
+/// of anchors and tags.
 class UwbPoseSource : public LogSource {
  public:
   explicit UwbPoseSource(const Parameters& options)
@@ -57,16 +58,16 @@ class UwbPoseSource : public LogSource {
 
   std::filesystem::path folder_;
   std::string run_;
-  double bias_;    ///< taken off ranges [m]
+  double bias_;    ///< bias that is subtracted from ranges [m]
   double jitter_;  ///< how far stamps may fall back [s]
   std::size_t anchors_ = 0;
   OpenWorld world_{"anchor", kMargin};
   std::vector<Tag> tags_;
-  double height_ = kDefaultHeight;  ///< of the tags [m]
-  double farthest_ = 1.0;           ///< range of all [m]
+  double height_ = kDefaultHeight;  ///< height of the tags [m]
+  double farthest_ = 1.0;           ///< greatest range of all readings [m]
 };
 
-/// Rows "| Tag 0 | x | y | z |" and "| Anchor 0 | x | y | z |" of the tables, in order.
+/// Reads rows "| Tag 0 | x | y | z |" and "| Anchor 0 | x | y | z |" of the tables, in order.
 void UwbPoseSource::readPlaces() {
   constexpr std::size_t kFirst = 4;  // field of x; every second one is a bar
   LogFile file(folder_ / "README_source.md");
@@ -89,7 +90,7 @@ void UwbPoseSource::readPlaces() {
               "tables with rows '| Tag 0 | x | y | z |' and '| Anchor 0 | x | y | z |'");
 }
 
-/// Columns go through the tags of an anchor first. "nan" and 0 are ranges that failed.
+/// Reads ranges. Columns are ordered by anchor, then by tag. "nan" and 0 are failed measurements.
 void UwbPoseSource::readRanges() {
   LogFile file(folder_ / (run_ + "_ranges.txt"));
   LogClock clock(jitter_);
@@ -110,8 +111,8 @@ void UwbPoseSource::readRanges() {
   }
 }
 
-/// The yaw of the file is that of quaternions read in the wrong order, always near 180 degrees, so
-/// the heading is that of the way.
+/// Reads the ground truth. The file's yaw comes from quaternions read in the wrong order, always
+/// near 180 degrees, so the heading is the direction of travel.
 void UwbPoseSource::readTruth() {
   if (!findLogFile(folder_ / (run_ + "_gt.txt"))) return;
   const auto feature = addFeature({"reference", "groundTruth", "pose"});
@@ -149,13 +150,13 @@ std::string UwbPoseSource::robotToml() const {
   return text;
 }
 
-/// What `ortung import uwbpose --help` tells.
+/// The text of `ortung import uwbpose --help`.
 class UwbPoseHelp : public SourceHelp {
  public:
   explicit UwbPoseHelp(const Parameters&)
       : SourceHelp("folder with NAME_ranges.txt and README_source.md",
-                   {{"run", "", "mid", "NAME, with which the files' names begin"},
-                    {"range_bias_m", "m", "0", "taken off ranges"},
+                   {{"run", "", "mid", "NAME, the beginning of the files' names"},
+                    {"range_bias_m", "m", "0", "bias that is subtracted from ranges"},
                     {"jitter_s", "s", "1", "how far stamps may fall back before it is an error"}}) {
   }
 };

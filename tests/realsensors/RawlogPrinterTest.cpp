@@ -111,8 +111,8 @@ TEST(RawlogPrinter, RangesThatAreNoLengthsAreNotValid) {
   EXPECT_EQ(printed({beacons, marks}),
             "# beacons 0 0 0 30\n1000000 uwb/landmarks/beacon7Distance 1 4000\n"
             "# landmarks 0 0 0 30 2\n1000000 camera/landmarks/posts 3 3 4000 18000\n"
-            "# skipped 4 ranges of no known beacon or of 0\n"
-            "# skipped 4 sightings of no known landmark\n# end 2\n");
+            "# skipped 4 ranges of unknown beacons, or of 0\n"
+            "# skipped 4 sightings of unknown landmarks\n# end 2\n");
 }
 
 // A receiver of ranges has a place, and looks nowhere; it is told once.

@@ -6,7 +6,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kBitsOfByte = 10.0;  ///< with start and stop bit
+constexpr double kBitsOfByte = 10.0;  ///< bits of a byte, with start and stop bit
 constexpr std::size_t kMostWaiting = 10'000;
 
 }  // namespace

@@ -13,16 +13,16 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kLongestCommand = 64;
-constexpr std::size_t kBlock = 64;                ///< characters of a line of data
-constexpr std::uint32_t kNothing = 65533;         ///< a range that no object has [mm]
-constexpr std::uint32_t kError = 6;               ///< ranges below 20 are codes of errors
-constexpr std::uint32_t kMostShort = 4095;        ///< [mm]
-constexpr Timestamp kClock = Timestamp{1} << 24;  ///< milliseconds until it begins again
+constexpr std::size_t kBlock = 64;                ///< number of characters of a line of data
+constexpr std::uint32_t kNothing = 65533;         ///< range that means that nothing is seen [mm]
+constexpr std::uint32_t kError = 6;               ///< code of an error; ranges below 20 are such
+constexpr std::uint32_t kMostShort = 4095;        ///< greatest range in two characters [mm]
+constexpr Timestamp kClock = Timestamp{1} << 24;  ///< period of the clock's stamps [ms]
 constexpr std::string_view kRight = "00";
 constexpr std::string_view kScan = "99";
 constexpr std::string_view kUnknown = "0E";
 
-/// Six bits of the sum of all characters.
+/// Returns the checksum: six bits of the sum of all characters.
 char sumOf(std::string_view text) {
   unsigned sum = 0;
   for (const char c : text) sum += static_cast<unsigned char>(c);
@@ -31,7 +31,7 @@ char sumOf(std::string_view text) {
 
 std::string withSum(std::string_view text) { return std::string(text) + sumOf(text) + '\n'; }
 
-/// A number as characters of six bits each.
+/// Appends a number as characters of six bits each.
 void appendCode(std::string& text, std::uint32_t value, int characters) {
   for (int i = characters - 1; i >= 0; --i)
     text += static_cast<char>(((value >> (6 * i)) & 0x3FU) + 0x30U);
@@ -45,7 +45,7 @@ std::optional<int> numberOf(const std::string& text, std::size_t begin, std::siz
   return number;
 }
 
-/// "KEY:value;sum".
+/// Returns a line of an answer: "KEY:value;sum".
 std::string field(std::string_view text) { return std::string(text) + ';' + sumOf(text) + '\n'; }
 
 }  // namespace
@@ -134,7 +134,7 @@ std::optional<EmulatedHokuyo::Request> EmulatedHokuyo::requestOf(const std::stri
 
 void EmulatedHokuyo::measure(const std::string& line, Timestamp now) {
   const auto request = requestOf(line);
-  if (!request) return answer(line, "05", "", now);  // steps that it does not have
+  if (!request) return answer(line, "05", "", now);  // the scanner does not have these steps
   if (line[0] == 'G') {
     if (!isOn_ || !newest_) return answer(line, "10", "", now);  // the laser is off
     return sendScan(*request, *newest_, now);

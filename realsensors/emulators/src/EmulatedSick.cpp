@@ -12,10 +12,10 @@ constexpr unsigned char kFromScanner = 0x80;
 constexpr char kAck = 0x06;
 constexpr char kNak = 0x15;
 constexpr char kReady = 0x10;           ///< last byte of every answer: no error
-constexpr std::size_t kFrame = 6;       ///< bytes around the data
-constexpr std::size_t kMostData = 800;  ///< of a telegram to the scanner
-constexpr std::size_t kSettings = 34;   ///< bytes of configuration
-constexpr std::size_t kUnits = 6;       ///< of these: 0 cm, 1 mm
+constexpr std::size_t kFrame = 6;       ///< number of bytes around the data
+constexpr std::size_t kMostData = 800;  ///< greatest length of the data of a telegram to it [bytes]
+constexpr std::size_t kSettings = 34;   ///< length of the configuration [bytes]
+constexpr std::size_t kUnits = 6;       ///< index of the unit in it: 0 cm, 1 mm
 constexpr std::string_view kPassword = "SICK_LMS";
 constexpr std::uint32_t kNothing = 0x1FF7;  ///< "beyond the greatest value", 13 bits
 constexpr std::uint32_t kInvalid = 0x1FFF;
@@ -46,7 +46,7 @@ std::optional<int> speedOf(unsigned char mode) {
 
 }  // namespace
 
-// One shift a byte; the byte before comes in once more, as the high one.
+// The sum is shifted once for each byte; the byte before is added again, as the high one.
 std::uint16_t sickChecksum(std::string_view bytes) {
   std::uint32_t sum = 0;
   std::uint32_t before = 0;
@@ -89,7 +89,7 @@ void EmulatedSick::receive(std::string_view bytes, Timestamp now) {
     if (bytes_.size() < kFrame) return;
     const std::size_t length = at(bytes_, 2) + 256U * at(bytes_, 3);
     if (length == 0 || length > kMostData) {
-      bytes_.erase(0, 1);  // no telegram begins here
+      bytes_.erase(0, 1);  // this is not the begin of a telegram
       continue;
     }
     if (bytes_.size() < kFrame + length) return;

@@ -22,12 +22,12 @@ struct Named {
 
 constexpr std::array kKinds{
     Named{Kind::kUnplug, "unplug", false, "the cable is pulled, and put back"},
-    Named{Kind::kSilent, "silent", false, "nothing comes any more"},
-    Named{Kind::kFreeze, "freeze", false, "the last reading, again and again"},
+    Named{Kind::kSilent, "silent", false, "the device sends nothing"},
+    Named{Kind::kFreeze, "freeze", false, "the device repeats its last reading"},
     Named{Kind::kGarbage, "garbage", false, "noise between telegrams, and bits that flip in them"},
     Named{Kind::kHalf, "half", false, "every other telegram ends in its middle"},
     Named{Kind::kJump, "jump", true, "SECONDS by which the device's clock is set from then on"},
-    Named{Kind::kFlood, "flood", false, "a thousand readings in place of one"}};
+    Named{Kind::kFlood, "flood", false, "the device sends each reading a thousand times"}};
 
 [[noreturn]] void refuse(const std::string& text, const std::string& expected) {
   throw std::invalid_argument("fault '" + text + "': expected " + expected);
@@ -98,7 +98,7 @@ std::string damaged(std::string telegram, Kind kind, bool isOdd, Random& random)
 std::string atWrongSpeed(const std::string& bytes, Random& random) {
   std::string out;
   for (const char c : bytes) {
-    if (random.uniform() < 0.3) continue;  // edges that make no start bit
+    if (random.uniform() < 0.3) continue;  // such edges make no start bit
     out += static_cast<char>(static_cast<unsigned char>(c) ^
                              static_cast<unsigned char>(1 + random.uniform(0.0, 255.0)));
   }

@@ -8,7 +8,7 @@
 namespace ortung {
 namespace {
 
-constexpr Timestamp kLongestWait = 20'000;  ///< [us]
+constexpr Timestamp kLongestWait = 20'000;  ///< longest wait between two rounds [us]
 constexpr int kFlood = 1000;
 constexpr std::uint64_t kStream = 0x6c696e65;
 
@@ -45,7 +45,7 @@ bool EmulatorRun::everybodyMeasures() const {
 }
 
 void EmulatorRun::run(const std::function<bool()>& goesOn) {
-  // What is on its way at the end still arrives.
+  // Telegrams that were sent at the end still arrive.
   constexpr Timestamp kAfterwards = 500'000;
   Timestamp end = 0;
   while (goesOn()) {
@@ -125,7 +125,7 @@ void EmulatorRun::exchange(std::size_t line, Timestamp now) {
   }
 }
 
-/// Until something is to be done, or somebody says something.
+/// Waits until the next reading or telegram is due, or a driver sends something.
 void EmulatorRun::wait(Timestamp now) const {
   Timestamp until = now + kLongestWait;
   if (beganAt_ && !isAtEnd_) until = std::min(until, frame_.front().stamp - first_ + *beganAt_);

@@ -44,7 +44,7 @@ void PseudoTerminal::plug() {
   if (slave_ < 0) fail(path_);
   termios settings{};
   if (::tcgetattr(slave_, &settings) != 0) fail(path_);
-  ::cfmakeraw(&settings);  // or it would echo what the device says back to the device
+  ::cfmakeraw(&settings);  // otherwise it would echo the device's bytes
   ::tcsetattr(slave_, TCSANOW, &settings);
   if (!link_.empty()) makeLink();
 }
@@ -78,7 +78,7 @@ void PseudoTerminal::read(std::string& bytes) {
 void PseudoTerminal::write(std::string_view bytes) {
   while (master_ >= 0 && !bytes.empty()) {
     const ssize_t count = ::write(master_, bytes.data(), bytes.size());
-    if (count <= 0) return;  // full: nobody reads
+    if (count <= 0) return;  // full: the driver does not read
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
 }

@@ -14,54 +14,57 @@
 
 namespace ortung {
 
-/// The clock of a device: begins somewhere, runs at a rate of its own, and may be set.
+/// The clock of a device: it has an offset and a drift, and may be set.
 struct EmulatedClock {
-  double offset = 0.0;    ///< what it shows at time 0 [s]
-  double driftPpm = 0.0;  ///< how much faster than ours
+  double offset = 0.0;    ///< time that it shows at time 0 [s]
+  double driftPpm = 0.0;  ///< how much faster it runs than real time [ppm]
+  /// Returns the time that it shows at @p now [us].
   Timestamp at(Timestamp now) const {
     return fromSeconds(offset) + now +
            static_cast<Timestamp>(static_cast<double>(now) * driftPpm * 1e-6);
   }
 };
 
-/// A device as its driver sees it: bytes in, bytes out. What it measures is given to it. Knows no
-/// clock and no line: times are passed in, [us] from 0, and never run backwards. Not thread-safe.
+/// A device as its driver sees it: bytes in, bytes out. What it measures is passed in. It has no
+/// clock and no line: times are passed in, [us] from 0, and never decrease. Not thread-safe.
 class ORTUNG_API EmulatedDevice {
  public:
   virtual ~EmulatedDevice();
 
-  /// What the robot's computer says.
+  /// Takes bytes that the robot's computer has sent.
   virtual void receive(std::string_view bytes, Timestamp now) = 0;
-  /// It measures this now. Readings of other features are passed over.
+  /// Takes a reading that it measures now. Readings of other features are ignored.
   virtual void sense(const Message& reading, Timestamp now) = 0;
-  /// Whether it has been asked to measure.
+  /// Whether the driver has asked it to measure.
   virtual bool isMeasuring() const = 0;
-  /// Speed of its line [bit/s]; nothing if it has none.
+  /// Speed to which it has set its line [bit/s]; nothing if the line has no speed.
   virtual std::optional<int> baud() const { return std::nullopt; }
 
+  /// A whole telegram to the driver.
   struct Telegram {
-    std::string bytes;
-    std::optional<int> baud;  ///< speed at which it was sent
+    std::string bytes;        ///< the telegram
+    std::optional<int> baud;  ///< speed at which it was sent [bit/s]
   };
-  /// Telegrams that have left it by now, each one whole.
+  /// Takes the telegrams that it has sent completely by now.
   std::vector<Telegram> takeOutput(Timestamp now);
-  /// When the next telegram leaves it, or nothing.
+  /// Time at which the next telegram is sent completely, or nothing.
   std::optional<Timestamp> due() const;
 
-  EmulatedClock clock;
+  EmulatedClock clock;  ///< clock of its time stamps
 
  protected:
-  /// Puts a telegram on the line, behind what is there; it has left when all of it is sent.
+  /// Queues a telegram. It takes the time to send all bytes before it and its own.
   void send(std::string telegram, Timestamp now);
-  bool isBusy(Timestamp now) const { return now < free_; }  ///< the line
+  /// Whether the line is still sending.
+  bool isBusy(Timestamp now) const { return now < free_; }
 
  private:
   struct Sent {
-    Timestamp due;
+    Timestamp due;  ///< time at which it is sent completely
     Telegram telegram;
   };
-  std::deque<Sent> output_;
-  Timestamp free_ = 0;
+  std::deque<Sent> output_;  ///< telegrams that were not taken yet
+  Timestamp free_ = 0;       ///< time from which on the line is free
 };
 
 }  // namespace ortung

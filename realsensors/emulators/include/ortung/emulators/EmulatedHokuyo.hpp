@@ -9,13 +9,14 @@
 namespace ortung {
 
 /// A Hokuyo scanner that speaks SCIP 2.0 over a serial line or a socket: VV, PP, II, BM, QT, RS,
-/// RT, SS, TM, CR, HS, MD, MS, GD, GS with their checksums, and the stamps of its own clock, which
-/// has 24 bits of milliseconds. Its steps are the beams of what it measures. Not thread-safe.
+/// RT, SS, TM, CR, HS, MD, MS, GD, GS with their checksums, and stamps of its own clock, which has
+/// 24 bits of milliseconds. Its steps are the beams of the scans. Not thread-safe.
 class ORTUNG_API EmulatedHokuyo : public EmulatedDevice {
  public:
-  /// @param scan what it measures, borrowed until this returns; the angle between beams divides a
-  ///   turn. @throws std::invalid_argument if it does not
-  /// @param baud its speed after it was switched on; nothing: a socket
+  /// @param scan feature that it measures, borrowed during the call; the angle between its beams
+  ///   divides a turn, and one beam points straight ahead
+  /// @param baud speed after it was switched on [bit/s]; nothing: a socket
+  /// @throws std::invalid_argument for other beams
   explicit EmulatedHokuyo(const ScanData& scan, std::optional<int> baud = std::nullopt);
 
   void receive(std::string_view bytes, Timestamp now) override;
@@ -25,13 +26,13 @@ class ORTUNG_API EmulatedHokuyo : public EmulatedDevice {
 
  private:
   struct Request {
-    std::string echo;
-    int first = 0;  ///< steps
-    int last = 0;
-    int cluster = 1;
-    int skip = 0;          ///< scans between two
-    int left = 0;          ///< scans to send; 0: without end
-    bool isShort = false;  ///< two characters a range in place of three
+    std::string echo;      ///< the command, which answers repeat
+    int first = 0;         ///< first step
+    int last = 0;          ///< last step
+    int cluster = 1;       ///< number of steps for each range
+    int skip = 0;          ///< number of scans that are skipped between two
+    int left = 0;          ///< number of scans to send; 0: no limit
+    bool isShort = false;  ///< whether a range has two characters, not three
   };
   void execute(const std::string& line, Timestamp now);
   void measure(const std::string& line, Timestamp now);
@@ -44,7 +45,7 @@ class ORTUNG_API EmulatedHokuyo : public EmulatedDevice {
   void sendScan(const Request& request, const Message& reading, Timestamp now);
 
   SensorId id_;
-  double maxRange_;  ///< of the simulated scanner [m]
+  double maxRange_;  ///< greatest range of the simulated scanner [m]
   int stepsOfTurn_;
   int firstStep_;
   int lastStep_;

@@ -7,10 +7,12 @@
 
 namespace ortung {
 
-/// A device that sends its readings as lines of a record, as anything home-made may do, and asks
-/// for nothing. Stamps are its clock's. Not thread-safe.
+/// A device that sends its readings as lines of a record without being asked, as a microcontroller
+/// can. Stamps are its clock's. Not thread-safe.
 class ORTUNG_API EmulatedLines : public EmulatedDevice {
  public:
+  /// @param features features that it measures, borrowed during the call
+  /// @param baud speed of its line [bit/s]; nothing: a socket
   explicit EmulatedLines(std::span<const SensorData* const> features,
                          std::optional<int> baud = std::nullopt);
   void receive(std::string_view, Timestamp) override {}

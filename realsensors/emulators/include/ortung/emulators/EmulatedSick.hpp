@@ -7,9 +7,10 @@
 
 namespace ortung {
 
-/// The checksum of SICK's telegrams.
+/// Returns the checksum of SICK's telegrams (LMS 2xx).
 ORTUNG_API std::uint16_t sickChecksum(std::string_view bytes);
-/// STX, address, length, @p data, checksum. @param address 0 to the scanner, 0x80 from it
+/// Returns a telegram: STX, address, length, data, checksum.
+/// @param address 0: to the scanner; 0x80: from it
 ORTUNG_API std::string sickTelegram(unsigned char address, std::string_view data);
 
 /// A SICK LMS 200 on a serial line: status, modes (installation, monitoring on request and
@@ -18,8 +19,8 @@ ORTUNG_API std::string sickTelegram(unsigned char address, std::string_view data
 /// has fewer of them. Not thread-safe.
 class ORTUNG_API EmulatedSick : public EmulatedDevice {
  public:
-  /// @param scan what it measures, borrowed until this returns
-  /// @param baud its speed after it was switched on: 9600, 38400, 500000
+  /// @param scan feature that it measures, borrowed during the call
+  /// @param baud speed after it was switched on: 9600, 38400 or 500000 [bit/s]
   /// @throws std::invalid_argument for a number of beams that no SICK has
   explicit EmulatedSick(const ScanData& scan, int baud = 9600);
 
@@ -35,14 +36,14 @@ class ORTUNG_API EmulatedSick : public EmulatedDevice {
   std::size_t beams() const;
 
   SensorId id_;
-  double maxRange_;  ///< of the simulated scanner [m]: beyond it nothing is seen
+  double maxRange_;  ///< greatest range of the simulated scanner [m]
   int baud_;
-  std::string bytes_;     ///< of a telegram that is not whole yet
-  std::string settings_;  ///< 34 bytes of configuration
+  std::string bytes_;     ///< bytes of a telegram that is not complete
+  std::string settings_;  ///< configuration, 34 bytes
   bool isInstalling_ = false;
   bool isContinuous_ = false;
-  int fieldOfView_ = 180;  ///< [degrees]
-  int resolution_ = 100;   ///< [1/100 degree]
+  int fieldOfView_ = 180;  ///< field of view [degrees]
+  int resolution_ = 100;   ///< angle between beams [1/100 degree]
 };
 
 }  // namespace ortung

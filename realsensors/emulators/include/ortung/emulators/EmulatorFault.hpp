@@ -10,34 +10,37 @@
 
 namespace ortung {
 
-/// Something that goes wrong with an emulated device, or its line, for a while.
+/// A fault of an emulated device or its line, for a while.
 struct EmulatorFault {
   enum class Kind : std::uint8_t {
-    kUnplug,   ///< nothing is there
-    kSilent,   ///< it says nothing any more
-    kFreeze,   ///< it repeats its last reading, with its clock running
-    kGarbage,  ///< noise before each telegram, and telegrams with flipped bits
+    kUnplug,   ///< the device is not there
+    kSilent,   ///< the device sends nothing
+    kFreeze,   ///< the device repeats its last reading, while its clock runs
+    kGarbage,  ///< noise precedes each telegram, and bits of telegrams flip
     kHalf,     ///< every other telegram ends in its middle
-    kJump,     ///< its clock is set, by `value` [s], and stays so
-    kFlood     ///< a thousand readings in place of one
+    kJump,     ///< the device's clock is set forward by `value` [s] for good
+    kFlood     ///< the device sends each reading a thousand times
   };
-  Kind kind = Kind::kSilent;
-  double value = 0.0;
-  Timestamp from = 0;  ///< [us] of emulated time
-  Timestamp to = std::numeric_limits<Timestamp>::max();
+  Kind kind = Kind::kSilent;  ///< what goes wrong
+  double value = 0.0;         ///< value of kJump [s]
+  Timestamp from = 0;         ///< begin of the fault [us of emulated time]
+  Timestamp to = std::numeric_limits<Timestamp>::max();  ///< its end [us of emulated time]
+  /// Whether the fault is present.
   bool isOn(Timestamp now) const { return now >= from && now < to; }
 };
 
-/// "KIND[:VALUE][@FROM-TO]" with times in seconds, e.g. "jump:-3@10-20", "unplug@5-8".
+/// Parses "KIND[:VALUE][@FROM-TO]" with times in seconds, e.g. "jump:-3@10-20", "unplug@5-8".
 /// @throws std::invalid_argument saying what is wrong
 ORTUNG_API EmulatorFault parseEmulatorFault(const std::string& text);
-/// Lines for --help.
+/// Describes all kinds of faults, as lines for --help.
 ORTUNG_API std::string emulatorFaultHelp();
 
-/// What a faulty line makes of a telegram. @param isOdd whether it is every other one
+/// Returns what a faulty line makes of a telegram.
+/// @param kind kGarbage or kHalf; others change nothing
+/// @param isOdd whether its number is odd; kHalf truncates those
 ORTUNG_API std::string damaged(std::string telegram, EmulatorFault::Kind kind, bool isOdd,
                                Random& random);
-/// What comes out at one end of a line whose ends have different speeds.
+/// Returns what one end of a line receives if its ends have different speeds.
 ORTUNG_API std::string atWrongSpeed(const std::string& bytes, Random& random);
 
 }  // namespace ortung

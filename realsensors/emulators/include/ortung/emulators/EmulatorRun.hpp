@@ -15,31 +15,31 @@
 
 namespace ortung {
 
-/// Emulated devices that measure what a source says, in real time. Not thread-safe.
+/// Runs emulated devices that measure the readings of a source, in real time. Not thread-safe.
 class ORTUNG_API EmulatorRun {
  public:
   struct Config {
-    double speed = 1.0;      ///< of the source's time
-    bool waits = true;       ///< time begins when all devices have been asked to measure
-    std::uint64_t seed = 1;  ///< of what goes wrong
+    double speed = 1.0;      ///< emulated time / real time
+    bool waits = true;       ///< whether to wait until all devices were asked to measure
+    std::uint64_t seed = 1;  ///< seed of the faults' random numbers
   };
   /// One device at the end of its line.
   struct Line {
-    std::unique_ptr<EmulatedDevice> device;
-    std::unique_ptr<Endpoint> endpoint;
-    std::vector<EmulatorFault> faults = {};
+    std::unique_ptr<EmulatedDevice> device;  ///< the device
+    std::unique_ptr<Endpoint> endpoint;      ///< its end of the line
+    std::vector<EmulatorFault> faults = {};  ///< faults of the device and its line
   };
-  /// @param source borrowed
+  /// Reads the source's first readings. @param source borrowed for as long as this lives
   EmulatorRun(std::vector<Line> lines, Source& source, const Config& config);
 
-  /// Plays the source to its end, or until @p goesOn, asked every now and then, says no.
-  /// @throws std::runtime_error of the source
+  /// Plays the source to its end, or until @p goesOn returns false; it is called every 20 ms or
+  /// more often.
+  /// @throws std::runtime_error if the source does
   void run(const std::function<bool()>& goesOn);
 
  private:
-  Timestamp now() const;  ///< of the devices: since this was made [us]
+  Timestamp now() const;  ///< emulated time since the construction [us]
   struct State {
-    bool wasFaulty = false;
     bool isOdd = false;
     bool hasJumped = false;
     std::vector<Message> frozen;  ///< last readings before it froze
@@ -57,11 +57,11 @@ class ORTUNG_API EmulatorRun {
   FrameReader reader_;
   Config config_;
   Random random_;
-  std::vector<Message> frame_;  ///< the next moment of the source
+  std::vector<Message> frame_;  ///< the source's next readings of one time
   bool isAtEnd_ = false;
-  Timestamp first_ = 0;               ///< stamp of the source's first moment
-  Timestamp switchedOn_;              ///< real time [us]
-  std::optional<Timestamp> beganAt_;  ///< when the source's first moment is, of now()
+  Timestamp first_ = 0;               ///< stamp of the source's first readings
+  Timestamp switchedOn_;              ///< real time of the construction [us]
+  std::optional<Timestamp> beganAt_;  ///< emulated time of the source's first readings
 };
 
 }  // namespace ortung
