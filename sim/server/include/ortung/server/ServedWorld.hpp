@@ -46,8 +46,9 @@ struct RobotWish {
 /// One feature of a robot that takes part.
 struct ServedFeature {
   SensorId id;
-  std::string wordsHelp;  ///< one line on what the words mean
-  Pose2 mount = {};       ///< of its sensor, in the robot frame
+  std::string wordsHelp;    ///< one line on what the words mean, for people
+  Pose2 mount = {};         ///< of its sensor, in the robot frame
+  std::string format = {};  ///< Format::toText(); "": it is not known
 };
 
 /// A robot that takes part.
@@ -140,7 +141,8 @@ class ORTUNG_API ServedWorld {
   virtual std::uint64_t residentsVersion() const { return 0; }
   virtual ServedRobot addRobot(RobotId robot, RobotWish wish) = 0;
   /// What a robot is and can be told, one line each, its first word saying which: "drive COMMAND",
-  /// "limits v_m_s=V w_rad_s=W ...", "body radius_m=R ...", "manipulator NAME STATE ...".
+  /// "motion kind=K numbers=N", "limits v_m_s=V w_rad_s=W ...", "body radius_m=R ...", "manipulator
+  /// NAME STATE ...".
   virtual std::vector<std::string> abilities(RobotId robot) const = 0;
   virtual void removeRobot(RobotId robot) = 0;
   /// Whose a robot is, " key=value ..." to be added to its line of LIST robots; "" if nobody's.
