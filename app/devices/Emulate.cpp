@@ -17,6 +17,8 @@
 #include "ortung/emulators/EmulatedSick.hpp"
 #include "ortung/emulators/EmulatorRun.hpp"
 #include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 
 namespace ortung::app {
@@ -37,9 +39,10 @@ std::string kindOf(const std::string& plugin) {
   return plugin == "hokuyo" || plugin == "base" || plugin == "lines" ? plugin : "";
 }
 
-const ScanData& scanOf(const Wanted& wanted) {
+ScanData scanIn(const Wanted& wanted) {
   for (const SensorData* data : wanted.features)
-    if (const auto* scan = dynamic_cast<const ScanData*>(data)) return *scan;
+    if (isOf(*data, formats::kScan))
+      return ScanData(data->id(), data->mount(), scanOf(data->format()));
   throw std::runtime_error("the robot file has no scan that a " + wanted.kind +
                            " could measure (a [[sensor]] with plugin = \"lrf\")");
 }
@@ -49,12 +52,12 @@ bool isServer(const std::string& port) { return port.starts_with("tcp:"); }
 std::unique_ptr<EmulatedDevice> makeDevice(const Wanted& wanted, bool hasLine,
                                            std::optional<unsigned> baud) {
   const auto speed = [&](int shipped) { return baud ? static_cast<int>(*baud) : shipped; };
-  if (wanted.kind == "sick") return std::make_unique<EmulatedSick>(scanOf(wanted), speed(9600));
+  if (wanted.kind == "sick") return std::make_unique<EmulatedSick>(scanIn(wanted), speed(9600));
   if (wanted.kind == "base") return std::make_unique<EmulatedBase>(wanted.features, speed(115200));
   std::optional<int> line;  // a USB cable has no speed, nor has a socket
   if (wanted.kind == "hokuyo") {
     if (hasLine && baud) line = speed(0);
-    return std::make_unique<EmulatedHokuyo>(scanOf(wanted), line);
+    return std::make_unique<EmulatedHokuyo>(scanIn(wanted), line);
   }
   if (hasLine) line = speed(115200);
   return std::make_unique<EmulatedLines>(wanted.features, line);
@@ -82,9 +85,8 @@ Features featuresFor(const std::string& kind, const std::vector<Device>& devices
   for (const Device& device : devices) {
     if (device.hasExtractor) continue;
     for (const SensorData* data : device.data) {
-      const bool isScan = dynamic_cast<const ScanData*>(data) != nullptr;
-      const bool isBase = dynamic_cast<const ConeData*>(data) != nullptr ||
-                          dynamic_cast<const OdometryData*>(data) != nullptr;
+      const bool isScan = isOf(*data, formats::kScan);
+      const bool isBase = isOf(*data, formats::kCone) || isOf(*data, formats::kOdometry);
       if (kind == "lines" || (kind == "base" ? isBase : isScan)) features.push_back(data);
     }
   }

@@ -115,6 +115,7 @@ void checkRobotFile(const fs::path& file) {
   for (const auto& feature : robot->container.all()) {
     fmt::print("  {:<40} {}{}\n", toText(feature->id()), feature->localizes() ? "localizes; " : "",
                printable(feature->wordsHelp()));
+    fmt::print("  {:<40} format {}\n", "", feature->format().toText());
   }
 }
 

@@ -10,6 +10,8 @@
 #include "PictureSet.hpp"
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/pictures/CameraPicture.hpp"
 #include "ortung/robot/RobotFile.hpp"
@@ -39,6 +41,7 @@ std::vector<Eye> eyesOf(const SensorContainer& container, const RobotConfig& rob
   std::vector<Eye> eyes;
   const std::string text = query.empty() ? "*/*/*" : query;
   for (SensorData* data : container.findAll(parseSensorQuery(text))) {
+    // A calibration is more than parameters of a format can tell: it is asked of the class.
     auto* image = dynamic_cast<ImageData*>(data);
     if (image == nullptr || !image->camera()) continue;
     Eye& eye = eyes.emplace_back();
@@ -202,7 +205,7 @@ int exportRecorded(const ExportImagesArguments& arguments) {
   std::vector<Eye> eyes = eyesOf(container, robot, arguments.camera);
   const auto world =
       arguments.world.empty() ? std::unique_ptr<SimWorld>() : readWorld(arguments.world);
-  const auto* truth = dynamic_cast<const PoseData*>(container.find({.type = "groundTruth"}));
+  const SensorData* truth = container.find({.type = "groundTruth"});
   Exporter exporter(arguments);
   Progress progress("exporting", arguments.progress);
   FrameReader frames(*source);
@@ -212,9 +215,9 @@ int exportRecorded(const ExportImagesArguments& arguments) {
     for (const Message& message : frame) {
       SensorData* data = container.findExactly(message.id);
       if (data == nullptr) continue;
-      if (data == truth || dynamic_cast<ImageData*>(data) != nullptr)
+      if (data == truth || isOf(*data, formats::kImage))
         data->setData(message.stamp, message.words);
-      if (data == truth) pose = truth->reading();
+      if (data == truth) pose = readingAs<PoseData>(*truth);
     }
     for (Eye& eye : eyes)
       if (eye.data->sequence() > 0 && eye.data->stamp() == frame.front().stamp &&

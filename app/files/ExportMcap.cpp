@@ -116,6 +116,7 @@ class BagFile {
                    .first;
     std::map<std::string, std::string> metadata;
     if (!topic.feature.empty()) metadata["ortung_feature"] = topic.feature;
+    if (!topic.format.empty()) metadata["format"] = topic.format;
     if (topic.isLatched) metadata["offered_qos_profiles"] = kLatchedQos;
     return writer_.addChannel(schema->second, topic.name, "cdr", metadata);
   }

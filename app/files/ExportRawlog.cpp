@@ -15,6 +15,8 @@
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
@@ -35,15 +37,17 @@ std::string declarationOf(const SensorData& data) {
     return fmt::format("# {} {} {} {} {} {} {} {}\n", kind, name, mount.x, mount.y, mount.theta, a,
                        b, c);
   };
-  if (dynamic_cast<const OdometryData*>(&data) != nullptr) return "# odometry " + name + "\n";
-  if (const auto* scan = dynamic_cast<const ScanData*>(&data)) {
-    const ScanData::Config& config = scan->config();
+  const Format format = data.format();
+  if (format.name() == formats::kOdometry) return "# odometry " + name + "\n";
+  if (format.name() == formats::kScan) {
+    const ScanData::Config config = scanOf(format);
     return line("scan", config.firstAngle, config.angleStep, config.maxRange);
   }
+  // A rawlog holds limits of sight, which words can be understood without.
   if (const auto* marks = dynamic_cast<const LandmarksData*>(&data))
     return line("landmarks", marks->config().maxRange, marks->config().fieldOfView, 0.0);
-  if (const auto* cone = dynamic_cast<const ConeData*>(&data))
-    return line("cone", cone->config().openingAngle, cone->config().maxRange, 0.0);
+  if (format.name() == formats::kCone)
+    return line("cone", format.angle("opening_deg"), format.number("max_m"), 0.0);
   return "";
 }
 

@@ -16,11 +16,6 @@
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/Angles.hpp"
-#include "ortung/formats/BearingData.hpp"
-#include "ortung/formats/ConeData.hpp"
-#include "ortung/formats/LandmarksData.hpp"
-#include "ortung/formats/ScalarData.hpp"
-#include "ortung/formats/ScanData.hpp"
 #include "ortung/run/Feeder.hpp"
 #include "ortung/run/FieldMaps.hpp"
 #include "ortung/run/Robot.hpp"
@@ -74,31 +69,11 @@ std::vector<SensorData*> featuresOf(const Robot& robot, const ShowArguments& arg
   return features;
 }
 
-/// What one of a feature's values is, by its format.
-struct Unit {
-  const char* name = "";
-  double factor = 1.0;
-};
-
-Unit unitOf(const SensorData& feature, std::size_t index) {
-  const Unit metres{"m", 1.0};
-  const Unit angle{"deg", degrees(1.0)};
-  if (dynamic_cast<const BearingData*>(&feature) != nullptr) return angle;
-  if (dynamic_cast<const LandmarksData*>(&feature) != nullptr)
-    return index % 2 == 0 ? metres : angle;
-  if (dynamic_cast<const ScalarData*>(&feature) != nullptr ||
-      dynamic_cast<const ScanData*>(&feature) != nullptr ||
-      dynamic_cast<const ConeData*>(&feature) != nullptr) {
-    return metres;
-  }
-  return {};
-}
-
 /// What one feature is expected to read all over the field (Fig. 7a).
 HeatMap drawnExpectation(const Robot& robot, const SensorData& feature,
                          const ShowArguments& arguments) {
   const double heading = wrapAngle(radians(arguments.headingDeg.value_or(0.0)));
-  const Unit unit = unitOf(feature, arguments.beam);
+  const bool isAngle = feature.isAngle(arguments.beam);
   HeatMap map;
   map.region = &robot.tables.region;
   ExpectationMap expected = expectationMap(*map.region, feature, arguments.beam, heading);
@@ -113,10 +88,10 @@ HeatMap drawnExpectation(const Robot& robot, const SensorData& feature,
                           arguments.beam, toText(feature.id()), most));
   }
   map.values = std::move(expected.values);
-  for (double& value : map.values) value *= unit.factor;
-  map.unit = unit.name;
-  map.quantity = "expected value";
-  if (*unit.name != 0) map.quantity = *unit.name == 'm' ? "expected distance" : "expected bearing";
+  if (isAngle)
+    for (double& value : map.values) value = degrees(value);
+  map.unit = isAngle ? "deg" : "m";
+  map.quantity = isAngle ? "expected bearing" : "expected distance";
   map.field = &robot.tables.field;
   map.caption = fmt::format("expectation of {}", toText(feature.id()));
   if (most > 1) map.caption += fmt::format(" [{}]", arguments.beam);

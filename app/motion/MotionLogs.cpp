@@ -7,6 +7,8 @@
 
 #include "Interrupt.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/Words.hpp"
 #include "ortung/run/Feeder.hpp"
@@ -16,10 +18,9 @@ namespace ortung::app {
 namespace {
 
 /// The first feature of the robot that is odometry, as MCL takes it.
-const OdometryData& odometryOf(const Robot& robot, const std::filesystem::path& robotFile) {
-  for (const auto& data : robot.container.all()) {
-    if (const auto* odometry = dynamic_cast<const OdometryData*>(data.get())) return *odometry;
-  }
+const SensorData& odometryOf(const Robot& robot, const std::filesystem::path& robotFile) {
+  const SensorData* odometry = firstOf(robot.container.all(), formats::kOdometry);
+  if (odometry != nullptr) return *odometry;
   throw std::runtime_error(robotFile.string() +
                            ": has no odometry, expected a [[sensor]] with plugin = \"odometry\"");
 }
@@ -32,7 +33,7 @@ void readAll(const std::string& text, const std::filesystem::path& robotFile, Pr
              const std::function<void(Timestamp, const Pose2&)>& onTruth) {
   const std::string name = text.find(':') == std::string::npos ? "record:" + text : text;
   const std::unique_ptr<Robot> robot = openRobot(robotFile);
-  const OdometryData& odometry = odometryOf(*robot, robotFile);
+  const SensorData& odometry = odometryOf(*robot, robotFile);
   const std::unique_ptr<Source> source = openSourceArgument(name, robotFile, robot->factory);
   Feeder feeder(name, *source, robot->container);
   std::uint64_t sequence = 0;
@@ -42,7 +43,8 @@ void readAll(const std::string& text, const std::filesystem::path& robotFile, Pr
     progress.update(feeder.progress());
     if (feeder.truth()) onTruth(feeder.stamp(), *feeder.truth());
     hasTruth = hasTruth || feeder.truth();
-    if (odometry.sequence() != sequence) onOdometry(odometry.stamp(), odometry.reading());
+    if (odometry.sequence() != sequence)
+      onOdometry(odometry.stamp(), *readingAs<OdometryData>(odometry));
     sequence = odometry.sequence();
   }
   warnOf(*source);

@@ -8,16 +8,13 @@
 #include <vector>
 
 #include "ortung/base/Angles.hpp"
-#include "ortung/formats/BearingData.hpp"
-#include "ortung/formats/ConeData.hpp"
-#include "ortung/formats/LandmarksData.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
-#include "ortung/formats/ScalarData.hpp"
-#include "ortung/formats/ScanData.hpp"
-#include "ortung/study/NoiseFit.hpp"
 #include "ortung/run/Robot.hpp"
 #include "ortung/sim/SimWorld.hpp"
 #include "ortung/sim_api/Sensor.hpp"
+#include "ortung/study/NoiseFit.hpp"
 
 namespace ortung::app {
 namespace {
@@ -40,29 +37,12 @@ struct Values {
 
 double finiteOr(double value) { return std::isfinite(value) ? value : kNan; }
 
-void add(const SensorData& feature, Values& out) {
-  if (const auto* scan = dynamic_cast<const ScanData*>(&feature)) {
-    for (const float range : scan->reading().ranges)
-      out.ranges.push_back(finiteOr(static_cast<double>(range)));
-  } else if (const auto* cone = dynamic_cast<const ConeData*>(&feature)) {
-    out.ranges.push_back(finiteOr(cone->reading()));
-  } else if (const auto* scalar = dynamic_cast<const ScalarData*>(&feature)) {
-    out.ranges.push_back(scalar->reading().value_or(kNan));
-  } else if (const auto* bearing = dynamic_cast<const BearingData*>(&feature)) {
-    out.bearings.push_back(bearing->reading().value_or(kNan));
-  } else if (const auto* all = dynamic_cast<const LandmarksData*>(&feature)) {
-    const std::size_t first = out.ranges.size();
-    const auto& identities = all->config().identities;
-    out.ranges.resize(first + identities.size(), kNan);
-    out.bearings.resize(out.bearings.size() + identities.size(), kNan);
-    for (const LandmarksData::Sighting& s : all->reading()) {
-      const auto at = std::find(identities.begin(), identities.end(), s.identity);
-      if (at == identities.end()) continue;
-      const auto index = static_cast<std::size_t>(at - identities.begin());
-      out.ranges[first + index] = s.range;
-      out.bearings[out.bearings.size() - identities.size() + index] = s.bearing;
-    }
-  }
+/// Of lists that name landmarks, which of these are seen differs from reading to reading: each has
+/// its place in them.
+void add(const SensorData& feature, const Pose2& truth, Values& out) {
+  const std::vector<double> measured = feature.measured(truth);
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    (feature.isAngle(i) ? out.bearings : out.ranges).push_back(finiteOr(measured[i]));
 }
 
 struct Slope {
@@ -120,13 +100,13 @@ struct SimulatedBound::Parts {
     state.pose = pose;
     mounted.sensor->generateData(*world, state, nullptr, stamp, mounted.device.data);
     Values values;
-    for (const SensorData* feature : wanted) add(*feature, values);
+    for (const SensorData* feature : wanted) add(*feature, pose, values);
     return values;
   }
 
   /// Those of a device's features that have a new reading, and that reading.
   std::vector<SensorData*> news(Mounted& mounted, const SensorContainer& container,
-                                Values& read) const {
+                                const Pose2& truth, Values& read) const {
     std::vector<SensorData*> wanted;
     for (SensorData* ideal : mounted.device.data) {
       const SensorData* actual = container.findExactly(ideal->id());
@@ -134,7 +114,7 @@ struct SimulatedBound::Parts {
       std::uint64_t& sequence = mounted.sequences[toText(ideal->id())];
       if (sequence == actual->sequence()) continue;
       sequence = actual->sequence();
-      add(*actual, read);
+      add(*actual, truth, read);
       wanted.push_back(ideal);
     }
     return wanted;
@@ -143,7 +123,7 @@ struct SimulatedBound::Parts {
   bool look(Mounted& mounted, const SensorContainer& container, Timestamp stamp,
             const Pose2& truth) {
     Values read;
-    const std::vector<SensorData*> wanted = news(mounted, container, read);
+    const std::vector<SensorData*> wanted = news(mounted, container, truth, read);
     if (wanted.empty()) return false;
     const Values middle = at(mounted, truth, stamp, wanted);
     std::vector<Sides> sides;
@@ -236,15 +216,13 @@ SimulatedBound::~SimulatedBound() = default;
 void SimulatedBound::look(const SensorContainer& container, Timestamp stamp,
                           const std::optional<Pose2>& truth) {
   if (!truth) return;
-  const OdometryData* odometry = nullptr;
-  for (const auto& data : container.all()) {
-    if (odometry == nullptr) odometry = dynamic_cast<const OdometryData*>(data.get());
-  }
-  if (odometry == nullptr || odometry->sequence() == 0) return;
+  const SensorData* first = firstOf(container.all(), formats::kOdometry);
+  const auto odometry = first == nullptr ? std::nullopt : readingAs<OdometryData>(*first);
+  if (!odometry) return;
   bool any = false;
   for (Parts::Mounted& mounted : parts_->sensors)
     any = parts_->look(mounted, container, stamp, *truth) || any;
-  if (any) parts_->steps.push_back({stamp, *truth, odometry->reading().pose, {}});
+  if (any) parts_->steps.push_back({stamp, *truth, odometry->pose, {}});
 }
 
 std::vector<BoundStep> SimulatedBound::steps() const {

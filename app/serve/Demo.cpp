@@ -11,9 +11,9 @@
 #include "ortung/base/Time.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/TrackData.hpp"
 #include "ortung/mcl_served/LocalizedWorld.hpp"
 #include "ortung/mcl_served/WorldTables.hpp"
-#include "ortung/run/TrackData.hpp"
 #include "ortung/served/ServedSimulation.hpp"
 
 namespace ortung::app {

@@ -37,32 +37,29 @@ py::object numbersOf(std::initializer_list<double> numbers) {
   return copyOf(std::vector<double>(numbers));
 }
 
-/// The newest reading in metres and radians; a feature of no known format gives its words.
+/// The newest reading in metres and radians, by the name of its format; one of a plugin's own gives
+/// its words.
 py::object readingOf(const SensorData& data) {
   if (data.sequence() == 0) return py::none();
-  if (const auto* scan = dynamic_cast<const ScanData*>(&data))
-    return copyOf(scan->reading().ranges);
-  if (const auto* pose = dynamic_cast<const PoseData*>(&data))
-    return numbersOf({pose->reading().x, pose->reading().y, pose->reading().theta});
-  if (const auto* odometry = dynamic_cast<const OdometryData*>(&data)) {
-    const auto& r = odometry->reading();
-    return numbersOf({r.pose.x, r.pose.y, r.pose.theta, r.translationalVelocity, r.lateralVelocity,
-                      r.rotationalVelocity});
-  }
-  if (const auto* scalar = dynamic_cast<const ScalarData*>(&data))
-    return numbersOf({scalar->reading().value_or(std::nan(""))});
-  if (const auto* bearing = dynamic_cast<const BearingData*>(&data))
-    return numbersOf({bearing->reading().value_or(std::nan(""))});
-  if (const auto* cone = dynamic_cast<const ConeData*>(&data)) return numbersOf({cone->reading()});
-  if (const auto* landmarks = dynamic_cast<const LandmarksData*>(&data))
-    return table(landmarks->reading(), 3, [](const auto& one) {
+  if (const auto scan = readingAs<ScanData>(data)) return copyOf(scan->ranges);
+  if (const auto pose = readingAs<PoseData>(data))
+    return numbersOf({pose->x, pose->y, pose->theta});
+  if (const auto r = readingAs<OdometryData>(data))
+    return numbersOf({r->pose.x, r->pose.y, r->pose.theta, r->translationalVelocity,
+                      r->lateralVelocity, r->rotationalVelocity});
+  if (const auto scalar = readingAs<ScalarData>(data))
+    return numbersOf({scalar->value_or(std::nan(""))});
+  if (const auto bearing = readingAs<BearingData>(data))
+    return numbersOf({bearing->value_or(std::nan(""))});
+  if (const auto cone = readingAs<ConeData>(data)) return numbersOf({*cone});
+  if (const auto landmarks = readingAs<LandmarksData>(data))
+    return table(*landmarks, 3, [](const auto& one) {
       return std::array{static_cast<double>(one.identity), one.range, one.bearing};
     });
-  if (const auto* points = dynamic_cast<const PointsData*>(&data))
-    return table(points->reading(), 2,
-                 [](const auto& one) { return std::array{one.range, one.bearing}; });
-  if (const auto* objects = dynamic_cast<const ObjectsData*>(&data))
-    return table(objects->reading(), 3,
+  if (const auto points = readingAs<PointsData>(data))
+    return table(*points, 2, [](const auto& one) { return std::array{one.range, one.bearing}; });
+  if (const auto objects = readingAs<ObjectsData>(data))
+    return table(*objects, 3,
                  [](const auto& one) { return std::array{one.range, one.bearing, one.radius}; });
   const auto words = data.getData();
   return copyOf(std::vector<std::uint32_t>(words.begin(), words.end()));
@@ -197,7 +194,13 @@ void bindContainer(py::module_& module) {
           [](const Container& self, const std::string& query) {
             return need(*self.container, query).wordsHelp();
           },
-          py::arg("feature"), "What its words mean.")
+          py::arg("feature"), "What its words mean, for people.")
+      .def(
+          "format",
+          [](const Container& self, const std::string& query) {
+            return need(*self.container, query).format().toText();
+          },
+          py::arg("feature"), "What its words mean, for programs: a name and parameters.")
       .def(
           "set",
           [](const Container& self, std::int64_t stamp, const std::string& feature,

@@ -1,8 +1,8 @@
 // A robot that localizes itself, and what clients of its board tell it.
 #include "../run/RoomRun.hpp"
 #include "FakeRobots.hpp"
+#include "ortung/formats/SamplesData.hpp"
 #include "ortung/mcl_served/LocalizedRobot.hpp"
-#include "ortung/run/SamplesData.hpp"
 
 namespace ortung::test {
 namespace {

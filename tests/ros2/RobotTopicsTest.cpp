@@ -1,9 +1,12 @@
 // Readings as messages: what MCL says, and the tree of frames.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
+#include "../support/Radar.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -109,6 +112,30 @@ TEST_F(RobotTopicsTest, TheMapsFrameCanBeLeftToOthers) {
   const auto tf = read<TfMessage>(found["/tf"]);
   ASSERT_EQ(tf.transforms.size(), 1u);
   EXPECT_EQ(tf.transforms[0].childFrame, "base_link");
+}
+
+TEST_F(RobotTopicsTest, APluginsOwnFormatGoesOutAsPoints) {
+  const SensorId id{"acme", "radar", "echoes"};
+  container_.add(std::make_unique<test::RadarData>(id, Pose2{0.5, 0.0, 0.0}));
+  RobotTopics topics(container_, {});
+  std::vector<std::uint32_t> words = test::RadarData::encode(2.0, kPi / 2);
+  for (const std::uint32_t word : test::RadarData::encode(1.0, 0.0)) words.push_back(word);
+  auto found = told(topics, {{0, id, words}});
+  const auto cloud = read<PointCloud>(found["/points"]);
+  EXPECT_EQ(cloud.header.frame, "acme_echoes");
+  EXPECT_EQ(cloud.width, 2u);
+  std::vector<std::string> names;
+  for (const PointCloud::Field& field : cloud.fields) names.push_back(field.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"x", "y", "z", "range", "bearing"}));
+  ASSERT_EQ(cloud.pointStep, 20u);
+  ASSERT_EQ(cloud.data.size(), 40u);
+  std::array<float, 10> values{};
+  std::memcpy(values.data(), cloud.data.data(), cloud.data.size());
+  const std::array<double, 10> expected = {0.0, 2.0, 0.0, 2.0, kPi / 2, 1.0, 0.0, 0.0, 1.0, 0.0};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(values.at(i)), expected.at(i), 1e-6) << i;
+  EXPECT_EQ(schemaText(PointCloud::kType).find("std_msgs/Header header"), 0u);
+  EXPECT_THROW(told(topics, {{0, id, {1}}}), std::invalid_argument);
 }
 
 TEST_F(RobotTopicsTest, StampsThatRosDoesNotHaveAreRefused) {

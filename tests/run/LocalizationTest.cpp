@@ -2,9 +2,9 @@
 #include <thread>
 
 #include "RoomRun.hpp"
+#include "ortung/formats/TrackData.hpp"
 #include "ortung/records/RecordSource.hpp"
 #include "ortung/run/Localization.hpp"
-#include "ortung/run/TrackData.hpp"
 
 namespace ortung::test {
 namespace {

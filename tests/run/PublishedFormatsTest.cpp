@@ -6,9 +6,10 @@
 
 #include "Files.hpp"
 #include "RoomRun.hpp"
-#include "ortung/run/ClustersData.hpp"
-#include "ortung/run/SamplesData.hpp"
-#include "ortung/run/WorkData.hpp"
+#include "ortung/formats/ClustersData.hpp"
+#include "ortung/formats/SamplesData.hpp"
+#include "ortung/formats/WorkData.hpp"
+#include "ortung/run/Published.hpp"
 
 namespace ortung::test {
 namespace {
@@ -28,7 +29,7 @@ TEST(SamplesData, HasTheWordsThatTheProtocolStates) {
   constexpr float kLn5 = 1.609437912F;
   const SampleSet samples{
       {1.5F, -0.25F}, {0.0F, 2.0F}, {0.0F, -1.570796327F}, {-3.0F, -3.0F - kLn5}};
-  const Message message = SamplesData::message(7, samples);
+  const Message message = samplesMessage(7, samples);
   EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/samples");
   constexpr std::uint32_t kZero = 1u << 31;
   EXPECT_EQ(message.words, (std::vector<std::uint32_t>{kZero + 1500, kZero, 0, 65535, kZero - 250,
@@ -47,16 +48,16 @@ TEST(SamplesData, OfManyTellsThoseThatAreEvenlySpread) {
   SampleSet samples;
   samples.resize(25'000);
   for (std::size_t i = 0; i < samples.size(); ++i) samples.x[i] = 1e-3F * static_cast<float>(i);
-  const std::vector<std::uint32_t> words = SamplesData::encode(samples);
+  const std::vector<std::uint32_t> words = samplesMessage(0, samples).words;
   ASSERT_EQ(words.size(), 4 * SamplesData::kMostSamples);
   for (std::size_t k = 0; k < SamplesData::kMostSamples; ++k)
     ASSERT_EQ(words[4 * k] - (1u << 31), 5 * k / 2) << "every second or third";
-  EXPECT_TRUE(SamplesData::encode({}).empty());
+  EXPECT_TRUE(samplesMessage(0, {}).words.empty());
 }
 
 TEST(SamplesData, WhereAllAreLostNoneOutweighsAnother) {
   constexpr float kLost = -std::numeric_limits<float>::infinity();
-  const auto words = SamplesData::encode({{0, 0}, {0, 0}, {7.0F, -9.0F}, {kLost, kLost}});
+  const auto words = samplesMessage(0, {{0, 0}, {0, 0}, {7.0F, -9.0F}, {kLost, kLost}}).words;
   EXPECT_EQ(words[3], words[7]);
   EXPECT_LT(words[2], 36'000U);
   EXPECT_LT(words[6], 36'000U);
@@ -67,7 +68,7 @@ TEST(ClustersData, HasTheWordsThatTheProtocolStates) {
   place.pose = {1.0, -2.0, 0.0};
   place.covariance = {0.01, 0, 0, 0, 0.04, 0, 0, 0, 0.0001};
   place.share = 0.75;
-  const Message message = ClustersData::message(9, std::span(&place, 1));
+  const Message message = clustersMessage(9, std::span(&place, 1));
   EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/places");
   ASSERT_EQ(message.words.size(), 10U);
   EXPECT_EQ(message.words[0], 7500U);

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "Files.hpp"
-#include "ortung/run/TrackData.hpp"
+#include "ortung/formats/TrackData.hpp"
+#include "ortung/run/Published.hpp"
 
 namespace ortung::test {
 namespace {
@@ -15,7 +16,7 @@ TEST(TrackData, HasTheWordsThatTheProtocolStates) {
   estimate.reason = TrackReason::kRival;
   estimate.quality = 0.81234;
   estimate.share = 0.5;
-  const Message message = TrackData::message(estimate);
+  const Message message = trackMessage(estimate);
   EXPECT_EQ(message.stamp, 7);
   EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/status");
   EXPECT_EQ(message.words, (std::vector<std::uint32_t>{1, 6, 8123, 5000}));
@@ -33,7 +34,7 @@ TEST(TrackData, NoNumberIsSureOfNothing) {
   PoseEstimate estimate;
   estimate.quality = std::nan("");
   estimate.share = 1.0 + 1e-9;
-  EXPECT_EQ(TrackData::encode(estimate), (std::vector<std::uint32_t>{2, 3, 0, 10000}));
+  EXPECT_EQ(trackMessage(estimate).words, (std::vector<std::uint32_t>{2, 3, 0, 10000}));
 }
 
 TEST(TrackData, RefusesWhatCannotBe) {

@@ -96,6 +96,9 @@ TEST(Describe, ARobotTellsWhereItsSensorsAreAndWhatItsDriveCanDo) {
   EXPECT_NEAR(std::stod(valueOf(limits, "alpha_rad_s2")), std::numbers::pi, 1e-12);
   EXPECT_EQ(line("body "), "body radius_m=0.21 height_m=0.45 mass_kg=12.5");
   EXPECT_EQ(line("drive ").substr(0, 6), "drive ");
+  EXPECT_EQ(line("motion "), "motion kind=differential numbers=2");
+  EXPECT_TRUE(line("format A/B/C ").starts_with("format A/B/C scan beams=180 first_deg=-"));
+  EXPECT_EQ(line("format reference/groundTruth/pose"), "format reference/groundTruth/pose pose");
 }
 
 TEST(Describe, ARobotThatIsTrackedByANetworkCanJoin) {

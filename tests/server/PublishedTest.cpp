@@ -6,7 +6,7 @@
 #include "TestClient.hpp"
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/PoseFixData.hpp"
-#include "ortung/run/TrackData.hpp"
+#include "ortung/formats/TrackData.hpp"
 #include "ortung/server/ServedContainer.hpp"
 
 namespace ortung::test {

@@ -90,9 +90,11 @@ TEST_F(ServedContainerTest, ClientsListDescribeAndReadTheRobot) {
   EXPECT_EQ(valueOf(hello, "state"), "running");
   EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=1");
   EXPECT_EQ(client.line(), "robot=1 name=rover client=0");
-  EXPECT_EQ(client.ask("DESCRIBE robot"), "OK DESCRIBE lines=5");
+  EXPECT_EQ(client.ask("DESCRIBE robot"), "OK DESCRIBE lines=7");
   EXPECT_TRUE(client.line().starts_with("sonar/range/near "));
   EXPECT_TRUE(client.line().starts_with("sonar/range/far "));
+  EXPECT_EQ(client.line(), "format sonar/range/near range max_m=20");
+  EXPECT_EQ(client.line(), "format sonar/range/far range max_m=20");
   EXPECT_EQ(client.line(), "mount sonar/range/near x_m=0 y_m=0 theta_rad=0");
   EXPECT_EQ(client.line(), "mount sonar/range/far x_m=0.2 y_m=0 theta_rad=1");
   EXPECT_EQ(client.line(), "drive v of left and right wheel [m/s]");

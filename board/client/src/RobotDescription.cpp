@@ -22,14 +22,26 @@ std::optional<double> numberOf(std::string_view line, std::string_view key) {
   return number;
 }
 
-void addMount(RobotDescription& robot, std::string_view rest) {
+/// The feature that a line's first word names; null if there is none.
+RobotDescription::Feature* cutFeature(RobotDescription& robot, std::string_view& rest) {
   const SensorId id = parseSensorId(cutWord(rest));
   const auto feature = std::find_if(robot.features.begin(), robot.features.end(),
                                     [&](const auto& known) { return known.id == id; });
+  return feature == robot.features.end() ? nullptr : &*feature;
+}
+
+void addFormat(RobotDescription& robot, std::string_view rest) {
+  RobotDescription::Feature* const feature = cutFeature(robot, rest);
+  const Format format = parseFormat(rest);
+  if (feature != nullptr) feature->format = format;
+}
+
+void addMount(RobotDescription& robot, std::string_view rest) {
+  RobotDescription::Feature* const feature = cutFeature(robot, rest);
   const auto x = numberOf(rest, "x_m");
   const auto y = numberOf(rest, "y_m");
   const auto theta = numberOf(rest, "theta_rad");
-  if (feature != robot.features.end() && x && y && theta) feature->mount = Pose2{*x, *y, *theta};
+  if (feature != nullptr && x && y && theta) feature->mount = Pose2{*x, *y, *theta};
 }
 
 void addManipulator(RobotDescription& robot, std::string_view rest) {
@@ -45,8 +57,12 @@ void addLine(RobotDescription& robot, std::string_view line) {
     robot.features.push_back({parseSensorId(kind), std::string(rest), std::nullopt});
   } else if (kind == "mount") {
     addMount(robot, rest);
+  } else if (kind == "format") {
+    addFormat(robot, rest);
   } else if (kind == "drive") {
     robot.motion = rest;
+  } else if (kind == "motion") {
+    robot.motionKind = valueOf(rest, "kind");
   } else if (kind == "limits") {
     robot.maxTranslationalVelocity = numberOf(rest, "v_m_s");
     robot.maxRotationalVelocity = numberOf(rest, "w_rad_s");

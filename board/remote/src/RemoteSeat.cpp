@@ -24,6 +24,7 @@ RobotAbilities abilitiesOf(const RobotDescription& description) {
   abilities.limits.turn = description.maxRotationalVelocity.value_or(0.0);
   abilities.limits.acceleration = description.maxTranslationalAcceleration.value_or(0.0);
   abilities.limits.turnAcceleration = description.maxRotationalAcceleration.value_or(0.0);
+  abilities.motionKind = description.motionKind;
   abilities.motionHelp = description.motion;
   for (const RobotDescription::Manipulator& manipulator : description.manipulators)
     abilities.manipulators.push_back({manipulator.name, manipulator.states});

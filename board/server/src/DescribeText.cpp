@@ -37,6 +37,9 @@ std::vector<std::string> robotText(std::span<const ServedFeature> features,
   for (const ServedFeature& feature : features)
     lines.push_back(toText(feature.id) + " " + printable(feature.wordsHelp, kLongestDescription));
   for (const ServedFeature& feature : features)
+    if (!feature.format.empty())
+      lines.push_back("format " + toText(feature.id) + " " + feature.format);
+  for (const ServedFeature& feature : features)
     lines.push_back("mount " + toText(feature.id) + " x_m=" + shown(feature.mount.x) +
                     " y_m=" + shown(feature.mount.y) + " theta_rad=" + shown(feature.mount.theta));
   for (const std::string& ability : abilities)

@@ -5,8 +5,13 @@
 #include <stdexcept>
 
 #include "Request.hpp"
+#include "ortung/formats/ClustersData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/TalkData.hpp"
+#include "ortung/formats/TrackData.hpp"
+#include "ortung/formats/WorkData.hpp"
 
 namespace ortung::server {
 namespace {
@@ -20,8 +25,18 @@ constexpr Timestamp kBefore = 3'000'000;  // [us]
 constexpr double kFastest = 10.0;  // [m/s]
 constexpr double kNoJump = 0.3;    // [m]
 
-std::string help(const SensorId& id) {
-  return id.type == "groundTruth" ? PoseData(id).wordsHelp() : "";
+ServedFeature served(const SensorData& data) {
+  return {data.id(), data.wordsHelp(), {}, data.format().toText()};
+}
+
+/// What is known of a feature by its name alone.
+ServedFeature featureOf(const SensorId& id) {
+  if (id.type == "groundTruth") return served(PoseData(id));
+  if (const TrackData track; track.id() == id) return served(track);
+  if (const ClustersData clusters; clusters.id() == id) return served(clusters);
+  if (const WorkData work; work.id() == id) return served(work);
+  if (const SamplesData samples; samples.id() == id) return served(samples);
+  return {id, ""};
 }
 
 std::optional<Pose2> poseOf(const Message& message) {
@@ -54,7 +69,7 @@ std::size_t PlaybackRun::placeOf(const SensorId& id) {
                              std::to_string(kMostFeatures) + " features");
   const auto known = std::find_if(run_.features.begin(), run_.features.end(),
                                   [&](const ServedFeature& one) { return one.id == id; });
-  features_.push_back(known == run_.features.end() ? ServedFeature{id, help(id)} : *known);
+  features_.push_back(known == run_.features.end() ? featureOf(id) : *known);
   return features_.size() - 1;
 }
 
@@ -75,19 +90,23 @@ void PlaybackRun::scan(const std::function<bool(double)>& progress) {
 }
 
 void PlaybackRun::note(const Message& message) {
-  if (message.id == SensorId{"mcl", "LOCALIZATION", "status"}) noteTrack(message);
+  const std::string& format = features_[placeOf(message.id)].format;
+  if (format.substr(0, format.find(' ')) == formats::kTrack) noteTrack(message);
   if (message.id.type == "groundTruth") noteTruth(message);
   if (message.id.type == "referee") noteTalk(message);
 }
 
 void PlaybackRun::noteTrack(const Message& message) {
-  constexpr std::uint32_t kTracking = 0;
-  constexpr std::uint32_t kLost = 2;
-  if (message.words.empty() || message.words[0] == status_) return;
-  const std::uint32_t now = message.words[0];
-  if (now != kTracking && now != kLost) return;  // between them it may waver
-  if (now == kTracking) mark(message.stamp, "tracking");
-  if (now == kLost && status_) mark(message.stamp, "lost");  // who has just begun is not
+  TrackData track;
+  try {
+    track.setData(message.stamp, message.words);
+  } catch (const std::invalid_argument&) {
+    return;
+  }
+  const TrackStatus now = track.reading().status;
+  if (now == status_ || now == TrackStatus::kUncertain) return;  // between them it may waver
+  // Who has just begun is not lost.
+  if (now == TrackStatus::kTracking || status_) mark(message.stamp, nameOf(now));
   status_ = now;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ortung/base/Pose2.hpp"
+#include "ortung/formats/TrackStatus.hpp"
 #include "ortung/records/RecordSource.hpp"
 #include "ortung/server/ServedPlayback.hpp"
 
@@ -61,7 +62,7 @@ class PlaybackRun {
   Timestamp truthStamp_ = 0;
 
   // while it is scanned
-  std::optional<std::uint32_t> status_;
+  std::optional<TrackStatus> status_;
   std::optional<std::pair<Timestamp, Pose2>> lastTruth_;
 };
 

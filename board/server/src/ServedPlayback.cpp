@@ -5,6 +5,7 @@
 
 #include "PlaybackRun.hpp"
 #include "Request.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/server/CallArguments.hpp"
 
 namespace ortung {
@@ -104,8 +105,10 @@ WorldDescription ServedPlayback::describe() const {
 std::vector<std::string> ServedPlayback::field() const { return parts_->config.field; }
 
 std::vector<ServedFeature> ServedPlayback::truthFeatures() const {
-  return {
-      {kRobots, "for each robot: number, x [mm + 2^31], y [mm + 2^31], heading [1/100 degree], 0"}};
+  return {{kRobots,
+           "for each robot: number, x [mm + 2^31], y [mm + 2^31], heading [1/100 degree], 0",
+           {},
+           formats::kWorldRobots}};
 }
 
 std::span<Message> ServedPlayback::truth() {

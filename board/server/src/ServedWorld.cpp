@@ -27,7 +27,7 @@ std::array<std::uint32_t, 5> robotWords(RobotId robot, const Pose2& poseInField,
 std::vector<ServedFeature> servedFeatures(const SensorContainer& container) {
   std::vector<ServedFeature> features;
   for (const std::unique_ptr<SensorData>& data : container.all())
-    features.push_back({data->id(), data->wordsHelp(), data->mount()});
+    features.push_back({data->id(), data->wordsHelp(), data->mount(), data->format().toText()});
   return features;
 }
 

@@ -121,6 +121,17 @@ void SensorData::loadTables(std::shared_ptr<const TableFile> file, const std::st
 }
 
 std::vector<double> SensorData::expectation(const Pose2&) const { return {}; }
+bool SensorData::isAngle(std::size_t index) const { return isAngleOfRow(format(), index); }
+std::vector<double> SensorData::measured(const Pose2&) const {
+  return lengthsAndAngles(valuesOfRows(format(), words_));
+}
+std::vector<double> SensorData::covariance(const Pose2&) const { return {}; }
+std::vector<WordValue> SensorData::valuesIn(std::span<const std::uint32_t> words) const {
+  return valuesOfRows(format(), words);
+}
+void SensorData::store(const WordValue& value, std::span<std::uint32_t> words) const {
+  words[value.word] = wordOf(value);
+}
 std::string SensorData::learningKey() const { return ""; }
 void SensorData::saveTables(TableWriter&, const std::string&) const {}
 void SensorData::startTables(const FieldRegion&, double) {}

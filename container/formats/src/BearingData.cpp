@@ -46,6 +46,19 @@ void BearingData::learn(const Pose2& robotInField) {
   if (reading_) table_->learn(sensor.x, sensor.y, sensor.theta + *reading_);
 }
 
+std::vector<double> BearingData::measured(const Pose2&) const {
+  return {reading_.value_or(std::numeric_limits<double>::quiet_NaN())};
+}
+
+std::vector<WordValue> BearingData::valuesIn(std::span<const std::uint32_t> words) const {
+  if (words.empty()) return {};
+  const double half = halfViewOf(config_.fieldOfView);
+  return {{.kind = ValueKind::kBearing,
+           .value = words::toAngle(words[0]),
+           .least = -half,
+           .most = half}};
+}
+
 std::vector<double> BearingData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
   return {wrapAngle(table_->at(sensor.x, sensor.y) - sensor.theta)};

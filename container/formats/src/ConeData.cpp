@@ -135,13 +135,12 @@ std::uint32_t ConeData::encode(Reading reading, double maxRange) {
 
 void ConeData::check(std::span<const std::uint32_t> words) const { checkWordCount(words, 1); }
 
-void ConeData::decode(std::span<const std::uint32_t> words) {
-  const double range = words::toMetres(words[0]);
-  if (words[0] == 0) {
-    reading_ = std::numeric_limits<double>::quiet_NaN();
-  } else {
-    reading_ = range >= config_.maxRange ? std::numeric_limits<double>::infinity() : range;
-  }
+void ConeData::decode(std::span<const std::uint32_t> words) { reading_ = rangeOf(words[0]); }
+
+ConeData::Reading ConeData::rangeOf(std::uint32_t word) const {
+  const double range = words::toMetres(word);
+  if (word == 0) return std::numeric_limits<double>::quiet_NaN();
+  return range >= config_.maxRange ? std::numeric_limits<double>::infinity() : range;
 }
 
 Format ConeData::format() const {
@@ -169,6 +168,19 @@ void ConeData::learn(const Pose2& robotInField) {
 }
 
 void ConeData::finishTables() { table_->finish(); }
+
+std::vector<double> ConeData::measured(const Pose2&) const {
+  if (sequence() == 0) return {};
+  return {reading_};
+}
+
+std::vector<WordValue> ConeData::valuesIn(std::span<const std::uint32_t> words) const {
+  return {{.kind = ValueKind::kRange, .value = rangeOf(words[0]), .most = config_.maxRange}};
+}
+
+void ConeData::store(const WordValue& value, std::span<std::uint32_t> words) const {
+  words[value.word] = encode(value.value, config_.maxRange);
+}
 
 std::vector<double> ConeData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();

@@ -44,6 +44,11 @@ inline double spacingOf(double fieldOfView) {
   return kTurn / std::ceil(2 * kTurn / fieldOfView);
 }
 
+/// Half the angle that a sensor with this field of view sees.
+inline double halfViewOf(double fieldOfView) {
+  return 0.5 * (fieldOfView <= 0.0 || fieldOfView > kTurn ? kTurn : fieldOfView);
+}
+
 std::string mountKey(const Pose2& mount);  ///< "mount=0.1,0,0"
 std::string keyNumber(double value);       ///< "%.9g", for learning keys
 

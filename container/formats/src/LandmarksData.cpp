@@ -205,6 +205,7 @@ std::ptrdiff_t LandmarksData::indexOf(std::uint32_t identity) const {
 
 std::ptrdiff_t LandmarksData::indexOf(const Sighting& sighting, const Pose2& pose) const {
   if (config_.identified || sighting.identity != kUnknown) return indexOf(sighting.identity);
+  if (tables_->places->isEmpty()) return -1;
   const Pose2 sensor = pose * mount();
   const Sighting truly = corrected(sighting);
   const double angle = sensor.theta + truly.bearing;
@@ -242,6 +243,42 @@ void LandmarksData::learn(const Pose2& robotInField) {
 
 void LandmarksData::finishTables() {
   if (!config_.identified) tables_->places->finish();
+}
+
+std::vector<double> LandmarksData::measured(const Pose2& pose) const {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> measured(2 * config_.identities.size(), kNothing);
+  for (const Sighting& sighting : reading_) {
+    const std::ptrdiff_t found = indexOf(sighting, pose);
+    if (found < 0) continue;
+    const Sighting truly = corrected(sighting);
+    measured[2 * static_cast<std::size_t>(found)] = truly.range;
+    measured[2 * static_cast<std::size_t>(found) + 1] = truly.bearing;
+  }
+  return measured;
+}
+
+std::vector<WordValue> LandmarksData::valuesIn(std::span<const std::uint32_t> words) const {
+  std::vector<WordValue> values;
+  const double half = halfViewOf(config_.fieldOfView);
+  for (std::size_t i = 0; i + kWordsASighting <= words.size(); i += kWordsASighting) {
+    const std::size_t entry = i / kWordsASighting;
+    values.push_back({i, entry, ValueKind::kIdentity, static_cast<double>(indexOf(words[i])), 0.0,
+                      static_cast<double>(config_.identities.size())});
+    values.push_back(
+        {i + 1, entry, ValueKind::kRange, words::toMetres(words[i + 1]), 0.0, config_.maxRange});
+    values.push_back(
+        {i + 2, entry, ValueKind::kBearing, words::toAngle(words[i + 2]), -half, half});
+  }
+  return values;
+}
+
+/// Of an identity the value is its place in the list.
+void LandmarksData::store(const WordValue& value, std::span<std::uint32_t> words) const {
+  if (value.kind != ValueKind::kIdentity) return SensorData::store(value, words);
+  if (!(value.value >= 0.0)) return;  // one that is not in the list stays what it is
+  const auto index = static_cast<std::size_t>(value.value);
+  words[value.word] = config_.identities[std::min(index, config_.identities.size() - 1)];
 }
 
 std::vector<double> LandmarksData::expectation(const Pose2& pose) const {

@@ -118,6 +118,18 @@ std::shared_ptr<const Weigher> PointsData::makeWeigher() const {
   return weigher->isEmpty() ? nullptr : weigher;
 }
 
+std::vector<WordValue> PointsData::valuesIn(std::span<const std::uint32_t> words) const {
+  std::vector<WordValue> values;
+  const double half = halfViewOf(config_.fieldOfView);
+  for (std::size_t i = 0; i + 2 <= words.size(); i += 2) {
+    values.push_back(
+        {i, i / 2, ValueKind::kRange, words::toMetres(words[i]), 0.0, config_.maxRange});
+    values.push_back(
+        {i + 1, i / 2, ValueKind::kBearing, words::toAngle(words[i + 1]), -half, half});
+  }
+  return values;
+}
+
 std::vector<double> PointsData::expectation(const Pose2& pose) const {
   if (!isLearned()) return {};
   const Pose2 sensor = pose * mount();

@@ -39,8 +39,11 @@ Matrix3 informationOf(const PoseFixData::Fix& fix, const PoseFixData::Config& co
 
 /// A fix and the inverse of its covariance.
 struct Weighed {
+  Weighed(const Pose2& place, const Matrix3& inverse) : pose(place) {
+    Eigen::Map<Matrix3>(information.data()) = inverse;
+  }
   Pose2 pose;
-  std::array<double, 9> information;
+  std::array<double, 9> information{};
 
   /// Distance in standard deviations (Mahalanobis).
   double sigmas(double x, double y, double theta) const {
@@ -59,10 +62,8 @@ class PoseFixWeigher final : public Weigher, public Polishable {
   PoseFixWeigher(const PoseFixData::Reading& fixes, const PoseFixData::Config& config,
                  std::shared_ptr<const GaussianTable> gaussian, const FieldGrid& grid)
       : model_(config.model), gaussian_(std::move(gaussian)), grid_(grid) {
-    for (const PoseFixData::Fix& fix : fixes) {
-      fixes_.push_back({fix.pose, {}});
-      Eigen::Map<Matrix3>(fixes_.back().information.data()) = informationOf(fix, config);
-    }
+    for (const PoseFixData::Fix& fix : fixes)
+      fixes_.emplace_back(fix.pose, informationOf(fix, config));
   }
 
   /// Of the fix that is nearest.
@@ -143,6 +144,35 @@ std::string PoseFixData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000, sigma x um, sigma y um, sigma "
          "heading 1/10000 degree, correlations xy, x-heading, y-heading 1/10000 + 10000] a pose, "
          "or none: looked and saw nothing";
+}
+
+const PoseFixData::Fix* PoseFixData::nearestTo(const Pose2& pose) const {
+  const Fix* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Fix& fix : reading_) {
+    const double sigmas =
+        Weighed(fix.pose, informationOf(fix, config_)).sigmas(pose.x, pose.y, pose.theta);
+    if (!(sigmas < least)) continue;
+    least = sigmas;
+    nearest = &fix;
+  }
+  return nearest;
+}
+
+std::vector<double> PoseFixData::expectation(const Pose2& pose) const {
+  return {pose.x, pose.y, pose.theta};
+}
+
+std::vector<double> PoseFixData::measured(const Pose2& pose) const {
+  const Fix* fix = nearestTo(pose);
+  if (fix == nullptr) return {};
+  return {fix->pose.x, fix->pose.y, fix->pose.theta};
+}
+
+std::vector<double> PoseFixData::covariance(const Pose2& pose) const {
+  const Fix* fix = nearestTo(pose);
+  if (fix == nullptr) return {};
+  return {fix->covariance.begin(), fix->covariance.end()};
 }
 
 void PoseFixData::startTables(const FieldRegion& region, double) { grid_ = region.grid; }

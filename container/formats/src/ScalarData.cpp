@@ -48,6 +48,16 @@ void ScalarData::learn(const Pose2& robotInField) {
   if (reading_ && *reading_ <= config_.maxRange) table_->learn(sensor.x, sensor.y, *reading_);
 }
 
+std::vector<double> ScalarData::measured(const Pose2&) const {
+  return {reading_.value_or(std::numeric_limits<double>::quiet_NaN())};
+}
+
+std::vector<WordValue> ScalarData::valuesIn(std::span<const std::uint32_t> words) const {
+  if (words.empty()) return {};
+  return {
+      {.kind = ValueKind::kRange, .value = words::toMetres(words[0]), .most = config_.maxRange}};
+}
+
 std::vector<double> ScalarData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
   return {table_->at(sensor.x, sensor.y)};

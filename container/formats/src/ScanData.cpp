@@ -17,6 +17,12 @@ constexpr int kMostBeams = 8192;
 /// meet in each cell all the same.
 constexpr double kCellsApart = 6.0;
 
+std::uint32_t wordOf(double range, double maxRange) {
+  if (std::isnan(range)) return 0;
+  return range >= maxRange ? words::fromMetres(maxRange) + 1
+                           : std::max(words::fromMetres(range), 1U);
+}
+
 /// Headings whose scans together span a turn.
 int fewestViews(const ScanData::Config& config) {
   const double span = std::min(config.beams * config.angleStep, kTurn);
@@ -81,16 +87,9 @@ ScanData::Reading ScanData::reading() const {
 
 void ScanData::encode(std::span<const float> ranges, double maxRange,
                       std::vector<std::uint32_t>& words) {
-  const std::uint32_t nothing = words::fromMetres(maxRange) + 1;
   words.resize(ranges.size());
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const auto range = static_cast<double>(ranges[i]);
-    if (std::isnan(range)) {
-      words[i] = 0;
-    } else {
-      words[i] = range >= maxRange ? nothing : std::max(words::fromMetres(range), 1U);
-    }
-  }
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    words[i] = wordOf(static_cast<double>(ranges[i]), maxRange);
 }
 
 void ScanData::check(std::span<const std::uint32_t> words) const {
@@ -98,21 +97,23 @@ void ScanData::check(std::span<const std::uint32_t> words) const {
 }
 
 void ScanData::decode(std::span<const std::uint32_t> words) {
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const double range = words::toMetres(words[i]);
-    const bool valid = words[i] != 0 && range >= config_.minRange;
-    ranges_[i] = !valid                      ? std::numeric_limits<float>::quiet_NaN()
-                 : range >= config_.maxRange ? std::numeric_limits<float>::infinity()
-                                             : static_cast<float>(range);
-  }
+  for (std::size_t i = 0; i < words.size(); ++i) ranges_[i] = static_cast<float>(rangeOf(words[i]));
+}
+
+double ScanData::rangeOf(std::uint32_t word) const {
+  const double range = words::toMetres(word);
+  if (word == 0 || range < config_.minRange) return std::numeric_limits<double>::quiet_NaN();
+  return range >= config_.maxRange ? std::numeric_limits<double>::infinity() : range;
 }
 
 Format ScanData::format() const {
-  return Format(formats::kScan)
-      .with("beams", config_.beams)
+  Format format(formats::kScan);
+  format.with("beams", config_.beams)
       .withAngle("first_deg", config_.firstAngle)
       .withAngle("step_deg", config_.angleStep)
       .with("max_m", config_.maxRange);
+  if (config_.minRange > 0.0) format.with("min_m", config_.minRange);
+  return format;
 }
 
 std::string ScanData::wordsHelp() const {
@@ -244,6 +245,33 @@ void ScanData::useTables(const std::shared_ptr<const TableFile>& file, const std
     endPoints->complete(config_.model, config_.maxRange);
     endPoints_ = std::move(endPoints);
   }
+}
+
+ExpectationGrain ScanData::grain() const {
+  return config_.perception == Perception::kEndPoints ? ExpectationGrain::kExact
+                                                      : ExpectationGrain::kCellsAndDirections;
+}
+
+std::vector<double> ScanData::measured(const Pose2&) const {
+  if (sequence() == 0) return {};
+  return {ranges_.begin(), ranges_.end()};
+}
+
+std::vector<WordValue> ScanData::valuesIn(std::span<const std::uint32_t> words) const {
+  std::vector<WordValue> values;
+  values.reserve(words.size());
+  for (std::size_t i = 0; i < words.size(); ++i)
+    values.push_back({.word = i,
+                      .entry = i,
+                      .kind = ValueKind::kRange,
+                      .value = rangeOf(words[i]),
+                      .least = config_.minRange,
+                      .most = config_.maxRange});
+  return values;
+}
+
+void ScanData::store(const WordValue& value, std::span<std::uint32_t> words) const {
+  words[value.word] = wordOf(value.value, config_.maxRange);
 }
 
 std::vector<double> ScanData::expectation(const Pose2& pose) const {

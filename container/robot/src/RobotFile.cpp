@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
@@ -60,7 +62,7 @@ std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig&
     try {
       for (auto& data : factory.makeData(sensor.plugin, sensor.parameters)) {
         const bool isTruth = data->id().type == "groundTruth";
-        if (isTruth && dynamic_cast<const PoseData*>(data.get()) == nullptr)
+        if (isTruth && !isOf(*data, formats::kPose))
           throw std::invalid_argument(toText(data->id()) +
                                       " is not a true pose; no other feature may "
                                       "have the type groundTruth");

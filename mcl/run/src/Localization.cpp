@@ -11,13 +11,16 @@
 #include "BeliefFile.hpp"
 #include "EstimateData.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/formats/ClustersData.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
-#include "ortung/run/ClustersData.hpp"
+#include "ortung/formats/SamplesData.hpp"
+#include "ortung/formats/TrackData.hpp"
+#include "ortung/formats/WorkData.hpp"
 #include "ortung/run/OpenSource.hpp"
-#include "ortung/run/SamplesData.hpp"
-#include "ortung/run/TrackData.hpp"
-#include "ortung/run/WorkData.hpp"
+#include "ortung/run/Published.hpp"
 #include "ortung/tables/FieldParts.hpp"
 
 namespace ortung {
@@ -137,7 +140,7 @@ Localization::Localization(Opened opened, const LocalizationConfig& config)
       mcl_(std::make_unique<Mcl>(mclConfig_, robot_->tables.region, readMotion(config, *robot_))),
       publishes_(config.publish) {
   for (const auto& data : robot_->container.all())
-    if (odometry_ == nullptr) odometry_ = dynamic_cast<const OdometryData*>(data.get());
+    if (odometry_ == nullptr && isOf(*data, formats::kOdometry)) odometry_ = data.get();
   if (filter_ != LocalizationFilter::kMcl)
     grid_ = std::make_unique<GridFilter>(mclConfig_, config.grid, robot_->tables.region,
                                          readMotion(config, *robot_));
@@ -228,10 +231,10 @@ void Localization::publish(const PoseEstimate& estimate) {
   const Timestamp stamp = estimate.stamp;
   const SampleSet& samples = mcl_->samples();
   std::vector<Message> all{
-      EstimateData::message(estimate), TrackData::message(estimate),
-      ClustersData::message(stamp, mcl_->places()),
+      EstimateData::message(estimate), trackMessage(estimate),
+      clustersMessage(stamp, mcl_->places()),
       WorkData::message(stamp, {samples.size(), worthOf(samples), newest_ * 1e-3, ++estimates_})};
-  if (wantsSamples_) all.push_back(SamplesData::message(stamp, samples));
+  if (wantsSamples_) all.push_back(samplesMessage(stamp, samples));
   robot_->container.set(all);
   published_ = {estimate.status, estimate.reason};
 }
@@ -248,7 +251,7 @@ void Localization::publishChange() {
   estimate.stamp = now;
   const std::pair status(estimate.status, estimate.reason);
   if (status == published_) return;
-  robot_->container.set(TrackData::message(estimate));
+  robot_->container.set(trackMessage(estimate));
   published_ = status;
 }
 

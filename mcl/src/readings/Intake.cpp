@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 
 namespace ortung {
@@ -82,7 +84,7 @@ std::optional<Timestamp> Intake::clockSetBack(const SensorContainer& container,
   std::optional<Timestamp> newest;
   std::optional<Timestamp> newestToCome;
   for (const auto& data : container.all()) {
-    const bool isAsked = data->localizes() || dynamic_cast<const OdometryData*>(data.get());
+    const bool isAsked = data->localizes() || isOf(*data, formats::kOdometry);
     if (data->sequence() == 0 || !isAsked) continue;
     newest = std::max(newest.value_or(data->stamp()), data->stamp());
     if (std::exchange(seen_[data.get()], data->sequence()) != data->sequence())
@@ -114,16 +116,15 @@ void Intake::passOver(const SensorContainer& container, Timestamp stamp) {
 void Intake::takeOdometry(const SensorContainer& container) {
   newestOdometry_.reset();
   for (const auto& data : container.all()) {
-    const auto* candidate = dynamic_cast<const OdometryData*>(data.get());
-    if (candidate == nullptr || candidate->sequence() == 0) continue;
-    newestOdometry_ = candidate->stamp();
-    if (candidate->sequence() != odometrySequence_) {
-      const OdometryData::Reading& reading = candidate->reading();
-      motion_.follow(candidate->stamp(),
-                     {reading.pose, reading.translationalVelocity, reading.rotationalVelocity,
-                      reading.motionData, reading.lateralVelocity});
-    }
-    odometrySequence_ = candidate->sequence();
+    if (data->sequence() == 0 || !isOf(*data, formats::kOdometry)) continue;
+    newestOdometry_ = data->stamp();
+    const auto reading =
+        data->sequence() != odometrySequence_ ? readingAs<OdometryData>(*data) : std::nullopt;
+    if (reading)
+      motion_.follow(data->stamp(),
+                     {reading->pose, reading->translationalVelocity, reading->rotationalVelocity,
+                      reading->motionData, reading->lateralVelocity});
+    odometrySequence_ = data->sequence();
     return;
   }
 }

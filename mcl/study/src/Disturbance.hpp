@@ -4,7 +4,6 @@
 
 #include "ortung/base/Random.hpp"
 #include "ortung/core/Message.hpp"
-#include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/study/Fault.hpp"
 
@@ -25,13 +24,10 @@ class Disturbance {
 std::unique_ptr<Disturbance> makeReadingFault(const Fault& fault, const Random& random);
 /// Faults of what a robot says of its own motion.
 std::unique_ptr<Disturbance> makeOdometryFault(const Fault& fault);
-/// Faults of a scan's beams.
-std::unique_ptr<Disturbance> makeScanFault(const Fault& fault, const ScanData::Config& scan,
-                                           const Random& random);
-/// A share of the landmarks in sight is another one anywhere.
-std::unique_ptr<Disturbance> makeLandmarksFault(const Fault& fault,
-                                                const LandmarksData::Config& landmarks,
-                                                const Random& random);
+/// Faults of a share of what a reading tells: beams, landmarks, rows.
+/// @param feature whose readings they are; it must live as long
+std::unique_ptr<Disturbance> makeEntriesFault(const Fault& fault, const SensorData& feature,
+                                              const Random& random);
 /// People who stand and walk slowly around a scanner, with it wherever it goes.
 std::unique_ptr<Disturbance> makeCrowd(const ScanData::Config& scan, Random random);
 

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "Disturbance.hpp"
-#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/run/Feeder.hpp"
 
 namespace ortung {
@@ -17,38 +18,43 @@ constexpr std::uint64_t kStream = 0xFA17ULL << 32;  ///< apart from those of MCL
 constexpr std::size_t kMostFeatures = 10000;
 constexpr Timestamp kFarthest = Timestamp{1} << 60;  ///< as far as FrameReader takes readings
 
-/// What a fault needs to know of the robot.
-struct Formats {
-  std::map<std::string, bool> isOdometry;  ///< of all features but ground truth
-  std::map<std::string, ScanData::Config> scans;
-  std::map<std::string, LandmarksData::Config> landmarks;
+/// What a fault needs to know of a feature.
+struct Known {
+  const SensorData* data;
+  std::string format;  ///< its name
 };
+using Formats = std::map<std::string, Known>;  ///< of all features but ground truth
 
 Formats formatsOf(const SensorContainer& robot) {
   Formats formats;
-  for (const auto& data : robot.all()) {
-    if (data->id().type == kGroundTruth) continue;
-    const std::string name = toText(data->id());
-    formats.isOdometry[name] = dynamic_cast<const OdometryData*>(data.get()) != nullptr;
-    if (const auto* scan = dynamic_cast<const ScanData*>(data.get()))
-      formats.scans.emplace(name, scan->config());
-    if (const auto* landmarks = dynamic_cast<const LandmarksData*>(data.get()))
-      formats.landmarks.emplace(name, landmarks->config());
-  }
+  for (const auto& data : robot.all())
+    if (data->id().type != kGroundTruth)
+      formats.emplace(toText(data->id()), Known{data.get(), data->format().name()});
   return formats;
 }
 
 bool isOdometry(const Formats& formats, const std::string& feature) {
-  const auto found = formats.isOdometry.find(feature);
-  return found != formats.isOdometry.end() && found->second;
+  const auto found = formats.find(feature);
+  return found != formats.end() && found->second.format == formats::kOdometry;
+}
+
+/// Whether a feature can have a fault of what a reading tells: beams, landmarks, rows. Where it
+/// tells one thing alone, or says nothing of the pose, its name has to be given.
+bool canHave(const Fault& fault, const Formats& formats, const std::string& feature) {
+  const auto found = formats.find(feature);
+  if (found == formats.end()) return false;
+  const std::string& format = found->second.format;
+  if (fault.kind == Fault::Kind::kCrowd) return format == formats::kScan;
+  if (format == formats::kScan || !rowOf(found->second.data->format()).empty()) return true;
+  if (format == formats::kLandmarks) return fault.kind == Fault::Kind::kRandom;
+  return fault.what == feature && (format == formats::kRange || format == formats::kCone ||
+                                   format == formats::kBearing || format == formats::kPoints);
 }
 
 /// Whether a fault alters a feature of the log that is not ground truth.
 bool concerns(const Fault& fault, const Formats& formats, const std::string& feature) {
   const FaultOf of = groupOf(fault.kind);
-  if (of == FaultOf::kScan && !formats.scans.contains(feature) &&
-      !(fault.kind == Fault::Kind::kRandom && formats.landmarks.contains(feature)))
-    return false;
+  if (of == FaultOf::kScan && !canHave(fault, formats, feature)) return false;
   if (fault.what == "odometry") return isOdometry(formats, feature);
   if (fault.what == "readings") return !isOdometry(formats, feature);
   return fault.what == feature;
@@ -57,9 +63,9 @@ bool concerns(const Fault& fault, const Formats& formats, const std::string& fea
 void check(const Fault& fault, const Formats& formats) {
   std::string names;
   bool concernsAny = false;
-  for (const auto& [feature, odometry] : formats.isOdometry) {
+  for (const auto& [feature, known] : formats) {
     names += (names.empty() ? "" : ", ") + feature;
-    if (groupOf(fault.kind) == FaultOf::kOdometry && !odometry) continue;
+    if (groupOf(fault.kind) == FaultOf::kOdometry && !isOdometry(formats, feature)) continue;
     concernsAny = concernsAny || concerns(fault, formats, feature);
   }
   if (concernsAny) return;
@@ -182,9 +188,9 @@ class Disturbed : public Source {
       case FaultOf::kOdometry:
         return makeOdometryFault(fault);
       case FaultOf::kScan:
-        if (const auto list = formats_.landmarks.find(feature); list != formats_.landmarks.end())
-          return makeLandmarksFault(fault, list->second, random);
-        return makeScanFault(fault, formats_.scans.at(feature), random);
+        if (fault.kind == Fault::Kind::kCrowd)
+          return makeCrowd(scanOf(formats_.at(feature).data->format()), random);
+        return makeEntriesFault(fault, *formats_.at(feature).data, random);
       default:
         return makeReadingFault(fault, random);
     }

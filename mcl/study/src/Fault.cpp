@@ -45,14 +45,14 @@ constexpr std::array<Form, 14> kForms = {{
     {"crowd", Kind::kCrowd, FaultOf::kScan, "", 0, 0,
      "people 0.4 to 1.5 m away hide more than half of the beams"},
     {"random", Kind::kRandom, FaultOf::kScan, "SHARE", 0, 1,
-     "that share of the beams, or of the landmarks in sight, is random"},
+     "that share of the beams, or of whatever a reading lists, is random"},
     {"short", Kind::kShort, FaultOf::kScan, "SHARE", 0, 1,
-     "that share of the beams reads too little"},
+     "that share of the beams, or of what a plugin's format lists, reads too little"},
 }};
 
 std::string_view nameOf(FaultOf of) {
   if (of == FaultOf::kOdometry) return "odometry";
-  return of == FaultOf::kScan ? "scans, lists of landmarks" : "all readings";
+  return of == FaultOf::kScan ? "scans, and what lists several things" : "all readings";
 }
 
 /// @p form with its value as one writes it.

@@ -7,9 +7,6 @@
 #include <stdexcept>
 
 #include "ortung/base/Angles.hpp"
-#include "ortung/formats/ConeData.hpp"
-#include "ortung/formats/LandmarksData.hpp"
-#include "ortung/formats/ScanData.hpp"
 #include "ortung/study/Evaluation.hpp"
 #include "ortung/run/ReadingValues.hpp"
 
@@ -25,15 +22,10 @@ constexpr double kMetres = 0.1;
 constexpr double kRadians = 0.02;
 constexpr double kSeconds = 0.05;
 
-/// Whether it expects what surfaces finer than cells say.
-bool isExact(const SensorData& feature) {
-  const auto* scan = dynamic_cast<const ScanData*>(&feature);
-  return scan != nullptr && scan->config().perception == ScanData::Perception::kEndPoints;
-}
-
-bool hasDirections(const SensorData& feature) {
-  return (dynamic_cast<const ScanData*>(&feature) != nullptr && !isExact(feature)) ||
-         dynamic_cast<const ConeData*>(&feature) != nullptr;
+/// Whether values come in pairs of a range and a bearing.
+bool arePairs(const SensorData& feature, std::size_t values) {
+  return values > 1 && values % 2 == 0 && !feature.isAngle(0) && feature.isAngle(1) &&
+         !(values > 2 && feature.isAngle(2));
 }
 
 std::size_t indexOf(NoiseTerm term) { return static_cast<std::size_t>(term); }
@@ -45,11 +37,12 @@ class Expected {
       : feature_(feature),
         grid_(tables.region.grid),
         back_(inverse(feature.mount())),
-        step_(hasDirections(feature) ? tables.headingStep : 0.0) {}
+        step_(feature.grain() == ExpectationGrain::kCellsAndDirections ? tables.headingStep : 0.0) {
+  }
 
   /// With the SENSOR at a pose; NaN where nothing is expected or there is an edge.
   std::vector<double> at(const Pose2& sensor) const {
-    if (isExact(feature_)) return betweenEdges(sensor);
+    if (feature_.grain() == ExpectationGrain::kExact) return betweenEdges(sensor);
     // The mean over a direction's width of what is constant over it is its linear interpolation.
     const std::size_t turns = step_ > 0.0 ? 4 : 1;
     std::vector<double> mean;
@@ -100,7 +93,7 @@ class Expected {
       }
       if (one.size() != sum.size()) return {};
       for (std::size_t i = 0; i < one.size(); ++i) {
-        if (isAngle(feature_, i)) one[i] = first[i] + wrapAngle(one[i] - first[i]);
+        if (feature_.isAngle(i)) one[i] = first[i] + wrapAngle(one[i] - first[i]);
         low[i] = std::min(low[i], one[i]);
         high[i] = std::max(high[i], one[i]);
         sum[i] += share * one[i];
@@ -155,12 +148,12 @@ class Residuals {
   void add(SensorData& feature, std::size_t log) {
     const auto found = logs_[log].readings.find(toText(feature.id()));
     if (found == logs_[log].readings.end()) return;
-    const bool isScan = dynamic_cast<const ScanData*>(&feature) != nullptr;
     const Expected expected(feature, tables_);
     for (std::size_t i = 0; i < found->second.size(); i += everyReading_) {
       const NoiseLog::Reading& reading = found->second[i];
       feature.setData(reading.stamp, reading.words);
-      addReading(feature, expected, log, isScan ? everyValue_ : 1);
+      if (!feature.covariance({}).empty()) continue;  // it says itself how exact it is
+      addReading(feature, expected, log);
     }
   }
 
@@ -204,8 +197,7 @@ class Residuals {
     return sides;
   }
 
-  void addReading(const SensorData& feature, const Expected& expected, std::size_t log,
-                  std::size_t every) {
+  void addReading(const SensorData& feature, const Expected& expected, std::size_t log) {
     const double latency = already_[indexOf(NoiseTerm::kLatency)];
     const auto sensor = sensorAt(log, feature.stamp(), latency, mountOf(feature));
     if (!sensor) return;
@@ -213,7 +205,8 @@ class Residuals {
     const auto sides = sidesOf(feature, expected, log);
     if (middle.empty() || !sides) return;
     ++readings_;
-    const bool isSighting = dynamic_cast<const LandmarksData*>(&feature) != nullptr;
+    const bool isSighting = arePairs(feature, middle.size());
+    const std::size_t every = isSighting ? 1 : everyValue_;  // a pair stays together
     // What was measured does not depend on the pose.
     const std::vector<ReadingValue> values =
         readingValues(feature, *sensor * inverse(feature.mount()));

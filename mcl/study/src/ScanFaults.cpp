@@ -1,48 +1,72 @@
 #include <algorithm>
+#include <cmath>
 
 #include "Disturbance.hpp"
-#include "ortung/formats/Words.hpp"
 
 namespace ortung {
 namespace {
 
-/// A share of the beams, drawn anew in each scan, reads something else.
-class BadBeams : public Disturbance {
+/// A share of the entries, drawn anew in each reading, reads something else: beams of a scan,
+/// landmarks of a list, rows of a plugin's format.
+class BadEntries : public Disturbance {
  public:
-  BadBeams(const Fault& fault, const ScanData::Config& scan, const Random& random)
+  BadEntries(const Fault& fault, const SensorData& feature, const Random& random)
       : share_(fault.values.at(0)),
         isShort_(fault.kind == Fault::Kind::kShort),
-        scan_(scan),
+        feature_(feature),
         random_(random) {}
 
   bool alter(Message& message, double, bool isNow) override {
-    if (!isNow || message.words.size() != static_cast<std::size_t>(scan_.beams)) return true;
-    for (std::uint32_t& word : message.words) {
-      const bool isHit = random_.uniform() < share_;
-      const double place = random_.uniform();  // always drawn: beams do not depend on each other
-      if (!isHit || (isShort_ && word == 0)) continue;
-      const double farthest =
-          isShort_ ? std::min(words::toMetres(word), scan_.maxRange) : scan_.maxRange;
-      if (farthest <= scan_.minRange) continue;
-      const double range = scan_.minRange + place * (farthest - scan_.minRange);
-      word = std::max(words::fromMetres(range), 1U);
+    if (!isNow || !fits(message.words)) return true;
+    std::size_t entry = 0;
+    bool isHit = false;
+    for (WordValue& value : feature_.valuesIn(message.words)) {
+      if (value.entry != entry || value.word == 0) isHit = random_.uniform() < share_;
+      entry = value.entry;
+      const double place = random_.uniform();  // always drawn: entries do not depend on each other
+      if (isHit && (isShort_ ? makeShort(value, place) : makeRandom(value, place)))
+        feature_.store(value, message.words);
     }
     return true;
   }
 
  private:
+  bool fits(std::span<const std::uint32_t> words) const {
+    try {
+      feature_.checkData(words);
+      return true;
+    } catch (const std::invalid_argument&) {
+      return false;
+    }
+  }
+
+  static bool makeRandom(WordValue& value, double place) {
+    if (value.most <= value.least) return false;
+    value.value = isAngle(value.kind) ? 0.5 * (value.least + value.most) +
+                                            (2.0 * place - 1.0) * (0.5 * (value.most - value.least))
+                                      : value.least + place * (value.most - value.least);
+    return true;
+  }
+
+  static bool makeShort(WordValue& value, double place) {
+    if (value.kind != ValueKind::kRange || std::isnan(value.value)) return false;
+    const double farthest = std::min(value.value, value.most);
+    if (farthest <= value.least) return false;
+    value.value = value.least + place * (farthest - value.least);
+    return true;
+  }
+
   double share_;
   bool isShort_;
-  ScanData::Config scan_;
+  const SensorData& feature_;
   Random random_;
 };
 
 }  // namespace
 
-std::unique_ptr<Disturbance> makeScanFault(const Fault& fault, const ScanData::Config& scan,
-                                           const Random& random) {
-  if (fault.kind == Fault::Kind::kCrowd) return makeCrowd(scan, random);
-  return std::make_unique<BadBeams>(fault, scan, random);
+std::unique_ptr<Disturbance> makeEntriesFault(const Fault& fault, const SensorData& feature,
+                                              const Random& random) {
+  return std::make_unique<BadEntries>(fault, feature, random);
 }
 
 }  // namespace ortung

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "ortung/base/Pose2.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/run/Feeder.hpp"
 
@@ -23,7 +25,7 @@ using Names = std::set<std::string>;
 Names odometryOf(const SensorContainer& robot) {
   Names names;
   for (const auto& data : robot.all())
-    if (dynamic_cast<const OdometryData*>(data.get()) != nullptr) names.insert(toText(data->id()));
+    if (isOf(*data, formats::kOdometry)) names.insert(toText(data->id()));
   return names;
 }
 

@@ -5,6 +5,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
+
 namespace ortung::learning {
 namespace {
 
@@ -21,7 +24,8 @@ void Agent::begin(PlayerSeat& seat) {
   seat_ = &seat;
   if (settings_.sight != Sight::truth) {
     const auto feature = [&](std::string_view name) {
-      return dynamic_cast<const ObjectsData*>(seat.container().find({.feature = name}));
+      const SensorData* data = seat.container().find({.feature = name});
+      return data != nullptr && isOf(*data, formats::kObjects) ? data : nullptr;
     };
     ball_ = feature("ball");
     others_ = feature("robots");
@@ -74,7 +78,7 @@ void Agent::lookForBall(Timestamp now) {
   }
   if (ball_->sequence() == ballSequence_) return;
   ballSequence_ = ball_->sequence();
-  const auto& reading = ball_->reading();
+  const auto reading = *readingAs<ObjectsData>(*ball_);
   if (reading.empty()) return;
   const Pose2 eye = poseAt(ball_->stamp()) * ball_->mount();
   const double angle = eye.theta + reading.front().bearing;
@@ -90,7 +94,7 @@ void Agent::lookForOther(Timestamp now) {
   }
   if (others_ == nullptr || others_->sequence() == othersSequence_) return;
   othersSequence_ = others_->sequence();
-  const auto& reading = others_->reading();
+  const auto reading = *readingAs<ObjectsData>(*others_);
   if (reading.empty()) return;
   const Pose2 eye = poseAt(others_->stamp()) * others_->mount();
   const double angle = eye.theta + reading.front().bearing;

@@ -49,8 +49,8 @@ class Agent : public Player {
   double speed_;
   const SimRobot& robot_;
   PlayerSeat* seat_ = nullptr;
-  const ObjectsData* ball_ = nullptr;    ///< what its camera sees of it
-  const ObjectsData* others_ = nullptr;  ///< null: it does not look for robots
+  const SensorData* ball_ = nullptr;    ///< what its camera sees of it
+  const SensorData* others_ = nullptr;  ///< null: it does not look for robots
   std::uint64_t ballSequence_ = 0;
   std::uint64_t othersSequence_ = 0;
   std::array<std::optional<Seen>, kSights> sights_;  ///< the newest first

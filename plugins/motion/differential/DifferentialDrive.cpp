@@ -87,6 +87,7 @@ class DifferentialDrive : public Drive {
     wantedTurn_ = turn / share;
   }
   std::size_t commandSize() const override { return 2; }
+  std::string kind() const override { return motion::kDifferential; }
   std::string commandHelp() const override { return "[left, right] wheel speed [m/s]"; }
   DriveLimits limits() const override { return settings_.limits; }
 

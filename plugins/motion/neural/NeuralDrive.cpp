@@ -46,6 +46,7 @@ class NeuralDrive : public Drive {
     setRotationalVelocity(command[1]);
   }
   std::size_t commandSize() const override { return 2; }
+  std::string kind() const override { return motion::kVelocities; }
   std::string commandHelp() const override {
     return "[translational velocity m/s, rotational velocity rad/s]";
   }

@@ -104,6 +104,7 @@ class OmniDrive : public Drive {
     want(kinematics_.velocity({command[0], command[1], command[2]}));
   }
   std::size_t commandSize() const override { return kWheels; }
+  std::string kind() const override { return motion::kOmni3; }
   std::string commandHelp() const override {
     return "[wheel 1, wheel 2, wheel 3] speed at the rim [m/s], forwards is counter-clockwise";
   }

@@ -11,6 +11,8 @@
 
 #include "ScanPose.hpp"
 #include "Steering.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/ObjectsData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/mcl_player/SelfLocalization.hpp"
@@ -107,13 +109,13 @@ class OwnSight {
 
   static std::vector<Sighting> objects(PlayerSeat& seat, const char* feature) {
     const SensorContainer::ReadLock lock = seat.container().read();
-    const auto* seen =
-        dynamic_cast<const ObjectsData*>(seat.container().find({.feature = feature}));
-    if (seen == nullptr)
+    const SensorData* seen = seat.container().find({.feature = feature});
+    if (seen == nullptr || !isOf(*seen, formats::kObjects))
       throw std::runtime_error(std::string("its robot has no sensor with a feature '") + feature +
                                "', which it needs unless sees=truth");
     std::vector<Sighting> sightings;
-    for (const ObjectsData::Object& one : seen->reading()) {
+    const auto objects = readingAs<ObjectsData>(*seen).value_or(ObjectsData::Reading());
+    for (const ObjectsData::Object& one : objects) {
       const double angle = seen->mount().theta + one.bearing;
       sightings.push_back({seen->stamp(),
                            {seen->mount().x + one.range * std::cos(angle),

@@ -4,6 +4,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/sim_api/Player.hpp"
@@ -24,19 +26,20 @@ class ScanPose {
 
   void update(PlayerSeat& seat) {
     const SensorContainer::ReadLock lock = seat.container().read();
-    if (const auto* odometry =
-            dynamic_cast<const OdometryData*>(seat.container().find({.type = "odometry"}));
-        odometry != nullptr && odometry->sequence() > 0) {
-      if (!last_) atFix_ = odometry->reading().pose;
-      last_ = odometry->reading();
+    const SensorData* odometry = seat.container().find({.type = "odometry"});
+    if (const auto moved =
+            odometry == nullptr ? std::nullopt : readingAs<OdometryData>(*odometry)) {
+      if (!last_) atFix_ = moved->pose;
+      last_ = moved;
       lastStamp_ = odometry->stamp();
     }
-    const PoseFixData* position = find(seat);
+    const SensorData* position = find(seat);
     if (position == nullptr || position->sequence() == seen_) return;
     seen_ = position->sequence();
     const Pose2 expected = at(position->stamp());
     const PoseFixData::Fix* nearest = nullptr;
-    for (const PoseFixData::Fix& fix : position->reading())
+    const auto fixes = readingAs<PoseFixData>(*position).value_or(PoseFixData::Reading());
+    for (const PoseFixData::Fix& fix : fixes)
       if (nearest == nullptr || away(fix.pose, expected) < away(nearest->pose, expected))
         nearest = &fix;
     if (nearest == nullptr) return;
@@ -49,8 +52,9 @@ class ScanPose {
   }
 
  private:
-  static const PoseFixData* find(PlayerSeat& seat) {
-    return dynamic_cast<const PoseFixData*>(seat.container().find({.feature = "position"}));
+  static const SensorData* find(PlayerSeat& seat) {
+    const SensorData* data = seat.container().find({.feature = "position"});
+    return data != nullptr && isOf(*data, formats::kFix) ? data : nullptr;
   }
   static double away(const Pose2& a, const Pose2& b) {
     return distance(a, b) + std::abs(wrapAngle(a.theta - b.theta));

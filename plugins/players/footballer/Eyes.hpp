@@ -82,10 +82,13 @@ class Eyes {
     own_ = view.ball;
   }
 
-  static const ObjectsData* find(PlayerSeat& seat, const char* feature) {
-    const auto* seen =
-        dynamic_cast<const ObjectsData*>(seat.container().find({.feature = feature}));
-    return seen != nullptr && seen->sequence() > 0 ? seen : nullptr;
+  /// The feature if it has a reading, and that.
+  static std::pair<const SensorData*, ObjectsData::Reading> find(PlayerSeat& seat,
+                                                                 const char* feature) {
+    const SensorData* seen = seat.container().find({.feature = feature});
+    auto objects = seen == nullptr ? std::nullopt : readingAs<ObjectsData>(*seen);
+    if (!objects) return {};
+    return {seen, *std::move(objects)};
   }
   static FloorPoint placeOfObject(const Pose2& eye, const ObjectsData::Object& object) {
     return placeOf(eye) + object.range * towards(eye.theta + object.bearing);
@@ -95,11 +98,11 @@ class Eyes {
     const SensorContainer::ReadLock lock = seat.container().read();
     if (seat.container().find({.feature = "ball"}) == nullptr)
       throw std::runtime_error("its robot has no sensor with a feature 'ball'");
-    const ObjectsData* seen = find(seat, "ball");
-    if (seen != nullptr && seen->stamp() > newest_ && !seen->reading().empty()) {
+    const auto [seen, balls] = find(seat, "ball");
+    if (seen != nullptr && seen->stamp() > newest_ && !balls.empty()) {
       newest_ = seen->stamp();
       // What is imagined comes last, but it may be all that there is.
-      const FloorPoint at = placeOfObject(view.pose * seen->mount(), seen->reading().front());
+      const FloorPoint at = placeOfObject(view.pose * seen->mount(), balls.front());
       if (isLikely(at)) track_.see(newest_, at);
     }
     own_.reset();
@@ -132,11 +135,11 @@ class Eyes {
   }
   static void seeRobots(PlayerSeat& seat, View& view) {
     const SensorContainer::ReadLock lock = seat.container().read();
-    const ObjectsData* seen = find(seat, "robots");
+    const auto [seen, robots] = find(seat, "robots");
     if (seen == nullptr) return;
     const Pose2 eye = view.pose * seen->mount();
     const std::size_t mates = view.others.size();
-    for (const ObjectsData::Object& object : seen->reading()) {
+    for (const ObjectsData::Object& object : robots) {
       const FloorPoint at = placeOfObject(eye, object);
       const auto end = view.others.begin() + static_cast<std::ptrdiff_t>(mates);
       const auto mate = std::find_if(view.others.begin(), end, [&](const Other& other) {

@@ -55,7 +55,7 @@ std::optional<Pose2> groundTruth(PlayerSeat& seat) {
 
 /// Whether it is commanded by the speeds of three wheels.
 bool hasThreeWheels(const RobotAbilities& abilities) {
-  return abilities.motionHelp.starts_with("[wheel 1, wheel 2, wheel 3]");
+  return abilities.motionKind == motion::kOmni3;
 }
 
 class FootballerPlayer : public Player {

@@ -60,11 +60,10 @@ class LookoutPlayer : public Player {
     Pose2 eye;
     {
       const SensorContainer::ReadLock lock = seat.container().read();
-      const auto* seen =
-          dynamic_cast<const ObjectsData*>(seat.container().find({.feature = feature}));
+      const SensorData* seen = seat.container().find({.feature = feature});
       if (seen == nullptr || seen->sequence() == told_[feature]) return;  // nothing new
       told_[feature] = seen->sequence();
-      objects = seen->reading();
+      objects = readingAs<ObjectsData>(*seen).value_or(objects);
       eye = pose * seen->mount();
     }
     const bool isBall = std::string_view(feature) == "ball";

@@ -25,11 +25,10 @@ class LrfCylindersExtractor : public Extractor {
   std::vector<std::string> inputs() const override { return {settings_.reads}; }
 
   void take(std::span<const SensorData* const> inputs) override {
-    const auto* scan = dynamic_cast<const ScanData*>(inputs[0]);
-    if (scan == nullptr)
-      throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
-    scan_ = scan->reading();
-    mount_ = scan->mount();
+    auto scan = readingAs<ScanData>(*inputs[0]);
+    if (!scan) throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
+    scan_ = *std::move(scan);
+    mount_ = inputs[0]->mount();
   }
 
   void extract(const FieldModel&, std::span<std::optional<Words>> words) override {

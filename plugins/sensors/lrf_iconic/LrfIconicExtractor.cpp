@@ -6,6 +6,7 @@
 
 #include "ScanForecast.hpp"
 #include "WallMatcher.hpp"
+#include "ortung/formats/FeatureOf.hpp"
 
 namespace ortung {
 
@@ -19,12 +20,11 @@ std::vector<std::string> LrfIconicExtractor::inputs() const {
 }
 
 void LrfIconicExtractor::take(std::span<const SensorData* const> inputs) {
-  const auto* scan = dynamic_cast<const ScanData*>(inputs[0]);
-  if (scan == nullptr)
-    throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
-  scan_ = scan->reading();
-  mount_ = scan->mount();
-  maxRange_ = scan->config().maxRange;
+  auto scan = readingAs<ScanData>(*inputs[0]);
+  if (!scan) throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
+  scan_ = *std::move(scan);
+  mount_ = inputs[0]->mount();
+  maxRange_ = scanOf(inputs[0]->format()).maxRange;
 }
 
 void LrfIconicExtractor::extract(const FieldModel& field, std::span<std::optional<Words>> words) {

@@ -22,15 +22,14 @@ std::vector<std::string> TeammateExtractor::inputs() const {
 }
 
 void TeammateExtractor::take(std::span<const SensorData* const> inputs) {
-  const auto* talk = dynamic_cast<const TalkData*>(inputs[0]);
-  if (talk == nullptr)
-    throw std::invalid_argument(toText(inputs[0]->id()) + " is no talk, expected some");
-  talk_ = talk->reading();
-  if (talk->stamp() < now_) {  // time has begun anew
+  auto talk = readingAs<TalkData>(*inputs[0]);
+  if (!talk) throw std::invalid_argument(toText(inputs[0]->id()) + " is no talk, expected some");
+  talk_ = *std::move(talk);
+  if (inputs[0]->stamp() < now_) {  // time has begun anew
     robots_.clear();
     balls_.clear();
   }
-  now_ = talk->stamp();
+  now_ = inputs[0]->stamp();
 }
 
 /// What a robot says of itself is better than what others see of it.

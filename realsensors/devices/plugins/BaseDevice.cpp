@@ -10,6 +10,7 @@
 #include "ortung/devices/DeviceDriver.hpp"
 #include "ortung/devices/Port.hpp"
 #include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 
 namespace ortung {
@@ -69,9 +70,10 @@ class BaseDevice : public DeviceDriver {
 
   void serve(std::span<const SensorData* const> features) override {
     for (std::size_t i = 0; i < features.size(); ++i) {
-      if (const auto* cone = dynamic_cast<const ConeData*>(features[i])) {
-        sonars_.push_back({i, cone->config().maxRange});
-      } else if (dynamic_cast<const OdometryData*>(features[i]) != nullptr && !odometry_) {
+      const Format format = features[i]->format();
+      if (format.name() == formats::kCone) {
+        sonars_.push_back({i, format.number("max_m")});
+      } else if (format.name() == formats::kOdometry && !odometry_) {
         odometry_ = i;
       } else {
         throw std::invalid_argument(toText(features[i]->id()) +

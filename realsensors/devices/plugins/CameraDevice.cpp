@@ -13,6 +13,8 @@
 #include "ortung/core/Plugin.hpp"
 #include "ortung/devices/DeviceDriver.hpp"
 #include "ortung/devices/Port.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -33,7 +35,7 @@ class CameraDevice : public DeviceDriver {
         repeats_(p.flagOr("repeat", false)) {}
 
   void serve(std::span<const SensorData* const> features) override {
-    if (features.size() != 1 || dynamic_cast<const ImageData*>(features.front()) == nullptr)
+    if (features.size() != 1 || !isOf(*features.front(), formats::kImage))
       throw std::invalid_argument("a camera fills one feature of pictures and nothing else");
     feature_ = features.front();
   }

@@ -9,6 +9,8 @@
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/devices/Port.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -27,11 +29,10 @@ MrptScanner::MrptScanner(std::string name, std::vector<std::string> arguments)
     : name_(std::move(name)), arguments_(std::move(arguments)) {}
 
 void MrptScanner::serve(std::span<const SensorData* const> features) {
-  const ScanData* scan = nullptr;
-  if (features.size() == 1) scan = dynamic_cast<const ScanData*>(features.front());
-  if (scan == nullptr) throw std::invalid_argument("a scanner fills one scan and nothing else");
-  id_ = scan->id();
-  scan_ = scan->config();
+  if (features.size() != 1 || !isOf(*features.front(), formats::kScan))
+    throw std::invalid_argument("a scanner fills one scan and nothing else");
+  id_ = features.front()->id();
+  scan_ = scanOf(features.front()->format());
 }
 
 void MrptScanner::open() {

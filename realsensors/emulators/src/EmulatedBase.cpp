@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 
 namespace ortung {
@@ -16,9 +17,10 @@ constexpr Timestamp kStops = 500'000;  ///< without a command [us]
 EmulatedBase::EmulatedBase(std::span<const SensorData* const> features, int baud)
     : baud_(baud), lines_(base_lines::kLongest) {
   for (const SensorData* data : features) {
-    if (const auto* cone = dynamic_cast<const ConeData*>(data))
-      sonars_.push_back({data->id(), cone->config().maxRange});
-    else if (dynamic_cast<const OdometryData*>(data) != nullptr && !odometry_)
+    const Format format = data->format();
+    if (format.name() == formats::kCone)
+      sonars_.push_back({data->id(), format.number("max_m")});
+    else if (format.name() == formats::kOdometry && !odometry_)
       odometry_ = data->id();
     else
       throw std::invalid_argument(toText(data->id()) + " is neither a sonar nor the only odometry");

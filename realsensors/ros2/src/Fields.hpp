@@ -115,6 +115,25 @@ void fields(A& a, Is<Image> auto& m) {
 }
 
 template <class A>
+void fields(A& a, Is<PointCloud::Field> auto& m) {
+  a(m.name);
+  a(m.offset);
+  a(m.type);
+  a(m.count);
+}
+template <class A>
+void fields(A& a, Is<PointCloud> auto& m) {
+  a(m.header);
+  a(m.height);
+  a(m.width);
+  a(m.fields);
+  a(m.isBigEndian);
+  a(m.pointStep);
+  a(m.rowStep);
+  a(m.data);
+  a(m.isDense);
+}
+template <class A>
 void fields(A& a, Is<Words::Dimension> auto& m) {
   a(m.label);
   a(m.size);

@@ -80,13 +80,26 @@ LaserScan scanMessage(const Message& reading, const ScanData::Config& config, He
   return out;
 }
 
-Range rangeMessage(const Message& reading, const ConeData::Config& config, Header header) {
+Range rangeMessage(const Message& reading, const Format& cone, Header header) {
   Range out;
   out.header = std::move(header);
-  out.fieldOfView = static_cast<float>(config.openingAngle);
-  out.maxRange = static_cast<float>(config.maxRange);
-  out.range = rangeOf(reading.words.at(0), config.maxRange);
+  const double maxRange = cone.number("max_m");
+  out.fieldOfView = static_cast<float>(cone.angle("opening_deg"));
+  out.maxRange = static_cast<float>(maxRange);
+  out.range = rangeOf(reading.words.at(0), maxRange);
   return out;
+}
+
+std::optional<Range> rowRangeMessage(const Message& reading, const Format& row, Header header) {
+  for (const WordValue& value : valuesOfRows(row, reading.words)) {
+    if (value.kind != ValueKind::kRange) continue;
+    Range out;
+    out.header = std::move(header);
+    out.maxRange = static_cast<float>(value.most);
+    out.range = rangeOf(reading.words[value.word], value.most);
+    return out;
+  }
+  return std::nullopt;
 }
 
 Image imageMessage(const Message& reading, Header header) {

@@ -4,7 +4,6 @@
 
 #include "ortung/base/Time.hpp"
 #include "ortung/core/Message.hpp"
-#include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/ros2/Messages.hpp"
 
@@ -19,7 +18,17 @@ std::int64_t rosTime(Timestamp stamp);
 bool hasMotionData(const Message& reading);
 Odometry odometryMessage(const Message& reading, Header header, std::string child);
 LaserScan scanMessage(const Message& reading, const ScanData::Config& config, Header header);
-Range rangeMessage(const Message& reading, const ConeData::Config& config, Header header);
+/// @param cone its format: the opening angle and the greatest range
+Range rangeMessage(const Message& reading, const Format& cone, Header header);
+/// The range of the first row; nothing without one. @param row a format of rows with ranges
+std::optional<Range> rowRangeMessage(const Message& reading, const Format& row, Header header);
+/// What the rows of a format are: places (x, y, or ranges with bearings), ranges alone, or neither.
+enum class RowKind : std::uint8_t { kOther, kPlaces, kRanges };
+RowKind rowKindOf(const Format& format);
+/// Whether places are in the robot's frame, not the sensor's.
+bool areInRobot(const Format& format);
+/// Places of rows with x, y, z and all that the rows tell, by the names in `row`.
+PointCloud cloudMessage(const Message& reading, const Format& row, Header header);
 Image imageMessage(const Message& reading, Header header);
 /// The first fix; nothing if there is none.
 std::optional<PoseWithCovarianceStamped> poseMessage(const Message& reading, Header header);

@@ -8,11 +8,11 @@
 
 #include "ReadingMessages.hpp"
 #include "ortung/camera/ImageData.hpp"
-#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
-#include "ortung/formats/ScanData.hpp"
 
 namespace ortung::ros2 {
 namespace {
@@ -45,6 +45,7 @@ struct RobotTopics::Parts {
     const SensorData* data = nullptr;
     std::size_t topic = 0;
     std::string frame;  ///< of the sensor
+    Format format{formats::kOdometry};
   };
   const SensorContainer& container;
   MapFrame mapFrame = MapFrame::kBest;
@@ -60,13 +61,18 @@ struct RobotTopics::Parts {
   std::map<std::string, std::size_t> words;  ///< topic by feature
 
   std::size_t addTopic(std::string name, std::string_view type, bool isLatched = false,
-                       std::string feature = "") {
+                       const std::string& feature = "") {
     const std::string wanted = name;
     for (int i = 2; !names.insert(name).second; ++i) name = wanted + "_" + std::to_string(i);
-    topics.push_back({std::move(name), type, isLatched, std::move(feature)});
+    topics.push_back({std::move(name), type, isLatched, feature, formatOf(feature)});
     return topics.size() - 1;
   }
   explicit Parts(const SensorContainer& features) : container(features) {}
+  std::string formatOf(const std::string& feature) const {
+    for (const auto& data : container.all())
+      if (toText(data->id()) == feature) return data->format().toText();
+    return "";
+  }
   void addFeatures();
   std::size_t addWords(const SensorId& id);
   void take(const Message& message, const Sink& sink);
@@ -84,13 +90,22 @@ bool isOwn(const SensorId& id) {
 
 /// What a topic of a feature begins with, by its format; empty if ROS has no message for it.
 std::pair<std::string, std::string_view> kindOf(const SensorData& data) {
-  if (dynamic_cast<const OdometryData*>(&data) != nullptr) return {"/odom", Odometry::kType};
-  if (dynamic_cast<const ScanData*>(&data) != nullptr) return {"/scan", LaserScan::kType};
-  if (dynamic_cast<const ConeData*>(&data) != nullptr) return {"/range", Range::kType};
-  if (dynamic_cast<const ImageData*>(&data) != nullptr) return {"/image", Image::kType};
+  const Format whole = data.format();
+  const std::string& format = whole.name();
+  if (format == formats::kOdometry) return {"/odom", Odometry::kType};
+  if (format == formats::kScan) return {"/scan", LaserScan::kType};
+  if (format == formats::kCone) return {"/range", Range::kType};
+  if (format == formats::kImage) return {"/image", Image::kType};
   if (isOwn(data.id())) return {};
-  if (dynamic_cast<const PoseFixData*>(&data) != nullptr)
-    return {"/pose_fix", PoseWithCovarianceStamped::kType};
+  if (format == formats::kFix) return {"/pose_fix", PoseWithCovarianceStamped::kType};
+  switch (rowKindOf(whole)) {
+    case RowKind::kPlaces:
+      return {"/points", PointCloud::kType};
+    case RowKind::kRanges:
+      return {"/range", Range::kType};
+    case RowKind::kOther:
+      break;
+  }
   return {};
 }
 
@@ -115,7 +130,7 @@ void RobotTopics::Parts::addFeatures() {
     const std::size_t topic =
         addTopic(topicStart + (isShort ? name : name + "/" + own), type, false, feature);
     routes[feature] = {data.get(), topic,
-                       frameStart + cleaned(id.model) + "_" + cleaned(id.feature)};
+                       frameStart + cleaned(id.model) + "_" + cleaned(id.feature), data->format()};
   }
 }
 
@@ -206,19 +221,24 @@ void RobotTopics::Parts::take(const Message& message, const Sink& sink) {
   route.data->checkData(message.words);
   const Header here{stamp, route.frame};
   const auto send = [&](const auto& out) { sink(route.topic, message.stamp, toCdr(out)); };
-  if (dynamic_cast<const OdometryData*>(route.data) != nullptr) {
+  const Format& format = route.format;
+  if (format.name() == formats::kOdometry) {
     const Odometry moved = odometryMessage(message, {stamp, odom}, base);
     if (feature == odometry) inOdometry = toPose2(moved.pose);
     send(moved);
     if (hasMotionData(message)) sendWords(message, sink);
-  } else if (const auto* scan = dynamic_cast<const ScanData*>(route.data)) {
-    send(scanMessage(message, scan->config(), here));
-  } else if (const auto* cone = dynamic_cast<const ConeData*>(route.data)) {
-    send(rangeMessage(message, cone->config(), here));
-  } else if (dynamic_cast<const ImageData*>(route.data) != nullptr) {
+  } else if (format.name() == formats::kScan) {
+    send(scanMessage(message, scanOf(format), here));
+  } else if (format.name() == formats::kCone) {
+    send(rangeMessage(message, format, here));
+  } else if (format.name() == formats::kImage) {
     send(imageMessage(message, here));
-  } else if (const auto fix = poseMessage(message, {stamp, kMap})) {
-    send(*fix);
+  } else if (format.name() == formats::kFix) {
+    if (const auto fix = poseMessage(message, {stamp, kMap})) send(*fix);
+  } else if (rowKindOf(format) == RowKind::kPlaces) {
+    send(cloudMessage(message, format, areInRobot(format) ? Header{stamp, base} : here));
+  } else if (const auto range = rowRangeMessage(message, format, here)) {
+    send(*range);
   }
 }
 

@@ -72,6 +72,15 @@ constexpr Definition kDefinitions[] = {
      "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nstd_msgs/Header header\nuint8 radiation_type\n"
      "float32 field_of_view\nfloat32 min_range\nfloat32 max_range\nfloat32 range\n",
      {"std_msgs/Header"}},
+    {"sensor_msgs/PointField",
+     "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n"
+     "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\n"
+     "uint32 count\n",
+     {}},
+    {"sensor_msgs/PointCloud2",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
+     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
+     {"std_msgs/Header", "sensor_msgs/PointField"}},
     {"std_msgs/MultiArrayDimension", "string label\nuint32 size\nuint32 stride\n", {}},
     {"std_msgs/MultiArrayLayout",
      "std_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n",

@@ -14,6 +14,7 @@ RobotAbilities abilitiesOf(const SimRobot& robot) {
   abilities.radius = size.radius;
   abilities.height = size.height;
   abilities.limits = robot.drive().limits();
+  abilities.motionKind = robot.drive().kind();
   abilities.motionHelp = robot.drive().commandHelp();
   for (const Manipulator& manipulator : robot.shape().manipulators) {
     RobotAbilities::Manipulator one{manipulator.name, {}};

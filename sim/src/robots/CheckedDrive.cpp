@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ortung/core/Format.hpp"
+
 namespace ortung {
 namespace {
 
@@ -55,6 +57,10 @@ void CheckedDrive::setCommand(std::span<const double> command) {
 
 std::size_t CheckedDrive::commandSize() const {
   return guard_("commandSize", [&] { return drive_->commandSize(); });
+}
+
+std::string CheckedDrive::kind() const {
+  return guard_("kind", [&] { return Format(drive_->kind()).name(); });
 }
 
 std::string CheckedDrive::commandHelp() const {

@@ -20,6 +20,7 @@ class CheckedDrive final : public Drive {
   void setRotationalVelocity(double radiansPerSecond) override;
   void setCommand(std::span<const double> command) override;
   std::size_t commandSize() const override;
+  std::string kind() const override;
   std::string commandHelp() const override;
   DriveLimits limits() const override;
   Pose2 relocate(double dt, Random* noise) override;

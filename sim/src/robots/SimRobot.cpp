@@ -9,6 +9,8 @@
 
 #include "CheckedDrive.hpp"
 #include "CheckedSensor.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/TalkData.hpp"
 
@@ -83,7 +85,7 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
     hasTruth = hasTruth || std::any_of(device.data.begin(), device.data.end(),
                                        [](SensorData* data) { return isGroundTruth(*data); });
     std::copy_if(device.data.begin(), device.data.end(), std::back_inserter(ears_),
-                 [](SensorData* data) { return dynamic_cast<TalkData*>(data) != nullptr; });
+                 [](SensorData* data) { return isOf(*data, formats::kTalk); });
     auto sensor = makeSensor(device, factory, config_.name);
     const Timestamp period = sensor ? fromSeconds(sensor->period()) : 0;
     const bool isOnDemand = sensor && sensor->isOnDemand();

@@ -103,6 +103,7 @@ class BadDrive : public Drive {
     wanted_ = mischief_.at("setCommand", c[0]);
   }
   std::size_t commandSize() const override { return 1; }
+  std::string kind() const override { return "speed"; }
   std::string commandHelp() const override { return "[speed m/s]"; }
   DriveLimits limits() const override { return {mischief_.at("limits", 1.0)}; }
   Pose2 relocate(double dt, Random*) override {

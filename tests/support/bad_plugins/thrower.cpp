@@ -46,6 +46,7 @@ class StrangeDrive : public Drive {
   void setRotationalVelocity(double) override {}
   void setCommand(std::span<const double>) override {}
   std::size_t commandSize() const override { return 0; }
+  std::string kind() const override { return "none"; }
   std::string commandHelp() const override { return "nothing"; }
   DriveLimits limits() const override { return {}; }
   Pose2 relocate(double, Random*) override {

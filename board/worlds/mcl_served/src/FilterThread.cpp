@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "Orders.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 
 namespace ortung {
@@ -27,8 +29,7 @@ void addWithInputs(const SensorContainer& container, const SensorData& data,
 std::vector<SensorId> needsOf(const SensorContainer& container) {
   std::vector<SensorId> ids;
   for (const auto& data : container.all())
-    if (data->localizes() || dynamic_cast<const OdometryData*>(data.get()) != nullptr)
-      addWithInputs(container, *data, ids);
+    if (data->localizes() || isOf(*data, formats::kOdometry)) addWithInputs(container, *data, ids);
   return ids;
 }
 

@@ -69,7 +69,7 @@ std::optional<HeatMap> expectation(const Robot& robot, const SensorData& feature
   const FieldRegion region = coarsened(robot.tables.region, wish.mostCells);
   const FieldGrid& grid = region.grid;
   const auto columns = static_cast<std::size_t>(grid.columns);
-  HeatMap map{.grid = grid, .isAngle = isAngle(feature, wish.index)};
+  HeatMap map{.grid = grid, .isAngle = feature.isAngle(wish.index)};
   std::vector<double> values;
   FieldRegion row{{grid.originX, 0.0, grid.cell, grid.columns, 1}, {}, {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(grid.rows); ++i) {

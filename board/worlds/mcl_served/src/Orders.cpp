@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "ortung/run/TrackData.hpp"
+#include "ortung/formats/TrackData.hpp"
 
 namespace ortung {
 

@@ -356,6 +356,8 @@ std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
   const RobotConfig& config = found.config();
   std::vector<std::string> lines = {
       "drive " + found.drive().commandHelp(),
+      "motion kind=" + found.drive().kind() +
+          " numbers=" + std::to_string(found.drive().commandSize()),
       "limits" + keyValue("v_m_s", limits.speed) + keyValue("w_rad_s", limits.turn) +
           keyValue("a_m_s2", limits.acceleration) +
           keyValue("alpha_rad_s2", limits.turnAcceleration),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseData.hpp"
 
 namespace ortung {
@@ -30,10 +31,14 @@ std::vector<ServedFeature> Truth::features() {
       {kRobots,
        "for each robot: number, x [mm + 2^31], y [mm + 2^31], heading [1/100 degree], "
        "states of "
-       "its manipulators, four bits each, the first one lowest"},
+       "its manipulators, four bits each, the first one lowest",
+       {},
+       formats::kWorldRobots},
       {kObjects,
        "for each object of DESCRIBE world: x [mm + 2^31], y [mm + 2^31], z [mm + 2^31], heading "
-       "[1/100 degree]"}};
+       "[1/100 degree]",
+       {},
+       formats::kWorldObjects}};
 }
 
 std::span<Message> Truth::look(const Simulation& simulation,

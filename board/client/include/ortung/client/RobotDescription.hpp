@@ -16,8 +16,10 @@ namespace ortung {
 struct ORTUNG_API RobotDescription {
   struct Feature {
     SensorId id;
-    std::string words;           ///< what the words of its readings mean
+    std::string words;           ///< what the words of its readings mean, for people
     std::optional<Pose2> mount;  ///< of its sensor, in the robot frame
+    /// What they mean, for programs; nothing if the server does not know.
+    std::optional<Format> format = {};
   };
   struct Manipulator {
     std::string name;
@@ -25,7 +27,8 @@ struct ORTUNG_API RobotDescription {
   };
 
   std::vector<Feature> features;
-  std::string motion;                                  ///< what the numbers of setMotion() mean
+  std::string motion;      ///< what the numbers of setMotion() mean, for people
+  std::string motionKind;  ///< the same for programs, as of Drive; "": not known
   std::optional<double> maxTranslationalVelocity;      ///< [m/s]
   std::optional<double> maxRotationalVelocity;         ///< [rad/s]
   std::optional<double> maxTranslationalAcceleration;  ///< [m/s^2]

@@ -17,8 +17,9 @@ using RobotId = std::uint32_t;
 /// One feature of a robot that takes part.
 struct ServedFeature {
   SensorId id;
-  std::string wordsHelp;  ///< one line on what the words mean
-  Pose2 mount = {};       ///< of its sensor, in the robot frame
+  std::string wordsHelp;    ///< one line on what the words mean, for people
+  Pose2 mount = {};         ///< the sensor's pose in the robot frame
+  std::string format = {};  ///< Format::toText(); "": it is not known
 };
 
 /// The features of a container.

@@ -61,6 +61,7 @@ class ORTUNG_API ServedRobots {
   virtual ServedRobot addRobot(RobotId robot, RobotWish wish) = 0;
   virtual void removeRobot(RobotId robot) = 0;
   /// What a robot is and can be told, one line each, its first word saying which: "drive COMMAND",
+  /// "motion kind=K numbers=N",
   /// "limits v_m_s=V w_rad_s=W ...", "body radius_m=R ...", "manipulator NAME STATE ...".
   virtual std::vector<std::string> abilities(RobotId robot) const = 0;
   /// Whose a robot is, " key=value ..." to be added to its line of LIST robots; "" if nobody's.

@@ -10,6 +10,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Extractor.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/core/ReadingAs.hpp"
 #include "ortung/core/SensorData.hpp"
 
 namespace ortung {
@@ -82,13 +83,13 @@ class ORTUNG_API SensorContainer {
   ReadLock read() const;
 
   /// Newest reading of the first match as T::Reading, copied under the lock, or nothing.
-  /// T is a format class: container.get<ScanData>({.type = "LRF"}).
+  /// T is a format's class, container.get<ScanData>({.type = "LRF"}): features of that format give
+  /// it, whatever classes they have.
   template <class T>
   std::optional<typename T::Reading> get(const SensorQuery& query) const {
     const ReadLock lock = read();
-    const T* data = dynamic_cast<const T*>(find(query));
-    if (data == nullptr || data->sequence() == 0) return std::nullopt;
-    return data->reading();
+    const SensorData* data = find(query);
+    return data == nullptr ? std::nullopt : readingAs<T>(*data);
   }
 
   /// Adds ln p(s|l_i) over all features that can weigh (paper, section 5.2: independent features).

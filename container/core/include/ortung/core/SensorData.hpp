@@ -14,6 +14,7 @@
 #include "ortung/base/Time.hpp"
 #include "ortung/container/Abi.hpp"
 #include "ortung/core/Format.hpp"
+#include "ortung/core/ReadingValue.hpp"
 #include "ortung/core/Weigher.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 #include "ortung/tables/TableFile.hpp"
@@ -106,6 +107,25 @@ class ORTUNG_API SensorData {
   /// What the feature should read at @p pose: metres and radians in the format's order,
   /// NaN where nothing is expected; empty where there is no expectation at all.
   virtual std::vector<double> expectation(const Pose2& pose) const;
+
+  // --- values of readings, whatever the format; from the parameter `row` unless overridden ---
+  /// Whether a value of expectation() is an angle [rad]; else it is a length [m].
+  virtual bool isAngle(std::size_t index) const;
+  /// The present reading in the order of expectation(): what there is to compare with what is
+  /// expected of the robot at @p pose, on which it depends where readings do not say of what they
+  /// are. NaN: not measured, or nothing to compare with; infinite: beyond the sensor's range; empty
+  /// where the format has nothing of the kind.
+  virtual std::vector<double> measured(const Pose2& pose) const;
+  /// How exactly measured() is known by the reading itself: its covariance, row-major; empty if
+  /// readings do not say so.
+  virtual std::vector<double> covariance(const Pose2& pose) const;
+  /// How finely expectation() knows poses.
+  virtual ExpectationGrain grain() const { return ExpectationGrain::kCells; }
+  /// What stands in words that checkData() lets through, entry by entry: what can be told of them
+  /// and be changed in them without knowing the format.
+  virtual std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const;
+  /// Puts a value of valuesIn() back into the words, changed.
+  virtual void store(const WordValue& value, std::span<std::uint32_t> words) const;
 
   /// Everything that shapes the expectation tables ("beams=180 fov_deg=180 ..."), so that a
   /// table of another sensor is recognised. Noise does not belong here: tables hold whatever it is.

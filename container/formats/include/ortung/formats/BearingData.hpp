@@ -31,11 +31,16 @@ class ORTUNG_API BearingData : public SensorData {
   Reading reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
 
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<BearingData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override;
   std::vector<double> expectation(const Pose2& pose) const override;
+  bool isAngle(std::size_t) const override { return true; }
+  std::vector<double> measured(const Pose2& pose) const override;
+  std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
   std::string learningKey() const override;
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 

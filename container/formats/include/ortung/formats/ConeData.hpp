@@ -34,11 +34,18 @@ class ORTUNG_API ConeData : public SensorData {
   const Config& config() const { return config_; }
   static std::uint32_t encode(Reading reading, double maxRange);
 
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<ConeData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override { return headingStep_; }
   std::vector<double> expectation(const Pose2& pose) const override;
+  bool isAngle(std::size_t) const override { return false; }
+  std::vector<double> measured(const Pose2& pose) const override;
+  std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
+  void store(const WordValue& value, std::span<std::uint32_t> words) const override;
+  ExpectationGrain grain() const override { return ExpectationGrain::kCellsAndDirections; }
   std::string learningKey() const override;
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
@@ -51,6 +58,7 @@ class ORTUNG_API ConeData : public SensorData {
   void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
                  const FieldGrid& grid) override;
   std::shared_ptr<const Weigher> makeWeigher() const override;
+  Reading rangeOf(std::uint32_t word) const;
 
   Config config_;
   RangeScale scale_;

@@ -9,7 +9,7 @@ inline constexpr const char* kRange = "range";          ///< ScalarData [max_m=]
 inline constexpr const char* kBearing = "bearing";      ///< BearingData
 inline constexpr const char* kCone = "cone";            ///< ConeData opening_deg= max_m=
 inline constexpr const char* kScan = "scan";            ///< ScanData beams= first_deg= step_deg=
-                                                        ///< max_m=
+                                                        ///< max_m= [min_m=]
 inline constexpr const char* kLandmarks = "landmarks";  ///< LandmarksData
 inline constexpr const char* kPoints = "points";        ///< PointsData
 inline constexpr const char* kFix = "fix";              ///< PoseFixData
@@ -25,5 +25,11 @@ inline constexpr const char* kClusters = "clusters";    ///< ClustersData
 inline constexpr const char* kWork = "work";            ///< WorkData
 inline constexpr const char* kSamples = "samples";      ///< SamplesData
 inline constexpr const char* kDevice = "device";        ///< DeviceStatusData status=, their names
+
+/// What a world says of itself: rows of number, x, y [mm + 2^31, field frame], heading [1/100
+/// degree, 0 to 35999], states of manipulators.
+inline constexpr const char* kWorldRobots = "world_robots";
+/// Rows of x, y, z [mm + 2^31, field frame], heading [1/100 degree, 0 to 35999].
+inline constexpr const char* kWorldObjects = "world_objects";
 
 }  // namespace ortung::formats

@@ -54,12 +54,18 @@ class ORTUNG_API LandmarksData : public SensorData {
   /// or, without one, the landmark that is nearest to where it lies; -1: none.
   std::ptrdiff_t indexOf(const Sighting& sighting, const Pose2& pose) const;
 
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<LandmarksData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override;
   /// Range and bearing of each landmark of the list, in its order.
   std::vector<double> expectation(const Pose2& pose) const override;
+  bool isAngle(std::size_t index) const override { return index % 2 == 1; }
+  std::vector<double> measured(const Pose2& pose) const override;
+  std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
+  void store(const WordValue& value, std::span<std::uint32_t> words) const override;
   std::string learningKey() const override;
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 

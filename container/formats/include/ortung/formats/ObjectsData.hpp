@@ -34,6 +34,8 @@ class ORTUNG_API ObjectsData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(std::span<const Object> objects);
   static void encode(std::span<const Object> objects, std::vector<std::uint32_t>& words);
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<ObjectsData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

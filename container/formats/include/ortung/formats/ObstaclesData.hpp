@@ -34,6 +34,8 @@ class ORTUNG_API ObstaclesData : public SensorData {
 
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(std::span<const Obstacle> obstacles);
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<ObstaclesData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

@@ -32,6 +32,8 @@ class ORTUNG_API OdometryData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
   static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<OdometryData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

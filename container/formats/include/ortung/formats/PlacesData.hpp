@@ -43,6 +43,8 @@ class ORTUNG_API PlacesData : public SensorData {
   const Reading& reading() const { return reading_; }
   /// @throws std::invalid_argument for more places than a reading can hold, and for bad names
   static std::vector<std::uint32_t> encode(const Reading& reading);
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<PlacesData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

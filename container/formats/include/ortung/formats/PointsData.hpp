@@ -43,6 +43,8 @@ class ORTUNG_API PointsData : public SensorData {
   static std::vector<std::uint32_t> encode(std::span<const Point> points);
   static void encode(std::span<const Point> points, std::vector<std::uint32_t>& words);
 
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<PointsData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
@@ -50,6 +52,10 @@ class ORTUNG_API PointsData : public SensorData {
   /// Distance to the nearest learned point for each point of the reading, as if it were seen at
   /// @p pose [m].
   std::vector<double> expectation(const Pose2& pose) const override;
+  /// Nothing: how far each point is from a learned one should be 0.
+  std::vector<double> measured(const Pose2&) const override { return {}; }
+  bool isAngle(std::size_t) const override { return false; }
+  std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
   std::string learningKey() const override;
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 

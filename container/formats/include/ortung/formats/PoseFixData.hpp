@@ -41,10 +41,18 @@ class ORTUNG_API PoseFixData : public SensorData {
   /// Sigmas are at least 1 um and 1/10000 degree.
   static std::vector<std::uint32_t> encode(std::span<const Fix> fixes);
 
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<PoseFixData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override { return 0.0; }
+  /// The pose itself.
+  std::vector<double> expectation(const Pose2& pose) const override;
+  bool isAngle(std::size_t index) const override { return index == 2; }
+  /// The fix that is nearest to the pose by its covariance: x, y [m], heading [rad].
+  std::vector<double> measured(const Pose2& pose) const override;
+  std::vector<double> covariance(const Pose2& pose) const override;
   std::string learningKey() const override { return "fix"; }
 
  private:
@@ -54,6 +62,7 @@ class ORTUNG_API PoseFixData : public SensorData {
   void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
                  const FieldGrid& grid) override;
   std::shared_ptr<const Weigher> makeWeigher() const override;
+  const Fix* nearestTo(const Pose2& pose) const;
 
   Config config_;
   std::shared_ptr<const GaussianTable> gaussian_;

@@ -54,6 +54,8 @@ class ORTUNG_API ScanData : public SensorData {
   static void encode(std::span<const float> ranges, double maxRange,
                      std::vector<std::uint32_t>& words);
 
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<ScanData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return config_.localizes; }
@@ -62,6 +64,11 @@ class ORTUNG_API ScanData : public SensorData {
   /// Range of each beam [m]; the greatest range where nothing is expected to be seen.
   /// With an end-point field: empty, since that does not keep ranges.
   std::vector<double> expectation(const Pose2& pose) const override;
+  bool isAngle(std::size_t) const override { return false; }
+  std::vector<double> measured(const Pose2& pose) const override;
+  std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
+  void store(const WordValue& value, std::span<std::uint32_t> words) const override;
+  ExpectationGrain grain() const override;
   std::string learningKey() const override;
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
@@ -77,6 +84,7 @@ class ORTUNG_API ScanData : public SensorData {
   std::shared_ptr<const Weigher> makeWeigher() const override;
   std::shared_ptr<const Weigher> makeRayWeigher() const;
   std::shared_ptr<const Weigher> makeEndPointWeigher() const;
+  double rangeOf(std::uint32_t word) const;
   bool marksFrom(const Pose2& sensor) const;
   int runLength(int directions) const;
 

@@ -38,6 +38,8 @@ class ORTUNG_API TalkData : public SensorData {
   /// @throws std::invalid_argument for more or longer messages than a reading can hold, and for
   ///   characters that can't be printed
   static std::vector<std::uint32_t> encode(const Reading& reading);
+  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  static std::unique_ptr<TalkData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

@@ -17,9 +17,6 @@ struct ReadingValue {
   std::optional<double> expected;  ///< nothing: nothing is expected there
 };
 
-/// Whether a value of SensorData::expectation() is an angle, by the feature's format.
-ORTUNG_API bool isAngle(const SensorData& feature, std::size_t index);
-
 /// All values of a feature, in the order of SensorData::expectation(): beams of a scan, range and
 /// bearing of each landmark of a list, one of all else. Of points only expectations are there: how
 /// far each is from the nearest learned one. What is beyond the sensor's range is infinite.

@@ -14,8 +14,8 @@ namespace ortung {
 /// The readings of @p source with faults. Ground truth is never altered, and neither is anything
 /// outside of a fault's time. Several faults of one feature work one after the other. The same seed
 /// gives the same readings. remark() also names faults that met no reading.
-/// @param robot tells what is odometry and what is a scan, by the formats of its features; only
-///   asked here
+/// @param robot tells what readings are made of, by the formats of its features; it must live as
+///   long as what is returned
 /// @throws FaultError for a feature that the robot lacks, or a fault that its format can't have
 ORTUNG_API std::unique_ptr<Source> disturbed(std::unique_ptr<Source> source,
                                              const std::vector<Fault>& faults,

@@ -108,6 +108,26 @@ struct Image {
   std::vector<std::uint8_t> data;
 };
 
+/// Points, each of the same fields. Those that are here have one row of them.
+struct PointCloud {
+  static constexpr std::string_view kType = "sensor_msgs/msg/PointCloud2";
+  struct Field {
+    static constexpr std::uint8_t kWord = 6;   ///< 32 bits without a sign
+    static constexpr std::uint8_t kFloat = 7;  ///< 32 bits
+    std::string name;
+    std::uint32_t offset = 0;  ///< in a point [bytes]
+    std::uint8_t type = kFloat;
+    std::uint32_t count = 1;
+  };
+  Header header;
+  std::uint32_t height = 1, width = 0;
+  std::vector<Field> fields;
+  bool isBigEndian = false;
+  std::uint32_t pointStep = 0, rowStep = 0;  ///< [bytes]
+  std::vector<std::uint8_t> data;
+  bool isDense = true;  ///< no coordinate is NaN
+};
+
 /// Numbers that have no other message.
 struct Words {
   static constexpr std::string_view kType = "std_msgs/msg/UInt32MultiArray";

@@ -23,6 +23,7 @@ struct Topic {
   std::string_view type;     ///< "sensor_msgs/msg/LaserScan"
   bool isLatched = false;    ///< the last message is also for those who come later
   std::string feature = {};  ///< "LMS200/LRF/180DegreeScan"; "" if it is not that of one feature
+  std::string format = {};   ///< of that feature, Format::toText(); "" if it is not known
 };
 
 /// The pose in the plane that a pose in space is seen from above, and the other way round.

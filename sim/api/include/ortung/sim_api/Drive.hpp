@@ -14,6 +14,14 @@
 
 namespace ortung {
 
+/// Kinds of drives that come with Ortung: what the numbers of their command vectors are.
+namespace motion {
+inline constexpr const char* kDifferential = "differential";  ///< left, right wheel [m/s]
+inline constexpr const char* kOmni3 =
+    "omni3";  ///< three wheels at the rim, counter-clockwise [m/s]
+inline constexpr const char* kVelocities = "velocities";  ///< forwards [m/s], turning left [rad/s]
+}  // namespace motion
+
 /// The limits of a drive, with which drivers and players plan.
 struct DriveLimits {
   double speed = 0.8;             ///< greatest translational speed [m/s]
@@ -43,7 +51,10 @@ class ORTUNG_API Drive {
   virtual void setCommand(std::span<const double> command) = 0;
   /// Returns how many numbers setCommand() takes.
   virtual std::size_t commandSize() const = 0;
-  /// Returns one line on what the numbers of the command vector mean, with units.
+  /// What those numbers are, for programs: 1 to 64 of [a-z0-9_], one of motion:: or a new one. Who
+  /// knows a kind can command any drive of it.
+  virtual std::string kind() const = 0;
+  /// One line on what the numbers of the command vector mean, with units, for people alone.
   virtual std::string commandHelp() const = 0;
   /// Returns what the base can do at most.
   virtual DriveLimits limits() const = 0;

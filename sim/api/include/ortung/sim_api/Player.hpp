@@ -32,7 +32,8 @@ struct RobotAbilities {
   double radius = 0.0;  ///< radius of the circle around its body [m]
   double height = 0.0;  ///< height of its body [m]
   DriveLimits limits;
-  std::string motionHelp;  ///< what the numbers of setMotion() mean
+  std::string motionKind;  ///< Drive::kind(): what setMotion() takes, for programs
+  std::string motionHelp;  ///< what the numbers of setMotion() mean, for people
   std::vector<Manipulator> manipulators;
 };
 

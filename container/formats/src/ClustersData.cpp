@@ -1,4 +1,4 @@
-#include "ortung/run/ClustersData.hpp"
+#include "ortung/formats/ClustersData.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,18 +33,17 @@ std::vector<std::uint32_t> fixWords(std::span<const std::uint32_t> words) {
 ClustersData::ClustersData() : SensorData(ownId()), fixes_(ownId(), {}) {}
 ClustersData::~ClustersData() = default;
 
-std::vector<std::uint32_t> ClustersData::encode(std::span<const PoseEstimate> places) {
+std::vector<std::uint32_t> ClustersData::encode(std::span<const Cluster> places) {
   std::vector<std::uint32_t> words;
-  for (const PoseEstimate& place : places.first(std::min(places.size(), kMostClusters))) {
+  for (const Cluster& place : places.first(std::min(places.size(), kMostClusters))) {
     words.push_back(shareWord(place.share));
-    const PoseFixData::Fix fix{place.pose, place.covariance};
-    const std::vector<std::uint32_t> its = PoseFixData::encode(std::span(&fix, 1));
+    const std::vector<std::uint32_t> its = PoseFixData::encode(std::span(&place.fix, 1));
     words.insert(words.end(), its.begin(), its.end());
   }
   return words;
 }
 
-Message ClustersData::message(Timestamp stamp, std::span<const PoseEstimate> places) {
+Message ClustersData::message(Timestamp stamp, std::span<const Cluster> places) {
   return {stamp, ownId(), encode(places)};
 }
 

@@ -1,4 +1,4 @@
-#include "ortung/run/TrackData.hpp"
+#include "ortung/formats/TrackData.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,13 +41,13 @@ void checkBelow(const char* what, std::uint32_t word, std::uint32_t most) {
 TrackData::TrackData() : SensorData(ownId()) {}
 TrackData::~TrackData() = default;
 
-std::vector<std::uint32_t> TrackData::encode(const PoseEstimate& estimate) {
-  return {static_cast<std::uint32_t>(estimate.status), static_cast<std::uint32_t>(estimate.reason),
-          shareWord(estimate.quality), shareWord(estimate.share)};
+std::vector<std::uint32_t> TrackData::encode(const Reading& reading) {
+  return {static_cast<std::uint32_t>(reading.status), static_cast<std::uint32_t>(reading.reason),
+          shareWord(reading.quality), shareWord(reading.share)};
 }
 
-Message TrackData::message(const PoseEstimate& estimate) {
-  return {estimate.stamp, ownId(), encode(estimate)};
+Message TrackData::message(Timestamp stamp, const Reading& reading) {
+  return {stamp, ownId(), encode(reading)};
 }
 
 Format TrackData::format() const {

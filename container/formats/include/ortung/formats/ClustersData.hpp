@@ -9,7 +9,6 @@
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
-#include "ortung/mcl/PoseEstimate.hpp"
 
 namespace ortung {
 
@@ -30,8 +29,8 @@ class ORTUNG_API ClustersData : public SensorData {
   ~ClustersData() override;
   const Reading& reading() const { return reading_; }
   /// The first kMostClusters of them.
-  static std::vector<std::uint32_t> encode(std::span<const PoseEstimate> places);
-  static Message message(Timestamp stamp, std::span<const PoseEstimate> places);
+  static std::vector<std::uint32_t> encode(std::span<const Cluster> places);
+  static Message message(Timestamp stamp, std::span<const Cluster> places);
   Format format() const override;
   std::string wordsHelp() const override;
 

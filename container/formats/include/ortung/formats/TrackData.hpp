@@ -8,7 +8,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
-#include "ortung/mcl/PoseEstimate.hpp"
+#include "ortung/formats/TrackStatus.hpp"
 
 namespace ortung {
 
@@ -22,15 +22,15 @@ class ORTUNG_API TrackData : public SensorData {
   struct Reading {
     TrackStatus status = TrackStatus::kLost;
     TrackReason reason = TrackReason::kNoReading;
-    double quality = 0.0;  ///< as of PoseEstimate
-    double share = 0.0;    ///< as of PoseEstimate
+    double quality = 0.0;  ///< probability that the position error is below 0.5 m, in [0, 1]
+    double share = 0.0;    ///< of the estimate's cluster in the whole belief, in [0, 1]
   };
 
   TrackData();
   ~TrackData() override;
   const Reading& reading() const { return reading_; }
-  static std::vector<std::uint32_t> encode(const PoseEstimate& estimate);
-  static Message message(const PoseEstimate& estimate);
+  static std::vector<std::uint32_t> encode(const Reading& reading);
+  static Message message(Timestamp stamp, const Reading& reading);
   Format format() const override;
   std::string wordsHelp() const override;
 

@@ -1,4 +1,4 @@
-#include "ortung/run/WorkData.hpp"
+#include "ortung/formats/WorkData.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ortung/run/SamplesData.hpp"
+#include "ortung/formats/SamplesData.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +22,7 @@ std::uint32_t headingWord(double theta) {
   return static_cast<std::uint32_t>(whole < 0.0 ? whole + words::kAngles : whole) % words::kAngles;
 }
 
-/// What all are compared with; of samples that are all lost, none has any.
-float heaviest(const SampleSet& samples) {
-  const auto best = std::max_element(samples.logWeight.begin(), samples.logWeight.end());
-  return best == samples.logWeight.end() || !std::isfinite(*best) ? 0.0F : *best;
-}
-
-std::uint32_t weightWord(float logWeight, float best) {
-  const double share = std::exp(static_cast<double>(logWeight - best));
+std::uint32_t weightWord(double share) {
   if (std::isnan(share)) return 0;
   return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kHeaviest));
 }
@@ -39,22 +32,17 @@ std::uint32_t weightWord(float logWeight, float best) {
 SamplesData::SamplesData() : SensorData(ownId()) {}
 SamplesData::~SamplesData() = default;
 
-std::vector<std::uint32_t> SamplesData::encode(const SampleSet& samples) {
-  const std::size_t count = std::min(samples.size(), kMostSamples);
-  const float best = heaviest(samples);
+std::vector<std::uint32_t> SamplesData::encode(std::span<const Sample> samples) {
   std::vector<std::uint32_t> words;
-  words.reserve(kWords * count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = k * samples.size() / count;
-    words.insert(words.end(), {words::fromSignedMetres(static_cast<double>(samples.x[i])),
-                               words::fromSignedMetres(static_cast<double>(samples.y[i])),
-                               headingWord(static_cast<double>(samples.theta[i])),
-                               weightWord(samples.logWeight[i], best)});
-  }
+  words.reserve(kWords * std::min(samples.size(), kMostSamples));
+  for (const Sample& one : samples.first(std::min(samples.size(), kMostSamples)))
+    words.insert(words.end(),
+                 {words::fromSignedMetres(one.pose.x), words::fromSignedMetres(one.pose.y),
+                  headingWord(one.pose.theta), weightWord(one.weight)});
   return words;
 }
 
-Message SamplesData::message(Timestamp stamp, const SampleSet& samples) {
+Message SamplesData::message(Timestamp stamp, std::span<const Sample> samples) {
   return {stamp, ownId(), encode(samples)};
 }
 

@@ -9,7 +9,6 @@
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
-#include "ortung/mcl/SampleSet.hpp"
 
 namespace ortung {
 
@@ -31,8 +30,9 @@ class ORTUNG_API SamplesData : public SensorData {
   ~SamplesData() override;
   /// Made of the words when it is asked for: nobody in the localization's own program does.
   Reading reading() const;
-  static std::vector<std::uint32_t> encode(const SampleSet& samples);
-  static Message message(Timestamp stamp, const SampleSet& samples);
+  /// The first kMostSamples of them.
+  static std::vector<std::uint32_t> encode(std::span<const Sample> samples);
+  static Message message(Timestamp stamp, std::span<const Sample> samples);
   Format format() const override;
   std::string wordsHelp() const override;
 

@@ -1,0 +1,31 @@
+#include "ortung/formats/TrackStatus.hpp"
+
+#include <cstddef>
+#include <iterator>
+
+namespace ortung {
+
+const char* nameOf(TrackStatus status) {
+  constexpr const char* kNames[] = {"tracking", "uncertain", "lost"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+const char* nameOf(TrackReason reason) {
+  constexpr const char* kNames[] = {
+      "readings fit",
+      "several places fit",
+      "the belief is spread",
+      "no reading comes",
+      "a device repeats its reading though the robot moves",
+      "readings fit worse than they use to",
+      "readings fit elsewhere",
+      "readings contradict odometry",
+      "the field is searched",
+      "readings are late",
+      "few readings have confirmed the place yet",
+  };
+  static_assert(std::size(kNames) == static_cast<std::size_t>(TrackReason::kLast) + 1);
+  return kNames[static_cast<std::size_t>(reason)];
+}
+
+}  // namespace ortung
