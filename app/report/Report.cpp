@@ -88,16 +88,17 @@ std::string chartData(const RunResult& run) {
   member("time", jsonArray(points, [&](const Point& p) { return time(p.stamp); }));
   member("position", jsonArray(points, [](const Point& p) { return p.positionError; }));
   member("positionSigma", jsonArray(points, [](const Point& p) {
-           return std::sqrt(p.covariance[0] + p.covariance[4]);
+           return std::sqrt(positionVariance(p.covariance));
          }));
   member("heading", jsonArray(points, [](const Point& p) { return degrees(p.headingError); }));
-  member("headingSigma",
-         jsonArray(points, [](const Point& p) { return degrees(std::sqrt(p.covariance[8])); }));
+  member("headingSigma", jsonArray(points, [](const Point& p) {
+           return degrees(std::sqrt(headingVariance(p.covariance)));
+         }));
   member("positionBound", boundsOf(points, run.bounds, [](const auto& covariance) {
-           return std::sqrt(covariance[0] + covariance[4]);
+           return std::sqrt(positionVariance(covariance));
          }));
   member("headingBound", boundsOf(points, run.bounds, [](const auto& covariance) {
-           return degrees(std::sqrt(covariance[8]));
+           return degrees(std::sqrt(headingVariance(covariance)));
          }));
   member("truthX", jsonArray(points, [](const Point& p) { return p.truth.x; }));
   member("truthY", jsonArray(points, [](const Point& p) { return p.truth.y; }));

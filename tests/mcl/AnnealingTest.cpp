@@ -29,7 +29,7 @@ Annealing::Weigh gaussian(const Vector& mean, const Vector& sigma) {
 
 struct Moments {
   Vector mean{};
-  std::array<double, 9> covariance{};
+  PoseCovariance covariance{};
   double sigma(std::size_t k) const { return std::sqrt(covariance[4 * k]); }
 };
 
@@ -119,7 +119,7 @@ struct Prior {
     }
     return set;
   }
-  std::array<double, 9> covariance() const {
+  PoseCovariance covariance() const {
     return {sigma[0] * sigma[0], 0, 0, 0, sigma[1] * sigma[1], 0, 0, 0, sigma[2] * sigma[2]};
   }
 };

@@ -10,7 +10,7 @@
 namespace ortung {
 namespace {
 
-std::array<double, 9> covarianceOf(double xx, double xy, double yy) {
+PoseCovariance covarianceOf(double xx, double xy, double yy) {
   return {xx, xy, 0, xy, yy, 0, 0, 0, 0.01};
 }
 

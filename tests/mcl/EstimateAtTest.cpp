@@ -108,7 +108,7 @@ TEST(EstimateAt, FollowsEachAxisByItself) {
     robot.odometry(0.0, {});
     robot.feature("early", 0.0);
     ASSERT_TRUE(mcl->update(robot.container));
-    const std::array<double, 9> before = mcl->estimate().covariance;
+    const PoseCovariance before = mcl->estimate().covariance;
     robot.odometry(0.1, {change, 0.0, 0.0, {}});
     mcl->update(robot.container);
     expectPose(mcl->estimate(fromSeconds(0.1)), change, 1e-4);
@@ -169,7 +169,7 @@ TEST(EstimateAt, KnowsTheMotionModelBetweenUpdates) {
   robot.odometry(0.0, {{0, 0, 0}, 0.8, 0.0, {}});
   robot.feature("early", 0.0);
   mcl.update(robot.container);
-  const std::array<double, 9> before = mcl.estimate().covariance;
+  const PoseCovariance before = mcl.estimate().covariance;
   robot.odometry(1.0, {{0.8, 0, 0}, 0.8, 0.0, {}});
   mcl.followOdometry(robot.container);
   const auto then = mcl.estimate(fromSeconds(1.0));

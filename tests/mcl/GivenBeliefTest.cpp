@@ -17,7 +17,6 @@ using test::FakeRun;
 using test::kPi;
 using test::messageOf;
 using test::MovingRobot;
-using Covariance = std::array<double, 9>;
 
 /// A filter that has followed the run's robot from a known start.
 auto trackingAfter(int readings, FakeRun& run) {
@@ -32,9 +31,9 @@ auto trackingAfter(int readings, FakeRun& run) {
   return mcl;
 }
 
-constexpr Covariance kCovariance = {0.25,  0.06,  -0.02,  //
-                                    0.06,  0.04,  0.004,  //
-                                    -0.02, 0.004, 0.01};
+constexpr PoseCovariance kCovariance = {0.25,  0.06,  -0.02,  //
+                                        0.06,  0.04,  0.004,  //
+                                        -0.02, 0.004, 0.01};
 
 /// Mean and covariance of samples by the textbook's sums.
 struct Moments {
@@ -49,7 +48,7 @@ struct Moments {
           covariance[3 * a + b] += ((*values[a])[i] - mean[a]) * ((*values[b])[i] - mean[b]) / n;
   }
   std::array<double, 3> mean{};
-  Covariance covariance{};
+  PoseCovariance covariance{};
 };
 
 TEST(SetPose, DrawsSamplesWithThatMeanAndCovariance) {
@@ -89,7 +88,7 @@ TEST(SetPose, SaysWhatIsNoCovarianceAndKeepsItsBelief) {
   const auto mcl = robot.mcl();
   mcl->startAt({4, 5, 0}, 0.1, 0.1);
   const std::vector<float> before = mcl->samples().x;
-  const auto error = [&](const Covariance& c) {
+  const auto error = [&](const PoseCovariance& c) {
     return messageOf<std::invalid_argument>([&] { mcl->setPose({1, 2, 3}, c); });
   };
   const double nan = std::nan("");

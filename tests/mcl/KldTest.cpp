@@ -160,7 +160,7 @@ TEST(Estimate, IsTheHeavierClusterWithItsMoments) {
   EXPECT_NEAR(e.pose.x, 1.1, 1e-6);
   EXPECT_NEAR(e.pose.y, 1.1, 1e-6);
   EXPECT_NEAR(e.pose.theta, 0.5, 1e-6);
-  const std::array<double, 9> expected = {0.01, 0, 0.01, 0, 0.01, 0, 0.01, 0, 0.01};
+  const PoseCovariance expected = {0.01, 0, 0.01, 0, 0.01, 0, 0.01, 0, 0.01};
   for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(e.covariance[i], expected[i], 1e-6) << i;
 }
 

@@ -29,7 +29,7 @@ TEST_F(Told, APoseWithItsCovariance) {
 
 TEST_F(Told, APoseWhereItCantBeIsRefused) {
   Localization localization(config());
-  const auto error = [&](const Pose2& pose, const std::array<double, 9>& covariance) {
+  const auto error = [&](const Pose2& pose, const PoseCovariance& covariance) {
     return messageOf<std::invalid_argument>([&] { localization.setPose(pose, covariance); });
   };
   EXPECT_EQ(error({50, 3, 0}, {}),

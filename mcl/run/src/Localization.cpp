@@ -194,9 +194,9 @@ void Localization::checkPose(const Pose2& pose, double sigmaPosition) const {
   checkPlace(robot_->tables.region, pose, sigmaPosition, "the pose");
 }
 
-void Localization::setPose(const Pose2& pose, const std::array<double, 9>& covariance) {
+void Localization::setPose(const Pose2& pose, const PoseCovariance& covariance) {
   requireMcl("setPose");
-  const double variance = covariance[0] + covariance[4];
+  const double variance = positionVariance(covariance);
   const bool isNumber = variance >= 0.0 && std::isfinite(variance);  // else MCL says what it is
   checkPlace(robot_->tables.region, pose, isNumber ? std::sqrt(variance) : 0.0, "the pose set");
   mcl_->setPose(pose, covariance);

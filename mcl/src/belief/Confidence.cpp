@@ -30,8 +30,8 @@ double square(double v) { return v * v; }
 
 }  // namespace
 
-double probabilityWithin(const std::array<double, 9>& covariance, double metres) {
-  const double middle = 0.5 * (covariance[0] + covariance[4]);
+double probabilityWithin(const PoseCovariance& covariance, double metres) {
+  const double middle = 0.5 * positionVariance(covariance);
   const double off = std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1]);
   const double wide = std::sqrt(std::max(middle + off, 1e-12));
   const double narrow = std::sqrt(std::max(middle - off, 1e-12));
@@ -50,7 +50,7 @@ double probabilityWithin(const std::array<double, 9>& covariance, double metres)
 }
 
 void judge(const Signs& signs, PoseEstimate& estimate) {
-  std::array<double, 9> wide = estimate.covariance;
+  PoseCovariance wide = estimate.covariance;
   for (double& c : wide) c *= kInflation;
   const double within = probabilityWithin(wide, kRight);
   const double belief = std::clamp(within * estimate.share, 1e-3, 1.0 - 1e-3);

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 
 namespace ortung {
@@ -22,9 +22,8 @@ struct Signs {
   bool isLate = false;  ///< readings, by their stamps
 };
 
-/// Probability that a position is within @p metres of the mean of a Gaussian with this covariance
-/// of (x, y, theta), row-major.
-ORTUNG_API double probabilityWithin(const std::array<double, 9>& covariance, double metres);
+/// Probability that a position is within @p metres of the mean of a Gaussian with this covariance.
+ORTUNG_API double probabilityWithin(const PoseCovariance& covariance, double metres);
 
 /// Fills in quality, status and reason of an estimate whose share and covariance are known.
 ORTUNG_API void judge(const Signs& signs, PoseEstimate& estimate);

@@ -35,7 +35,7 @@ template <class... Parts>
 
 /// A matrix R with R R^T = covariance. Metres and radians are not compared: it is taken from the
 /// correlations.
-Matrix3 rootOf(const std::array<double, 9>& given) {
+Matrix3 rootOf(const PoseCovariance& given) {
   const Matrix3 covariance = Eigen::Map<const Matrix3>(given.data());
   for (Eigen::Index i = 0; i < 3; ++i)
     for (Eigen::Index k = 0; k < 3; ++k)
@@ -69,7 +69,7 @@ Matrix3 rootOf(const std::array<double, 9>& given) {
 
 }  // namespace
 
-SampleSet normalSamples(const Pose2& pose, const std::array<double, 9>& covariance, std::size_t n,
+SampleSet normalSamples(const Pose2& pose, const PoseCovariance& covariance, std::size_t n,
                         Random random) {
   if (!isFinite(pose))
     refuse("pose is (", pose.x, ", ", pose.y, ", ", pose.theta, "), expected finite numbers");

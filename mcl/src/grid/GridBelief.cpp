@@ -245,9 +245,9 @@ void GridBelief::spread(int right, int up, const std::vector<float>& shareOfLaye
 /// In steps, each no larger than neighbours are. Noise of a place is what the turn leaves open of
 /// it (the conditional covariance), split into steps along x, y and a diagonal that have it; where
 /// it is longer and more slanting than these can have, what is too narrow is widened.
-void GridBelief::blur(const std::array<double, 9>& covariance, double turn) {
-  const double ofTurn = covariance[8];
-  const double place = std::max(covariance[0] + covariance[4], 0.0);
+void GridBelief::blur(const PoseCovariance& covariance, double turn) {
+  const double ofTurn = headingVariance(covariance);
+  const double place = std::max(positionVariance(covariance), 0.0);
   const double neighbours = std::max(ofTurn / (step_ * step_), place / (cell_ * cell_));
   const int steps = static_cast<int>(
       std::clamp(std::ceil(neighbours / kMostVariance), 1.0, static_cast<double>(kMostSteps)));

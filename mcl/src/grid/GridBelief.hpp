@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,6 +7,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 
@@ -32,7 +32,7 @@ class ORTUNG_API GridBelief {
   void move(const Pose2& change);
   /// Adds noise of mean zero in the frame of the robot as it was before @p turn [rad].
   /// @param covariance row-major, of (x [m], y [m], theta [rad])
-  void blur(const std::array<double, 9>& covariance, double turn);
+  void blur(const PoseCovariance& covariance, double turn);
   /// Multiplies each share by e^v, of values in the order of samples(), and forgets what is little.
   void weigh(const std::function<void(const SampleSet& cells, std::vector<float>& out)>& logOf);
   /// Centres of all cells that have a share; ln of it as weight. They sum to 1.

@@ -17,6 +17,7 @@
 #include "Kld.hpp"
 #include "MotionPieces.hpp"
 #include "Resampling.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/base/Workers.hpp"
 
 namespace ortung {
@@ -161,9 +162,9 @@ struct GridFilter::Impl {
   void drift(Timestamp stamp) {
     const double seconds = lastTime ? driftSeconds(*lastTime, stamp) : 0.0;
     if (seconds <= 0.0) return;
-    std::array<double, 9> noise{};
-    noise[0] = noise[4] = square(config.driftMetres) * seconds;
-    noise[8] = square(config.driftRadians) * seconds;
+    PoseCovariance noise{};
+    addVariances(noise, square(config.driftMetres) * seconds,
+                 square(config.driftRadians) * seconds);
     belief.blur(noise, 0.0);
   }
   void correct(const std::vector<News>& news, Timestamp stamp) {
@@ -190,9 +191,7 @@ struct GridFilter::Impl {
     }
     PoseEstimate now = estimateOf(config, cells.view(), normalized(cells.logWeight));
     // What is within a cell.
-    now.covariance[0] += square(belief.cell()) / 12.0;
-    now.covariance[4] += square(belief.cell()) / 12.0;
-    now.covariance[8] += square(belief.headingStep()) / 12.0;
+    addVariances(now.covariance, square(belief.cell()) / 12.0, square(belief.headingStep()) / 12.0);
     now.samples = cells.size();
     judge(Signs{}, now);
     return now;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kCopies = 128;
 
 /// Adds noise of the robot's frame at heading @p theta, turned into the field's.
-void add(const std::array<double, 9>& noise, double theta, std::array<double, 9>& covariance) {
+void add(const PoseCovariance& noise, double theta, PoseCovariance& covariance) {
   const double c = std::cos(theta);
   const double s = std::sin(theta);
   const std::array<std::array<double, 3>, 3> turn = {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
@@ -58,7 +58,7 @@ PoseEstimate moved(PoseEstimate e, const Pose2& change) {
   e.pose = old * change;
   const double dx = e.pose.x - old.x;
   const double dy = e.pose.y - old.y;
-  std::array<double, 9>& p = e.covariance;
+  PoseCovariance& p = e.covariance;
   for (std::size_t column = 0; column < 3; ++column) {
     p[column] -= dy * p[6 + column];
     p[3 + column] += dx * p[6 + column];

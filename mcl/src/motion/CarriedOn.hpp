@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/motion/MotionModel.hpp"
 
@@ -13,7 +13,7 @@ namespace ortung {
 /// Mean and covariance of a change of pose, in the robot's old frame.
 struct MotionChange {
   Pose2 mean;
-  std::array<double, 9> covariance{};  ///< row-major, of (x [m], y [m], theta [rad])
+  PoseCovariance covariance{};
 };
 
 /// What a motion model makes of odometry's change, of so many samples.

@@ -17,8 +17,8 @@ double known(double drifted, double open) {
 }  // namespace
 
 void Momentum::follow(const PoseEstimate& seen, Timestamp stamp) {
-  const Seen now{seen.pose, stamp, (seen.covariance[0] + seen.covariance[4]) / 2.0,
-                 seen.covariance[8]};
+  const Seen now{seen.pose, stamp, positionVariance(seen.covariance) / 2.0,
+                 headingVariance(seen.covariance)};
   const std::optional<Seen> before = std::exchange(last_, now);
   const double seconds = before ? toSeconds(stamp - before->stamp) : 0.0;
   perSecond_ = {};

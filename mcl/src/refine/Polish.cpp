@@ -44,7 +44,7 @@ Vector difference(const Pose2& to, const Pose2& from) {
   return {to.x - from.x, to.y - from.y, wrapAngle(to.theta - from.theta)};
 }
 
-Matrix widened(const std::array<double, 9>& covariance, double metres, double radians) {
+Matrix widened(const PoseCovariance& covariance, double metres, double radians) {
   Matrix wider = matrixOf(covariance);
   wider.diagonal() += Vector(metres * metres, metres * metres, radians * radians);
   return wider;
@@ -207,7 +207,7 @@ void Polish::learnTimes(double observed) {
 /// Samples know what the other readings have said, too: where that is more, they are the estimate.
 void Polish::apply(PoseEstimate& cluster) const {
   if (!place_ || !isSame(place_->pose, cluster)) return;
-  const auto spread = [](const PoseEstimate& e) { return e.covariance[0] + e.covariance[4]; };
+  const auto spread = [](const PoseEstimate& e) { return positionVariance(e.covariance); };
   if (times_ * spread(*place_) < spread(cluster)) put(cluster);
 }
 

@@ -51,7 +51,7 @@ double temperOf(const std::vector<float>& logWeights, double least) {
 Annealing::Annealing(Weigh weigh, Within within)
     : weigh_(std::move(weigh)), within_(std::move(within)) {}
 
-Annealing::Annealing(Weigh weigh, const std::array<double, 9>& covariance, std::size_t samples)
+Annealing::Annealing(Weigh weigh, const PoseCovariance& covariance, std::size_t samples)
     : weigh_(std::move(weigh)), isOfBelief_(true) {
   // Silverman's rule for three dimensions: h = (4 / (5 n))^(1/7).
   const double h =

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 
@@ -32,8 +33,8 @@ class ORTUNG_API Annealing {
   Annealing(Weigh weigh, Within within);
   /// Of a belief: each of its samples stands for its surroundings (Silverman 1986), a Gaussian with
   /// the covariance of the whole, made smaller. So climbing does not forget what was known.
-  /// @param covariance of (x [m], y [m], theta [rad]) of the belief's heaviest cluster, row-major
-  Annealing(Weigh weigh, const std::array<double, 9>& covariance, std::size_t samples);
+  /// @param covariance of the belief's heaviest cluster
+  Annealing(Weigh weigh, const PoseCovariance& covariance, std::size_t samples);
 
   class Draw;
   /// @p n poses by what @p from stands for times p(s|l). @param from its weights are not looked at

@@ -25,7 +25,7 @@ double rootMeanSquare(const std::vector<double>& values) {
 }
 
 /// e^T P^-1 e for the covariance P; NaN if P is not positive definite.
-double squaredInSigmas(const Eigen::Vector3d& e, const std::array<double, 9>& p) {
+double squaredInSigmas(const Eigen::Vector3d& e, const PoseCovariance& p) {
   const Eigen::LDLT<Eigen::Matrix3d> decomposed(Eigen::Map<const Eigen::Matrix3d>(p.data()));
   if (decomposed.info() != Eigen::Success || !(decomposed.vectorD().minCoeff() > 0.0)) return kNan;
   return e.dot(decomposed.solve(e));

@@ -62,7 +62,7 @@ void SelfLocalization::startNear(const Pose2& truth, double sigmaPosition, doubl
   startAt(told, sigmaPosition, sigmaHeading);
 }
 
-void SelfLocalization::setPose(const Pose2& pose, const std::array<double, 9>& covariance) {
+void SelfLocalization::setPose(const Pose2& pose, const PoseCovariance& covariance) {
   mcl_->setPose(pose, covariance);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "ortung/base/Pose2.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/core/Correctable.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/mcl/Belief.hpp"
@@ -43,10 +43,10 @@ class ORTUNG_API Mcl {
   // within the last half second counts again.
 
   /// Somebody else knows where the robot is now, that is at the newest odometry that was looked at.
-  /// @param covariance row-major, of (x [m], y [m], theta [rad]); may be singular
+  /// @param covariance may be singular
   /// @throws std::invalid_argument saying what is wrong, if the pose is not finite or that is no
   ///   covariance; the belief stays then
-  void setPose(const Pose2& pose, const std::array<double, 9>& covariance);
+  void setPose(const Pose2& pose, const PoseCovariance& covariance);
   /// The robot may be anywhere: the next readings say where, as of a global start.
   void relocalize();
   /// The belief, moved to the newest odometry. Nothing while a global start waits for its first

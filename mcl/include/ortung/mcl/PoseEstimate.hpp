@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/formats/TrackStatus.hpp"
 
@@ -14,10 +14,10 @@ namespace ortung {
 /// Where the robot is, as the heaviest cluster of the sample set says.
 struct PoseEstimate {
   Timestamp stamp = 0;
-  Pose2 pose;                          ///< mean of the cluster, field frame
-  std::array<double, 9> covariance{};  ///< row-major, of (x [m], y [m], theta [rad])
-  double share = 0.0;                  ///< weight of the cluster in the whole belief, in [0, 1]
-  std::size_t samples = 0;             ///< size of the sample set
+  Pose2 pose;  ///< mean of the cluster, field frame
+  PoseCovariance covariance{};
+  double share = 0.0;       ///< weight of the cluster in the whole belief, in [0, 1]
+  std::size_t samples = 0;  ///< size of the sample set
   TrackStatus status = TrackStatus::kLost;
   TrackReason reason = TrackReason::kNoReading;
   /// Probability that the position error is below 0.5 m, in [0, 1].

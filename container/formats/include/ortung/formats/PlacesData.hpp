@@ -21,7 +21,9 @@ struct Place {
   Kind kind = Kind::robot;
   std::string name;      ///< of what is there: 1 to 64 of [A-Za-z0-9_.-]
   PoseFixData::Fix fix;  ///< sigma of the heading kNoHeading: only the position is known
-  bool hasHeading() const { return fix.covariance[8] < 0.25 * kNoHeading * kNoHeading; }
+  bool hasHeading() const {
+    return headingVariance(fix.covariance) < 0.25 * kNoHeading * kNoHeading;
+  }
 };
 
 /// Where others say that robots and balls are. They move, so it neither learns nor localizes.

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/core/SensorData.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
@@ -27,8 +27,7 @@ class ORTUNG_API PoseFixData : public SensorData {
   };
   struct Fix {
     Pose2 pose;  ///< of the robot, in the field frame
-    /// Of x, y [m] and heading [rad], row-major, symmetric.
-    std::array<double, 9> covariance{};
+    PoseCovariance covariance{};
   };
   using Reading = std::vector<Fix>;
   static constexpr std::size_t kMostFixes = 64;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +13,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/core/Source.hpp"
 #include "ortung/mcl/GridFilter.hpp"
@@ -126,9 +126,9 @@ class ORTUNG_API Localization {
   /// Somebody else knows where the robot is now: a belief as wide as that is put there, which
   /// odometry carries on and readings sharpen. Unlike start() it keeps what is known of time and
   /// odometry, and does not wait for a reading.
-  /// @param covariance row-major, of (x [m], y [m], theta [rad]); may be singular
+  /// @param covariance may be singular
   /// @throws std::invalid_argument if that is no covariance, or as start(). The belief stays then
-  void setPose(const Pose2& pose, const std::array<double, 9>& covariance);
+  void setPose(const Pose2& pose, const PoseCovariance& covariance);
   /// The robot may be anywhere: the present readings, and else the next ones, say where. Odometry
   /// goes on meanwhile.
   void relocalize();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -9,6 +8,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 
@@ -29,7 +29,7 @@ struct EvaluationPoint {
   double positionError = 0.0;  ///< [m]
   double headingError = 0.0;   ///< [rad], in [0, pi]
   std::size_t samples = 0;
-  std::array<double, 9> covariance{};  ///< that the filter claims, as of PoseEstimate
+  PoseCovariance covariance{};  ///< that the filter claims, as of PoseEstimate
   /// Whether nothing is known of the time since the point before it, longer than
   /// Options::longestGap: a drawn line breaks here. Not at the first point.
   bool followsGap = false;

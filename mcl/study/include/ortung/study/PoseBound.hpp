@@ -7,6 +7,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/base/Time.hpp"
 
 namespace ortung {
@@ -24,7 +25,7 @@ struct BoundStep {
 /// How good estimates can be at all.
 struct PoseBound {
   Timestamp stamp = 0;
-  std::array<double, 9> covariance{};  ///< least one of an unbiased estimate, as of PoseEstimate
+  PoseCovariance covariance{};  ///< least one of an unbiased estimate, as of PoseEstimate
 };
 
 /// Figures of a bound, as of EvaluationErrors.

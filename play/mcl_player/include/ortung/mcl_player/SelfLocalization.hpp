@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/mcl/Mcl.hpp"
@@ -44,7 +44,7 @@ class ORTUNG_API SelfLocalization {
   /// Somebody has carried the robot and says where, while it plays: see Mcl::setPose().
   /// @param covariance row-major, of (x [m], y [m], theta [rad])
   /// @throws std::invalid_argument
-  void setPose(const Pose2& pose, const std::array<double, 9>& covariance);
+  void setPose(const Pose2& pose, const PoseCovariance& covariance);
 
   /// Takes what is new in the robot's container; once in each cycle in which the player acts.
   /// @returns whether readings have weighed the belief
