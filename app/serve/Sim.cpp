@@ -1,15 +1,12 @@
+#include "Sim.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <thread>
 #include <utility>
 
-#include "ServingArguments.hpp"
-#include "Sim.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
@@ -17,7 +14,8 @@
 #include "RefBoxLink.hpp"
 #include "Rescue.hpp"
 #include "Serving.hpp"
-#include "ortung/base/Angles.hpp"
+#include "ServingArguments.hpp"
+#include "Trace.hpp"
 #include "ortung/formats/TalkData.hpp"
 #include "ortung/mcl_served/LocalizationCommands.hpp"
 #include "ortung/mcl_served/LocalizedWorld.hpp"
@@ -74,49 +72,6 @@ Scene sceneOf(const SimArguments& arguments) {
   }
   return scene;
 }
-
-/// Where everything was, as lines of a table, which grows as the simulation goes on.
-class Trace {
- public:
-  explicit Trace(const std::filesystem::path& file) : file_(file) {}
-  void add(const Simulation& simulation) {
-    constexpr Timestamp kPeriod = 50'000;                              // [us]
-    if (simulation.now() + kPeriod < next_) next_ = simulation.now();  // it has started over
-    if (simulation.now() < next_) return;
-    next_ += kPeriod;
-    for (const auto& robot : simulation.robots()) {
-      std::string states;
-      const auto& manipulators = robot->shape().manipulators;
-      for (std::size_t i = 0; i < manipulators.size(); ++i)
-        states += fmt::format("{}{}={}", i == 0 ? "" : ";", manipulators[i].name,
-                              manipulators[i].states[robot->manipulatorStates()[i]].name);
-      line(simulation.now(), "robot", robot->config().name, robot->state().pose,
-           robot->state().velocity, states);
-    }
-    for (const Simulation::Thing& thing : simulation.things())
-      line(simulation.now(), thing.kind, thing.name, thing.pose, thing.velocity, "");
-    file_.write(text_);
-    file_.publish();
-    text_.clear();
-  }
-  void commit() {
-    file_.write(text_);
-    file_.commit();
-  }
-
- private:
-  void line(Timestamp now, const std::string& kind, std::string name, const Pose2& pose,
-            const Twist& velocity, const std::string& states) {
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == ',' || c == '"' || c == '\n'; }, '_');
-    text_ += fmt::format("{:.3f},{},{},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{:.3f},{}\n",
-                         toSeconds(now), kind, name, pose.x, pose.y, degrees(pose.theta),
-                         velocity.x, velocity.y, degrees(velocity.theta), states);
-  }
-  NewFile file_;
-  Timestamp next_ = 0;
-  std::string text_ = "time_s,kind,name,x_m,y_m,theta_deg,vx_m_s,vy_m_s,w_deg_s,manipulators\n";
-};
 
 /// Waits until as much real time has passed as the pace wants.
 class Pacing {
@@ -268,67 +223,108 @@ LocalizedWorld localized(ServedWorld& world, ServedSimulation& simulation,
   }
 }
 
-int play(const SimArguments& arguments) {
-  const Outputs outputs = outputsOf(arguments);
-  const Scene scene = sceneOf(arguments);
-  PluginFactory factory(PluginFactory::standardFolders());
-  Simulation::Config config = configOf(arguments);
-  std::size_t problems = 0;
-  config.onProblem = [&problems](const std::string& problem) {
-    warn(problem);
-    ++problems;
-  };
-  SceneRun run(scene, config, factory, playersOf(arguments, config.onProblem));
-  Simulation& simulation = run.simulation();
-  Recording recording(arguments, outputs, scene, run);
-  std::optional<RefBoxLink> box;
-  if (!arguments.refBox.empty())
-    box.emplace(arguments.refBox, [&run]() -> SceneRun& { return run; });
-  const std::optional<double> duration = arguments.duration ? arguments.duration : scene.duration;
-  Rescue rescue([&] { recording.commit(); });
-  const Pacing pacing(arguments.serving);
-  std::size_t cycles = 0;
-  RunDigest digest;
-  {
+/// A run with nobody who looks on, and what it leaves behind.
+class Playing {
+ public:
+  explicit Playing(const SimArguments& arguments)
+      : arguments_(arguments),
+        outputs_(outputsOf(arguments)),
+        scene_(sceneOf(arguments)),
+        factory_(PluginFactory::standardFolders()),
+        run_(scene_, config(), factory_, playersOf(arguments, problemTaker())),
+        recording_(arguments, outputs_, scene_, run_),
+        duration_(arguments.duration ? arguments.duration : scene_.duration),
+        rescue_([this] { recording_.commit(); }),
+        pacing_(arguments.serving) {
+    if (!arguments.refBox.empty())
+      box_.emplace(arguments.refBox, [this]() -> SceneRun& { return run_; });
+  }
+
+  /// Until its time is over, or a signal ends it.
+  void run() {
     Progress progress("simulating", false);
-    while (interruptSignal() == 0 && !(duration && simulation.now() > fromSeconds(*duration))) {
-      if (recording.trace) {
-        const auto held = rescue.hold();
-        recording.trace->add(simulation);
-      }
-      if (box) box->poll(pacing.elapsed());
-      run.step();
-      const std::vector<RefereeEvent> events =
-          run.referee() != nullptr ? run.referee()->takeEvents() : std::vector<RefereeEvent>();
-      print(events);
-      if (arguments.digest) {
-        digest.add(run);
-        for (const RefereeEvent& event : events) digest.add(event);
-      }
-      ++cycles;
-      {
-        const auto held = rescue.hold();
-        recording.add(simulation, events);
-      }
-      if (duration && cycles % 100 == 0) progress.update(toSeconds(simulation.now()) / *duration);
-      pacing.waitFor(toSeconds(simulation.now()));
+    while (interruptSignal() == 0 && !(duration_ && now() > fromSeconds(*duration_))) {
+      cycle();
+      if (duration_ && cycles_ % 100 == 0) progress.update(toSeconds(now()) / *duration_);
+      pacing_.waitFor(toSeconds(now()));
     }
   }
-  const double elapsed = pacing.elapsed();
-  {
-    const auto held = rescue.hold();
-    recording.commit();
+
+  void report() {
+    const double elapsed = pacing_.elapsed();
+    {
+      const auto held = rescue_.hold();
+      recording_.commit();
+    }
+    const double seconds = toSeconds(now());
+    const Simulation& simulation = run_.simulation();
+    fmt::print("{}: {:.2f} s in {} cycles, {} robots, {:.0f} times real time{}\n",
+               printable(simulation.world().name()), seconds, cycles_, simulation.robots().size(),
+               seconds / std::max(elapsed, 1e-9),
+               recording_.record
+                   ? fmt::format("; {} readings of {} in {}", recording_.record->messages(),
+                                 recording_.name, printable(arguments_.record.string()))
+                   : "");
+    if (arguments_.digest) fmt::print("digest {:016x}\n", digest_.value());
   }
-  const double seconds = toSeconds(simulation.now());
-  fmt::print("{}: {:.2f} s in {} cycles, {} robots, {:.0f} times real time{}\n",
-             printable(simulation.world().name()), seconds, cycles, simulation.robots().size(),
-             seconds / std::max(elapsed, 1e-9),
-             recording.record
-                 ? fmt::format("; {} readings of {} in {}", recording.record->messages(),
-                               recording.name, printable(arguments.record.string()))
-                 : "");
-  if (arguments.digest) fmt::print("digest {:016x}\n", digest.value());
-  return problems == 0 ? 0 : 1;
+
+  bool hadProblems() const { return problems_ > 0; }
+
+ private:
+  std::function<void(const std::string&)> problemTaker() {
+    return [this](const std::string& problem) {
+      warn(problem);
+      ++problems_;
+    };
+  }
+
+  Simulation::Config config() {
+    Simulation::Config config = configOf(arguments_);
+    config.onProblem = problemTaker();
+    return config;
+  }
+
+  Timestamp now() { return run_.simulation().now(); }
+
+  void cycle() {
+    if (recording_.trace) {
+      const auto held = rescue_.hold();
+      recording_.trace->add(run_.simulation());
+    }
+    if (box_) box_->poll(pacing_.elapsed());
+    run_.step();
+    const std::vector<RefereeEvent> events =
+        run_.referee() != nullptr ? run_.referee()->takeEvents() : std::vector<RefereeEvent>();
+    print(events);
+    if (arguments_.digest) {
+      digest_.add(run_);
+      for (const RefereeEvent& event : events) digest_.add(event);
+    }
+    ++cycles_;
+    const auto held = rescue_.hold();
+    recording_.add(run_.simulation(), events);
+  }
+
+  const SimArguments& arguments_;
+  std::size_t problems_ = 0;
+  const Outputs outputs_;
+  const Scene scene_;
+  PluginFactory factory_;
+  SceneRun run_;
+  Recording recording_;
+  std::optional<RefBoxLink> box_;
+  const std::optional<double> duration_;
+  Rescue rescue_;
+  const Pacing pacing_;
+  std::size_t cycles_ = 0;
+  RunDigest digest_;
+};
+
+int play(const SimArguments& arguments) {
+  Playing playing(arguments);
+  playing.run();
+  playing.report();
+  return playing.hadProblems() ? 1 : 0;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace ortung {
 namespace {
@@ -30,6 +32,101 @@ bool isInChain(std::span<const Pixel> around, double spacing) {
     if (aligned >= kNeighbours) return true;
   }
   return false;
+}
+
+/// A scan line: how white its pixels are, and sums up to each pixel of those that are floor.
+struct Profile {
+  std::span<const std::uint8_t> whiteness;
+  std::span<const std::int32_t> floorSum;
+  std::span<const std::int32_t> whiteSum;
+  std::span<const std::int32_t> squareSum;
+
+  int count() const { return static_cast<int>(whiteness.size()); }
+  double white(int i) const { return whiteness[static_cast<std::size_t>(i)]; }
+  int floorIn(int from, int to) const { return sumOf(floorSum, from, to); }
+  /// The mean; below 0: there is no floor.
+  double whiteOfFloor(int from, int to) const {
+    const int floor = floorIn(from, to);
+    return floor > 0 ? static_cast<double>(sumOf(whiteSum, from, to)) / floor : -1.0;
+  }
+  /// The floor's standard deviation; 0: there is too little of it.
+  double roughness(int from, int to) const {
+    const int floor = floorIn(from, to);
+    if (floor < 2) return 0.0;
+    const double mean = whiteOfFloor(from, to);
+    const double squares = static_cast<double>(sumOf(squareSum, from, to));
+    return std::sqrt(std::max(0.0, squares / floor - mean * mean));
+  }
+
+ private:
+  static std::int32_t sumOf(std::span<const std::int32_t> sum, int from, int to) {
+    return sum[static_cast<std::size_t>(to)] - sum[static_cast<std::size_t>(from)];
+  }
+};
+
+/// Pixels in a row that are whiter than the floor before them.
+struct Stretch {
+  int begin;
+  int end;       ///< the first pixel that is not white any more
+  double left;   ///< whiteness of the floor before it
+  double rough;  ///< by how much that is whiter than its mean now and then
+  double peak;   ///< whiteness
+  int length() const { return end - begin; }
+};
+
+/// From which whiteness on something is no floor.
+double threshold(double floor, double rough, const LineFinder::Config& config) {
+  return floor + std::max({rough, static_cast<double>(config.minStep), config.minContrast * floor});
+}
+
+/// What rises from the floor at @p i; nothing if there is no floor before it, or no rise.
+std::optional<Stretch> whiteFrom(int i, const Profile& profile, const LineFinder::Config& config,
+                                 int longest) {
+  if (profile.floorIn(std::max(0, i - kLeastBeside - kEdge), i) < kLeastBeside) return {};
+  const double left = profile.whiteOfFloor(std::max(0, i - kMostBeside), i);
+  if (!(profile.white(i) > left + config.minStep)) return {};
+  const double rough = kRougher * profile.roughness(std::max(0, i - kRough), i - kEdge);
+  const double level = threshold(left, rough, config);
+  if (!(profile.white(i) > level)) return {};
+  Stretch white{i, i + 1, left, rough, profile.white(i)};
+  while (white.end < profile.count() && profile.white(white.end) > level &&
+         white.length() <= longest) {
+    white.peak = std::max(white.peak, profile.white(white.end));
+    ++white.end;
+  }
+  return white;
+}
+
+/// How many pixels to either side have to be floor.
+int besideOf(const Stretch& white) {
+  return std::clamp(static_cast<int>(kFloorBeside * white.length()), kLeastBeside, kMostBeside);
+}
+
+/// Whether there is floor on both sides, and it is white against that behind it, too.
+bool isOnFloor(const Stretch& white, int beside, const Profile& profile,
+               const LineFinder::Config& config) {
+  const int from = white.begin - kEdge - beside;
+  const int to = white.end + kEdge + beside;
+  return profile.floorIn(from, white.begin) >= kFloorShare * beside &&
+         profile.floorIn(white.end, to) >= kFloorShare * beside &&
+         white.peak > threshold(profile.whiteOfFloor(white.end, to), white.rough, config);
+}
+
+/// Where half the step is reached, between two pixels, on either side.
+std::pair<double, double> edgesOf(const Stretch& white, int beside, const Profile& profile) {
+  const double right = profile.whiteOfFloor(white.end, white.end + kEdge + beside);
+  const double halfLeft = 0.5 * (white.left + white.peak);
+  const double halfRight = 0.5 * (right + white.peak);
+  int a = white.begin;
+  while (a < white.end - 1 && profile.white(a) < halfLeft) ++a;
+  int b = white.end - 1;
+  while (b > a && profile.white(b) < halfRight) --b;
+  const auto part = [](double low, double high, double half) {
+    return high > low ? std::clamp((high - half) / (high - low), 0.0, 1.0) : 0.0;
+  };
+  const double after = b + 1 < profile.count() ? profile.white(b + 1) : 0.0;
+  return {a - part(profile.white(a - 1), profile.white(a), halfLeft),
+          b + part(after, profile.white(b), halfRight)};
 }
 
 }  // namespace
@@ -115,72 +212,19 @@ void LineFinder::scan(const std::uint8_t* first, std::size_t step, int count,
                       const ColourTable& colours) {
   crossings_.clear();
   readProfile(first, step, count, colours);
-  const auto floorIn = [&](int from, int to) {
-    return floorSum_[static_cast<std::size_t>(to)] - floorSum_[static_cast<std::size_t>(from)];
-  };
-  const auto whiteOfFloor = [&](int from, int to) {
-    const int floor = floorIn(from, to);
-    return floor > 0 ? static_cast<double>(whiteSum_[static_cast<std::size_t>(to)] -
-                                           whiteSum_[static_cast<std::size_t>(from)]) /
-                           floor
-                     : -1.0;
-  };
-  const auto white = [&](int i) {
-    return static_cast<double>(white_[static_cast<std::size_t>(i)]);
-  };
-  const auto roughness = [&](int from, int to) {
-    const int floor = floorIn(from, to);
-    if (floor < 2) return 0.0;
-    const double mean = whiteOfFloor(from, to);
-    const double squares = static_cast<double>(squareSum_[static_cast<std::size_t>(to)] -
-                                               squareSum_[static_cast<std::size_t>(from)]);
-    return std::sqrt(std::max(0.0, squares / floor - mean * mean));
-  };
-  double rough = 0.0;
-  const auto threshold = [&](double floor) {
-    return floor +
-           std::max({rough, static_cast<double>(config_.minStep), config_.minContrast * floor});
-  };
+  const Profile profile{white_, floorSum_, whiteSum_, squareSum_};
   for (int i = kLeastBeside + kEdge; i < count - 1; ++i) {
-    // Whiteness must rise from that of the floor just before.
-    const int before = std::max(0, i - kMostBeside);
-    if (floorIn(std::max(0, i - kLeastBeside - kEdge), i) < kLeastBeside) continue;
-    const double left = whiteOfFloor(before, i);
-    if (!(white(i) > left + config_.minStep)) continue;
-    rough = kRougher * roughness(std::max(0, i - kRough), i - kEdge);
-    const double level = threshold(left);
-    if (!(white(i) > level)) continue;
-    int end = i + 1;
-    double peak = white(i);
-    while (end < count && white(end) > level && end - i <= longest_) {
-      peak = std::max(peak, white(end));
-      ++end;
-    }
-    const int length = end - i;
-    const int beside =
-        std::clamp(static_cast<int>(kFloorBeside * length), kLeastBeside, kMostBeside);
-    const int from = i - kEdge - beside;
-    const int to = end + kEdge + beside;
-    if (length > longest_ || from < 0 || to > count) continue;
-    const double right = whiteOfFloor(end, to);
-    const bool hasFloor =
-        floorIn(from, i) >= kFloorShare * beside && floorIn(end, to) >= kFloorShare * beside;
-    if (hasFloor && peak > threshold(right)) {
-      // Edges are where half the rise is reached, between two pixels.
-      const double halfLeft = 0.5 * (left + peak);
-      const double halfRight = 0.5 * (right + peak);
-      int a = i;
-      while (a < end - 1 && white(a) < halfLeft) ++a;
-      int b = end - 1;
-      while (b > a && white(b) < halfRight) --b;
-      const auto part = [](double low, double high, double half) {
-        return high > low ? std::clamp((high - half) / (high - low), 0.0, 1.0) : 0.0;
-      };
-      const double rise = a - part(white(a - 1), white(a), halfLeft);
-      const double fall = b + part(b + 1 < count ? white(b + 1) : 0.0, white(b), halfRight);
+    const std::optional<Stretch> white = whiteFrom(i, profile, config_, longest_);
+    if (!white) continue;
+    const int beside = besideOf(*white);
+    const bool fits = white->length() <= longest_ && white->begin - kEdge - beside >= 0 &&
+                      white->end + kEdge + beside <= count;
+    if (!fits) continue;
+    if (isOnFloor(*white, beside, profile, config_)) {
+      const auto [rise, fall] = edgesOf(*white, beside, profile);
       crossings_.push_back({0.5 * (rise + fall), fall - rise});
     }
-    i = end;
+    i = white->end;
   }
 }
 

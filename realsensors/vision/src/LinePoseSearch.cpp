@@ -15,6 +15,31 @@ constexpr double kMargin = 2.0;    ///< width of the table's margin around the l
 constexpr float kOutside = 10.0F;  ///< distance to a line outside the table [m]
 constexpr double kMostCost = 9.0;  ///< greatest cost of a point
 
+bool isBetter(const LinePose& a, const LinePose& b) { return a.cost < b.cost; }
+
+/// Poses that are nearer to each other than this are of one place.
+struct Extent {
+  double way;   ///< [m]
+  double turn;  ///< [rad]
+};
+constexpr Extent kHill{0.7, 0.25};  ///< of the grid's costs
+constexpr Extent kPlace{0.3, 0.1};  ///< where polishing ends
+
+/// The first of each place. @param most that are looked for
+std::vector<LinePose> onePerPlace(std::span<const LinePose> poses, const Extent& extent,
+                                  std::size_t most) {
+  std::vector<LinePose> kept;
+  for (const LinePose& one : poses) {
+    if (kept.size() >= most) break;
+    const bool isKnown = std::any_of(kept.begin(), kept.end(), [&](const LinePose& other) {
+      return distance(one.pose, other.pose) < extent.way &&
+             std::abs(wrapAngle(one.pose.theta - other.pose.theta)) < extent.turn;
+    });
+    if (!isKnown) kept.push_back(one);
+  }
+  return kept;
+}
+
 }  // namespace
 
 LinePoseSearch::LinePoseSearch(const FieldLines& lines) : LinePoseSearch(lines, Config{}) {}
@@ -78,64 +103,56 @@ double LinePoseSearch::cost(std::span<const LinePlace> points, std::span<const d
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
-std::vector<LinePose> LinePoseSearch::search(std::span<const LinePlace> points,
-                                             std::span<const double> sigmas,
-                                             std::size_t most) const {
-  std::vector<LinePlace> used;
-  std::vector<float> weights;  // 1 / sigma^2
+LinePoseSearch::Picked LinePoseSearch::pick(std::span<const LinePlace> points,
+                                            std::span<const double> sigmas) const {
+  Picked picked;
   const std::size_t count = std::min(points.size(), static_cast<std::size_t>(config_.usedPoints));
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = k * points.size() / count;
-    used.push_back(points[i]);
+    picked.places.push_back(points[i]);
     const double sigma = std::hypot(sigmas[i], config_.blur);
-    weights.push_back(static_cast<float>(1.0 / (sigma * sigma)));
+    picked.weights.push_back(static_cast<float>(1.0 / (sigma * sigma)));
   }
-  if (used.empty()) return {};
-  std::vector<LinePose> found;
-  std::vector<LinePlace> turned(used.size());
-  const int turns = static_cast<int>(std::ceil(kTurn / config_.turn));
-  for (int t = 0; t < turns; ++t) {
-    const double theta = wrapAngle(t * kTurn / turns);
-    const double c = std::cos(theta);
-    const double s = std::sin(theta);
-    for (std::size_t i = 0; i < used.size(); ++i)
-      turned[i] = {c * used[i].x - s * used[i].y, s * used[i].x + c * used[i].y};
-    for (double y = lines_.yMin() - config_.beyond; y <= lines_.yMax() + config_.beyond;
-         y += config_.step)
-      for (double x = lines_.xMin() - config_.beyond; x <= lines_.xMax() + config_.beyond;
-           x += config_.step) {
-        float sum = 0.0F;
-        for (std::size_t i = 0; i < turned.size(); ++i) {
-          const std::ptrdiff_t cell = cellAt(x + turned[i].x, y + turned[i].y);
-          const float d = cell < 0 ? kOutside : distances_[static_cast<std::size_t>(cell)];
-          sum += std::min(d * d * weights[i], static_cast<float>(kMostCost));
-        }
-        found.push_back({{x, y, theta}, sum / static_cast<double>(turned.size())});
+  return picked;
+}
+
+void LinePoseSearch::searchHeading(const Picked& picked, double theta,
+                                   std::vector<LinePose>& found) const {
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  std::vector<LinePlace> turned;
+  for (const LinePlace& p : picked.places) turned.push_back({c * p.x - s * p.y, s * p.x + c * p.y});
+  for (double y = lines_.yMin() - config_.beyond; y <= lines_.yMax() + config_.beyond;
+       y += config_.step)
+    for (double x = lines_.xMin() - config_.beyond; x <= lines_.xMax() + config_.beyond;
+         x += config_.step) {
+      float sum = 0.0F;
+      for (std::size_t i = 0; i < turned.size(); ++i) {
+        const std::ptrdiff_t cell = cellAt(x + turned[i].x, y + turned[i].y);
+        const float d = cell < 0 ? kOutside : distances_[static_cast<std::size_t>(cell)];
+        sum += std::min(d * d * picked.weights[i], static_cast<float>(kMostCost));
       }
-  }
+      found.push_back({{x, y, theta}, sum / static_cast<double>(turned.size())});
+    }
+}
+
+std::vector<LinePose> LinePoseSearch::search(std::span<const LinePlace> points,
+                                             std::span<const double> sigmas,
+                                             std::size_t most) const {
+  const Picked picked = pick(points, sigmas);
+  if (picked.places.empty()) return {};
+  std::vector<LinePose> found;
+  const int turns = static_cast<int>(std::ceil(kTurn / config_.turn));
+  for (int t = 0; t < turns; ++t) searchHeading(picked, wrapAngle(t * kTurn / turns), found);
   const std::size_t tried = std::min<std::size_t>(found.size(), 20 * most);
-  const auto isBetter = [](const LinePose& a, const LinePose& b) { return a.cost < b.cost; };
   std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(tried), found.end(),
                     isBetter);
-  // The refinement starts once near each local minimum; of its results one is kept for each place.
-  const auto isAt = [](const Pose2& a, const Pose2& b, double way, double turn) {
-    return distance(a, b) < way && std::abs(wrapAngle(a.theta - b.theta)) < turn;
-  };
-  std::vector<Pose2> starts;
-  for (std::size_t i = 0; i < tried && starts.size() < 3 * most; ++i)
-    if (std::none_of(starts.begin(), starts.end(),
-                     [&](const Pose2& p) { return isAt(p, found[i].pose, 0.7, 0.25); }))
-      starts.push_back(found[i].pose);
+  found.resize(tried);
   std::vector<LinePose> best;
-  for (const Pose2& start : starts) best.push_back(polish(points, sigmas, start));
+  for (const LinePose& start : onePerPlace(found, kHill, 3 * most))
+    best.push_back(polish(points, sigmas, start.pose));
   std::sort(best.begin(), best.end(), isBetter);
-  std::vector<LinePose> out;
-  for (const LinePose& p : best)
-    if (out.size() < most && std::none_of(out.begin(), out.end(), [&](const LinePose& q) {
-          return isAt(p.pose, q.pose, 0.3, 0.1);
-        }))
-      out.push_back(p);
-  return out;
+  return onePerPlace(best, kPlace, most);
 }
 
 LinePose LinePoseSearch::polish(std::span<const LinePlace> points, std::span<const double> sigmas,

@@ -35,6 +35,7 @@ class ORTUNG_API LineFinder {
   std::span<const LinePoint> find(const ImageView& image, const ColourTable& colours);
 
  private:
+  /// Finds the crossings along one scan line.
   void scan(const std::uint8_t* first, std::size_t step, int count, const ColourTable& colours);
   void keepChains(int width, int height);
   void readProfile(const std::uint8_t* first, std::size_t step, int count,
