@@ -101,7 +101,7 @@ class NeuralDrive : public Drive {
   OdometryErrors errors_;
   DriveLimits limits_;
   Velocities command_;
-  Twist twist_;         ///< of the present step
+  Twist twist_;         ///< velocity in the current step
   double ahead_ = 0.0;  ///< remaining time of the current step [s]
   std::array<std::uint32_t, 2> motionData_{words::kOffset, words::kOffset};
 };

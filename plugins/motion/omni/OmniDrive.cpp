@@ -172,7 +172,7 @@ class OmniDrive : public Drive {
   OmniSettings settings_;
   Kinematics kinematics_;
   Twist asked_;   ///< velocity of the last commands, before limits
-  Twist wanted_;  ///< within limits
+  Twist wanted_;  ///< velocity of the last commands, within limits
   Twist velocity_;
   std::array<std::uint32_t, kWheels> motionData_{words::kOffset, words::kOffset, words::kOffset};
 };

@@ -181,7 +181,7 @@ class Attack {
   Timestamp chosen_ = 0;
   std::optional<Timestamp> since_;  ///< time since which it has the ball; nothing: it has not
   Timestamp lastWithout_ = 0;
-  double error_ = 0.0;  ///< of its kicks [rad]
+  double error_ = 0.0;  ///< error of its current aim [rad]
   bool owesPass_ = false;
 };
 

@@ -226,7 +226,7 @@ class FootballerPlayer : public Player {
   Unjam unjam_;
   Role role_ = Role::cover;
   bool isOnTheWay_ = false;
-  FloorPoint lastBall_;  ///< where it was last seen
+  FloorPoint lastBall_;  ///< place where the ball was last seen
   Timestamp nextWord_ = 0;
 };
 

@@ -14,7 +14,7 @@ enum class Role : std::uint8_t {
   attack,   ///< goes for the ball
   cover,    ///< stays between the ball and the own goal
   support,  ///< offers itself for a pass, on one side
-  wing      ///< the same on the other side
+  wing      ///< offers itself for a pass, on the other side
 };
 
 /// A robot that takes part in the game.

@@ -72,7 +72,8 @@ class Dribble : public Strike {
   bool kicked_ = false;
   bool hasCarried_ = false;
   Timestamp kickedAt_ = 0;
-  static constexpr double kNearest = 1.3;  ///< here it kicks in any case [m]
+  /// Distance from the goal within which it kicks in any case [m].
+  static constexpr double kNearest = 1.3;
   /// Least distance of the keeper's middle from the ball's path [m].
   static constexpr double kGap = 0.4;
 
@@ -186,7 +187,7 @@ class Feint : public Dribble {
     constexpr double kWithin = 0.4;  // distance of its target from the post [m]
     const FloorPoint corner = attack_.goal.before(0.0, -side_ * (attack_.halfMouth - kWithin));
     constexpr double kAimed = 0.08;  // [rad]
-    constexpr double kLast = 0.9;    // here it kicks in any case [m]
+    constexpr double kLast = 0.9;    // distance from the goal within which it kicks in any case [m]
     const double error = wrapAngle(angleTo({pose.x, pose.y}, corner) - pose.theta);
     const double depth = attack_.goal.depthOf(pose.x);
     const bool wants =
