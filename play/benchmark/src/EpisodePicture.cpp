@@ -6,8 +6,8 @@
 namespace ortung {
 namespace {
 
-// The part of the field that is shown, in metres; the goal is at the bottom, so the field's y is
-// to the right when one looks towards it from above.
+// The part of the field that is shown [m]. The goal is at the bottom, so the field's y axis points
+// to the right.
 constexpr double kDeepest = -6.9;  // behind the goal
 constexpr double kFarthest = 1.2;
 constexpr double kAside = 4.2;
@@ -23,7 +23,7 @@ std::string format(const char* form, double a, double b = 0.0, double c = 0.0, d
 double across(double y) { return y; }
 double down(double x) { return -x; }
 
-/// The way of one of them, thinned: points nearer than 2 cm to the last add nothing.
+/// Returns the path of the ball or a robot; points within 2 cm of the previous one are left out.
 template <class Where>
 std::string way(const std::vector<GoalMoment>& moments, const char* style, const Where& where) {
   std::string text = std::string("<polyline class=\"") + style + "\" points=\"";

@@ -7,8 +7,8 @@
 
 namespace ortung {
 
-/// An episode to scale as SVG: the field's end with its goal, and the ways of ball, keeper and
-/// striker. Colours are the page's.
+/// Draws an episode to scale as SVG: the field's end with its goal, and the paths of ball, keeper
+/// and striker. Colours are defined by the page.
 std::string pictureOf(const std::vector<GoalMoment>& moments, const std::string& title);
 
 }  // namespace ortung

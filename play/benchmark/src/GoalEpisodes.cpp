@@ -17,14 +17,15 @@
 namespace ortung {
 namespace {
 
-constexpr double kKeeperLine = 0.5;   ///< before the goal line [m]
-constexpr double kKeeperReach = 0.7;  ///< it begins within so far of the middle [m]
-constexpr Pose2 kStrikerWaits{3.0, 0.0, std::numbers::pi};  ///< until it makes its situation
+constexpr double kKeeperLine = 0.5;   ///< distance of the keeper's line from the goal line [m]
+constexpr double kKeeperReach = 0.7;  ///< greatest distance of its start from the middle [m]
+/// Pose of the striker until it makes its situation.
+constexpr Pose2 kStrikerWaits{3.0, 0.0, std::numbers::pi};
 
-// Streams of an episode's seed.
+// Random streams of an episode's seed.
 enum Stream : std::uint64_t { kSimulation, kPlacing, kOfKeeper, kOfStriker };
 
-/// One player's wish and robot, read once: what they remember is not for several threads.
+/// A player's request and robot, read once. They cache data, so each thread needs its own.
 struct Entrant {
   PlayerWish wish;
   RobotConfig robot;
@@ -44,7 +45,7 @@ class Digest {
   std::uint64_t hash_ = 14695981039346656037U;
 };
 
-/// Compares what a player believes with the truth, whenever it acts.
+/// Compares a player's believed pose with the truth whenever it acts.
 class Errors {
  public:
   void add(const std::optional<BelievedPose>& believed, const Pose2& truth, Timestamp now) {
@@ -73,7 +74,7 @@ struct GoalEpisodes::Parts {
   std::unique_ptr<SimWorld> world = readWorld(GoalEpisodes::world());
   std::string fingerprint = world->fingerprint();
   PluginFactory factory{PluginFactory::standardFolders()};
-  std::map<std::string, Entrant> entrants;  ///< by text and side
+  std::map<std::string, Entrant> entrants;  ///< players by text and side
   std::shared_ptr<TableStore> tables;
 
   Entrant& entrant(const std::string& text, const char* team) {
@@ -123,7 +124,7 @@ GoalEpisode GoalEpisodes::play(const std::string& keeper, const std::string& str
   FloorPlans plans(simulation.world());
   std::string problem;
   PlayerControl::Config players;
-  players.budget = 0.0;  // a clock would make episodes differ
+  players.budget = 0.0;  // a limit of time would make episodes differ
   players.onProblem = [&](const std::string& what) { problem = what; };
   players.tables = parts_->tables;
   PlayerControl control(simulation, plans, parts_->factory, players);

@@ -9,12 +9,13 @@
 namespace ortung {
 namespace {
 
-constexpr double kBack = 0.2;    ///< away from the goal it comes back [m/s]
-constexpr double kRest = 0.05;   ///< [m/s]
-constexpr double kTouch = 0.01;  ///< between ball and body, beside what the ball rolls [m]
-constexpr double kBump = 0.1;    ///< what a touch changes the ball's velocity by, at least [m/s]
+constexpr double kBack = 0.2;   ///< speed away from the goal from which a ball comes back [m/s]
+constexpr double kRest = 0.05;  ///< speed below which a ball lies still [m/s]
+/// Gap between ball and body that counts as contact, besides the distance rolled [m].
+constexpr double kTouch = 0.01;
+constexpr double kBump = 0.1;  ///< least change of the ball's velocity by a touch [m/s]
 
-/// Whether the ball is at one of the robot's pieces, or was within the cycle.
+/// Returns whether the ball is at one of the robot's pieces, or was during the cycle.
 bool isAt(const SimRobot& robot, const Simulation::Thing& ball, double cycle) {
   const double rolled = std::hypot(ball.velocity.x, ball.velocity.y) * cycle;
   const double reach = GoalField::kBall + kTouch + rolled;

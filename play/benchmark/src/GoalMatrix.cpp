@@ -28,8 +28,8 @@ struct Job {
   GoalEpisode* result = nullptr;
 };
 
-/// Plays all of them with several threads. What an episode becomes depends on nobody else, so it
-/// does not matter who plays it.
+/// Plays all jobs with several threads. Episodes are independent, so the order and the thread do
+/// not matter.
 void play(const std::vector<Job>& jobs, std::uint64_t seed, const GoalMatrixRun& run) {
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> isOver = false;
@@ -60,11 +60,11 @@ void play(const std::vector<Job>& jobs, std::uint64_t seed, const GoalMatrixRun&
   if (failure) std::rethrow_exception(failure);
 }
 
-/// How many episodes a shard has of each pair.
+/// Returns the number of a shard's episodes of each pair.
 std::uint64_t ownEpisodes(const GoalMatrixConfig& c) {
   return (c.episodes + c.shards - c.shard) / c.shards;
 }
-/// Number of a shard's own episode.
+/// Returns the number of a shard's episode.
 std::uint64_t numberOf(const GoalMatrixConfig& c, std::size_t place) {
   return c.shard - 1 + place * c.shards;
 }
@@ -80,7 +80,7 @@ void checkNames(const std::vector<std::string>& names, const char* what) {
 constexpr std::string_view kKeeper = "goalkeeper:policy=";
 constexpr std::string_view kStriker = "striker:kind=";
 
-/// "blocking:delay_s=1" with the beginning that makes it a player's text; else as it is.
+/// Expands "blocking:delay_s=1" to a player's text; other texts stay as they are.
 template <std::size_t N>
 std::string expanded(const std::string& name, const std::array<std::string_view, N>& names,
                      std::string_view begin) {
@@ -91,7 +91,7 @@ std::string expanded(const std::string& name, const std::array<std::string_view,
   return text;
 }
 
-/// A player's text without its option `sees`.
+/// Returns a player's text without its option `sees`.
 std::string withoutSight(std::string text) {
   for (const char mark : {'&', ':'}) {
     const std::size_t at = text.find(mark + std::string("sees="));

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "ortung goalkeeper benchmark 1";
-constexpr std::string_view kLetters = "gsot";  ///< of the outcomes, in their order
+constexpr std::string_view kLetters = "gsot";  ///< letters of the outcomes, in their order
 
 std::string hexadecimal(std::uint64_t word, int digits) {
   char text[24];
@@ -32,7 +32,7 @@ Json toJson(const ErrorSummary& error) {
           {"median_heading_rad", error.medianHeading}};
 }
 
-/// What one of the two has believed, if it has said so.
+/// Adds the pose errors of one of the two players if it has reported its pose.
 void addErrors(Json& json, const std::string& who, const std::optional<ErrorSummary>& summary,
                const std::vector<GoalEpisode>& episodes, PoseError GoalEpisode::* whose) {
   if (!summary) return;
@@ -47,7 +47,7 @@ void addErrors(Json& json, const std::string& who, const std::optional<ErrorSumm
   json[who + "_errors_urad"] = headings;
 }
 
-/// @throws std::runtime_error
+/// Reads the pose errors of one of the two players. @throws std::runtime_error
 void readErrors(const Json& json, const std::string& who, std::vector<GoalEpisode>& episodes,
                 PoseError GoalEpisode::* whose) {
   if (!json.contains(who + "_errors_um")) return;
@@ -108,7 +108,7 @@ Json cellJson(const GoalMatrix& matrix, std::size_t k, std::size_t s) {
   return json;
 }
 
-/// @throws std::runtime_error
+/// Reads a cell. @throws std::runtime_error
 GoalCell readCell(const Json& json, const GoalMatrixConfig& config) {
   GoalCell cell{json.at("keeper"), json.at("striker"), {}};
   const std::string what = "'" + cell.striker + "' against '" + cell.keeper + "': ";
@@ -157,7 +157,7 @@ std::string toJson(const GoalMatrix& matrix, std::string_view version) {
   for (std::size_t k = 0; k < c.keepers.size(); ++k)
     for (std::size_t s = 0; s < c.strikers.size(); ++s)
       json["cells"].push_back(cellJson(matrix, k, s));
-  // Nothing that a command line may hold is refused for its letters.
+  // Bytes of a command line that are not UTF-8 are replaced, not refused.
   return json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

@@ -78,7 +78,7 @@ std::string error(const std::optional<ErrorSummary>& e) {
          " on average</small></td>";
 }
 
-/// A row for each keeper, a column for each striker.
+/// Writes a table with a row for each keeper and a column for each striker.
 template <class Entry>
 std::string table(const GoalMatrix& matrix, const char* title, const char* about,
                   const Entry& entry) {
@@ -118,7 +118,7 @@ std::string ratings(const GoalMatrix& matrix) {
          format(": by %+.1f goals of 100.</p>", 100.0 * found.worstMiss);
 }
 
-/// The first episode of a pair with each outcome, but for those without any.
+/// Draws the first episode of a pair with each outcome that occurs.
 std::string episodesOf(const GoalMatrix& matrix, const GoalCell& cell, GoalEpisodes& episodes) {
   std::string html;
   const GoalMatrixConfig& c = matrix.config;

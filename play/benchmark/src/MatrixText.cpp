@@ -19,7 +19,7 @@ std::string padded(std::string text, std::size_t width) {
   return text + "  ";
 }
 
-/// A row for each keeper, a column for each striker.
+/// Writes a table with a row for each keeper and a column for each striker.
 template <class Entry>
 std::string table(const GoalMatrix& matrix, const std::string& title, const Entry& entry) {
   std::vector<std::vector<std::string>> rows(1);
@@ -53,7 +53,7 @@ std::string errors(const std::optional<ErrorSummary>& error) {
   return text;
 }
 
-/// With whom the keepers are compared.
+/// Returns the name of the keeper with which others are compared.
 std::string baseline(const GoalMatrix& matrix) {
   for (std::size_t k = 1; k < matrix.config.keepers.size(); ++k)
     if (matrix.baselineOf(k) != 0) return "the same keeper's first way to see, or the first keeper";

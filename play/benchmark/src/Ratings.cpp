@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kScale = 173.71779276130073;  // 400 / ln 10: points of a unit of log odds
 
-/// Goals of each pair, keepers first, and of how many episodes.
+/// The goals of each pair, by keeper and striker, and the number of episodes.
 struct Counts {
   std::size_t keepers = 0;
   std::size_t strikers = 0;
@@ -21,8 +21,8 @@ struct Counts {
 
 double share(double odds) { return 1.0 / (1.0 + std::exp(-odds)); }
 
-/// Log odds of strikers minus keepers, by Newton's method for one player after the other; the
-/// likelihood has one maximum alone.
+/// The strengths, of which the log odds of a goal are the difference, by Newton's method for one
+/// player after the other; the likelihood has a single maximum.
 struct Strengths {
   std::vector<double> keepers;
   std::vector<double> strikers;
@@ -64,7 +64,8 @@ struct Strengths {
   }
 };
 
-/// Points of all keepers, then of all strikers, then their mean shares of goals in the same order.
+/// Returns the points of all keepers, then of all strikers, then their mean shares of goals in the
+/// same order.
 std::vector<double> figures(const Counts& c, std::optional<std::size_t> zero) {
   const Strengths strengths(c);
   const auto& s = strengths.strikers;
@@ -86,7 +87,7 @@ std::vector<double> figures(const Counts& c, std::optional<std::size_t> zero) {
   return all;
 }
 
-/// Whether there was a goal, by episode and pair.
+/// Returns whether there was a goal, by episode and pair.
 std::vector<std::uint8_t> goalsOf(const GoalMatrix& matrix, std::size_t episodes) {
   const std::size_t pairs = matrix.cells.size();
   std::vector<std::uint8_t> goals(episodes * pairs);

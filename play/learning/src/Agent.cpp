@@ -11,9 +11,9 @@
 namespace ortung::learning {
 namespace {
 
-constexpr Timestamp kTrueSights = 40'000;  ///< between two looks at the true ball [us]
-constexpr double kNearPosition = 0.2;      ///< how well it is told where it begins [m]
-constexpr double kNearHeading = 0.09;      ///< [rad]
+constexpr Timestamp kTrueSights = 40'000;  ///< period of looks at the true ball [us]
+constexpr double kNearPosition = 0.2;      ///< standard deviation of its start pose [m]
+constexpr double kNearHeading = 0.09;      ///< standard deviation of its start heading [rad]
 
 }  // namespace
 
@@ -51,7 +51,7 @@ bool Agent::senseAndAct(PlayerSeat& seat) {
   return true;
 }
 
-/// Where it is as far as it knows.
+/// Returns its pose as it believes it.
 Pose2 Agent::poseAt(Timestamp stamp) const {
   if (!self_) return robot_.state().pose;
   const auto estimate = self_->estimate(stamp);

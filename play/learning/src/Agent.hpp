@@ -13,8 +13,8 @@
 
 namespace ortung::learning {
 
-/// A player that does what somebody who learns says, and tells him what its robot senses. Who owns
-/// it is whoever supervises players; it lives as long as its robot.
+/// A player that executes the learner's actions and gives it observations of what its robot senses.
+/// It is owned by the supervisor of players and lives as long as its robot.
 class Agent : public Player {
  public:
   /// @param robot borrowed
@@ -24,18 +24,19 @@ class Agent : public Player {
   void begin(PlayerSeat& seat) override;
   bool senseAndAct(PlayerSeat& seat) override;
 
-  /// Until the next action. @param action forward, turn, kick @pre finite
+  /// Sets the action that holds until the next one. @param action forward, turn, kick @pre finite
   void setAction(std::span<const float> action);
-  /// To be called whenever its robot has sensed.
+  /// Takes over new readings; to be called whenever its robot has sensed.
   void look(Timestamp now);
-  /// @param out of the size of the environment's observation
+  /// Writes the observation. @param timeLeft time until the episode's end [s]
+  /// @param out array of the size of the environment's observation
   void observe(Timestamp now, double timeLeft, std::span<float> out);
 
  private:
   struct Seen {
     Timestamp stamp = 0;
-    double x = 0.0;  ///< in the goal's frame [m]
-    double y = 0.0;
+    double x = 0.0;  ///< x in the goal's frame [m]
+    double y = 0.0;  ///< y in the goal's frame [m]
   };
 
   Pose2 poseAt(Timestamp stamp) const;
@@ -53,7 +54,7 @@ class Agent : public Player {
   const SensorData* others_ = nullptr;  ///< null: it does not look for robots
   std::uint64_t ballSequence_ = 0;
   std::uint64_t othersSequence_ = 0;
-  std::array<std::optional<Seen>, kSights> sights_;  ///< the newest first
+  std::array<std::optional<Seen>, kSights> sights_;  ///< last sights of the ball, the newest first
   std::optional<Seen> other_;
   std::optional<SelfLocalization> self_;
   std::array<float, 3> action_{};

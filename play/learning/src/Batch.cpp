@@ -19,9 +19,10 @@ namespace {
 
 constexpr std::size_t kMostEpisodes = 65'536;
 constexpr unsigned kMostThreads = 256;
-constexpr std::size_t kChunksPerThread = 4;  ///< so that threads end at about the same time
+/// Chunks per thread, so that threads end at about the same time.
+constexpr std::size_t kChunksPerThread = 4;
 
-/// Where one episode after the other is played.
+/// A place in which consecutive episodes are played.
 struct Slot {
   Options options;
   std::shared_ptr<const Settings> settings;
@@ -49,11 +50,11 @@ void BatchConfig::check() const {
 struct Batch::Parts {
   const EnvironmentInfo& info;
   BatchConfig config;
-  std::size_t width;  ///< of an action
+  std::size_t width;  ///< number of values per action
   Field field;
   Workers workers;
-  std::vector<std::unique_ptr<Stand>> stands;  ///< by chunk
-  std::vector<std::exception_ptr> failures;    ///< by chunk
+  std::vector<std::unique_ptr<Stand>> stands;  ///< shared data of each chunk's episodes
+  std::vector<std::exception_ptr> failures;    ///< first failure in each chunk
   std::vector<Slot> slots;
   std::vector<float> observations;
   std::vector<float> finals;
@@ -111,8 +112,8 @@ struct Batch::Parts {
   std::shared_ptr<const Settings> read(std::size_t slot, const Options& options);
 };
 
-/// Calls work(stand, i) for all slots. What is thrown first, in their order, is thrown on when all
-/// are done.
+/// Calls work(stand, i) for all slots. The first exception, in the order of slots, is rethrown when
+/// all are done.
 template <class Work>
 void Batch::Parts::forAll(const Work& work) {
   workers.run(stands.size(), [&](std::size_t chunk) {
@@ -133,7 +134,7 @@ void Batch::Parts::clear(std::size_t i) {
   terminated[i] = truncated[i] = endings[i] = 0;
 }
 
-/// Of the episode that the slot's seed and number say.
+/// Begins the episode of the slot's seed and number.
 void Batch::Parts::begin(Stand& stand, std::size_t i) {
   Slot& slot = slots[i];
   slot.episode.reset();
@@ -151,7 +152,7 @@ void Batch::Parts::look(std::size_t i) {
 void Batch::Parts::step(Stand& stand, std::size_t i, std::span<const float> actions) {
   Slot& slot = slots[i];
   clear(i);
-  if (!slot.episode || slot.episode->isOver()) {  // or a player was stopped
+  if (!slot.episode || slot.episode->isOver()) {  // no episode: a player was stopped
     ++slot.number;
     return begin(stand, i);
   }
@@ -184,7 +185,7 @@ void Batch::Parts::checkActions(std::span<const float> actions) const {
   for (std::size_t k = 0; k < expected; ++k) {
     if (std::isfinite(actions[k])) continue;
     const std::size_t agent = k / width % agents();
-    if (k % width >= info.actions[agent].size()) continue;  // nobody reads it
+    if (k % width >= info.actions[agent].size()) continue;  // unused by this agent
     throw std::invalid_argument(nameOf(k / width / agents()) + ": the action of " +
                                 info.agents[agent] + " has " + std::to_string(actions[k]) +
                                 " as '" + info.actions[agent][k % width].name +

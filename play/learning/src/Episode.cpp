@@ -11,16 +11,18 @@
 namespace ortung::learning {
 namespace {
 
-// Streams of an episode's seed: those of the benchmark, so that a striker which does not look at
-// the keeper makes the same situations for the same seed and number.
+// Random streams of an episode's seed. They are those of the benchmark, so that a striker that does
+// not look at the keeper makes the same situations for the same seed and number.
 enum Stream : std::uint64_t { kSimulation, kPlacing, kOfKeeper, kOfStriker };
 
 constexpr const char* kBlue = "blue";      ///< the keeper's team, and the name of its robot
-constexpr const char* kYellow = "yellow";  ///< the striker's
-constexpr double kKeeperLine = 0.5;        ///< before the goal line [m]
-constexpr double kKeeperReach = 0.7;       ///< it begins within so far of the middle [m]
-constexpr Pose2 kStrikerWaits{3.0, 0.0, std::numbers::pi};  ///< until it makes its situation
-constexpr double kBallAhead = 0.285;  ///< of the striker's middle, when it lies at the kicker [m]
+constexpr const char* kYellow = "yellow";  ///< the striker's team, and the name of its robot
+constexpr double kKeeperLine = 0.5;        ///< distance of the keeper's line from the goal line [m]
+constexpr double kKeeperReach = 0.7;       ///< greatest distance of its start from the middle [m]
+/// Pose of the striker until it makes its situation.
+constexpr Pose2 kStrikerWaits{3.0, 0.0, std::numbers::pi};
+/// Distance from the striker's middle to a ball at its kicker [m].
+constexpr double kBallAhead = 0.285;
 constexpr int kTries = 50;
 
 Simulation::Config configOf(const Settings& settings, Random seeds) {
@@ -32,7 +34,7 @@ Simulation::Config configOf(const Settings& settings, Random seeds) {
 
 PlayerControl::Config supervise(std::string& problem, std::shared_ptr<TableStore> tables) {
   PlayerControl::Config config;
-  config.budget = 0.0;  // a clock would make episodes differ
+  config.budget = 0.0;  // a limit of time would make episodes differ
   config.onProblem = [&problem](const std::string& what) { problem = what; };
   config.tables = std::move(tables);
   return config;
@@ -118,8 +120,8 @@ Episode::Episode(Stand& stand, std::shared_ptr<const Settings> settings, std::ui
 
 Episode::~Episode() = default;
 
-/// The ball lies at its kicker. Where it has to find out where it is, that may be farther away, and
-/// it looks less towards the goal.
+/// Places the striker with the ball at its kicker. If it must localize itself, it may be farther
+/// away and face less towards the goal.
 void Episode::placeStriker() {
   Random random = stream(kOfStriker);
   const bool isLost = settings_->task == Task::localize;
@@ -140,7 +142,7 @@ void Episode::placeStriker() {
 }
 
 void Episode::seat(Stand::Entrant& entrant, SimRobot& robot, bool isAgent, bool isStriker) {
-  // What an agent's place was drawn from is no more its chance.
+  // An agent's place was drawn from this stream, so it gets another one.
   const Random random = stream(isStriker ? kOfStriker : kOfKeeper).fork(isAgent ? 1 : 0);
   if (!isAgent)
     return control_.own(robot, control_.make(entrant.wish), entrant.wish,
@@ -184,7 +186,7 @@ void Episode::observe(std::span<float> out) {
     agents_[i]->observe(simulation_.now(), left, out.subspan(i * size, size));
 }
 
-/// What the striker wins the keeper loses.
+/// Writes the rewards: what the striker wins the keeper loses.
 void Episode::reward(std::span<double> out) const {
   const double scored = ending_ == Ending::goal ? 1.0 : ending_ == Ending::saved ? -1.0 : 0.0;
   std::size_t agent = 0;

@@ -18,7 +18,7 @@
 
 namespace ortung::learning {
 
-/// What all episodes of a batch share: the ground, and what robots learn on it. Thread-safe.
+/// The data that all episodes of a batch share: the world and the robots' tables. Thread-safe.
 struct Field {
   std::filesystem::path file;
   std::unique_ptr<const SimWorld> world;
@@ -28,8 +28,8 @@ struct Field {
   Field();
 };
 
-/// What episodes that are stepped by one thread share: plugins, files and plans, which remember who
-/// asked. Not thread-safe.
+/// The data that episodes stepped by one thread share: plugins, files and plans, which cache data.
+/// Not thread-safe.
 class Stand {
  public:
   struct Entrant {
@@ -48,14 +48,14 @@ class Stand {
   FloorPlans plans;
 
  private:
-  /// A player's, read once.
+  /// Returns the entrant of a player or of an agent, which is read once.
   Entrant& entrant(const std::string& text, const char* name);
   Entrant& agent(const std::filesystem::path& robot, const char* name);
 
   std::map<std::string, Entrant> entrants_;
 };
 
-/// One episode, from its beginning to its end: a function of settings, seed, number and actions.
+/// An episode from its beginning to its end: a function of settings, seed, number and actions.
 class Episode {
  public:
   /// @param stand borrowed
@@ -66,15 +66,16 @@ class Episode {
   Episode(const Episode&) = delete;
   Episode& operator=(const Episode&) = delete;
 
-  /// @param actions (agents, width) @throws std::runtime_error for a player that was stopped
+  /// Plays one step. @param actions shape (agents, width) @throws std::runtime_error if a player
+  /// was stopped
   void step(std::span<const float> actions, std::size_t width);
   bool isOver() const { return ending_ != Ending::none; }
   Ending ending() const { return ending_; }
-  /// @param out (agents, observation)
+  /// Writes the observations. @param out shape (agents, observation)
   void observe(std::span<float> out);
-  /// @param out (agents)
+  /// Writes the rewards of the last step. @param out shape (agents)
   void reward(std::span<double> out) const;
-  /// @param out as Batch::states()
+  /// Writes the true state. @param out one row of Batch::states()
   void state(std::span<float> out) const;
 
   static constexpr std::size_t kState = 12;
@@ -95,7 +96,7 @@ class Episode {
   PlayerControl control_;
   SimRobot* keeper_ = nullptr;
   SimRobot* striker_ = nullptr;
-  std::vector<Agent*> agents_;  ///< whose owner is control_
+  std::vector<Agent*> agents_;  ///< the agents, which control_ owns
   GoalJudge judge_;
   Ending ending_ = Ending::none;
   int steps_ = 0;

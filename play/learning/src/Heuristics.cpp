@@ -12,11 +12,11 @@
 namespace ortung::learning {
 namespace {
 
-constexpr double kLine = 0.5;          ///< of a keeper, before the goal line [m]
-constexpr double kReach = 0.75;        ///< to either side of the goal's middle [m]
-constexpr double kKeeperSpeed = 1.5;   ///< of an action of 1 [m/s]
-constexpr double kAcceleration = 3.5;  ///< [m/s^2]
-constexpr double kKnown = 1.0;         ///< what was seen longer ago counts as never seen [s]
+constexpr double kLine = 0.5;          ///< distance of a keeper's line from the goal line [m]
+constexpr double kReach = 0.75;        ///< how far it goes to either side of the goal's middle [m]
+constexpr double kKeeperSpeed = 1.5;   ///< speed of an action of 1 [m/s]
+constexpr double kAcceleration = 3.5;  ///< the keeper's acceleration [m/s^2]
+constexpr double kKnown = 1.0;         ///< age from which a sight counts as never seen [s]
 
 struct Place {
   double x = 0.0;  ///< [m]
@@ -39,13 +39,13 @@ class Look {
 
 struct Roll {
   bool isKnown = false;
-  double x = 0.0;  ///< now [m]
+  double x = 0.0;  ///< its current x [m]
   double y = 0.0;
   double vx = 0.0;  ///< [m/s]
   double vy = 0.0;
 };
 
-/// A straight line through where the ball was seen, by least squares.
+/// Fits a straight line to the sights of the ball by least squares.
 Roll rollOf(const Look& look) {
   double n = 0, t1 = 0, t2 = 0, x0 = 0, x1 = 0, y0 = 0, y1 = 0;
   for (std::size_t i = 0; i < kSights; ++i) {
@@ -66,7 +66,7 @@ Roll rollOf(const Look& look) {
   return roll;
 }
 
-/// Along its line to a place, looking across.
+/// Moves along its line to a place, facing across the field.
 void slide(const Look& look, double wanted, std::span<float> action) {
   const double away = std::clamp(wanted, -kReach, kReach) - look.at(kY);
   const double across = look.at(kSin) >= 0.0 ? 1.0 : -1.0;
@@ -85,15 +85,15 @@ void keep(const Look& look, std::span<float> action) {
   const Place newest = look.ball(0);
   if (newest.age > kKnown) return slide(look, 0.0, action);
   const Roll roll = rollOf(look);
-  constexpr double kComes = 0.7;  // slower towards the goal it may as well be an error [m/s]
+  constexpr double kComes = 0.7;  // slower motion towards the goal may be noise [m/s]
   if (roll.vx < -kComes && roll.x > kLine)
     return slide(look, roll.y + (kLine - roll.x) / roll.vx * roll.vy, action);
   slide(look, blockingPlace(newest), action);
 }
 
-/// Turns to a ball that it has lost, and drives up to it. @returns whether it has lost it
+/// Turns to a lost ball and drives to it. @returns whether the ball is lost
 bool fetch(const Look& look, std::span<float> action) {
-  constexpr double kNewly = 0.25;  // otherwise it is so near that the camera does not see it [s]
+  constexpr double kNewly = 0.25;  // below this age it is too near for the camera to see it [s]
   constexpr double kAside = 0.35;  // [rad]
   constexpr double kAway = 0.6;    // [m]
   const Place ball = look.ball(0);
@@ -109,14 +109,14 @@ bool fetch(const Look& look, std::span<float> action) {
 /// Takes the ball between its horns towards the corner that is farther from the keeper, and kicks
 /// near the goal, where a keeper has no time. It never speeds up so fast that the ball bounces off.
 void strike(const Look& look, bool isLost, std::span<float> action) {
-  constexpr double kCorner = 0.75;  // of the goal's middle [m]
-  constexpr double kGentle = 0.6;   // the ball stays between the horns [rad/s]
-  constexpr double kFaster = 0.08;  // in a step [m/s]
-  constexpr double kNear = 2.0;     // of the goal line, it kicks [m]
+  constexpr double kCorner = 0.75;  // distance from the goal's middle [m]
+  constexpr double kGentle = 0.6;   // turn rate at which the ball stays between the horns [rad/s]
+  constexpr double kFaster = 0.08;  // greatest increase of speed per step [m/s]
+  constexpr double kNear = 2.0;     // distance from the goal line at which it kicks [m]
   if (fetch(look, action)) return;
   const double x = look.at(kX), y = look.at(kY);
   const Place other = look.other();
-  // Of a keeper in the middle both corners are as far: that one to which it looks already.
+  // If the keeper is in the middle, both corners are equally far: it takes the one that it faces.
   const double ahead = y - x * std::tan(look.heading());
   const bool isAside = other.age < kOld && std::abs(other.y) > 0.15;
   const double side = (isAside ? -other.y : ahead) < 0.0 ? -1.0 : 1.0;

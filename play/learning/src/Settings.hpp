@@ -9,36 +9,36 @@
 
 namespace ortung::learning {
 
-/// Which of the two robots agents drive.
+/// The task of an environment: which of the two robots agents drive.
 enum class Task : std::uint8_t { keep, strike, both, localize };
 
-/// What an agent is told.
+/// What an agent observes.
 enum class Sight : std::uint8_t {
-  truth,     ///< its pose and the ball as they are
-  features,  ///< its pose as it is, the ball and the other robot as its camera sees them
-  localized  ///< its pose by MCL on its own sensors, too
+  truth,     ///< true pose and true ball
+  features,  ///< true pose; ball and other robot as its camera sees them
+  localized  ///< pose by MCL on its own sensors; ball and other robot as its camera sees them
 };
 
-/// Options of an environment, read and checked.
+/// The options of an environment, read and checked.
 struct Settings {
   Task task = Task::keep;
   Sight sight = Sight::features;
-  std::string keeper;                  ///< a player's text; "": an agent drives it
-  std::string striker;                 ///< the same
-  std::filesystem::path keeperRobot;   ///< of an agent
-  std::filesystem::path strikerRobot;  ///< of an agent
-  double keeperSpeed = 1.5;            ///< of an action of 1 [m/s]
-  double strikerSpeed = 1.0;           ///< of an action of 1 [m/s]
-  double cycle = 0.02;                 ///< of the simulation [s]
-  int cycles = 5;                      ///< a step
-  int steps = 100;                     ///< an episode has at most
-  bool startsAnywhere = false;         ///< MCL is not told where it begins
+  std::string keeper;                  ///< the keeper as a player's text; "": an agent drives it
+  std::string striker;                 ///< the striker as a player's text; "": an agent drives it
+  std::filesystem::path keeperRobot;   ///< robot file of a keeper that is an agent
+  std::filesystem::path strikerRobot;  ///< robot file of a striker that is an agent
+  double keeperSpeed = 1.5;            ///< the keeper's speed for an action of 1 [m/s]
+  double strikerSpeed = 1.0;           ///< the striker's speed for an action of 1 [m/s]
+  double cycle = 0.02;                 ///< cycle of the simulation [s]
+  int cycles = 5;                      ///< cycles per step
+  int steps = 100;                     ///< greatest number of steps of an episode
+  bool startsAnywhere = false;         ///< whether MCL begins without a start pose
 
   double step() const { return cycle * cycles; }
   bool keeperIsAgent() const { return keeper.empty(); }
   bool strikerIsAgent() const { return striker.empty(); }
 
-  /// @throws ConfigError naming the option, its value and what was expected
+  /// Reads the options. @throws ConfigError naming the option, its value and what was expected
   static Settings read(const EnvironmentInfo& environment, const Options& options);
 };
 

@@ -26,11 +26,12 @@ MclConfig readConfig(PlayerSeat& seat) {
   MclConfig config = MclConfig::read(seat.taught().mcl);
   const std::uint64_t high = seat.random().next();
   config.seed = (high << 32) | seat.random().next();
-  config.threads = 1;  // a player is one of many
+  config.threads = 1;  // there may be many players
   return config;
 }
 
-/// Motion models come from plugins, which are looked for once: a player lives a few seconds.
+/// Makes the motion model by a plugin. Plugins are searched only once per thread, since a player
+/// may live for a few seconds only.
 std::unique_ptr<MotionModel> makeMotion(const Parameters& motion) {
   thread_local PluginFactory factory(PluginFactory::standardFolders());
   return ortung::makeMotion(motion, factory);

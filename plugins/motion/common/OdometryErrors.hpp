@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the [drive] tables of the shipped drives have in common.
+/// The part that the [drive] tables of the shipped drives have in common.
 
 #include <algorithm>
 #include <cmath>
@@ -21,25 +21,28 @@ inline double radiansOr(const Parameters& p, const std::string& key, double fall
   return radians(p.number(key, range));
 }
 
-/// Where a body is after @p dt [s] of moving with a constant velocity in its own frame: on an arc.
+/// Returns the change of pose after @p dt [s] with a constant velocity in the body's own frame,
+/// which is an arc.
 inline Pose2 moved(const Twist& velocity, double dt) {
   const double turn = velocity.theta * dt;
   const double half = turn / 2.0;
-  // The chord of an arc is the way times sinc(turn / 2), in the direction of half the turn.
+  // The chord of an arc is its length times sinc(turn / 2), in the direction of half the turn.
   const double chord = std::abs(half) < 1e-6 ? dt : dt * std::sin(half) / half;
   const double c = chord * std::cos(half);
   const double s = chord * std::sin(half);
   return {c * velocity.x - s * velocity.y, s * velocity.x + c * velocity.y, wrapAngle(turn)};
 }
 
-/// How odometry walks away from the truth: at random, where variances add up over way and turn, so
-/// that the noise of a way does not depend on how many cycles it took; and systematically.
+/// The errors of odometry: random ones, whose variances are proportional to distance and turn, so
+/// that the noise over a distance does not depend on the number of cycles; and systematic ones.
 struct OdometryErrors {
-  double distanceSigma = 0.02;         ///< `odometry_distance_sigma_m`: after 1 m driven [m]
-  double headingSigma = radians(1.0);  ///< `odometry_heading_sigma_deg`: after 1 m driven [rad]
-  double turnSigma = radians(4.0);     ///< `odometry_turn_sigma_deg`: after a whole turn [rad]
-  double distanceScale = 1.0;          ///< `odometry_distance_scale`: measures this times the way
-  double turnScale = 1.0;              ///< `odometry_turn_scale`
+  double distanceSigma = 0.02;  ///< `odometry_distance_sigma_m`: error of distance after 1 m [m]
+  /// `odometry_heading_sigma_deg`: error of heading after 1 m [rad].
+  double headingSigma = radians(1.0);
+  /// `odometry_turn_sigma_deg`: error of heading after a full turn [rad].
+  double turnSigma = radians(4.0);
+  double distanceScale = 1.0;  ///< `odometry_distance_scale`: measured by true distance
+  double turnScale = 1.0;      ///< `odometry_turn_scale`: measured by true turn
 
   static OdometryErrors read(const Parameters& drive) {
     OdometryErrors e;
@@ -51,16 +54,18 @@ struct OdometryErrors {
     return e;
   }
 
+  /// Returns the measured distance [m].
   double measuredWay(double way, Random& noise) const {
     return way * distanceScale + distanceSigma * std::sqrt(std::abs(way)) * noise.gaussian();
   }
-  /// @param way driven meanwhile [m], not negative
+  /// Returns the measured turn [rad]. @param way distance driven meanwhile [m], not negative
   double measuredTurn(double turn, double way, Random& noise) const {
     const double variance =
         headingSigma * headingSigma * way + turnSigma * turnSigma * std::abs(turn) / kTurn;
     return turn * turnScale + std::sqrt(variance) * noise.gaussian();
   }
-  /// Change of pose of a robot that drives where it faces. @param way below 0: backwards [m]
+  /// Returns the measured change of pose of a robot that drives where it faces. @param way
+  /// distance, negative if backwards [m]
   Pose2 measured(double way, double turn, Random& noise) const {
     const double itsWay = measuredWay(way, noise);
     const double itsTurn = measuredTurn(turn, std::abs(way), noise);

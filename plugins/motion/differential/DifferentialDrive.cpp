@@ -9,15 +9,17 @@
 namespace ortung {
 namespace {
 
-/// [drive] of a robot with two driven wheels.
+/// The table [drive] of a robot with two driven wheels.
 struct DifferentialSettings {
   DriveLimits limits;            ///< `max_speed_m_s`, `max_turn_deg_s`, `acceleration_m_s2`, ...
-  double axle = 0.36;            ///< `axle_m`: from wheel to wheel [m]
-  double maxWheelSpeed = 100.0;  ///< `max_wheel_speed_m_s`; no limit of its own by default
-  double slipShare = 0.0;        ///< `slip_share`: of a wheel's way that the floor does not get
-  double slipSigma = 0.0;        ///< `slip_sigma_m`: of a wheel's way on the floor, after 1 m [m]
-  double ticksPerMetre = 0.0;    ///< `encoder_ticks_per_m`; 0: encoders as fine as one likes
-  double encoderSigma = 0.0;     ///< `encoder_sigma_m`: of each wheel's measured way, after 1 m [m]
+  double axle = 0.36;            ///< `axle_m`: distance between the wheels [m]
+  double maxWheelSpeed = 100.0;  ///< `max_wheel_speed_m_s`: greatest speed of a wheel [m/s]
+  double slipShare = 0.0;        ///< `slip_share`: share of a wheel's distance that is lost by slip
+  /// `slip_sigma_m`: noise of a wheel's distance on the floor after 1 m [m].
+  double slipSigma = 0.0;
+  double ticksPerMetre = 0.0;  ///< `encoder_ticks_per_m`; 0: infinitely fine encoders
+  /// `encoder_sigma_m`: noise of each wheel's measured distance after 1 m [m].
+  double encoderSigma = 0.0;
   OdometryErrors errors;
 
   static DifferentialSettings read(const Parameters& drive) {
@@ -39,21 +41,21 @@ struct DifferentialSettings {
   }
 };
 
-/// Speeds or ways of the two wheels.
+/// Speeds or distances of the two wheels.
 struct Wheels {
   double left = 0.0;
   double right = 0.0;
 };
 
-/// Brings @p value nearer to @p goal by at most @p step.
+/// Returns @p value moved towards @p goal by at most @p step.
 double approach(double value, double goal, double step) {
   return value + std::clamp(goal - value, -step, step);
 }
 
-/// One wheel's encoder: counts whole ticks.
+/// The encoder of a wheel, which counts whole ticks.
 class Encoder {
  public:
-  /// The way that the ticks of @p way tell [m].
+  /// Returns the distance that the ticks of @p way report [m].
   double measure(double way, double ticksPerMetre) {
     if (ticksPerMetre <= 0.0) return way;
     const double ticks = (way + rest_) * ticksPerMetre;
@@ -63,10 +65,10 @@ class Encoder {
   }
 
  private:
-  double rest_ = 0.0;  ///< way since the last tick [m]
+  double rest_ = 0.0;  ///< distance since the last tick [m]
 };
 
-/// Two driven wheels: velocities change by limited accelerations, the way is an arc.
+/// Two driven wheels: accelerations are limited, and the robot moves on an arc.
 class DifferentialDrive : public Drive {
  public:
   explicit DifferentialDrive(const Parameters& p) : settings_(DifferentialSettings::read(p)) {}
@@ -77,7 +79,7 @@ class DifferentialDrive : public Drive {
   void setRotationalVelocity(double radiansPerSecond) override {
     wantedTurn_ = std::clamp(radiansPerSecond, -settings_.limits.turn, settings_.limits.turn);
   }
-  /// What is too much for the base is made less of as a whole, so that the curve stays the same.
+  /// A command that exceeds a limit is scaled as a whole, so that the curve stays the same.
   void setCommand(std::span<const double> command) override {
     const double speed = (command[0] + command[1]) / 2.0;
     const double turn = (command[1] - command[0]) / settings_.axle;
@@ -97,7 +99,7 @@ class DifferentialDrive : public Drive {
     const double oldTurn = turn_;
     speed_ = approach(speed_, share * wantedSpeed_, settings_.limits.acceleration * dt);
     turn_ = approach(turn_, share * wantedTurn_, settings_.limits.turnAcceleration * dt);
-    // Linear acceleration: the mean of both velocities gives the exact way and turn.
+    // Linear acceleration: the mean of both velocities gives the exact distance and turn.
     const Twist mean{(oldSpeed + speed_) / 2.0, 0.0, (oldTurn + turn_) / 2.0};
     lost_ = slip(mean, dt, noise);
     if (lost_.left == 0.0 && lost_.right == 0.0) return moved(mean, dt);
@@ -106,7 +108,7 @@ class DifferentialDrive : public Drive {
                  dt);
   }
   Twist velocity() const override { return {speed_, 0.0, turn_}; }
-  /// Wheels do not roll sideways, so they learn nothing of a push from the side.
+  /// Wheels do not roll sideways, so a push from the side does not change their speeds.
   void setVelocity(const Twist& velocity) override {
     speed_ = std::clamp(velocity.x, -settings_.limits.speed, settings_.limits.speed);
     turn_ = std::clamp(velocity.theta, -settings_.limits.turn, settings_.limits.turn);
@@ -146,13 +148,14 @@ class DifferentialDrive : public Drive {
                    words::fromSignedMetres(wantedSpeed_), words::fromRate(wantedTurn_)};
   }
 
-  /// Share of the wanted velocities that the wheels can do; both become less, so the curve stays.
+  /// Returns the share of the wanted velocities that the wheels can reach; both are scaled by it,
+  /// so the curve stays the same.
   double shareOfWheels() const {
     const double fastest = std::abs(wantedSpeed_) + std::abs(wantedTurn_) * settings_.axle / 2.0;
     return fastest > settings_.maxWheelSpeed ? settings_.maxWheelSpeed / fastest : 1.0;
   }
 
-  /// Ways of the wheels that the floor does not get [m].
+  /// Returns the distances of the wheels that are lost by slip [m].
   Wheels slip(const Twist& mean, double dt, Random* noise) const {
     const Wheels speeds = wheelsOf(mean);
     const auto lost = [&](double way) {
@@ -179,11 +182,11 @@ class DifferentialDrive : public Drive {
   }
 
   DifferentialSettings settings_;
-  double wantedSpeed_ = 0.0;  ///< [m/s]
-  double wantedTurn_ = 0.0;   ///< [rad/s]
+  double wantedSpeed_ = 0.0;  ///< commanded speed [m/s]
+  double wantedTurn_ = 0.0;   ///< commanded turn rate [rad/s]
   double speed_ = 0.0;
   double turn_ = 0.0;
-  Wheels lost_;  ///< in the last cycle [m]
+  Wheels lost_;  ///< distances lost by slip in the last cycle [m]
   Encoder left_;
   Encoder right_;
   std::array<std::uint32_t, 4> motionData_{words::kOffset, words::kOffset, words::kOffset,

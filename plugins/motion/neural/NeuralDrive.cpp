@@ -11,7 +11,7 @@
 namespace ortung {
 namespace {
 
-/// The constant velocity that leads to @p change in @p seconds, on an arc.
+/// Returns the constant velocity that leads to @p change in @p seconds on an arc.
 Twist twistOf(const Pose2& change, double seconds) {
   const double half = change.theta / 2.0;
   const double stretch = (std::abs(half) < 1e-6 ? 1.0 : half / std::sin(half)) / seconds;
@@ -20,14 +20,14 @@ Twist twistOf(const Pose2& change, double seconds) {
   return {c * change.x + s * change.y, c * change.y - s * change.x, change.theta / seconds};
 }
 
-/// A base that moves as a network learned it from a real one. The network looks ahead step by step;
-/// within a step the robot follows the arc to where it will be.
+/// A base that moves as a network has learned it from a real one. The network predicts step by
+/// step; within a step the robot follows an arc to the predicted pose.
 class NeuralDrive : public Drive {
  public:
   explicit NeuralDrive(const Parameters& drive)
       : network_(readNetworkOf(drive)), robot_(network_), errors_(OdometryErrors::read(drive)) {
     drive.textOr("plugin", "");
-    drive.numberOr("body_height_m", 0.5);  // the simulator's
+    drive.numberOr("body_height_m", 0.5);  // read by the simulator
     limits_.speed = network_.limit.translational;
     limits_.turn = network_.limit.rotational;
     limits_.acceleration = drive.numberOr("acceleration_m_s2", limits_.acceleration, {0.01, 100.0});
@@ -90,7 +90,7 @@ class NeuralDrive : public Drive {
   }
 
  private:
-  static constexpr double kShortest = 1e-9;  ///< [s]
+  static constexpr double kShortest = 1e-9;  ///< shortest time that is simulated [s]
 
   void lookAhead() {
     twist_ = twistOf(robot_.step(command_), network_.step);
@@ -102,8 +102,8 @@ class NeuralDrive : public Drive {
   OdometryErrors errors_;
   DriveLimits limits_;
   Velocities command_;
-  Twist twist_;         ///< of the present step
-  double ahead_ = 0.0;  ///< left of the present step [s]
+  Twist twist_;         ///< velocity in the current step
+  double ahead_ = 0.0;  ///< remaining time of the current step [s]
   std::array<std::uint32_t, 2> motionData_{words::kOffset, words::kOffset};
 };
 

@@ -6,10 +6,10 @@
 namespace ortung {
 namespace {
 
-constexpr double kKept = 6.0;          ///< of the past [s]
-constexpr double kLongestPause = 2.0;  ///< of commands that is bridged [s]
+constexpr double kKept = 6.0;          ///< how much of the past is kept [s]
+constexpr double kLongestPause = 2.0;  ///< longest gap between commands that is bridged [s]
 
-/// What is left of [motion] when the network has read its part.
+/// Returns the keys of [motion] that the network does not read.
 Parameters withoutNetwork(const Parameters& motion) {
   Parameters rest(motion.where());
   for (const std::string& key : motion.keys()) {
@@ -18,8 +18,8 @@ Parameters withoutNetwork(const Parameters& motion) {
   return rest;
 }
 
-/// Odometry by a network: not what the robot was told to do, but what it has learned that the base
-/// makes of it. Commands come with odometry's readings; noise is that of the odometry model.
+/// Odometry by a network, which predicts how the base executes commands. Commands come with
+/// odometry's readings; the noise is that of the odometry model.
 class NeuralMotion : public OdometryMotion {
  public:
   explicit NeuralMotion(const Parameters& motion)
@@ -34,7 +34,7 @@ class NeuralMotion : public OdometryMotion {
     const Timestamp step = fromSeconds(network_.step);
     if (track_.empty() || stamp < now_ - step || toSeconds(stamp - now_) > kLongestPause)
       restart(stamp);
-    // A command is in force until the next one, so up to this one's time it is the one before.
+    // A command holds until the next one, so the previous one holds up to this one's time.
     while (now_ + step <= stamp) {
       pose_ = pose_ * robot_.step(stepCommand_);
       now_ += step;
@@ -52,7 +52,7 @@ class NeuralMotion : public OdometryMotion {
   void forget() override { track_.clear(); }
 
  private:
-  /// The pose goes on from where it was, so that samples do not jump.
+  /// Restarts the prediction. The pose continues from its last value, so that samples do not jump.
   void restart(Timestamp stamp) {
     track_.clear();
     robot_.reset();
@@ -74,8 +74,8 @@ class NeuralMotion : public OdometryMotion {
   OdometryTrack track_;
   Timestamp now_ = 0;
   Pose2 pose_;
-  Velocities command_;      ///< newest
-  Velocities stepCommand_;  ///< in force at now_, as the network was trained
+  Velocities command_;      ///< newest command
+  Velocities stepCommand_;  ///< command that holds at now_, as in the network's training
 };
 
 }  // namespace

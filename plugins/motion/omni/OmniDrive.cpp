@@ -11,10 +11,11 @@ namespace {
 
 constexpr std::size_t kWheels = 3;
 constexpr double kNoLimit = 1e9;
-using WheelSpeeds = std::array<double, kWheels>;  ///< at the rim, forwards is counter-clockwise
+/// Speeds at the rims, positive counter-clockwise [m/s].
+using WheelSpeeds = std::array<double, kWheels>;
 using Matrix = std::array<std::array<double, 3>, kWheels>;
 
-/// Three wheels that roll freely along their axles. Wheel i stands at angle a_i round the robot, at
+/// Three wheels that roll freely along their axles. Wheel i is at angle a_i around the robot, at
 /// distance R, and drives at right angles to that: its speed is -sin a_i x + cos a_i y + R theta.
 class Kinematics {
  public:
@@ -35,7 +36,7 @@ class Kinematics {
                   toWheels_[i][2] * velocity.theta;
     return speeds;
   }
-  /// The velocity with which no wheel slips: Cramer's rule.
+  /// Returns the velocity at which no wheel slips, by Cramer's rule.
   Twist velocity(const WheelSpeeds& wheels) const {
     const double whole = determinant();
     std::array<double, 3> solution{};
@@ -53,11 +54,11 @@ class Kinematics {
 
 struct OmniSettings {
   std::array<double, kWheels> angles{};  ///< `wheel_angles_deg` [rad]
-  double radius = 0.2;                   ///< `wheel_distance_m`: from the middle [m]
-  double maxWheelSpeed = 3.0;            ///< `max_wheel_speed_m_s` [m/s]
-  double wheelAcceleration = 4.0;        ///< `wheel_acceleration_m_s2` [m/s^2]
-  double maxSpeed = 0.0;                 ///< `max_speed_m_s`; default: the wheels' limit alone
-  double maxTurn = 0.0;                  ///< `max_turn_deg_s`; default: the wheels' limit alone
+  double radius = 0.2;         ///< `wheel_distance_m`: distance of the wheels from the middle [m]
+  double maxWheelSpeed = 3.0;  ///< `max_wheel_speed_m_s` [m/s]
+  double wheelAcceleration = 4.0;  ///< `wheel_acceleration_m_s2` [m/s^2]
+  double maxSpeed = 0.0;           ///< `max_speed_m_s`; default: the wheels' limit alone
+  double maxTurn = 0.0;            ///< `max_turn_deg_s`; default: the wheels' limit alone
   OdometryErrors errors;
 
   static OmniSettings read(const Parameters& drive) {
@@ -87,8 +88,8 @@ Twist scaled(const Twist& velocity, double factor) {
   return {velocity.x * factor, velocity.y * factor, velocity.theta * factor};
 }
 
-/// Three wheels: moves in any direction while it turns. Limits make velocities and changes of
-/// velocity smaller as a whole, so that their direction stays.
+/// A drive with three wheels, which moves in any direction while it turns. Limits scale velocities
+/// and changes of velocity as a whole, so that their direction stays the same.
 class OmniDrive : public Drive {
  public:
   explicit OmniDrive(const Parameters& p)
@@ -109,7 +110,7 @@ class OmniDrive : public Drive {
     return "[wheel 1, wheel 2, wheel 3] speed at the rim [m/s], forwards is counter-clockwise";
   }
   DriveLimits limits() const override {
-    // In every direction: along some it is faster.
+    // These limits hold in every direction; in some it is faster.
     return {std::min(settings_.maxSpeed, settings_.maxWheelSpeed),
             std::min(settings_.maxTurn, settings_.maxWheelSpeed / settings_.radius),
             settings_.wheelAcceleration, settings_.wheelAcceleration / settings_.radius};
@@ -122,7 +123,7 @@ class OmniDrive : public Drive {
     const double possible = settings_.wheelAcceleration * dt;
     const double share = needed > possible ? possible / needed : 1.0;
     if (share == 1.0) {
-      velocity_ = wanted_;  // without the rounding of adding and subtracting
+      velocity_ = wanted_;  // avoids the rounding errors of adding and subtracting
     } else {
       velocity_ = {old.x + share * change.x, old.y + share * change.y,
                    old.theta + share * change.theta};
@@ -141,7 +142,7 @@ class OmniDrive : public Drive {
     const double way = std::hypot(trueChange.x, trueChange.y);
     const double sigma = settings_.errors.distanceSigma * std::sqrt(way);
     const double scale = settings_.errors.distanceScale;
-    Pose2 measured;  // wheels stand all around, so noise is the same in all directions
+    Pose2 measured;  // wheels are all around, so noise is the same in all directions
     measured.x = trueChange.x * scale + sigma * noise->gaussian();
     measured.y = trueChange.y * scale + sigma * noise->gaussian();
     measured.theta = wrapAngle(settings_.errors.measuredTurn(trueChange.theta, way, *noise));
@@ -171,8 +172,8 @@ class OmniDrive : public Drive {
 
   OmniSettings settings_;
   Kinematics kinematics_;
-  Twist asked_;   ///< by the last commands, before limits
-  Twist wanted_;  ///< within limits
+  Twist asked_;   ///< velocity of the last commands, before limits
+  Twist wanted_;  ///< velocity of the last commands, within limits
   Twist velocity_;
   std::array<std::uint32_t, kWheels> motionData_{words::kOffset, words::kOffset, words::kOffset};
 };

@@ -11,14 +11,16 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kBlock = 256;         ///< samples whose noise is drawn at once
-constexpr std::size_t kNumbersASample = 4;  ///< x, y, theta, none (fillGaussian starts evenly)
+constexpr std::size_t kBlock = 256;  ///< number of samples whose noise is drawn at once
+/// Numbers per sample: x, y, theta, unused (fillGaussian works on pairs).
+constexpr std::size_t kNumbersASample = 4;
 
-constexpr float kSlip = 4.0F;  ///< OdometryNoise::slipShare: times the usual noise
+/// Factor of the noise of slipping samples, see OdometryNoise::slipShare.
+constexpr float kSlip = 4.0F;
 
 double square(double value) { return value * value; }
 
-/// Enlarges the noise of every so manyth sample of the set.
+/// Enlarges the noise of a share of the samples, evenly spaced in the set.
 void slip(double share, std::uint64_t first, std::size_t n, std::span<float> noise) {
   if (share <= 0.0) return;
   const auto period = static_cast<std::uint64_t>(std::lround(1.0 / share));
@@ -26,8 +28,8 @@ void slip(double share, std::uint64_t first, std::size_t n, std::span<float> noi
     for (float& number : noise.subspan(i * kNumbersASample, kNumbersASample)) number *= kSlip;
 }
 
-/// A robot that moves in any direction: noise does not know where its front is. Variances grow with
-/// way and turn, so readings may come at any rate.
+/// The motion model of a robot that moves in any direction: noise does not depend on its heading.
+/// Variances are proportional to distance and turn, so readings may come at any rate.
 class OmniMotion : public OdometryMotion {
  public:
   using OdometryMotion::OdometryMotion;

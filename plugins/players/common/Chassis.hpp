@@ -12,10 +12,10 @@ namespace ortung {
 
 /// Three wheels that roll freely along their axles, as the drive `omni` has them.
 struct WheelPlaces {
-  std::array<double, 3> angles{};  ///< round the robot [rad]
-  double radius = 0.2;             ///< from its middle [m]
+  std::array<double, 3> angles{};  ///< angles of the wheels around the robot [rad]
+  double radius = 0.2;             ///< distance of the wheels from its middle [m]
 
-  /// Speeds at the rims for a velocity in the robot frame [m/s], [rad/s].
+  /// Returns the speeds at the rims [m/s] for a velocity in the robot frame [m/s], [rad/s].
   std::array<double, 3> speeds(const FloorPoint& velocity, double turn) const {
     std::array<double, 3> wheels{};
     for (std::size_t i = 0; i < wheels.size(); ++i)
@@ -25,18 +25,19 @@ struct WheelPlaces {
   }
 };
 
-/// Moves a robot as its kind of drive can: three wheels in any direction while it turns, others
-/// turn to where they go.
+/// Moves a robot as its kind of drive can: with three wheels in any direction while it turns;
+/// others turn into the direction of motion.
 class Chassis {
  public:
-  /// @param wheels nothing: it can't go sideways
+  /// @param wheels nothing: it can't move sideways
   Chassis(const DriveLimits& limits, const std::optional<WheelPlaces>& wheels)
       : limits_(limits), wheels_(wheels) {}
 
   const DriveLimits& limits() const { return limits_; }
   bool isOmni() const { return wheels_.has_value(); }
 
-  /// @param velocity in the field frame [m/s] @param heading that it is to have [rad]
+  /// Moves the robot. @param velocity velocity in the field frame [m/s] @param heading wanted
+  /// heading [rad]
   void move(const Pose2& pose, const FloorPoint& velocity, double heading,
             RobotCommands& robot) const {
     const double speed = std::min(lengthOf(velocity), limits_.speed);
@@ -52,7 +53,7 @@ class Chassis {
     robot.setRotationalVelocity(turnFor(error));
     robot.setTranslationalVelocity(speed * std::max(1.0 - std::abs(error) / kFacing, 0.0));
   }
-  /// Ahead and turning, as any drive can. [m/s], [rad/s]
+  /// Drives forward and turns, as any drive can [m/s], [rad/s].
   void drive(double ahead, double turn, RobotCommands& robot) const {
     if (wheels_) {
       robot.setMotion(wheels_->speeds({ahead, 0.0}, turn));
@@ -63,7 +64,8 @@ class Chassis {
   }
   void stand(RobotCommands& robot) const { drive(0.0, 0.0, robot); }
 
-  /// As fast as half the acceleration can still brake (v^2 = 2 a s).
+  /// Returns the greatest speed from which half the acceleration still stops the robot in time (v^2
+  /// = 2 a s).
   double speedFor(double distance) const {
     return std::min(limits_.speed, std::sqrt(limits_.acceleration * std::max(distance, 0.0)));
   }
@@ -74,7 +76,8 @@ class Chassis {
   }
 
  private:
-  static constexpr double kFacing = 0.6;  ///< a larger error of heading is turned away first [rad]
+  /// Larger errors of heading are corrected before it drives [rad].
+  static constexpr double kFacing = 0.6;
 
   DriveLimits limits_;
   std::optional<WheelPlaces> wheels_;

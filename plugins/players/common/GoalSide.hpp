@@ -8,13 +8,13 @@
 
 namespace ortung {
 
-/// The goal at one end of the field, as a player knows it. The field's landmarks of kind "goal"
-/// tell where it is.
+/// The goal at one end of the field, as a player knows it from the field's landmarks of kind
+/// "goal".
 struct GoalSide {
-  FloorPoint middle;     ///< of its mouth, in the field frame [m]
-  double inwards = 1.0;  ///< 1: the field is towards positive x of it, -1: towards negative
+  FloorPoint middle;     ///< middle of its mouth in the field frame [m]
+  double inwards = 1.0;  ///< direction from it into the field along x, 1 or -1
 
-  /// @param end 1: the goal at the largest x, -1: at the smallest
+  /// Finds the goal. @param end 1: the goal at the largest x, -1: at the smallest
   /// @throws std::runtime_error if the field has none there
   static GoalSide at(const FieldModel& field, double end) {
     std::optional<GoalSide> found;
@@ -27,11 +27,11 @@ struct GoalSide {
                                (end > 0.0 ? "positive" : "negative") + " end of x");
     return *found;
   }
-  /// The point so far before the goal line, and so far to the left of its middle [m].
+  /// Returns the point at a distance before the goal line, and to the left of its middle [m].
   FloorPoint before(double depth, double aside) const {
     return {middle.x + inwards * depth, middle.y + aside};
   }
-  /// How far before the goal line [m].
+  /// Returns the distance before the goal line [m].
   double depthOf(double x) const { return (x - middle.x) * inwards; }
 };
 

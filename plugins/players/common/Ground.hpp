@@ -13,21 +13,23 @@ namespace ortung {
 
 /// A soccer field as its players know it: its middle is the origin, goals are at the ends of x.
 struct Ground {
-  double halfLength = 0.0;  ///< [m]
-  double halfWidth = 0.0;   ///< [m]
-  double halfMouth = 1.0;   ///< of the goals, between the posts [m]
-  std::vector<Disc> posts;  ///< what stands at its border: of goals, of corners
+  double halfLength = 0.0;  ///< half the length between the goal lines [m]
+  double halfWidth = 0.0;   ///< half the width between the touch lines [m]
+  double halfMouth = 1.0;   ///< half the width of the goals between the posts [m]
+  std::vector<Disc> posts;  ///< obstacles at its border: goals and corner posts
 
   FloorPoint goal(double end) const { return {end * halfLength, 0.0}; }
-  /// The nearest place that is so far within the lines; a negative margin is outside.
+  /// Returns the nearest place at least @p margin [m] inside the lines; a negative margin is
+  /// outside.
   FloorPoint within(const FloorPoint& at, double margin) const {
     const double x = std::max(halfLength - margin, 0.0);
     const double y = std::max(halfWidth - margin, 0.0);
     return {std::clamp(at.x, -x, x), std::clamp(at.y, -y, y)};
   }
 
-  /// Goals and lines of the field; what @p sizes give (lengths in m, 0: none) comes first.
-  /// @throws std::runtime_error for what nobody tells
+  /// Makes the ground from goals and lines of the field; lengths in @p sizes ([m], 0: none) take
+  /// precedence.
+  /// @throws std::runtime_error for missing lengths
   static Ground of(const FieldModel& field, const Ground& sizes) {
     Ground ground = sizes;
     double length = 0.0;
@@ -52,7 +54,7 @@ struct Ground {
   }
 
  private:
-  /// Half a goal: its side with the post, and what is within, where nobody has to go.
+  /// Adds half a goal: its side with the post, and its inside, where robots must not go.
   void addGoal(double end, double side) {
     for (const double behind : {0.0, 0.25, 0.5})
       posts.push_back({{end * (halfLength + behind), side * (halfMouth + 0.08)}, 0.1});

@@ -19,30 +19,30 @@
 
 namespace ortung {
 
-/// How a player knows where its robot is.
+/// The source of a player's knowledge of its robot's pose.
 enum class SightMode : std::uint8_t {
-  truth,     ///< by the stage, and so where everything else is
-  features,  ///< by ground truth; all else by its robot's camera
-  scan,      ///< by the newest position of a single scan; all else by the camera
-  localized  ///< by MCL on all that its robot senses; all else by the camera
+  truth,     ///< the stage, from which everything else is known, too
+  features,  ///< the ground truth feature; all else by its robot's camera
+  scan,      ///< the newest position of a single scan; all else by the camera
+  localized  ///< MCL on all that its robot senses; all else by the camera
 };
 
 inline const PlayerOption kSeesOption{
     "sees", "truth|features|scan|localized", "truth",
     "where things really are; or by its camera, and itself by ground truth, single scans or MCL"};
 
-/// What a robot's camera sees of something, where it was at that time.
+/// A sighting by a robot's camera, relative to the robot at that time.
 struct Sighting {
   Timestamp stamp = 0;
-  Pose2 inRobot;       ///< heading 0 [m]
-  double sigma = 0.0;  ///< of a coordinate, about [m]
+  Pose2 inRobot;       ///< place in the robot frame, with heading 0 [m]
+  double sigma = 0.0;  ///< approximate standard deviation of a coordinate [m]
 };
 
-/// A player's own view: its pose by one of four ways, and what its camera shows.
+/// A player's own view: its pose from one of four sources, and its camera's sightings.
 class OwnSight {
  public:
   explicit OwnSight(SightMode mode) : mode_(mode) {}
-  /// The option `sees`. @throws ConfigError
+  /// Reads the option `sees`. @throws ConfigError
   static SightMode read(const Parameters& p, const std::string& fallback = "truth") {
     static const std::vector<std::string> kModes = {"truth", "features", "scan", "localized"};
     const std::string name = p.choiceOr("sees", fallback, kModes);
@@ -51,7 +51,8 @@ class OwnSight {
 
   bool isTruth() const { return mode_ == SightMode::truth; }
   bool needsTables() const { return mode_ == SightMode::localized; }
-  /// The file of a robot that has the sensors: "NAME.toml", "NAME_scan.toml" or "NAME_lrf.toml".
+  /// Returns the file of a robot that has the sensors: "NAME.toml", "NAME_scan.toml" or
+  /// "NAME_lrf.toml".
   std::string robotFile(const std::string& name) const {
     const char* scanner = mode_ == SightMode::scan        ? "_scan"
                           : mode_ == SightMode::localized ? "_lrf"
@@ -59,7 +60,7 @@ class OwnSight {
     return name + scanner + ".toml";
   }
 
-  /// Its robot was put somewhere, and it was told where, as well as those sigmas [m], [rad] say.
+  /// Begins at a pose that is known with these standard deviations [m], [rad].
   void begin(PlayerSeat& seat, const Pose2& told, double sigma, double sigmaHeading) {
     if (mode_ == SightMode::scan) scan_.emplace(seat, told);
     if (mode_ == SightMode::localized) {
@@ -67,30 +68,32 @@ class OwnSight {
       self_->startAt(told, sigma, sigmaHeading);
     }
   }
-  /// Once each time it acts, before it asks anything.
+  /// Updates the view; to be called whenever the player acts, before other functions.
   void update(PlayerSeat& seat) {
     if (scan_) scan_->update(seat);
     if (self_) self_->update(seat);
     stamp_ = seat.now();
     pose_ = poseAt(seat, stamp_);
   }
-  /// Where its robot is now; nothing: its sensors have said nothing yet.
+  /// Returns the robot's current pose; nothing before the first readings.
   const std::optional<Pose2>& pose() const { return pose_; }
   std::optional<BelievedPose> believed() const {
     return pose_ ? std::optional(BelievedPose{stamp_, *pose_}) : std::nullopt;
   }
 
-  /// The ball, and what is no ball, as the newest image shows them; nothing is seen or imagined
-  /// twice. @throws std::runtime_error for a robot whose sensors have no feature of that name
+  /// Return the ball and the robots in the newest image; each appears once. @throws
+  /// std::runtime_error for a robot whose sensors have no feature of that name
   std::optional<Sighting> ball(PlayerSeat& seat) const {
     const auto seen = objects(seat, "ball");
-    return seen.empty() ? std::nullopt : std::optional(seen.front());  // what is imagined is last
+    return seen.empty() ? std::nullopt : std::optional(seen.front());  // false detections are last
   }
   std::vector<Sighting> robots(PlayerSeat& seat) const { return objects(seat, "robots"); }
 
  private:
-  static constexpr double kSigma = 0.02;          ///< of a camera's places at range 0 [m]
-  static constexpr double kSigmaPerMetre = 0.03;  ///< and for each metre
+  /// Standard deviation of a camera's places at range 0 [m].
+  static constexpr double kSigma = 0.02;
+  /// Growth of the standard deviation with range [m/m].
+  static constexpr double kSigmaPerMetre = 0.03;
 
   std::optional<Pose2> poseAt(PlayerSeat& seat, Timestamp now) const {
     switch (mode_) {
@@ -129,7 +132,7 @@ class OwnSight {
   std::optional<ScanPose> scan_;
   std::unique_ptr<SelfLocalization> self_;
   Timestamp stamp_ = 0;
-  std::optional<Pose2> pose_;  ///< then
+  std::optional<Pose2> pose_;  ///< pose at stamp_
 };
 
 }  // namespace ortung

@@ -8,7 +8,7 @@
 
 namespace ortung {
 
-// Points and ways in the plane [m].
+// Points and vectors in the plane [m].
 inline FloorPoint operator+(const FloorPoint& a, const FloorPoint& b) {
   return {a.x + b.x, a.y + b.y};
 }
@@ -23,12 +23,12 @@ inline double lengthOf(const FloorPoint& a) { return std::hypot(a.x, a.y); }
 inline double angleOf(const FloorPoint& a) { return std::atan2(a.y, a.x); }
 inline FloorPoint towards(double angle) { return {std::cos(angle), std::sin(angle)}; }
 inline FloorPoint placeOf(const Pose2& pose) { return {pose.x, pose.y}; }
-/// Of length 1; towards x if there is no direction.
+/// Returns the unit vector in the direction of @p a; (1, 0) for a zero vector.
 inline FloorPoint unit(const FloorPoint& a) {
   const double length = lengthOf(a);
   return length > 0.0 ? FloorPoint{a.x / length, a.y / length} : FloorPoint{1.0, 0.0};
 }
-/// How near a point is to the straight way from @p from to @p to.
+/// Returns the distance of a point from the segment from @p from to @p to [m].
 inline double distanceToWay(const FloorPoint& point, const FloorPoint& from, const FloorPoint& to) {
   const FloorPoint way = to - from;
   const double square = dot(way, way);
@@ -36,10 +36,10 @@ inline double distanceToWay(const FloorPoint& point, const FloorPoint& from, con
   return lengthOf(point - (from + share * way));
 }
 
-/// Something round that is in the way.
+/// A round obstacle.
 struct Disc {
-  FloorPoint at;        ///< [m]
-  double radius = 0.0;  ///< [m]
+  FloorPoint at;        ///< centre [m]
+  double radius = 0.0;  ///< radius [m]
 };
 
 }  // namespace ortung

@@ -11,20 +11,19 @@
 
 namespace ortung {
 
-/// A ball that rolls straight on and is braked evenly by the floor.
+/// A ball that rolls straight and is decelerated uniformly by the floor.
 struct RollingBall {
-  FloorPoint at;         ///< [m]
-  double speedX = 0.0;   ///< [m/s]
-  double speedY = 0.0;   ///< [m/s]
-  double braking = 0.0;  ///< of the floor [m/s^2]
-
+  FloorPoint at;         ///< position in the field frame [m]
+  double speedX = 0.0;   ///< velocity along x [m/s]
+  double speedY = 0.0;   ///< velocity along y [m/s]
+  double braking = 0.0;  ///< deceleration by the floor [m/s^2]
   double speed() const { return std::hypot(speedX, speedY); }
 
-  /// Where and when it comes over the line x = @p line; nothing if it goes elsewhere or stops
-  /// before. After a way s it has the speed sqrt(v^2 - 2 b s).
+  /// Place and time at which it crosses the line x = @p line; nothing if it moves elsewhere or
+  /// stops before. After a distance s it has the speed sqrt(v^2 - 2 b s).
   struct Crossing {
-    double y = 0.0;      ///< [m]
-    double after = 0.0;  ///< [s]
+    double y = 0.0;      ///< y of the crossing [m]
+    double after = 0.0;  ///< time until the crossing [s]
   };
   std::optional<Crossing> crossing(double line) const {
     const double ahead = line - at.x;
@@ -36,7 +35,7 @@ struct RollingBall {
     return Crossing{at.y + ahead / speedX * speedY, 2.0 * way / (speed() + std::sqrt(left))};
   }
 
-  /// Where it is some time later [s].
+  /// Returns its position after a time [s].
   FloorPoint later(double seconds) const {
     const double v = speed();
     if (v <= 0.0) return at;
@@ -46,43 +45,45 @@ struct RollingBall {
   }
 };
 
-/// What a keeper makes of the places where it has seen the ball: where it is and how it rolls, by
-/// least squares over the newest ones. A kick or a bounce begins anew.
+/// A track of the ball from sightings: its position and velocity by least squares over the newest
+/// ones. A kick or a bounce starts a new track.
 class BallTrack {
  public:
-  /// How many places are enough where they are exact: the newest ones know best; and how many
-  /// average out what noise there is.
+  /// The number of sightings used if they are exact, when the newest ones are best, and if they are
+  /// noisy, when more of them average the noise.
   static constexpr std::size_t kMostExact = 8;
   static constexpr std::size_t kMostNoisy = 16;
 
-  /// @param braking of the floor [m/s^2] @param sigma of where it is seen, as a rule [m]
-  /// @param most newest places that are looked at
+  /// @param braking deceleration by the floor [m/s^2]
+  /// @param sigma default standard deviation of a sighting [m]
+  /// @param most number of newest sightings that are used
   explicit BallTrack(double braking, double sigma = 0.0, std::size_t most = kMostExact)
       : braking_(braking), sigma_(sigma), most_(most) {}
 
   void see(Timestamp stamp, const FloorPoint& at) { see(stamp, at, sigma_); }
-  /// @param sigma of a coordinate of where it is seen, 0 if that is exact [m]
+  /// Adds a sighting. @param sigma standard deviation of a coordinate [m], 0: exact
   void see(Timestamp stamp, const FloorPoint& at, double sigma) {
     if (!seen_.empty() && stamp <= seen_.back().stamp) return;
     if (seen_.size() >= 3) {
       const FloorPoint expected = ball_->later(toSeconds(stamp - seen_.back().stamp));
       const double off = std::hypot(at.x - expected.x, at.y - expected.y);
       surprises_ = off > kSurprise + 3.0 * sigma ? surprises_ + 1 : 0;
-      // One alone may be an error of seeing.
+      // A single one may be an error of the sensor.
       if (surprises_ >= 2) seen_.erase(seen_.begin(), seen_.end() - 1);
     }
     while (seen_.size() >= most_) seen_.pop_front();
     seen_.push_back({stamp, at, sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0});
     fit();
   }
-  /// As it was when it was last seen; nothing before that.
+  /// Returns the ball at the time of the last sighting; nothing before the first one.
   const std::optional<RollingBall>& ball() const { return ball_; }
   Timestamp lastSeen() const { return seen_.empty() ? 0 : seen_.back().stamp; }
-  /// Whether its velocity is known.
+  /// Returns whether its velocity is known.
   bool hasVelocity() const { return seen_.size() >= 2; }
 
  private:
-  static constexpr double kSurprise = 0.05;  ///< farther from what was expected is elsewhere [m]
+  /// Innovation beyond which a sighting contradicts the track [m].
+  static constexpr double kSurprise = 0.05;
 
   struct Sight {
     Timestamp stamp = 0;
@@ -90,8 +91,8 @@ class BallTrack {
     double weight = 1.0;
   };
 
-  /// A straight line through the places, once what the floor brakes is put back to them: before the
-  /// newest one, at time t < 0, the ball was at p + v t - b t^2 / 2 along its way.
+  /// Fits a straight line to the sightings after the deceleration is compensated: at time t < 0,
+  /// before the newest one, the ball was at p + v t - b t^2 / 2 along its path.
   void fit() {
     RollingBall ball{seen_.back().at, 0.0, 0.0, braking_};
     constexpr int kPasses = 3;  // the first one has no direction yet

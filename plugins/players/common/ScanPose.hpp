@@ -12,11 +12,11 @@
 
 namespace ortung {
 
-/// A pose from single scans: the newest position that one of them gave (lrf_iconic), carried on by
-/// odometry. What earlier ones said is forgotten, but for telling apart places that look alike.
+/// A pose from single scans: the newest position from one of them (lrf_iconic), extrapolated by
+/// odometry. Earlier positions are used only to choose among places that look alike.
 class ScanPose {
  public:
-  /// @param told where it was put
+  /// @param told start pose
   /// @throws std::runtime_error for a robot without positions
   ScanPose(PlayerSeat& seat, const Pose2& told) : fix_(told), since_(seat.now()) {
     if (find(seat) == nullptr)
@@ -59,7 +59,8 @@ class ScanPose {
   static double away(const Pose2& a, const Pose2& b) {
     return distance(a, b) + std::abs(wrapAngle(a.theta - b.theta));
   }
-  /// It is taken to go on as it went when odometry was read last, or to have gone so before.
+  /// Returns the odometry pose at a time, extrapolated forwards or backwards with the last
+  /// velocity.
   Pose2 odometryAt(Timestamp stamp) const {
     const double dt = toSeconds(stamp - lastStamp_);
     const double turn = last_->rotationalVelocity * dt;
@@ -72,7 +73,7 @@ class ScanPose {
 
   Pose2 fix_;
   Timestamp since_;
-  Pose2 atFix_;  ///< odometry then
+  Pose2 atFix_;  ///< odometry pose at since_
   std::optional<OdometryData::Reading> last_;
   Timestamp lastStamp_ = 0;
   std::uint64_t seen_ = 0;

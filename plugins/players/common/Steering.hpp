@@ -20,7 +20,8 @@ class Steering {
     const double away = std::hypot(to.x - pose.x, to.y - pose.y);
     if (away < kArrived) return true;
     const double error = wrapAngle(std::atan2(to.y - pose.y, to.x - pose.x) - pose.theta);
-    // As fast as half the acceleration can still brake (v^2 = 2 a s).
+    // The greatest speed from which half the acceleration still stops the robot in time (v^2 = 2 a
+    // s).
     const double turn = std::min({limits_.turn, 4.0 * std::abs(error),
                                   std::sqrt(limits_.turnAcceleration * std::abs(error))});
     robot.setRotationalVelocity(error < 0.0 ? -turn : turn);
@@ -38,8 +39,9 @@ class Steering {
   double speed() const { return limits_.speed; }
 
  private:
-  static constexpr double kArrived = 0.05;  ///< [m]
-  static constexpr double kFacing = 0.35;  ///< a larger error of heading is turned away first [rad]
+  static constexpr double kArrived = 0.05;  ///< distance at which a point is reached [m]
+  /// Larger errors of heading are corrected before it drives [rad].
+  static constexpr double kFacing = 0.35;
 
   DriveLimits limits_;
 };
@@ -58,7 +60,7 @@ inline DriveLimits limitsOf(const PlayerSeat& seat, const std::optional<double>&
   return limits;
 }
 
-/// Where the robot really is. @throws std::runtime_error without a stage that it stands on
+/// Returns the robot's true pose. @throws std::runtime_error without a stage or if it is not on it
 inline Pose2 poseOf(PlayerSeat& seat) {
   if (seat.stage() != nullptr)
     for (const StagedRobot& robot : seat.stage()->robots())

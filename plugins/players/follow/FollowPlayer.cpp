@@ -1,4 +1,4 @@
-// Drives straight from point to point and stands still at the last.
+// Drives straight from point to point and stops at the last.
 #include <optional>
 #include <vector>
 

@@ -8,20 +8,20 @@
 
 namespace ortung::football {
 
-constexpr double kBallRadius = 0.11;  ///< [m]
+constexpr double kBallRadius = 0.11;  ///< radius of the ball [m]
 
-/// What somebody wants to do with the ball.
+/// The intention of a player with the ball.
 struct Aim {
   enum class Kind { shot, pass, clearance, carry };
   Kind kind = Kind::carry;
   FloorPoint target;
 };
 
-/// The place in the other goal's mouth at which a ball from @p from passes everybody by most;
-/// nothing if there is none.
+/// Returns the place in the other goal's mouth at which a ball from @p from passes all robots at
+/// the greatest distance; nothing if there is none.
 inline std::optional<FloorPoint> openCorner(const Moment& m, const FloorPoint& from) {
   constexpr int kPlaces = 9;
-  constexpr double kGap = 0.12;  // between ball and body [m]
+  constexpr double kGap = 0.12;  // gap between ball and body [m]
   const double reach = std::max(m.ground.halfMouth - 0.3, 0.1);
   std::optional<FloorPoint> best;
   double most = 0.0;
@@ -32,19 +32,20 @@ inline std::optional<FloorPoint> openCorner(const Moment& m, const FloorPoint& f
       if (dot(other.at - from, to - from) > 0.0)
         room = std::min(room, distanceToWay(other.at, from, to) - other.radius - kBallRadius);
     if (room > kGap && room - 0.1 * std::abs(to.y) > most) {
-      most = room - 0.1 * std::abs(to.y);  // where nobody is, the middle is safest
+      most = room - 0.1 * std::abs(to.y);  // without robots the middle is safest
       best = to;
     }
   }
   return best;
 }
 
-/// The mate who is best placed for a pass from @p from: free, reached by a free lane, and forward.
+/// Returns the place of the mate to whom a pass from @p from is best: unmarked, with a free lane,
+/// and forward.
 inline std::optional<FloorPoint> bestMate(const Moment& m, const FloorPoint& from,
                                           double backward) {
   constexpr double kNear = 1.5, kFar = 7.0;  // [m]
-  constexpr double kAlone = 0.9;             // from opponents [m]
-  constexpr double kAhead = 0.4;             // into his way [m]
+  constexpr double kAlone = 0.9;             // distance from opponents [m]
+  constexpr double kAhead = 0.4;             // how far ahead of the mate the pass goes [m]
   std::optional<FloorPoint> best;
   double most = -1e3;
   for (const Other& mate : m.view.others) {
@@ -58,7 +59,7 @@ inline std::optional<FloorPoint> bestMate(const Moment& m, const FloorPoint& fro
     std::erase_if(others.others,
                   [&](const Other& one) { return one.isMate && lengthOf(one.at - mate.at) < 0.1; });
     if (!isLaneFree(others, from, to, kBallRadius + 0.15)) continue;
-    constexpr double kScores = 1.5;  // what it is worth that he may shoot [m]
+    constexpr double kScores = 1.5;  // value of a mate that can shoot [m]
     const double worth =
         progress + 0.5 * std::min(alone, 3.0) + (openCorner(m, to) ? kScores : 0.0);
     if (worth > most) most = worth, best = to;
@@ -66,14 +67,14 @@ inline std::optional<FloorPoint> bestMate(const Moment& m, const FloorPoint& fro
   return best;
 }
 
-/// So far from the ball, on the side away from where it is to go.
+/// Returns the place at a distance from the ball, on the side opposite to its target.
 inline FloorPoint placeBehind(const FloorPoint& ball, const FloorPoint& target, double distance) {
   return ball - distance * unit(target - ball);
 }
 
-/// Whether it can come to the ball from the side away from a target.
+/// Returns whether there is room on the side of the ball opposite to a target.
 inline bool hasRoomBehind(const Moment& m, const FloorPoint& target, double distance) {
-  if (m.hands.canHold()) return true;  // from any side
+  if (m.hands.canHold()) return true;  // it can take the ball from any side
   const FloorPoint place = placeBehind(m.view.ball->at, target, distance);
   const auto isFree = [&](const FloorPoint& at, double radius) {
     return lengthOf(at - place) > m.view.radius + radius;
@@ -84,8 +85,8 @@ inline bool hasRoomBehind(const Moment& m, const FloorPoint& target, double dist
                      [&](const Disc& one) { return isFree(one.at, one.radius); });
 }
 
-/// Away with it: up the field on the side where the ball is, else straight on, else out to that
-/// side; where there is room to come to the ball from.
+/// Returns the target of a clearance: up the field on the ball's side, otherwise straight ahead,
+/// otherwise out to that side; the first one for which there is room behind the ball.
 inline FloorPoint clearance(const Moment& m, double distance) {
   const FloorPoint ball = m.view.ball->at;
   const double side = ball.y < 0.0 ? -1.0 : 1.0;

@@ -12,14 +12,14 @@
 
 namespace ortung::football {
 
-/// How well somebody plays.
+/// The skill of a player.
 struct Skill {
-  double ballAhead = 0.28;  ///< the ball's middle before its own, when it has it [m]
-  double shotRange = 4.5;   ///< from where it shoots [m]
-  double carrySpeed = 1.0;  ///< with the ball [m/s]
-  double carryTurn = 0.8;   ///< [rad/s]
-  double carryTime = 5.0;   ///< after which it must part with the ball [s]
-  double aimNoise = 0.04;   ///< sigma of the direction of its kicks [rad]
+  double ballAhead = 0.28;  ///< distance from its own middle to that of a ball that it has [m]
+  double shotRange = 4.5;   ///< distance from the goal within which it shoots [m]
+  double carrySpeed = 1.0;  ///< speed with the ball [m/s]
+  double carryTurn = 0.8;   ///< turn rate with the ball [rad/s]
+  double carryTime = 5.0;   ///< time after which it must release the ball [s]
+  double aimNoise = 0.04;   ///< standard deviation of the direction of its kicks [rad]
 };
 
 /// Takes the ball, dribbles it around others, passes or shoots at the goal.
@@ -27,9 +27,9 @@ class Attack {
  public:
   explicit Attack(const Skill& skill) : skill_(skill) {}
 
-  /// Who takes a restart must not score by himself: he passes.
+  /// Makes it pass: the taker of a restart must not score by itself.
   void oweAPass() { owesPass_ = true; }
-  /// Somebody else goes for the ball.
+  /// Resets it: another robot goes for the ball.
   void forget() {
     owesPass_ = false;
     aim_.reset();
@@ -44,7 +44,7 @@ class Attack {
     if (!since_ || !has) since_ = has ? since_ : std::optional<Timestamp>();
     if (has && !since_) since_ = m.view.now;
     choose(m, random);
-    // Once between the horns it may be turned about; a wobble does not end that.
+    // Once the ball is between the horns it may turn with it; a short loss does not end that.
     if (has) return carry(m, ball);
     m.hands.hold(false, m.robot);
     fetch(m);
@@ -56,11 +56,11 @@ class Attack {
   bool isHad(const FloorPoint& ball) const {
     return ball.x > 0.1 && ball.x < skill_.ballAhead + 0.07 && std::abs(ball.y) < 0.1;
   }
-  /// How far before the ball it stands before it takes it [m].
+  /// Returns the distance behind the ball from which it approaches it [m].
   double behind() const { return skill_.ballAhead + kBehind; }
   double had(Timestamp now) const { return since_ ? toSeconds(now - *since_) : 0.0; }
 
-  /// What to do with the ball. It keeps to what it has chosen for a moment.
+  /// Chooses what to do with the ball. A choice holds for some time.
   void choose(const Moment& m, Random& random) {
     const Timestamp keeps = owesPass_ ? 3 * kKeeps : kKeeps;
     if (aim_ && m.view.now - chosen_ < keeps && aim_->kind != Aim::Kind::carry) return;
@@ -81,7 +81,7 @@ class Attack {
     if (toGoal < skill_.shotRange && corner) return {Aim::Kind::shot, *corner};
     const bool isLate = had(m.view.now) > skill_.carryTime;
     const bool isPressed = m.view.opponentTo(ball) < kPressed;
-    const bool isShutOut = toGoal < skill_.shotRange;  // nothing is open, or it had shot
+    const bool isShutOut = toGoal < skill_.shotRange;  // no corner is open, or it would have shot
     if (isPressed || isLate || isShutOut)
       if (const auto mate = bestMate(m, ball, isLate || isShutOut ? 3.0 : 0.5))
         return {Aim::Kind::pass, *mate};
@@ -91,7 +91,7 @@ class Attack {
     if (isLate || (isPressed && isAtHome)) return {Aim::Kind::clearance, clearance(m, behind())};
     return {Aim::Kind::carry, m.otherGoal()};
   }
-  /// Comes to the ball from the side away from where it is to go.
+  /// Approaches the ball from the side opposite to its target.
   void fetch(const Moment& m) {
     const RollingBall& ball = *m.view.ball;
     const FloorPoint from = m.view.place();
@@ -99,7 +99,7 @@ class Attack {
     const bool isRolling = ball.speed() > kRolling;
     const FloorPoint at = m.ground.within(isRolling ? meeting.at : ball.at, -0.3);
     if (isRolling && meeting.after > 0.3) {
-      // Into its way, facing it.
+      // It intercepts the ball, facing it.
       const FloorPoint place = at - skill_.ballAhead * unit(ball.at - at);
       return go_.to(m, place, angleOf(ball.at - from), m.chassis.limits().speed);
     }
@@ -107,7 +107,7 @@ class Attack {
     const double toBall = angleOf(at - from);
     const double off = std::abs(wrapAngle(angleOf(aim) - toBall));
     const double away = lengthOf(at - from);
-    // With flaps it may take the ball from any side and turn with it.
+    // With flaps it can take the ball from any side and turn with it.
     const bool isContested = m.view.opponentTo(at) < kPressed;
     const double cone = m.hands.canHold() ? 2.2 : isContested ? 1.1 : away < 0.6 ? 0.5 : 0.3;
     if (off > cone) {
@@ -122,10 +122,10 @@ class Attack {
                    m.robot);
   }
 
-  /// Whether to kick now: the heading is what is wanted, or as good.
+  /// Returns whether to kick now: the heading is the wanted one, or as good.
   bool isAimed(const Moment& m, double error) const {
     constexpr double kAimed = 0.06, kAnywhere = 0.4;  // [rad]
-    constexpr double kPost = 0.2;                     // from the middle of the way to a post [m]
+    constexpr double kPost = 0.2;                     // least gap to a post [m]
     if (aim_->kind == Aim::Kind::carry) return false;
     if (aim_->kind == Aim::Kind::clearance) return std::abs(error) < kAnywhere;
     if (std::abs(error) < kAimed) return true;
@@ -166,19 +166,22 @@ class Attack {
     m.chassis.drive(speed * skill_.carrySpeed, turn, m.robot);
   }
 
-  static constexpr Timestamp kKeeps = 600'000;    ///< an aim [us]
-  static constexpr Timestamp kSettles = 100'000;  ///< a ball that it has got [us]
-  static constexpr double kPressed = 0.9;         ///< opponent to ball [m]
-  static constexpr double kRolling = 0.5;         ///< slower it counts as lying [m/s]
-  static constexpr double kBehind = 0.28;         ///< the ball [m]
+  static constexpr Timestamp kKeeps = 600'000;  ///< how long an aim is kept [us]
+  /// How long it must have a ball before it acts [us].
+  static constexpr Timestamp kSettles = 100'000;
+  /// Distance of an opponent from the ball that counts as pressure [m].
+  static constexpr double kPressed = 0.9;
+  static constexpr double kRolling = 0.5;  ///< speed below which a ball counts as lying [m/s]
+  /// Distance behind the ball from which it approaches [m].
+  static constexpr double kBehind = 0.28;
 
   Skill skill_;
   Go go_;
   std::optional<Aim> aim_;
   Timestamp chosen_ = 0;
-  std::optional<Timestamp> since_;  ///< it has the ball
+  std::optional<Timestamp> since_;  ///< time since which it has the ball; nothing: it has not
   Timestamp lastWithout_ = 0;
-  double error_ = 0.0;  ///< of its kicks [rad]
+  double error_ = 0.0;  ///< error of its current aim [rad]
   bool owesPass_ = false;
 };
 

@@ -12,17 +12,18 @@
 
 namespace ortung::football {
 
-/// Makes a view of what a player senses and is told.
+/// Makes a player's view from its sensors and its mates' messages.
 class Eyes {
  public:
-  /// Where the robot believes to be; nothing: it does not know.
+  /// Returns the pose that the robot believes to have; nothing: it does not know.
   using Pose = std::function<std::optional<Pose2>(PlayerSeat&)>;
 
-  /// @param pose empty: everything is taken from the stage @param braking of a ball [m/s^2]
+  /// @param pose empty: everything is taken from the stage
+  /// @param braking deceleration of a ball [m/s^2]
   Eyes(Pose pose, double braking)
       : pose_(std::move(pose)), braking_(braking), track_(braking, 0.2) {}
 
-  /// Nothing as long as its own pose is not known.
+  /// Returns the view; nothing as long as its own pose is not known.
   std::optional<View> look(PlayerSeat& seat, const Mates& mates) {
     View view;
     view.now = seat.now();
@@ -41,17 +42,21 @@ class Eyes {
     if (own) view.ball = own;
     return view;
   }
-  /// The ball as it has seen it itself, lately.
+  /// Returns the ball if it has seen it itself recently.
   const std::optional<RollingBall>& ownBall() const { return own_; }
 
  private:
-  static constexpr Timestamp kForgotten = 1'200'000;  ///< a ball that nobody sees [us]
-  static constexpr double kSame = 0.7;  ///< a robot so near to where a mate says he is, is he [m]
+  /// Age from which a sighting of the ball is forgotten [us].
+  static constexpr Timestamp kForgotten = 1'200'000;
+  /// A robot this near to a mate's reported place is that mate [m].
+  static constexpr double kSame = 0.7;
 
-  static constexpr double kFar = 0.8;            ///< from where it was expected [m]
-  static constexpr double kFastest = 3.0;        ///< it is kicked meanwhile [m/s]
-  static constexpr double kSeems = 0.1;          ///< to move [m/s]
-  static constexpr double kSeemsPerMetre = 0.1;  ///< [1/s]
+  /// Distance from the expected place beyond which a ball is elsewhere [m].
+  static constexpr double kFar = 0.8;
+  /// Speed at which the ball may have been kicked meanwhile [m/s].
+  static constexpr double kFastest = 3.0;
+  static constexpr double kSeems = 0.1;          ///< apparent speed of a lying ball [m/s]
+  static constexpr double kSeemsPerMetre = 0.1;  ///< growth of that speed with distance [1/s]
 
   static RollingBall later(const RollingBall& ball, double seconds) {
     RollingBall now = ball;
@@ -108,13 +113,13 @@ class Eyes {
     own_.reset();
     if (track_.ball() && view.now - track_.lastSeen() < kForgotten) {
       own_ = later(*track_.ball(), toSeconds(view.now - track_.lastSeen()));
-      // From far it seems to move when it lies.
+      // A distant ball that lies still seems to move.
       if (own_->speed() < kSeems + kSeemsPerMetre * lengthOf(own_->at - view.place()))
         own_->speedX = own_->speedY = 0.0;
     }
     view.ball = own_;
   }
-  /// Whether it may be the ball that it has seen before; elsewhere only if it is there twice.
+  /// Returns whether a sighting may be the ball seen before; elsewhere it must be seen twice.
   bool isLikely(const FloorPoint& at) {
     const double passed = toSeconds(newest_ - track_.lastSeen());
     const bool isNear =
@@ -123,7 +128,7 @@ class Eyes {
     elsewhere_ = at;
     return isNear || isThereAgain;
   }
-  /// Mates tell where they are, and the ball for who does not see it.
+  /// Adds mates at their reported places, and the ball that they report if it is not seen.
   static void hear(const Mates& mates, View& view) {
     Timestamp newest = 0;
     for (const auto& [name, told] : mates.told()) {
@@ -146,7 +151,7 @@ class Eyes {
         return lengthOf(other.at - at) < kSame;
       });
       if (mate != end) {
-        mate->at = at;  // newer than what he said
+        mate->at = at;  // newer than its message
       } else {
         view.others.push_back({at, {}, std::max(object.radius, 0.2), false, false});
       }
@@ -157,7 +162,7 @@ class Eyes {
   double braking_;
   BallTrack track_;
   Timestamp newest_ = -1;
-  std::optional<FloorPoint> elsewhere_;  ///< where it was seen last, likely or not
+  std::optional<FloorPoint> elsewhere_;  ///< last sighting, whether it was likely or not
   std::optional<RollingBall> own_;
 };
 

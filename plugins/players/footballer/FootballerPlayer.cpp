@@ -1,5 +1,5 @@
-// Plays football in the field: who has the ball soonest attacks, the others cover and support, by
-// what they tell each other (docs/matches.md).
+// Plays football in the field: the robot that can reach the ball first attacks, the others cover
+// and support; they share roles by messages (docs/matches.md).
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -24,9 +24,9 @@ namespace {
 
 struct Settings {
   std::string sees;
-  std::optional<double> speed;  ///< [m/s]
-  double period;                ///< [s]
-  double braking;               ///< of a rolling ball [m/s^2]
+  std::optional<double> speed;  ///< greatest speed [m/s]
+  double period;                ///< time between two decisions [s]
+  double braking;               ///< deceleration of a rolling ball [m/s^2]
   Skill skill;
   Ground sizes;
   WheelPlaces wheels;
@@ -53,7 +53,7 @@ std::optional<Pose2> groundTruth(PlayerSeat& seat) {
   return seat.container().get<PoseData>({.type = "groundTruth"});
 }
 
-/// Whether it is commanded by the speeds of three wheels.
+/// Returns whether it is commanded by the speeds of three wheels.
 bool hasThreeWheels(const RobotAbilities& abilities) {
   return abilities.motionKind == motion::kOmni3;
 }
@@ -83,7 +83,7 @@ class FootballerPlayer : public Player {
   bool senseAndAct(PlayerSeat& seat) override {
     mates_.hear(seat.heard(), seat.now());
     std::optional<View> view = eyes_->look(seat, mates_);
-    if (!view) {                     // it does not know where it is: turning, it sees more
+    if (!view) {                     // its pose is unknown: it turns to see more
       constexpr double kTurn = 0.8;  // [rad/s]
       chassis_->drive(0.0, seat.game().mayPlay(seat.team()) ? kTurn : 0.0, seat.robot());
       return true;
@@ -110,7 +110,7 @@ class FootballerPlayer : public Player {
   }
 
  private:
-  /// How it knows where it is; empty: everything is taken from the stage.
+  /// Returns the source of its pose; empty: everything is taken from the stage.
   Eyes::Pose poseFor(PlayerSeat& seat) {
     if (settings_.sees == "truth") return {};
     if (settings_.sees == "features") return groundTruth;
@@ -123,9 +123,10 @@ class FootballerPlayer : public Player {
     };
   }
 
-  /// How long until it has the ball, and has it on the right side; who attacks keeps at it.
+  /// Returns the time until it has the ball on the right side [s]; an attacker has a bonus, so that
+  /// roles are stable.
   double costOf(const Moment& m, const FloorPoint& ball) const {
-    constexpr double kNever = 1000.0;   // or at last, where nobody sees it
+    constexpr double kNever = 1000.0;   // or last of all if the ball is not seen
     constexpr double kLoyalty = 0.5;    // [s]
     constexpr double kWrongSide = 0.8;  // [s]
     if (!m.view.ball) return kNever + lengthOf(ball - m.view.place());
@@ -141,9 +142,9 @@ class FootballerPlayer : public Player {
     if (view.now < nextWord_) return;
     nextWord_ = view.now + kPeriod;
     seat.say(Word{cost, view.place(), eyes_->ownBall()}.text());
-    // The same for mates that read it like a sensor (plugin `teammate`).
-    constexpr double kOwn = 0.05;   // sigma of where it is [m], [rad], about
-    constexpr double kBall = 0.15;  // and of where the ball is [m]
+    // The same message for mates that read it like a sensor (plugin `teammate`).
+    constexpr double kOwn = 0.05;   // approximate standard deviation of its own pose [m], [rad]
+    constexpr double kBall = 0.15;  // approximate standard deviation of the ball's place [m]
     seat.say(toText(Place{Place::Kind::robot, seat.name(), fixOf(view.pose, kOwn, kOwn)}));
     if (const auto& ball = eyes_->ownBall())
       seat.say(toText(Place{Place::Kind::ball, "ball",
@@ -167,7 +168,7 @@ class FootballerPlayer : public Player {
       return takePlace(m, ball);
     }
     if (unjam_.act(m, true, seat.random())) return;
-    if (!m.view.ball) {  // it looks for it
+    if (!m.view.ball) {  // it searches for the ball
       attack_->forget();
       m.hands.hold(false, m.robot);
       return go_.to(m, ball, angleOf(ball - m.view.place()), m.chassis.limits().speed);
@@ -176,7 +177,8 @@ class FootballerPlayer : public Player {
     attack_->act(m, seat.random());
   }
 
-  /// Where a ball is that nobody sees: where a restart puts it, or where it was seen last.
+  /// Returns the likely place of an unseen ball: where a restart puts it, or where it was last
+  /// seen.
   FloorPoint guess(const Game& game, double forward) const {
     const double side = lastBall_.y < 0.0 ? -1.0 : 1.0;
     if (game.phase != Game::Phase::kReady && game.phase != Game::Phase::kStopped) return lastBall_;
@@ -192,17 +194,17 @@ class FootballerPlayer : public Player {
     }
   }
 
-  /// Whether its team has a restart from which the taker must not score.
+  /// Returns whether its team has a restart from which the taker must not score.
   static bool isToTake(PlayerSeat& seat) {
     const Game& game = seat.game();
     return game.phase == Game::Phase::kReady && game.restart != Game::Restart::kPenalty &&
            game.restart != Game::Restart::kDroppedBall;
   }
 
-  /// Goes to where its role wants it, and looks at the ball.
+  /// Goes to the place of its role, and faces the ball.
   void takePlace(const Moment& m, const FloorPoint& ball) {
     constexpr double kNear = 0.2, kFar = 0.6;  // [m]
-    constexpr double kClear = 0.4;             // from the ball [m]
+    constexpr double kClear = 0.4;             // distance from the ball [m]
     m.hands.hold(false, m.robot);
     const FloorPoint place = placeOf(role_, ground_, m.forward, ball);
     const double away = lengthOf(place - m.view.place());
@@ -224,7 +226,7 @@ class FootballerPlayer : public Player {
   Unjam unjam_;
   Role role_ = Role::cover;
   bool isOnTheWay_ = false;
-  FloorPoint lastBall_;  ///< where it was last seen
+  FloorPoint lastBall_;  ///< place where the ball was last seen
   Timestamp nextWord_ = 0;
 };
 

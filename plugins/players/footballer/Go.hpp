@@ -11,12 +11,12 @@
 
 namespace ortung::football {
 
-/// Goes somewhere, around whatever is in the way.
+/// Drives to a place, around obstacles.
 class Go {
  public:
-  /// The direction nearest to the straight one in which nothing is in the way for the next while;
-  /// nothing if there is none. The side on which it goes round something stays the same as long as
-  /// that costs little. @param radius of who goes [m]
+  /// Returns the direction nearest to the straight one that is free for the next metre; nothing if
+  /// there is none. The side on which it passes an obstacle stays the same as long as that costs
+  /// little. @param radius the robot's radius [m]
   std::optional<double> direction(const FloorPoint& from, const FloorPoint& to, double radius,
                                   const std::vector<Disc>& discs) {
     const double straight = angleOf(to - from);
@@ -40,7 +40,7 @@ class Go {
     return std::nullopt;
   }
 
-  /// @param heading that it is to have there [rad] @param more what else it must not touch
+  /// Drives to a place. @param heading wanted heading there [rad] @param more further obstacles
   void to(const Moment& m, const FloorPoint& target, double heading, double speed,
           const std::vector<Disc>& more = {}) {
     const FloorPoint from = m.view.place();
@@ -58,18 +58,19 @@ class Go {
   }
 
  private:
-  static constexpr double kLook = 1.2;  ///< how far ahead the way must be free [m]
+  static constexpr double kLook = 1.2;  ///< how far ahead the path must be free [m]
   static constexpr double kStep = 10.0 * kDegree;
-  static constexpr int kSteps = 14;     ///< to either side
-  static constexpr int kLoyal = 3;      ///< so many steps must the other side be better
-  static constexpr double kGap = 0.06;  ///< between bodies [m]
+  static constexpr int kSteps = 14;     ///< number of steps to either side
+  static constexpr int kLoyal = 3;      ///< number of steps by which the other side must be better
+  static constexpr double kGap = 0.06;  ///< gap between bodies [m]
 
   static FloorPoint foreseen(const Other& other, const FloorPoint& from) {
     constexpr double kFast = 2.0;  // [m/s]
     const double time = std::min(lengthOf(other.at - from) / kFast, 0.5);
     return other.at + time * other.velocity;
   }
-  /// What it touches already does not keep it from going away.
+  /// Returns whether a path is free. An obstacle that it already touches does not keep it from
+  /// moving away.
   static bool isFree(const FloorPoint& from, const FloorPoint& to, double radius,
                      const std::vector<Disc>& discs) {
     for (const Disc& disc : discs) {
@@ -81,7 +82,7 @@ class Go {
     return true;
   }
 
-  double side_ = 0.0;  ///< 1: to the left of what is in the way, -1: to the right, 0: no matter
+  double side_ = 0.0;  ///< side on which it passes obstacles: 1: left, -1: right, 0: either
 };
 
 }  // namespace ortung::football

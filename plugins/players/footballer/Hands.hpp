@@ -7,7 +7,7 @@
 
 namespace ortung::football {
 
-/// Kicker and flaps of a robot, as far as it has them: a manipulator `kicker` with the state
+/// The kicker and flaps of a robot, as far as it has them: a manipulator `kicker` with the state
 /// `kick`, perhaps `pass`, and one `flaps` with `open` and `closed`.
 class Hands {
  public:
@@ -19,13 +19,13 @@ class Hands {
   bool canKick() const { return kicks_; }
   bool canHold() const { return holds_; }
 
-  /// Closes the flaps round the ball, or opens them.
+  /// Closes the flaps around the ball, or opens them.
   void hold(bool closed, RobotCommands& robot) {
     if (!holds_ || closed == closed_) return;
     robot.setManipulator("flaps", closed ? "closed" : "open");
     closed_ = closed;
   }
-  /// The flaps must be open for it: then it kicks, else it opens them. @returns whether it kicked
+  /// Kicks if the flaps are open; otherwise opens them. @returns whether it kicked
   bool kick(bool softly, RobotCommands& robot) {
     if (!kicks_) return false;
     if (closed_) {

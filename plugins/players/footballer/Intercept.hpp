@@ -7,13 +7,13 @@
 
 namespace ortung::football {
 
-/// Where and when a robot has the ball soonest, roughly.
+/// The approximate place and time at which a robot can first reach the ball.
 struct Meeting {
-  FloorPoint at;       ///< where the ball is then
-  double after = 0.0;  ///< [s]
+  FloorPoint at;       ///< place of the ball at that time
+  double after = 0.0;  ///< time until then [s]
 };
 
-/// Goes along the ball's way until the robot is there as soon as the ball.
+/// Searches along the ball's path for the first point that the robot reaches before the ball.
 inline Meeting meet(const RollingBall& ball, const Pose2& pose, const DriveLimits& limits) {
   constexpr double kStep = 0.1;     // [s]
   constexpr double kLongest = 4.0;  // [s]

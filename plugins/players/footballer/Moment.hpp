@@ -7,14 +7,14 @@
 
 namespace ortung::football {
 
-/// What a skill acts on. All of it is borrowed for one call.
+/// The input of a skill in one cycle. Everything is borrowed for one call.
 struct Moment {
   const View& view;
   const Ground& ground;
   const Chassis& chassis;
   Hands& hands;
   RobotCommands& robot;
-  double forward = 1.0;  ///< 1 or -1: towards the other goal along x
+  double forward = 1.0;  ///< direction of the other goal along x, 1 or -1
 
   FloorPoint ownGoal() const { return ground.goal(-forward); }
   FloorPoint otherGoal() const { return ground.goal(forward); }

@@ -8,29 +8,30 @@
 
 namespace ortung::football {
 
-/// Between the ball and the own goal, before its area.
+/// Returns the place between the ball and the own goal, before its area.
 inline FloorPoint coverPlace(const Ground& ground, double forward, const FloorPoint& ball) {
   const FloorPoint goal = ground.goal(-forward);
   const double way = lengthOf(ball - goal);
   const double before = std::clamp(0.45 * way, 0.27 * ground.halfLength, 0.7 * ground.halfLength);
   const FloorPoint place = goal + before * unit(ball - goal);
-  // Not on the goal line when the ball is there.
+  // It is not on the goal line, even if the ball is there.
   const double along = std::max(forward * place.x, -0.8 * ground.halfLength);
   return {forward * along, place.y};
 }
 
-/// Free for a pass: ahead of the ball on the other side of the field, or behind it on its side.
+/// Returns a place for a pass: ahead of the ball on the other side of the field, or behind it on
+/// its side.
 inline FloorPoint supportPlace(const Ground& ground, double forward, const FloorPoint& ball,
                                Role role) {
   const bool isAhead = role == Role::support;
   const double side = (ball.y < 0.0 ? -1.0 : 1.0) * (isAhead ? -1.0 : 1.0);
   double along = forward * ball.x + (isAhead ? 0.35 : -0.22) * ground.halfLength;
-  // Out of both penalty areas.
+  // It is outside of both penalty areas.
   along = std::clamp(along, -0.55 * ground.halfLength, 0.68 * ground.halfLength);
   return {forward * along, side * (isAhead ? 0.4 : 0.55) * ground.halfWidth};
 }
 
-/// Where somebody of a role wants to be, clear of the ball.
+/// Returns the place of a role, clear of the ball.
 inline FloorPoint placeOf(Role role, const Ground& ground, double forward, const FloorPoint& ball) {
   const FloorPoint place = role == Role::cover ? coverPlace(ground, forward, ball)
                                                : supportPlace(ground, forward, ball, role);

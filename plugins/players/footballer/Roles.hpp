@@ -13,21 +13,21 @@ namespace ortung::football {
 enum class Role : std::uint8_t {
   attack,   ///< goes for the ball
   cover,    ///< stays between the ball and the own goal
-  support,  ///< is there for a pass, on one side
-  wing      ///< the same on the other side
+  support,  ///< offers itself for a pass, on one side
+  wing      ///< offers itself for a pass, on the other side
 };
 
-/// One who has a part in the game.
+/// A robot that takes part in the game.
 struct Candidate {
   std::string name;
-  double cost = 0.0;  ///< until he has the ball [s]; who attacks already tells somewhat less
+  double cost = 0.0;  ///< time until it has the ball [s], with a bonus for the current attacker
   FloorPoint at;
 };
 
-/// Shares the roles out: all who know the same come to the same result. Who has the ball soonest
-/// attacks; of the others who is nearest to @p coverPlace covers; the rest supports, the foremost
-/// as `support`, the next as `wing`.
-/// @param forward 1 or -1: towards the other goal along x
+/// Assigns the roles: all robots with the same information get the same result. The one that
+/// reaches the ball first attacks; of the others the one nearest to @p coverPlace covers; the rest
+/// support, the foremost as `support`, the next as `wing`.
+/// @param forward direction of the other goal along x, 1 or -1
 inline Role shareRoles(std::vector<Candidate> all, const std::string& own,
                        const FloorPoint& coverPlace, double forward) {
   const auto take = [&](auto&& key) {

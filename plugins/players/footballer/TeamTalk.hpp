@@ -14,12 +14,12 @@
 
 namespace ortung::football {
 
-/// What footballers of a team tell each other: "fb COST X Y BALL X Y VX VY", where BALL is 1 if it
-/// has seen the ball.
+/// The message of a footballer to its team: "fb COST X Y BALL X Y VX VY", where BALL is 1 if it has
+/// seen the ball.
 struct Word {
-  double cost = 0.0;                ///< until it has the ball [s]
-  FloorPoint at;                    ///< its own place [m]
-  std::optional<RollingBall> ball;  ///< that it has seen itself
+  double cost = 0.0;                ///< time until it has the ball [s]
+  FloorPoint at;                    ///< the sender's place [m]
+  std::optional<RollingBall> ball;  ///< the ball as the sender has seen it itself
 
   std::string text() const {
     const RollingBall told = ball.value_or(RollingBall{});
@@ -28,7 +28,7 @@ struct Word {
                   ball ? 1 : 0, told.at.x, told.at.y, told.speedX, told.speedY);
     return words;
   }
-  /// Nothing if it is something else, or nonsense.
+  /// Reads a message; nothing if it is of another kind or malformed.
   static std::optional<Word> parse(const std::string& text, double braking) {
     if (!text.starts_with("fb")) return std::nullopt;
     std::array<double, 8> numbers{};
@@ -37,7 +37,7 @@ struct Word {
     for (double& number : numbers) {
       if (at == end || *at++ != ' ') return std::nullopt;
       const auto [stop, error] = std::from_chars(at, end, number);
-      constexpr double kMost = 1e4;  // NaN is not below
+      constexpr double kMost = 1e4;  // also refuses NaN
       if (error != std::errc() || !(std::abs(number) < kMost)) return std::nullopt;
       at = stop;
     }
@@ -49,7 +49,7 @@ struct Word {
   }
 };
 
-/// What was heard lately of each mate.
+/// The recent messages of each mate.
 class Mates {
  public:
   struct Told {
@@ -70,7 +70,8 @@ class Mates {
   const std::map<std::string, Told>& told() const { return told_; }
 
  private:
-  static constexpr Timestamp kForgotten = 1'000'000;  ///< [us]
+  /// Age from which a message is forgotten [us].
+  static constexpr Timestamp kForgotten = 1'000'000;
   static constexpr std::size_t kMost = 32;
   double braking_;
   std::map<std::string, Told> told_;

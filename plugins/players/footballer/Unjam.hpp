@@ -7,10 +7,11 @@
 
 namespace ortung::football {
 
-/// Notices that a robot wants to move and does not, and frees it: back, to one side.
+/// Detects that a robot wants to move but does not, and frees it by driving back and to one side.
 class Unjam {
  public:
-  /// Whether it acts instead of what was planned. @param wantsToMove in this moment
+  /// Frees the robot if it is stuck. @returns whether it did, instead of the planned action @param
+  /// wantsToMove whether the robot wants to move now
   bool act(const Moment& m, bool wantsToMove, Random& random) {
     if (m.view.now < until_) {
       m.hands.hold(false, m.robot);
@@ -37,13 +38,13 @@ class Unjam {
   }
 
  private:
-  static constexpr double kMoved = 0.15;             ///< [m]
-  static constexpr Timestamp kPatience = 1'600'000;  ///< [us]
-  static constexpr Timestamp kFreeing = 700'000;     ///< [us]
+  static constexpr double kMoved = 0.15;             ///< distance that counts as motion [m]
+  static constexpr Timestamp kPatience = 1'600'000;  ///< time without motion until it acts [us]
+  static constexpr Timestamp kFreeing = 700'000;     ///< duration of the manoeuvre [us]
   FloorPoint anchor_;
   Timestamp since_ = 0;
   Timestamp until_ = 0;
-  double away_ = 0.0;  ///< direction [rad]
+  double away_ = 0.0;  ///< direction of the manoeuvre [rad]
 };
 
 }  // namespace ortung::football

@@ -15,27 +15,27 @@ namespace ortung::football {
 /// Another robot on the field.
 struct Other {
   FloorPoint at;
-  FloorPoint velocity;   ///< [m/s]; 0 if it is not known
-  double radius = 0.36;  ///< [m]
+  FloorPoint velocity;   ///< velocity [m/s]; 0 if unknown
+  double radius = 0.36;  ///< radius of its body [m]
   bool isMate = false;
-  bool isKeeper = false;  ///< it says nothing of itself
+  bool isKeeper = false;  ///< whether it is a keeper, which sends no messages
 };
 
-/// What a player knows of the moment, in the field frame.
+/// A player's current knowledge, in the field frame.
 struct View {
   Timestamp now = 0;
-  Pose2 pose;                       ///< its own
-  double radius = 0.36;             ///< its own [m]
-  std::optional<RollingBall> ball;  ///< nothing: nobody has seen it lately
+  Pose2 pose;                       ///< its own pose
+  double radius = 0.36;             ///< its own radius [m]
+  std::optional<RollingBall> ball;  ///< the ball; nothing: it was not seen recently
   std::vector<Other> others;
 
   FloorPoint place() const { return placeOf(pose); }
-  /// The ball in its own frame. @pre ball
+  /// Returns the ball's place in the robot frame. @pre ball
   FloorPoint ballInRobot() const {
     const Pose2 at = inverse(pose) * Pose2{ball->at.x, ball->at.y, 0.0};
     return {at.x, at.y};
   }
-  /// How near the nearest opponent is to a place; far if there is none.
+  /// Returns the distance of the nearest opponent from a place [m]; a large one if there is none.
   double opponentTo(const FloorPoint& place) const {
     double nearest = 1e3;
     for (const Other& other : others)
@@ -44,8 +44,8 @@ struct View {
   }
 };
 
-/// Whether a ball that is kicked along a straight way meets nobody.
-/// @param gap between its middle and their bodies [m]
+/// Returns whether a ball on a straight path meets no robot. @param gap least distance between its
+/// middle and their bodies [m]
 inline bool isLaneFree(const View& view, const FloorPoint& from, const FloorPoint& to, double gap) {
   return std::none_of(view.others.begin(), view.others.end(), [&](const Other& other) {
     return dot(other.at - from, to - from) > 0.0 &&

@@ -1,5 +1,5 @@
-// Keeps a goal by one of six policies (paper, section 5.1). It stands across on a line before its
-// goal and drives along it forwards and backwards, so any robot can do it.
+// Keeps a goal by one of six policies (paper, section 5.1). It moves forwards and backwards along a
+// line before its goal, so any robot can do it.
 #include <cmath>
 #include <deque>
 #include <numbers>
@@ -23,14 +23,14 @@ const std::vector<std::string> kPolicies = {"still",    "random",       "pattern
 struct Settings {
   KeeperPolicy policy = KeeperPolicy::intercepting;
   SightMode sees = SightMode::truth;
-  double speed = 1.5;       ///< [m/s]
-  double delay = 0.0;       ///< of seeing [s]
-  double noise = 0.0;       ///< of seeing, sigma of both coordinates [m]
-  double period = 0.04;     ///< [s]
-  double lineOut = 0.5;     ///< line before the goal [m]
-  double reach = 0.75;      ///< [m]
-  double slack = 0.0;       ///< off its line it may be before it steers back [m]
-  double braking = 0.2943;  ///< of a rolling ball [m/s^2]: 0.03 of gravity
+  double speed = 1.5;       ///< greatest speed [m/s]
+  double delay = 0.0;       ///< delay of its sight [s]
+  double noise = 0.0;       ///< noise of its sight: standard deviation of both coordinates [m]
+  double period = 0.04;     ///< time between two decisions [s]
+  double lineOut = 0.5;     ///< distance of its line from the goal line [m]
+  double reach = 0.75;      ///< how far it goes to either side of the goal's middle [m]
+  double slack = 0.0;       ///< distance from its line beyond which it steers back [m]
+  double braking = 0.2943;  ///< deceleration of a rolling ball [m/s^2]: 0.03 of gravity
 
   explicit Settings(const Parameters& p) {
     const std::string name = p.choiceOr("policy", "intercepting", kPolicies);
@@ -73,7 +73,7 @@ class GoalkeeperPlayer : public Player {
   bool senseAndAct(PlayerSeat& seat) override {
     own_.update(seat);
     const std::optional<Pose2>& pose = own_.pose();
-    if (!pose) return true;  // its sensors have said nothing yet
+    if (!pose) return true;  // there are no readings yet
     look(seat, *pose);
     if (!seat.game().mayPlay(seat.team())) {
       Steering::stand(seat.robot());
@@ -92,15 +92,16 @@ class GoalkeeperPlayer : public Player {
   }
 
  private:
-  static constexpr double kAway = 0.4;  ///< from its line [m]
-  /// It takes for granted that it was put on its line: sigmas.
-  static constexpr double kPlacedWithin = 0.4;  ///< [m]
-  static constexpr double kPlacedTurned = 0.1;  ///< [rad]
+  /// Distance from its line beyond which it returns to it [m].
+  static constexpr double kAway = 0.4;
+  /// Standard deviations of its start: it assumes that it was placed on its line.
+  static constexpr double kPlacedWithin = 0.4;  ///< standard deviation of its position [m]
+  static constexpr double kPlacedTurned = 0.1;  ///< standard deviation of its heading [rad]
 
   struct Sight {
     Timestamp stamp = 0;
     FloorPoint at;
-    double sigma = 0.0;  ///< of a coordinate [m]
+    double sigma = 0.0;  ///< standard deviation of a coordinate [m]
   };
 
   bool isExact() const { return own_.isTruth() && settings_.noise == 0.0; }
@@ -109,7 +110,7 @@ class GoalkeeperPlayer : public Player {
            std::abs(pose.y - line_.goal.y) > line_.reach + kAway;
   }
 
-  /// The ball where it was seen, in the field frame as this keeper knows it.
+  /// Returns the sighting of the ball, in the field frame by the keeper's own pose.
   std::optional<Sight> sight(PlayerSeat& seat, const Pose2& pose) const {
     if (own_.isTruth()) {
       for (const StagedThing& thing : seat.stage()->things())
@@ -122,7 +123,7 @@ class GoalkeeperPlayer : public Player {
     return Sight{ball->stamp, {at.x, at.y}, ball->sigma};
   }
 
-  /// What it sees now it knows after its delay.
+  /// Takes a sighting, which becomes known after the delay.
   void look(PlayerSeat& seat, const Pose2& pose) {
     if (auto seen = sight(seat, pose); seen && seen->stamp > newest_) {
       newest_ = seen->stamp;
@@ -138,7 +139,7 @@ class GoalkeeperPlayer : public Player {
       track_.see(coming_.front().stamp, coming_.front().at, coming_.front().sigma);
   }
 
-  /// Carried on from when it was seen to now.
+  /// Returns the ball, extrapolated from its last sighting to now.
   std::optional<RollingBall> newestBall(Timestamp now) const {
     std::optional<RollingBall> ball = track_.ball();
     if (!ball) return ball;
@@ -151,23 +152,22 @@ class GoalkeeperPlayer : public Player {
     return ball;
   }
 
-  /// Along its line, standing across: to the left of the field forwards or backwards, whichever way
-  /// it happens to look.
+  /// Moves along its line, forwards or backwards depending on its heading.
   void slide(const Pose2& pose, double wanted, RobotCommands& robot) const {
     const double across = std::sin(pose.theta) >= 0.0 ? 1.0 : -1.0;
     const double away = wanted - pose.y;
-    // As fast as most of its acceleration can still brake.
+    // The greatest speed from which 0.8 of its acceleration still stops it in time.
     const double fast =
         std::min({limits_.speed, std::sqrt(1.6 * limits_.acceleration * std::abs(away)),
                   8.0 * std::abs(away)});
     const double speed = std::copysign(fast, away) * across;
-    constexpr double kMoves = 0.1;  // slower it can't steer [m/s]
+    constexpr double kMoves = 0.1;  // it can't steer if it is slower [m/s]
     const double off = line_.x - pose.x;
     const bool steers = std::abs(speed) > kMoves && std::abs(off) > settings_.slack;
     const double tilt = steers ? std::clamp(2.0 * off / speed, -0.3, 0.3) : 0.0;
     const double error = wrapAngle(across * (std::numbers::pi / 2.0 - tilt) - pose.theta);
     robot.setRotationalVelocity(std::clamp(5.0 * error, -limits_.turn, limits_.turn));
-    constexpr double kAcross = 0.6;  // otherwise it turns first [rad]
+    constexpr double kAcross = 0.6;  // for larger errors it turns first [rad]
     robot.setTranslationalVelocity(std::abs(error) < kAcross ? speed : 0.0);
   }
 
@@ -178,8 +178,8 @@ class GoalkeeperPlayer : public Player {
   std::optional<KeeperMind> mind_;
   DriveLimits limits_;
   BallTrack track_;
-  std::deque<Sight> coming_;  ///< seen, and not yet known
-  Timestamp newest_ = -1;     ///< sight
+  std::deque<Sight> coming_;  ///< sightings that are not known yet because of the delay
+  Timestamp newest_ = -1;     ///< stamp of the newest sighting
 };
 
 struct GoalkeeperHelp : PlayerHelp {

@@ -18,12 +18,12 @@ enum class KeeperPolicy : std::uint8_t { still, random, pattern, blocking, inter
 /// The line before its goal on which a keeper moves. The frame is the field's.
 struct KeeperLine {
   FloorPoint goal;     ///< middle of the goal's mouth [m]
-  double x = 0.0;      ///< of the line [m]
+  double x = 0.0;      ///< x of the line [m]
   double reach = 0.8;  ///< how far it moves to either side of the goal's middle [m]
 
   double within(double y) const { return std::clamp(y, goal.y - reach, goal.y + reach); }
-  /// Where the straight line from the ball to the goal's middle comes over the line. A ball behind
-  /// the line is as near as it can be.
+  /// Returns y where the straight line from the ball to the goal's middle crosses the line [m]. A
+  /// ball behind the line is treated as one just before it.
   double blockingPlace(const FloorPoint& ball) const {
     const double depth = (ball.x - goal.x) * (x > goal.x ? 1.0 : -1.0);
     const double share = std::abs(x - goal.x) / std::max(depth, std::abs(x - goal.x));
@@ -31,15 +31,14 @@ struct KeeperLine {
   }
 };
 
-/// Decides where on its line a keeper wants to be. Deterministic by the random numbers that it is
-/// given.
+/// Decides where on its line a keeper should be. Deterministic for given random numbers.
 class KeeperMind {
  public:
   KeeperMind(KeeperPolicy policy, const KeeperLine& line) : policy_(policy), line_(line) {}
 
-  /// @param y where the keeper is on its line [m]
-  /// @param ball as it was last seen; nothing: never
-  /// @returns where it wants to be [m]; nothing: it does not move
+  /// @param y the keeper's place on its line [m]
+  /// @param ball the ball; nothing: it was never seen
+  /// @returns the wanted place [m]; nothing: it does not move
   std::optional<double> decide(Timestamp now, double y, const std::optional<RollingBall>& ball,
                                Random& random) {
     KeeperPolicy policy = policy_;
@@ -70,11 +69,11 @@ class KeeperMind {
   }
 
  private:
-  static constexpr Timestamp kMixed = 800'000;  ///< one policy of `mixed` lasts so long [us]
-  static constexpr double kThere = 0.05;        ///< [m]
-  static constexpr double kRolls = 0.3;         ///< slower balls are as good as at rest [m/s]
+  static constexpr Timestamp kMixed = 800'000;  ///< duration of one policy in `mixed` [us]
+  static constexpr double kThere = 0.05;        ///< distance at which a place is reached [m]
+  static constexpr double kRolls = 0.3;         ///< slower balls count as lying [m/s]
 
-  /// Chooses another place when it is there, or after a while.
+  /// Returns a random place, which changes when it is reached or after some time.
   double wander(Timestamp now, double y, Random& random) {
     if (!target_ || now >= wanderUntil_ || std::abs(*target_ - y) < kThere) {
       target_ = line_.goal.y + random.uniform(-line_.reach, line_.reach);
@@ -82,13 +81,13 @@ class KeeperMind {
     }
     return *target_;
   }
-  /// To and fro between the ends of its line.
+  /// Returns alternately the ends of its line.
   double swing(double y) {
     if (y >= line_.goal.y + line_.reach - kThere) side_ = -1.0;
     if (y <= line_.goal.y - line_.reach + kThere) side_ = 1.0;
     return line_.goal.y + side_ * line_.reach;
   }
-  /// Where the ball will come; as long as it does not come, it blocks.
+  /// Returns the place where the ball will cross the line; if it will not, the blocking place.
   double intercept(const std::optional<RollingBall>& ball) const {
     if (!ball) return line_.goal.y;
     if (ball->speed() > kRolls)

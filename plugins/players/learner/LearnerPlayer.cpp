@@ -1,5 +1,5 @@
 // The model learner (paper, section 5.2): moves its robot over all poses of the field, where all
-// features that localize learn what they read; writes the tables, and ends.
+// features that localize learn their readings; writes the tables, and ends.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -29,8 +29,8 @@ namespace {
 
 struct Settings {
   std::filesystem::path out;
-  double cell = 0.1;          ///< [m]
-  double headingStep = 0.0;   ///< [rad]
+  double cell = 0.1;          ///< edge length of a cell [m]
+  double headingStep = 0.0;   ///< angle between headings [rad]
   std::string area = "auto";  ///< "auto", "all", or x and y with a semicolon between them [m]
   int threads = 1;
 
@@ -46,7 +46,7 @@ struct Settings {
   }
 };
 
-/// A point "x;y". @throws std::invalid_argument
+/// Reads a point "x;y". @throws std::invalid_argument
 std::array<double, 2> pointIn(const std::string& text) {
   std::array<double, 2> point{};
   const char* const end = text.data() + text.size();
@@ -73,7 +73,7 @@ class LearnerPlayer : public Player {
     });
     if (own == robots.end()) throw std::runtime_error("its robot is not there");
     robot_ = (*own)->config();
-    world_ = simulation->world().another();  // nothing moves in it, and nobody else is there
+    world_ = simulation->world().another();  // a copy without moving bodies and other robots
     region_ = region(seat);
     for (int i = 0; i < (settings_.threads > 1 ? settings_.threads + 1 : 1); ++i) {
       containers_.emplace_back();
@@ -86,8 +86,8 @@ class LearnerPlayer : public Player {
       seat.say("needs " + std::to_string(need.headings) + " headings for " + toText(need.feature));
   }
 
-  /// A thread of its own learns meanwhile, so that neither the others nor the clock wait for it,
-  /// and a sensor that hangs is seen as what it is.
+  /// Reports the progress. A thread of its own learns, so that neither other players nor the clock
+  /// wait for it, and a sensor that hangs is noticed.
   bool senseAndAct(PlayerSeat& seat) override {
     if (!work_.joinable())
       work_ = std::jthread([this](const std::stop_token& stop) { learn(stop); });
@@ -109,7 +109,7 @@ class LearnerPlayer : public Player {
   }
 
  private:
-  /// How far the thread is.
+  /// The progress of the thread.
   struct State {
     double share = 0.0;
     Pose2 pose;
@@ -152,7 +152,7 @@ class LearnerPlayer : public Player {
     return std::move(area.region);
   }
 
-  /// How far it is, for whoever listens.
+  /// Sends the progress to its team.
   void tell(PlayerSeat& seat, double share) {
     const auto part = static_cast<int>(1000.0 * share);
     if (part == told_) return;
@@ -162,12 +162,12 @@ class LearnerPlayer : public Player {
     seat.say(text);
   }
 
-  /// Its robot stands where it learns, if there is room.
+  /// Places its robot at the pose that is being learned, if there is room.
   static void show(PlayerSeat& seat, const Pose2& pose) {
     try {
       seat.stage()->placeRobot(seat.name(), pose);
     } catch (const std::invalid_argument&) {
-      // A sensor is where its robot can't be.
+      // A sensor may be where its robot can't be.
     }
   }
 
@@ -196,14 +196,14 @@ class LearnerPlayer : public Player {
   RobotConfig robot_;
   std::unique_ptr<SimWorld> world_;
   FieldRegion region_;
-  std::list<SensorContainer> containers_;  ///< the first one learns
+  std::list<SensorContainer> containers_;  ///< containers of all rigs; the first one learns
   std::vector<std::vector<Device>> devices_;
   std::unique_ptr<Learner> learner_;
   int told_ = -1;
-  std::mutex mutex_;  ///< of the state
+  std::mutex mutex_;  ///< guards state_
   std::condition_variable changed_;
   State state_;
-  std::jthread work_;  ///< last: it uses the others
+  std::jthread work_;  ///< last member, since it uses the others
 };
 
 struct LearnerHelp : PlayerHelp {

@@ -1,5 +1,5 @@
-// Stands where it was put and tells its team where it is, and where it sees robots and balls: team
-// mates with the sensor plugin `teammate` read that like any sensor (paper, section 6).
+// Stays where it was placed and reports its pose, and where it sees robots and balls, to its team.
+// Team mates with the sensor plugin `teammate` read that like any sensor (paper, section 6).
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -30,8 +30,8 @@ class LookoutPlayer : public Player {
   bool senseAndAct(PlayerSeat& seat) override {
     listen(seat);
     const auto pose = seat.container().get<PoseData>({.type = "groundTruth"});
-    if (!pose) return true;        // it does not know yet where it stands
-    constexpr double kOwn = 0.01;  // sigma of where it stands [m], [rad]
+    if (!pose) return true;        // it has no pose yet
+    constexpr double kOwn = 0.01;  // standard deviation of its pose [m], [rad]
     const double s = kOwn * kOwn;
     tell(seat, {Place::Kind::robot, seat.name(), {*pose, {s, 0, 0, 0, s, 0, 0, 0, s}}});
     tellWhatItSees(seat, *pose, "robots");
@@ -40,11 +40,12 @@ class LookoutPlayer : public Player {
   }
 
  private:
-  static constexpr double kSame = 0.6;  ///< what is nearer to a robot's place is that robot [m]
+  /// A sighting within this distance of a robot's reported place is that robot [m].
+  static constexpr double kSame = 0.6;
 
   static void tell(PlayerSeat& seat, const Place& place) { seat.say(toText(place)); }
 
-  /// Where the others say they are.
+  /// Takes the places that the others report.
   void listen(const PlayerSeat& seat) {
     for (const Heard& heard : seat.heard()) {
       const auto place = placeIn(heard.text);
@@ -71,7 +72,7 @@ class LookoutPlayer : public Player {
       const Place place = placeOf(object, eye, isBall);
       if (!isBall && (of_.empty() || isMate(place))) continue;
       tell(seat, place);
-      return;  // the others can't be told apart
+      return;  // the others can't be distinguished
     }
   }
 
@@ -81,7 +82,8 @@ class LookoutPlayer : public Player {
     });
   }
 
-  /// Range and bearing as a place, with the error of both turned into the field frame.
+  /// Returns the place of a sighting in the field frame, with the errors of range and bearing as
+  /// its covariance.
   Place placeOf(const ObjectsData::Object& object, const Pose2& eye, bool isBall) const {
     const double angle = eye.theta + object.bearing;
     const double c = std::cos(angle);
@@ -99,12 +101,13 @@ class LookoutPlayer : public Player {
   }
 
   std::string of_;
-  double rangeSigma_;  ///< [m]
+  double rangeSigma_;  ///< standard deviation of range [m]
   double rangeSigmaPerMetre_;
-  double bearingSigma_;  ///< [rad]
-  double period_;        ///< [s]
+  double bearingSigma_;  ///< standard deviation of bearing [rad]
+  double period_;        ///< time between two looks [s]
   std::map<std::string, FloorPoint> mates_;
-  std::map<std::string, std::uint64_t, std::less<>> told_;  ///< by feature: its last sequence
+  /// Sequence number of each feature's last reading that was reported.
+  std::map<std::string, std::uint64_t, std::less<>> told_;
 };
 
 struct LookoutHelp : PlayerHelp {

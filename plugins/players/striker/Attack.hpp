@@ -10,14 +10,14 @@
 
 namespace ortung {
 
-/// What all kinds of strikers know: the goal that they play at, and what really stands where.
+/// The knowledge of all kinds of strikers: their goal, and the true state of the stage.
 struct Attack {
   GoalSide goal;
   double halfMouth = 1.0;    ///< half the goal's width [m]
-  double braking = 0.2943;   ///< of a rolling ball [m/s^2]
-  double ballAhead = 0.285;  ///< of the robot's middle, when the ball lies at its kicker [m]
+  double braking = 0.2943;   ///< deceleration of a rolling ball [m/s^2]
+  double ballAhead = 0.285;  ///< distance from the robot's middle to a ball at its kicker [m]
 
-  /// Where the ball is. @throws std::runtime_error if there is none
+  /// Returns the ball. @throws std::runtime_error if there is none
   static const StagedThing& ball(PlayerSeat& seat) {
     for (const StagedThing& thing : seat.stage()->things())
       if (thing.kind == "ball") return thing;
@@ -28,7 +28,7 @@ struct Attack {
       if (robot.name == seat.name()) return robot;
     throw std::runtime_error("its robot is not on the stage");
   }
-  /// The other robot that is nearest to the goal, if one is within 2 m of it.
+  /// Returns the other robot that is nearest to the goal, if it is within 2 m of it.
   std::optional<FloorPoint> keeper(PlayerSeat& seat) const {
     std::optional<FloorPoint> found;
     double nearest = 2.0;
@@ -40,15 +40,15 @@ struct Attack {
     }
     return found;
   }
-  /// The corner of the goal that is farther from the keeper, a little within the post; without a
-  /// keeper the left one.
+  /// Returns the corner of the goal that is farther from the keeper, slightly inside the post;
+  /// without a keeper the left one.
   FloorPoint freeCorner(PlayerSeat& seat) const { return freeCorner(keeper(seat)); }
   FloorPoint freeCorner(const std::optional<FloorPoint>& stands) const {
     constexpr double kWithin = 0.25;  // [m]
     const double side = stands && stands->y > goal.middle.y ? -1.0 : 1.0;
     return {goal.middle.x, goal.middle.y + side * (halfMouth - kWithin)};
   }
-  /// Puts the robot somewhere and the ball at its kicker, or nothing if there is no room.
+  /// Places the robot, and the ball at its kicker. @returns whether there is room
   bool putWithBall(PlayerSeat& seat, const Pose2& pose) const {
     return put(seat, pose, pose * Pose2{ballAhead, 0.0, 0.0}, {});
   }
@@ -64,11 +64,11 @@ struct Attack {
   }
 };
 
-/// One kind of striker: makes a situation, and acts in it.
+/// A kind of striker, which makes a situation and acts in it.
 class Strike {
  public:
   virtual ~Strike() = default;
-  /// @returns false: there is no room for what was drawn, another one may be drawn
+  /// Makes a random situation. @returns false if there is no room for it; another one may be drawn
   virtual bool setUp(PlayerSeat& seat) = 0;
   virtual void act(PlayerSeat& seat) = 0;
   virtual std::optional<BelievedPose> believedPose() const { return std::nullopt; }

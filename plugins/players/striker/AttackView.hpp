@@ -8,13 +8,13 @@
 
 namespace ortung {
 
-/// What a striker knows of itself, the ball and the keeper while it plays: as it is, or as its own
-/// sensors show it.
+/// A striker's view of itself, the ball and the keeper while it plays: the truth, or what its own
+/// sensors show.
 class AttackView {
  public:
   AttackView(const Attack& attack, SightMode mode) : attack_(attack), own_(mode) {}
 
-  /// It was put somewhere: it knows about where.
+  /// Begins at a pose that it knows approximately.
   void begin(PlayerSeat& seat, const Pose2& placed) {
     ball_.reset();
     keeper_.reset();
@@ -25,7 +25,8 @@ class AttackView {
                      wrapAngle(placed.theta + kPlacedTurned * seat.random().gaussian())};
     own_.begin(seat, told, kPlacedWithin, kPlacedTurned);
   }
-  /// Each time it acts. @returns whether it knows where it is and has seen the ball
+  /// Updates the view; to be called whenever it acts. @returns whether it knows its pose and has
+  /// seen the ball
   bool update(PlayerSeat& seat) {
     own_.update(seat);
     if (!own_.pose()) return false;
@@ -39,21 +40,21 @@ class AttackView {
     return ball_.has_value();
   }
 
-  // --- in the field frame, after update() said yes
+  // --- in the field frame, after update() has returned true
   const Pose2& pose() const { return *own_.pose(); }
   const FloorPoint& ball() const { return *ball_; }
-  /// Nothing: it sees none before the goal.
+  /// Returns the keeper; nothing if it sees none before the goal.
   const std::optional<FloorPoint>& keeper() const { return keeper_; }
-  /// The ball in the frame of the robot [m].
+  /// Returns the ball's place in the robot frame [m].
   Pose2 ballInRobot() const { return inverse(pose()) * Pose2{ball_->x, ball_->y, 0.0}; }
   FloorPoint freeCorner() const { return attack_.freeCorner(keeper_); }
-  /// Whether the ball lies between the horns.
+  /// Returns whether the ball is between the horns.
   bool hasBall() const {
-    constexpr double kLost = 0.15;  // farther from its place the ball is lost [m]
+    constexpr double kLost = 0.15;  // distance from its place beyond which the ball is lost [m]
     const Pose2 ball = ballInRobot();
     return std::hypot(ball.x - attack_.ballAhead, ball.y) < kLost;
   }
-  /// Whether a kick would meet it.
+  /// Returns whether a kick would hit the ball.
   bool isAtKicker() const {
     const Pose2 ball = ballInRobot();
     return ball.x > 0.0 && ball.x < attack_.ballAhead + 0.05 && std::abs(ball.y) < 0.12;
@@ -61,14 +62,16 @@ class AttackView {
   const OwnSight& own() const { return own_; }
 
  private:
-  static constexpr double kPlacedWithin = 0.2;  ///< sigma of what it is told [m]
-  static constexpr double kPlacedTurned = 0.1;  ///< [rad]
+  /// Standard deviation of the start position that it gets [m].
+  static constexpr double kPlacedWithin = 0.2;
+  /// Standard deviation of the start heading that it gets [rad].
+  static constexpr double kPlacedTurned = 0.1;
 
-  /// What a new image shows, put where it is in the field.
+  /// Takes the sightings of a new image, transformed into the field frame.
   void look(PlayerSeat& seat, const Pose2& pose) {
-    constexpr double kShare = 0.7;   // of a new place in what is known
-    constexpr double kFar = 3.0;     // sigmas, beyond which the ball has moved
-    constexpr double kBefore = 2.0;  // who is so near to the goal keeps it [m]
+    constexpr double kShare = 0.7;   // weight of a new sighting
+    constexpr double kFar = 3.0;     // standard deviations beyond which the ball has moved
+    constexpr double kBefore = 2.0;  // a robot this near to the goal is the keeper [m]
     const auto seen = own_.ball(seat);
     if (seen && seen->stamp > newest_) {
       const Pose2 at = pose * seen->inRobot;
@@ -93,26 +96,27 @@ class AttackView {
 
   Attack attack_;
   OwnSight own_;
-  Timestamp newest_ = 0;  ///< image with a ball
+  Timestamp newest_ = 0;  ///< stamp of the newest image with a ball
   std::optional<FloorPoint> ball_;
   std::optional<FloorPoint> keeper_;
 };
 
-/// What carries the ball between its horns: drives on, and turns slowly so that it stays there.
+/// Carries the ball between the horns: it drives forward and turns slowly so that the ball stays
+/// there.
 class BallCarrier {
  public:
-  static constexpr double kSpeed = 0.8;   ///< with the ball [m/s]
-  static constexpr double kTurn = 0.6;    ///< with the ball [rad/s]
-  static constexpr double kGently = 0.4;  ///< up to a ball that lies [m/s]
+  static constexpr double kSpeed = 0.8;   ///< speed with the ball [m/s]
+  static constexpr double kTurn = 0.6;    ///< turn rate with the ball [rad/s]
+  static constexpr double kGently = 0.4;  ///< speed of the approach to a lying ball [m/s]
 
   static void drive(const Pose2& pose, const FloorPoint& to, RobotCommands& robot) {
     const double error = wrapAngle(angleTo({pose.x, pose.y}, to) - pose.theta);
     robot.setRotationalVelocity(std::clamp(2.0 * error, -kTurn, kTurn));
     robot.setTranslationalVelocity(kSpeed);
   }
-  /// Turns to the ball and drives up to it.
-  /// @param speed that it touches the ball with: one that lies bounces off, one that was carried
-  /// rolls on [m/s]
+  /// Turns to the ball and drives to it.
+  /// @param speed speed at which it touches the ball [m/s]: a lying ball bounces off, one that was
+  ///   carried rolls on
   static void fetch(const Pose2& ball, double speed, RobotCommands& robot) {
     const double bearing = std::atan2(ball.y, ball.x);
     const double gap = std::max(std::hypot(ball.x, ball.y) - 0.3, 0.0);

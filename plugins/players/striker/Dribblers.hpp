@@ -11,8 +11,8 @@
 
 namespace ortung {
 
-/// Drives with the ball between its horns towards the goal, and kicks as soon as the keeper leaves
-/// the way open that it looks along, or when it is near.
+/// Drives with the ball between its horns towards the goal, and kicks as soon as the path ahead of
+/// it is not covered by the keeper, or when it is near.
 class Dribble : public Strike {
  public:
   Dribble(const Attack& attack, SightMode sees) : attack_(attack), view_(attack, sees) {}
@@ -38,7 +38,7 @@ class Dribble : public Strike {
   std::optional<BelievedPose> believedPose() const override { return view_.own().believed(); }
 
  protected:
-  /// What it does as long as it knows where it is and has not kicked.
+  /// Acts as long as it knows its pose and has not kicked.
   virtual void play(PlayerSeat& seat) {
     if (!carry(seat)) return;
     const Pose2& pose = view_.pose();
@@ -47,7 +47,7 @@ class Dribble : public Strike {
     if (wants && view_.isAtKicker()) return kick(seat);
     BallCarrier::drive(pose, view_.freeCorner(), seat.robot());
   }
-  /// Whether it has the ball; else it goes to get it.
+  /// Returns whether it has the ball; otherwise it fetches it.
   bool carry(PlayerSeat& seat) {
     if (view_.hasBall()) return hasCarried_ = true;
     BallCarrier::fetch(view_.ballInRobot(),
@@ -59,7 +59,7 @@ class Dribble : public Strike {
     kicked_ = true;
     kickedAt_ = seat.now();
   }
-  /// Whether it has kicked and the ball is still there.
+  /// Returns whether it has kicked but the ball is still there.
   bool failed(PlayerSeat& seat) const {
     constexpr Timestamp kPatience = 400'000;  // [us]
     const Pose2 ball = view_.ballInRobot();
@@ -68,14 +68,16 @@ class Dribble : public Strike {
 
   Attack attack_;
   AttackView view_;
-  double shootsFrom_ = 2.0;  ///< [m]
+  double shootsFrom_ = 2.0;  ///< distance from the goal within which it kicks [m]
   bool kicked_ = false;
   bool hasCarried_ = false;
   Timestamp kickedAt_ = 0;
-  static constexpr double kNearest = 1.3;  ///< here it kicks in any case [m]
-  static constexpr double kGap = 0.4;      ///< of the keeper's middle from the ball's way [m]
+  /// Distance from the goal within which it kicks in any case [m].
+  static constexpr double kNearest = 1.3;
+  /// Least distance of the keeper's middle from the ball's path [m].
+  static constexpr double kGap = 0.4;
 
-  /// Whether the way ahead leads into the goal, and past the keeper.
+  /// Returns whether the path ahead leads into the goal and past the keeper.
   bool isOpen(const Pose2& pose) const {
     const double ahead = std::cos(pose.theta) * -attack_.goal.inwards;
     if (ahead <= 0.2) return false;
@@ -89,7 +91,7 @@ class Dribble : public Strike {
   }
 };
 
-/// Finds a ball that lies somewhere, drives around it and up to it, and dribbles.
+/// Finds a lying ball, drives around it and to it, and dribbles.
 class Seek : public Dribble {
  public:
   using Dribble::Dribble;
@@ -115,16 +117,17 @@ class Seek : public Dribble {
         .steer(view_.pose(), wayPoint(), seat.robot());
   }
 
-  static constexpr double kSpeed = 1.6;   ///< without the ball [m/s]
-  static constexpr double kBehind = 0.7;  ///< it drives up to the ball from there [m]
-  bool isUpToIt_ = false;                 ///< it drives up to the ball
+  static constexpr double kSpeed = 1.6;  ///< speed without the ball [m/s]
+  /// Distance behind the ball from which it approaches it [m].
+  static constexpr double kBehind = 0.7;
+  bool isUpToIt_ = false;  ///< whether it is approaching the ball
 
-  /// Whether the ball is still before it, though maybe not towards the goal.
+  /// Returns whether the ball is still ahead, though maybe not in the direction of the goal.
   bool isBefore() const {
     const Pose2 ball = view_.ballInRobot();
     return ball.x > 0.0 && std::abs(std::atan2(ball.y, ball.x)) < 1.0 && ball.x < 2.0;
   }
-  /// Unit vector to the ball from the corner that it is to be kicked into.
+  /// Returns the unit vector to the ball from the corner of the goal that is its target.
   FloorPoint away() const {
     const FloorPoint goal = view_.freeCorner();
     const double dx = view_.ball().x - goal.x;
@@ -132,7 +135,7 @@ class Seek : public Dribble {
     const double d = std::max(std::hypot(dx, dy), 1e-3);
     return {dx / d, dy / d};
   }
-  /// Whether that corner lies behind the ball, as it sees it.
+  /// Returns whether that corner is behind the ball as seen from the robot.
   bool isBehind() const {
     constexpr double kWithin = 0.2;  // [rad]
     const Pose2& pose = view_.pose();
@@ -142,7 +145,7 @@ class Seek : public Dribble {
     return std::abs(wrapAngle(toBall - toGoal)) < kWithin &&
            std::hypot(ball.x - pose.x, ball.y - pose.y) < 2.0 * kBehind;
   }
-  /// Behind the ball; past its side first, if the ball would be in the way.
+  /// Returns the place behind the ball, or one beside the ball first if it would be in the way.
   FloorPoint wayPoint() const {
     const FloorPoint back = away();
     const FloorPoint& ball = view_.ball();
@@ -155,8 +158,8 @@ class Seek : public Dribble {
   }
 };
 
-/// Carries the ball to one side, so that the keeper follows it there, turns as sharply as the ball
-/// stays between its horns, and kicks into the other corner.
+/// Carries the ball to one side so that the keeper follows, turns as sharply as it can with the
+/// ball between its horns, and kicks into the other corner.
 class Feint : public Dribble {
  public:
   using Dribble::Dribble;
@@ -181,10 +184,10 @@ class Feint : public Dribble {
     const FloorPoint lure = attack_.goal.before(depth_, side_ * out_);
     isThere_ = isThere_ || attack_.goal.depthOf(view_.ball().x) < depth_ + 0.1;
     if (!isThere_) return BallCarrier::drive(pose, lure, seat.robot());
-    constexpr double kWithin = 0.4;  // the post [m]
+    constexpr double kWithin = 0.4;  // distance of its target from the post [m]
     const FloorPoint corner = attack_.goal.before(0.0, -side_ * (attack_.halfMouth - kWithin));
     constexpr double kAimed = 0.08;  // [rad]
-    constexpr double kLast = 0.9;    // here it kicks in any case [m]
+    constexpr double kLast = 0.9;    // distance from the goal within which it kicks in any case [m]
     const double error = wrapAngle(angleTo({pose.x, pose.y}, corner) - pose.theta);
     const double depth = attack_.goal.depthOf(pose.x);
     const bool wants =
@@ -193,9 +196,9 @@ class Feint : public Dribble {
     BallCarrier::drive(pose, corner, seat.robot());
   }
 
-  double side_ = 1.0;   ///< 1: to the left of the field
+  double side_ = 1.0;   ///< side to which it lures the keeper, 1: left of the field
   double out_ = 1.0;    ///< how far aside it carries the ball [m]
-  double depth_ = 2.0;  ///< and how near to the goal line [m]
+  double depth_ = 2.0;  ///< distance from the goal line to which it carries the ball [m]
   bool isThere_ = false;
 };
 

@@ -9,8 +9,8 @@
 
 namespace ortung {
 
-/// The ball rolls towards a random point of the goal's mouth, or of what the keeper leaves open of
-/// it; the robot stands behind it.
+/// The ball rolls towards a random point of the goal's mouth, or of the part that the keeper does
+/// not cover; the robot is behind it.
 class Roll : public Strike {
  public:
   Roll(const Attack& attack, bool isBlind) : attack_(attack), isBlind_(isBlind) {}
@@ -31,15 +31,16 @@ class Roll : public Strike {
   void act(PlayerSeat& seat) override { Steering::stand(seat.robot()); }
 
  private:
-  /// How far to the left of the goal's middle [m].
+  /// Returns the distance of the target to the left of the goal's middle [m].
   double aim(PlayerSeat& seat, Random& random) const {
     constexpr double kWithin = 0.15;  // the post [m]
-    constexpr double kCovered = 0.4;  // on either side of the keeper's middle [m]
+    constexpr double kCovered = 0.4;  // covered distance on either side of the keeper's middle [m]
     const double end = attack_.halfMouth - kWithin;
     const auto keeper = isBlind_ ? std::nullopt : attack_.keeper(seat);
     if (!keeper) return random.uniform(-end, end);
     const double stands = keeper->y - attack_.goal.middle.y;
-    const double right = std::max(stands - kCovered + end, 0.0);  // open on either side [m]
+    const double right =
+        std::max(stands - kCovered + end, 0.0);  // width that is open on the right [m]
     const double left = std::max(end - stands - kCovered, 0.0);
     const double along = random.uniform(0.0, right + left);
     return along < right ? along - end : end - (along - right);
@@ -49,14 +50,14 @@ class Roll : public Strike {
   bool isBlind_;
 };
 
-/// The ball lies at the kicker of a robot that stands and looks at the corner which the keeper
-/// leaves open; some time later it kicks.
+/// The ball lies at the kicker of a stationary robot that faces the corner not covered by the
+/// keeper; some time later it kicks.
 class Shot : public Strike {
  public:
   explicit Shot(const Attack& attack) : attack_(attack) {}
 
   bool setUp(PlayerSeat& seat) override {
-    constexpr double kAim = 0.03;  // sigma [rad]
+    constexpr double kAim = 0.03;  // standard deviation of its direction [rad]
     Random& random = seat.random();
     const FloorPoint at = attack_.goal.before(random.uniform(2.5, 4.5), random.uniform(-2.0, 2.0));
     const double error = kAim * random.gaussian();

@@ -1,4 +1,4 @@
-// Plays at a goal from situations that it makes itself: what goalkeepers are measured by.
+// Attacks a goal from situations that it makes itself; goalkeepers are benchmarked by it.
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -66,7 +66,7 @@ class StrikerPlayer : public Player {
   }
 
   std::string kind_;
-  double again_;  ///< [s]
+  double again_;  ///< time between two situations [s]; 0: only one
   SightMode own_;
   bool isBlind_;
   Attack attack_;

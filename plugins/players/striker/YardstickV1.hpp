@@ -1,9 +1,9 @@
 #pragma once
 
-// FROZEN: the striker by which keepers of all years are compared. What it draws, what it does and
-// every number here stay as they are for ever, and it uses nothing that may change but the names of
-// the stage; tests/benchmark/YardstickTest.cpp holds a hash of what it does. Who wants a better one
-// makes yardstick-v2.
+// FROZEN: the striker by which keepers of all versions are compared. Its random draws, its
+// behaviour and every number here never change, and it uses nothing that may change but the names
+// of the stage; tests/benchmark/YardstickTest.cpp checks a hash of its behaviour. An improved
+// striker must become yardstick-v2.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace ortung {
 
 /// Drives towards the goal with the ball between its horns, turns towards the corner that the
-/// keeper leaves open, and kicks.
+/// keeper does not cover, and kicks.
 class YardstickV1 : public Strike {
  public:
   explicit YardstickV1(const GoalSide& goal) : goal_(goal) {}
@@ -39,7 +39,7 @@ class YardstickV1 : public Strike {
     const Pose2 pose = Attack::self(seat).pose;
     const double passed = static_cast<double>(seat.now() - begun_) * 1e-6;
     if (passed < latest_) return drive(seat.robot(), 0.6, 0.0);
-    double keeper = 0.0;  // in the middle if there is none
+    double keeper = 0.0;  // at the middle if there is none
     double nearest = 2.0;
     for (const StagedRobot& robot : seat.stage()->robots()) {
       const double away = std::hypot(robot.pose.x - goal_.middle.x, robot.pose.y - goal_.middle.y);
@@ -66,8 +66,8 @@ class YardstickV1 : public Strike {
   static void stand(RobotCommands& robot) { drive(robot, 0.0, 0.0); }
 
   GoalSide goal_;
-  double latest_ = 1.0;  ///< it turns and kicks from then on [s]
-  double error_ = 0.0;   ///< of its aim [rad]
+  double latest_ = 1.0;  ///< time after which it turns and kicks [s]
+  double error_ = 0.0;   ///< error of its aim [rad]
   Timestamp begun_ = 0;
   bool kicked_ = false;
 };

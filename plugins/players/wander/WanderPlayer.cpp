@@ -1,6 +1,6 @@
-// Drives for ever from one random place to another, preferring where it has not been, and so covers
-// everything it can reach. It goes by where it really is: a robot that looks for its way is
-// another.
+// Drives endlessly from one random place to another, preferring unvisited ones, and so covers
+// everything it can reach. It uses its true pose; navigation by its own estimate would be another
+// player.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,7 +16,7 @@
 namespace ortung {
 namespace {
 
-/// The way of one robot that covers everything it can reach.
+/// The path of a robot that covers everything it can reach.
 class Wandering {
  public:
   Wandering(std::shared_ptr<const FloorPlan> plan, const DriveLimits& limits)
@@ -52,8 +52,9 @@ class Wandering {
   }
 
  private:
-  static constexpr double kBlock = 0.8;              // covered once it was entered [m]
-  static constexpr Timestamp kPatience = 4'000'000;  // without moving [us]
+  static constexpr double kBlock =
+      0.8;  // edge length of a block, which counts as visited once entered [m]
+  static constexpr Timestamp kPatience = 4'000'000;  // time without motion until it is stuck [us]
   static constexpr Timestamp kBackTime = 500'000;    // [us]
 
   std::size_t blockOf(std::size_t cell) const {
@@ -67,7 +68,7 @@ class Wandering {
     if (cell >= 0) visited_[blockOf(static_cast<std::size_t>(cell))] = 1;
   }
 
-  /// The nearest of a few random cells in blocks not yet visited.
+  /// Returns the nearest of some random cells in unvisited blocks.
   FloorPoint chooseGoal(const Pose2& pose, Random& random) {
     constexpr int kDraws = 64;
     constexpr int kCandidates = 3;
@@ -86,7 +87,8 @@ class Wandering {
       bestWay = way;
     }
     if (best) return *best;
-    std::fill(visited_.begin(), visited_.end(), std::uint8_t{0});  // all was seen: once more
+    std::fill(visited_.begin(), visited_.end(),
+              std::uint8_t{0});  // everything was visited: it starts again
     return last;
   }
 
@@ -103,12 +105,12 @@ class Wandering {
 
   std::shared_ptr<const FloorPlan> plan_;
   Steering steering_;
-  int perBlock_ = 1;  ///< cells along the edge of a block
+  int perBlock_ = 1;  ///< number of cells along the edge of a block
   int blockColumns_ = 1;
-  std::vector<std::uint8_t> visited_;  ///< by block
+  std::vector<std::uint8_t> visited_;  ///< whether each block was visited
   std::vector<FloorPoint> route_;
   std::size_t next_ = 0;
-  std::optional<Pose2> anchor_;  ///< where it was last seen moving
+  std::optional<Pose2> anchor_;  ///< pose at which it last moved
   Timestamp anchorTime_ = 0;
   Timestamp backUntil_ = 0;
 };

@@ -7,7 +7,7 @@ std::optional<AreaFouls::Foul> AreaFouls::look(const Scene& scene, const Pitch& 
   struct Kind {
     std::optional<int> most;
     const AreaSize& area;
-    double end;  ///< of x, seen by the team: -1 is the own goal
+    double end;  ///< end of x as seen by the team: -1 is the own goal
     const char* name;
   };
   const std::array<Kind, 4> kinds = {

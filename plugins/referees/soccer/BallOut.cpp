@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Share of the way from a to b at which |value| goes beyond the bound; 0 if it was beyond before.
+/// Returns the share of the path from a to b at which |value| exceeds the bound; 0 if it did
+/// before.
 double shareAt(double a, double b, double bound) {
   if (!(std::abs(b) > bound)) return kNever;
   if (std::abs(a) > bound) return 0.0;
@@ -28,7 +29,7 @@ std::optional<Leaving> BallOut::look(const Scene::Ball& ball, const Pitch& pitch
   const double goalAt = pitch.halfLength + (goal_.wholeBall ? ball.radius : 0.0);
   const double beyond = (out_.wholeBall ? ball.radius : 0.0) + out_.margin;
   const double intoGoal = shareAt(from.x, to.x, goalAt);
-  // A ball in the mouth is no ball out, whatever the margins are.
+  // A ball in the mouth of the goal is not out, whatever the margins are.
   if (intoGoal <= 1.0) {
     const double y = between(from.y, to.y, intoGoal);
     if (std::abs(y) < pitch.halfGoal)

@@ -7,22 +7,22 @@
 
 namespace ortung::soccer {
 
-/// How the ball has left the pitch.
+/// The way in which the ball has left the pitch.
 struct Leaving {
   enum class Over { touchLine, goalLine, intoGoal };
   Over over = Over::touchLine;
-  double x = 0.0;  ///< where its middle crossed the line, on the line's outer edge [m]
+  double x = 0.0;  ///< x where its middle crossed the line's outer edge [m]
   double y = 0.0;
 };
 
-/// Sees the ball leave the pitch: over a touch line, over a goal line, or into a goal. Where the
-/// ball crosses is found between two looks, so that fast balls are judged at the line.
+/// Detects that the ball leaves the pitch: over a touch line, over a goal line, or into a goal. The
+/// place of crossing is interpolated between two cycles, so that fast balls are judged at the line.
 class BallOut {
  public:
   BallOut(const Rules::Out& out, const Rules::Goal& goal) : out_(out), goal_(goal) {}
 
   std::optional<Leaving> look(const Scene::Ball& ball, const Pitch& pitch);
-  /// The ball was put elsewhere.
+  /// Forgets the ball's last place, after it was moved.
   void reset() { before_.reset(); }
 
  private:

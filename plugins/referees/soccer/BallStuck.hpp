@@ -7,12 +7,12 @@
 
 namespace ortung::soccer {
 
-/// Sees that the ball has stayed within a small circle for too long.
+/// Detects that the ball has stayed within a small circle for too long.
 class BallStuck {
  public:
   explicit BallStuck(const Rules::Stuck& rules) : rules_(rules) {}
 
-  /// Once a cycle of play.
+  /// Observes a cycle; to be called once per cycle of play. @returns whether the ball is stuck
   bool look(const Scene::Ball& ball, Timestamp now);
   void reset() { anchor_.reset(); }
 

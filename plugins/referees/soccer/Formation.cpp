@@ -9,13 +9,13 @@ namespace {
 
 double headingOf(double direction) { return direction > 0.0 ? 0.0 : std::numbers::pi; }
 
-/// A place in shares of a team's half, facing the other goal.
+/// Returns the pose at a place given in shares of a team's half, facing the other goal.
 Pose2 poseAt(const FloorPoint& share, double direction, const Pitch& pitch) {
   return {direction * share.x * pitch.halfLength, direction * share.y * pitch.halfWidth,
           headingOf(direction)};
 }
 
-/// Behind the ball, facing it and the other goal.
+/// Returns the pose behind the ball, facing it and the other goal.
 Pose2 behind(const FloorPoint& ball, double ballRadius, const Scene::Robot& robot, double gap,
              double direction) {
   return {ball.x - direction * (robot.size.radius + ballRadius + gap), ball.y,
@@ -57,7 +57,7 @@ class Formations {
     return &*last == &robot;
   }
 
-  /// The robot of its team nearest to its goal, in its own penalty area.
+  /// Returns whether a robot is the one of its team nearest to its goal, in its own penalty area.
   bool isKeeper(const Scene::Robot& robot) const {
     const double side = -game_.directionOf(game_.teams[*robot.team].name);
     return nearest(scene_, *robot.team, {side * pitch_.halfLength, 0.0}) == &robot &&
@@ -75,7 +75,7 @@ class Formations {
   void forKickOff(const Scene::Robot& robot, Wish& wish) const {
     wish.inOwnHalf = true;
     const bool isOwn = robot.team == restart_.team;
-    if (!isOwn)  // outside of the circle, too
+    if (!isOwn)  // it is also outside of the circle
       wish.keepAway = std::max(wish.keepAway, pitch_.circle - ballRadius());
     if (isTaker(robot)) {
       wish.pose = behind(restart_.place, ballRadius(), robot, rules_.kickOff.taker, wish.direction);
@@ -94,7 +94,7 @@ class Formations {
     const FloorPoint goal{-wish.direction * pitch_.halfLength, 0.0};
     const bool isKeeper =
         robot.team != restart_.team && nearest(scene_, *robot.team, goal) == &robot;
-    if (isKeeper) {  // on its line
+    if (isKeeper) {  // it is on its goal line
       wish.keepAway = 0.0;
       wish.pose = {goal.x + wish.direction * robot.size.radius, 0.0, headingOf(wish.direction)};
       return;

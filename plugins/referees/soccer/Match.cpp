@@ -11,7 +11,7 @@
 namespace ortung::soccer {
 namespace {
 
-constexpr std::size_t kMostEvents = 10000;  ///< that nobody takes
+constexpr std::size_t kMostEvents = 10000;  ///< greatest number of events that wait to be taken
 
 std::string told(double x, double y) {
   char text[64];
@@ -95,7 +95,7 @@ void Match::endGame() {
            ", " + game_.teams[1].name + " " + std::to_string(game_.teams[1].score));
 }
 
-/// After the pause, as if nothing had been before.
+/// Begins the next match after the pause, with a reset state.
 void Match::beginNextMatch() {
   if (toSeconds(scene_.now - since_) < config_.rules.match.pause) return;
   reset();
@@ -230,7 +230,7 @@ bool Match::hasNewcomer() const {
   });
 }
 
-/// All is placed and the whistle blows.
+/// Places everything and gives the restart.
 void Match::begin(Stage& stage) {
   waits_ = false;
   since_ = scene_.now;

@@ -20,19 +20,19 @@
 
 namespace ortung::soccer {
 
-/// Who decides: the rules, or a person (a referee box) by orders alone.
+/// How decisions are made: by the rules, or by orders of a person (a referee box) alone.
 enum class Control { kRules, kOrders };
 
-/// A game of two teams: puts together what the other classes see, and says what follows.
+/// A game of two teams: combines the observations of the other classes, and decides what follows.
 class Match {
  public:
   struct Config {
     Rules rules;
     Control control = Control::kRules;
     std::array<std::string, 2> teams = {"blue", "yellow"};
-    std::size_t kickOff = 0;  ///< the team that has the first one
-    std::size_t left = 0;     ///< the team that begins on the left
-    int matches = 1;          ///< one after the other, each from 0:0; 0: without end
+    std::size_t kickOff = 0;  ///< index of the team with the first kick-off
+    std::size_t left = 0;     ///< index of the team that begins on the left
+    int matches = 1;          ///< number of consecutive matches, each from 0:0; 0: endless
   };
 
   explicit Match(Config config);
@@ -40,7 +40,7 @@ class Match {
   const Game& watch(Stage& stage);
   std::vector<RefereeEvent> takeEvents();
   bool holds(std::string_view robot) const;
-  /// Checks an order; it is carried out at the next watch(). @throws std::invalid_argument
+  /// Checks an order, which is executed at the next watch(). @throws std::invalid_argument
   void order(std::string_view text);
 
  private:
@@ -80,14 +80,14 @@ class Match {
   AreaFouls areas_;
   std::optional<Pitch> pitch_;
   Scene scene_;
-  std::optional<Timestamp> last_;  ///< when it looked
+  std::optional<Timestamp> last_;  ///< time of the last cycle
 
-  std::optional<Restart> restart_;   ///< while it is prepared or to be taken
-  bool waits_ = false;               ///< the restart, for the order to start
-  bool isPause_ = false;             ///< between halves, or matches
-  int match_ = 1;                    ///< the one that is played
-  Timestamp since_ = 0;              ///< of this phase
-  std::vector<std::string> placed_;  ///< robots that were there when the restart was given
+  std::optional<Restart> restart_;   ///< the restart while it is prepared or to be taken
+  bool waits_ = false;               ///< whether the restart waits for the order to start
+  bool isPause_ = false;             ///< whether it is a pause between halves or matches
+  int match_ = 1;                    ///< number of the current match, from 1
+  Timestamp since_ = 0;              ///< time at which this phase began
+  std::vector<std::string> placed_;  ///< robots that were present when the restart was given
 
   std::vector<Order> orders_;
   std::vector<RefereeEvent> events_;

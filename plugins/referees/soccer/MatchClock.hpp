@@ -9,12 +9,12 @@ class MatchClock {
  public:
   explicit MatchClock(const Rules::Match& rules) : rules_(rules) {}
 
-  int half() const { return half_; }     ///< from 1; 0: the game has not begun
-  double time() const { return time_; }  ///< of this half [s]
-  double length() const;                 ///< of this half [s]
+  int half() const { return half_; }     ///< current half from 1; 0: the game has not begun
+  double time() const { return time_; }  ///< time of this half [s]
+  double length() const;                 ///< length of this half [s]
   bool isOvertime() const { return half_ > rules_.halves; }
   bool isHalfOver() const { return half_ > 0 && time_ >= length() - 1e-9; }
-  /// Whether another half follows this one.
+  /// Returns whether another half follows this one.
   bool hasNext(bool isDraw) const;
 
   void begin(int half);

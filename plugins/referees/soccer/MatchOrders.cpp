@@ -1,4 +1,4 @@
-// What orders do: the rest of Match.
+// The effects of orders: a part of Match.
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -77,7 +77,7 @@ void Match::beginHalf(Stage& stage, int half) {
     giveAt(stage, Game::Restart::kKickOff, (config_.kickOff + number) % 2, {}, "a half begins");
 }
 
-/// As before the first half.
+/// Resets the game to the state before the first half.
 void Match::reset() {
   game_ = {};
   for (std::size_t i = 0; i < 2; ++i) game_.teams[i].name = config_.teams[i];

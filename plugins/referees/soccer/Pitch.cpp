@@ -7,12 +7,14 @@
 namespace ortung::soccer {
 namespace {
 
-constexpr double kNear = 0.15;        ///< [m] what is that near to a line belongs to it
-constexpr double kStraight = 1e-6;    ///< [m]
-constexpr double kBallHeight = 0.25;  ///< [m] what is higher is no post to a ball on the floor
-constexpr double kLeastCircle = 0.3;  ///< [m] smaller ones are spots
+constexpr double kNear = 0.15;  ///< distance from a line within which something belongs to it [m]
+constexpr double kStraight = 1e-6;  ///< tolerance of straight lines [m]
+/// Height above which a body does not stop a ball on the floor [m].
+constexpr double kBallHeight = 0.25;
+/// Least radius of a centre circle; smaller ones are spots [m].
+constexpr double kLeastCircle = 0.3;
 
-/// Extent of what is painted.
+/// The extent of the painted lines.
 struct Painted {
   double halfLength = 0.0;
   double halfWidth = 0.0;
@@ -36,10 +38,11 @@ Painted paintedOn(const World& world) {
   return painted;
 }
 
-/// Bodies of goals at a ball's height, as far as they reach.
+/// The extent of the goals' bodies at a ball's height.
 struct Goals {
-  double mouth = std::numeric_limits<double>::infinity();  ///< where they begin, from the middle
-  double end = 0.0;                                        ///< where they end
+  /// Where they begin: distance from the middle [m].
+  double mouth = std::numeric_limits<double>::infinity();
+  double end = 0.0;  ///< distance from the middle to their end [m]
   bool areTwo = false;
 };
 
@@ -66,7 +69,7 @@ Goals goalsOf(const World& world) {
   return goals;
 }
 
-/// Half the inner width of the mouth: between what stands on both sides of the goal line.
+/// Returns half the inner width of the mouth: between the bodies on both sides of the goal line.
 double halfMouth(const World& world, double halfLength) {
   double inner = std::numeric_limits<double>::infinity();
   for (const WorldObject& object : world.objects()) {
@@ -85,7 +88,8 @@ double halfMouth(const World& world, double halfLength) {
   return std::isfinite(inner) ? inner : 0.0;
 }
 
-/// Areas before the goals end in lines across the field that are shorter than the goal line.
+/// Reads the areas before the goals, which end in lines across the field that are shorter than the
+/// goal line.
 void readAreas(const World& world, Pitch& pitch) {
   std::vector<AreaSize> areas;
   for (const FieldLine& line : world.lines()) {

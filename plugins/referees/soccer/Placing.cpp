@@ -8,12 +8,12 @@
 namespace ortung::soccer {
 namespace {
 
-constexpr double kStep = 0.1;         ///< between rings of the search, and along them [m]
-constexpr double kThere = 0.05;       ///< a robot as near as that has its wish [m]
-constexpr double kThereTurned = 0.1;  ///< [rad]
-constexpr double kHair = 1e-6;        ///< [m]
-constexpr int kMostRefusals = 200;    ///< of the stage, for one robot
-constexpr double kBallSearch = 2.0;   ///< how far the ball may come to lie aside [m]
+constexpr double kStep = 0.1;         ///< step between rings of the search, and along them [m]
+constexpr double kThere = 0.05;       ///< distance within which a wish is fulfilled [m]
+constexpr double kThereTurned = 0.1;  ///< turn within which a wish is fulfilled [rad]
+constexpr double kHair = 1e-6;        ///< tolerance of rounding errors [m]
+constexpr int kMostRefusals = 200;    ///< greatest number of refused attempts for one robot
+constexpr double kBallSearch = 2.0;   ///< greatest distance of the ball from its wanted place [m]
 
 std::string told(double value) {
   const double rounded = std::round(value * 100.0) / 100.0;
@@ -28,7 +28,8 @@ Placing::Placing(Stage& stage, const Scene& scene, const Pitch& pitch, double ga
   for (const Scene::Robot& robot : scene.robots) poses_.push_back(robot.pose);
 }
 
-/// Tries rings around a pose, the nearest first and on each the side away from the ball first.
+/// Tries poses on rings around a pose, the nearest first, beginning on the side opposite to the
+/// ball.
 template <class Try>
 bool Placing::search(const Pose2& around, const Try& attempt) const {
   const double away = std::atan2(around.y - ball_.y, around.x - ball_.x);
@@ -73,7 +74,7 @@ bool Placing::isEmpty(std::size_t robot, double x, double y) const {
   return stage_.world().isFree(x, y, size);
 }
 
-/// Whether no other robot wishes to stand there.
+/// Returns whether no other robot has its wanted place there.
 bool Placing::isOfNobody(const Wish& wish, double x, double y) const {
   const double radius = scene_.robots[wish.robot].size.radius;
   return std::none_of(wishes_.begin(), wishes_.end(), [&](const Wish& other) {
@@ -93,7 +94,7 @@ bool Placing::put(std::size_t robot, const Pose2& pose) {
   try {
     stage_.placeRobot(scene_.robots[robot].name, pose);
   } catch (const std::invalid_argument&) {
-    return false;  // no room, as the stage knows better
+    return false;  // there is no room according to the stage
   }
   poses_[robot] = pose;
   return true;
@@ -104,7 +105,7 @@ bool Placing::putExactly(const Wish& wish) {
          isEmpty(wish.robot, wish.pose.x, wish.pose.y) && put(wish.robot, wish.pose);
 }
 
-/// Moves a robot out of the others' way.
+/// Moves a robot out of the way of the others.
 bool Placing::park(const Wish& wish) {
   int refusals = 0;
   return search(poses_[wish.robot], [&](double x, double y) {
@@ -141,7 +142,7 @@ void Placing::settle(std::vector<Wish> pending, std::vector<std::string>& proble
   };
   const auto exactly = [this](const Wish& wish) { return putExactly(wish); };
   placeAll(exactly);
-  // Who waits for another that waits for him: one after the other steps aside.
+  // Robots that wait for each other are moved aside one by one.
   const std::vector<Wish> blocked = pending;
   for (const Wish& wish : blocked) {
     const bool waits = isPermitted(wish, wish.pose.x, wish.pose.y) &&

@@ -9,16 +9,16 @@
 
 namespace ortung::soccer {
 
-/// Carries robots and ball to where a restart wants them: each robot to the place that is nearest
-/// to its wish, permitted, and free. Robots that stand in each other's way are parked aside first.
+/// Moves robots and ball to their places for a restart: each robot to the nearest permitted and
+/// free place to its wish. Robots that are in each other's way are parked aside first.
 class Placing {
  public:
-  /// All of it must outlive the call of place().
+  /// All arguments are borrowed.
   Placing(Stage& stage, const Scene& scene, const Pitch& pitch, double restartGap = 0.02);
 
-  /// @returns what could not be done, one line each
+  /// Places robots and ball. @returns what could not be done, one line each
   std::vector<std::string> place(const std::vector<Wish>& wishes, const Restart& restart);
-  /// Puts the ball somewhere, or beside it where it is free. Nothing else is moved.
+  /// Places the ball, or beside the place where it is free. Nothing else is moved.
   std::vector<std::string> placeBall(const FloorPoint& at);
 
  private:
@@ -38,9 +38,9 @@ class Placing {
   Stage& stage_;
   const Scene& scene_;
   const Pitch& pitch_;
-  double gap_;                ///< left between bodies [m]
-  std::vector<Pose2> poses_;  ///< of the scene's robots, as they are now
-  FloorPoint ball_;           ///< where it will lie
+  double gap_;                ///< gap that is left between bodies [m]
+  std::vector<Pose2> poses_;  ///< current poses of the scene's robots
+  FloorPoint ball_;           ///< place of the ball at the restart
   bool hasBall_ = false;
   std::vector<Wish> wishes_;
 };

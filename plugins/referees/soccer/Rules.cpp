@@ -9,10 +9,10 @@ namespace ortung::soccer {
 namespace {
 
 constexpr Range kLength{0.0, 1000.0};  // [m]
-constexpr Range kSize{0.01, 1000.0};   // of what must be there [m]
+constexpr Range kSize{0.01, 1000.0};   // sizes that must not be 0 [m]
 constexpr Range kTime{0.0, 1e6};       // [s]
 constexpr Range kRobots{0.0, 1000.0};
-constexpr std::size_t kMostPlaces = 64;  // of robots at a kick-off
+constexpr std::size_t kMostPlaces = 64;  // greatest number of places of robots at a kick-off
 
 void readMaybe(const Parameters& p, const char* key, const Range& range,
                std::optional<double>& value) {
@@ -25,7 +25,7 @@ void readMaybe(const Parameters& p, const char* key, std::optional<AreaSize>& va
   value = AreaSize{sizes[0], sizes[1]};
 }
 
-/// "off" takes away what the file below had.
+/// Reads a limit; "off" removes the one of the base file.
 void readMost(const Parameters& p, const char* key, std::optional<int>& value) {
   if (!p.has(key)) return;
   const auto most = p.integer(key, {-1.0, kRobots.high});
@@ -147,7 +147,7 @@ void readKickOff(const Parameters& p, Rules::KickOff& kickOff) {
   kickOff.taker = p.numberOr("taker_m", kickOff.taker, {0.0, 10.0});
 }
 
-/// @param depth how many files have named this one as their base
+/// Reads a rules file. @param depth 0, or 1 for a base
 Rules read(const std::filesystem::path& file, int depth) {
   const Parameters p = readToml(file);
   Rules rules;
@@ -178,7 +178,8 @@ Rules readRules(const std::filesystem::path& file) { return read(file, 0); }
 std::filesystem::path shippedRules(const std::string& name) {
   if (name.empty() || name.find_first_of("/\\") != name.npos)
     throw ConfigError("'" + name + "' is no name of rules that ship; those of files end in .toml");
-  // With its folder, so that a world file of that name where the program runs is not taken for it.
+  // The folder is part of the name, so that a world file of that name in the working folder is not
+  // mistaken for it.
   const auto file = shippedFile(".", std::filesystem::path("rules") / (name + ".toml"));
   std::error_code ignored;
   if (std::filesystem::is_regular_file(file, ignored)) return file;

@@ -7,10 +7,11 @@
 namespace ortung::soccer {
 namespace {
 
-constexpr double kFar = 1e9;   ///< [m]
-constexpr double kNear = 0.5;  ///< [m] of a robot's circle: its body is looked at
+constexpr double kFar = 1e9;  ///< distance of something that does not exist [m]
+/// Distance of the ball from a robot's circle below which its exact body is used [m].
+constexpr double kNear = 0.5;
 
-/// Distance of a point to a segment [m].
+/// Returns the distance of a point from a segment [m].
 double toSegment(const FloorPoint& p, const FloorPoint& a, const FloorPoint& b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
@@ -20,7 +21,7 @@ double toSegment(const FloorPoint& p, const FloorPoint& a, const FloorPoint& b) 
   return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
-/// Distance of a point to a convex outline [m]; 0 within.
+/// Returns the distance of a point from a convex outline [m]; 0 inside.
 double toOutline(const FloorPoint& p, const std::vector<FloorPoint>& outline) {
   double nearest = kFar;
   bool isInside = true;

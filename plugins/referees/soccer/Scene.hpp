@@ -9,19 +9,19 @@
 
 namespace ortung::soccer {
 
-/// What a referee has seen of the world at one moment; it stays as it is when the world changes.
+/// A copy of the world's state in one cycle, as a referee sees it.
 struct Scene {
   struct Ball {
     std::string name;
-    double x = 0.0;  ///< [m]
-    double y = 0.0;
-    double vx = 0.0;  ///< [m/s]
-    double vy = 0.0;
-    double radius = 0.0;  ///< [m]
+    double x = 0.0;       ///< x of its middle [m]
+    double y = 0.0;       ///< y of its middle [m]
+    double vx = 0.0;      ///< velocity along x [m/s]
+    double vy = 0.0;      ///< velocity along y [m/s]
+    double radius = 0.0;  ///< radius [m]
   };
   struct Robot {
     std::string name;
-    std::optional<std::size_t> team;  ///< nothing: it takes no part
+    std::optional<std::size_t> team;  ///< index of its team; nothing: it takes no part
     Pose2 pose;
     RobotSize size;
     double toBall = 0.0;  ///< gap between its body and the ball's edge [m]; huge without a ball
@@ -31,13 +31,13 @@ struct Scene {
   std::optional<Ball> ball;  ///< the first thing of kind "ball"
   std::vector<Robot> robots;
 
-  /// @param ballRadius where the world does not tell [m]
+  /// Copies the state. @param ballRadius radius if the world does not give it [m]
   static Scene of(const Stage& stage, const Game& game, double ballRadius);
 
   const Robot* find(std::string_view name) const;
 };
 
-/// Of a team's robots the one that is nearest to a point, or null.
+/// Returns the robot of a team that is nearest to a point; null if it has none.
 const Scene::Robot* nearest(const Scene& scene, std::size_t team, const FloorPoint& point);
 
 }  // namespace ortung::soccer

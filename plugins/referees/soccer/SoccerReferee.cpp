@@ -8,7 +8,7 @@
 namespace ortung::soccer {
 namespace {
 
-/// The name of a team: a word.
+/// Reads the name of a team, which must be a word.
 std::string teamOf(const Parameters& p, const char* key, const char* fallback) {
   constexpr std::size_t kLongest = 64;
   const std::string name = p.textOr(key, fallback);

@@ -6,7 +6,8 @@
 namespace ortung::soccer {
 namespace {
 
-/// [m/s] within a cycle. Rolling and sliding change it by less: 0.2 m/s at 20 ms and full friction.
+/// Change of the ball's velocity within a cycle that means a touch [m/s]. Rolling and sliding
+/// change it by less: 0.2 m/s at 20 ms and full friction.
 constexpr double kTurn = 0.3;
 
 }  // namespace
@@ -22,7 +23,7 @@ void Touches::look(const Scene& scene) {
   }
   const Scene::Ball& ball = *scene.ball;
   double reach = margin_;
-  if (hasTurned(ball)) {  // it has gone at most so far since it met somebody
+  if (hasTurned(ball)) {  // greatest distance that it has moved since it was touched
     const double speed =
         std::max(std::hypot(ball.vx, ball.vy), std::hypot(before_->vx, before_->vy));
     reach += speed * toSeconds(scene.now - at_);

@@ -9,7 +9,7 @@
 namespace ortung {
 namespace {
 
-/// About how many pixels are drawn in the time of a ray.
+/// Approximate number of pixels that are drawn in the time of a ray.
 constexpr double kPixelsARay = 4.0;
 
 class CameraSensor : public Sensor {
@@ -18,7 +18,8 @@ class CameraSensor : public Sensor {
 
   void generateData(const World& world, const RobotState& robot, Random* noise, Timestamp now,
                     std::span<SensorData* const> data) override {
-    // Its table is large, and most cameras of a simulation are never looked through.
+    // It is made at the first use: its table is large, and most cameras of a simulation are never
+    // used.
     if (!picture_)
       picture_.emplace(settings_.camera, Variation{settings_.variation, settings_.seed});
     std::optional<CameraPicture::Noise> numbers;

@@ -11,9 +11,9 @@ struct CameraSettings {
   SensorId id;
   Mounting mounting;
   CameraView camera;
-  double period = 0.1;     ///< [s]
-  double variation = 0.0;  ///< of simulated pictures, in [0, 1]
-  std::uint64_t seed = 0;  ///< of the variation
+  double period = 0.1;     ///< time between two pictures [s]
+  double variation = 0.0;  ///< strength of the variation of simulated pictures, in [0, 1]
+  std::uint64_t seed = 0;  ///< seed of the variation
 };
 
 /// Reads all settings of both halves. @throws ConfigError

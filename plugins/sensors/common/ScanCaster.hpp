@@ -12,14 +12,14 @@
 
 namespace ortung {
 
-/// Noise of simulated ranges.
+/// The noise of simulated ranges.
 struct ScanNoise {
-  double sigma = 0.0;          ///< at range 0 [m]
-  double sigmaPerMetre = 0.0;  ///< grows by this per metre of range
-  double dropoutShare = 0.0;   ///< of beams without a measurement
+  double sigma = 0.0;          ///< standard deviation at range 0 [m]
+  double sigmaPerMetre = 0.0;  ///< growth of the standard deviation with range [m/m]
+  double dropoutShare = 0.0;   ///< share of beams without a measurement, in [0, 1]
 };
 
-/// Scans a simulated world: what laser range finders have in common. Not thread-safe.
+/// Scans a simulated world; the common part of laser range finders. Not thread-safe.
 class ScanCaster {
  public:
   ScanCaster(const ScanData::Config& scan, const Mounting& mounting, const ScanNoise& noise)
@@ -28,7 +28,7 @@ class ScanCaster {
         noise_(noise),
         ranges_(static_cast<std::size_t>(scan.beams)) {}
 
-  /// The words of a scan. @param random nullptr: without noise, as learning needs it
+  /// Returns the words of a scan. @param random nullptr: without noise, as learning needs it
   std::span<const std::uint32_t> cast(const World& world, const RobotState& robot, Random* random) {
     const Pose2 sensor = robot.pose * mounting_.pose;
     const RayFan fan{.x = sensor.x,
@@ -50,8 +50,8 @@ class ScanCaster {
   double rays() const { return static_cast<double>(ranges_.size()); }
 
  private:
-  /// A surface nearer than the sensor can measure is learned at the smallest range, since a
-  /// direction that was never learned would leave its whole cell without expectation.
+  /// Returns the range that is learned. A surface nearer than the sensor can measure is learned at
+  /// the smallest range, since a missing direction would leave the whole cell without expectation.
   float expected(float range) const {
     const double smallest = std::max(std::ceil(scan_.minRange * 1000.0), 1.0) / 1000.0;
     return std::max(range, static_cast<float>(smallest));
@@ -69,7 +69,7 @@ class ScanCaster {
   ScanData::Config scan_;
   Mounting mounting_;
   ScanNoise noise_;
-  std::vector<float> ranges_;  ///< [m]
+  std::vector<float> ranges_;  ///< ranges of the scan [m]
   std::vector<std::uint32_t> words_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the [[sensor]] tables of all shipped plugins have in common.
+/// The common part of the [[sensor]] tables of all shipped plugins.
 
 #include <cmath>
 #include <string>
@@ -14,13 +14,13 @@
 
 namespace ortung {
 
-/// Where a sensor sits on its robot.
+/// The mounting of a sensor on its robot.
 struct Mounting {
-  Pose2 pose;      ///< in the robot frame
-  double z = 0.0;  ///< above the floor [m]
+  Pose2 pose;      ///< pose in the robot frame
+  double z = 0.0;  ///< height above the floor [m]
 };
 
-/// Reads pose = { x_m, y_m, z_m, theta_deg }; what is missing is 0, or @p z for the height.
+/// Reads pose = { x_m, y_m, z_m, theta_deg }; missing values are 0, the height @p z.
 inline Mounting readMounting(const Parameters& sensor, double z) {
   const Parameters pose = sensor.table("pose");
   Mounting mounting;
@@ -42,7 +42,7 @@ inline RangeResolution readResolution(const Parameters& sensor, const RangeResol
           .perMetre = sensor.numberOr("resolution_per_m", fallback.perMetre, {0.0, 1.0})};
 }
 
-/// Refuses a text that is not "model/type/feature" (each may be "*").
+/// Refuses a text other than "model/type/feature" (each part may be "*").
 inline void checkQuery(const Parameters& sensor, const std::string& key) {
   try {
     parseSensorQuery(sensor.text(key));

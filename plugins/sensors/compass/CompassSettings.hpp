@@ -10,9 +10,9 @@ struct CompassSettings {
   SensorId id;
   Mounting mounting;
   SensorModel model;
-  double north = 0.0;       ///< direction in the field in which the needle points [rad]
-  double period = 0.1;      ///< [s]
-  double noiseSigma = 0.0;  ///< of simulated bearings [rad]
+  double north = 0.0;       ///< direction of the needle in the field frame [rad]
+  double period = 0.1;      ///< time between two readings [s]
+  double noiseSigma = 0.0;  ///< standard deviation of simulated bearings [rad]
 };
 
 /// Reads all settings of both halves. @throws ConfigError

@@ -19,7 +19,7 @@ class GroundTruthSensor : public Sensor {
   double period() const override { return period_; }
 
  private:
-  double period_;  ///< [s]
+  double period_;  ///< time between two readings [s]
 };
 
 }  // namespace

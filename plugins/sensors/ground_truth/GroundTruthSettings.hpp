@@ -7,7 +7,7 @@ namespace ortung {
 /// Settings of both halves of the ground truth, which has no noise.
 struct GroundTruthSettings {
   SensorId id;
-  double period = 0.0;  ///< [s]
+  double period = 0.0;  ///< time between two readings [s]
 };
 
 /// Reads all settings of both halves. @throws ConfigError

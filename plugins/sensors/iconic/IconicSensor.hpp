@@ -15,7 +15,7 @@
 
 namespace ortung {
 
-/// A camera that delivers what is in its image instead of the image (paper, section 4).
+/// A camera that delivers the objects in its image instead of the image (paper, section 4).
 class IconicSensor : public Sensor {
  public:
   explicit IconicSensor(IconicSettings settings)
@@ -44,12 +44,13 @@ class IconicSensor : public Sensor {
 
   double period() const override { return settings_.period; }
   double rays() const override {
-    constexpr double kCrossings = 20.0;  // of a scan line with lines of the floor, each looked at
+    constexpr double kCrossings =
+        20.0;  // intersections of a scan line with lines of the floor, each tested for visibility
     return kCrossings * settings_.rays;
   }
 
  private:
-  /// Fills words_.
+  /// Writes the words of a feature into words_.
   void see(std::string_view feature) {
     if (feature == "lines") return lines();
     if (feature == "goals") return landmarks(settings_.goals);
@@ -69,7 +70,7 @@ class IconicSensor : public Sensor {
     return falseSighting(eye, noise_, *random_);
   }
 
-  /// Points where scan lines, which radiate from the camera, cross lines on the floor.
+  /// Finds the points where scan lines, which radiate from the camera, cross lines on the floor.
   void lines() {
     points_.clear();
     near_.clear();
@@ -95,7 +96,7 @@ class IconicSensor : public Sensor {
     for (const FieldLine* line : near_) addCrossings(ray, *line, crossings_);
     for (const double range : crossings_) {
       if (range < settings_.minRange || range > settings_.lines.maxRange) continue;
-      constexpr double kFlat = 0.01;  // the floor does not hide itself [m]
+      constexpr double kFlat = 0.01;  // slack so that the floor does not hide itself [m]
       if (settings_.occlusion &&
           !isVisible(*world_, eye_, ray.x + range * ray.dx, ray.y + range * ray.dy, 0.0, kFlat))
         continue;
@@ -157,13 +158,13 @@ class IconicSensor : public Sensor {
 
   IconicSettings settings_;
   SightingNoise noise_;
-  // Of the call of generateData() that is under way.
+  // The arguments of the current call of generateData().
   const World* world_ = nullptr;
-  Random* random_ = nullptr;  ///< null: without noise
+  Random* random_ = nullptr;  ///< random numbers of the noise; null: without noise
   Eye eye_;
-  std::vector<const FieldLine*> near_;  ///< lines within reach
-  // Used again, so that a look allocates nothing.
-  std::vector<double> crossings_;  ///< of one scan line [m]
+  std::vector<const FieldLine*> near_;  ///< lines within range
+  // Buffers, which are reused so that a look allocates nothing.
+  std::vector<double> crossings_;  ///< ranges at which a scan line crosses lines [m]
   std::vector<PointsData::Point> points_;
   LandmarksData::Reading sightings_;
   std::vector<ObjectsData::Object> objects_;

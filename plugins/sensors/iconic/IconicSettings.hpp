@@ -12,16 +12,16 @@
 
 namespace ortung {
 
-/// What an iconic camera can be asked to see; each is a feature of this name.
+/// The features that an iconic camera can detect, by name.
 inline const std::vector<std::string> kIconicFeatures = {"lines", "goals",  "posts",
                                                          "ball",  "robots", "obstacles"};
 
 /// Landmarks of one kind: goals or posts.
 struct IconicLandmarks {
-  std::string kind;            ///< of the landmarks in the world
-  bool areIdentified = true;   ///< false: they all look alike
-  LandmarksData::Config list;  ///< if they are identified
-  PointsData::Config points;   ///< if they are not identified
+  std::string kind;            ///< kind of the landmarks in the world
+  bool areIdentified = true;   ///< whether they can be distinguished
+  LandmarksData::Config list;  ///< format if they are identified
+  PointsData::Config points;   ///< format if they are not identified
 };
 
 /// Settings of both halves of the iconic camera and of the iconic omnivision, which differ in their
@@ -29,22 +29,22 @@ struct IconicLandmarks {
 struct IconicSettings {
   SensorId id;  ///< its feature is not used
   Mounting mounting;
-  std::vector<std::string> see;  ///< features, of kIconicFeatures
-  double fieldOfView = kTurn;    ///< [rad]; 2 pi: all around
-  double minRange = 0.0;         ///< along the floor [m]
-  double maxRange = 10.0;        ///< [m]
-  double period = 0.1;           ///< [s]
-  int rays = 120;                ///< scan lines of the image along which field lines are looked for
+  std::vector<std::string> see;  ///< detected features, of kIconicFeatures
+  double fieldOfView = kTurn;    ///< full opening angle [rad]; 2 pi: all around
+  double minRange = 0.0;         ///< least range along the floor [m]
+  double maxRange = 10.0;        ///< greatest range along the floor [m]
+  double period = 0.1;           ///< time between two readings [s]
+  int rays = 120;                ///< number of scan lines along which field lines are searched
   PointsData::Config lines;
   IconicLandmarks goals;
   IconicLandmarks posts;
   bool occlusion = true;      ///< whether bodies hide what is behind them
-  double slack = 0.3;         ///< what is this near to a landmark does not hide it [m]
-  double visibleShare = 0.5;  ///< how much of a body's width must be visible
+  double slack = 0.3;         ///< distance from a landmark within which bodies do not hide it [m]
+  double visibleShare = 0.5;  ///< share of a body's width that must be visible
   // The simulated camera's noise.
-  double noiseRangeSigma = 0.0;  ///< [m]
+  double noiseRangeSigma = 0.0;  ///< standard deviation at range 0 [m]
   double noiseRangeSigmaPerMetre = 0.0;
-  double noiseBearingSigma = 0.0;  ///< [rad]
+  double noiseBearingSigma = 0.0;  ///< standard deviation of bearings [rad]
   double missedShare = 0.0;
   double falseShare = 0.0;
 
@@ -88,7 +88,7 @@ inline std::vector<std::uint32_t> readIdentities(const Parameters& p,
   return identities;
 }
 
-/// @param p the table [sensor.goals] or [sensor.posts]
+/// Reads the landmarks of a kind. @param p the table [sensor.goals] or [sensor.posts]
 inline IconicLandmarks readLandmarks(const Parameters& p, const IconicSettings& s,
                                      const std::string& kind,
                                      const std::vector<double>& identities) {
@@ -111,7 +111,7 @@ inline IconicLandmarks readLandmarks(const Parameters& p, const IconicSettings& 
   return l;
 }
 
-/// @param p the table [sensor.lines]
+/// Reads the lines. @param p the table [sensor.lines]
 inline void readLines(const Parameters& p, IconicSettings& s) {
   PointsData::Config& c = s.lines;
   s.rays = static_cast<int>(p.integerOr("rays", 120, {1, 1440}));
@@ -125,7 +125,7 @@ inline void readLines(const Parameters& p, IconicSettings& s) {
 }  // namespace iconic
 
 /// Reads all settings of both halves.
-/// @param fieldOfViewDeg default [degrees] @throws ConfigError
+/// @param fieldOfViewDeg default opening angle [degrees] @throws ConfigError
 inline IconicSettings readIconicSettings(const Parameters& p, const char* model,
                                          double fieldOfViewDeg) {
   IconicSettings s;
@@ -140,7 +140,7 @@ inline IconicSettings readIconicSettings(const Parameters& p, const char* model,
   s.occlusion = p.flagOr("occlusion", true);
   s.slack = p.numberOr("slack_m", 0.3, {0.0, 10.0});
   s.visibleShare = p.numberOr("visible_share", 0.5, {0.0, 1.0});
-  // Tables of what is not seen stay unread, and are told as unknown keys.
+  // Tables of features that are not detected stay unread and are reported as unknown keys.
   if (s.sees("lines")) iconic::readLines(p.table("lines"), s);
   if (s.sees("goals")) s.goals = iconic::readLandmarks(p.table("goals"), s, "goal", {1, 2});
   if (s.sees("posts")) s.posts = iconic::readLandmarks(p.table("posts"), s, "post", {1, 2, 3, 4});

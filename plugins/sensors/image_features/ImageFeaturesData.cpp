@@ -6,7 +6,8 @@
 namespace ortung {
 namespace {
 
-/// All in the robot's frame, wherever the camera sits: so tables do not depend on it.
+/// Makes the features, all in the robot frame, so that tables do not depend on the camera's
+/// mounting.
 DeviceData makeImageFeatures(const Parameters& p) {
   const ImageFeaturesSettings s = readImageFeaturesSettings(p);
   DeviceData data;

@@ -11,7 +11,7 @@
 namespace ortung {
 namespace {
 
-/// Light changes slowly: the floor's colour is looked for in every so many pictures.
+/// Number of pictures between two estimates of the floor's colour: light changes slowly.
 constexpr int kPicturesAColour = 10;
 
 }  // namespace
@@ -79,7 +79,8 @@ PointsData::Point ImageFeaturesExtractor::fromRobot(double x, double y) const {
   return {std::hypot(place.x, place.y), std::atan2(place.y, place.x)};
 }
 
-/// One point in each square of the floor, so that what is near does not outnumber what is far.
+/// Finds line points, one in each square of the floor, so that near points do not outnumber far
+/// ones.
 ImageFeaturesExtractor::Words ImageFeaturesExtractor::lines(const ImageView& image) {
   const double reach = settings_.lines.maxRange;
   const int side = static_cast<int>(2.0 * reach / settings_.spacing) + 2;
@@ -114,15 +115,15 @@ ImageFeaturesExtractor::Words ImageFeaturesExtractor::obstacles(const ImageView&
   std::vector<ObjectsData::Object> objects;
   for (const FloorBody& body : floor_->find(image, *colours_)) {
     const double radius = 0.5 * body.width;
-    const double range = body.range + radius;  // of its middle
+    const double range = body.range + radius;  // range of its middle
     const auto from = fromRobot(range * std::cos(body.bearing), range * std::sin(body.bearing));
     objects.push_back({0, ObjectsData::kNoColour, from.range, from.bearing, radius});
   }
   return ObjectsData::encode(objects);
 }
 
-/// Where a part of an image meets the floor: of its pixels in about the direction of its middle the
-/// one that shows the nearest floor. In the sensor's frame; nothing if none shows any.
+/// Returns the point where a blob meets the floor, in the sensor frame: of its pixels in about the
+/// direction of its middle, the one that shows the nearest floor. Nothing if none shows floor.
 std::optional<Point3> ImageFeaturesExtractor::footOf(const ImageView& image,
                                                      const ColourTable& colours,
                                                      const Blob& blob) const {
@@ -150,7 +151,7 @@ std::optional<Point3> ImageFeaturesExtractor::footOf(const ImageView& image,
   return foot;
 }
 
-/// The largest part of each goal's colour, and where it stands on the floor.
+/// Finds the largest blob of each goal's colour, and its place on the floor.
 ImageFeaturesExtractor::Words ImageFeaturesExtractor::goals(const ImageView& image) const {
   LandmarksData::Reading seen;
   for (std::size_t i = 0; i < goalColours_.size(); ++i) {
@@ -159,8 +160,8 @@ ImageFeaturesExtractor::Words ImageFeaturesExtractor::goals(const ImageView& ima
     if (blobs.empty()) continue;
     const auto foot = footOf(image, *goalColours_[i], blobs.front());
     if (!foot) continue;
-    // The direction of all of it, and the wall's distance less how far it is behind the goal's
-    // line.
+    // The bearing is that of the whole blob; the range is the wall's, less its distance behind the
+    // goal line.
     const auto middle = view_->rayAt(blobs.front().middle);
     const double bearing = std::atan2(middle->y, middle->x);
     const double range = std::max(0.0, std::hypot(foot->x, foot->y) - settings_.goalDepth);
@@ -170,7 +171,7 @@ ImageFeaturesExtractor::Words ImageFeaturesExtractor::goals(const ImageView& ima
   return LandmarksData::encode(seen);
 }
 
-/// Parts of the posts' colours that are as narrow as posts where they stand.
+/// Finds blobs of the posts' colours that are as narrow as posts at their distance.
 ImageFeaturesExtractor::Words ImageFeaturesExtractor::posts(const ImageView& image) const {
   std::vector<PointsData::Point> seen;
   constexpr double kLeastPixels = 12.0;
@@ -181,14 +182,15 @@ ImageFeaturesExtractor::Words ImageFeaturesExtractor::posts(const ImageView& ima
       if (!foot || !middle || seen.size() >= PointsData::kMostPoints) continue;
       const double range = std::hypot(foot->x, foot->y);
       const double bearing = std::atan2(middle->y, middle->x);
-      // Across the direction in which it stands: how far aside a post of this width may reach.
+      // The greatest width of a post at this place, across its direction.
       const auto left =
           view_->pixelOf({foot->x - 0.5 * settings_.mostPostWidth * std::sin(bearing),
                           foot->y + 0.5 * settings_.mostPostWidth * std::cos(bearing), 0.0});
       const auto at = view_->pixelOf({foot->x, foot->y, 0.0});
       if (!left || !at) continue;
       const double mostWidth = 2.0 * std::hypot(left->u - at->u, left->v - at->v);
-      // Posts lean any way in a mirror's picture: their mean width is pixels by length.
+      // Posts have any direction in a mirror's picture: their mean width is their area by their
+      // length.
       if (blob.pixels > mostWidth * std::hypot(blob.uMax - blob.uMin, blob.vMax - blob.vMin))
         continue;
       seen.push_back(fromRobot(range * std::cos(bearing), range * std::sin(bearing)));

@@ -15,8 +15,8 @@
 
 namespace ortung {
 
-/// Finds lines, balls, bodies and coloured goals in pictures of a calibrated camera, and where they
-/// are around the robot: the same for rendered, recorded and real pictures.
+/// Finds lines, balls, bodies and coloured goals, and their places relative to the robot, in
+/// pictures of a calibrated camera; it treats rendered, recorded and real pictures alike.
 class ImageFeaturesExtractor : public Extractor {
  public:
   explicit ImageFeaturesExtractor(const Parameters& p);
@@ -34,25 +34,25 @@ class ImageFeaturesExtractor : public Extractor {
   Words posts(const ImageView& image) const;
   std::optional<Point3> footOf(const ImageView& image, const ColourTable& colours,
                                const Blob& blob) const;
-  /// Range and bearing from the robot's origin of a place in the camera's sensor frame.
+  /// Returns range and bearing, from the robot's origin, of a place in the camera's sensor frame.
   PointsData::Point fromRobot(double x, double y) const;
 
   ImageFeaturesSettings settings_;
-  // Of the newest picture.
+  // Properties of the newest picture.
   ImageSize size_;
   PixelFormat format_ = PixelFormat::kRgb;
   std::vector<std::uint8_t> pixels_;
   std::optional<CameraView> view_;
   Pose2 mount_;
-  // Made once for a camera.
+  // Tables that are made once per camera.
   const CameraModel* prepared_ = nullptr;
   std::unique_ptr<FloorScan> floor_;
   std::unique_ptr<ColourTable> colours_;
   std::vector<std::unique_ptr<ColourTable>> goalColours_;
   std::vector<std::unique_ptr<ColourTable>> postColours_;
-  int untilColours_ = 0;  ///< pictures until the floor's colour is looked for again
+  int untilColours_ = 0;  ///< pictures until the floor's colour is estimated again
   LineFinder finder_;
-  std::vector<std::uint8_t> taken_;  ///< squares of the floor that have a point
+  std::vector<std::uint8_t> taken_;  ///< whether each square of the floor has a point
 };
 
 }  // namespace ortung

@@ -20,8 +20,8 @@ IconicSettings forecastOf(const ImageFeaturesSettings& s) {
   return iconic;
 }
 
-/// What perfect pictures would show at a pose: for learning, which would otherwise have to render
-/// one at every pose. Robots on a field see with their cameras.
+/// Generates the features of perfect pictures at a pose, for learning, which would otherwise have
+/// to render a picture at every pose. Robots on a field use their cameras.
 class ImageFeaturesSensor : public IconicSensor {
  public:
   explicit ImageFeaturesSensor(const Parameters& p)

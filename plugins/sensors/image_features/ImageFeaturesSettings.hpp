@@ -13,30 +13,31 @@
 
 namespace ortung {
 
-/// What can be found in pictures; each is a feature of this name.
+/// The features that can be found in pictures, by name.
 inline const std::vector<std::string> kImageFeatures = {"lines", "ball", "obstacles", "goals",
                                                         "posts"};
 
 /// Settings of all halves of the sensor that finds things in pictures.
 struct ImageFeaturesSettings {
   SensorId id;                   ///< its feature is not used
-  std::string reads;             ///< pictures: "model/type/feature"
-  std::vector<std::string> see;  ///< features, of kImageFeatures
-  bool findsColours = true;      ///< of each picture anew; else `colours`
+  std::string reads;             ///< the picture feature that is read: "model/type/feature"
+  std::vector<std::string> see;  ///< features to find, of kImageFeatures
+  /// Whether the floor's colours are estimated from pictures; otherwise they are `colours`.
+  bool findsColours = true;
   Colours colours;
   LineFinder::Config finder;
-  double pixelSigma = 1.0;   ///< of the places that pixels show [px]
-  double spacing = 0.1;      ///< of line points on the floor: one in a square so wide [m]
-  double ballRadius = 0.11;  ///< [m]
-  double maxRange = 8.0;     ///< of balls, obstacles and goals [m]
+  double pixelSigma = 1.0;   ///< standard deviation of places in the picture [pixels]
+  double spacing = 0.1;      ///< width of the squares of the floor with one line point each [m]
+  double ballRadius = 0.11;  ///< radius of the ball [m]
+  double maxRange = 8.0;     ///< greatest range of balls, obstacles and goals [m]
   PointsData::Config lines;
   LandmarksData::Config goals;
-  std::vector<ColourRange> goalColours;  ///< by identity
-  double goalDepth = 0.0;                ///< of the coloured wall behind the goal's place [m]
+  std::vector<ColourRange> goalColours;  ///< colours of the goals, in the order of identities
+  double goalDepth = 0.0;  ///< distance of the coloured wall behind the goal's place [m]
   PointsData::Config posts;
   std::vector<ColourRange> postColours;
-  double mostPostWidth = 0.5;  ///< wider things of their colours are no posts [m]
-  double period = 0.1;         ///< of learning's forecast; pictures have their own [s]
+  double mostPostWidth = 0.5;  ///< greatest width of posts; wider blobs are ignored [m]
+  double period = 0.1;         ///< period of simulated readings [s]; pictures have their own
 
   bool sees(const std::string& feature) const {
     return std::find(see.begin(), see.end(), feature) != see.end();
@@ -82,7 +83,7 @@ inline ColourRange readColour(const Parameters& p) {
   return range;
 }
 
-/// Colours that tell goals apart: a table each, in the order of their identities.
+/// Reads the colours that distinguish goals: a table each, in the order of identities.
 inline void readGoals(const Parameters& p, ImageFeaturesSettings& s) {
   for (const Parameters& goal : p.tables("colour")) {
     s.goals.identities.push_back(static_cast<std::uint32_t>(goal.integer("identity", {0, 1e6})));
@@ -98,7 +99,7 @@ inline void readGoals(const Parameters& p, ImageFeaturesSettings& s) {
   s.goals.bearing = SensorModel::read(p, "bearing_sigma_deg", {.sigma = radians(4.0)});
 }
 
-/// Posts look alike, whatever their colours.
+/// Reads the colours of posts, which are not distinguished.
 inline void readPosts(const Parameters& p, ImageFeaturesSettings& s) {
   for (const Parameters& colour : p.tables("colour")) s.postColours.push_back(readColour(colour));
   if (s.postColours.empty())
@@ -126,7 +127,7 @@ inline ImageFeaturesSettings readImageFeaturesSettings(const Parameters& p) {
   s.maxRange = p.numberOr("max_range_m", s.maxRange, {0.05, 1000.0});
   s.ballRadius = p.numberOr("ball_radius_m", s.ballRadius, {0.01, 1.0});
   s.period = readPeriod(p, 0.1);
-  // Tables of what is not looked for stay unread, and are told as unknown keys.
+  // Tables of features that are not searched stay unread and are reported as unknown keys.
   if (s.sees("lines")) image_features::readLines(p.table("lines"), s);
   if (s.sees("goals")) image_features::readGoals(p.table("goals"), s);
   if (s.sees("posts")) image_features::readPosts(p.table("posts"), s);

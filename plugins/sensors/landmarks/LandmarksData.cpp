@@ -8,8 +8,8 @@
 namespace ortung {
 namespace {
 
-/// A format whose distances are not those along the floor: tables hold what is read, so they depend
-/// on how.
+/// A format whose distances are not those along the floor: tables hold readings, so they depend on
+/// the kind of measurement.
 template <class Format>
 class Measured : public Format {
  public:

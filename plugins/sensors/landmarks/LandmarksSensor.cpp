@@ -35,7 +35,8 @@ class LandmarksSensor : public Sensor {
   double rays() const override { return static_cast<double>(settings_.identities.size()); }
 
  private:
-  /// Fills seen_. A landmark's distance and bearing are seen, or missed, together.
+  /// Writes the visible landmarks into seen_. A landmark's distance and bearing are detected, or
+  /// missed, together.
   void look(const World& world, const RobotState& robot, Random* noise) {
     const Pose2 sensor = robot.pose * settings_.mounting.pose;
     seen_.clear();
@@ -100,7 +101,7 @@ class LandmarksSensor : public Sensor {
     }
   }
 
-  /// @param feature e.g. "post3Distance"
+  /// Encodes one feature. @param feature its name, e.g. "post3Distance"
   void encodeOne(std::string_view feature) {
     feature.remove_prefix(std::min(settings_.kind.size(), feature.size()));
     std::uint32_t identity = 0;

@@ -12,33 +12,35 @@ namespace ortung {
 
 /// Settings of both halves of the observer of identified landmarks.
 struct LandmarksSettings {
-  SensorId id;  ///< its feature only counts for a list
+  SensorId id;  ///< identifier; its feature is used only for a list
   Mounting mounting;
-  bool isIdentified = true;  ///< whether real readings tell them apart
-  bool isList = false;       ///< one LandmarksData; otherwise features of each landmark:
+  bool isIdentified = true;  ///< whether real readings distinguish them
+  /// Whether the feature is one LandmarksData; otherwise each landmark has features:.
+  bool isList = false;
   bool hasDistances = true;
   bool hasBearings = true;
-  std::string kind;  ///< of the landmarks in the world, and the beginning of features' names
+  std::string kind;  ///< kind of the landmarks in the world, and prefix of the features' names
   std::vector<std::uint32_t> identities;
-  double minRange = 0.0;         ///< [m]
-  double maxRange = 20.0;        ///< [m]
-  double fieldOfView = kTurn;    ///< [rad]; 2 pi: all around
-  SensorModel range;             ///< [m]
-  SensorModel bearing;           ///< [rad]
-  SightingBias bias;             ///< of real readings, in a list
-  bool slant = false;            ///< distances are measured in space, not along the floor
-  double rangeScale = 1.0;       ///< what is read of a metre [m]
-  double period = 0.1;           ///< [s]
-  double slack = 0.3;            ///< what is this near to a landmark does not hide it [m]
-  bool occlusion = true;         ///< whether obstacles hide landmarks
-  double noiseRangeSigma = 0.0;  ///< of simulated distances at distance 0 [m]
+  double minRange = 0.0;       ///< least range [m]
+  double maxRange = 20.0;      ///< greatest range [m]
+  double fieldOfView = kTurn;  ///< full opening angle [rad]; 2 pi: all around
+  SensorModel range;           ///< model of distances [m]
+  SensorModel bearing;         ///< model of bearings [rad]
+  SightingBias bias;           ///< bias of real readings in a list
+  bool slant = false;          ///< whether distances are measured in space, not along the floor
+  double rangeScale = 1.0;     ///< measured by true distance
+  double period = 0.1;         ///< time between two readings [s]
+  double slack = 0.3;          ///< distance from a landmark within which bodies do not hide it [m]
+  bool occlusion = true;       ///< whether obstacles hide landmarks
+  double noiseRangeSigma = 0.0;  ///< standard deviation of simulated distances at distance 0 [m]
   double noiseRangeSigmaPerMetre = 0.0;
-  double noiseBearingSigma = 0.0;  ///< of simulated bearings [rad]
-  double missedShare = 0.0;        ///< of landmarks in sight that are not seen
-  double falseShare = 0.0;         ///< of sightings that are anywhere in the field of view
+  double noiseBearingSigma = 0.0;  ///< standard deviation of simulated bearings [rad]
+  double missedShare = 0.0;        ///< probability that a landmark in sight is missed
+  double falseShare = 0.0;  ///< share of false sightings, which are anywhere in the field of view
 };
 
-/// Letters, digits and "_.-", short enough to become part of a feature's name.
+/// Refuses a kind other than letters, digits and "_.-", or one too long to be part of a feature's
+/// name.
 inline void checkKind(const Parameters& p, const std::string& kind) {
   const bool isName =
       !kind.empty() && kind.size() <= 32 && std::all_of(kind.begin(), kind.end(), [](char c) {
@@ -64,7 +66,7 @@ inline std::vector<std::uint32_t> readIdentities(const Parameters& p) {
   return identities;
 }
 
-/// What real readings get wrong. @throws ConfigError
+/// Reads the bias of real readings. @throws ConfigError
 inline SightingBias readSightingBias(const Parameters& p, bool isList) {
   for (const char* key :
        {"range_bias_m", "range_bias_per_m", "range_bias_per_m_rad", "range_bias_per_m_rad2",

@@ -24,7 +24,7 @@ class LrfSensor : public Sensor {
         period_(s.period) {}
 
   ScanCaster caster_;
-  double period_;  ///< [s]
+  double period_;  ///< time between two scans [s]
 };
 
 }  // namespace

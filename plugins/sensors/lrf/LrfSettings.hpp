@@ -11,10 +11,10 @@ struct LrfSettings {
   SensorId id;
   Mounting mounting;
   ScanData::Config scan;
-  double period = 0.1;              ///< [s]
-  double noiseSigma = 0.0;          ///< of simulated ranges at range 0 [m]
-  double noiseSigmaPerMetre = 0.0;  ///< grows by this per metre
-  double dropoutShare = 0.0;        ///< of simulated beams without a valid measurement
+  double period = 0.1;              ///< time between two scans [s]
+  double noiseSigma = 0.0;          ///< standard deviation of simulated ranges at range 0 [m]
+  double noiseSigmaPerMetre = 0.0;  ///< growth of the standard deviation with range [m/m]
+  double dropoutShare = 0.0;        ///< share of simulated beams without a valid measurement
 };
 
 /// Reads fov_deg, or first_angle_deg and angle_step_deg, into the beams of @p scan.
@@ -34,7 +34,7 @@ inline void readBeams(const Parameters& p, ScanData::Config& scan) {
     return;
   }
   const double fov = p.numberOr("fov_deg", 180.0, {0.1, 360.0});
-  // All around, the last beam must not repeat the first one.
+  // If the scan goes all around, the last beam must not repeat the first one.
   const int steps = fov >= 360.0 ? scan.beams : scan.beams - 1;
   const double step = steps > 0 ? fov / steps : 1.0;
   if (step * scan.beams > 360.0 + 1e-9)

@@ -9,17 +9,18 @@
 namespace ortung {
 namespace {
 
-constexpr int kSteps = 5;  // from less than a radius off, the third one changes micrometres
-// Edges are grazed or missed, and beams are as wide as steps.
-constexpr double kNarrowest = 0.5;  // of its width
+constexpr int kSteps =
+    5;  // steps; from less than a radius off, the third one changes only micrometres
+// Bounds of the observed width: edges are grazed or missed, and beams are as wide as steps.
+constexpr double kNarrowest = 0.5;  // as a share of the expected width
 constexpr double kWidest = 1.3;
 constexpr double kBeamsMore = 2.0;
 
 struct Point {
-  double x, y;  ///< [m]
+  double x, y;  ///< coordinates [m]
 };
 
-/// The centre of the circle of that radius that the points lie on, or nothing.
+/// Returns the centre of the circle of that radius on which the points lie, or nothing.
 std::optional<Point> centreOf(const std::vector<Point>& points, Point centre,
                               const CylinderLooks& looks) {
   for (int step = 0; step < kSteps; ++step) {
@@ -54,7 +55,7 @@ std::optional<Point> centreOf(const std::vector<Point>& points, Point centre,
   return rms <= looks.tolerance ? std::optional(centre) : std::nullopt;  // NaN: nothing
 }
 
-/// A cylinder that beams [begin, end) may have hit.
+/// Returns the cylinder that beams [begin, end) may have hit.
 std::optional<Cylinder> cylinderOf(std::span<const float> ranges, std::size_t begin,
                                    std::size_t end, double firstAngle, double angleStep,
                                    const CylinderLooks& looks) {
@@ -85,7 +86,8 @@ std::vector<Cylinder> findCylinders(std::span<const float> ranges, double firstA
                                     double angleStep, const CylinderLooks& looks) {
   std::vector<Cylinder> found;
   const auto gap = static_cast<float>(looks.breakDistance);
-  // What is not valid, and the rim of the field of view, may hide whatever is there.
+  // Invalid beams, and the edge of the field of view, may hide something nearer, so they are not
+  // behind.
   const auto isBehind = [&](std::size_t beam, float edge) { return ranges[beam] - edge > gap; };
   std::size_t begin = 0;
   for (std::size_t end = 1; end <= ranges.size(); ++end) {

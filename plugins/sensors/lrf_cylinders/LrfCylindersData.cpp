@@ -16,8 +16,7 @@ DeviceData makeLrfCylinders(const Parameters& p) {
   return data;
 }
 
-/// Finds cylinders in a scan: the same for simulated, recorded and real scans. Which of them are
-/// which nobody knows.
+/// Finds cylinders in simulated, recorded and real scans alike. They are not identified.
 class LrfCylindersExtractor : public Extractor {
  public:
   explicit LrfCylindersExtractor(const Parameters& p) : settings_(readLrfCylindersSettings(p)) {}
@@ -48,7 +47,7 @@ class LrfCylindersExtractor : public Extractor {
  private:
   LrfCylindersSettings settings_;
   ScanData::Reading scan_;
-  Pose2 mount_;  ///< of the scanner in the robot frame
+  Pose2 mount_;  ///< pose of the scanner in the robot frame
 };
 
 }  // namespace

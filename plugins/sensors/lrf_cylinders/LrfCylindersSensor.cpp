@@ -7,8 +7,8 @@
 namespace ortung {
 namespace {
 
-/// Tells the learner where cylinders are: without noise all within range are seen, and which are
-/// which. A simulated robot finds them in its scan, as a real one does (LrfCylindersExtractor).
+/// Gives the learner the places of cylinders: all within range, identified and without noise. A
+/// simulated robot finds them in its scan, as a real one does (LrfCylindersExtractor).
 class LrfCylindersSensor : public Sensor {
  public:
   explicit LrfCylindersSensor(const Parameters& p) : settings_(readLrfCylindersSettings(p)) {}

@@ -12,15 +12,15 @@ namespace ortung {
 
 /// Settings of all halves of the finder of cylinders in scans.
 struct LrfCylindersSettings {
-  std::string reads;  ///< scan of another device: "model/type/feature"
+  std::string reads;  ///< the scan of another device that is read: "model/type/feature"
   SensorId id;
-  Mounting mounting;  ///< of the scanner
-  std::string kind;   ///< of the landmarks in the world that are cylinders
+  Mounting mounting;  ///< mounting of the scanner
+  std::string kind;   ///< kind of the landmarks in the world that are cylinders
   CylinderLooks looks;
   LandmarksData::Config landmarks;
 };
 
-/// @throws ConfigError
+/// Reads all settings of all halves. @throws ConfigError
 inline LrfCylindersSettings readLrfCylindersSettings(const Parameters& p) {
   LrfCylindersSettings s;
   s.id = sensorIdOf(p, {"LMS200", "LRF", "cylinders"});

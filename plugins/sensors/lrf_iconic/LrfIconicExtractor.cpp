@@ -32,7 +32,7 @@ void LrfIconicExtractor::extract(const FieldModel& field, std::span<std::optiona
       shapesOf(scan_.ranges, scan_.firstAngle, scan_.angleStep, settings_.shapes);
   const std::vector<FieldWall> walls =
       wallsAt(field, settings_.mounting.z, settings_.shapes.shortest);
-  // Matching is no better than the scan's rounding, however little noise there is.
+  // Matching is limited by the scan's rounding, even without noise.
   constexpr double kFinest = 0.005;  // [m]
   const double sigma = settings_.rangeSigma + settings_.rangeSigmaPerMetre * 0.5 * maxRange_;
   const WallMatcher matcher(walls, {.rangeSigma = std::max(kFinest, sigma),
@@ -43,13 +43,13 @@ void LrfIconicExtractor::extract(const FieldModel& field, std::span<std::optiona
   const std::vector<PoseFixData::Fix> fixes = matcher.match(
       shapes.segments, {scan_.ranges, small, scan_.firstAngle, scan_.angleStep, maxRange_}, mount_);
   words[0] = ObstaclesData::encode(obstacles(shapes, matcher, fixes));
-  // Who knows no walls can't say that there is no position.
+  // Without known walls it can't say that there is no position.
   if (!walls.empty()) words[1] = PoseFixData::encode(fixes);
 }
 
-/// By beam, whether it ends at a small body.
+/// Returns, for each beam, whether it ends at a small body.
 std::vector<std::uint8_t> LrfIconicExtractor::beamsOnCircles(const ScanShapes& shapes) const {
-  constexpr double kSlack = 0.15;  // [m]: small bodies are no exact circles
+  constexpr double kSlack = 0.15;  // [m]: small bodies are not exact circles
   std::vector<std::uint8_t> beams(scan_.ranges.size(), 0);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const auto range = static_cast<double>(scan_.ranges[i]);
@@ -63,12 +63,13 @@ std::vector<std::uint8_t> LrfIconicExtractor::beamsOnCircles(const ScanShapes& s
   return beams;
 }
 
-/// What is no wall; without a position, everything.
+/// Returns everything that is not a wall; without a position, everything.
 ObstaclesData::Reading LrfIconicExtractor::obstacles(
     const ScanShapes& shapes, const WallMatcher& matcher,
     const std::vector<PoseFixData::Fix>& fixes) const {
   ObstaclesData::Reading list;
-  const Pose2 scanner = inverse(settings_.mounting.pose) * mount_;  // in the frame of obstacles
+  const Pose2 scanner = inverse(settings_.mounting.pose) *
+                        mount_;  // pose of the scanner in the frame of the obstacles
   const auto inOwn = [&](const PlanePoint& p) { return scanner * Pose2{p.x, p.y, 0.0}; };
   for (const ScanCircle& c : shapes.circles) {
     const Pose2 middle = inOwn(c.middle);

@@ -14,8 +14,8 @@ namespace ortung {
 
 class WallMatcher;
 
-/// Takes a scan apart, and compares its straight pieces with the field's walls and goals: the same
-/// for simulated, recorded and real scans. Features: obstacles, position.
+/// Segments a scan, and matches its straight pieces with the field's walls and goals; it treats
+/// simulated, recorded and real scans alike. Features: obstacles, position.
 class LrfIconicExtractor : public Extractor {
  public:
   explicit LrfIconicExtractor(const Parameters& p);
@@ -31,8 +31,8 @@ class LrfIconicExtractor : public Extractor {
 
   LrfIconicSettings settings_;
   ScanData::Reading scan_;
-  Pose2 mount_;            ///< of the scanner in the robot frame
-  double maxRange_ = 0.0;  ///< [m]
+  Pose2 mount_;            ///< pose of the scanner in the robot frame
+  double maxRange_ = 0.0;  ///< greatest range of the scan [m]
 };
 
 }  // namespace ortung

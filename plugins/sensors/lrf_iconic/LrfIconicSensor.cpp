@@ -5,7 +5,7 @@
 namespace ortung {
 namespace {
 
-/// The laser of the device; what is made of its scan is made on the robot (LrfIconicExtractor).
+/// The laser of the device; its scan is processed on the robot (LrfIconicExtractor).
 class LrfIconicSensor : public Sensor {
  public:
   explicit LrfIconicSensor(const Parameters& p) : LrfIconicSensor(readLrfIconicSettings(p)) {}
@@ -20,7 +20,7 @@ class LrfIconicSensor : public Sensor {
 
   double period() const override { return period_; }
   double rays() const override {
-    constexpr double kMatching = 10.0;  // finding and matching shapes, for each beam
+    constexpr double kMatching = 10.0;  // cost of finding and matching shapes, per beam
     return kMatching * caster_.rays();
   }
 
@@ -31,7 +31,7 @@ class LrfIconicSensor : public Sensor {
         ownsScan_(s.reads.empty()) {}
 
   ScanCaster caster_;
-  double period_;  ///< [s]
+  double period_;  ///< time between two scans [s]
   bool ownsScan_;
 };
 

@@ -9,33 +9,34 @@
 
 namespace ortung {
 
-/// Settings of all halves of the laser range finder that says what it sees.
+/// Settings of all halves of the laser range finder that detects objects.
 struct LrfIconicSettings {
-  static constexpr const char* kScan = "scan";  ///< feature of its own scan
+  static constexpr const char* kScan = "scan";  ///< feature name of its own scan
 
-  std::string reads;  ///< scan of another device: "model/type/feature"; "": its own
-  SensorId id;        ///< its feature is not used
+  /// The scan of another device that is read: "model/type/feature"; "": its own.
+  std::string reads;
+  SensorId id;  ///< its feature is not used
   Mounting mounting;
-  ScanData::Config scan;  ///< of its own
+  ScanData::Config scan;  ///< format of its own scan
   ScanShapesConfig shapes;
   PoseFixData::Config fix;
-  double shareMatched = 0.6;  ///< of beams that must end at walls, if five of them agree
+  double shareMatched = 0.6;  ///< share of beams that must end at walls, if five of them agree
   int mostFixes = 8;
-  double rangeSigma = 0.03;  ///< of the scan, as the matcher takes it, at range 0 [m]
+  double rangeSigma = 0.03;  ///< standard deviation at range 0 that the matcher assumes [m]
   double rangeSigmaPerMetre = 0.0;
-  double wallSigma = 0.005;  ///< of where a wall is, as a whole [m]
-  double period = 0.1;       ///< [s]
-  double noiseSigma = 0.03;  ///< of simulated ranges at range 0 [m]
+  double wallSigma = 0.005;  ///< standard deviation of a wall's place as a whole [m]
+  double period = 0.1;       ///< time between two scans [s]
+  double noiseSigma = 0.03;  ///< standard deviation of simulated ranges at range 0 [m]
   double noiseSigmaPerMetre = 0.0;
   double dropoutShare = 0.0;
 };
 
-/// Reads what describes its own scan and its simulation.
+/// Reads the keys of its own scan and its simulation.
 inline void readOwnScan(const Parameters& p, LrfIconicSettings& s) {
   readBeams(p, s.scan);
   s.scan.maxRange = p.numberOr("max_range_m", 8.0, {0.05, 1000.0});
   s.scan.minRange = p.numberOr("min_range_m", 0.0, {0.0, s.scan.maxRange});
-  s.scan.localizes = false;  // what is made of it does
+  s.scan.localizes = false;  // the features derived from it do
   s.period = readPeriod(p, 0.1);
   s.noiseSigma = p.numberOr("noise_sigma_m", s.noiseSigma, {0.0, 10.0});
   s.noiseSigmaPerMetre = p.numberOr("noise_sigma_per_m", 0.0, {0.0, 1.0});
@@ -55,7 +56,7 @@ inline LrfIconicSettings readLrfIconicSettings(const Parameters& p) {
     checkQuery(p, "reads");
   s.rangeSigma = p.numberOr("range_sigma_m", s.noiseSigma, {0.0, 10.0});
   s.rangeSigmaPerMetre = p.numberOr("range_sigma_per_m", s.noiseSigmaPerMetre, {0.0, 1.0});
-  // Whoever reads a log or a real scanner has walls of a map that somebody measured.
+  // For a log or a real scanner the walls are those of a measured map.
   s.wallSigma = p.numberOr("wall_sigma_m", s.reads.empty() ? 0.005 : 0.03, {0.0, 1.0});
   s.shapes.breakDistance = p.numberOr("break_m", s.shapes.breakDistance, {0.01, 10.0});
   s.shapes.lineTolerance = p.numberOr("line_tolerance_m", s.shapes.lineTolerance, {0.001, 1.0});

@@ -10,22 +10,24 @@
 namespace ortung {
 namespace {
 
-constexpr double kLeastSine = 0.25;  // of a beam's angle to its wall; flatter ones count as this
-constexpr double kSureReach = 0.9;   // of the greatest range, from which an echo must come back
+constexpr double kLeastSine =
+    0.25;  // least sine of a beam's angle to its wall; flatter angles count as this one
+constexpr double kSureReach =
+    0.9;  // share of the greatest range within which an echo must come back
 
-/// A beam's wall: range and the sine of its angle to it.
+/// The wall of a beam: its range and the sine of the beam's angle to it.
 struct Forecast {
   float range = std::numeric_limits<float>::infinity();
   float sine = 1.0F;
   bool isFromBehind = false;
 };
 
-/// The beams that point at a wall meet it at its line.
+/// Adds a wall to the beams that point at it.
 void addWall(const MeasuredWall& wall, const Pose2& sensor, const MeasuredScan& scan,
              std::vector<Forecast>& forecasts) {
   const double x0 = wall.x0 - sensor.x;
   const double y0 = wall.y0 - sensor.y;
-  const double off = wall.sine * x0 - wall.cosine * y0;  // positive on the side that is seen
+  const double off = wall.sine * x0 - wall.cosine * y0;  // positive on the visible side
   const double a0 = std::atan2(y0, x0);
   const double span = wrapAngle(std::atan2(wall.y1 - sensor.y, wall.x1 - sensor.x) - a0);
   const double from = std::min(0.0, span) + a0 - sensor.theta - scan.firstAngle;

@@ -7,26 +7,27 @@
 
 namespace ortung {
 
-/// How the beams of a scan agree with the walls that are known, for the scanner at one pose.
+/// The agreement of a scan with the known walls, for one pose of the scanner.
 struct Agreement {
-  int seen = 0;      ///< beams with a range
-  int agreeing = 0;  ///< end at the wall that is expected there
-  int through = 0;   ///< end behind a wall, or where nothing comes back from one that is in reach
-  int expected = 0;  ///< beams that would meet a wall
+  int seen = 0;      ///< number of beams with a range
+  int agreeing = 0;  ///< number of beams that end at the wall that is expected there
+  /// Number of beams that end behind a wall, or get no echo from one within reach.
+  int through = 0;
+  int expected = 0;  ///< number of beams that would meet a wall
 };
 
-/// A scan as it was measured.
+/// A measured scan.
 struct MeasuredScan {
-  std::span<const float> ranges;  ///< [m]; infinite: nothing within reach; NaN: not valid
-  std::span<const std::uint8_t> isOfSmallBody;  ///< by beam
-  double firstAngle = 0.0;                      ///< [rad]
-  double angleStep = 0.0;                       ///< [rad]
-  double maxRange = 0.0;                        ///< [m]
+  std::span<const float> ranges;  ///< ranges [m]; infinite: nothing within reach; NaN: not valid
+  std::span<const std::uint8_t> isOfSmallBody;  ///< whether each beam ends at a small body
+  double firstAngle = 0.0;                      ///< angle of beam 0 in the scanner frame [rad]
+  double angleStep = 0.0;                       ///< angle from one beam to the next [rad]
+  double maxRange = 0.0;                        ///< greatest range [m]
 };
 
-/// Compares a scan with what it would be if there were nothing but the walls.
-/// @param sensor pose of the scanner in the field
-/// @param tolerance of a point across its wall [m]
+/// Compares a scan with the expected one if there were only the walls.
+/// @param sensor pose of the scanner in the field frame
+/// @param tolerance greatest distance of a point from its wall [m]
 Agreement agreementOf(const MeasuredScan& scan, std::span<const MeasuredWall> walls,
                       const Pose2& sensor, double tolerance);
 

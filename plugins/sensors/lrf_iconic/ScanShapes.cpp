@@ -17,8 +17,8 @@ bool isNearer(const PlanePoint& a, const PlanePoint& b) {
   return std::hypot(a.x, a.y) < std::hypot(b.x, b.y);
 }
 
-/// Neighbours on one surface are farther apart the farther away they are; twice what a surface at
-/// 45 degrees shows still counts as one.
+/// Returns whether neighbours belong to different surfaces. The distance of neighbours on one
+/// surface grows with range; up to twice that on a surface at 45 degrees counts as one surface.
 bool areApart(const PlanePoint& a, const PlanePoint& b, double angleStep,
               const ScanShapesConfig& config) {
   const double range = std::min(std::hypot(a.x, a.y), std::hypot(b.x, b.y));
@@ -43,13 +43,14 @@ std::vector<std::vector<PlanePoint>> outlinesOf(std::span<const float> ranges, d
     isOpen = true;
   }
   if (outlines.empty()) return outlines;
-  // All around, the last outline may go on in the first one.
+  // If the scan goes all around, the last outline may continue in the first one.
   const bool isAround = static_cast<double>(ranges.size()) * angleStep > kTurn - 1.5 * angleStep;
   const bool meet = isAround && std::isfinite(ranges.front()) && std::isfinite(ranges.back()) &&
                     !areApart(outlines.back().back(), outlines.front().front(), angleStep, config);
   std::vector<PlanePoint>& last = outlines.back();
   if (meet && outlines.size() == 1) {
-    // Closed: begin at a corner, not in the middle of a wall. The farthest point is one.
+    // A closed outline must begin at a corner, not in the middle of a wall. The farthest point is
+    // one.
     std::rotate(last.begin(), std::max_element(last.begin(), last.end(), isNearer), last.end());
   } else if (meet) {
     last.insert(last.end(), outlines.front().begin(), outlines.front().end());
@@ -58,8 +59,8 @@ std::vector<std::vector<PlanePoint>> outlinesOf(std::span<const float> ranges, d
   return outlines;
 }
 
-/// A circle by algebraic least squares; of points that hardly bend, one behind them as wide as
-/// they are.
+/// Fits a circle by algebraic least squares; points with little curvature get one behind them that
+/// is as wide as they are.
 ScanCircle circleThrough(Points points, double largest) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();

@@ -10,22 +10,23 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kMostWalls = 256;    // that are matched, the longest first
-constexpr std::size_t kMostSegments = 6;   // of a scan, of which pairs are tried
+constexpr std::size_t kMostWalls =
+    256;  // greatest number of walls that are matched, the longest first
+constexpr std::size_t kMostSegments = 6;   // greatest number of segments of which pairs are tried
 constexpr int kRefinements = 8;            // Gauss-Newton steps
-constexpr double kSamePlace = 0.3;         // poses nearer than this are one [m]
-constexpr double kSameHeading = 0.1;       // [rad]
-constexpr std::size_t kMostCompared = 24;  // candidates whose scan is forecast
-constexpr double kLeastExplained = 0.4;    // of a candidate's points; below, it is not compared
-constexpr double kTolerance = 0.15;        // of a beam's end across the wall that is expected [m]
-constexpr double kMostThrough = 0.05;      // of beams that meet walls: would be seen through them
-constexpr double kLeastOfWalls = 0.5;      // of beams that meet walls: must end there
-constexpr double kShareAWall = 0.115;      // less of a scan must agree for each wall more
+constexpr double kSamePlace = 0.3;         // poses within this distance are the same [m]
+constexpr double kSameHeading = 0.1;       // headings within this angle are the same [rad]
+constexpr std::size_t kMostCompared = 24;  // greatest number of candidates whose scan is predicted
+constexpr double kLeastExplained = 0.4;    // least explained share of a candidate's points
+constexpr double kTolerance = 0.15;        // tolerance of a beam's end across its wall [m]
+constexpr double kMostThrough = 0.05;      // greatest share of beams that see through walls
+constexpr double kLeastOfWalls = 0.5;      // least share of beams to walls that must end there
+constexpr double kShareAWall = 0.115;      // reduction of the required share per further wall
 constexpr double kMostShare = 0.98;
 constexpr int kUsualWalls = 5;
-constexpr double kAlike = 0.75;  // of the best share of beams: as good as the best
+constexpr double kAlike = 0.75;  // share of the best agreement that counts as equally good
 constexpr double kAlikeThrough = 0.1;
-constexpr double kFewestSine = 0.34;  // of the angle between two pieces: 20 degrees
+constexpr double kFewestSine = 0.34;  // least sine of the angle between two pieces: 20 degrees
 
 double lengthOf(const StraightPiece& s) { return distance(s.from, s.to); }
 double directionOf(const StraightPiece& s) {
@@ -41,7 +42,7 @@ PlanePoint moved(const Pose2& frame, const PlanePoint& p) {
   return {frame.x + c * p.x - s * p.y, frame.y + s * p.x + c * p.y};
 }
 
-/// Signed distance to a wall's line, positive on the side from which it is seen [m].
+/// Returns the signed distance to a wall's line, positive on its visible side [m].
 double offsetFrom(const MeasuredWall& wall, const PlanePoint& p) {
   return wall.cosine * (p.y - wall.y0) - wall.sine * (p.x - wall.x0);
 }
@@ -50,7 +51,7 @@ bool isSame(const Pose2& a, const Pose2& b) {
   return distance(a, b) < kSamePlace && std::abs(wrapAngle(a.theta - b.theta)) < kSameHeading;
 }
 
-/// Whether the foot of @p p lies on the wall, or up to @p slack beyond its ends.
+/// Returns whether the foot of @p p lies on the wall, or up to @p slack [m] beyond its ends.
 bool isBeside(const MeasuredWall& wall, const PlanePoint& p, double slack) {
   const double along = wall.cosine * (p.x - wall.x0) + wall.sine * (p.y - wall.y0);
   return along >= -slack && along <= wall.length + slack;
@@ -72,13 +73,13 @@ struct WallMatcher::Candidate {
   int explained = 0;
 };
 
-/// A candidate at its best, and how the scan agrees with it.
+/// A refined candidate, and the scan's agreement with it.
 struct WallMatcher::Place {
   PoseFixData::Fix fix;
-  double share = 0.0;    ///< of beams that end at the wall that is expected there
-  double through = 0.0;  ///< of the beams that would meet walls: end behind them
-  int walls = 0;         ///< of which there are pieces
-  double ofWalls = 0.0;  ///< of the beams that would meet walls: end there
+  double share = 0.0;    ///< share of beams that end at the wall that is expected there
+  double through = 0.0;  ///< share of the beams to walls that end behind them
+  int walls = 0;         ///< number of walls of which there are pieces
+  double ofWalls = 0.0;  ///< share of the beams to walls that end there
 };
 
 MeasuredWall::MeasuredWall(const FieldWall& wall)
@@ -91,7 +92,7 @@ MeasuredWall::MeasuredWall(const FieldWall& wall)
 WallMatcher::WallMatcher(std::span<const FieldWall> walls, const WallMatcherConfig& config)
     : walls_(walls.begin(), walls.end()), config_(config) {}
 
-/// The nearest wall that a piece in this direction can be of, or null.
+/// Returns the nearest wall to which a piece in this direction can belong, or null.
 const MeasuredWall* WallMatcher::wallOf(const PlanePoint& inField, double direction) const {
   const MeasuredWall* nearest = nullptr;
   double reach = config_.reach;
@@ -115,7 +116,7 @@ int WallMatcher::explained(std::span<const StraightPiece> segments, const Pose2&
   return count;
 }
 
-/// How many walls there are pieces of.
+/// Returns the number of walls of which there are pieces.
 int WallMatcher::wallsSeen(std::span<const StraightPiece> segments, const Pose2& sensor) const {
   std::vector<const MeasuredWall*> seen;
   for (const StraightPiece& s : segments) {
@@ -126,7 +127,7 @@ int WallMatcher::wallsSeen(std::span<const StraightPiece> segments, const Pose2&
   return static_cast<int>(seen.size());
 }
 
-/// Poses at which two pieces lie on two walls.
+/// Returns the poses at which two pieces lie on two walls.
 std::vector<WallMatcher::Candidate> WallMatcher::candidates(
     std::span<const StraightPiece> segments) const {
   std::vector<Candidate> found;
@@ -141,7 +142,7 @@ std::vector<WallMatcher::Candidate> WallMatcher::candidates(
     if (std::abs(wrapAngle(turnA - turnB)) > config_.angle) return;
     const double shareB = lengthOf(b) / (lengthOf(a) + lengthOf(b));
     Pose2 sensor{0.0, 0.0, wrapAngle(turnA + shareB * wrapAngle(turnB - turnA))};
-    // Both pieces' middles must come to lie on the walls' lines.
+    // The middles of both pieces must lie on the walls' lines.
     const double offA = offsetFrom(u, moved(sensor, middleOf(a)));
     const double offB = offsetFrom(v, moved(sensor, middleOf(b)));
     const double sine = u.cosine * v.sine - u.sine * v.cosine;
@@ -164,7 +165,7 @@ std::vector<WallMatcher::Candidate> WallMatcher::candidates(
       const double least = std::cos(config_.angle) - 1e-9;
       for (const MeasuredWall& u : walls_)
         for (const MeasuredWall& v : walls_) {
-          // Most walls are at another angle, which is seen without turning anything.
+          // Most walls are at another angle, which can be tested without a rotation.
           const double along = u.cosine * v.cosine + u.sine * v.sine;
           const double across = u.cosine * v.sine - u.sine * v.cosine;
           if (along * cosine + across * sine >= least)
@@ -175,12 +176,12 @@ std::vector<WallMatcher::Candidate> WallMatcher::candidates(
   return found;
 }
 
-/// Of what a piece says about the pose.
+/// The evidence of a piece about the pose.
 struct WallMatcher::Evidence {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();  ///< of all its points
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();  ///< sum over all its points
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< what a wall that is 1 m off does
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();    ///< what one turned by 1 rad does
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< effect of a wall that is 1 m off
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();    ///< effect of a wall that is turned by 1 rad
 };
 
 WallMatcher::Evidence WallMatcher::evidenceOf(const StraightPiece& segment, const Pose2& mount,
@@ -195,7 +196,7 @@ WallMatcher::Evidence WallMatcher::evidenceOf(const StraightPiece& segment, cons
     if (wall == nullptr) continue;
     const double nx = -wall->sine;
     const double ny = wall->cosine;
-    // Turning the robot moves the point across its lever.
+    // A turn of the robot moves the point at right angles to its lever arm.
     const Eigen::Vector3d row(nx, ny, -nx * (p.y - robot.y) + ny * (p.x - robot.x));
     evidence.normal += row * row.transpose();
     evidence.right -= row * offsetFrom(*wall, p);
@@ -205,9 +206,9 @@ WallMatcher::Evidence WallMatcher::evidenceOf(const StraightPiece& segment, cons
   return evidence;
 }
 
-/// Least squares of the points' distances from their walls, over the robot's pose. Its covariance
-/// is that of points with noise of their own before walls that are themselves not quite where the
-/// field says: what is wrong of a wall is wrong for all its points.
+/// Refines the robot's pose by least squares of the points' distances from their walls. The
+/// covariance accounts for independent noise of the points and for errors of the walls' places,
+/// which are common to all points of a wall.
 bool WallMatcher::refine(std::span<const StraightPiece> segments, const Pose2& mount,
                          PoseFixData::Fix& fix) const {
   Eigen::Matrix3d normal;
@@ -271,8 +272,8 @@ std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const StraightPiece> 
   return chosen(std::move(places));
 }
 
-/// Those that fit as well as the best, if that is sure: a few beams that end where walls are end
-/// there by chance, too, and the more so the fewer walls there are.
+/// Returns the places that fit as well as the best if the fit is significant: a few beams end at
+/// walls by coincidence, too, the more likely the fewer walls there are.
 std::vector<PoseFixData::Fix> WallMatcher::chosen(std::vector<Place> places) const {
   const auto worth = [](const Place& place) {
     return place.share * std::min(1.0, place.ofWalls / kLeastOfWalls);

@@ -24,8 +24,8 @@ class OdometrySensor : public Sensor {
   double period() const override { return period_; }
 
  private:
-  double period_;                  ///< [s]
-  OdometryData::Reading reading_;  ///< kept, as words_, so that nothing is allocated in a cycle
+  double period_;                  ///< time between two readings [s]
+  OdometryData::Reading reading_;  ///< reused, like words_, so that a cycle allocates nothing
   std::vector<std::uint32_t> words_;
 };
 

@@ -4,10 +4,10 @@
 
 namespace ortung {
 
-/// Settings of both halves of the odometry. Its noise belongs to the [drive] that makes it.
+/// Settings of both halves of the odometry. Its noise is set in [drive], which generates it.
 struct OdometrySettings {
   SensorId id;
-  double period = 0.0;  ///< [s]
+  double period = 0.0;  ///< time between two readings [s]
 };
 
 /// Reads all settings of both halves. @throws ConfigError

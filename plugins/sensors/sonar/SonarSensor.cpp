@@ -11,28 +11,29 @@
 namespace ortung {
 namespace {
 
-constexpr double kWidestStep = 2.0 * kTurn / 360.0;  ///< between the axes of a panorama [rad]
+/// Greatest angle between the axes of a panorama [rad].
+constexpr double kWidestStep = 2.0 * kTurn / 360.0;
 
-/// What a cone meets in all directions from one place at one moment. The learner puts all sonars of
-/// a ring there, one after the other, and turns them on the spot.
+/// The ranges of a cone in all directions from one place at one time. The learner puts all sonars
+/// of a ring there, one by one, and turns them on the spot.
 class Panorama {
  public:
   explicit Panorama(const SonarSettings& settings)
       : cone_{.z = settings.z,
               .halfAngle = settings.cone.openingAngle / 2.0,
               .maxRange = settings.cone.maxRange} {
-    constexpr double kFewest = 5.0;  // axes between that of a cone and its edge
+    constexpr double kFewest = 5.0;  // least number of axes between that of a cone and its edge
     cone_.angleStep = cone_.halfAngle / std::max(std::ceil(cone_.halfAngle / kWidestStep), kFewest);
     nearest_.resize(static_cast<std::size_t>(std::ceil(kTurn / cone_.angleStep - 1e-9)));
   }
 
   bool isOf(const World& world, const Pose2& sonar, Timestamp now) const {
-    constexpr double kSame = 1e-9;  // [m]: what a chain of frames leaves of rounding
+    constexpr double kSame = 1e-9;  // [m]: rounding error of a chain of frames
     return world_ == &world && now_ == now && std::abs(cone_.x - sonar.x) < kSame &&
            std::abs(cone_.y - sonar.y) < kSame;
   }
 
-  /// Looks around; the heading of @p sonar is met exactly.
+  /// Computes the ranges; the heading of @p sonar is one of the directions.
   void look(const World& world, const Pose2& sonar, RobotNumber robot, Timestamp now) {
     world_ = &world;
     now_ = now;
@@ -53,7 +54,7 @@ class Panorama {
   ConeFan cone_;
   const World* world_ = nullptr;
   Timestamp now_ = 0;
-  std::vector<float> nearest_;  ///< by direction [m]
+  std::vector<float> nearest_;  ///< nearest surface in each direction [m]
 };
 
 class SonarSensor : public Sensor {
@@ -69,19 +70,19 @@ class SonarSensor : public Sensor {
       fireGroup(world, robot, *noise, now, data);
   }
 
-  /// All fire once in a period, one group after the other.
+  /// Returns the time between two groups: all fire once in a period, group by group.
   double period() const override {
     return settings_.period * static_cast<double>(settings_.atOnce) /
            static_cast<double>(settings_.mounts.size());
   }
-  /// Of a cone met by seven slices of rays, which is what it costs at most.
+  /// Returns the cost of a cone of seven slices of rays, which is an upper bound.
   double rays() const override {
     const double toEachSide = std::max(settings_.cone.openingAngle / 2.0 / kWidestStep, 5.0);
     return 7.0 * (1.6 * toEachSide + 1.0) * static_cast<double>(settings_.atOnce);
   }
 
  private:
-  /// Sonars of one group fire together, far enough from each other not to hear their neighbours'
+  /// Fires a group of sonars, which are far enough from each other not to hear their neighbours'
   /// echoes; the next call fires the next group.
   void fireGroup(const World& world, const RobotState& robot, Random& noise, Timestamp now,
                  std::span<SensorData* const> data) {
@@ -94,7 +95,7 @@ class SonarSensor : public Sensor {
 
   void fire(const World& world, const RobotState& robot, Random* noise, Timestamp now,
             SensorData& one) {
-    // The data half has put each sonar to its place on the ring.
+    // The data half has placed each sonar on the ring.
     const Pose2 sonar = robot.pose * one.mount();
     double range = 0.0;
     if (noise == nullptr) {
@@ -108,7 +109,7 @@ class SonarSensor : public Sensor {
     one.setData(now, {&word, 1});
   }
 
-  /// Nearest surface within the cone, or the greatest range [m].
+  /// Returns the range of the nearest surface within the cone, or the greatest range [m].
   double nearest(const World& world, const Pose2& sonar, RobotNumber robot) const {
     float range = 0.0F;
     world.castCones({.x = sonar.x,
@@ -121,9 +122,9 @@ class SonarSensor : public Sensor {
     return static_cast<double>(range);
   }
 
-  /// Infinity for nothing within range.
+  /// Returns the range, or infinity if nothing is within range.
   double seen(double range) const {
-    // The greatest range may have come back through a float.
+    // The greatest range may have been rounded to a float.
     const bool isNothing = range >= settings_.cone.maxRange * (1.0 - 1e-7);
     return isNothing ? std::numeric_limits<double>::infinity() : range;
   }
@@ -139,7 +140,7 @@ class SonarSensor : public Sensor {
 
   SonarSettings settings_;
   Panorama panorama_;
-  std::size_t next_ = 0;  ///< place in the firing order
+  std::size_t next_ = 0;  ///< index in the firing order of the next sonar
 };
 
 }  // namespace

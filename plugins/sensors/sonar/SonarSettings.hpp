@@ -11,18 +11,18 @@ namespace ortung {
 
 /// Settings of both halves of a ring of ultrasonic sensors.
 struct SonarSettings {
-  SensorId id;                ///< its feature is the beginning of the features' names
-  double z = 0.0;             ///< above the floor [m]
-  std::vector<Pose2> mounts;  ///< of each sonar in the robot frame
+  SensorId id;                ///< identifier; its feature is the prefix of the features' names
+  double z = 0.0;             ///< height above the floor [m]
+  std::vector<Pose2> mounts;  ///< pose of each sonar in the robot frame
   ConeData::Config cone;
-  double minRange = 0.0;                 ///< nearer echoes come back as this [m]
-  double period = 0.1;                   ///< in which all fire once [s]
+  double minRange = 0.0;                 ///< least range; nearer echoes are reported as this [m]
+  double period = 0.1;                   ///< time in which all sonars fire once [s]
   std::vector<std::size_t> firingOrder;  ///< indices of mounts, each once
-  std::size_t atOnce = 1;                ///< how many of the order fire together
-  double noiseSigma = 0.0;               ///< of simulated ranges at range 0 [m]
+  std::size_t atOnce = 1;                ///< number of sonars that fire together
+  double noiseSigma = 0.0;               ///< standard deviation of simulated ranges at range 0 [m]
   double noiseSigmaPerMetre = 0.0;
-  double missedShare = 0.0;  ///< of echoes that do not come back
-  double falseShare = 0.0;   ///< of readings that are too short, anywhere before the echo
+  double missedShare = 0.0;  ///< share of echoes that are missed
+  double falseShare = 0.0;   ///< share of readings that are too short, anywhere before the echo
 };
 
 /// Reads firing_order and fire_at_once; without them all fire together.

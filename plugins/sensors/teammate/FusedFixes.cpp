@@ -20,12 +20,12 @@ struct Belief {
   double area() const { return covariance.topLeftCorner<2, 2>().determinant(); }
 };
 
-/// From one pose to another; the headings' difference in [-pi, pi).
+/// Returns the difference from one pose to another, with that of the headings in [-pi, pi).
 Vector3 difference(const Pose2& from, const Pose2& to) {
   return {to.x - from.x, to.y - from.y, wrapAngle(to.theta - from.theta)};
 }
 
-/// Correlations that no covariance can have are left out.
+/// Returns a fix as a belief; impossible correlations are set to 0.
 Belief beliefOf(const PoseFixData::Fix& fix, const PoseFixData::Config& added) {
   Belief belief{fix.pose, Eigen::Map<const Matrix3>(fix.covariance.data())};
   const double position = added.addedSigma * added.addedSigma;
@@ -36,7 +36,7 @@ Belief beliefOf(const PoseFixData::Fix& fix, const PoseFixData::Config& added) {
   return belief;
 }
 
-/// Takes another one in (Kalman's update) unless they contradict each other.
+/// Fuses another belief (Kalman update) unless they contradict each other.
 bool join(Belief& belief, const Belief& other) {
   const Vector3 apart = difference(belief.pose, other.pose);
   const Matrix3 inverse = (belief.covariance + other.covariance).inverse();

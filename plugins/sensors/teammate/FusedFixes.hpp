@@ -7,10 +7,9 @@
 
 namespace ortung {
 
-/// What several who looked say together: fixes that agree within their errors become one, by the
-/// product of their normal distributions; those that do not stay beside each other, the surest
-/// first.
-/// @param added what of its error each keeps to itself, see PoseFixData::Config
+/// Fuses the fixes of several observers: fixes that agree within their errors become one, by the
+/// product of their normal distributions; others stay separate, the most certain first.
+/// @param added further errors of each fix, see PoseFixData::Config
 std::vector<PoseFixData::Fix> fused(std::span<const PoseFixData::Fix> fixes,
                                     const PoseFixData::Config& added);
 

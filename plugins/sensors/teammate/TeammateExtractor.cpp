@@ -8,12 +8,13 @@
 namespace ortung {
 namespace {
 
-// Where features lie among those of the device.
+// Indices of the features of the device.
 constexpr std::size_t kPosition = 0;
 constexpr std::size_t kRobots = 1;
 constexpr std::size_t kBalls = 2;
 
-constexpr std::size_t kMostMates = 256;  ///< remembered; who has more is not told the truth
+/// Greatest number of remembered reports; more are not plausible.
+constexpr std::size_t kMostMates = 256;
 
 }  // namespace
 
@@ -32,7 +33,7 @@ void TeammateExtractor::take(std::span<const SensorData* const> inputs) {
   now_ = inputs[0]->stamp();
 }
 
-/// What a robot says of itself is better than what others see of it.
+/// Remembers a report. A robot's report of itself is better than what others see of it.
 void TeammateExtractor::remember(Memory& memory, Known known, const std::string& source) {
   const std::string& name = known.told.place.name;
   const auto found = memory.find({name, source});
@@ -59,7 +60,7 @@ PlacesData::Reading TeammateExtractor::recall(Memory& memory) const {
 }
 
 void TeammateExtractor::extract(const FieldModel&, std::span<std::optional<Words>> words) {
-  std::map<std::string, PoseFixData::Fix> sightings;  ///< of this robot, by who saw it
+  std::map<std::string, PoseFixData::Fix> sightings;  ///< sightings of this robot, by observer
   bool isOfRobots = false;
   bool isOfBalls = false;
   for (const TalkData::Message& message : talk_.messages) {

@@ -15,8 +15,8 @@
 
 namespace ortung {
 
-/// Makes readings of what a team tells (paper, section 6): where they see this robot is a position,
-/// and of other robots and of balls it knows the places.
+/// Makes readings of the team's messages (paper, section 6): the positions at which mates see this
+/// robot, and the places of other robots and of balls.
 class TeammateExtractor : public Extractor {
  public:
   explicit TeammateExtractor(const Parameters& p) : settings_(readTeammateSettings(p)) {}
@@ -30,7 +30,7 @@ class TeammateExtractor : public Extractor {
     PlacesData::Told told;
     Timestamp said = 0;
   };
-  /// By what is there and, for balls, who says so.
+  /// Reports by object and, for balls, by sender.
   using Memory = std::map<std::pair<std::string, std::string>, Known>;
 
   void remember(Memory& memory, Known known, const std::string& source);

@@ -5,13 +5,14 @@
 
 namespace ortung {
 
-/// Settings of what a team tells.
+/// Settings of the features from a team's messages.
 struct TeammateSettings {
-  static constexpr const char* kTalk = "talk";  ///< feature that whoever carries the talk fills
+  /// Feature into which received messages are written.
+  static constexpr const char* kTalk = "talk";
 
   SensorId id;  ///< its feature is not used
   PoseFixData::Config fix;
-  double keep = 2.0;  ///< what was said is known for so long [s]
+  double keep = 2.0;  ///< time for which a message is remembered [s]
 };
 
 /// Reads all settings of both halves. @throws ConfigError

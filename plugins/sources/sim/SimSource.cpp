@@ -12,7 +12,7 @@
 namespace ortung {
 namespace {
 
-/// Source "sim": what one robot senses in a scripted scene, or alone in a world.
+/// The source "sim": the readings of a robot in a scripted scene, or alone in a world.
 class SimSource : public Source {
  public:
   explicit SimSource(const Parameters& p)
@@ -54,7 +54,8 @@ class SimSource : public Source {
 
  private:
   Timestamp now() const { return run_.simulation().now(); }
-  /// Readings without what failed would look like those of another robot.
+  /// Throws if a plugin has failed: readings without its features would look like those of another
+  /// robot.
   void stopAtProblem() const {
     for (const auto& robot : run_.simulation().robots())
       if (!robot->problems().empty()) throw std::runtime_error(robot->problems().front());
@@ -70,7 +71,7 @@ class SimSource : public Source {
   std::size_t sent_ = 0;
 };
 
-/// What `ortung import sim --help` tells.
+/// The text of `ortung import sim --help`.
 class SimHelp : public SourceHelp {
  public:
   explicit SimHelp(const Parameters&)

@@ -16,12 +16,12 @@
 namespace ortung {
 namespace {
 
-constexpr double kDefaultDuration = 60.0;  // of a simulation, which has no end of its own [s]
+constexpr double kDefaultDuration = 60.0;  // duration for a simulation, which has no end [s]
 
 SessionOptions readOptions(const Parameters& p) {
   SessionOptions options;
   const std::string path = p.text("path");
-  const std::size_t colon = path.rfind(':');  // [::1]:7777 is an address, too
+  const std::size_t colon = path.rfind(':');  // [::1]:7777 is also an address
   const std::string port = colon == path.npos ? "" : path.substr(colon + 1);
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), options.port);
   if (colon == 0 || error != std::errc() || end != port.data() + port.size() || options.port == 0)
@@ -51,7 +51,7 @@ std::string readRobotFile(const Parameters& p) {
   return readTomlText(file);
 }
 
-/// Source "tcp": a robot on the field of a message board.
+/// The source "tcp": a robot on the field of a message board.
 class TcpSource : public Source {
  public:
   explicit TcpSource(const Parameters& p)
@@ -90,8 +90,8 @@ class TcpSource : public Source {
   std::string robotToml() const override { return robotToml_; }
 
  private:
-  /// A server that plays for all in real time refuses it, and so does a running robot: then the
-  /// source just follows.
+  /// Enters lockstep. A server that runs in real time for all clients refuses it, and so does a
+  /// running robot: then the source just follows.
   void enterLockstep(bool isOptional) {
     try {
       session_.setLockstep(true);
@@ -130,8 +130,9 @@ class TcpSource : public Source {
     return true;
   }
 
-  /// A running robot's devices are late by different times: readings are held until those of the
-  /// same time have had time to come. What comes later still is left out.
+  /// Sorts readings by time. A running robot's devices have different delays: readings are held
+  /// until those of the same time have had time to arrive. Readings that arrive even later are
+  /// dropped.
   void takeInOrder(std::vector<Message> news) {
     std::move(news.begin(), news.end(), std::back_inserter(held_));
     std::stable_sort(held_.begin(), held_.end(),
@@ -149,20 +150,20 @@ class TcpSource : public Source {
   SessionOptions options_;
   std::string robotToml_;
   bool isLockstep_;
-  double cycle_;                    ///< [s]
-  Timestamp wait_;                  ///< for a running robot's late readings [us]
-  std::optional<double> duration_;  ///< [s]
+  double cycle_;                    ///< time between two updates without lockstep [s]
+  Timestamp wait_;                  ///< how long readings of a running robot are held [us]
+  std::optional<double> duration_;  ///< time from the first to the last readings [s]
   RobotSession session_;
-  std::vector<Message> held_;       ///< of a running robot, in the order of time
-  std::optional<Timestamp> given_;  ///< stamp of the last of them that was given
+  std::vector<Message> held_;       ///< held readings of a running robot, in the order of time
+  std::optional<Timestamp> given_;  ///< stamp of the last one that was given
   std::vector<Message> frame_;
   std::size_t sent_ = 0;
   std::optional<Timestamp> first_;
-  double elapsed_ = 0.0;  ///< [s]
-  double silence_ = 0.0;  ///< without a reading [s]
+  double elapsed_ = 0.0;  ///< time from the first reading to the last one [s]
+  double silence_ = 0.0;  ///< time without a reading [s]
 };
 
-/// What `ortung import tcp --help` tells.
+/// The text of `ortung import tcp --help`.
 class TcpHelp : public SourceHelp {
  public:
   explicit TcpHelp(const Parameters&)

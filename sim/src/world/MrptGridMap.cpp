@@ -10,9 +10,8 @@ namespace {
 
 constexpr const char* kReader = "ortung-mrpt-reader";
 constexpr std::size_t kMaxHeader = 256;
-/// P(free) of 255 above which a cell is unknown, up to kFreeFrom.
-constexpr int kUnknownFrom = 100;
-constexpr int kUnknownTo = 155;  ///< greatest p(free), of 255, of an unknown cell
+constexpr int kUnknownFrom = 100;  ///< least p(free), of 255, of an unknown cell
+constexpr int kUnknownTo = 155;    ///< greatest p(free), of 255, of an unknown cell
 
 /// Reads "ortung-gridmap WIDTH HEIGHT RESOLUTION ORIGIN_X ORIGIN_Y".
 GridMap readHeader(const std::filesystem::path& file, const std::string& line) {

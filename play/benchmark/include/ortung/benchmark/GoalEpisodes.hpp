@@ -16,27 +16,27 @@
 
 namespace ortung {
 
-/// How far a player believed to be from where it was, on average over when it acted.
+/// The mean distance between a player's believed pose and its true pose, over all its actions.
 struct PoseError {
-  static constexpr std::int32_t kNone = -1;  ///< it did not say where it believed to be
-  std::int32_t position = kNone;             ///< [um]
-  std::int32_t heading = kNone;              ///< [urad]
+  static constexpr std::int32_t kNone = -1;  ///< stands for a player that did not report a pose
+  std::int32_t position = kNone;             ///< mean error of position [um]
+  std::int32_t heading = kNone;              ///< mean error of heading [urad]
   bool operator==(const PoseError&) const = default;
 };
 
-/// What became of one episode.
+/// The result of an episode.
 struct GoalEpisode {
   GoalOutcome outcome = GoalOutcome::time;
-  Timestamp end = 0;         ///< after its beginning [us]
-  std::uint32_t digest = 0;  ///< of the bits of where everything was at the end
-  PoseError keeper = {};
-  PoseError striker = {};
+  Timestamp end = 0;         ///< time from its beginning to its end [us]
+  std::uint32_t digest = 0;  ///< digest of the bits of all poses at the end
+  PoseError keeper = {};     ///< the keeper's pose error
+  PoseError striker = {};    ///< the striker's pose error
   bool operator==(const GoalEpisode&) const = default;
 };
 
-/// One cycle of an episode, as it really was.
+/// The true state in one cycle of an episode, and the poses that both players believe.
 struct GoalMoment {
-  Timestamp stamp = 0;
+  Timestamp stamp = 0;  ///< time from the episode's beginning [us]
   Pose2 ball;
   Pose2 keeper;
   Pose2 striker;
@@ -46,33 +46,35 @@ struct GoalMoment {
 
 /// Plays episodes between a goalkeeper and a striker on the F2000 field: the keeper defends the
 /// goal at negative x from somewhere on its line, the striker makes its situation.
-///
 /// An episode is a function of the two players, the seed and its number alone: everything is made
-/// anew for it. Situations are paired: whoever keeps, the same seed and number begin alike, as far
-/// as the striker does not look at the keeper. Not thread-safe: each thread has its own.
+/// anew for it. Situations are paired: episodes of the same seed and number begin alike for all
+/// keepers, as far as the striker does not look at the keeper. Not thread-safe: each thread has its
+/// own.
 class ORTUNG_API GoalEpisodes {
  public:
-  /// What an episode lasts at most [us].
+  /// The longest duration of an episode [us].
   static constexpr Timestamp kLongest = 10'000'000;
 
-  /// @param tables of the F2000 field, shared by several threads; null: its own
+  /// @param tables table store of the F2000 field, shared by several threads; null: it makes its
+  ///   own
   /// @throws ConfigError for a world that can't be read
   explicit GoalEpisodes(std::shared_ptr<TableStore> tables = nullptr);
   ~GoalEpisodes();
   GoalEpisodes(const GoalEpisodes&) = delete;
   GoalEpisodes& operator=(const GoalEpisodes&) = delete;
 
-  /// @param keeper, striker as parsePlayer() reads them; name, team and start are not theirs to say
+  /// Plays an episode.
+  /// @param keeper, striker texts for parsePlayer(), without name, team and start
   /// @throws ConfigError, PluginError for players that can't be made
-  /// @param watch told of each cycle; may be empty
-  /// @throws std::runtime_error with seed and number for one that was stopped
+  /// @param watch called after each cycle; may be empty
+  /// @throws std::runtime_error with seed and number if a player was stopped
   GoalEpisode play(const std::string& keeper, const std::string& striker, std::uint64_t seed,
                    std::uint64_t number, const std::function<void(const GoalMoment&)>& watch = {});
   /// Makes both players without playing. @throws as play()
   void check(const std::string& keeper, const std::string& striker);
-  /// Of the world, see SimWorld::fingerprint().
+  /// Returns the digest of the world, see SimWorld::fingerprint().
   const std::string& fingerprint() const;
-  /// The file of the field.
+  /// Returns the world file of the field.
   static std::filesystem::path world();
 
  private:

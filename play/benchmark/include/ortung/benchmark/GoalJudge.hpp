@@ -9,34 +9,37 @@
 
 namespace ortung {
 
-/// How a striker's one chance ended.
+/// The outcome of a striker's attempt at the goal.
 enum class GoalOutcome : std::uint8_t {
-  goal,
+  goal,   ///< the ball is in the goal
   saved,  ///< the keeper touched the ball, which then lay still, came back or left the field
-  out,    ///< the ball left the field, lay still or came back, and the keeper had no part in it
-  time    ///< nothing of that within 10 s
+  out,    ///< the ball left the field, lay still or came back without a touch of the keeper
+  time    ///< none of these within 10 s
 };
-/// "goal", "saved", "out", "time".
+/// Returns "goal", "saved", "out" or "time".
 ORTUNG_API std::string_view nameOf(GoalOutcome outcome);
 
 /// The half of the F2000 field that a keeper defends.
 struct GoalField {
-  static constexpr double kGoalX = -6.0;      ///< of the goal line [m]
-  static constexpr double kHalfMouth = 1.0;   ///< [m]
-  static constexpr double kHalfLength = 6.0;  ///< [m]
-  static constexpr double kHalfWidth = 4.0;   ///< [m]
-  static constexpr double kBall = 0.11;       ///< radius [m]
+  static constexpr double kGoalX = -6.0;      ///< x of the goal line [m]
+  static constexpr double kHalfMouth = 1.0;   ///< half the width between the posts [m]
+  static constexpr double kHalfLength = 6.0;  ///< half the length of the field [m]
+  static constexpr double kHalfWidth = 4.0;   ///< half the width of the field [m]
+  static constexpr double kBall = 0.11;       ///< radius of the ball [m]
 };
 
-/// Follows one ball until its chance is over.
+/// Watches a ball until the attempt is over.
 class ORTUNG_API GoalJudge {
  public:
-  static constexpr double kShot = 1.0;  ///< faster towards the goal the ball was shot [m/s]
+  /// Least speed towards the goal of a ball that counts as shot [m/s].
+  static constexpr double kShot = 1.0;
 
-  /// To be called once a cycle, when everything has moved. @returns whether it is over
+  /// Observes a cycle; to be called once per cycle, after everything has moved. @returns whether
+  /// the attempt is over
   bool sees(const Simulation::Thing& ball, const SimRobot& keeper, double cycle);
-  /// @pre it is over
+  /// Returns the outcome. @pre the attempt is over
   GoalOutcome outcome() const { return outcome_; }
+  /// Returns whether the ball has been shot at the goal.
   bool wasShot() const { return wasShot_; }
 
  private:
@@ -45,7 +48,7 @@ class ORTUNG_API GoalJudge {
   GoalOutcome outcome_ = GoalOutcome::time;
   bool wasShot_ = false;
   bool wasTouched_ = false;
-  Twist velocity_;  ///< of the ball in the cycle before
+  Twist velocity_;  ///< velocity of the ball in the previous cycle
 };
 
 }  // namespace ortung

@@ -9,14 +9,16 @@
 
 namespace ortung {
 
-/// Mean of differences between pairs, with its interval by bootstrap: @p resamples times as many
-/// pairs are drawn with replacement, and the interval is between the 2.5 % and 97.5 % of the means.
-/// @param differences of -1, 0 or 1 @param seed the same gives the same interval
+/// Returns the mean of differences between pairs with its 95 % interval by bootstrap: @p resamples
+/// times as many pairs are drawn with replacement, and the interval is between the 2.5 % and 97.5 %
+/// of the means.
+/// @param differences differences, each -1, 0 or 1 @param seed the same seed gives the same
+///   interval
 ORTUNG_API Interval pairedBootstrap(std::span<const int> differences, std::uint64_t seed,
                                     std::size_t resamples = 1000);
 
-/// A figure with the interval between the 2.5 % and 97.5 % of what was drawn for it; without any it
-/// is the figure itself.
+/// Returns a figure with the interval between the 2.5 % and 97.5 % quantiles of its resampled
+/// values; if there are none, the interval is the figure itself.
 ORTUNG_API Interval percentiles(double value, std::vector<double> drawn);
 
 }  // namespace ortung

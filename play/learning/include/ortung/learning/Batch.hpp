@@ -11,35 +11,37 @@
 
 namespace ortung::learning {
 
-/// What becomes of an episode that is over (the words are Gymnasium's).
+/// How an episode that is over is reset (the terms are Gymnasium's).
 enum class Autoreset : std::uint8_t {
-  nextStep,  ///< the next step begins the next one: it takes no action and gives no reward
-  sameStep,  ///< the step that ends it begins the next one; finalObservations() has its end
-  disabled   ///< whoever steps resets
+  nextStep,  ///< the next step begins a new episode: it takes no action and gives no reward
+  /// The step that ends it begins a new one; finalObservations() has its last observation.
+  sameStep,
+  disabled  ///< the caller resets it
 };
 
 /// How an episode ended.
 enum class Ending : std::uint8_t { none, goal, saved, out, time };
+/// Returns "none", "goal", "saved", "out" or "time".
 ORTUNG_API std::string_view nameOf(Ending ending);
 
+/// The settings of a batch.
 struct ORTUNG_API BatchConfig {
-  std::size_t episodes = 1;  ///< that run beside each other, at most 65536
-  unsigned threads = 1;      ///< 0: as many as the machine has
+  std::size_t episodes = 1;  ///< number of parallel episodes, at most 65536
+  unsigned threads = 1;      ///< number of threads; 0: as many as the machine has
   Autoreset autoreset = Autoreset::nextStep;
-  std::uint64_t seed = 1;  ///< episode i has seed + i
-  /// @throws std::invalid_argument naming the field, its value and what was expected
+  std::uint64_t seed = 1;  ///< base of the seeds: episode i has seed + i
+  /// Checks it. @throws std::invalid_argument naming the field, its value and what was expected
   void check() const;
 };
 
-/// N episodes of one environment, which one call steps on all threads.
-///
-/// What an episode becomes is a function of the environment's id, its options, seed, number and
-/// actions alone, whatever other episodes there are and whoever steps them. Number 0 comes with the
-/// seed; each episode behind it in the same place has one more. All arrays are contiguous and stay
+/// N episodes of one environment, which are stepped by one call on all threads.
+/// An episode is a function of the environment's id, its options, seed, number and actions alone,
+/// independent of the other episodes and of the threads. The number is 0 after a reset with a seed,
+/// and one more for each further episode in the same place. All arrays are contiguous and stay
 /// where they are; they are valid until the next call. Not thread-safe.
 class ORTUNG_API Batch {
  public:
-  /// All episodes stand at their beginning.
+  /// Makes the episodes and begins all of them.
   /// @throws std::invalid_argument for an unknown id or a bad config; ConfigError, PluginError for
   ///   options and players
   Batch(std::string_view id, const Options& options, const BatchConfig& config);
@@ -47,39 +49,42 @@ class ORTUNG_API Batch {
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 
+  /// Return the environment, the number N of episodes and the kind of reset.
   const EnvironmentInfo& info() const;
   std::size_t size() const;
   Autoreset autoreset() const;
 
-  /// Begins all anew with seeds of their own, size N, and number 0.
+  /// Restarts all episodes with seeds of their own, shape (N), and number 0.
   void reset(std::span<const std::uint64_t> seeds);
-  /// The next episode of each.
+  /// Begins the next episode in each place.
   void reset();
-  /// One of them; without a seed its next number.
+  /// Begins one episode: with a seed number 0, without one the next number.
   void reset(std::size_t episode, std::optional<std::uint64_t> seed);
-  /// Options from now on, for episodes that begin: of one of them, or of all.
-  /// @throws ConfigError, PluginError; then nothing has changed
+  /// Set the options for episodes that begin from now on, in all places or in one. @throws
+  /// ConfigError, PluginError; then nothing has changed
   void setOptions(const Options& options);
   void setOptions(std::size_t episode, const Options& options);
 
-  /// One step of 0.1 s (option `action_s`) of all.
-  /// @param actions shape (N, agents, actionSize), numbers beyond -1 and 1 count as these
-  /// @throws std::invalid_argument for another size or numbers that are none, std::logic_error for
-  ///   an episode that is over (Autoreset::disabled); then nothing has moved. std::runtime_error
-  ///   that names seed and number for a player that was stopped
+  /// Steps all episodes by 0.1 s (option `action_s`).
+  /// @param actions shape (N, agents, actionSize); numbers are clamped to [-1, 1]
+  /// @throws std::invalid_argument for another size or numbers that are not finite,
+  ///   std::logic_error for an episode that is over (Autoreset::disabled); then nothing has
+  ///   changed. std::runtime_error that names seed and number if a player was stopped
   void step(std::span<const float> actions);
 
-  std::span<const float> observations() const;       ///< (N, agents, observation)
-  std::span<const float> finalObservations() const;  ///< the same, of what ended in this step
-  std::span<const double> rewards() const;           ///< (N, agents)
-  std::span<const std::uint8_t> terminated() const;  ///< (N)
-  std::span<const std::uint8_t> truncated() const;   ///< (N)
-  std::span<const std::uint8_t> endings() const;     ///< (N), Ending: of what ended in this step
-  std::span<const std::uint64_t> seeds() const;      ///< (N)
-  std::span<const std::uint64_t> numbers() const;    ///< (N)
-  /// The world as it is, the same for all environments (N, 12): time [s]; ball x, y, velocity x, y;
-  /// keeper x, y, heading; striker x, y, heading, in the field frame [m], [rad]; whether the ball
-  /// was shot (0, 1).
+  std::span<const float> observations() const;  ///< observations, shape (N, agents, observation)
+  /// Last observations of episodes that ended in this step, the same shape.
+  std::span<const float> finalObservations() const;
+  std::span<const double> rewards() const;           ///< rewards, shape (N, agents)
+  std::span<const std::uint8_t> terminated() const;  ///< whether episodes have ended, shape (N)
+  std::span<const std::uint8_t> truncated() const;   ///< whether their time has run out, shape (N)
+  /// Ending of each episode that ended in this step, shape (N).
+  std::span<const std::uint8_t> endings() const;
+  std::span<const std::uint64_t> seeds() const;    ///< seeds of the episodes, shape (N)
+  std::span<const std::uint64_t> numbers() const;  ///< numbers of the episodes, shape (N)
+  /// Returns the true state, which is the same for all environments, shape (N, 12): time [s]; ball
+  /// x, y, velocity x, y; keeper x, y, heading; striker x, y, heading, in the field frame [m],
+  /// [m/s], [rad]; whether the ball was shot (0, 1).
   std::span<const float> states() const;
 
  private:
