@@ -13,7 +13,7 @@ struct LearnArguments {
   double headingStepDeg = 2.0;  ///< [degrees]
   std::string area = "auto";    ///< "auto", "all" or "x,y" [m]: which part of the floor
   unsigned threads = 1;
-  bool force = false;  ///< overwrite files of other kinds
+  bool force = false;  ///< whether to overwrite files of other kinds
   bool progress = false;
 };
 int runLearn(const LearnArguments& arguments);

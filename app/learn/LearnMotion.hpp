@@ -17,7 +17,7 @@ struct LearnMotionArguments {
   double from = 0.0;             ///< part of each log to learn from, as shares of its time
   double to = 1.0;
   std::optional<double> delay;  ///< of odometry [s]; nothing: learned
-  bool force = false;           ///< overwrite files of other kinds
+  bool force = false;           ///< whether to overwrite files of other kinds
   bool progress = false;
 };
 int runLearnMotion(const LearnMotionArguments& arguments);

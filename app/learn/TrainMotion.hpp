@@ -19,7 +19,7 @@ struct TrainMotionArguments {
   std::size_t iterations = 300;
   double holdOut = 0.25;  ///< share of each log at its end
   std::uint64_t seed = 1;
-  bool force = false;  ///< overwrite files of other kinds
+  bool force = false;  ///< whether to overwrite files of other kinds
   bool progress = false;
 };
 int runTrainMotion(const TrainMotionArguments& arguments);

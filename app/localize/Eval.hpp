@@ -18,9 +18,9 @@ struct EvalArguments {
   std::size_t kidnaps = 0;                     ///< cases that are made of each source
   std::size_t wakeUps = 0;
   std::optional<double> teleport;  ///< rate of kidnaps within a run [1/m]
-  std::filesystem::path json;      ///< "" for none
-  std::filesystem::path report;    ///< "" for none
-  std::filesystem::path record;    ///< "" for none
+  std::filesystem::path json;      ///< JSON to write; "": none
+  std::filesystem::path report;    ///< HTML report to write; "": none
+  std::filesystem::path record;    ///< record to write; "": none
   std::string convergedWithin = "0.5,15";
   std::vector<std::string> faults;  ///< "WHAT=FAULT[:VALUE][@FROM-TO]"
   std::string commandLine;          ///< for the report

@@ -18,15 +18,15 @@ struct SimArguments {
   std::string refBox;                         ///< HOST[:PORT][@TEAM]; "": none
   double playerBudgetMs = 1000.0;             ///< of a processor's time for one call; 0: none
   std::optional<double> duration;             ///< [s]; default: the scene's, or until a signal
-  std::filesystem::path record;               ///< "" for none
-  std::filesystem::path trace;                ///< "" for none
+  std::filesystem::path record;               ///< record to write; "": none
+  std::filesystem::path trace;                ///< CSV to write; "": none
   std::string recorded;                       ///< name of the robot to record; "": the first
   bool digest = false;                        ///< print a hash of all that happened
   unsigned threads = 1;
   std::uint64_t seed = 1;
   std::optional<double> cycleMs;  ///< default: the world's
   bool noNoise = false;
-  bool force = false;                 ///< overwrite files of other kinds
+  bool force = false;                 ///< whether to overwrite files of other kinds
   std::vector<std::string> localize;  ///< names of robots to localize for clients; "all"
   std::filesystem::path tables;       ///< for that; "": they are learned
   ServingArguments serving;

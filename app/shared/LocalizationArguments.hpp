@@ -23,7 +23,7 @@ struct LocalizationArguments {
   bool besideGrid = false;     ///< MCL, compared with the grid filter
   bool anyWorld = false;
   bool publish = false;  ///< put estimates into the container, for whoever reads that
-  bool force = false;    ///< overwrite files of other kinds
+  bool force = false;    ///< whether to overwrite files of other kinds
   bool progress = false;
 };
 
