@@ -6,11 +6,12 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung calibrate lines`.
 struct CalibrateLinesArguments {
   std::vector<std::filesystem::path> pictures;
   std::vector<std::filesystem::path> worlds;
-  double height = 0.7;  ///< [m]
-  double heightShare = 0.15;
+  double height = 0.7;         ///< height of the camera above the floor [m]
+  double heightShare = 0.15;   ///< standard deviation of the height / the height
   std::filesystem::path out;   ///< file to write; "": stdout
   std::filesystem::path draw;  ///< folder for drawn pictures; "": none
   bool force = false;
@@ -18,9 +19,10 @@ struct CalibrateLinesArguments {
 };
 int runCalibrateLines(const CalibrateLinesArguments& arguments);
 
+/// Arguments of `ortung calibrate camera`.
 struct CalibrateCameraArguments {
   std::vector<std::filesystem::path> pictures;
-  std::string board = "9x6";  ///< inner corners
+  std::string board = "9x6";  ///< numbers of inner corners
   std::string model = "perspective";
   std::filesystem::path out;  ///< file to write; "": stdout
   bool force = false;
@@ -28,6 +30,7 @@ struct CalibrateCameraArguments {
 };
 int runCalibrateCamera(const CalibrateCameraArguments& arguments);
 
+/// Arguments of `ortung calibrate colours`.
 struct CalibrateColoursArguments {
   std::vector<std::filesystem::path> pictures;
   std::filesystem::path out;   ///< file to write; "": stdout

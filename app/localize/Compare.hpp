@@ -4,6 +4,7 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung compare`.
 struct CompareArguments {
   std::filesystem::path before;  ///< JSON of eval
   std::filesystem::path after;
