@@ -15,7 +15,7 @@
 namespace ortung::app {
 namespace {
 
-/// The first feature of the robot that is odometry, as MCL takes it.
+/// Returns the first feature of the robot that is odometry, which MCL uses, too.
 const OdometryData& odometryOf(const Robot& robot, const std::filesystem::path& robotFile) {
   for (const auto& data : robot.container.all()) {
     if (const auto* odometry = dynamic_cast<const OdometryData*>(data.get())) return *odometry;
