@@ -6,7 +6,7 @@
 
 namespace ortung::app {
 
-/// Bytes as text that may stand within a page (RFC 4648, padded).
+/// Encodes bytes as text (RFC 4648, padded), e.g. for data within a page.
 std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace ortung::app

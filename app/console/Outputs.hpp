@@ -9,7 +9,7 @@
 
 namespace ortung::app {
 
-/// What commands write. A file of the same kind may be replaced, any other only by --force.
+/// Kinds of files that commands write. A file is replaced by another kind only with --force.
 enum class OutputKind : std::uint8_t {
   kRecord,
   kTables,
@@ -17,43 +17,43 @@ enum class OutputKind : std::uint8_t {
   kComparison,  ///< JSON of compare
   kReport,      ///< HTML of eval
   kPicture,     ///< PNG
-  kPoses,       ///< of localize
-  kPosesJson,   ///< of localize --format json
-  kPosesTum,    ///< of localize --format tum
-  kBelief,      ///< of localize; the run that replaces it may have read it
+  kPoses,       ///< text of localize
+  kPosesJson,   ///< JSON of localize --format json
+  kPosesTum,    ///< text of localize --format tum
+  kBelief,      ///< belief of localize; the run that replaces it may have read it
   kTrace,       ///< CSV of sim
   kMotion,      ///< TOML of learn-motion
   kNetwork,     ///< JSON of train-motion
   kBenchmark,   ///< JSON of benchmark
   kPage,        ///< HTML of benchmark
-  kRawlog,      ///< of MRPT, like its grid maps
+  kRawlog,      ///< rawlogs and grid maps of MRPT
   kMcap,        ///< messages of ROS 2
-  kSettings,  ///< worlds, their maps, and robots: people work on them, so none is replaced unasked
+  kSettings,    ///< worlds, their maps, and robots: users edit them, so they need --force, too
 };
 
-/// The files that one run of a command reads and writes. All go through here, so that none replaces
-/// what it should not. Not thread-safe.
+/// The files that one run of a command reads and writes. It checks that no output replaces an input
+/// or a file of another kind. Not thread-safe.
 class Outputs {
  public:
-  /// @param force replace files of any kind; what the run reads is never replaced
+  /// @param force whether to replace files of any kind; files that the run reads are never replaced
   explicit Outputs(bool force) : force_(force) {}
 
-  /// Says what the run reads; "" is passed over, and so is what does not exist.
+  /// Declares a file that the run reads; "" and files that do not exist are ignored.
   void reads(const std::filesystem::path& file);
-  /// The same of "KIND:PATH?key=value".
+  /// Declares the files of a source, "KIND:PATH?key=value".
   void readsSource(const std::string& text);
 
-  /// Says that the run will write @p file, and looks whether it can and may, before any work
-  /// begins. "" is passed over.
-  /// @param option what messages call it
-  /// @throws UsageError if the run reads or writes that very file otherwise
+  /// Declares a file that the run will write, and checks that it can and may, before any work
+  /// begins. "" is ignored.
+  /// @param option name of the option for messages
+  /// @throws UsageError if another option reads or writes the same file
   /// @throws std::runtime_error naming the file if it can't be written, or exists and is of another
   ///   kind
   void writes(const std::string& option, const std::filesystem::path& file, OutputKind kind);
 
-  /// @p file, now that it is about to be written. @throws UsageError if the run has read it
+  /// Returns @p file, which is about to be written. @throws UsageError if the run has read it
   const std::filesystem::path& ready(const std::filesystem::path& file) const;
-  /// A whole file at once. "" is passed over. @throws std::runtime_error
+  /// Writes a whole file at once. "" is ignored. @throws std::runtime_error
   void write(const std::filesystem::path& file, std::string_view text) const;
   void write(const std::filesystem::path& file, std::span<const std::byte> bytes) const;
 

@@ -5,17 +5,18 @@
 
 namespace ortung::app {
 
-/// How far long work has come, on stderr: a bar on a terminal, else a line every few seconds.
+/// Shows the progress of long work on stderr: a bar on a terminal, else a line every few seconds.
 /// Not thread-safe.
 class Progress {
  public:
-  /// @param bar draw the bar even if stderr is no terminal
+  /// @param work what is done, for the user
+  /// @param bar whether to draw a bar even if stderr is not a terminal
   Progress(std::string work, bool bar);
   ~Progress();  ///< ends the bar's line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// @param share done, in [0, 1]; below 0: not known
+  /// @param share share that is done, in [0, 1]; negative: unknown
   void update(double share);
 
  private:

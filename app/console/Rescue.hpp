@@ -6,20 +6,21 @@
 
 namespace ortung::app {
 
-/// What is to be saved if a plugin does not come back from a call: such a call can't be ended, so
-/// the program is, and what it has until then must not be lost. As long as it lives.
+/// A function that saves data if a plugin does not return from a call: such a call can't be ended,
+/// so the program is ended, and its data until then must not be lost. It is registered as long as
+/// this lives.
 class Rescue {
  public:
-  /// @param save called on another thread, while nobody has hold(); may throw
+  /// @param save called on another thread, while no thread has hold(); may throw
   explicit Rescue(std::function<void()> save);
   ~Rescue();
   Rescue(const Rescue&) = delete;
   Rescue& operator=(const Rescue&) = delete;
 
-  /// Nothing is saved meanwhile: for whoever changes what save() looks at.
+  /// Locks out save(), for threads that change the data that it reads.
   std::unique_lock<std::mutex> hold() { return std::unique_lock(mutex_); }
 
-  /// Lets all save, and ends the program. @param why for stderr
+  /// Calls all save functions, and ends the program. @param why reason, for stderr
   [[noreturn]] static void saveAllAndEnd(const std::string& why);
 
  private:

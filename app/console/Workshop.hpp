@@ -8,20 +8,21 @@
 
 namespace ortung::app {
 
-/// A temporary folder in which a file, and what it names beside it, is made before all of it is put
-/// in place. Not thread-safe.
+/// A temporary folder in which a file, and the files beside it that it names, are made before all
+/// of them are moved into place. Not thread-safe.
 class Workshop {
  public:
-  /// @param option what messages call the target. @throws std::runtime_error
+  /// @param option name of the target's option, for messages
+  /// @throws std::runtime_error
   Workshop(const char* option, std::filesystem::path target);
 
   const std::filesystem::path& folder() const { return folder_.path(); }
-  /// The target's place within the folder.
+  /// Returns the target's path within the folder.
   std::filesystem::path file() const { return folder() / target_.filename(); }
 
-  /// Declares what was made beside the target, which is declared already.
+  /// Declares the files that were made beside the target, which is declared already.
   void declare(Outputs& outputs) const;
-  /// Puts all files into place, the target last: it names the others.
+  /// Moves all files into place, the target last, since it names the others.
   void deliver(const Outputs& outputs) const;
 
  private:

@@ -6,32 +6,35 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung calibrate lines`.
 struct CalibrateLinesArguments {
   std::vector<std::filesystem::path> pictures;
   std::vector<std::filesystem::path> worlds;
-  double height = 0.7;  ///< [m]
-  double heightShare = 0.15;
-  std::filesystem::path out;   ///< "": stdout
-  std::filesystem::path draw;  ///< "" for none
+  double height = 0.7;         ///< height of the camera above the floor [m]
+  double heightShare = 0.15;   ///< standard deviation of the height / the height
+  std::filesystem::path out;   ///< file to write; "": stdout
+  std::filesystem::path draw;  ///< folder for drawn pictures; "": none
   bool force = false;
   bool progress = false;
 };
 int runCalibrateLines(const CalibrateLinesArguments& arguments);
 
+/// Arguments of `ortung calibrate camera`.
 struct CalibrateCameraArguments {
   std::vector<std::filesystem::path> pictures;
-  std::string board = "9x6";  ///< inner corners
+  std::string board = "9x6";  ///< numbers of inner corners
   std::string model = "perspective";
-  std::filesystem::path out;  ///< "": stdout
+  std::filesystem::path out;  ///< file to write; "": stdout
   bool force = false;
   bool progress = false;
 };
 int runCalibrateCamera(const CalibrateCameraArguments& arguments);
 
+/// Arguments of `ortung calibrate colours`.
 struct CalibrateColoursArguments {
   std::vector<std::filesystem::path> pictures;
-  std::filesystem::path out;   ///< "": stdout
-  std::filesystem::path draw;  ///< "" for none
+  std::filesystem::path out;   ///< file to write; "": stdout
+  std::filesystem::path draw;  ///< folder for drawn pictures; "": none
   bool force = false;
 };
 int runCalibrateColours(const CalibrateColoursArguments& arguments);

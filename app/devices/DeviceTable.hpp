@@ -9,8 +9,8 @@
 
 namespace ortung::app {
 
-/// A line for each device: how it is, how often it measures, how old its newest reading is, and
-/// what was wrong; then the pose, if there is one.
+/// Returns a table with a line for each device: its state, its rate, the age of its newest reading
+/// and its problem; then the pose, if there is one.
 std::string deviceTable(const std::vector<DeviceStatus>& devices,
                         const std::optional<PoseEstimate>& estimate);
 

@@ -8,12 +8,13 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung robot`.
 struct RobotArguments {
-  LocalizationArguments localization;  ///< tables "": it does not localize; no source
-  std::filesystem::path dev;           ///< in place of /dev; "": the real one
-  std::filesystem::path record;        ///< "" for none
-  std::filesystem::path out;           ///< poses; "" for none
-  std::optional<double> duration;      ///< [s]; default: until a signal
+  LocalizationArguments localization;  ///< no source; tables "": does not localize
+  std::filesystem::path dev;           ///< folder in place of /dev; "": the real one
+  std::filesystem::path record;        ///< record to write; "": none
+  std::filesystem::path out;           ///< file for poses; "": none
+  std::optional<double> duration;      ///< time to run [s]; nothing: until a signal
   ServingArguments serving;
 };
 int runRobot(const RobotArguments& arguments);

@@ -5,11 +5,12 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung check`.
 struct CheckArguments {
   std::vector<std::filesystem::path> files;
-  std::filesystem::path world;  ///< "" for none
-  std::filesystem::path robot;  ///< "" for none
-  bool mend = false;            ///< cut off what a killed recorder left of its last moment
+  std::filesystem::path world;  ///< world of the tables; "": not checked
+  std::filesystem::path robot;  ///< robot of the tables; "": not checked
+  bool mend = false;            ///< whether to cut off an incomplete end of a record
 };
 int runCheck(const CheckArguments& arguments);
 

@@ -6,8 +6,9 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung export html`.
 struct ExportHtmlArguments {
-  ViewArguments runs;  ///< what is in it; it is not served
+  ViewArguments runs;  ///< runs on the page; its serving is not used
   std::filesystem::path out;
   bool force = false;
 };

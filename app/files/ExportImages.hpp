@@ -7,17 +7,18 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung export images`.
 struct ExportImagesArguments {
-  std::string source;  ///< "sim:FILE?key=value", or a record with pictures
+  std::string source;  ///< source: "sim:FILE?key=value", or a record with pictures
   std::filesystem::path robot;
-  std::filesystem::path out;    ///< folder
-  std::filesystem::path world;  ///< of a record, for what its pictures show; "" for none
-  std::string camera;           ///< model/type/feature; "": all
-  double every = 1;             ///< picture of each camera
-  double count = 1e9;           ///< pictures at most
+  std::filesystem::path out;    ///< folder to write
+  std::filesystem::path world;  ///< world of a record, for its annotations; "": none
+  std::string camera;           ///< camera's model/type/feature; "": all cameras
+  double every = 1;             ///< number n: every n-th picture of a camera is written
+  double count = 1e9;           ///< greatest number of pictures
   std::optional<double> variation;
-  std::optional<std::uint64_t> seed;  ///< of the first picture's look; each has the next one
-  bool anywhere = false;              ///< from places at random
+  std::optional<std::uint64_t> seed;  ///< seed of the first picture's look; each has the next
+  bool anywhere = false;              ///< whether to take pictures at random places
   bool force = false;
   bool progress = false;
 };

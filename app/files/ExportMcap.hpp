@@ -5,15 +5,16 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung export mcap`.
 struct ExportMcapArguments {
   std::string source;
   std::filesystem::path robot;
   std::filesystem::path out;
-  std::filesystem::path tables;   ///< of which the map is drawn; "" for none
-  std::filesystem::path world;    ///< likewise
-  double cell = 0.05;             ///< of a world's map [m]
-  double height = 0.3;            ///< of the plane that is drawn [m]
-  std::string mapFrame = "best";  ///< "best", "truth" or "none"
+  std::filesystem::path tables;   ///< tables whose map is drawn; "": none
+  std::filesystem::path world;    ///< world whose map is drawn; "": none
+  double cell = 0.05;             ///< size of a cell of a world's map [m]
+  double height = 0.3;            ///< height of the plane that is drawn [m]
+  std::string mapFrame = "best";  ///< pose of odometry in the map: "best", "truth", "none"
   bool force = false;
   bool progress = false;
 };

@@ -6,19 +6,20 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung import`.
 struct ImportArguments {
   std::string kind;
   std::string source;
   std::filesystem::path out;
-  std::filesystem::path world;       ///< "" for none
-  std::filesystem::path robotFile;   ///< "" for none
-  std::vector<std::string> options;  ///< "key=value"
-  std::filesystem::path withRobot;   ///< robot file for sources that need one; "" for none
+  std::filesystem::path world;       ///< world file to write; "": none
+  std::filesystem::path robotFile;   ///< robot file to write; "": none
+  std::vector<std::string> options;  ///< options of the source, "key=value"
+  std::filesystem::path withRobot;   ///< robot file for sources that need one; "": none
   bool force = false;
   bool progress = false;
 };
 int runImport(const ImportArguments& arguments);
-/// What the help of import says of a kind of source, or which kinds there are if it is "".
+/// Returns the help of import for a kind of source, or the list of kinds if @p kind is "".
 std::string importHelp(const std::string& kind);
 
 }  // namespace ortung::app

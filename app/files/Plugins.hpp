@@ -4,9 +4,10 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung plugins`.
 struct PluginsArguments {
-  double timeout = 10.0;         ///< for a library to load [s]
-  std::filesystem::path inside;  ///< set in a process of its own for this library
+  double timeout = 10.0;         ///< greatest time to load a library [s]
+  std::filesystem::path inside;  ///< library, in the child process that loads it; else ""
 };
 int runPlugins(const PluginsArguments& arguments);
 

@@ -12,8 +12,8 @@
 namespace ortung::app {
 namespace {
 
-constexpr double kConcealed = 0.75;  ///< of its box is seen, or it is concealed
-constexpr int kCorners = 12;         ///< points of a thing's circle whose pixels are looked for
+constexpr double kConcealed = 0.75;  ///< share of its box; a thing that shows less is concealed
+constexpr int kCorners = 12;         ///< points of a thing's circle that are projected
 
 std::string typeOf(const WorldObject& object) {
   if (object.kind == "ball" || object.kind == "robot") return object.kind;
@@ -21,7 +21,7 @@ std::string typeOf(const WorldObject& object) {
   return object.kind == "wall" ? "" : "obstacle";
 }
 
-/// What the box of the whole thing would be, if nothing hid it.
+/// Returns the area of the box that the thing would have if nothing hid it.
 double boxOf(const WorldObject& object, const CameraView& camera, const Pose2& sensor) {
   double uLow = 1e9, uHigh = -1e9, vLow = 1e9, vHigh = -1e9;
   const ImageSize size = camera.model().size();
@@ -61,7 +61,7 @@ void emit(YAML::Emitter& out, const Annotation& one) {
     out << YAML::Key << "concealed" << YAML::Value << one.isConcealed;
     out << YAML::Key << "vector" << YAML::Value << YAML::BeginSeq;
     emitPoint(out, one.left, one.top);
-    if (one.type == "goalpost" || one.type == "top_bar") {  // all corners, in order
+    if (one.type == "goalpost" || one.type == "top_bar") {  // four corners, in order
       emitPoint(out, one.right, one.top);
       emitPoint(out, one.right, one.bottom);
       emitPoint(out, one.left, one.bottom);
@@ -76,7 +76,7 @@ void emit(YAML::Emitter& out, const Annotation& one) {
   out << YAML::EndMap;
 }
 
-/// The angle between what the left and the right end of the middle row show [degrees].
+/// Returns the angle between the left and the right end of the middle row [degrees].
 std::optional<double> fieldOfView(const CameraView& camera) {
   const ImageSize size = camera.model().size();
   const double v = 0.5 * (size.height - 1.0);
@@ -135,7 +135,7 @@ std::vector<Annotation> annotationsOf(std::span<const std::uint32_t> things, con
     const double seen = (one.right - one.left + 1.0) * (one.bottom - one.top + 1.0);
     one.isConcealed = one.isSeen && seen < kConcealed * boxOf(object, camera, sensor);
   }
-  // The data set says of balls and robots when there is none.
+  // The data set has an annotation for balls and robots even if there are none.
   std::vector<Annotation> notes;
   for (const Annotation& one : all)
     if (one.isSeen && !one.type.empty()) notes.push_back(one);

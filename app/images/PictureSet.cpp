@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the classes, in their order: background, field, line, goal, post, ball, robot, obstacle,
-/// wall.
+/// Colours of the classes in their order: background, field, line, goal, post, ball, robot,
+/// obstacle, wall.
 constexpr std::array<std::uint8_t, 27> kPalette{0,   0,   0, 30,  120, 40,  255, 255, 255,
                                                 255, 220, 0, 255, 0,   255, 255, 120, 0,
                                                 220, 0,   0, 140, 90,  50,  90,  90,  140};
-constexpr double kFarthest = 65.535;  ///< that 16 bits of millimetres hold [m]
+constexpr double kFarthest = 65.535;  ///< greatest depth in 16 bits of millimetres [m]
 
 }  // namespace
 
@@ -31,8 +31,8 @@ PictureSet::PictureSet(fs::path folder, bool force) : folder_(std::move(folder))
     throw std::runtime_error(folder_.string() + ": is a file, expected a folder");
   if (!force && fs::exists(folder_, error) && !fs::is_empty(folder_, error))
     throw std::runtime_error(folder_.string() +
-                             ": has something in it; name a folder that is empty or new, or use "
-                             "--force to write over pictures");
+                             ": is not empty; name an empty or new folder, or use "
+                             "--force to overwrite pictures");
   for (const char* part : {"images", "segmentations", "depth"}) {
     fs::create_directories(folder_ / part, error);
     if (error) throw std::runtime_error((folder_ / part).string() + ": " + error.message());

@@ -11,19 +11,21 @@
 
 namespace ortung::app {
 
-/// A folder of pictures for others to train on: images/, segmentations/ (PNG of classes), depth/
-/// (PNG of 16 bits, millimetres), annotations.yaml, and the calibration of each camera. Not
+/// A data set of pictures for training: a folder with images/, segmentations/ (PNG of classes),
+/// depth/ (PNG of 16 bits, millimetres), annotations.yaml, and the calibration of each camera. Not
 /// thread-safe.
 class PictureSet {
  public:
-  /// @throws std::runtime_error if the folder can't be made, or has something in it and @p force is
-  ///   not given
+  /// @throws std::runtime_error if the folder can't be made, or is not empty and @p force is false
   PictureSet(std::filesystem::path folder, bool force);
 
-  /// @param notes its file is named here @param things may be empty, and then so are @p ranges
+  /// Adds a picture.
+  /// @param notes its description, except for the file, which is named here
+  /// @param things thing of each pixel; may be empty, as may @p ranges then
+  /// @param ranges distance along each pixel's ray [m]
   void add(PictureNotes notes, const ImageView& image, std::span<const std::uint32_t> things,
            std::span<const float> ranges);
-  /// Writes what belongs to all of them.
+  /// Writes the files that describe all pictures.
   void finish();
   std::size_t size() const { return pictures_.size(); }
 

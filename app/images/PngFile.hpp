@@ -8,13 +8,13 @@
 
 namespace ortung::app {
 
-/// Pictures as PNG files, encoded fast rather than small.
+/// Writes a picture as a PNG file, encoded for speed rather than size.
 /// @throws std::runtime_error naming the file, as do the others
 void writePng(const std::filesystem::path& file, const ImageView& image);
-/// Bytes that are numbers of colours. @param palette red, green, blue of each
+/// Writes a picture of indices of colours. @param palette red, green, blue of each colour
 void writePng(const std::filesystem::path& file, ImageSize size,
               std::span<const std::uint8_t> numbers, std::span<const std::uint8_t> palette);
-/// Grey of 16 bits.
+/// Writes a grey picture of 16 bits.
 void writePng(const std::filesystem::path& file, ImageSize size,
               std::span<const std::uint16_t> grey);
 

@@ -1,3 +1,5 @@
+#include "CalibrateNoise.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,10 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "CalibrateNoise.hpp"
-#include "LocalizationArguments.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "LocalizationArguments.hpp"
 #include "Localizing.hpp"
 #include "NoiseText.hpp"
 #include "Outputs.hpp"
@@ -26,7 +27,7 @@ std::string sourceOf(const std::string& text) {
   return text.find(':') == std::string::npos ? "record:" + text : text;
 }
 
-/// Readings and ground truth, which may be none.
+/// Reads the readings and the ground truth, if there is one.
 NoiseLog readTruth(const CalibrateNoiseArguments& arguments, const std::string& name,
                    Progress& progress) {
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
@@ -43,7 +44,7 @@ NoiseLog readTruth(const CalibrateNoiseArguments& arguments, const std::string& 
   return log;
 }
 
-/// The track that MCL finds with the robot file as it is, where it says that it tracks.
+/// Uses the track of MCL with the robot file as it is, while its status is "tracking".
 void useTrack(const CalibrateNoiseArguments& arguments, const std::string& name, Progress& progress,
               NoiseLog& log) {
   LocalizationArguments how;
@@ -74,12 +75,12 @@ std::vector<NoiseLog> readLogs(const CalibrateNoiseArguments& arguments) {
     if (arguments.reference == "truth" && !hasTruth) {
       throw std::runtime_error(name +
                                ": has no ground truth, expected a feature of type groundTruth; "
-                               "--reference track takes what MCL finds");
+                               "--reference track uses the poses of MCL");
     }
     if (arguments.reference == "track" || !hasTruth)
       useTrack(arguments, name, progress, logs.back());
     if (logs.back().reference.size() < 2)
-      throw std::runtime_error(name + ": MCL never said that it tracks, so there is no reference");
+      throw std::runtime_error(name + ": MCL was never tracking, so there is no reference");
   }
   return logs;
 }

@@ -14,10 +14,10 @@ void addNoise(Builder& build) {
   build.option("sources", a->sources, "Records, or sources KIND:PATH?key=value").required();
   build.option("--robot", a->robot, "Robot file (TOML)").required();
   build.option("--tables", a->tables, "Table file of `ortung learn`").required();
-  build.option("--out", a->out, "Robot file to write: the same with what was learned");
+  build.option("--out", a->out, "Robot file to write: a copy with what was learned");
   build
       .option("--reference", a->reference,
-              "Where the robot was: truth, the track that MCL finds, or auto: truth where there is "
+              "Poses of the robot: truth, track (of MCL), or auto: truth if there is "
               "one")
       .oneOf({"auto", "truth", "track"})
       .showsDefault();
@@ -28,7 +28,7 @@ void addNoise(Builder& build) {
                "File with [motion] for the track; default: the robot file's");
   build.option("--seed", a->seed, "Seed of the track").showsDefault();
   build.flag("--any-world", a->anyWorld,
-             "Go on although a source comes from another world than the tables");
+             "Accept sources from another world than that of the tables");
   build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }

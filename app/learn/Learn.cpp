@@ -1,3 +1,5 @@
+#include "Learn.hpp"
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -6,7 +8,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "Learn.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Numbers.hpp"
@@ -29,7 +30,7 @@ void checkHeadingStep(double stepDeg) {
   }
 }
 
-/// What the player `learner` takes, and who it is for.
+/// Returns the options and the robot of the player `learner`.
 PlayerWish wishOf(const LearnArguments& arguments, const std::filesystem::path& out) {
   PlayerWish wish;
   wish.plugin = "learner";
@@ -47,7 +48,7 @@ PlayerWish wishOf(const LearnArguments& arguments, const std::filesystem::path& 
   return wish;
 }
 
-/// Hears what the learner says.
+/// Takes the messages of the learner.
 class Listener {
  public:
   Listener(const LearnArguments& arguments, SceneRun& run)
@@ -70,14 +71,14 @@ class Listener {
         continue;
       } else if (std::sscanf(heard.text.c_str(), "leaves out %lf", &number) == 1) {
         note(fmt::format(
-            "{}: {:.1f} m^2 that walls part from where the robot is are left out (--area)",
+            "{}: {:.1f} m^2 that walls separate from the robot's area are left out (--area)",
             arguments_.world.string(), number));
       }
     }
   }
 
-  std::vector<std::string> needs;  ///< in how many headings each feature was learned
-  /// What was written.
+  std::vector<std::string> needs;  ///< number of headings of each feature, as text
+  /// Size of what was written.
   std::size_t bytes = 0, features = 0, columns = 0, rows = 0, open = 0, standable = 0;
 
  private:
@@ -87,7 +88,7 @@ class Listener {
   Progress progress_;
 };
 
-/// Lets the player learn until it ends, and says what came of it.
+/// Runs the player until it ends, and prints the result.
 void letLearn(const LearnArguments& arguments, const std::filesystem::path& out) {
   const auto begin = std::chrono::steady_clock::now();
   Scene scene;
@@ -97,7 +98,7 @@ void letLearn(const LearnArguments& arguments, const std::filesystem::path& out)
   simulation.noise = false;
   std::string problem;
   PlayerControl::Config players;
-  players.budget = 0.0;  // it takes what it needs
+  players.budget = 0.0;  // unlimited
   players.onProblem = [&problem](const std::string& what) { problem = what; };
   SceneRun run(scene, simulation, factory, players);
   Listener listener(arguments, run);

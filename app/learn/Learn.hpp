@@ -5,15 +5,16 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung learn`.
 struct LearnArguments {
   std::filesystem::path world;
   std::filesystem::path robot;
   std::filesystem::path out;
-  double cell = 0.1;            ///< [m]
-  double headingStepDeg = 2.0;  ///< [degrees]
-  std::string area = "auto";    ///< "auto", "all" or "x,y" [m]: which part of the floor
+  double cell = 0.1;            ///< size of a cell [m]
+  double headingStepDeg = 2.0;  ///< step of headings [degrees]
+  std::string area = "auto";    ///< part of the floor: "auto", "all" or "x,y" [m]
   unsigned threads = 1;
-  bool force = false;  ///< overwrite files of other kinds
+  bool force = false;  ///< whether to overwrite files of other kinds
   bool progress = false;
 };
 int runLearn(const LearnArguments& arguments);

@@ -1,8 +1,9 @@
+#include "LearnMotion.hpp"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
 
-#include "LearnMotion.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "MotionLogs.hpp"
@@ -10,13 +11,13 @@
 #include "Numbers.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
-#include "ortung/study/MotionLearner.hpp"
 #include "ortung/run/Robot.hpp"
+#include "ortung/study/MotionLearner.hpp"
 
 namespace ortung::app {
 namespace {
 
-/// [motion] to begin with.
+/// Returns the [motion] with which learning begins.
 Parameters baseOf(const LearnMotionArguments& arguments, const Robot& robot) {
   if (!arguments.motion.empty()) return readMotionFile(arguments.motion);
   Parameters motion("learn-motion");
@@ -44,7 +45,7 @@ int runLearnMotion(const LearnMotionArguments& arguments) {
   std::vector<MotionLog> logs;
   std::unique_ptr<Robot> robot = openRobot(arguments.robot);
   const Parameters base = baseOf(arguments, *robot);
-  double before = 0.0;  // delay that the base itself takes care of [s]
+  double before = 0.0;  // delay for which the base corrects [s]
   {
     Progress progress("reading", arguments.progress);
     for (const std::string& source : arguments.sources) {

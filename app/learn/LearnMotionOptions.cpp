@@ -18,17 +18,17 @@ void addLearnMotion(Builder& build) {
   build
       .option(
           "--plugin", a->plugin,
-          "Motion model to teach (default: that of the robot file); `ortung plugins` lists them")
+          "Motion model to learn (default: that of the robot file); `ortung plugins` lists them")
       .showsDefault();
   build.option("--motion", a->motion,
                "File with [motion] to begin with, e.g. with a network; in place of --plugin");
   build.option("--interval", a->interval, "Length of the shortest pieces of motion [s]")
       .within(0.05, 60.0)
       .showsDefault();
-  build.option("--from", a->from, "Learn from here on only, a share of each log's time")
+  build.option("--from", a->from, "Begin of the part to learn from, as a share of each log's time")
       .within(0.0, 1.0)
       .showsDefault();
-  build.option("--to", a->to, "Learn up to here only, a share of each log's time")
+  build.option("--to", a->to, "End of the part to learn from, as a share of each log's time")
       .within(0.0, 1.0)
       .showsDefault();
   build.option("--delay", a->delay, "How far odometry is ahead of the robot [s]; default: learned")

@@ -22,8 +22,9 @@ void addLearn(Builder& build) {
       .showsDefault();
   build
       .option("--area", a->area,
-              "Part of the floor on which the robot is: 'auto' (the largest, but what walls leave "
-              "outside), 'x,y' (where that point is [m]) or 'all'")
+              "Part of the floor on which the robot is: 'auto' (the largest one, except what is "
+              "outside "
+              "walls), 'x,y' (the one with that point [m]) or 'all'")
       .showsDefault();
   build.option("--threads", a->threads, "Threads; what is learned does not depend on it")
       .within(1, 256)

@@ -1,10 +1,11 @@
+#include "TrainMotion.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "TrainMotion.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "MotionGrid.hpp"
@@ -21,8 +22,8 @@
 namespace ortung::app {
 namespace {
 
-constexpr std::size_t kWindow = 20;    // steps before the first prediction, at most
-constexpr int kDriveCyclesAStep = 10;  // of the analytic model
+constexpr std::size_t kWindow = 20;    // greatest number of steps before the first prediction
+constexpr int kDriveCyclesAStep = 10;  // cycles of the analytic model in a time step
 constexpr std::size_t kFewestExamples = 100;
 
 struct Grids {
@@ -119,7 +120,7 @@ void printErrors(const char* name, const PredictionErrors& e) {
              degrees(e.headingMedian), degrees(e.headingRmse));
 }
 
-/// The network beside what is there without it, on what nobody was trained with.
+/// Compares the network with models that are not learned, on the part that was held out.
 void compare(const MotionNetwork& network, const std::vector<MotionGrid>& grids, Robot& robot) {
   const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(1.0 / network.step)));
   const std::size_t before = std::max(network.commands, kWindow);

@@ -1,6 +1,6 @@
 #include "CommandModule.hpp"
-#include "TrainMotion.hpp"
 #include "OptionBuilder.hpp"
+#include "TrainMotion.hpp"
 
 namespace ortung::app {
 namespace {
@@ -15,9 +15,8 @@ void addTrainMotion(Builder& build) {
   build.option("--out", a->out, "Network to write (JSON)").required();
   build
       .option("--commands-from", a->commandsFrom,
-              "Where odometry has the commanded velocities: its own velocities, the last two words "
-              "of its "
-              "motion_data, or auto: motion_data where there is some")
+              "Where odometry has the commanded velocities: velocities, motion_data (its last two "
+              "words), or auto: motion_data if there is some")
       .oneOf({"auto", "velocities", "motion_data"})
       .showsDefault();
   build.option("--step", a->step, "Time that a prediction covers [s]")
@@ -26,11 +25,11 @@ void addTrainMotion(Builder& build) {
   build.option("--commands", a->commands, "How many of the newest commands the network sees")
       .within(1, 64)
       .showsDefault();
-  build.option("--hidden", a->hidden, "Widths of the layers between").showsDefault();
+  build.option("--hidden", a->hidden, "Widths of the hidden layers").showsDefault();
   build.option("--iterations", a->iterations, "Steps of the training")
       .within(1, 100000)
       .showsDefault();
-  build.option("--hold-out", a->holdOut, "Share of each log, at its end, to test with")
+  build.option("--hold-out", a->holdOut, "Share of each log, at its end, for the test")
       .within(0.0, 0.9)
       .showsDefault();
   build.option("--seed", a->seed, "Seed of the first weights").showsDefault();

@@ -10,7 +10,8 @@ void addCompare(Builder& build) {
                                                  runCompare);
   build.option("before", a->before, "JSON of `ortung eval --json`, of one run or of many: A")
       .required();
-  build.option("after", a->after, "The same of the same runs, done otherwise: B").required();
+  build.option("after", a->after, "JSON of the same runs with another program or settings: B")
+      .required();
   build.option("--json", a->json, "Write the comparison as JSON");
   build.flag("--force", a->force, kForce);
 }

@@ -1,3 +1,5 @@
+#include "Eval.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,7 +12,6 @@
 #include <thread>
 #include <utility>
 
-#include "Eval.hpp"
 #include "Console.hpp"
 #include "EvalRun.hpp"
 #include "Localizing.hpp"
@@ -50,7 +51,7 @@ std::vector<Fault> readFaults(const EvalArguments& arguments) {
   return faults;
 }
 
-/// All runs that the command line asks for, source by source.
+/// Returns all runs that the command line asks for, source by source.
 std::vector<EvalJob> jobsOf(const EvalArguments& arguments) {
   std::vector<EvalJob> jobs;
   const bool isCases = arguments.kidnaps > 0 || arguments.wakeUps > 0;
@@ -80,12 +81,12 @@ std::vector<EvalJob> jobsOf(const EvalArguments& arguments) {
   return jobs;
 }
 
-/// Looks at them before the work, not after it.
+/// Declares the outputs, which checks them before the work, not after it.
 Outputs outputsOf(const EvalArguments& arguments, std::size_t runs) {
   for (const auto& [option, file] :
        {std::pair("--report", arguments.report), std::pair("--record", arguments.record)}) {
     if (!file.empty() && runs > 1)
-      throw UsageError(fmt::format("{} is of one run, and there are {}", option, runs));
+      throw UsageError(fmt::format("{} is for one run, and there are {}", option, runs));
   }
   Outputs outputs(arguments.localization.force);
   declareInputs(arguments.localization, outputs);
@@ -119,7 +120,7 @@ std::vector<RunResult> runAll(const EvalSettings& settings, std::vector<EvalJob>
                  [&](std::size_t done) { progress.update(static_cast<double>(done) / count); });
 }
 
-/// What is live can be had only once, as long as it lasts.
+/// Refuses live sources for many runs: they can be read only once.
 void refuseLive(const EvalArguments& arguments, const std::vector<EvalJob>& jobs) {
   if (jobs.size() < 2) return;
   const std::unique_ptr<Robot> robot = openRobot(arguments.localization.robot);
@@ -131,8 +132,8 @@ void refuseLive(const EvalArguments& arguments, const std::vector<EvalJob>& jobs
   }
 }
 
-/// The same run once more, bit for bit, for who looks on: this program becomes `ortung view`, whose
-/// libraries an evaluation does without. Returns only if that fails.
+/// Shows the same run, bit for bit, in the viewer: this process executes `ortung view`, whose
+/// libraries an evaluation does not need. Returns only if that fails.
 int viewAgain(const EvalArguments& arguments) {
   std::vector<std::string> words = {"ortung", "view", arguments.sources.front()};
   words.insert(words.end(), arguments.localizationWords.begin(), arguments.localizationWords.end());

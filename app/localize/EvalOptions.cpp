@@ -26,13 +26,13 @@ void addEval(Builder& build) {
   build.option("--report", a->report, "Write a page with map, charts and figures");
   build.option(
       "--bound", a->bound,
-      "World file of simulated sources, whose truth is exact: also tell how good estimates "
+      "World file of simulated sources, whose truth is exact: also print how good estimates "
       "could be at all, the Cramer-Rao bound of readings and motion");
   build.flag("--against-grid", a->localization.besideGrid,
-             "Also tell how far MCL's samples are from what the grid filter makes of the same "
+             "Also compare MCL's samples with the belief of the grid filter after the same "
              "readings");
   build.flag("--view", a->isViewing,
-             "Show the run of the one source in a web browser afterwards, with a time line");
+             "Show the run of a single source in a web browser afterwards, with a time line");
   build.option("--record", a->record, "Write all readings as a record");
   build
       .option("--converged-within", a->convergedWithin,
@@ -54,11 +54,11 @@ void addEval(Builder& build) {
       .within(1, 1e6);
   build
       .option("--wake-ups", a->wakeUps,
-              "Cases made of each source: an unknown start at a random moment, right within 5 m")
+              "Cases made of each source: an unknown start at a random time, right within 5 m")
       .within(1, 1e6);
   build
       .option("--teleport", a->teleport,
-              "Kidnaps for each metre of way, e.g. 0.005, in each of --runs runs")
+              "Kidnaps per metre travelled, e.g. 0.005, in each of --runs runs")
       .within(1e-6, 1e3);
   build.footer([example] {
     return "Faults: WHAT is odometry, readings (all others) or a feature's name; times in seconds "

@@ -12,16 +12,16 @@
 #include "Localizing.hpp"
 #include "SimulatedBound.hpp"
 #include "SourceArguments.hpp"
-#include "ortung/study/Verdict.hpp"
 #include "ortung/study/Cases.hpp"
 #include "ortung/study/Disturbed.hpp"
+#include "ortung/study/Verdict.hpp"
 
 namespace ortung::app {
 namespace {
 
 constexpr Timestamp kEnd = std::numeric_limits<Timestamp>::max();
-constexpr double kWakeUpWay = 5.0;                 ///< within which the place is to be found [m]
-constexpr Timestamp kBetweenVerdicts = 2'000'000;  ///< [us]
+constexpr double kWakeUpWay = 5.0;  ///< distance travelled in which a wake-up must succeed [m]
+constexpr Timestamp kBetweenVerdicts = 2'000'000;  ///< time between two verdicts [us]
 constexpr RightRule kTeleportRule{.metres = 0.45, .radians = 4.0, .seconds = 10.0};
 
 std::shared_ptr<const Splice> spliceOf(const EvalSettings& settings, const EvalJob& job) {
@@ -50,12 +50,12 @@ RightRule ruleOf(const EvalSettings& settings, RunKind kind) {
   return rule;
 }
 
-/// From where on the estimate is to become right.
+/// Returns the times from which on the estimate has to become right.
 std::vector<Timestamp> beginningsOf(const Splice& splice, RunKind kind) {
   return kind == RunKind::kWakeUp ? std::vector<Timestamp>{splice.first()} : splice.joins();
 }
 
-/// What became of a case.
+/// Returns the events of a case with their results.
 std::vector<CaseEvent> eventsOf(const EvalSettings& settings, const EvalJob& job,
                                 const Splice& splice, const SensorContainer& robot,
                                 const std::vector<EvaluationPoint>& points) {
@@ -82,16 +82,16 @@ std::vector<CaseEvent> eventsOf(const EvalSettings& settings, const EvalJob& job
   return events;
 }
 
-/// Runs MCL over a source. What is compared is what a program would have got that asks for the pose
-/// at even times. Only odometry is taken from between two readings of it, since logs have it
-/// thinned out that ran at tens of readings a second.
+/// Runs MCL over a source. It compares the poses that a program would get at even times. Between
+/// two readings of odometry it interpolates odometry, since logs have fewer of its readings than
+/// the robot had.
 class Run {
  public:
   Run(const EvalSettings& settings, const LocalizationArguments& arguments,
       Localization& localization)
       : arguments_(arguments), localization_(localization), evaluation_(settings.options) {}
 
-  /// @param isDone asked every few seconds of the log
+  /// @param isDone called every few seconds of the log; returns true to end
   void toTheEnd(const std::function<bool(const Evaluation&)>& isDone,
                 const std::function<void(double)>& progress) {
     const auto look = [this](const Feeder& feeder) { onMoment(feeder); };
@@ -110,11 +110,11 @@ class Run {
     result_.calibration = calibrationOf(result_.figures.points);
   }
   RunResult& result() { return result_; }
-  /// Is shown all moments. @param bound borrowed
+  /// Passes the readings of all times to a bound. @param bound borrowed
   void setBound(SimulatedBound* bound) { bound_ = bound; }
 
  private:
-  /// Where both have taken the same readings.
+  /// Compares MCL with the grid filter if both have taken the same readings.
   void compareWithGrid() {
     const PoseEstimate& ours = localization_.mcl().estimate();
     const PoseEstimate& its = localization_.grid()->estimate();
@@ -147,11 +147,11 @@ class Run {
   Timestamp nextVerdict_ = std::numeric_limits<Timestamp>::min();
 };
 
-/// Says what keeps the figures from meaning anything.
+/// Warns about what makes the figures meaningless.
 void warnWithoutErrors(const RunResult& run) {
   if (run.figures.overTime.compared > 0) return;
   warn(run.figures.source +
-       " gave no ground truth for any time with an estimate (a feature of type "
+       " has no ground truth for any time with an estimate (a feature of type "
        "groundTruth), so there are no errors; `ortung localize` gives poses");
 }
 
@@ -165,7 +165,7 @@ std::unique_ptr<Source> withFaults(std::unique_ptr<Source> source, const std::ve
   }
 }
 
-/// Of many runs only what is counted is kept.
+/// Returns a run without what summaries do not need.
 RunResult lightened(RunResult run) {
   if (run.figures.convergedAfter) {
     const Timestamp since = run.first + fromSeconds(*run.figures.convergedAfter);
@@ -267,7 +267,7 @@ std::vector<RunResult> runJobs(const EvalSettings& settings, std::vector<EvalJob
     for (std::size_t i = next++; i < jobs.size() && !isOver; i = next++) {
       try {
         results[i] = lightened(runJob(single, jobs[i]));
-        jobs[i].recording.reset();  // whose last job is done is forgotten
+        jobs[i].recording.reset();  // a recording is freed after its last job
         const std::lock_guard lock(mutex);
         done(++finished);
       } catch (...) {

@@ -5,7 +5,7 @@
 namespace ortung::app {
 namespace {
 
-constexpr Timestamp kLongestGap = 60'000'000;  // [us]
+constexpr Timestamp kLongestGap = 60'000'000;  // longest gap in which poses are requested [us]
 
 }  // namespace
 
@@ -20,7 +20,7 @@ std::vector<Timestamp> EvenTimes::before(Timestamp stamp) {
   }
   std::vector<Timestamp> times;
   const bool isGap = stamp - last_ > kLongestGap;
-  // What was due at the beginning of a gap still is.
+  // Times that were due at the begin of a gap are still returned.
   for (const Timestamp end = isGap ? last_ + 1 : stamp; at(next_) < end; ++next_)
     times.push_back(at(next_));
   if (isGap) {

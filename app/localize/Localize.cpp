@@ -1,3 +1,5 @@
+#include "Localize.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "Localize.hpp"
 #include "Console.hpp"
 #include "EstimatesText.hpp"
 #include "EvenTimes.hpp"
@@ -19,8 +20,8 @@
 namespace ortung::app {
 namespace {
 
-constexpr double kPatience = 5.0;                  // for the first odometry of a live source [s]
-constexpr Timestamp kBetweenBeliefs = 10'000'000;  // of a live source [us]
+constexpr double kPatience = 5.0;                  // wait for odometry of a live source [s]
+constexpr Timestamp kBetweenBeliefs = 10'000'000;  // between savings, for live sources [us]
 
 enum class Format : std::uint8_t { kText, kJson, kTum };
 
@@ -34,8 +35,8 @@ OutputKind kindOf(Format format) {
   return format == Format::kTum ? OutputKind::kPosesTum : OutputKind::kPoses;
 }
 
-/// Where the poses go: to a file, which appears whole or, of a live source, grows with each pose;
-/// or to stdout, where whoever reads it gets each pose as soon as it is known.
+/// The output of poses: a file, which appears when it is complete or, for a live source, grows with
+/// each pose; or stdout, which is flushed after each pose.
 class PoseOutput {
  public:
   PoseOutput(const Outputs& outputs, const LocalizeArguments& arguments, bool isLive)
@@ -48,7 +49,7 @@ class PoseOutput {
     text_.back() = ' ';
     text_ += std::string(kAgeColumns) + "\n";
   }
-  /// @param age of the newest weighing [s]
+  /// @param age time since samples were last weighed [s]
   void add(const PoseEstimate& estimate, std::optional<double> age) {
     if (format_ == Format::kJson) {
       appendEstimateJson(estimate, age, text_);
@@ -78,16 +79,16 @@ class PoseOutput {
   std::string text_;
 };
 
-/// The belief in a file from one run to the next.
+/// A belief that is kept in a file between runs.
 class KeptBelief {
  public:
-  /// Restores it if the file is there.
+  /// Restores the belief if the file exists.
   KeptBelief(std::filesystem::path file, Localization& localization)
       : file_(std::move(file)), localization_(localization) {
     if (!file_.empty() && std::filesystem::exists(file_)) localization_.restoreBelief(file_);
   }
-  /// Of a live source, which may end without being asked: saves now and then. That it can't does
-  /// not keep the robot from going on.
+  /// Saves the belief repeatedly for a live source, which may end unexpectedly. A failure is not an
+  /// error, since the robot must go on.
   void saveNowAndThen() {
     const Timestamp now = localization_.feeder().stamp();
     if (file_.empty() || !localization_.source().isLive()) return;
@@ -112,8 +113,7 @@ class KeptBelief {
   bool warned_ = false;
 };
 
-/// Runs MCL over the source, and writes poses: one whenever the belief was weighed, or at even
-/// times.
+/// Runs MCL over the source, and writes poses: one after each update, or at even times.
 class LocalizeRun {
  public:
   LocalizeRun(const LocalizeArguments& arguments, const Outputs& outputs,
@@ -156,8 +156,8 @@ class LocalizeRun {
   }
 
  private:
-  /// A pose is as of the readings up to then and before all later ones; only of odometry the next
-  /// reading is known, so that the way between the two is.
+  /// Writes the poses that are due. A pose uses the readings up to its time; only of odometry the
+  /// next reading is used, too, to interpolate between the two.
   void onMoment(const Feeder& feeder) {
     if (truth_ && feeder.truth()) {
       std::string line;
@@ -185,7 +185,7 @@ class LocalizeRun {
   PoseOutput output_;
   Rescue rescue_;
   std::optional<NewFile> truth_;    ///< ground truth of the source, if it is wanted
-  std::optional<EvenTimes> times_;  ///< without: one pose an update
+  std::optional<EvenTimes> times_;  ///< even times; nothing: a pose for each update
   std::optional<Timestamp> weighed_;
   std::size_t updates_ = 0;
   bool warned_ = false;

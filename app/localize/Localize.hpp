@@ -8,13 +8,14 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung localize`.
 struct LocalizeArguments {
   LocalizationArguments localization;
-  std::filesystem::path out;     ///< "": stdout
-  std::filesystem::path belief;  ///< "" for none
-  std::optional<double> rate;    ///< of poses [Hz]; without: one an update
-  std::string format = "text";   ///< "text", "json" or "tum"
-  std::filesystem::path truth;   ///< ground truth of the source as TUM has it; "" for none
+  std::filesystem::path out;     ///< file to write; "": stdout
+  std::filesystem::path belief;  ///< file of the belief; "": none
+  std::optional<double> rate;    ///< rate of poses [Hz]; nothing: a pose for each update
+  std::string format = "text";   ///< format of poses: "text", "json" or "tum"
+  std::filesystem::path truth;   ///< file for the ground truth in TUM's format; "": none
 };
 int runLocalize(const LocalizeArguments& arguments);
 

@@ -1,6 +1,6 @@
 #include "CommandModule.hpp"
-#include "Localize.hpp"
 #include "LocalizationOptions.hpp"
+#include "Localize.hpp"
 #include "OptionBuilder.hpp"
 
 namespace ortung::app {
@@ -18,19 +18,20 @@ void addLocalize(Builder& build) {
   build.option("--out", a->out, "File to write; default: stdout");
   build
       .option("--rate", a->rate,
-              "Poses a second, at even times, carried on by odometry; default: one whenever "
-              "readings weighed the belief")
+              "Poses a second, at even times, predicted by odometry; default: one for each "
+              "update")
       .within(0.01, 1000);
   build
-      .option("--format", a->format,
-              "text: a line of numbers a pose, which the first line names; json: an object a line; "
-              "tum: seconds x y z qx qy qz qw, as evo reads it")
+      .option(
+          "--format", a->format,
+          "text: a line of numbers for each pose, named in the first line; json: an object a line; "
+          "tum: seconds x y z qx qy qz qw, as evo reads it")
       .oneOf({"text", "json", "tum"})
       .showsDefault();
-  build.option("--truth", a->truth, "Write the source's ground truth, too, as --format tum has it");
+  build.option("--truth", a->truth, "Also write the source's ground truth, in the format tum");
   build.option("--belief", a->belief,
-               "Begin with the belief in this file, if it is there, in place of --start; save the "
-               "belief there at the end, and every 10 s of a live source");
+               "Begin with the belief in this file, if it exists, in place of --start; save the "
+               "belief there at the end and, for a live source, every 10 s");
 }
 
 }  // namespace

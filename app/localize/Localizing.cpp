@@ -32,7 +32,7 @@ LocalizationStart readStart(const LocalizationArguments& arguments) {
   return start;
 }
 
-/// Four numbers of --motion in place of those of the robot file.
+/// Returns the robot file's settings with the four numbers of --motion.
 Parameters withNumbers(const std::string& text, const Parameters& robotFile) {
   const std::vector<std::string> names = {"turn_per_turn", "turn_per_m", "way_per_m",
                                           "way_per_turn"};
@@ -52,7 +52,7 @@ std::optional<Parameters> readMotion(const LocalizationArguments& arguments, Rob
   if (text.find_first_not_of("0123456789+-.eE,") != std::string::npos) return readMotionFile(text);
   const Parameters motion = withNumbers(text, robot.config.motion);
   try {
-    makeMotion(motion, robot.factory);  // so that bad numbers are the command line's fault
+    makeMotion(motion, robot.factory);  // so that errors name the command line
   } catch (const ConfigError& error) {
     throw UsageError(error.what());
   }
@@ -133,18 +133,18 @@ std::optional<EvaluationStep> nextStep(Localization& localization,
 void requireUpdates(std::size_t updates, const LocalizationArguments& arguments) {
   if (updates > 0) return;
   throw std::runtime_error(arguments.source +
-                           ": gave no reading that says anything about a pose, of a feature that "
+                           ": has no reading that depends on the pose, of a feature that "
                            "was learned, so there is nothing to localize with");
 }
 
 bool warnWithoutOdometry(const Localization& localization, const LocalizationArguments& arguments) {
   if (localization.hasOdometry()) return false;
   const MclConfig& mcl = localization.mclConfig();
-  warn(fmt::format(
-      "{}: gives no odometry (a feature that the robot file has, with plugin "
-      "'odometry'); the robot is taken to drift at random, {:.3g} m and {:.3g} degrees in "
-      "a second ([mcl] drift_m, drift_deg)",
-      arguments.source, mcl.driftMetres, degrees(mcl.driftRadians)));
+  warn(
+      fmt::format("{}: has no odometry (a feature of the robot file, with plugin "
+                  "'odometry'); MCL assumes random motion of {:.3g} m and {:.3g} degrees in "
+                  "a second ([mcl] drift_m, drift_deg)",
+                  arguments.source, mcl.driftMetres, degrees(mcl.driftRadians)));
   return true;
 }
 

@@ -8,19 +8,20 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung show`.
 struct ShowArguments {
   std::filesystem::path tables;
   std::filesystem::path robot;
-  std::vector<std::string> features;  ///< "model/type/feature", any of them
+  std::vector<std::string> features;  ///< features, "model/type/feature", * for any
   std::filesystem::path out;
-  std::filesystem::path record;      ///< "" for none
-  std::string source;                ///< "" for none
-  double at = 0.0;                   ///< of the reading [s] after the first one
-  std::optional<double> headingDeg;  ///< [degrees]
-  std::size_t beam = 0;
-  std::string scale = "auto";  ///< of probabilities: "auto", "linear" or "log"
-  bool logarithmic = false;    ///< "log", whatever `scale` says
-  bool force = false;          ///< overwrite files of other kinds
+  std::filesystem::path record;      ///< record with the reading; "": none
+  std::string source;                ///< source with the reading; "": none
+  double at = 0.0;                   ///< time of the reading after the first one [s]
+  std::optional<double> headingDeg;  ///< heading of the robot [degrees]; nothing: see help
+  std::size_t beam = 0;              ///< index of the feature's value
+  std::string scale = "auto";        ///< scale of probabilities: "auto", "linear" or "log"
+  bool logarithmic = false;          ///< whether the scale is "log", whatever `scale` is
+  bool force = false;                ///< whether to overwrite files of other kinds
   bool progress = false;
 };
 int runShow(const ShowArguments& arguments);

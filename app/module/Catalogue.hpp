@@ -5,16 +5,16 @@
 
 namespace ortung::app {
 
-/// A command of the program, whether or not its module is installed. CMake makes the list of what
-/// `ortung_command` is told.
+/// A command of the program, whether or not its module is installed. CMake makes the list from the
+/// calls of `ortung_command`.
 struct CatalogueEntry {
-  const char* name;     ///< "learn", "export map"
-  const char* summary;  ///< what it is for
-  const char* module;   ///< which holds it
-  const char* package;  ///< of Debian, which holds the module
+  const char* name;     ///< its name, e.g. "learn", "export map"
+  const char* summary;  ///< its purpose
+  const char* module;   ///< the module that has it
+  const char* package;  ///< Debian package of the module
 };
 
-/// Commands that begin with the same word.
+/// A group of commands that begin with the same word.
 struct CatalogueGroup {
   const char* name;
   const char* summary;

@@ -8,8 +8,8 @@ class App;
 
 namespace ortung::app {
 
-/// Makes the command that the catalogue has by this name, e.g. "export map", with its summary; the
-/// group that it belongs to is made when its first command is.
+/// Adds the command of this name in the catalogue, e.g. "export map", with its summary, and its
+/// group if this is the group's first command.
 CLI::App& addCommand(CLI::App& root, const std::string& name);
 
 }  // namespace ortung::app

@@ -8,15 +8,16 @@
 
 namespace ortung::app {
 
-/// What the command line asks for.
+/// A command line that was parsed.
 struct ParsedCommand {
-  std::string name;          ///< of the command
-  std::function<int()> run;  ///< empty: help or an error was printed, end with exitCode
-  int exitCode = 0;
-  double pluginSeconds = 10.0;  ///< that a plugin may stay in one call [s]; 0: for ever
+  std::string name;             ///< name of the command
+  std::function<int()> run;     ///< the command; empty: help or an error was printed, see exitCode
+  int exitCode = 0;             ///< exit code if there is nothing to run
+  double pluginSeconds = 10.0;  ///< greatest time of a plugin's call [s]; 0: unlimited
 };
 
-/// @param commands those that there are; another one is an error
+/// Parses a command line, and prints help and errors.
+/// @param commands the commands that exist; another one is an error
 ParsedCommand parseCommandLine(const std::vector<CommandDeclaration>& commands, int argc,
                                char** argv);
 

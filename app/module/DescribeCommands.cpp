@@ -27,7 +27,7 @@ Json describe(const CLI::Option& option) {
                {"flag", isFlag}};
   if (!names.empty()) json.erase("positional");
   if (!option.get_default_str().empty()) json["default"] = option.get_default_str();
-  // CLI11 knows a choice by its check alone, which tells the words as {a,b}.
+  // CLI11 has the words of a choice in its check only, as {a,b}.
   const std::string check = option.get_type_name();
   if (const auto open = check.find(":{"); open != check.npos && check.ends_with('}')) {
     Json choices = Json::array();

@@ -15,7 +15,7 @@
 namespace ortung::app {
 namespace {
 
-/// CLI11's own Range lets NaN pass.
+/// Checks a finite number within bounds; CLI11's Range accepts NaN.
 CLI::Validator withinBounds(double low, double high) {
   const std::string what = fmt::format("a number from {:g} to {:g}", low, high);
   return CLI::Validator(
@@ -71,8 +71,8 @@ void Builder::begin(const std::string& name, const std::string& example, std::fu
   current_ = &addCommand(root_, name);
   current_->footer("Example:\n  " + example);
   option("--plugin-seconds", parsed_.pluginSeconds,
-         "How long a plugin may take for one call before the program saves what it has and ends "
-         "[s]; 0: for ever")
+         "Longest time of a plugin's call, after which the program saves its results and ends "
+         "[s]; 0: unlimited")
       .within(0.0, 1e6)
       .showsDefault();
   current_->callback([parsed = &parsed_, name, run = std::move(run)] {

@@ -18,7 +18,7 @@ constexpr int kBadInput = 1;
 constexpr int kWrongUsage = 2;
 constexpr int kSignalled = 128;
 
-/// What goes wrong with stdout first shows wherever something is printed.
+/// Returns the error of stdout, which may have caused any other error; "" if there is none.
 std::string outputError() {
   if (std::ferror(stdout) == 0) return "";
   try {
@@ -57,12 +57,12 @@ int runCommand(const std::vector<CommandDeclaration>& commands, int argc, char**
   } catch (const std::bad_alloc&) {
     fail("not enough memory");
   } catch (const std::exception& error) {
-    // Work that was stopped by a signal may call that by many names.
+    // Work that a signal has stopped may throw different errors.
     const std::string output = outputError();
     const std::string what = output.empty() ? error.what() : output;
     fail(interruptSignal() != 0 ? Interrupted().what() : what);
   } catch (...) {
-    fail("something was thrown that is no std::exception");
+    fail("an exception was thrown that is not a std::exception");
   }
   return interruptSignal() != 0 ? kSignalled + interruptSignal() : kBadInput;
 }

@@ -7,8 +7,8 @@ class ParseError;
 
 namespace ortung::app {
 
-/// What comes of a command line that runs nothing: the help that it asks for, or one line that says
-/// what is wrong (CLI11 has two). @return the program's exit code
+/// Prints the help that a command line asks for, or one line that says what is wrong with it (CLI11
+/// prints two). @return the program's exit code
 int printUsage(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace ortung::app

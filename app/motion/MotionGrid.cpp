@@ -6,13 +6,13 @@
 namespace ortung::app {
 namespace {
 
-constexpr double kLongestGap = 0.5;       // of the truth [s]
-constexpr double kVelocityWindow = 0.2;   // of the true velocity [s]
-constexpr std::size_t kFewestSteps = 10;  // of a drive
+constexpr double kLongestGap = 0.5;       // longest gap of the truth within a drive [s]
+constexpr double kVelocityWindow = 0.2;   // time over which true velocities are taken [s]
+constexpr std::size_t kFewestSteps = 10;  // least number of steps of a drive
 
-/// Mean velocities that lead to @p change in @p seconds.
+/// Returns the mean velocities that lead to @p change in @p seconds.
 Velocities meanVelocity(const Pose2& change, double seconds) {
-  // Along the chord, which points along half of the turn.
+  // The direction of the chord is half of the turn.
   const double half = change.theta / 2.0;
   return {(change.x * std::cos(half) + change.y * std::sin(half)) / seconds,
           change.theta / seconds};
@@ -22,7 +22,7 @@ std::size_t windowOf(double step) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kVelocityWindow / step)));
 }
 
-/// The true velocities, once there is enough of the past; before, those of what there is.
+/// Computes the true velocities over kVelocityWindow, or at the begin over the time since then.
 void findVelocities(MotionGrid& grid, double step) {
   const std::size_t window = windowOf(step);
   for (std::size_t k = 0; k < grid.truth.size(); ++k) {

@@ -10,46 +10,49 @@
 
 namespace ortung::app {
 
-/// Commands and truth of a log, as a motion network needs them.
+/// Commands and ground truth of a log, for a motion network.
 struct CommandLog {
   OdometryTrack truth;
-  std::vector<std::pair<Timestamp, Velocities>> commands;  ///< in force from then on; stamps rise
+  std::vector<std::pair<Timestamp, Velocities>> commands;  ///< commands, in force from a time on
 };
 
-/// A drive without gaps in steps of equal length.
+/// A drive without gaps, sampled at equal time steps.
 struct MotionGrid {
-  std::vector<Pose2> truth;          ///< field frame, at the beginning of each step
-  std::vector<Velocities> velocity;  ///< true mean of the last 0.2 s, or the last step
-  std::vector<Velocities> command;   ///< in force at the beginning of each step
+  std::vector<Pose2> truth;          ///< pose in the field frame at the begin of each step
+  std::vector<Velocities> velocity;  ///< true mean velocity of the last 0.2 s, or last step
+  std::vector<Velocities> command;   ///< command in force at the begin of each step
 };
 
-/// @param from, to part of the log, as shares of its time
+/// Samples a log; a gap begins a new grid.
+/// @param step time step [s]
+/// @param from, to part of the log that is used, as shares of its time
 std::vector<MotionGrid> gridsOf(const CommandLog& log, double step, double from, double to);
 
-/// Input and output of @p network at all steps; steps faster than its limit are left out (truth
-/// that jumped).
+/// Returns input and output of @p network at all steps; steps faster than its limit, in which the
+/// truth jumped, are left out.
 std::vector<MotionExample> examplesOf(const MotionNetwork& network,
                                       const std::vector<MotionGrid>& grids);
 
-/// The limit of velocities that fits: above all commands, and hardly ever exceeded by the truth.
+/// Returns limits of velocities that are above all commands and almost all true velocities.
 Velocities limitOf(const std::vector<MotionGrid>& grids);
 
-/// How far predictions are off after a while.
+/// Errors of predicted poses after some steps.
 struct PredictionErrors {
-  std::size_t count = 0;
-  double positionMedian = 0.0;  ///< [m]
-  double positionRmse = 0.0;    ///< [m]
-  double headingMedian = 0.0;   ///< [rad]
-  double headingRmse = 0.0;     ///< [rad]
+  std::size_t count = 0;        ///< number of predictions
+  double positionMedian = 0.0;  ///< median position error [m]
+  double positionRmse = 0.0;    ///< RMS position error [m]
+  double headingMedian = 0.0;   ///< median heading error [rad]
+  double headingRmse = 0.0;     ///< RMS heading error [rad]
 };
 
 /// Predicts the change of pose over @p steps from step @p at of @p grid on, knowing its state then
 /// and the commands up to its end.
 using Predictor = std::function<Pose2(const MotionGrid& grid, std::size_t at, std::size_t steps)>;
 
-/// Errors of predictions that begin at every step where the commands before are known.
-/// @param before how many steps before must be there
-/// @param limit pieces in which the truth is faster are left out
+/// Computes the errors of predictions from every step for which the commands before it are known.
+/// @param steps number of steps that are predicted
+/// @param before number of steps that must precede the first one
+/// @param limit velocities; pieces in which the truth is faster are left out
 PredictionErrors errorsOf(const Predictor& predict, const std::vector<MotionGrid>& grids,
                           std::size_t steps, std::size_t before, const Velocities& limit);
 

@@ -9,7 +9,7 @@
 namespace ortung::app {
 namespace {
 
-/// What the keys of [motion] mean, for whoever reads the file.
+/// Returns the meanings of the keys of [motion], for comments in the file.
 const std::map<std::string, std::string>& meanings() {
   static const std::map<std::string, std::string> kMeanings = {
       {"turn_per_turn", "sigma of a turn after turning 1 rad [rad]"},
@@ -27,8 +27,8 @@ const std::map<std::string, std::string>& meanings() {
   return kMeanings;
 }
 
-/// MCL needs some noise even where a log shows less: its samples are few, its tables have cells,
-/// and the next log may not be as tame.
+/// Returns the least value of a key. MCL needs some noise even if a log shows less: its samples are
+/// few, its tables have cells, and other logs may have more.
 double leastOf(const std::string& key) {
   if (key == "turn_per_turn") return 0.1;
   if (key == "turn_per_m") return 0.05;
@@ -45,7 +45,7 @@ std::string quotedToml(const std::string& text) {
   return out + "\"";
 }
 
-/// Comments must not end early.
+/// Returns text without line feeds, which would end a comment.
 std::string oneLine(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
@@ -71,7 +71,7 @@ std::string motionToml(const std::vector<std::string>& sources, const LearnedMot
     const double value = std::max(learned, leastOf(key));
     std::string comment = meaning == meanings().end() ? "" : meaning->second;
     if (value > learned) comment += fmt::format("; the log says {:.2g}", learned);
-    // Four digits are more than any log can tell.
+    // Four digits are more than any log can determine.
     text +=
         fmt::format("{:<20} = {:#.4g}{}{}\n", key, value, comment.empty() ? "" : "  # ", comment);
   }

@@ -8,10 +8,10 @@
 
 namespace ortung::app {
 
-/// The file of `ortung learn-motion`: a table [motion] with comments, which readMotionFile() reads.
-/// @param sources that it was learned from, for a comment
-/// @param base where learning began: says the plugin
-/// @param settings as of MotionModel::settings(), with delay_s
+/// Returns the file of `ortung learn-motion`: a table [motion] with comments, for readMotionFile().
+/// @param sources sources from which it was learned, for a comment
+/// @param base settings with which learning began; they name the plugin
+/// @param settings settings of MotionModel::settings(), with delay_s
 std::string motionToml(const std::vector<std::string>& sources, const LearnedMotion& result,
                        const Parameters& base, const Parameters& settings);
 

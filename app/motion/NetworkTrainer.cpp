@@ -9,16 +9,16 @@
 
 #include "ortung/base/Random.hpp"
 
-// The only file that knows dlib.
+// This is the only file that uses dlib.
 namespace ortung::app {
 namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Vector = dlib::matrix<double, 0, 1>;
 
-constexpr std::size_t kReportEvery = 25;  // iterations
-constexpr std::size_t kMemory = 20;       // of L-BFGS, in steps
-constexpr double kSmallestSpread = 1e-6;  // of a value that hardly ever changes
+constexpr std::size_t kReportEvery = 25;  // iterations between two reports
+constexpr std::size_t kMemory = 20;       // steps that L-BFGS remembers
+constexpr double kSmallestSpread = 1e-6;  // least scale of a value
 
 std::size_t parametersOf(const std::vector<std::size_t>& widths) {
   std::size_t n = 0;
@@ -26,7 +26,7 @@ std::size_t parametersOf(const std::vector<std::size_t>& widths) {
   return n;
 }
 
-/// Examples as matrices, a row each.
+/// Examples as matrices with a row for each.
 struct Batch {
   Matrix input;
   Matrix output;
@@ -48,7 +48,7 @@ Batch batchOf(const std::vector<MotionExample>& examples) {
   return batch;
 }
 
-/// The layers' places within one vector of parameters.
+/// The layers within one vector of parameters.
 struct LayerView {
   Eigen::Map<const Matrix> weights;
   Eigen::Map<const Eigen::RowVectorXd> bias;
@@ -67,7 +67,7 @@ std::vector<LayerView> layersOf(const std::vector<std::size_t>& widths, const do
   return layers;
 }
 
-/// Mean squared error and, by back-propagation, its slope.
+/// Computes the mean squared error and, by back-propagation, its gradient.
 double lossOf(const std::vector<std::size_t>& widths, const double* parameters, const Batch& batch,
               double decay, double* slope) {
   const std::vector<LayerView> layers = layersOf(widths, parameters);
@@ -97,7 +97,7 @@ double lossOf(const std::vector<std::size_t>& widths, const double* parameters, 
   return loss;
 }
 
-/// Means and scales, so that all values are about as large.
+/// Computes means and scales, so that all values are of similar size.
 void findScales(MotionNetwork& network, const std::vector<MotionExample>& examples) {
   const auto moments = [&](auto member, std::size_t k) {
     double mean = 0.0;
@@ -134,7 +134,7 @@ std::vector<MotionExample> scaled(const MotionNetwork& network,
   return examples;
 }
 
-/// Weights so small that signals keep their size (Glorot and Bengio, 2010).
+/// Draws initial weights so small that signals keep their size (Glorot and Bengio, 2010).
 Vector startingPoint(const std::vector<std::size_t>& widths, std::uint64_t seed) {
   Vector parameters(static_cast<long>(parametersOf(widths)));
   Random random(seed);
@@ -148,7 +148,7 @@ Vector startingPoint(const std::vector<std::size_t>& widths, std::uint64_t seed)
   return parameters;
 }
 
-/// Ends the search after so many steps, or when it gets nowhere; reports.
+/// Ends the search after the greatest number of steps, or if the loss no longer falls; reports.
 class Watch {
  public:
   Watch(std::size_t most, std::function<bool(std::size_t, double, const Vector&)> report)

@@ -8,36 +8,37 @@
 
 namespace ortung::app {
 
-/// What a network is to say for an input; both as MotionNetwork has them.
+/// An input of a network and the wanted output; both as MotionNetwork has them.
 struct MotionExample {
   std::vector<double> input;
   std::vector<double> output;
 };
 
-/// Where training is.
+/// The state of a training.
 struct TrainingState {
   std::size_t iteration = 0;
-  double loss = 0.0;  ///< mean squared error of the examples, where 1 is as good as no network
-  double heldOutLoss = 0.0;  ///< of those held out
+  double loss = 0.0;  ///< mean squared error of the examples; 1: as good as without a network
+  double heldOutLoss = 0.0;  ///< mean squared error of the examples that are held out
 };
 
+/// Settings of a training.
 struct TrainingOptions {
-  std::vector<std::size_t> hidden = {24, 24};  ///< widths of the layers between
+  std::vector<std::size_t> hidden = {24, 24};  ///< widths of the hidden layers
   std::size_t iterations = 300;
   double decay = 1e-4;  ///< weight of the squared weights in the loss
   std::uint64_t seed = 1;
 };
 
-/// Trains the layers, means and scales of @p network by L-BFGS (dlib). Same seed and examples, same
-/// network.
-/// @param report called now and then; false: ends the training
+/// Trains the layers, means and scales of @p network by L-BFGS (dlib). The result depends on seed
+/// and examples only.
+/// @param report called repeatedly; ends the training by returning false
 void trainNetwork(MotionNetwork& network, const std::vector<MotionExample>& examples,
                   const std::vector<MotionExample>& heldOut, const TrainingOptions& options,
                   const std::function<bool(const TrainingState&)>& report);
 
-/// Loss of the scaled examples and its slope along every parameter, layer by layer: weights
-/// row-major, then bias.
-/// @param slope out, as large as @p parameters; may be nullptr
+/// Computes the loss of the scaled examples and its gradient, whose elements are ordered by layer:
+/// weights row-major, then biases.
+/// @param slope out: the gradient, of the size of @p parameters; may be nullptr
 double lossOf(const std::vector<std::size_t>& widths, const std::vector<double>& parameters,
               const std::vector<MotionExample>& scaled, double decay, std::vector<double>* slope);
 

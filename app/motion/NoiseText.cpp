@@ -10,7 +10,8 @@
 namespace ortung::app {
 namespace {
 
-/// A model needs some room even where a log shows less: other logs are not as tame.
+/// Least probability of a reading. A model needs some even if a log shows less: other logs have
+/// more.
 constexpr double kLeastFloor = 0.005;
 
 struct TermText {
@@ -59,7 +60,7 @@ double known(const LearnedNoise& noise, NoiseTerm term) {
 
 std::string number(double value) { return fmt::format("{:.4f}", value); }
 
-/// The mount as a table in braces, if it moved.
+/// Adds the mount as a table in braces, if it was learned.
 void addPose(const SensorConfig& sensor, const LearnedNoise& noise, std::vector<TomlEntry>& out) {
   const double x = known(noise, NoiseTerm::kMountX);
   const double y = known(noise, NoiseTerm::kMountY);
@@ -78,16 +79,15 @@ void addSigmas(const NoiseShape& shape, const std::string& stem, std::vector<Tom
   out.emplace_back(stem + "_per_m", number(shape.sigmaPerMetre.value));
 }
 
-/// Biases of sightings: what the robot file says of them, and behind it what was found of readings
-/// that were corrected by that. One after the other they are one such bias again, but for terms
-/// of higher order.
+/// Adds biases of sightings: those of the robot file, followed by those that were found in readings
+/// corrected by them. Both together are again such a bias, except for terms of higher order.
 void addBias(const SensorConfig& sensor, const LearnedNoise& noise, std::vector<TomlEntry>& out) {
   const Parameters& p = sensor.parameters;
   const auto both = [&](const char* key, double found) {
     const double sum = p.numberOr(key, 0.0) + found;
     if (sum != 0.0 || p.has(key)) out.emplace_back(key, number(sum));
   };
-  // A range that was too long by what is known already has grown by its share, too.
+  // The known bias has scaled the range by this factor, so it scales the new bias, too.
   const double first = 1.0 + p.numberOr("range_bias_per_m", 0.0);
   const double then = 1.0 + known(noise, NoiseTerm::kRangePerMetre);
   const double lopsided = p.numberOr("range_bias_per_m_rad", 0.0);

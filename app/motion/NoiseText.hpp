@@ -11,12 +11,11 @@
 
 namespace ortung::app {
 
-/// What was learned of a device, with standard errors, as lines for people.
+/// Returns what was learned about a device, with standard errors, as lines for users.
 std::string noiseText(std::span<SensorData* const> features, const LearnedNoise& noise);
 
-/// The keys of a [[sensor]] that say it: sigmas, outliers, and the terms that are known, added to
-/// what the robot file says of them. None of plugins that have other keys. Biases and a latency
-/// have no key.
+/// Returns it as keys of a [[sensor]]: sigmas, outliers, and the terms that are known, added to the
+/// values of the robot file. None for plugins with other keys. Biases and a latency have no key.
 std::vector<TomlEntry> noiseEntries(const SensorConfig& sensor, const LearnedNoise& noise);
 
 }  // namespace ortung::app

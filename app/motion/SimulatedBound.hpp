@@ -10,9 +10,9 @@
 
 namespace ortung::app {
 
-/// How good estimates can be of a run in a world that is known exactly: asks the robot's simulated
-/// sensors without noise what they read at the true pose and around it, and how much noise there
-/// was from the readings themselves. Not thread-safe.
+/// Bound of the errors of estimates of a run in a world that is known exactly. It simulates the
+/// robot's sensors without noise at the true pose and around it, and estimates the noise from the
+/// readings. Not thread-safe.
 class SimulatedBound {
  public:
   /// @throws ConfigError, PluginError
@@ -21,12 +21,12 @@ class SimulatedBound {
   SimulatedBound(const SimulatedBound&) = delete;
   SimulatedBound& operator=(const SimulatedBound&) = delete;
 
-  /// Takes the newest readings of the robot, of the moment at which it is at @p truth.
+  /// Takes the newest readings of the robot, which is at @p truth at that time.
   void look(const SensorContainer& container, Timestamp stamp, const std::optional<Pose2>& truth);
 
-  /// All moments with readings and truth, with what their readings tell.
+  /// Returns all times with readings and truth, with the information of their readings.
   std::vector<BoundStep> steps() const;
-  /// The bound of all of them.
+  /// Returns the bound at all of these times.
   std::vector<PoseBound> bounds() const { return poseBound(steps()); }
 
  private:

@@ -1,9 +1,10 @@
+#include "Benchmark.hpp"
+
 #include <fmt/format.h>
 
 #include <iterator>
 #include <stdexcept>
 
-#include "Benchmark.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
@@ -15,7 +16,7 @@
 namespace ortung::app {
 namespace {
 
-/// "2/4" @throws UsageError
+/// Parses "2/4". @throws UsageError
 void readShard(const std::string& text, GoalMatrixConfig& config) {
   const std::size_t slash = text.find('/');
   const auto number = [&](const std::string& part) {
@@ -49,7 +50,7 @@ std::string toText(const GoalEpisode& episode) {
                      toSeconds(episode.end), episode.digest);
 }
 
-/// Each keeper with each way to see.
+/// Returns each keeper with each kind of perception.
 std::vector<std::string> keepersOf(const GoalkeeperBenchmarkArguments& a) {
   std::vector<std::string> names = a.keepers;
   if (names.empty())
@@ -115,7 +116,7 @@ int runBenchmarkVerify(const BenchmarkVerifyArguments& a) {
                               "it is played again",
                               a.file.string(), one.number, one.striker, one.keeper,
                               toText(one.told), toText(one.found))));
-  fmt::print("{} of {} episodes were played again, {} came out otherwise\n", played,
+  fmt::print("{} of {} episodes were played again, {} with another result\n", played,
              matrix.cells.size() * matrix.cells.front().episodes.size(), others.size());
   return others.empty() ? 0 : 1;
 }

@@ -7,35 +7,38 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung benchmark goalkeeper`.
 struct GoalkeeperBenchmarkArguments {
   std::vector<std::string> keepers;   ///< policies, or players as parsePlayer() reads them
-  std::vector<std::string> strikers;  ///< kinds, or players
-  std::vector<std::string> sees;      ///< ways to see that each keeper plays with; none: its own
-  std::uint64_t episodes = 1000;      ///< of each pair
+  std::vector<std::string> strikers;  ///< kinds of strikers, or players
+  std::vector<std::string> sees;      ///< kinds of perception for each keeper; none: its own
+  std::uint64_t episodes = 1000;      ///< number of episodes of each pair
   std::uint64_t seed = 1;
   unsigned threads = 1;
-  std::string shard = "1/1";   ///< "I/N"
-  std::filesystem::path json;  ///< "" for none
-  std::filesystem::path html;  ///< "" for none
-  bool force = false;          ///< overwrite files of other kinds
+  std::string shard = "1/1";   ///< part of the episodes, "I/N"
+  std::filesystem::path json;  ///< JSON to write; "": none
+  std::filesystem::path html;  ///< HTML to write; "": none
+  bool force = false;          ///< whether to overwrite files of other kinds
   bool progress = false;
 };
 int runGoalkeeperBenchmark(const GoalkeeperBenchmarkArguments& arguments);
 
+/// Arguments of `ortung benchmark verify`.
 struct BenchmarkVerifyArguments {
   std::filesystem::path file;
-  std::uint64_t sample = 500;  ///< episodes of all pairs together
-  std::uint64_t seed = 1;      ///< of the choice
+  std::uint64_t sample = 500;  ///< number of episodes of all pairs together
+  std::uint64_t seed = 1;      ///< seed of the choice
   unsigned threads = 1;
   bool progress = false;
 };
 int runBenchmarkVerify(const BenchmarkVerifyArguments& arguments);
 
+/// Arguments of `ortung benchmark merge`.
 struct BenchmarkMergeArguments {
   std::vector<std::filesystem::path> files;
-  std::filesystem::path json;  ///< "" for none
-  std::filesystem::path html;  ///< "" for none
-  bool force = false;          ///< overwrite files of other kinds
+  std::filesystem::path json;  ///< JSON to write; "": none
+  std::filesystem::path html;  ///< HTML to write; "": none
+  bool force = false;          ///< whether to overwrite files of other kinds
 };
 int runBenchmarkMerge(const BenchmarkMergeArguments& arguments);
 

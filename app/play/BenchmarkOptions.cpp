@@ -1,5 +1,5 @@
-#include "CommandModule.hpp"
 #include "Benchmark.hpp"
+#include "CommandModule.hpp"
 #include "OptionBuilder.hpp"
 
 namespace ortung::app {
@@ -22,7 +22,7 @@ void addGoalkeeper(Builder& build) {
       .splitsAt(',');
   build
       .option("--sees", a->sees,
-              "How keepers know where they and the ball are; each plays in each way: truth, "
+              "How keepers perceive themselves and the ball; each plays with each of: truth, "
               "features (the ball by its camera), scan (itself by single scans, too), localized "
               "(by MCL)")
       .splitsAt(',')

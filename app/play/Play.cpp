@@ -1,8 +1,9 @@
+#include "Play.hpp"
+
 #include <fmt/format.h>
 
 #include <cstdlib>
 
-#include "Play.hpp"
 #include "Console.hpp"
 #include "HostPort.hpp"
 #include "Interrupt.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 void readServer(const std::string& text, SessionOptions& options) {
   const auto found = parseHostPort(text);
-  // Without a host, or with port 0, nobody can be reached.
+  // Without a host, or with port 0, no server can be reached.
   if (!found || text.starts_with(':') || found->port.value_or(0) == 0)
     throw UsageError(
         fmt::format("--server is '{}', expected HOST:PORT, e.g. 127.0.0.1:7777", text));
@@ -27,7 +28,7 @@ void readServer(const std::string& text, SessionOptions& options) {
   options.port = *found->port;
 }
 
-/// The line of the robot's name, else that of "*".
+/// Returns the token of the robot's name, else that of "*".
 std::string tokenFor(const std::string& name, const std::filesystem::path& file) {
   if (file.empty()) {
     const char* token = std::getenv("ORTUNG_TOKEN");

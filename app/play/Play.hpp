@@ -7,13 +7,14 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung play`.
 struct PlayArguments {
-  std::string player;              ///< as parsePlayer() reads it
-  std::string server;              ///< "HOST:PORT"
-  std::filesystem::path tokens;    ///< with a line 'NAME TOKEN'; "" for none
-  std::filesystem::path tables;    ///< "" for none
-  double budgetMs = 1000.0;        ///< of a processor's time for one call; 0: none
-  std::optional<double> duration;  ///< [s]; default: as long as the player likes
+  std::string player;              ///< player as parsePlayer() reads it
+  std::string server;              ///< address of the server, "HOST:PORT"
+  std::filesystem::path tokens;    ///< file with a line 'NAME TOKEN'; "": none
+  std::filesystem::path tables;    ///< table file; "": none
+  double budgetMs = 1000.0;        ///< greatest processor time of a call [ms]; 0: unlimited
+  std::optional<double> duration;  ///< time to play [s]; nothing: until the player ends
   std::uint64_t seed = 1;
   bool lockstep = false;
 };

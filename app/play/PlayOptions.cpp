@@ -1,6 +1,6 @@
 #include "CommandModule.hpp"
-#include "Play.hpp"
 #include "OptionBuilder.hpp"
+#include "Play.hpp"
 
 namespace ortung::app {
 namespace {
@@ -21,11 +21,11 @@ void addPlay(Builder& build) {
   build.option("--tables", a->tables,
                "Table file of `ortung learn`: what the robot's features expect, and the field");
   build.flag("--lockstep", a->lockstep,
-             "The world goes on only when the player has acted (the server's --lockstep)");
+             "The world advances only when the player has acted (the server's --lockstep)");
   build
       .option("--player-budget-ms", a->budgetMs,
-              "What the player may take of a processor for one call before it is stopped [ms]; 0: "
-              "as long as it likes")
+              "Processor time of a call after which the player is stopped [ms]; 0: "
+              "unlimited")
       .within(0.0, 1e6)
       .showsDefault();
   build

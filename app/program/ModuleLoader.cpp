@@ -31,7 +31,7 @@ std::string foldersText() {
   return text;
 }
 
-/// The module's file; "" if there is none.
+/// Returns the module's file; "" if there is none.
 std::filesystem::path fileOf(const CatalogueEntry& command) {
   std::error_code error;
   for (const std::filesystem::path& folder : folders()) {
@@ -61,8 +61,8 @@ CommandModule loadModule(const CatalogueEntry& command) {
   }
   void* symbol = ::dlsym(library, kCommandModuleSymbol);
   if (symbol == nullptr)
-    throw std::runtime_error(fmt::format("{}: is no command of ortung, it has no {}", file.string(),
-                                         kCommandModuleSymbol));
+    throw std::runtime_error(fmt::format("{}: is not a command of ortung, it has no {}",
+                                         file.string(), kCommandModuleSymbol));
   const CommandModule module = reinterpret_cast<CommandModule (*)()>(symbol)();
   if (std::strcmp(module.version, commandVersion()) != 0)
     throw std::runtime_error(

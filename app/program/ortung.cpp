@@ -13,8 +13,8 @@
 #include "ModuleLoader.hpp"
 #include "UsageText.hpp"
 
-// The program itself knows what its commands are called. What they do, and with which libraries, is
-// their modules' business, and only the one that was asked for is opened.
+// The program itself has only the names of its commands. Modules have their code and load their
+// libraries, and only the module of the requested command is opened.
 
 namespace ortung::app {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 constexpr int kBadInput = 1;
 constexpr int kWrongUsage = 2;
 
-/// The command that the line begins with; nullptr if none.
+/// Returns the command with which the line begins; nullptr if there is none.
 const CatalogueEntry* commandOf(int argc, char** argv) {
   const std::string one = argc > 1 ? argv[1] : "";
   const std::string two = argc > 2 ? one + " " + argv[2] : one;
@@ -31,7 +31,7 @@ const CatalogueEntry* commandOf(int argc, char** argv) {
   return nullptr;
 }
 
-/// What there is to say without any module: help, the version, or what is wrong.
+/// Prints what needs no module: help, the version, or an error.
 int answer(int argc, char** argv) {
   CLI::App app("Ortung: learn what sensors see, and localize with it.", "ortung");
   app.set_version_flag("--version", "ortung " ORTUNG_VERSION);
@@ -53,7 +53,7 @@ int answer(int argc, char** argv) {
   return kWrongUsage;  // not reached: a command would have been found before
 }
 
-/// All that is installed, a line of JSON each.
+/// Prints all installed commands, a line of JSON for each.
 int describeAll() {
   std::set<std::string> done;
   for (const CatalogueEntry& entry : catalogue())

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-// Names that `ld -b binary` gives to the ends of a file.
+// `ld -b binary` gives these names to the ends of a file.
 #define ORTUNG_ASSET(name)                        \
   extern "C" const char _binary_##name##_start[]; \
   extern "C" const char _binary_##name##_end[]

@@ -2,12 +2,12 @@
 
 #include <string_view>
 
-/// Files that are linked into the program; see CMakeLists.txt.
+/// Contents of files that are linked into the program; see CMakeLists.txt.
 namespace ortung::app::assets {
 
 std::string_view dygraphsScript();  ///< dygraphs, MIT
 std::string_view dygraphsStyle();
-std::string_view synchronizerScript();  ///< of dygraphs
+std::string_view synchronizerScript();  ///< synchronizer of dygraphs, MIT
 std::string_view reportStyle();
 std::string_view reportScript();
 

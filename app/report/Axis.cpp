@@ -17,7 +17,7 @@ std::vector<double> axisTicks(double low, double high, int most) {
   if (!(high > low) || !std::isfinite(high - low)) return ticks;
   double step = roundLength((high - low) / std::max(most, 1));
   while ((high - low) / step + 1.0 > most && std::isfinite(step)) step = roundLength(2.501 * step);
-  // Multiples by counting, so that 0.3 is not 0.30000000000000004 and zero is not -0.
+  // Multiples are counted, so that 0.3 is not 0.30000000000000004 and zero is not -0.
   const double first = std::ceil(low / step - 1e-9);
   for (int i = 0; i < most; ++i) {
     const double multiple = first + i;

@@ -4,12 +4,12 @@
 
 namespace ortung::app {
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above @p length; 1 for what is no
-/// positive number.
+/// Returns the largest number that is 1, 2 or 5 times a power of ten and not above @p length; 1 if
+/// that is not a positive number.
 double roundLength(double length);
 
-/// Multiples of a round step between two ends, @p most of them at most; none if the ends are no
-/// numbers or the wrong way round.
+/// Returns multiples of a round step between two ends, at most @p most; none if the ends are not
+/// finite or not in order.
 std::vector<double> axisTicks(double low, double high, int most);
 
 }  // namespace ortung::app

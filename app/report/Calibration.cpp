@@ -9,11 +9,12 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// By the ranks of those that came true (Mann and Whitney, "On a test of whether one of two random
-/// variables is stochastically larger than the other", Annals of Mathematical Statistics 18, 1947).
-/// @param claims by rising probability
+/// Computes the area under the ROC curve by the ranks of the claims that came true (Mann and
+/// Whitney, "On a test of whether one of two random variables is stochastically larger than the
+/// other", Annals of Mathematical Statistics 18, 1947).
+/// @param claims claims by increasing probability
 double areaUnderCurve(const std::vector<Claim>& claims) {
-  double pairs = 0.0;  // in which the one that came true was the higher one
+  double pairs = 0.0;  // pairs in which the claim that came true was the higher one
   double lower = 0.0;  // claims that did not come true so far
   double all = 0.0;    // claims that came true
   for (std::size_t i = 0; i < claims.size();) {

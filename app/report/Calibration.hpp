@@ -6,29 +6,30 @@
 
 namespace ortung::app {
 
-/// A probability that was claimed, and whether it came true.
+/// A probability that was claimed, and whether the event happened.
 struct Claim {
-  float probability = 0.0F;  ///< in [0, 1]
-  bool cameTrue = false;
+  float probability = 0.0F;  ///< claimed probability, in [0, 1]
+  bool cameTrue = false;     ///< whether the event happened
 };
 
 /// Claims of about the same probability.
 struct ReliabilityBin {
-  std::size_t count = 0;
-  double claimed = 0.0;  ///< mean probability; NaN of nothing
-  double share = 0.0;    ///< that came true; NaN of nothing
+  std::size_t count = 0;  ///< number of claims
+  double claimed = 0.0;   ///< mean claimed probability; NaN without claims
+  double share = 0.0;     ///< share of claims that came true; NaN without claims
 };
 
-/// How well claims fit what came of them.
+/// How well claimed probabilities agree with what happened.
 struct Calibration {
-  std::array<ReliabilityBin, 10> bins;  ///< [0, 0.1), ..., [0.9, 1]
-  /// Mean of |claimed - share| over all claims (expected calibration error); NaN of nothing.
+  std::array<ReliabilityBin, 10> bins;  ///< claims in [0, 0.1), ..., [0.9, 1]
+  /// Mean of |claimed - share| over all claims (expected calibration error); NaN without claims.
   double error = 0.0;
-  /// Probability that of a claim that came true and one that did not, the former was the higher
-  /// one; ties count half (area under the ROC curve). NaN if there are none of either.
+  /// Area under the ROC curve: probability that a claim that came true was higher than one that did
+  /// not; ties count half. NaN without claims of both kinds.
   double area = 0.0;
 };
 
+/// Computes the calibration of claims.
 Calibration calibrationOf(std::vector<Claim> claims);
 
 }  // namespace ortung::app

@@ -19,7 +19,7 @@ namespace {
 
 using Pair = std::pair<const FiledRun*, const FiledRun*>;
 
-constexpr std::size_t kMostShown = 20;  ///< runs of a list
+constexpr std::size_t kMostShown = 20;  ///< greatest number of runs in a list
 
 double figure(const FiledRun& run, const std::string& key) {
   const auto found = run.figures.find(key);
@@ -53,7 +53,7 @@ std::vector<Pair> pairsOf(const std::vector<FiledRun>& before, const std::vector
   return pairs;
 }
 
-/// Adds up pairs of successes.
+/// Counts successes in pairs of runs.
 class Successes {
  public:
   explicit Successes(std::string name) { result_.name = std::move(name); }
@@ -74,7 +74,7 @@ class Successes {
   ComparedSuccess result_;
 };
 
-/// Adds up pairs of figures.
+/// Collects a figure of pairs of runs.
 class Figures {
  public:
   explicit Figures(std::string name) { result_.name = std::move(name); }
@@ -151,7 +151,7 @@ void compareFigures(const std::vector<Pair>& pairs, std::vector<ComparedFigure>&
   }
 }
 
-/// What is worth to be told of one pair, if anything.
+/// Returns the most important large difference of a pair, if there is one.
 std::optional<ChangedRun> changeOf(const FiledRun& a, const FiledRun& b) {
   const auto changed = [&](bool isBetter, const std::string& why) {
     return ChangedRun{a.name(), isBetter, why};
@@ -159,7 +159,7 @@ std::optional<ChangedRun> changeOf(const FiledRun& a, const FiledRun& b) {
   for (std::size_t i = 0; i < std::min(a.events.size(), b.events.size()); ++i) {
     if (a.events[i].isRight == b.events[i].isRight) continue;
     return changed(b.events[i].isRight,
-                   b.events[i].isRight ? "finds its place now" : "no longer finds its place");
+                   b.events[i].isRight ? "localizes now" : "no longer localizes");
   }
   if (!a.events.empty()) return std::nullopt;
   if (hasConverged(a) != hasConverged(b))
@@ -224,7 +224,7 @@ std::string toText(const Comparison& c) {
   text += listed(c.onlyBefore, "Only in A") + listed(c.onlyAfter, "Only in B");
   return text +
          "p: McNemar's exact test of successes, Wilcoxon's signed-rank test of figures, two-sided; "
-         "each by itself\n";
+         "each on its own\n";
 }
 
 std::string toJson(const Comparison& c) {

@@ -34,7 +34,7 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
   line["y_m"] = estimate.pose.y;
   line["theta_rad"] = estimate.pose.theta;
   line["covariance"] = {
-      {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}};  // of those three
+      {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}};  // rows of x, y and theta
   line["share"] = estimate.share;
   line["samples"] = estimate.samples;
   line["quality"] = estimate.quality;

@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kLetters = 2;
 constexpr int kLetterHeight = 8 * kLetters;
-constexpr int kTick = 5;        // [pixels]
-constexpr int kTickRoom = 80;   // for one label [pixels]
-constexpr double kRadius = 15;  // of the mark of the truth [pixels]
+constexpr int kTick = 5;        // length of a tick [px]
+constexpr int kTickRoom = 80;   // width for a label [px]
+constexpr double kRadius = 15;  // radius of the mark of the truth [px]
 
 int nearest(double pixel) { return static_cast<int>(std::lround(pixel)); }
 

@@ -8,11 +8,10 @@
 
 namespace ortung::app {
 
-/// Lines, and landmarks, of a field that are drawn at most.
+/// Greatest number of lines, and of landmarks, that are drawn.
 inline constexpr std::size_t kMostMarks = 5000;
 
-/// The way along a line's middle as straight pieces, (x, y) [m]: its two ends, or many points of an
-/// arc.
+/// Returns a polyline along a line's middle, (x, y) [m]: its two ends, or many points of an arc.
 std::vector<std::array<double, 2>> pointsOf(const FieldLine& line);
 
 }  // namespace ortung::app

@@ -12,12 +12,12 @@
 namespace ortung::app {
 namespace {
 
-constexpr int kWantedWidth = 800;  // [pixels]
+constexpr int kWantedWidth = 800;  // width of the field [px]
 constexpr int kWantedHeight = 1000;
 constexpr int kMostZoom = 40;
 constexpr int kMargin = 16;
-constexpr int kAxisLeft = 70;   // room for labels left of the field [pixels]
-constexpr int kAxisBelow = 54;  // and below it
+constexpr int kAxisLeft = 70;   // width of the labels left of the field [px]
+constexpr int kAxisBelow = 54;  // height of the labels below it [px]
 constexpr int kBarHeight = 16;
 constexpr int kTicks = 5;
 constexpr int kLetters = 2;  // size of a font pixel
@@ -30,14 +30,14 @@ int zoomOf(const FieldGrid& grid) {
   return std::clamp(std::min(byWidth, byHeight), 1, kMostZoom);
 }
 
-/// Place of a value between pale (0) and dark (1).
+/// Returns the place of a value between pale (0) and dark (1).
 double darkness(const HeatMap& map, const HeatMap::Scale& scale, double value) {
   if (!(scale.high > scale.low)) return 0.5;
   if (!map.logarithmic) return (value - scale.low) / (scale.high - scale.low);
   return std::log(std::max(value, scale.low) / scale.low) / std::log(scale.high / scale.low);
 }
 
-/// Values of open cells that have one.
+/// Returns the values of open cells that have one.
 std::vector<double> openValues(const HeatMap& map) {
   std::vector<double> open;
   for (std::size_t cell = 0; cell < map.values.size(); ++cell) {
@@ -89,7 +89,7 @@ class CellPainter {
                                 : palette::kNoValue;
   }
 
-  /// Dark lines within a solid cell, towards its open neighbours.
+  /// Draws dark lines within a solid cell, at the sides of its open neighbours.
   void outline(int column, int row) {
     const int thick = std::max(1, zoom_ / 4);
     const int x = left(column);
@@ -108,7 +108,7 @@ class CellPainter {
   int top_;
 };
 
-/// The bar of colours with its values.
+/// Draws the bar of colours with its values.
 void drawScale(Picture& picture, const HeatMap& map, int left, int top, int width) {
   for (int x = 0; x < width; ++x) {
     picture.fill(left + x, top, 1, kBarHeight, palette::sequential(static_cast<double>(x) / width));
@@ -129,14 +129,15 @@ void drawScale(Picture& picture, const HeatMap& map, int left, int top, int widt
   picture.text(left, top + kBarHeight + 7 + kLineHeight, kLetters, palette::kInk, name);
 }
 
-/// "landmark (post)" where all are of one kind.
+/// Returns e.g. "landmark (post)" if all are of one kind.
 std::string landmarkName(const FieldModel& field) {
   const std::string kind = commonKind(field);
   return kind.empty() ? "landmark" : fmt::format("landmark ({})", kind);
 }
 
-/// What the marks and the colours mean that are no values: entries side by side, new lines where
-/// there is no room. Returns how many lines they take; draws nothing where @p picture is null.
+/// Draws the legend of the marks, and of the colours that are not values: entries side by side, on
+/// a new line if there is no room. Returns the number of lines; draws nothing if @p picture is
+/// null.
 int drawKey(Picture* picture, const HeatMap& map, int left, int top, int width) {
   int x = 0;
   int row = 0;
@@ -175,7 +176,7 @@ int drawKey(Picture* picture, const HeatMap& map, int left, int top, int width) 
   return x == 0 ? 0 : row + 1;
 }
 
-/// Letters as large as fit.
+/// Draws the caption in letters as large as fit.
 void drawCaption(Picture& picture, int y, const std::string& text) {
   const bool fits = Picture::textWidth(kLetters, text) <= picture.width() - 2 * kMargin;
   picture.text(kMargin, y, fits ? kLetters : 1, palette::kInk, text);
@@ -195,7 +196,7 @@ HeatMap::Scale HeatMap::scale() const {
     std::nth_element(open.begin(), low, open.end());
     if (*low < ends.high) ends.low = *low;
   } else if (ends.low > 0.0 && ends.low < ends.high * 1e-6) {
-    ends.low = 0.0;  // a legend that begins at 1e-157 helps nobody
+    ends.low = 0.0;  // a legend that begins at 1e-157 is of no use
   }
   return ends;
 }

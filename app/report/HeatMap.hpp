@@ -11,38 +11,37 @@
 
 namespace ortung::app {
 
-/// Values over the field (paper, Fig. 7): the darker, the greater.
+/// A picture of values over the field (paper, Fig. 7): the greater, the darker.
 struct HeatMap {
   const FieldRegion* region = nullptr;
-  std::vector<double> values;  ///< one a cell; NaN: none
+  std::vector<double> values;  ///< value of each cell; NaN: none
   std::string caption;
-  std::string note;                   ///< a second line: how the values were made; may be ""
-  std::string quantity;               ///< what the values are; may be ""
-  std::string unit;                   ///< of the values; may be ""
-  bool logarithmic = false;           ///< even in the values' logarithms; values are not negative
+  std::string note;                   ///< second line: how the values were made; may be ""
+  std::string quantity;               ///< name of the values; may be ""
+  std::string unit;                   ///< unit of the values; may be ""
+  bool logarithmic = false;           ///< whether the scale is logarithmic, for values >= 0
   const FieldModel* field = nullptr;  ///< lines and landmarks to draw; may be null
-  std::optional<Pose2> truth;         ///< marked with a ring
-  bool marksBest = false;             ///< the cell of the greatest value gets a square
+  std::optional<Pose2> truth;         ///< true pose, marked with a ring
+  bool marksBest = false;             ///< whether the greatest value is marked with a square
 
   struct Scale {
-    double low = 0.0;   ///< pale: this and all below
-    double high = 0.0;  ///< dark: the greatest value
+    double low = 0.0;   ///< value, and all below, with the palest colour
+    double high = 0.0;  ///< greatest value, with the darkest colour
   };
-  /// Ends of the scale: the least and greatest value of open cells. A logarithmic one begins where
-  /// a twentieth of the cells lie below, so that a few hopeless ones don't flatten all others.
-  /// Equal, or (0, 0), where there are no others.
+  /// Returns the ends of the scale: the least and greatest value of open cells. A logarithmic scale
+  /// begins at the 5 % quantile, so that a few very improbable cells do not flatten all others. The
+  /// ends are equal, or (0, 0), if there is only one value or none.
   Scale scale() const;
-  /// Values at @p count even steps of colour from pale to dark.
+  /// Returns the values of @p count even steps of colour from pale to dark.
   std::vector<double> legend(int count) const;
-  /// The open cell with the greatest value; nothing without values.
+  /// Returns the open cell with the greatest value; nothing without values.
   std::optional<std::size_t> best() const;
-  /// Whether an even scale would show next to nothing: less than a fiftieth of the cells with a
+  /// Returns whether a linear scale would show almost nothing: less than 2 % of the cells with a
   /// value reach a tenth of the greatest one.
   bool isPeaked() const;
 };
 
-/// Scaled up to about 800 pixels, both axes alike, with axes, outlines of all that is solid,
-/// caption and legend.
+/// Draws a map of about 800 pixels, with axes, outlines of solid cells, caption and legend.
 Picture draw(const HeatMap& map);
 
 }  // namespace ortung::app

@@ -7,19 +7,19 @@
 
 namespace ortung::app {
 
-/// What a map writes beside a landmark.
+/// The text beside a landmark on a map.
 struct LandmarkLabel {
   std::string text;
-  bool isLeft = false;  ///< of the landmark, as there is no room on the right
+  bool isLeft = false;  ///< whether it is on the left, since there is no room on the right
 };
 
-/// All landmarks' kind, or "" if there are several.
+/// Returns the kind of all landmarks, or "" if there are several kinds.
 std::string commonKind(const FieldModel& field);
 
-/// Labels of all landmarks: the number, with the kind before it if there are several kinds. None at
-/// all if there are so many that they would cover each other.
+/// Returns the labels of all landmarks: the number, after the kind if there are several kinds. None
+/// if there are so many that they would cover each other.
 /// @param letter height of letters [m]
-/// @param right end of the map [m]
+/// @param right x coordinate of the map's right end [m]
 std::vector<LandmarkLabel> labelsOf(const FieldModel& field, double letter, double right);
 
 }  // namespace ortung::app

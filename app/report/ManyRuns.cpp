@@ -23,7 +23,7 @@ struct Share {
   std::size_t of = 0;
 };
 
-/// Quantiles of some values; NaN where there are none.
+/// Quantiles of some values; NaN without values.
 struct Spread {
   double p50 = kNan, p95 = kNan, p99 = kNan, most = kNan;
 };
@@ -33,26 +33,26 @@ Spread spreadOf(const std::vector<double>& values) {
           quantile(values, 1.0)};
 }
 
-/// What all runs of one source and kind say together.
+/// The summary of all runs of one source and kind.
 struct Summary {
   std::string source;
   RunKind kind = RunKind::kWhole;
   std::size_t runs = 0;
-  Share converged;  ///< runs
-  Share kept;       ///< of all runs, those that converged and were never lost after that
-  Share right;      ///< events
-  Spread position;  ///< of all moments of all runs after convergence [m]
+  Share converged;  ///< runs that converged
+  Share kept;       ///< runs that converged and were never lost after that
+  Share right;      ///< events after which the estimate became right
+  Spread position;  ///< position errors of all runs after convergence [m]
   double lostShare = kNan;
   double trackingShare = kNan;
   double wrongWhileTrackingShare = kNan;
   double neesMean = kNan;
-  Spread after;     ///< converged, or right again [s]
-  Spread way;       ///< [m]
-  Spread readings;  ///< of events
+  Spread after;     ///< time until converged, or right again [s]
+  Spread way;       ///< distance travelled until then [m]
+  Spread readings;  ///< number of times with readings from events until then
   Spread updateMs;
 };
 
-/// Adds up what many runs say over time.
+/// Averages figures of runs, weighted by their duration.
 class TimeMean {
  public:
   void add(double value, std::size_t weight) {
@@ -129,7 +129,7 @@ class Adding {
   TimeMean wrongWhileTracking_;
 };
 
-/// In the order in which their first runs come.
+/// Returns the summaries in the order of their first runs.
 std::vector<Summary> summariesOf(const std::vector<RunResult>& runs) {
   std::vector<Adding> groups;
   for (const RunResult& run : runs) {
@@ -234,10 +234,10 @@ std::string show(const std::vector<RunResult>& runs, const Summary& s) {
   if (!isWhole) text += line("", show(s.readings, 0, " readings"));
   text += line("Position error", show(s.position, 3, " m"));
   text += line("Share of time lost", show(100.0 * s.lostShare, 2, " %"));
-  text += line("Share of time it says tracking", show(100.0 * s.trackingShare, 2, " %"));
+  text += line("Time with status tracking", show(100.0 * s.trackingShare, 2, " %"));
   text += line("... with an error above 1 m", show(100.0 * s.wrongWhileTrackingShare, 3, " %"));
   text += line("Consistency (NEES, 3 is right)", show(s.neesMean, 2, ""));
-  text += line("Time an update", show(s.updateMs, 3, " ms"));
+  text += line("Time per update", show(s.updateMs, 3, " ms"));
   return text + listOfCases(runs, s);
 }
 
@@ -246,7 +246,7 @@ std::string show(const std::vector<RunResult>& runs, const Summary& s) {
 std::string toJson(const std::vector<RunResult>& runs) {
   std::size_t compared = 0;
   for (const RunResult& run : runs) compared += run.figures.atCorrections.compared;
-  // First of all, so that the file can be told from others by its beginning.
+  // This is the first key, so that the kind of file can be recognized by its beginning.
   Json json = {{"compared_steps", compared}, {"summary", Json::array()}, {"runs", Json::array()}};
   for (const Summary& summary : summariesOf(runs)) json["summary"].push_back(jsonOf(summary));
   for (const RunResult& run : runs) json["runs"].push_back(jsonOf(run));

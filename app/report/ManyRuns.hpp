@@ -7,10 +7,10 @@
 
 namespace ortung::app {
 
-/// Many runs as a JSON object for machines: a summary for each source and kind, and all runs.
+/// Returns many runs as a JSON object: a summary for each source and kind, and all runs.
 std::string toJson(const std::vector<RunResult>& runs);
 
-/// Their summaries and lists of cases as lines for people.
+/// Returns their summaries and lists of cases as lines for users.
 std::string toText(const std::vector<RunResult>& runs);
 
 }  // namespace ortung::app

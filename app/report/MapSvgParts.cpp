@@ -15,21 +15,21 @@
 namespace ortung::app {
 namespace {
 
-// The region's picture says how much of the page's colour of solid things a cell gets.
+// The region's picture is a mask: it says how much of the page's colour for solids a cell gets.
 constexpr Colour kSolid{255, 255, 255};
 constexpr Colour kNotStandable{40, 40, 40};
 constexpr Colour kStandable{0, 0, 0};
-constexpr int kMaxPixels = 4096;  ///< of the map's longer side
+constexpr int kMaxPixels = 4096;  ///< greatest length of the map's longer side [px]
 
-/// The region as a picture, a pixel a cell. Of maps too large for a page a pixel is several cells,
-/// and solid if one of them is: thin walls stay.
+/// Returns the region as a picture with a pixel for each cell. In maps too large for a page a pixel
+/// stands for several cells, and is solid if one of them is, so that thin walls stay.
 std::string maskPng(const FieldRegion& region) {
   const FieldGrid& grid = region.grid;
   const int every = std::max(grid.columns, grid.rows) / kMaxPixels + 1;
   const int width = (grid.columns + every - 1) / every;
   const int height = (grid.rows + every - 1) / every;
   Picture picture(width, height, kStandable);
-  for (int pass = 0; pass < 2; ++pass) {  // solid cells last, above all others
+  for (int pass = 0; pass < 2; ++pass) {  // solid cells last, over all others
     for (std::size_t cell = 0; cell < grid.size(); ++cell) {
       const bool isSolid = region.open[cell] == 0;
       if (isSolid != (pass == 1) || (!isSolid && region.standable[cell] != 0)) continue;

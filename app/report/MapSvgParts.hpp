@@ -8,12 +8,12 @@
 /// Parts of the report's map, as SVG in the field's metres.
 namespace ortung::app {
 
-/// A rectangle of the field and sizes that go with it.
+/// The rectangle of the field that a map shows, and the size of its letters.
 struct MapFrame {
-  double left = 0.0;   ///< [m]
-  double low = 0.0;    ///< [m]
-  double width = 0.0;  ///< [m]
-  double height = 0.0;
+  double left = 0.0;    ///< x coordinate of the left end [m]
+  double low = 0.0;     ///< y coordinate of the lower end [m]
+  double width = 0.0;   ///< width [m]
+  double height = 0.0;  ///< height [m]
   double letter = 0.0;  ///< height of letters [m]
 
   explicit MapFrame(const FieldGrid& grid);
@@ -21,15 +21,15 @@ struct MapFrame {
   double high() const { return low + height; }
 };
 
-/// The picture's outline with room for the axes, as viewBox has it: y runs downwards.
+/// Returns the viewBox of the picture, with room for the axes: y points down.
 std::string viewBox(const MapFrame& frame);
-/// Solid and tight cells, with the colours that the page gives to them. y runs downwards.
+/// Draws solid and tight cells, in colours of the page. y points down.
 std::string regionSvg(const FieldRegion& region, const MapFrame& frame);
-/// Grid lines, numbers and names of both axes, and a bar of a round length. y runs downwards.
+/// Draws grid lines, numbers and names of both axes, and a bar of a round length. y points down.
 std::string axesSvg(const MapFrame& frame);
-/// What is painted on the floor. y runs upwards.
+/// Draws the painted lines. y points up.
 std::string linesSvg(const FieldModel& field);
-/// Landmarks with their names for the pointer and for readers of screens. y runs upwards.
+/// Draws landmarks, with names for the pointer and for screen readers. y points up.
 std::string landmarksSvg(const FieldModel& field, const MapFrame& frame);
 
 }  // namespace ortung::app

@@ -23,7 +23,7 @@ Colour mixed(const std::array<std::array<double, 3>, count>& stops, double share
 }  // namespace
 
 Colour sequential(double share) {
-  // "YlGnBu" of C. Brewer's colour schemes, which stay apart for all colour vision and in grey.
+  // "YlGnBu" of C. Brewer's colour schemes, distinguishable with any colour vision and in grey.
   constexpr std::array<std::array<double, 3>, 9> kStops{{{255, 255, 217},
                                                          {237, 248, 177},
                                                          {199, 233, 180},
@@ -37,8 +37,8 @@ Colour sequential(double share) {
 }
 
 Colour quality(double share) {
-  // "plasma" of S. van der Walt and N. Smith (CC0), backwards, which grows darker evenly and is
-  // told apart by all colour vision.
+  // "plasma" of S. van der Walt and N. Smith (CC0), reversed, which gets darker evenly and is
+  // distinguishable with any colour vision.
   constexpr std::array<std::array<double, 3>, 8> kStops{{{240, 249, 33},
                                                          {253, 180, 47},
                                                          {237, 121, 83},

@@ -12,11 +12,11 @@
 namespace ortung::app {
 namespace {
 
-// A path is not drawn over steps that are longer and faster than this: nobody drove them.
-constexpr double kJump = 1.0;       ///< [m]
-constexpr double kJumpSpeed = 3.0;  ///< [m/s]
+// A path is broken at steps that are longer and faster than this, which no robot can drive.
+constexpr double kJump = 1.0;       ///< length of such a step [m]
+constexpr double kJumpSpeed = 3.0;  ///< speed of such a step [m/s]
 constexpr std::size_t kMaxPoints = 20000;
-constexpr std::size_t kBands = 10;  ///< of quality
+constexpr std::size_t kBands = 10;  ///< number of colours of quality
 
 /// A point of a path, and whether a line leads to it from the one before.
 struct PathPoint {
@@ -41,7 +41,7 @@ std::vector<PathPoint> connected(const std::vector<std::pair<Timestamp, Pose2>>&
   return points;
 }
 
-/// Thinned out, the usual step is longer.
+/// Returns the longest step for thinned points, whose usual step is longer.
 double longestOf(const std::vector<std::pair<Timestamp, Pose2>>& kept, double longestStep) {
   std::vector<Timestamp> stamps;
   for (const auto& [stamp, pose] : kept) stamps.push_back(stamp);
@@ -49,7 +49,7 @@ double longestOf(const std::vector<std::pair<Timestamp, Pose2>>& kept, double lo
 }
 
 void moveTo(std::string& text, const Pose2& pose) {
-  // "h0" makes a lonely point visible: its round cap is drawn.
+  // "h0" makes a single point visible: its round cap is drawn.
   fmt::format_to(std::back_inserter(text), "M{:.3f} {:.3f}h0", pose.x, pose.y);
 }
 
@@ -57,7 +57,7 @@ void lineTo(std::string& text, const Pose2& pose) {
   fmt::format_to(std::back_inserter(text), "L{:.3f} {:.3f}", pose.x, pose.y);
 }
 
-/// One path for each kind of points. A line is of the kind of the point that it leads to.
+/// Makes a path for each kind of points. A line has the kind of the point to which it leads.
 template <std::size_t kinds, class KindOf>
 std::array<std::string, kinds> pathsByKind(const std::vector<PathPoint>& points, KindOf kindOf) {
   std::array<std::string, kinds> texts;
@@ -76,7 +76,7 @@ std::array<std::string, kinds> pathsByKind(const std::vector<PathPoint>& points,
   return texts;
 }
 
-/// At most kMaxPoints, each with the least trust of those that it stands for.
+/// Returns at most kMaxPoints points, each the least trusted one of those that it replaces.
 std::vector<PoseEstimate> thinned(const std::vector<PoseEstimate>& path) {
   const std::size_t every = path.size() / kMaxPoints + 1;
   std::vector<PoseEstimate> kept;
@@ -92,7 +92,7 @@ std::vector<PoseEstimate> thinned(const std::vector<PoseEstimate>& path) {
   return kept;
 }
 
-/// "#rrggbb"
+/// Returns "#rrggbb".
 std::string colourOf(std::size_t band) {
   const Colour c = palette::quality((static_cast<double>(band) + 0.5) / kBands);
   return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);

@@ -18,7 +18,7 @@ struct FontVertex {
   float z;
   std::uint8_t colour[4];
 };
-constexpr std::size_t kVerticesOfCharacter = 80;  // about 270 bytes are usual, says its manual
+constexpr std::size_t kVerticesOfCharacter = 80;  // its manual says about 270 bytes
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void Picture::fill(int x, int y, int width, int height, Colour colour) {
 }
 
 void Picture::line(double x0, double y0, double x1, double y1, int thickness, Colour colour) {
-  // Only the part within the picture, so that ends far away cost nothing (Liang and Barsky).
+  // Only the part within the picture is drawn, so distant ends cost nothing (Liang and Barsky).
   double from = 0.0;
   double to = 1.0;
   const auto cut = [&](double start, double way, double low, double high) {

@@ -13,7 +13,7 @@ struct Colour {
   std::uint8_t blue = 0;
 };
 
-/// A small raster image; x to the right, y down. What lies outside is cut off.
+/// A small raster image; x to the right, y down. Drawings are clipped at its border.
 class Picture {
  public:
   Picture(int width, int height, Colour background);
@@ -26,10 +26,10 @@ class Picture {
   void ring(double x, double y, double radius, int thickness, Colour colour);
   /// Writes ASCII text with its upper left corner at (x, y). @param scale size of a font pixel
   void text(int x, int y, int scale, Colour colour, const std::string& text);
-  /// Width of a text [pixels].
+  /// Returns the width of a text [px].
   static int textWidth(int scale, const std::string& text);
 
-  /// As a PNG file's bytes. @throws std::runtime_error
+  /// Returns the bytes of a PNG file. @throws std::runtime_error
   std::vector<std::byte> png() const;
 
  private:

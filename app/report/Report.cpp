@@ -15,7 +15,8 @@
 namespace ortung::app {
 namespace {
 
-constexpr std::size_t kMaxChartPoints = 8000;  ///< more than a screen has columns
+constexpr std::size_t kMaxChartPoints =
+    8000;  ///< greatest number of points, more than a screen's columns
 
 /// Appends a number as JSON.
 void append(std::string& json, double value) {
@@ -26,7 +27,7 @@ void append(std::string& json, double value) {
   }
 }
 
-/// A JSON array of one number for each element.
+/// Returns a JSON array with a number for each element.
 template <class Element, class Number>
 std::string jsonArray(const std::vector<Element>& elements, Number number) {
   std::string json = "[";
@@ -35,7 +36,7 @@ std::string jsonArray(const std::vector<Element>& elements, Number number) {
   return json + "]";
 }
 
-/// One element of every bucket, the one with the greatest value, so that no peak gets lost.
+/// Returns the element with the greatest value of each bucket, so that no peak is lost.
 template <class Element, class Value>
 std::vector<Element> thin(const std::vector<Element>& elements, Value value) {
   const std::size_t bucket = elements.size() / kMaxChartPoints + 1;
@@ -50,7 +51,7 @@ std::vector<Element> thin(const std::vector<Element>& elements, Value value) {
   return kept;
 }
 
-/// A member with the names of an enumeration that counts from 0.
+/// Appends a member with the names of an enumeration that counts from 0.
 template <class Value>
 std::string namesOf(const char* member, Value last) {
   std::string json = fmt::format("\"{}\":[", member);
@@ -59,7 +60,7 @@ std::string namesOf(const char* member, Value last) {
   return json + "],";
 }
 
-/// The bound of each point: that of the newest moment up to it; an empty array without.
+/// Returns the bound of each point: the newest one up to its time; an empty array without bounds.
 template <class Number>
 std::string boundsOf(const std::vector<EvaluationPoint>& points,
                      const std::vector<PoseBound>& bounds, Number number) {
@@ -72,12 +73,12 @@ std::string boundsOf(const std::vector<EvaluationPoint>& points,
   });
 }
 
-/// What report.js draws.
+/// Returns the data that report.js draws.
 std::string chartData(const RunResult& run) {
   const auto points = thin(run.figures.points, [](const auto& p) { return p.positionError; });
   const auto estimates = thin(run.estimates, [](const auto& e) { return e.samples; });
   const auto path = thin(run.path, [](const PoseEstimate& e) {
-    return 2.0 * static_cast<double>(e.status) - e.quality;  // the least trust
+    return 2.0 * static_cast<double>(e.status) - e.quality;  // greatest for the least trusted one
   });
   const auto time = [&](Timestamp stamp) { return toSeconds(stamp) - toSeconds(run.first); };
   std::string json = "{";
@@ -143,7 +144,7 @@ std::string legend(bool hasTruth, const FieldModel& field) {
                 R"( <span class="key solid"></span>solid, unknown or outside</p>)";
 }
 
-/// A heading and a place for one chart.
+/// Returns a heading and a place for a chart.
 std::string chart(const char* id, const char* name, const std::string& unit,
                   const std::string& about) {
   return fmt::format(
@@ -159,20 +160,20 @@ std::string charts(const RunResult& run) {
     return std::string();
   };
   if (!run.figures.points.empty()) {
-    const std::string about = std::string("with the filter's own 1 sigma") +
-                              (run.bounds.empty() ? "" : " and the least that is possible (green)");
+    const std::string about = std::string("with the filter's estimate of 1 sigma") +
+                              (run.bounds.empty() ? "" : " and its lower bound (green)");
     html += chart("position", "Position error", "m, " + about, figure("Position error, RMS"));
     html += chart("heading", "Heading error", "degrees, " + about, figure("Heading error, RMS"));
   } else {
     html +=
-        R"(<p class="note">The source gave no ground truth, so there are no errors to show.</p>)";
+        R"(<p class="note">The source has no ground truth, so there are no errors to show.</p>)";
   }
   html += chart("quality", "Quality",
                 "probability of an error below 0.5 m; bands: uncertain (low), lost (high)",
-                figure("Share of time it says tracking"));
+                figure("Time with status tracking"));
   html += chart("samples", "Samples", "logarithmic", figure("Samples, mean"));
   return html +
-         R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Lines break where nothing is known. Drag to zoom, double-click to zoom out; the map shows the moment under the pointer.</p></section>)";
+         R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Lines are broken where there are no data. Drag to zoom, double-click to zoom out; the map shows the robot at the time under the pointer.</p></section>)";
 }
 
 std::string settings(const RunResult& run) {
@@ -180,7 +181,7 @@ std::string settings(const RunResult& run) {
   return row("Source", run.figures.source) + row("Robot", run.robot) + row("Tables", run.tables) +
          row("World", run.tableInfo.world + " (" + run.tableInfo.worldFingerprint + ")") +
          row("Cells", fmt::format("{} x {} of {:g} m", grid.columns, grid.rows, grid.cell)) +
-         row("Most samples", fmt::format("{}", run.particles)) +
+         row("Greatest number of samples", fmt::format("{}", run.particles)) +
          row("Seed", fmt::format("{}", run.seed));
 }
 
@@ -200,7 +201,7 @@ std::string body(const RunResult& run) {
   const std::vector<Figure> figures = figuresOf(run);
   std::string cards;
   for (const char* name : {"Position error, RMS", "Position error, median", "Heading error, RMS",
-                           "Converged after", "Time an update, median"}) {
+                           "Converged after", "Time per update, median"}) {
     for (const Figure& figure : figures) {
       if (figure.name == name) cards += card(figure);
     }
@@ -251,7 +252,7 @@ std::string escapeHtml(std::string_view text) {
 
 std::string toHtml(const RunResult& run) {
   std::string html = head("ortung: " + run.figures.source) + body(run);
-  // Only numbers are in the data, so it can't end its element early.
+  // The data are numbers only, so they can't end their element early.
   html += "<script type=\"application/json\" id=\"data\">" + chartData(run) + "</script>\n";
   for (const std::string_view script :
        {assets::dygraphsScript(), assets::synchronizerScript(), assets::reportScript()}) {

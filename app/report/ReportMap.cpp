@@ -36,7 +36,7 @@ std::string mapSvg(const RunResult& run) {
       points.empty() ? "" : " beside the ground truth");
   svg += regionSvg(run.tableInfo.region, frame) + axesSvg(frame);
   svg += R"x(<g transform="scale(1,-1)">)x" + linesSvg(field);
-  // The truth is a broad band, the estimate a thin line above it: neither hides the other.
+  // The truth is a broad band, the estimate a thin line over it, so that neither hides the other.
   if (!points.empty()) {
     std::vector<std::pair<Timestamp, Pose2>> truth;
     for (const EvaluationPoint& point : points) truth.emplace_back(point.stamp, point.truth);

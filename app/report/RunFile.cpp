@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Reads one object, and says where it is if something is wrong with it.
+/// Reads a JSON object; its errors say where the object is.
 class Reader {
  public:
   Reader(const Json& json, std::string where) : json_(json), where_(std::move(where)) {
@@ -43,7 +43,7 @@ class Reader {
     if (!at(key).is_boolean()) wrong(key, "true or false");
     return at(key).get<bool>();
   }
-  /// NaN for null.
+  /// Reads a number; NaN for null.
   double number(const char* key) const {
     if (at(key).is_null()) return kNan;
     if (!at(key).is_number()) wrong(key, "a number or null");
@@ -82,7 +82,7 @@ FiledRun readRun(const Json& json, const std::string& where) {
   if (reader.has("start")) run.start = reader.text("start");
   if (reader.has("faults")) {
     for (const Json& fault : reader.list("faults")) {
-      if (!fault.is_string()) reader.fail("a fault is no text");
+      if (!fault.is_string()) reader.fail("a fault is not text");
       run.faults.push_back(fault.get<std::string>());
     }
   }
@@ -111,7 +111,7 @@ std::vector<FiledRun> readRuns(const std::filesystem::path& file) {
   const Json json = Json::parse(in, nullptr, false);
   if (json.is_discarded())
     throw std::runtime_error(file.string() +
-                             ": is no JSON, expected what `ortung eval --json` "
+                             ": is not JSON, expected what `ortung eval --json` "
                              "writes");
   const Reader whole(json, file.string());
   if (!whole.has("runs")) return {readRun(json, file.string())};

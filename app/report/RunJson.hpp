@@ -4,16 +4,16 @@
 
 #include "RunResult.hpp"
 
-// nlohmann/json takes long to compile: for sources of figures alone.
+// nlohmann/json takes long to compile, so only sources of figures include this.
 namespace ortung::app {
 
-/// JSON has no NaN and no infinity.
+/// Returns a number, or null for NaN and infinity, which JSON does not have.
 nlohmann::ordered_json jsonNumber(double value);
 
-/// One run, as docs/mcl.md tells.
+/// Returns a run as docs/mcl.md describes it.
 nlohmann::ordered_json jsonOf(const RunResult& run);
 
-/// File names need not be UTF-8; whoever reads the JSON may rely on it.
+/// Formats JSON as UTF-8; invalid bytes, e.g. in names of files, are replaced.
 std::string jsonText(const nlohmann::ordered_json& json);
 
 }  // namespace ortung::app

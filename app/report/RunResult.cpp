@@ -18,7 +18,7 @@ std::string show(const char* format, double value, const char* unit) {
   return fmt::format(fmt::runtime(format), value) + unit;
 }
 
-/// Times of which nothing is known, from the point before each to the point behind it.
+/// Returns gaps in the estimates, each from the point before it to the point after it.
 nlohmann::ordered_json gapsOf(const RunResult& run) {
   auto gaps = nlohmann::ordered_json::array();
   const auto seconds = [&](const EvaluationPoint& p) {
@@ -59,7 +59,7 @@ nlohmann::ordered_json jsonOf(const Calibration& calibration) {
           {"bins", bins}};
 }
 
-/// Medians of updates after convergence; NaN for none.
+/// Returns medians over updates after convergence; NaN without such updates.
 GridComparison besideGridOf(const RunResult& run) {
   std::vector<double> divergences;
   std::vector<double> distances;
@@ -163,7 +163,7 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
 }
 
 Calibration calibrationOf(const std::vector<EvaluationPoint>& points) {
-  constexpr double kRight = 0.5;  // [m], as of PoseEstimate::quality
+  constexpr double kRight = 0.5;  // [m], as in PoseEstimate::quality
   std::vector<Claim> claims;
   for (const EvaluationPoint& p : points)
     claims.push_back({static_cast<float>(p.quality), p.positionError < kRight});
@@ -182,26 +182,26 @@ std::vector<Figure> figuresOf(const RunResult& run) {
       {"Duration", show("{:.1f}", figures.duration, " s")},
       {"Updates", fmt::format("{}", figures.steps)},
       {"Updates with known truth", fmt::format("{}", atUpdates.compared)},
-      {fmt::format("Moments compared, every {:g} s", figures.period),
+      {fmt::format("Times compared, every {:g} s", figures.period),
        fmt::format("{}", errors.compared)},
       {"Converged after", errors.compared == 0 ? "-" : converged},
       {"Position error, RMS", show("{:.3f}", errors.positionRmse, " m")},
       {"Position error, median", show("{:.3f}", errors.positionMedian, " m")},
       {"Position error, 95 %", show("{:.3f}", errors.positionP95, " m")},
       {"Position error, 99 %", show("{:.3f}", errors.positionP99, " m")},
-      {"Position error, most", show("{:.3f}", errors.positionMax, " m")},
+      {"Position error, max", show("{:.3f}", errors.positionMax, " m")},
       {"Heading error, RMS", show("{:.2f}", degrees(errors.headingRmse), " deg")},
       {"Share of time lost", show("{:.1f}", 100.0 * errors.lostShare, " %")},
-      {"Share of time it says tracking", show("{:.1f}", 100.0 * figures.trackingShare, " %")},
+      {"Time with status tracking", show("{:.1f}", 100.0 * figures.trackingShare, " %")},
       {"... with an error above 1 m",
        show("{:.2f}", 100.0 * figures.wrongWhileTrackingShare, " %")},
       {"Consistency (NEES, 3 is right)", show("{:.2f}", errors.neesMean, "")},
       {"Position error at updates, RMS", show("{:.3f}", atUpdates.positionRmse, " m")},
       {"Samples, mean", show("{:.0f}", figures.particlesMean, "")},
-      {"Time an update, median", show("{:.3f}", figures.updateMsP50, " ms")},
-      {"Time an update, 99 %", show("{:.3f}", figures.updateMsP99, " ms")},
-      {"Time an update, most", show("{:.3f}", figures.updateMsMax, " ms")},
-      {"Faster than real time", show("{:.0f}", figures.realtimeFactor, " x")},
+      {"Time per update, median", show("{:.3f}", figures.updateMsP50, " ms")},
+      {"Time per update, 99 %", show("{:.3f}", figures.updateMsP99, " ms")},
+      {"Time per update, max", show("{:.3f}", figures.updateMsMax, " ms")},
+      {"Speed relative to real time", show("{:.0f}", figures.realtimeFactor, " x")},
   };
   if (!run.besideGrid.empty()) {
     const GridComparison besideGrid = besideGridOf(run);
@@ -211,11 +211,11 @@ std::vector<Figure> figuresOf(const RunResult& run) {
   }
   if (!run.bound) return all;
   const BoundFigures& bound = *run.bound;
-  all.push_back({"Least median (Cramer-Rao)", show("{:.4f}", bound.positionMedian, " m")});
-  all.push_back({"Least RMS (Cramer-Rao)", show("{:.4f}", bound.positionRmse, " m")});
-  all.push_back({"Median at updates beside that",
+  all.push_back({"Cramer-Rao bound, median", show("{:.4f}", bound.positionMedian, " m")});
+  all.push_back({"Cramer-Rao bound, RMS", show("{:.4f}", bound.positionRmse, " m")});
+  all.push_back({"Median at updates / bound",
                  show("{:.1f}", atUpdates.positionMedian / bound.positionMedian, " x")});
-  all.push_back({"RMS at updates beside that",
+  all.push_back({"RMS at updates / bound",
                  show("{:.1f}", atUpdates.positionRmse / bound.positionRmse, " x")});
   return all;
 }
@@ -227,8 +227,7 @@ std::string toText(const RunResult& run) {
     text += fmt::format("  {:<32}{:>12}\n", figure.name, figure.value);
   }
   text += fmt::format(
-      "Errors are over time after convergence: every {:g} s, carried on by odometry between "
-      "updates\n",
+      "Errors are taken every {:g} s after convergence; odometry predicts poses between updates\n",
       run.figures.period);
   return text;
 }

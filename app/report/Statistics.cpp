@@ -10,10 +10,10 @@
 namespace ortung::app {
 namespace {
 
-constexpr std::size_t kMostExact = 50;  ///< differences
+constexpr std::size_t kMostExact = 50;  ///< greatest number of differences for the exact test
 
 struct Rank {
-  long doubled;  ///< twice the rank, so that the middle of ties is a whole number
+  long doubled;  ///< twice the rank, so that the mean of ties is a whole number
   bool isPositive;
 };
 
@@ -30,15 +30,15 @@ std::vector<Rank> signedRanks(const std::vector<double>& differences, double& ti
     while (end < some.size() && std::abs(some[end]) == std::abs(some[i])) ++end;
     const auto ties = static_cast<double>(end - i);
     tieSum += ties * ties * ties - ties;
-    const auto doubled = static_cast<long>(i + 1 + end);  // (i + 1) + ... + end in the mean, twice
+    const auto doubled = static_cast<long>(i + 1 + end);  // twice the mean of (i + 1), ..., end
     for (; i < end; ++i) ranks.push_back({doubled, some[i] > 0.0});
   }
   return ranks;
 }
 
-/// P(sum of ranks <= @p least) if each has either sign with the same probability.
+/// Returns P(sum of ranks <= @p least) if each rank has either sign with the same probability.
 double exactLowerTail(const std::vector<Rank>& ranks, long least) {
-  std::vector<double> probability = {1.0};  // of each sum of doubled ranks
+  std::vector<double> probability = {1.0};  // probability of each sum of doubled ranks
   for (const Rank& rank : ranks) {
     const auto step = static_cast<std::size_t>(rank.doubled);
     std::vector<double> next(probability.size() + step, 0.0);

@@ -6,11 +6,11 @@
 
 namespace ortung::app {
 
-/// The longest time [s] between two moments of a series over which a line is drawn: five times the
-/// usual step, at least 1 s. Over longer ones nothing is known, and lines break.
+/// Returns the longest time [s] between two points of a series over which a line is drawn: five
+/// times the usual step, at least 1 s. Lines are broken at longer gaps.
 double longestDrawnStep(std::vector<Timestamp> stamps);
 
-/// The same of anything with stamps.
+/// Returns the same for elements with stamps.
 template <class Element>
 double longestDrawnStepOf(const std::vector<Element>& elements) {
   std::vector<Timestamp> stamps;

@@ -4,8 +4,9 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung demo`.
 struct DemoArguments {
-  bool once = false;  ///< without a page, until the robot has found its place
+  bool once = false;  ///< whether to run, without a page, only until the robot is localized
   ServingArguments serving;
 };
 int runDemo(const DemoArguments& arguments);

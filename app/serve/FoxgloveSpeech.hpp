@@ -4,8 +4,9 @@
 
 namespace ortung::app {
 
-/// What Foxglove, Lichtblick and their like speak, at any path: foxglove.sdk.v1 and, of older ones,
-/// foxglove.websocket.v1. A query token=T is the client's token for the board.
+/// Returns the protocol of Foxglove, Lichtblick and similar viewers, at any path: foxglove.sdk.v1
+/// and, for older viewers, foxglove.websocket.v1. A query token=T is the client's token for the
+/// board.
 WebProtocol foxgloveProtocol();
 
 }  // namespace ortung::app

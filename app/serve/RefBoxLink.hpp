@@ -12,20 +12,20 @@ class RefBoxClient;
 
 namespace ortung::app {
 
-/// Lets a RefBox of the Middle Size League lead a simulated game: its commands are orders to the
-/// referee, and it is told where one team's robots and the ball are.
+/// Lets a RefBox of the Middle Size League control a simulated game: its commands are orders to the
+/// referee, and it gets the places of one team's robots and of the ball.
 class RefBoxLink {
  public:
-  /// The game that is under way, with a referee; it may be another one each time.
+  /// Returns the current game, which has a referee; it may be another one each time.
   using Run = std::function<SceneRun&()>;
 
-  /// @param text "HOST[:PORT][@TEAM]" @throws UsageError for what is none
+  /// @param text address and team, "HOST[:PORT][@TEAM]" @throws UsageError if it has another form
   RefBoxLink(const std::string& text, const Run& run);
   ~RefBoxLink();
   RefBoxLink(const RefBoxLink&) = delete;
   RefBoxLink& operator=(const RefBoxLink&) = delete;
 
-  /// Does what is to be done, without waiting. @param seconds of a clock that only goes forwards
+  /// Exchanges what is due, without waiting. @param seconds time of a steady clock [s]
   void poll(double seconds);
 
  private:

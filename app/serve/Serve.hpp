@@ -6,6 +6,7 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung serve`.
 struct ServeArguments {
   std::filesystem::path record;
   bool repeats = false;

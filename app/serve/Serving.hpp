@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "ServingArguments.hpp"
 #include "Rescue.hpp"
+#include "ServingArguments.hpp"
 #include "ortung/server/BoardCommand.hpp"
 #include "ortung/server/MessageBoard.hpp"
 #include "ortung/server/Recordings.hpp"
@@ -12,10 +12,10 @@
 
 namespace ortung::app {
 
-/// @throws UsageError for paces that exclude each other
+/// Checks the pace of time. @throws UsageError for options that exclude each other
 void checkPace(const ServingArguments& arguments);
 
-/// Records that clients begin and end; those that are on when it ends are made whole, and named.
+/// Records that clients begin and end; the destructor completes and names those that are open.
 class ClientRecords {
  public:
   /// @throws UsageError for a folder without clients; std::runtime_error
@@ -30,10 +30,10 @@ class ClientRecords {
   Rescue rescue_;
 };
 
-/// @param commands further ones that clients may give
-/// Serves @p world to clients until a signal comes. Says on stdout where it listens. If the world
-/// has not come to an end 2 s after the signal, the program ends with 128 + the signal's number.
-/// @param goesOn asked ten times a second; "no" ends it like a signal
+/// Serves @p world to clients until a signal comes. Prints its address on stdout. If the world has
+/// not ended 2 s after the signal, the program ends with 128 + the signal's number.
+/// @param commands further commands that clients may give
+/// @param goesOn called ten times a second; returns false to end, like a signal
 /// @throws UsageError, std::runtime_error
 void serve(ServedWorld& world, const ServingArguments& arguments,
            std::vector<BoardCommand> commands = {}, const std::function<bool()>& goesOn = {});

@@ -7,7 +7,7 @@
 
 namespace ortung::app {
 
-/// Lines 'NAME TOKEN' of a file; nothing if it is "". @throws std::runtime_error
+/// Reads lines 'NAME TOKEN' of a file; nothing if @p file is "". @throws std::runtime_error
 std::vector<BoardToken> readTokens(const std::filesystem::path& file);
 
 }  // namespace ortung::app

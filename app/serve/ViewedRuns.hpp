@@ -1,14 +1,14 @@
 #pragma once
 
-#include "ViewArguments.hpp"
 #include "ScratchFolder.hpp"
+#include "ViewArguments.hpp"
 #include "ortung/server/ServedPlayback.hpp"
 
 namespace ortung::app {
 
-/// The records and sources that are to be looked at, localized if there are tables, and their
+/// Prepares records and sources for the viewer: localizes them if there are tables, and finds their
 /// field.
-/// @param scratch for what is made of them; must last as long as they are looked at
+/// @param scratch folder for the results; must live as long as the viewer
 /// @throws UsageError; else as ortung::Localization and RecordWriter
 ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const ScratchFolder& scratch);
 

@@ -8,22 +8,22 @@
 
 namespace ortung::app {
 
-/// Where the files of the built page are: where the program was installed or built, unless
-/// $ORTUNG_VIEW_PATH says where; "" if they are nowhere.
+/// Returns the folder of the built page: $ORTUNG_VIEW_PATH, or where the program was installed or
+/// built; "" if there is none.
 std::filesystem::path pageFolder();
 
-/// The viewer's page at the port of a message board, for those who were given its address.
+/// The viewer's page at the port of a message board, for users who have its address.
 class Viewing {
  public:
-  /// Where the page listens if nothing else is asked for, so that browsers know its settings again.
+  /// Default port of the page, always the same so that browsers find their settings again.
   static constexpr const char* kPort = "7777";
 
-  /// Lets the page in and gives its own client, `view`, the right to control; @p config must know
-  /// its address already. Where the board has no tokens, others come in without one as before.
+  /// Admits the page, and gives its own client, `view`, the right to control; @p config must have
+  /// its address. If the board has no tokens, other clients are still admitted without one.
   /// @throws std::runtime_error if the page's files can't be read
   Viewing(const ServingArguments& arguments, BoardConfig& config);
 
-  /// Says on stdout where the page is, and shows it in a browser if there is a desktop.
+  /// Prints the page's address on stdout, and shows it in a browser if there is a desktop.
   void open(const MessageBoard& board);
 
  private:

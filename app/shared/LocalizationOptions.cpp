@@ -13,7 +13,7 @@ void addLocalization(Builder& build, LocalizationArguments& a, Localizes when) {
     tables.required();
   }
   build.option("--seed", a.seed, "Seed of all random numbers").showsDefault();
-  build.option("--particles", a.particles, "Most samples; default: the robot file's")
+  build.option("--particles", a.particles, "Greatest number of samples; default: the robot file's")
       .within(1, 1e7);
   build.option("--threads", a.threads, "Threads; the result does not depend on it").within(1, 256);
   build.option("--start", a.start, "global, truth (the first ground truth) or x,y,theta_deg")
@@ -25,13 +25,14 @@ void addLocalization(Builder& build, LocalizationArguments& a, Localizes when) {
                "turn_per_turn,turn_per_m,way_per_m,way_per_turn; default: the robot file's");
   build
       .option("--filter", a.filter,
-              "mcl, or grid: all poses of a grid, exhaustively, as a reference on small fields; it "
-              "neither recovers nor polishes")
+              "mcl, or grid: all poses of a grid, as a reference on small fields; it "
+              "neither recovers nor refines")
       .oneOf({"mcl", "grid"})
       .showsDefault();
-  build.option("--grid", a.grid, "Cell m and step of headings deg of that grid").showsDefault();
+  build.option("--grid", a.grid, "That grid's cell [m] and step of headings [degrees]")
+      .showsDefault();
   build.flag("--any-world", a.anyWorld,
-             "Go on although the source comes from another world than the tables");
+             "Accept a source from another world than that of the tables");
   build.flag("--progress", a.progress, kProgress);
 }
 

@@ -1,18 +1,18 @@
 #pragma once
 
 #include "LocalizationArguments.hpp"
-#include "ViewArguments.hpp"
 #include "OptionBuilder.hpp"
+#include "ViewArguments.hpp"
 
 namespace ortung::app {
 
-// What commands that localize have in common.
+// Options that commands that localize have in common.
 
 enum class Localizes { kAlways, kIfAsked };
 
-/// Robot, tables and how MCL goes about it. @param when whether robot and tables have to be named
+/// Adds robot, tables and settings of MCL. @param when whether robot and tables are required
 void addLocalization(Builder& build, LocalizationArguments& a, Localizes when);
-/// Which runs a viewer shows.
+/// Adds the runs that a viewer shows.
 void addRuns(Builder& build, ViewArguments& a);
 
 }  // namespace ortung::app

@@ -7,21 +7,22 @@
 
 namespace ortung::app {
 
-/// What sim and serve have in common when they serve clients.
+/// Arguments that commands that serve clients have in common.
 struct ServingArguments {
-  std::optional<std::string> listen;  ///< "[ADDRESS:]PORT"
+  std::optional<std::string> listen;  ///< address to serve at, "[ADDRESS:]PORT"
   std::vector<std::string> control;   ///< names of clients that may control, "*": all
-  std::filesystem::path tokens;       ///< file with a line "NAME TOKEN" for each; "" for none
-  double idle = 30.0;                 ///< [s] without a line from a client
-  unsigned clients = 256;             ///< at a time
-  unsigned clientsOfAddress = 128;    ///< of them from one computer
-  double speed = 1.0;                 ///< times real time
+  std::filesystem::path tokens;       ///< file with a line "NAME TOKEN" for each; "": none
+  double idle = 30.0;                 ///< silence after which a client is disconnected [s]
+  unsigned clients = 256;             ///< greatest number of clients at a time
+  unsigned clientsOfAddress = 128;    ///< greatest number of clients from one computer
+  double speed = 1.0;                 ///< world time / real time
   bool freeRun = false;
   bool lockstep = false;
-  bool isViewing = false;            ///< with the page for browsers
-  bool opensBrowser = true;          ///< and shows it, where there is a desktop
+  bool isViewing = false;            ///< whether to serve the page for browsers
+  bool opensBrowser = true;          ///< whether to show that page, if there is a desktop
   std::vector<std::string> hosts;    ///< further names of this computer
   std::filesystem::path recordInto;  ///< folder for records that clients begin; "": none
+  /// Whether to serve clients at all.
   bool isServing() const { return isViewing || listen; }
 };
 

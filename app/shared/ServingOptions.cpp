@@ -13,14 +13,13 @@ void addDoor(Builder& build, ServingArguments& a) {
       .repeats();
   build.option(
       "--token-file", a.tokens,
-      "File with a line 'NAME TOKEN' for each client that may come in, * for any name without "
-      "a line of its own");
-  build.flag(
-      "--view", a.isViewing,
-      "Show it in a web browser: the address is printed, and opened where there is a desktop");
+      "File with a line 'NAME TOKEN' for each client that is admitted, * for any name without "
+      "its own line");
+  build.flag("--view", a.isViewing,
+             "Show it in a web browser: the address is printed, and opened if there is a desktop");
   build
       .option("--view-host", a.hosts,
-              "Name by which browsers know this computer, beside localhost and its addresses; may "
+              "Name of this computer for browsers, besides localhost and its addresses; may "
               "be given again")
       .repeats();
   build.flag("--no-browser{false}", a.opensBrowser, "Print the address for browsers only");
@@ -35,17 +34,23 @@ void addRecording(Builder& build, ServingArguments& a) {
 
 void addServing(Builder& build, ServingArguments& a) {
   addDoor(build, a);
-  build.option("--idle", a.idle, "Clients that keep silent for so long are dropped [s]")
+  build.option("--idle", a.idle, "Silence after which clients are disconnected [s]")
       .within(1.0, 1e6)
       .showsDefault();
-  build.option("--clients", a.clients, "At a time").within(1, 100000).showsDefault();
-  build.option("--clients-per-address", a.clientsOfAddress, "Of them from one computer")
+  build.option("--clients", a.clients, "Greatest number of clients")
       .within(1, 100000)
       .showsDefault();
-  build.option("--speed", a.speed, "Times real time").within(0.001, 1000.0).showsDefault();
+  build
+      .option("--clients-per-address", a.clientsOfAddress,
+              "Greatest number of clients from one computer")
+      .within(1, 100000)
+      .showsDefault();
+  build.option("--speed", a.speed, "Speed relative to real time")
+      .within(0.001, 1000.0)
+      .showsDefault();
   build.flag("--free-run", a.freeRun, "As fast as possible instead of in real time");
   build.flag("--lockstep", a.lockstep,
-             "The world goes on only when all lockstep clients ask for it");
+             "The world advances only when all lockstep clients ask for it");
 }
 
 }  // namespace ortung::app

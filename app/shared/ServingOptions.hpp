@@ -1,17 +1,17 @@
 #pragma once
 
-#include "ServingArguments.hpp"
 #include "OptionBuilder.hpp"
+#include "ServingArguments.hpp"
 
 namespace ortung::app {
 
-// What subcommands that serve something have in common.
+// Options that commands that serve clients have in common.
 
-/// Who is let in, and the page for browsers.
+/// Adds who is admitted, and the page for browsers.
 void addDoor(Builder& build, ServingArguments& a);
-/// Where records go that clients begin and end.
+/// Adds the folder for records that clients begin and end.
 void addRecording(Builder& build, ServingArguments& a);
-/// Who is let in, and how time passes.
+/// Adds who is admitted, and the pace of time.
 void addServing(Builder& build, ServingArguments& a);
 
 }  // namespace ortung::app

@@ -39,7 +39,8 @@ bool unlessInterrupted(const Source& source, const std::function<bool()>& next) 
   checkInterrupt();
   try {
     return next();
-  } catch (const std::exception&) {  // waiting was interrupted, which sources call by many names
+  } catch (const std::exception&) {  // a signal interrupts waiting, for which sources throw
+                                     // different errors
     if (isEnd()) return false;
     throw;
   }
@@ -61,7 +62,7 @@ void warnOf(const std::string& name, const Source& source, const Feeder& feeder)
     text += fmt::format("{}{} ({} readings)", named == 1 ? "" : ", ", feature, count);
   }
   if (unknown.size() > kNamed) text += fmt::format(" and {} more", unknown.size() - kNamed);
-  warn(fmt::format("{} gives features that the robot file does not have: {}", name, text));
+  warn(fmt::format("{} has features that are not in the robot file: {}", name, text));
 }
 
 }  // namespace ortung::app

@@ -12,8 +12,8 @@
 
 namespace ortung::app {
 
-/// Opens the source that the command line names.
-/// @throws UsageError for the text itself; else as ortung::openSource()
+/// Opens a source of the command line.
+/// @throws UsageError for invalid text; else as ortung::openSource()
 std::unique_ptr<Source> openSourceArgument(const std::string& text,
                                            const std::filesystem::path& robotFile,
                                            PluginFactory& factory);
@@ -21,18 +21,18 @@ std::unique_ptr<Source> openSourceArgument(const SourceText& text,
                                            const std::filesystem::path& robotFile,
                                            PluginFactory& factory);
 
-/// What @p next says, which reads from @p source; false if a signal came and the source is live:
-/// then the signal is its end. @throws Interrupted for any other source; else what @p next throws
+/// Returns the result of @p next, which reads from @p source. A signal ends a live source: then
+/// false. @throws Interrupted at a signal, for any other source; else what @p next throws
 bool unlessInterrupted(const Source& source, const std::function<bool()>& next);
 
-/// What can't be had again is recorded as it comes.
+/// Returns how to record a source: live ones as they come, since they can't be read again.
 inline RecordWriter::Pace paceOf(const Source& source) {
   return source.isLive() ? RecordWriter::Pace::kLive : RecordWriter::Pace::kWhole;
 }
 
-/// Says on stderr what there is to say of a source after its end.
+/// Prints the remark of a source after its end on stderr.
 void warnOf(const Source& source);
-/// The same, and which features of the source @p name the robot file lacks.
+/// Prints that, and the features of the source @p name that are not in the robot file.
 void warnOf(const std::string& name, const Source& source, const Feeder& feeder);
 
 }  // namespace ortung::app

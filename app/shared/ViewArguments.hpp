@@ -9,10 +9,11 @@
 
 namespace ortung::app {
 
+/// Arguments of `ortung view`.
 struct ViewArguments {
   std::vector<std::string> sources;    ///< records, or "KIND:PATH?key=value"
-  std::filesystem::path world;         ///< whose field is drawn; "": that of the tables
-  LocalizationArguments localization;  ///< its source is not used; tables "": nothing is localized
+  std::filesystem::path world;         ///< world whose field is drawn; "": that of the tables
+  LocalizationArguments localization;  ///< source is not used; tables "": does not localize
   ServingArguments serving;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 WorldGrid gridOver(const Box2& bounds, double cell) {
   constexpr double kMostCells = 1U << 26;
-  constexpr double kMargin = 2.0;  // [cells], so that walls at the edge are in it
+  constexpr double kMargin = 2.0;  // [cells], so that walls at the edge are included
   const double left = std::floor(bounds.xLow / cell - kMargin);
   const double bottom = std::floor(bounds.yLow / cell - kMargin);
   const double columns = std::ceil(bounds.xHigh / cell + kMargin) - left;
@@ -32,11 +32,11 @@ WorldGrid gridOver(const Box2& bounds, double cell) {
   return grid;
 }
 
-/// Marks the surfaces that are seen from a cell, as near as the next cells.
+/// Marks the surfaces that are seen from a cell, up to the adjacent cells.
 void lookAround(const SimWorld& world, double height, double x, double y, WorldGrid& grid) {
   constexpr std::size_t kRays = 16;
-  constexpr double kBehind = 1e-4;  // the surface [m]
-  constexpr double kFirst = 0.1;    // so that no ray leads from a centre to a corner [rad]
+  constexpr double kBehind = 1e-4;  // distance behind the surface [m]
+  constexpr double kFirst = 0.1;    // first direction; no ray from a centre hits a corner [rad]
   const double far = 2.0 * grid.cell;
   std::array<float, kRays> ranges{};
   const double step = 2.0 * std::numbers::pi / kRays;
@@ -61,7 +61,7 @@ void lookAround(const SimWorld& world, double height, double x, double y, WorldG
 
 WorldGrid drawGrid(const SimWorld& world, double cell, double height) {
   WorldGrid grid = gridOver(world.solids().bounds, cell);
-  constexpr double kPoint = 0.001;  // [m]
+  constexpr double kPoint = 0.001;  // radius of the scanner [m]
   const RobotSize scanner{kPoint, std::max(height, kPoint)};
   for (std::size_t row = 0; row < grid.rows; ++row) {
     checkInterrupt();

@@ -79,7 +79,7 @@ TEST_F(CalibrateNoise, EvalTellsHowGoodEstimatesCouldBe) {
   const Outcome outcome =
       eval("robot.toml", {"--bound", path("hall.toml"), "--json", path("figures.json")});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("Least RMS (Cramer-Rao)"), std::string::npos);
+  EXPECT_NE(outcome.out.find("Cramer-Rao bound, RMS"), std::string::npos);
   const auto figures = nlohmann::json::parse(read("figures.json"));
   const double rmse = figures.at("bound_rmse_m");
   EXPECT_GT(rmse, 0.0005);

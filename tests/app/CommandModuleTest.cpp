@@ -49,7 +49,7 @@ TEST_F(CommandModule, WhatIsNoModuleIsRefused) {
                 {path("ortung_command_learn.so")});
   copyModule("ortung_command_empty.so", "show");
   expectRefused(run({"show"}), 1, "ortung: " + path("ortung_command_show.so"),
-                {"is no command of ortung"});
+                {"is not a command of ortung"});
 }
 
 TEST(CommandDescription, TellsAllCommandsWithTheirOptions) {

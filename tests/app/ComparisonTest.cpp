@@ -172,7 +172,7 @@ TEST_F(RunFiles, OthersAreRefusedWithWhatWasExpected) {
   const std::string begin = R"({"source": "a", "robot": "b", "seed": )";
   EXPECT_NE(refusal(begin + "-1}").find("'seed' is number, expected a whole number"),
             std::string::npos);
-  EXPECT_NE(refusal(begin + "1, \"faults\": [1]}").find("a fault is no text"), std::string::npos);
+  EXPECT_NE(refusal(begin + "1, \"faults\": [1]}").find("a fault is not text"), std::string::npos);
   EXPECT_NE(refusal(begin + "1, \"case\": 5}").find("case: found number"), std::string::npos);
   EXPECT_NE(refusal(begin + R"(1, "case": {"kind": "kidnap", "number": 1, "events": [{}]}})")
                 .find("event 1: has no key 'right'"),

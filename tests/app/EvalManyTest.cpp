@@ -172,7 +172,7 @@ TEST_F(EvalMany, WhatMakesNoSenseIsWrongUsage) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     expectRefused(eval(arguments), 2, "ortung eval: ", {part});
   };
-  refused({"--runs", "2", "--report", path("o.html")}, "--report is of one run, and there are 2");
+  refused({"--runs", "2", "--report", path("o.html")}, "--report is for one run, and there are 2");
   refused({"--wake-ups", "2", "--record", path("o.rec")}, "--record is of one run");
   refused({"--kidnap", "2", "--runs", "3"}, "leave out --runs");
   refused({"--kidnap", "2", "--start", "1,2,3"}, "kidnaps and teleports begin at the truth");

@@ -62,7 +62,7 @@ TEST(Report, ShowsErrorsOverTimeSinceTheFirstReading) {
 TEST(Report, ShowsTheBoundBesideErrorsIfThereIsOne) {
   RunResult run = syntheticRun();
   EXPECT_TRUE(dataOf(toHtml(run))["positionBound"].empty());
-  EXPECT_EQ(toHtml(run).find("least that is possible"), std::string::npos);
+  EXPECT_EQ(toHtml(run).find("its lower bound"), std::string::npos);
   const Timestamp later = run.figures.points[10].stamp;
   run.bounds = {{run.figures.points[1].stamp, {0.0009, 0, 0, 0, 0.0016, 0, 0, 0, 0.0}},
                 {later, {0.0036, 0, 0, 0, 0.0064, 0, 0, 0, 0.0001}}};
@@ -73,7 +73,7 @@ TEST(Report, ShowsTheBoundBesideErrorsIfThereIsOne) {
   EXPECT_NEAR(data["positionBound"][9].get<double>(), 0.05, 1e-6);
   EXPECT_NEAR(data["positionBound"][10].get<double>(), 0.1, 1e-6);
   EXPECT_NEAR(data["headingBound"][599].get<double>(), 0.573, 1e-3);
-  EXPECT_EQ(countOf(toHtml(run), "the least that is possible (green)"), 2u);
+  EXPECT_EQ(countOf(toHtml(run), "its lower bound (green)"), 2u);
 }
 
 TEST(Report, KeepsPeaksOfLongRuns) {

@@ -38,7 +38,7 @@ TEST(BenchmarkCommand, PlaysWritesMergesAndVerifies) {
   EXPECT_EQ(readBytes(file("merged.json")), readBytes(file("all.json")));
   const Outcome same = ortung({"benchmark", "verify", file("all.json"), "--sample", "20"});
   EXPECT_EQ(same.exitCode, 0) << same.err;
-  EXPECT_EQ(same.out, "20 of 20 episodes were played again, 0 came out otherwise\n");
+  EXPECT_EQ(same.out, "20 of 20 episodes were played again, 0 with another result\n");
 
   auto json = nlohmann::ordered_json::parse(readBytes(file("all.json")));
   std::string outcomes = json["cells"][1]["outcomes"];

@@ -2,7 +2,7 @@
   'use strict';
   const data = JSON.parse(document.getElementById('data').textContent);
 
-  // A colour of report.css, as the reader's light or dark scheme has it.
+  // Returns a colour of report.css in the reader's light or dark scheme.
   function colour(name) {
     return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
   }
@@ -15,7 +15,7 @@
     mark.setAttribute('visibility', 'visible');
   }
 
-  // Index of the last element of the sorted list that is not above the value.
+  // Returns the index of the last element of the sorted list that is not above the value.
   function lastUpTo(list, value) {
     let low = 0;
     let high = list.length;
@@ -47,7 +47,7 @@
     canvas.fillRect(area.x, area.y, right - area.x, area.h);
   }
 
-  // Bands where the status is not tracking: low ones uncertain, high ones lost.
+  // Draws bands where the status is not tracking: low ones for uncertain, high ones for lost.
   function drawStatus(canvas, area, graph) {
     shadeUntilConverged(canvas, area, graph);
     data.pathTime.forEach(function (t, i) {
@@ -76,7 +76,7 @@
                  Math.max(...data.time.slice(-1), ...data.samplesTime.slice(-1), ...data.pathTime.slice(-1), 0.001)];
   const graphs = [];
 
-  // Rows with empty ones where nothing is known for longer than a line is drawn over.
+  // Returns the rows with empty ones in gaps over which no line is drawn.
   function withGaps(rows, longestStep) {
     const out = [];
     rows.forEach(function (row, i) {
@@ -107,7 +107,7 @@
     });
   }
 
-  // Top of an error's axis: errors before convergence would flatten all others.
+  // Returns the top of an error's axis; errors before convergence would flatten all others.
   function topAfterConvergence(values, sigmas) {
     if (data.converged === null) return null;
     let top = 0;
@@ -117,14 +117,14 @@
     return top > 0 ? 1.15 * top : null;
   }
 
-  // Bounds are those of an estimate that uses all readings say; empty where nobody asked for them.
+  // Draws a chart of errors. Bounds are Cramer-Rao bounds; empty if they were not requested.
   function errorChart(id, unit, values, sigmas, bounds) {
     const top = topAfterConvergence(values, sigmas);
     const hasBounds = bounds.length > 0;
     const rows = data.time.map(function (t, i) {
       return [t, sigmas[i], values[i]].concat(hasBounds ? [bounds[i]] : []);
     });
-    const names = ['time', '1 sigma', 'error'].concat(hasBounds ? ['least 1 sigma'] : []);
+    const names = ['time', '1 sigma', 'error'].concat(hasBounds ? ['lower bound'] : []);
     chart(id, withGaps(rows, data.longestStep), names, ['sigma', 'estimate'].concat(hasBounds ? ['samples'] : []), {
       ylabel: 'error [' + unit + ']', valueRange: [0, top],
       series: { '1 sigma': { fillGraph: true, strokeWidth: 0.5 } }

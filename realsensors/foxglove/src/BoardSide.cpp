@@ -1,4 +1,4 @@
-// What a session says to the message board and what it makes of its answers.
+// The part of a session that deals with the message board.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -50,13 +50,13 @@ void FoxgloveSession::Parts::takeWorld(const BoardReply& reply) {
   }
   sendInfo(textOf("world"));
   ask("DESCRIBE field", [this, about](const BoardReply& field) { takeField(about, field); });
-  // Once a second: a sign of life by which robots that come are seen.
+  // These events, once a second, are the occasions on which new robots are found.
   ask("SUBSCRIBE robot=0 period_s=1 form=binary world/truth/robots",
       [this](const BoardReply& answer) { hasWorldTruth = answer.isOk(); });
   list();
 }
 
-/// A first advertisement is expected whether there is a map or not.
+/// Advertises the map. Clients expect a first advertisement even if there is no map.
 void FoxgloveSession::Parts::takeField(const BoardReply& world, const BoardReply& reply) {
   const auto map = foxglove::mapOfField(world, reply.lines);
   if (!map) return advertise({});
@@ -169,8 +169,8 @@ void FoxgloveSession::Parts::takeReadings(std::int64_t number, const BoardReply&
   give(number, frame);
 }
 
-/// Five words a robot: number, x, y, heading without an offset, states. Robots that have a feature
-/// of that kind tell it themselves.
+/// Takes the world's truth, five words a robot: number, x, y, heading without an offset, states.
+/// Robots with a feature for their ground truth are left out.
 void FoxgloveSession::Parts::takeWorldTruth(const Message& message) {
   constexpr std::size_t kWords = 5;
   if (!isTruthAsked) return;
@@ -185,14 +185,15 @@ void FoxgloveSession::Parts::takeWorldTruth(const Message& message) {
   }
 }
 
-/// Tells the client what it has subscribed to of one moment's readings.
+/// Sends those of the readings of one time to which the client has subscribed.
 void FoxgloveSession::Parts::give(std::int64_t number, std::vector<Message>& frame) {
   const auto part = robots.find(number);
   const std::vector<Message> readings = std::move(frame);
   frame.clear();
   if (readings.empty() || part == robots.end() || !part->second.robot) return;
   const auto sink = [&](std::size_t topic, Timestamp stamp, std::string_view cdr) {
-    if (topic >= part->second.channels.size()) return;  // of a feature that was not described
+    if (topic >= part->second.channels.size())
+      return;  // a topic of a feature that was not described
     const Channel& channel = channels[part->second.channels[topic]];
     if (channel.subscription)
       sendBinary(foxglove::messageFrame(*channel.subscription,
@@ -231,7 +232,7 @@ std::string FoxgloveSession::Parts::queriesOf(const RobotPart& part) const {
   return text;
 }
 
-/// Asks for what the client has subscribed to, and nothing else.
+/// Subscribes at the board to the features to which the client has subscribed.
 void FoxgloveSession::Parts::subscribeAtBoard() {
   const auto heed = [this](const BoardReply& reply) {
     if (!reply.isOk()) tell(Level::kWarning, "the board refuses a subscription: " + reply.text());

@@ -1,4 +1,4 @@
-// What a session says to the client, and what it makes of the client's messages.
+// The part of a session that deals with the client.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -25,13 +25,13 @@ json timeOf(Timestamp stamp) {
   return {{"sec", time / kSecond}, {"nsec", time % kSecond}};
 }
 
-/// A number that a client may choose, or nothing.
+/// Returns a number that a client may choose, or nothing.
 std::optional<std::uint32_t> numberIn(const json& value) {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xFFFFFFFFU) return std::nullopt;
   return value.get<std::uint32_t>();
 }
 
-/// The list that stands under a key; empty if there is none.
+/// Returns the list of a key; empty if there is none.
 const json& listIn(const json& message, const char* key) {
   static const json kNone = json::array();
   const auto found = message.find(key);
@@ -51,7 +51,8 @@ void FoxgloveSession::Parts::sendInfo(const std::string& world) {
             {"supportedEncodings", json::array()},
             {"metadata", {{"kind", kind}}}};
   if (start && end) {
-    for (const char* name : {"playbackControl", "rangedPlayback"})  // of later, of earlier versions
+    for (const char* name :
+         {"playbackControl", "rangedPlayback"})  // in later and in earlier versions
       info["capabilities"].push_back(name);
     info["dataStartTime"] = timeOf(*start);
     info["dataEndTime"] = timeOf(*end);
@@ -89,7 +90,8 @@ void FoxgloveSession::Parts::takeText(std::string_view text) {
   const json message = json::parse(text, nullptr, false);
   const auto op = message.is_object() ? message.find("op") : message.end();
   if (!message.is_object() || op == message.end() || !op->is_string())
-    return tell(Level::kError, "found a message that is no JSON object with an op, expected one");
+    return tell(Level::kError,
+                "found a message that is not a JSON object with an op, expected one");
   const std::string name = op->get<std::string>();
   if (name == "subscribe") {
     for (const json& one : listIn(message, "subscriptions")) {
@@ -137,9 +139,10 @@ void FoxgloveSession::Parts::unsubscribe(std::uint32_t subscription) {
 void FoxgloveSession::Parts::takeBinary(std::string_view message) {
   const auto request = foxglove::parsePlaybackRequest(message);
   if (!request)
-    return tell(Level::kError, "found a binary message that is no request to play, expected one");
+    return tell(Level::kError,
+                "found a binary message that is not a request to play, expected one");
   if (!start || !end)
-    return tell(Level::kError, "only a record can be played and sought in; this is none");
+    return tell(Level::kError, "only a record can be played and sought in; this is not a record");
   control(*request);
 }
 

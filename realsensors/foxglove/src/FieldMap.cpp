@@ -6,13 +6,13 @@
 namespace ortung::foxglove {
 namespace {
 
-constexpr double kFinest = 0.05;         // edge of a cell [m]
-constexpr double kMostCells = 1U << 17;  // of the map; each client has one
-constexpr double kFarthest = 1e5;        // [m]
-constexpr double kMargin = 0.5;          // around what nothing leaves: walls have backs [m]
+constexpr double kFinest = 0.05;         // least size of a cell [m]
+constexpr double kMostCells = 1U << 17;  // greatest number of cells; each client has a map
+constexpr double kFarthest = 1e5;        // greatest width and height of a field [m]
+constexpr double kMargin = 0.5;          // margin around the bounds, for the walls' thickness [m]
 constexpr std::int8_t kOccupied = 100;
 
-/// Marks the cells that a wall runs through.
+/// Marks the cells on a wall.
 void mark(const BoardReply& wall, ros2::OccupancyGrid& map) {
   const auto x0 = wall.real("x0_m");
   const auto y0 = wall.real("y0_m");

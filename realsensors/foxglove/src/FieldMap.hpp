@@ -9,9 +9,10 @@
 
 namespace ortung::foxglove {
 
-/// A map with the walls of a field, which is free elsewhere; nothing if the board knows no bounds
-/// or no walls.
-/// @param world first line of `DESCRIBE world` @param lines of `DESCRIBE field`
+/// Makes a map of a field that is occupied at its walls and free elsewhere; nothing if the board
+/// has no bounds or no walls.
+/// @param world first line of `DESCRIBE world`
+/// @param lines lines of `DESCRIBE field`
 std::optional<ros2::OccupancyGrid> mapOfField(const BoardReply& world,
                                               const std::vector<std::string>& lines);
 

@@ -9,7 +9,7 @@ namespace {
 constexpr char kMessageData = 1;
 constexpr char kTime = 2;
 constexpr char kPlaybackState = 5;
-constexpr char kPlaybackControl = 3;  // of clients
+constexpr char kPlaybackControl = 3;  // operation of clients
 
 template <class T>
 void put(std::string& out, T number) {

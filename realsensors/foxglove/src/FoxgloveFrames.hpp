@@ -5,33 +5,33 @@
 #include <string>
 #include <string_view>
 
-// Binary messages of the protocol; numbers have the lowest byte first.
+// Binary messages of the protocol; numbers are little-endian.
 namespace ortung::foxglove {
 
-/// What a client's time line wants.
+/// A request of a client's time line.
 struct PlaybackRequest {
-  bool isPlay = false;
-  float speed = 1.0F;                 ///< times real time, above 0, at most 1000
-  std::optional<std::uint64_t> seek;  ///< [ns]
-  std::string id;
+  bool isPlay = false;                ///< whether to play, else pause
+  float speed = 1.0F;                 ///< record time / real time, in (0, 1000]
+  std::optional<std::uint64_t> seek;  ///< time to seek [ns since 1970]; nothing: none
+  std::string id;                     ///< identity of the request
 };
 
 enum class PlaybackStatus : std::uint8_t { kPlaying, kPaused, kBuffering, kEnded };
 
 struct PlaybackState {
   PlaybackStatus status = PlaybackStatus::kPaused;
-  std::uint64_t time = 0;  ///< [ns]
+  std::uint64_t time = 0;  ///< time of the record [ns since 1970]
   float speed = 1.0F;
   bool hasSought = false;
-  std::string request = {};  ///< that it answers; "": none
+  std::string request = {};  ///< identity of the request that it answers; "": none
 };
 
-/// A message of a channel. @param time [ns]
+/// Encodes a message of a channel. @param time [ns since 1970]
 std::string messageFrame(std::uint32_t subscription, std::uint64_t time, std::string_view message);
-/// @param time of the world [ns]
+/// Encodes the world's time. @param time [ns since 1970]
 std::string timeFrame(std::uint64_t time);
 std::string playbackFrame(const PlaybackState& state);
-/// Reads a client's binary message; nothing for anything but a request that makes sense.
+/// Decodes a client's binary message; nothing if it is not a valid request.
 std::optional<PlaybackRequest> parsePlaybackRequest(std::string_view bytes);
 
 }  // namespace ortung::foxglove

@@ -19,7 +19,7 @@ void FoxgloveSession::fromClient(std::string_view message, bool isBinary) {
 void FoxgloveSession::fromBoard(std::string_view bytes) {
   if (isOver) return;
   if (parts_->board.take(bytes)) return;
-  parts_->tell(Level::kError, "the board said something that is no word of its protocol");
+  parts_->tell(Level::kError, "the board has violated its protocol");
   isOver = true;
 }
 

@@ -17,40 +17,40 @@ namespace ortung {
 
 enum class Level : std::uint8_t { kInfo, kWarning, kError };
 
-/// What a session knows of both sides.
+/// The state of a session.
 struct FoxgloveSession::Parts {
   using BoardReply = foxglove::BoardReply;
   struct Channel {
     std::string topic;
     std::string_view type;
-    std::optional<std::uint32_t> subscription;  ///< of the client
-    /// What whoever subscribes later gets at once, too, by its robot.
+    std::optional<std::uint32_t> subscription;  ///< number of the client's subscription
+    /// Messages that later subscribers get at once, by robot.
     std::map<std::int64_t, std::string> latched;
-    std::size_t users = 0;  ///< robots that have the topic
+    std::size_t users = 0;  ///< number of robots that have the topic
   };
   struct RobotPart {
     std::unique_ptr<foxglove::DescribedRobot> robot;  ///< null until it is described
-    std::vector<std::uint32_t> channels;              ///< by its topics
-    std::string asked;                                ///< the subscription at the board
+    std::vector<std::uint32_t> channels;              ///< channel of each of its topics
+    std::string asked;                                ///< features subscribed at the board
   };
 
   FoxgloveSession& session;
   foxglove::BoardReplies board;
-  std::string kind;                     ///< of the world: "simulation", ...
-  std::optional<Timestamp> start, end;  ///< of a record
+  std::string kind;                     ///< kind of the world: "simulation", ...
+  std::optional<Timestamp> start, end;  ///< first and last time of a record
   Timestamp now = 0;
-  Timestamp listed = 0;  ///< when robots were last asked for
+  Timestamp listed = 0;  ///< time of the last request for the robots
   bool isListing = false;
-  bool isPlaybackWatched = false;  ///< the client knows of states
+  bool isPlaybackWatched = false;  ///< whether the client has used playback control
   bool isEndTold = false;
   std::map<std::uint32_t, Channel> channels;
-  std::map<std::string, std::uint32_t> channelOf;        ///< by topic
-  std::map<std::uint32_t, std::uint32_t> subscriptions;  ///< channel by the client's number
+  std::map<std::string, std::uint32_t> channelOf;        ///< channels by topic
+  std::map<std::uint32_t, std::uint32_t> subscriptions;  ///< channels by the client's subscription
   std::map<std::int64_t, RobotPart> robots;
   std::uint32_t nextChannel = 1;
-  bool isTruthAsked = false;  ///< of the world itself, each cycle
+  bool isTruthAsked = false;  ///< whether the world's truth is subscribed in each cycle
   bool hasWorldTruth = true;
-  bool isCrowded = false;  ///< there are, or may be, several robots: topics have their names
+  bool isCrowded = false;  ///< whether there may be several robots: topics have their names
 
   explicit Parts(FoxgloveSession& owner);
 

@@ -31,7 +31,7 @@ std::optional<std::vector<std::string>> listOption(const Parameters& options, co
   return list;
 }
 
-/// The files of a bag in their order: bag_2.mcap comes before bag_10.mcap.
+/// Returns the files of a bag in their order: bag_2.mcap comes before bag_10.mcap.
 std::vector<fs::path> filesOf(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return {path};
@@ -101,7 +101,7 @@ void Bag::readFile(const fs::path& file) {
   McapReader reader(in, file_);
   for (McapMessage message; reader.next(message);) take(message, message.channel->schema.name);
   if (reader.isUnfinished() && remarks.size() < kMostRemarks)
-    remarks.push_back(file_ + " was never finished; it was read up to its end");
+    remarks.push_back(file_ + " is unfinished; it was read up to its end");
   const auto robot = reader.attachments().find(kRobotFile);
   if (robot != reader.attachments().end()) robotToml = robot->second;
 }
@@ -160,7 +160,7 @@ void Bag::keep(std::size_t bytes) {
   kept_ += bytes;
   if (kept_ > kMostKept)
     throw std::runtime_error(file_ +
-                             ": holds more than 1 GiB of readings; the options scans, "
+                             ": has more than 1 GiB of readings; the options scans, "
                              "ranges and images choose some of them");
 }
 
@@ -174,7 +174,8 @@ void Bag::takeScan(const McapMessage& message) {
   }
   std::vector<float> fitted = scans_.shape->fit(scan);
   if (fitted.empty()) {
-    ++unfit_[message.channel->topic + " reach where its first one does not, and were left out"];
+    ++unfit_[message.channel->topic +
+             " reach beyond the angles of its first one, and were left out"];
     return;
   }
   keep(fitted.size() * sizeof(float));
@@ -255,7 +256,7 @@ void Bag::takeOdometry(const McapMessage& message) {
   const Pose2 pose = toPose2(odom.pose);
   const double sum = odom.linear.x + odom.linear.y + odom.angular.z;
   if (!isFinite(pose) || !std::isfinite(sum)) {
-    ++unfit_[message.channel->topic + " hold numbers that are none, and were left out"];
+    ++unfit_[message.channel->topic + " contain invalid numbers, and were left out"];
     return;
   }
   Track& track = ofTopic(odometries_, *message.channel, file_);
@@ -308,7 +309,7 @@ void Bag::addOwn(const McapMessage& message, Timestamp stamp, std::vector<std::u
   topic.list.push_back({stamp, std::move(words)});
 }
 
-/// Words of Ortung's own features, which have no stamp but that of the message itself.
+/// Takes words of Ortung's features. Their messages have no stamp but the time of recording.
 void Bag::takeWords(const McapMessage& message) {
   addOwn(message, logTime(message), decode<Words>(message)->data);
 }
@@ -327,7 +328,7 @@ void Bag::takeMap(const McapMessage& message) {
                         std::to_string(origin.theta) + " rad, expected a value a cell, not turned");
 }
 
-/// Which odometry and truth count, and which frame is the robot's, once all is known.
+/// Chooses odometry, ground truth and the robot's frame, after all messages were read.
 void Bag::choose() {
   const std::string& wanted = choice_.odometry;
   std::size_t at = 0;
@@ -337,11 +338,11 @@ void Bag::choose() {
     base = odometryFrames_[at];
   } else if (!wanted.empty() && wanted != "tf") {
     throw std::runtime_error(file_ + ": found no topic " + inQuotes(wanted) +
-                             " with nav_msgs/msg/Odometry, which the option odometry names");
+                             " with nav_msgs/msg/Odometry; the option odometry names it");
   }
   if (!choice_.base.empty()) base = choice_.base;
   if (base.empty()) base = frames.hasFrame("base_footprint") ? "base_footprint" : "base_link";
-  std::string inOdometry;  // the frame that the robot moves in
+  std::string inOdometry;  // the frame in which the robot moves
   std::optional<Pose2> odometryInMap;
   for (const TimedTransform& one : moving_) {
     if (one.child == base) {
@@ -359,7 +360,7 @@ void Bag::choose() {
   if (choice_.truth == "tf") truth.topic = "/tf";
   if (!choice_.truth.empty() && choice_.truth != "none" && truth.list.empty())
     throw std::runtime_error(file_ + ": found no pose at " + inQuotes(choice_.truth) +
-                             ", which the option truth names");
+                             "; the option truth names it");
 }
 
 }  // namespace ortung::ros2

@@ -17,19 +17,19 @@
 
 namespace ortung::ros2 {
 
-/// What to take from a bag. A list of topics that is not given: all of that type.
+/// Options that choose what is read from a bag.
 struct BagChoice {
-  std::optional<std::vector<std::string>> scans, ranges, images;
-  std::string odometry;  ///< a topic, "tf", or "": the first one, or else tf
-  std::string truth;     ///< a topic, "tf", "none", or "": one that is called ground truth
-  std::string map;       ///< a topic, or "": the first one
-  std::string base;      ///< frame of the robot; "": that of odometry
-  bool usesLogTime = false;
+  std::optional<std::vector<std::string>> scans, ranges, images;  ///< topics; nothing: all
+  std::string odometry;      ///< topic of odometry, or "tf"; "": the first one, or else tf
+  std::string truth;         ///< topic of ground truth, "tf" or "none"; "": one that is named so
+  std::string map;           ///< topic of the map; "": the first one
+  std::string base;          ///< frame of the robot; "": the odometry's
+  bool usesLogTime = false;  ///< whether stamps are times of recording
   static BagChoice read(const Parameters& options);
 };
 
-/// A robot's messages as they were in a bag of ROS 2 that was recorded as MCAP: one file, or the
-/// folder of a bag with its files. Not thread-safe.
+/// A robot's messages in a bag of ROS 2 that was recorded as MCAP: one file, or the folder of a bag
+/// with its files. Not thread-safe.
 class Bag {
  public:
   struct Scan {
@@ -37,10 +37,10 @@ class Bag {
     std::vector<float> ranges;
   };
   struct Scans {
-    std::string topic, feature;  ///< feature: as Ortung's own files name it, or ""
+    std::string topic, feature;  ///< topic, and the feature by files that Ortung wrote, or ""
     std::optional<ScanShape> shape;
     std::vector<Scan> list;
-    std::size_t others = 0;  ///< that did not fit, and were left out
+    std::size_t others = 0;  ///< number of scans that did not fit, and were left out
   };
   struct Reading {
     Timestamp stamp;
@@ -48,13 +48,13 @@ class Bag {
   };
   struct Ranges {
     std::string topic, feature, frame;
-    double openingAngle = 0.0, maxRange = 0.0;  ///< [rad], [m]
+    double openingAngle = 0.0, maxRange = 0.0;  ///< cone's angle and length [rad, m]
     std::vector<Reading> list;
   };
   struct Moving {
     Timestamp stamp;
     Pose2 pose;
-    double forward = 0.0, left = 0.0, turn = 0.0;  ///< [m/s], [rad/s]
+    double forward = 0.0, left = 0.0, turn = 0.0;  ///< velocities [m/s, m/s, rad/s]
   };
   struct Track {
     std::string topic, feature;
@@ -80,12 +80,12 @@ class Bag {
   std::vector<Ranges> ranges;
   std::vector<Pictures> pictures;
   Track odometry, truth;
-  std::map<std::string, OwnWords> own;  ///< what Ortung's own files hold as words, by topic
+  std::map<std::string, OwnWords> own;  ///< words in files that Ortung wrote, by topic
   FrameTree frames;
   std::string base;  ///< frame of the robot
   std::optional<OccupancyGrid> map;
-  std::string robotToml;             ///< that Ortung put into its file, or ""
-  std::vector<std::string> remarks;  ///< what whoever reads it should know
+  std::string robotToml;             ///< robot file in a file that Ortung wrote, or ""
+  std::vector<std::string> remarks;  ///< remarks for the user
 
  private:
   void readFile(const std::filesystem::path& file);
@@ -117,9 +117,9 @@ class Bag {
   BagChoice choice_;
   std::string file_;
   std::vector<Track> odometries_;
-  std::vector<std::string> odometryFrames_;  ///< the robot's, by odometries_
+  std::vector<std::string> odometryFrames_;  ///< the robot's frame of each odometry
   std::vector<TimedTransform> moving_;
-  std::size_t kept_ = 0;  ///< bytes
+  std::size_t kept_ = 0;  ///< size of the readings [bytes]
   std::map<std::string, std::size_t> unfit_;
 };
 

@@ -14,7 +14,7 @@ void FrameTree::add(const TransformStamped& transform, bool isStatic) {
   const auto& [position, q] = transform.transform;
   const Eigen::Vector3d place(position.x, position.y, position.z);
   const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
-  constexpr double kLeast = 1e-3;  // of a quaternion's length, which should be 1
+  constexpr double kLeast = 1e-3;  // least length of a quaternion, which should be 1
   if (!place.allFinite() || place.norm() > kFarthest || !(turn.norm() > kLeast) ||
       !std::isfinite(turn.norm()))
     return;
@@ -32,7 +32,8 @@ std::pair<std::string, Eigen::Isometry3d> FrameTree::climb(std::string frame,
                                                            const std::string& base,
                                                            bool staticAlone) const {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (std::size_t steps = 0; steps < kMostFrames; ++steps) {  // a circle ends, too
+  for (std::size_t steps = 0; steps < kMostFrames;
+       ++steps) {  // limited, since links may form a circle
     const auto link = links_.find(frame);
     if (link == links_.end() || (!link->second.isStatic && (staticAlone || frame == base))) break;
     pose = link->second.pose * pose;

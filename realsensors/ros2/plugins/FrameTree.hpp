@@ -9,13 +9,13 @@
 
 namespace ortung::ros2 {
 
-/// Where frames lie in others, as the messages at /tf and /tf_static tell. Not thread-safe.
+/// Poses of frames in others, from the messages at /tf and /tf_static. Not thread-safe.
 class FrameTree {
  public:
-  /// Takes a transform; one that is not finite, or whose quaternion is none, is passed over.
+  /// Takes a transform; one that is not finite, or whose quaternion is 0, is ignored.
   void add(const TransformStamped& transform, bool isStatic);
-  /// Where @p frame lies in @p base, by what does not move; else by the last that was told, without
-  /// @p base itself, which moves in others. Nothing if they don't hang together.
+  /// Returns the pose of @p frame in @p base by static transforms; if those do not connect the two,
+  /// by the newest ones, too, except for that of @p base itself. Nothing if they are not connected.
   std::optional<Eigen::Isometry3d> find(const std::string& frame, const std::string& base) const;
   bool hasFrame(const std::string& frame) const;
   std::size_t size() const { return links_.size(); }
@@ -26,10 +26,10 @@ class FrameTree {
     Eigen::Isometry3d pose;
     bool isStatic = false;
   };
-  /// Climbs to the highest frame; where @p frame lies in it.
+  /// Climbs to the highest frame. @return that frame, and the pose of @p frame in it
   std::pair<std::string, Eigen::Isometry3d> climb(std::string frame, const std::string& base,
                                                   bool staticAlone) const;
-  std::map<std::string, Link> links_;  ///< by child
+  std::map<std::string, Link> links_;  ///< transforms by child frame
 };
 
 }  // namespace ortung::ros2

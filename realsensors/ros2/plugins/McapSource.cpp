@@ -22,9 +22,9 @@
 namespace ortung::ros2 {
 namespace {
 
-constexpr double kUsefulRange = 30.0;  // [m], of scanners that do not tell theirs
+constexpr double kUsefulRange = 30.0;  // [m], of scanners that do not say theirs
 
-/// A float of a message as the decimal that it was made of.
+/// Rounds a float of a message to the decimal from which it was made.
 double plain(double number) { return std::round(number * 1e6) / 1e6; }
 
 std::string cleaned(const std::string& topic) {
@@ -40,8 +40,8 @@ std::string cleaned(const std::string& topic) {
   return name.empty() ? "topic" : name.substr(0, kLongest);
 }
 
-/// A bag of ROS 2 that was recorded as MCAP: laser scans, odometry, ranges, poses, and where the
-/// sensors sit.
+/// A bag of ROS 2 that was recorded as MCAP: laser scans, odometry, ranges, poses, and the mounts
+/// of the sensors.
 class McapSource : public LogSource {
  public:
   explicit McapSource(const Parameters& options)
@@ -80,19 +80,19 @@ class McapSource : public LogSource {
   void addPictures(const Bag::Pictures& pictures);
   void addTruth(const Bag::Track& truth);
   void addOwn(const std::string& topic, const Bag::OwnWords& own);
-  /// The name that Ortung's own files give, if it is one; else @p fallback; no name twice.
+  /// Returns the name in files that Ortung wrote, if it is valid, or else @p fallback; made unique.
   SensorId idFor(const std::string& feature, SensorId fallback);
-  /// Where a sensor sits, and whether it hangs upside down.
+  /// Returns the mount of a sensor, and whether it is upside down.
   std::pair<Pose2, bool> mountOf(const Bag& bag, const std::string& frame, const std::string& topic,
                                  bool isScanner);
 
   std::string path_;
   std::optional<double> maxRange_;
-  std::map<std::string, Pose2> mounts_;  ///< by frame, as options say
+  std::map<std::string, Pose2> mounts_;  ///< mounts by frame, from the options
   std::set<std::string> names_;
-  std::map<std::string, std::uint32_t> numbers_;  ///< of features, by name
-  std::string sensors_;                           ///< TOML
-  std::string toml_;                              ///< whole, of Ortung's own files
+  std::map<std::string, std::uint32_t> numbers_;  ///< numbers of features by name
+  std::string sensors_;                           ///< [[sensor]] tables
+  std::string toml_;                              ///< robot file in a file that Ortung wrote
   std::vector<std::string> remarks_;
   std::optional<OccupancyGrid> map_;
 };
@@ -119,7 +119,8 @@ SensorId McapSource::idFor(const std::string& feature, SensorId fallback) {
   try {
     if (!feature.empty()) id = parseSensorId(feature);
   } catch (const std::invalid_argument&) {
-    remarks_.push_back("a channel calls its feature " + inQuotes(feature) + ", which is no name");
+    remarks_.push_back("a channel calls its feature " + inQuotes(feature) +
+                       ", which is not a valid name");
   }
   const std::string wanted = id.feature;
   for (int i = 2; !names_.insert(toText(id)).second; ++i) id.feature = wanted + std::to_string(i);
@@ -131,9 +132,9 @@ std::pair<Pose2, bool> McapSource::mountOf(const Bag& bag, const std::string& fr
   if (const auto told = mounts_.find(frame); told != mounts_.end()) return {told->second, false};
   const auto found = bag.frames.find(frame, bag.base);
   if (!found) {
-    remarks_.push_back("where the frame " + inQuotes(frame) + " of " + topic + " sits in " +
+    remarks_.push_back("the mount of frame " + inQuotes(frame) + " of " + topic + " in " +
                        inQuotes(bag.base) +
-                       " is not told: it was put there; the option mounts tells it");
+                       " is not known: it was put at the origin; the option mounts sets it");
     return {Pose2(), false};
   }
   const Eigen::Matrix3d turn = found->linear();
@@ -141,7 +142,7 @@ std::pair<Pose2, bool> McapSource::mountOf(const Bag& bag, const std::string& fr
   if (isScanner && std::abs(turn(2, 2)) < kUpright)
     throw std::runtime_error(path_ + ": the scanner of " + topic + " is tilted by " +
                              std::to_string(static_cast<int>(degrees(std::acos(turn(2, 2))))) +
-                             " degrees, expected one that looks level; the option scans leaves it "
+                             " degrees, expected a level one; the option scans leaves it "
                              "out");
   const Eigen::Vector3d place = found->translation();
   return {{plain(place.x()), plain(place.y()), std::atan2(turn(1, 0), turn(0, 0))},
@@ -218,7 +219,7 @@ void McapSource::addTruth(const Bag::Track& truth) {
   for (const Bag::Moving& one : truth.list) add(feature, one.stamp, PoseData::encode(one.pose));
 }
 
-/// Words stand for whatever a message says of the same feature at the same time.
+/// Adds words; they replace a message of the same feature and time.
 void McapSource::addOwn(const std::string& topic, const Bag::OwnWords& own) {
   const auto known = numbers_.find(own.feature);
   const auto feature = known != numbers_.end()
@@ -227,7 +228,7 @@ void McapSource::addOwn(const std::string& topic, const Bag::OwnWords& own) {
   for (const Bag::Picture& one : own.list) add(feature, one.stamp, one.words);
 }
 
-/// The map as map_server has it, and a world that consists of it.
+/// Writes the map as map_server does, and a world that consists of it.
 void McapSource::writeWorld(const std::filesystem::path& file) const {
   if (!map_)
     throw std::runtime_error(path_ +
@@ -262,7 +263,7 @@ void McapSource::writeWorld(const std::filesystem::path& file) const {
                       tomlText(yaml.filename().string()) + "\nsurface_depth_cells = 0.5\n");
 }
 
-/// What `ortung import mcap --help` tells.
+/// The text of `ortung import mcap --help`.
 class McapHelp : public SourceHelp {
  public:
   explicit McapHelp(const Parameters&)
@@ -272,14 +273,14 @@ class McapHelp : public SourceHelp {
              {"ranges", "", "all", "topics of sensor_msgs/Range"},
              {"images", "", "none", "topics of sensor_msgs/Image (rgb8, bgr8, mono8)"},
              {"odometry", "", "the first",
-              "topic of nav_msgs/Odometry, or tf: the frame of the robot as /tf moves it"},
+              "topic of nav_msgs/Odometry, or tf: the robot's poses at /tf"},
              {"truth", "", "a topic called ground truth",
-              "topic of poses or odometry that is the reference; tf: the robot in the map as /tf "
-              "tells; none"},
+              "topic of poses or odometry that is the reference; tf: the robot's poses in the map "
+              "at /tf; none"},
              {"map", "", "the first", "topic of nav_msgs/OccupancyGrid, for --world"},
              {"base", "", "that of odometry", "frame of the robot"},
-             {"mounts", "x,y,theta in m and degrees", "as /tf_static tells",
-              "where sensors sit: FRAME:x,y,theta, and ';' between two"},
+             {"mounts", "x,y,theta in m and degrees", "those at /tf_static",
+              "mounts of sensors: FRAME:x,y,theta, and ';' between two"},
              {"max_range_m", "m", "the scan's, or 30",
               "ranges from here on mean that nothing was seen"},
              {"stamps", "", "header", "header: times of measurement; log: of recording"}}) {}

@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kMostBeams = 8192;
 constexpr double kMostMetres = 1000.0;
 
-/// What a range means (REP 117): below the least or no number: not valid; beyond the greatest:
-/// nothing seen.
+/// Interprets a range (REP 117): below the least or not a number is invalid; beyond the greatest
+/// one nothing is seen.
 float meaning(float range) {
   return range > 0.0F ? range : std::numeric_limits<float>::quiet_NaN();
 }
@@ -32,7 +32,7 @@ ScanShape::ScanShape(const LaserScan& first)
     throw std::invalid_argument("found " + std::to_string(beams_) + " beams from " +
                                 std::to_string(first_) + " rad on, " + std::to_string(step_) +
                                 " rad apart, expected at least one, within a turn");
-  // Scanners that see all around tell the first beam again at the end.
+  // Scanners that see all around repeat the first beam at the end.
   constexpr double kRounded = 0.01;  // beams
   beams_ = std::min(beams_, static_cast<std::size_t>(
                                 std::max(1.0, std::floor(kTurn / std::abs(step_) + kRounded))));

@@ -9,31 +9,32 @@
 
 namespace ortung::ros2 {
 
-/// The beams of a scanner, as its first scan has them, and how later scans fit to them.
+/// The beams of a scanner's first scan, and how later scans are fitted to them.
 class ScanShape {
  public:
   /// @throws std::invalid_argument for beams that no scanner has
   explicit ScanShape(const LaserScan& first);
 
-  /// Ranges of a scan in the first one's beams: those of the nearest beams if it has others. The
-  /// order is that of the message. NaN: not valid; +infinity: nothing seen.
-  /// @returns empty if it reaches elsewhere
+  /// Returns the ranges of a scan in the first one's beams: those of the nearest beams if it has
+  /// others. The order is that of the message. NaN: invalid; +infinity: nothing seen.
+  /// @returns empty if the scan covers other angles
   std::vector<float> fit(const LaserScan& scan) const;
   /// Whether every scan so far had the same beams.
   bool isSame(const LaserScan& scan) const;
-  /// As the scanner's axis points up, and the other way round: counter-clockwise seen from above.
+  /// Returns the scanner, with beams counter-clockwise seen from above.
+  /// @param isUpsideDown whether the scanner's z axis points down
   Scanner scanner(bool isUpsideDown) const;
   /// Whether beams run clockwise where the scanner's axis points up.
   bool isClockwise() const { return step_ < 0; }
   const std::string& frame() const { return frame_; }
-  double maxRange() const { return maxRange_; }  ///< [m]; 0: the scan does not say it
+  double maxRange() const { return maxRange_; }  ///< greatest range [m]; 0: unknown
 
  private:
   std::string frame_;
-  double first_ = 0.0;     ///< [rad]
-  double step_ = 0.0;      ///< [rad], of either sign
-  std::size_t told_ = 0;   ///< beams of the first scan
-  std::size_t beams_ = 0;  ///< of which they are within a turn
+  double first_ = 0.0;     ///< angle of the first beam [rad]
+  double step_ = 0.0;      ///< angle between beams [rad], of either sign
+  std::size_t told_ = 0;   ///< number of beams of the first scan
+  std::size_t beams_ = 0;  ///< number of these beams within a turn
   double maxRange_ = 0.0;
 };
 

@@ -13,7 +13,7 @@
 #include "Fields.hpp"
 
 // Common Data Representation: OMG DDS-XTypes 1.3, section 7.4.3, encoding version 1 of plain types:
-// every number lies at a multiple of its size, counted from behind the four bytes of the head.
+// every number is aligned to its size, counted from the end of the four bytes of the head.
 namespace ortung::ros2 {
 
 inline constexpr std::size_t kCdrHead = 4;
@@ -23,7 +23,7 @@ concept Number = std::is_arithmetic_v<T>;
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
 
-/// Puts fields behind each other. Not thread-safe.
+/// Appends fields to a message. Not thread-safe.
 class CdrWriter {
  public:
   CdrWriter() : bytes_("\0\1\0\0", kCdrHead) {}
@@ -75,8 +75,8 @@ class CdrWriter {
   std::string bytes_;
 };
 
-/// Takes fields from bytes; from the first that is not there on, all are what they were.
-/// Not thread-safe.
+/// Reads fields from bytes. The first one that is missing or invalid and all after it are
+/// unchanged. Not thread-safe.
 class CdrReader {
  public:
   explicit CdrReader(std::string_view bytes) {
@@ -97,7 +97,7 @@ class CdrReader {
   }
   void operator()(std::string& text) {
     const std::uint32_t size = count(1);
-    if (size == 0) return text.clear();  // some write an empty text without its zero
+    if (size == 0) return text.clear();  // some writers leave out the zero of an empty text
     if (bytes_[at_ + size - 1] != '\0') return fail("a text that does not end with a zero");
     text = bytes_.substr(at_, size - 1);
     at_ += size;
@@ -133,7 +133,7 @@ class CdrReader {
   }
 
  private:
-  /// How many elements come; 0 if there is not room for as many, of @p size bytes at least.
+  /// Reads a number of elements; fails, and returns 0, if so many of @p size bytes can't follow.
   std::uint32_t count(std::size_t size) {
     std::uint32_t number = 0;
     take(&number, 1);

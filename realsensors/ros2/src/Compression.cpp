@@ -12,9 +12,9 @@ namespace ortung::ros2 {
 namespace {
 
 constexpr int kLevel = 3;
-constexpr std::size_t kFirst = 1U << 16;  // bytes that are made room for at first
+constexpr std::size_t kFirst = 1U << 16;  // bytes that are reserved at first
 
-/// Makes room for more; false when there are as many as may be.
+/// Enlarges the output; false if it has its greatest size.
 bool grow(std::string& out, std::size_t used, std::size_t most) {
   if (used >= most) return false;
   out.resize(std::min(most, std::max(kFirst, 2 * used)));

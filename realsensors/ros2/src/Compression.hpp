@@ -10,8 +10,8 @@ namespace ortung::ros2 {
 std::string packZstd(std::string_view bytes);
 std::string packLz4(std::string_view bytes);
 
-/// Unpacks what nobody vouches for: @p out grows as bytes come out, to @p most at most.
-/// @returns why not, or ""
+/// Unpacks untrusted bytes: @p out grows with the output, to at most @p most bytes.
+/// @returns "", or the reason why they can't be unpacked
 std::string unpackZstd(std::string_view packed, std::size_t most, std::string& out);
 std::string unpackLz4(std::string_view packed, std::size_t most, std::string& out);
 

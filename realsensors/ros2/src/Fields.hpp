@@ -5,10 +5,10 @@
 
 #include "ortung/ros2/Messages.hpp"
 
-// The fields of each message in their order, for writers and readers alike.
+// The fields of each message in their order, for both writers and readers.
 namespace ortung::ros2 {
 
-/// M, perhaps const.
+/// Whether T is M or const M.
 template <class T, class M>
 concept Is = std::same_as<std::remove_const_t<T>, M>;
 

@@ -8,8 +8,7 @@
 #include <string>
 #include <string_view>
 
-// Pieces of MCAP's records: numbers with the lowest byte first, texts and lists with their length
-// in bytes before them.
+// Items of MCAP's records: little-endian numbers; texts and lists after their length in bytes.
 namespace ortung::ros2 {
 
 inline constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
@@ -42,14 +41,14 @@ inline void putText(std::string& out, std::string_view text) {
   put(out, static_cast<std::uint32_t>(text.size()));
   out += text;
 }
-/// A record: its kind, its length, what it holds.
+/// Appends a record: its kind, its length and its content.
 inline void putRecord(std::string& out, McapOp kind, std::string_view content) {
   put(out, static_cast<std::uint8_t>(kind));
   put(out, static_cast<std::uint64_t>(content.size()));
   out += content;
 }
 
-/// Takes pieces from the front of bytes; false, and nothing taken, where there are too few.
+/// Takes an item from the front of bytes; returns false, and takes nothing, if there are too few.
 template <std::unsigned_integral T>
 bool take(std::string_view& bytes, T& number) {
   if (bytes.size() < sizeof number) return false;
@@ -73,7 +72,7 @@ inline bool takeText(std::string_view& bytes, std::string& text) {
   return true;
 }
 
-/// CRC-32 as zip has it, of bytes that may come in pieces. Not thread-safe.
+/// The CRC-32 of zip, of bytes that may come in pieces. Not thread-safe.
 class Crc {
  public:
   void add(std::string_view bytes) { crc_.process_bytes(bytes.data(), bytes.size()); }

@@ -18,7 +18,7 @@ struct Record {
   std::string_view content;
 };
 
-/// The next record within a chunk.
+/// Takes the next record within a chunk.
 bool takeRecord(std::string_view& bytes, Record& record) {
   std::uint8_t kind = 0;
   if (!take(bytes, kind)) return false;
@@ -32,12 +32,12 @@ struct McapReader::Parts {
   std::istream& file;
   std::string name;
   std::uint64_t size = 0;
-  std::uint64_t at = 0;     ///< bytes read
-  std::uint64_t place = 0;  ///< of the record that is looked at
+  std::uint64_t at = 0;     ///< number of bytes read
+  std::uint64_t place = 0;  ///< place of the current record [bytes]
   std::string profile;
-  std::string record;  ///< content of one that lies in the file itself
+  std::string record;  ///< content of a record outside chunks
   std::string chunk;
-  std::string_view rest;  ///< of the chunk
+  std::string_view rest;  ///< rest of the chunk
   std::map<std::uint16_t, McapSchema> schemas;
   std::map<std::uint16_t, McapChannel> channels;
   std::map<std::string, std::string> attachments;
@@ -67,7 +67,7 @@ struct McapReader::Parts {
     file.seekg(static_cast<std::streamoff>(count), std::ios::cur);
     at += count;
   }
-  /// The next record of the file that matters; false at its end.
+  /// Reads the next record that is used; false at the end of the file.
   bool readRecord(McapOp& kind);
   bool isWanted(McapOp kind, std::uint64_t length) const;
 
@@ -77,7 +77,7 @@ struct McapReader::Parts {
   void takeChunk(std::string_view content);
   void takeAttachment(std::string_view content);
   bool takeMessage(std::string_view content, McapMessage& message) const;
-  /// @returns whether it is a message
+  /// Takes a record. @returns whether it is a message
   bool look(const Record& one, McapMessage& message);
   void unpack(std::string_view packed, const std::string& compression, std::uint64_t expected);
 };
@@ -152,7 +152,7 @@ void McapReader::Parts::takeChannel(std::string_view content) {
     std::string key;
     std::string value;
     if (!takeText(metadata, key) || !takeText(metadata, value))
-      fail("a channel whose metadata is cut off", "keys and values");
+      fail("a channel whose metadata is truncated", "keys and values");
     channel.metadata.insert_or_assign(std::move(key), std::move(value));
   }
   channel.id = id;
@@ -272,7 +272,7 @@ bool McapReader::next(McapMessage& message) {
   while (!p.isOver) {
     Record one;
     if (!p.rest.empty()) {
-      if (!takeRecord(p.rest, one)) p.fail("a record that the end of its chunk cuts off", "none");
+      if (!takeRecord(p.rest, one)) p.fail("a record that does not end within its chunk", "none");
       if (one.kind != McapOp::kSchema && one.kind != McapOp::kChannel &&
           one.kind != McapOp::kMessage)
         continue;

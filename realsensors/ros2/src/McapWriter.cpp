@@ -12,7 +12,7 @@
 namespace ortung::ros2 {
 namespace {
 
-/// Of a chunk: where the messages of a channel are.
+/// Times and places of the messages of each channel in a chunk.
 using Index = std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>>;
 
 struct Span {
@@ -52,7 +52,7 @@ std::string pack(std::string_view bytes, McapCompression compression) {
   return std::string(bytes);
 }
 
-/// A list with its length in bytes before it.
+/// Appends a list after its length in bytes.
 template <class List, class Put>
 void putList(std::string& out, const List& list, Put putOne) {
   std::string pieces;
@@ -65,9 +65,9 @@ void putList(std::string& out, const List& list, Put putOne) {
 struct McapWriter::Parts {
   Sink sink;
   Options options;
-  std::uint64_t offset = 0;                    ///< bytes written
-  Crc crc;                                     ///< of the data section, then of the summary
-  std::vector<std::string> schemas, channels;  ///< records, by number - 1 and by number
+  std::uint64_t offset = 0;  ///< number of bytes written
+  Crc crc;                   ///< checksum of the data section, then of the summary
+  std::vector<std::string> schemas, channels;  ///< records by number - 1, and by number
   std::map<std::uint16_t, std::uint64_t> counts;
   std::map<std::uint16_t, std::uint32_t> sequences;
   std::string chunk;
@@ -87,7 +87,7 @@ struct McapWriter::Parts {
     putRecord(record, kind, content);
     out(record);
   }
-  /// Where a message, or what it needs to be understood, goes.
+  /// Writes a message, schema or channel to the chunk, or to the file if there are no chunks.
   void addRecord(McapOp kind, std::string_view content) {
     options.isChunked ? putRecord(chunk, kind, content) : outRecord(kind, content);
   }
@@ -150,8 +150,8 @@ void McapWriter::write(std::uint16_t channel, std::uint64_t time, std::string_vi
   std::string record;
   put(record, channel);
   put(record, p.sequences[channel]++);
-  put(record, time);  // logged
-  put(record, time);  // published
+  put(record, time);  // time of recording
+  put(record, time);  // time of publishing
   record += message;
   p.addRecord(McapOp::kMessage, record);
   p.chunkSpan.hold(time);
@@ -188,7 +188,8 @@ void McapWriter::Parts::endChunk() {
   chunkSpan = {};
 }
 
-/// Writes where the chunk's messages are, and into the chunk's own entry where that is written.
+/// Writes the places of the chunk's messages, and adds the places of these indexes to @p
+/// chunkIndex.
 void McapWriter::Parts::putMessageIndexes(std::string& chunkIndex) {
   const std::uint64_t begin = offset;
   std::map<std::uint16_t, std::uint64_t> places;
@@ -211,11 +212,11 @@ void McapWriter::Parts::putMessageIndexes(std::string& chunkIndex) {
 
 void McapWriter::attach(std::string_view name, std::string_view mediaType, std::string_view bytes) {
   Parts& p = *parts_;
-  p.endChunk();  // attachments lie between chunks
+  p.endChunk();  // attachments are between chunks
   constexpr std::uint64_t kNoTime = 0;
   std::string content;
-  put(content, kNoTime);  // logged
-  put(content, kNoTime);  // made
+  put(content, kNoTime);  // time of recording
+  put(content, kNoTime);  // time of creation
   putText(content, name);
   putText(content, mediaType);
   put(content, static_cast<std::uint64_t>(bytes.size()));
@@ -237,7 +238,7 @@ std::string McapWriter::Parts::statistics() const {
   put(content, static_cast<std::uint16_t>(schemas.size()));
   put(content, static_cast<std::uint32_t>(channels.size()));
   put(content, static_cast<std::uint32_t>(attachmentIndexes.size()));
-  put(content, std::uint32_t{0});  // pieces of metadata
+  put(content, std::uint32_t{0});  // number of metadata records
   put(content, static_cast<std::uint32_t>(chunkIndexes.size()));
   span.put(content);
   putList(content, counts, [](std::string& out, const auto& one) {
@@ -247,7 +248,7 @@ std::string McapWriter::Parts::statistics() const {
   return content;
 }
 
-/// Writes a group of the summary, and notes where it is.
+/// Writes a group of the summary, and appends its place to @p offsets.
 void McapWriter::Parts::writeGroup(McapOp kind, const std::vector<std::string>& records,
                                    std::string& offsets) {
   if (records.empty()) return;

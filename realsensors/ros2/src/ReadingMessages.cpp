@@ -14,7 +14,7 @@
 namespace ortung::ros2 {
 namespace {
 
-/// Places in a covariance of six dimensions of those of x, y and heading.
+/// Indices of x, y and heading in a covariance of six dimensions.
 constexpr std::size_t kPlanar[3] = {0, 1, 5};
 
 float rangeOf(std::uint32_t word, double maxRange) {

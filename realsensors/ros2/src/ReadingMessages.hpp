@@ -7,14 +7,14 @@
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/ros2/Messages.hpp"
 
-// Readings as messages of ROS 2. The words are those that the feature takes, but for the estimate
-// and samples of MCL, which are checked here: all throw std::invalid_argument.
+// Converts readings to messages of ROS 2. The feature has checked the words, except for the
+// estimate and the samples of MCL, which are checked here. All throw std::invalid_argument.
 namespace ortung::ros2 {
 
-/// [ns] @throws std::invalid_argument for a time before 1970, or beyond 2^31 s
+/// Converts a stamp to [ns]. @throws std::invalid_argument for a time before 1970, or beyond 2^31 s
 std::int64_t rosTime(Timestamp stamp);
 
-/// Whether the reading tells more than odometryMessage().
+/// Whether the reading has motion data, which odometryMessage() leaves out.
 bool hasMotionData(const Message& reading);
 Odometry odometryMessage(const Message& reading, Header header, std::string child);
 LaserScan scanMessage(const Message& reading, const ScanData::Config& config, Header header);
@@ -30,7 +30,7 @@ bool areInRobot(const Format& format);
 /// Places of rows with x, y, z and all that the rows tell, by the names in `row`.
 PointCloud cloudMessage(const Message& reading, const Format& row, Header header);
 Image imageMessage(const Message& reading, Header header);
-/// The first fix; nothing if there is none.
+/// Converts the first fix; nothing if there is none.
 std::optional<PoseWithCovarianceStamped> poseMessage(const Message& reading, Header header);
 PoseArray samplesMessage(const Message& reading, Header header);
 

@@ -7,11 +7,11 @@
 namespace ortung::ros2 {
 namespace {
 
-/// A type as its package defines it, without what others are made of it.
+/// A type as its package defines it, without the definitions of its parts.
 struct Definition {
-  std::string_view name;  ///< as definitions name each other: without "msg/"
-  std::string_view fields;
-  std::array<std::string_view, 3> parts;  ///< types of fields, but numbers and texts
+  std::string_view name;                  ///< name of the type without "msg/"
+  std::string_view fields;                ///< definition of its fields
+  std::array<std::string_view, 3> parts;  ///< types of fields, except numbers and texts
 };
 
 constexpr Definition kDefinitions[] = {
@@ -108,7 +108,7 @@ std::string schemaText(std::string_view type) {
   const Definition* whole = find(name);
   if (whole == nullptr) return "";
   std::string text(whole->fields);
-  std::vector<const Definition*> list{whole};  // each once, those that it is made of behind it
+  std::vector<const Definition*> list{whole};  // each type once, its parts after it
   for (std::size_t i = 0; i < list.size(); ++i) {
     for (const std::string_view part : list[i]->parts) {
       const Definition* one = find(part);

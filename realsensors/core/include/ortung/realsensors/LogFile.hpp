@@ -92,10 +92,10 @@ class ORTUNG_API LogFile {
   std::filesystem::path path_;
   std::unique_ptr<Stream> stream_;
   std::string line_;
-  std::vector<std::string_view> fields_;
-  std::size_t lineNumber_ = 0;
-  bool hasCommas_ = false;
-  bool torn_ = false;
+  std::vector<std::string_view> fields_;  ///< fields of line_
+  std::size_t lineNumber_ = 0;            ///< number of line_, from 1
+  bool hasCommas_ = false;                ///< whether commas separate fields, else blanks
+  bool torn_ = false;                     ///< whether the file ends within line_
 };
 
 /// Makes the stamps of one stream strictly increasing. The clocks of old logs jitter, while their

@@ -48,11 +48,11 @@ class ORTUNG_API OpenWorld {
     double xLow, xHigh, yLow, yHigh;  ///< bounds in the field frame [m]
   };
   void add(const LogFile& file, const Place& place);
-  Bounds bounds() const;
+  Bounds bounds() const;  ///< bounding box of the landmarks, with the margin
 
   std::string kind_;
-  double margin_;
-  std::vector<Place> landmarks_;
+  double margin_;                 ///< distance from the outermost landmarks to the bounds [m]
+  std::vector<Place> landmarks_;  ///< landmarks in the order of reading
 };
 
 }  // namespace ortung

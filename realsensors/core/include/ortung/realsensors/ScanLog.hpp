@@ -58,20 +58,22 @@ class ORTUNG_API ScanLogSource : public LogSource {
   const std::filesystem::path& map() const { return map_; }
 
  private:
+  /// A pose at a time.
   struct TimedPose {
     Timestamp stamp;
     Pose2 pose;
   };
+  /// Velocities that are in force from a time on.
   struct Command {
     Timestamp stamp;
-    double v;
-    double w;
+    double v;  ///< translational velocity [m/s]
+    double w;  ///< rotational velocity [rad/s]
   };
   void setInLineOrder(const std::string& where);
 
   std::string path_;
   ScannerOptions scannerOptions_;
-  std::optional<double> period_;
+  std::optional<double> period_;  ///< time between scans [s]; nothing: by their stamps
   std::optional<Scanner> scanner_;
   LogClock scanClock_, odometryClock_, truthClock_, commandClock_;
   Timestamp lastRaw_ = 0;
@@ -82,7 +84,7 @@ class ORTUNG_API ScanLogSource : public LogSource {
   std::vector<TimedPose> odometry_;
   std::vector<TimedPose> truth_;
   std::vector<Command> commands_;
-  std::filesystem::path map_;
+  std::filesystem::path map_;  ///< file of the map, or empty
 };
 
 /// Appends the options that all logs of lasers have to @p options, for the help of a source.

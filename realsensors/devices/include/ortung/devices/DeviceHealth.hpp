@@ -76,9 +76,9 @@ class ORTUNG_API DeviceHealth {
   double since(Timestamp then, Timestamp now) const { return toSeconds(now - then); }
   Config config_;
   bool isOpen_ = false;
-  bool isMisfit_ = false;
+  bool isMisfit_ = false;   ///< whether the device did not fit when it was closed
   bool hasFailed_ = false;  ///< whether it has failed since it last ran
-  bool repeats_ = false;
+  bool repeats_ = false;    ///< whether the newest reading was a repeated one
   std::string reason_;
   double wait_ = 0.0;  ///< wait before the next try [s]
   Timestamp nextTry_ = 0;

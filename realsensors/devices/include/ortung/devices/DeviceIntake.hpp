@@ -48,19 +48,23 @@ class ORTUNG_API DeviceIntake {
     Timestamp second = 0;      ///< begin of the second in which readings are counted
     std::size_t inSecond = 0;  ///< number of readings in that second
   };
+  /// Whether the feature accepts the words.
   static bool isSense(const Feature& feature, const DeviceReading& reading);
+  /// Whether the device's time is that of the last reading.
   static bool repeatsItsTime(Feature& feature, const DeviceReading& reading);
+  /// Whether too many consecutive readings were equal.
   bool isFrozen(Feature& feature, const DeviceReading& reading) const;
+  /// Whether too many readings came within a second.
   bool isFlood(Feature& feature, Timestamp arrival) const;
 
   Config config_;
   std::vector<Feature> features_;
   DeviceClock clock_;
   DeviceHealth health_;
-  bool hasClock_ = false;
-  std::uint64_t refused_ = 0;
-  std::uint64_t repeated_ = 0;
-  std::uint64_t flooded_ = 0;
+  bool hasClock_ = false;       ///< whether the newest reading has a device time
+  std::uint64_t refused_ = 0;   ///< number of invalid readings
+  std::uint64_t repeated_ = 0;  ///< number of repeated readings
+  std::uint64_t flooded_ = 0;   ///< number of readings that came too fast
 };
 
 }  // namespace ortung

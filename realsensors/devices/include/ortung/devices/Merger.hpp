@@ -40,11 +40,11 @@ class ORTUNG_API Merger {
 
  private:
   struct Lane {
-    bool isAwaited = false;
-    std::optional<Timestamp> newest;
-    std::uint64_t late = 0;
-    std::uint64_t lost = 0;
-    std::size_t waiting = 0;
+    bool isAwaited = false;           ///< whether others wait for the device
+    std::optional<Timestamp> newest;  ///< newest stamp
+    std::uint64_t late = 0;           ///< number of readings dropped because they were too late
+    std::uint64_t lost = 0;           ///< number of readings dropped because too many waited
+    std::size_t waiting = 0;          ///< number of readings that wait
   };
   struct Waiting {
     Timestamp stamp;

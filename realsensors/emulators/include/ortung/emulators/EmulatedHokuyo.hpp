@@ -34,29 +34,31 @@ class ORTUNG_API EmulatedHokuyo : public EmulatedDevice {
     int left = 0;          ///< number of scans to send; 0: no limit
     bool isShort = false;  ///< whether a range has two characters, not three
   };
-  void execute(const std::string& line, Timestamp now);
-  void measure(const std::string& line, Timestamp now);
+  void execute(const std::string& line, Timestamp now);  ///< answers a command
+  void measure(const std::string& line, Timestamp now);  ///< answers a request for scans
+  /// Parses a request for scans; nothing if the scanner does not have its steps.
   std::optional<Request> requestOf(const std::string& line) const;
+  /// Sends the command, a status of two characters and data, each with its checksum.
   void answer(const std::string& echo, std::string_view status, std::string_view data,
               Timestamp now);
-  std::string timeOf(Timestamp now) const;
-  std::string versions() const;
-  std::string parameters() const;
+  std::string timeOf(Timestamp now) const;  ///< encodes a time stamp, four characters
+  std::string versions() const;             ///< data of the answer to VV
+  std::string parameters() const;           ///< data of the answer to PP
   void sendScan(const Request& request, const Message& reading, Timestamp now);
 
   SensorId id_;
-  double maxRange_;  ///< greatest range of the simulated scanner [m]
-  int stepsOfTurn_;
-  int firstStep_;
-  int lastStep_;
-  int frontStep_;
-  std::optional<int> baud_;
-  LineCutter lines_;
-  bool isOn_ = false;
-  bool measures_ = false;
-  Request request_;
-  int skipped_ = 0;
-  std::optional<Message> newest_;
+  double maxRange_;                ///< greatest range of the simulated scanner [m]
+  int stepsOfTurn_;                ///< number of steps in a turn
+  int firstStep_;                  ///< step of the first beam
+  int lastStep_;                   ///< step of the last beam
+  int frontStep_;                  ///< step of the beam straight ahead
+  std::optional<int> baud_;        ///< speed of the line [bit/s]; nothing: a socket
+  LineCutter lines_;               ///< commands of the robot's computer
+  bool isOn_ = false;              ///< whether the laser is on
+  bool measures_ = false;          ///< whether scans are sent
+  Request request_;                ///< request for the scans that are sent
+  int skipped_ = 0;                ///< number of scans that were skipped since the last one
+  std::optional<Message> newest_;  ///< newest scan, for requests of a single one
 };
 
 }  // namespace ortung

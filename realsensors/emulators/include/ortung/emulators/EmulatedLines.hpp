@@ -21,8 +21,8 @@ class ORTUNG_API EmulatedLines : public EmulatedDevice {
   std::optional<int> baud() const override { return baud_; }
 
  private:
-  std::vector<SensorId> features_;
-  std::optional<int> baud_;
+  std::vector<SensorId> features_;  ///< features that it measures
+  std::optional<int> baud_;         ///< speed of its line [bit/s]
 };
 
 }  // namespace ortung

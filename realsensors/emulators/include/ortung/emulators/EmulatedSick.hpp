@@ -30,20 +30,20 @@ class ORTUNG_API EmulatedSick : public EmulatedDevice {
   std::optional<int> baud() const override { return baud_; }
 
  private:
-  void execute(std::string_view command, Timestamp now);
-  void answer(std::string data, Timestamp now);
-  void changeMode(std::string_view command, Timestamp now);
-  std::size_t beams() const;
+  void execute(std::string_view command, Timestamp now);     ///< answers a command
+  void answer(std::string data, Timestamp now);              ///< sends a telegram
+  void changeMode(std::string_view command, Timestamp now);  ///< answers a change of mode
+  std::size_t beams() const;  ///< number of beams in the current field of view
 
   SensorId id_;
-  double maxRange_;  ///< greatest range of the simulated scanner [m]
-  int baud_;
-  std::string bytes_;     ///< bytes of a telegram that is not complete
-  std::string settings_;  ///< configuration, 34 bytes
-  bool isInstalling_ = false;
-  bool isContinuous_ = false;
-  int fieldOfView_ = 180;  ///< field of view [degrees]
-  int resolution_ = 100;   ///< angle between beams [1/100 degree]
+  double maxRange_;            ///< greatest range of the simulated scanner [m]
+  int baud_;                   ///< speed of the line [bit/s]
+  std::string bytes_;          ///< bytes of a telegram that is not complete
+  std::string settings_;       ///< configuration, 34 bytes
+  bool isInstalling_ = false;  ///< whether it is in the mode for changes of its settings
+  bool isContinuous_ = false;  ///< whether it sends all scans
+  int fieldOfView_ = 180;      ///< field of view [degrees]
+  int resolution_ = 100;       ///< angle between beams [1/100 degree]
 };
 
 }  // namespace ortung

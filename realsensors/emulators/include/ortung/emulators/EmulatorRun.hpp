@@ -40,15 +40,19 @@ class ORTUNG_API EmulatorRun {
  private:
   Timestamp now() const;  ///< emulated time since the construction [us]
   struct State {
-    bool isOdd = false;
-    bool hasJumped = false;
+    bool isOdd = false;           ///< whether the last telegram's number was odd
+    bool hasJumped = false;       ///< whether its clock was set
     std::vector<Message> frozen;  ///< last readings before it froze
   };
-  bool everybodyMeasures() const;
-  void feed(Timestamp now);
+  bool everybodyMeasures() const;  ///< whether all devices were asked to measure
+  void feed(Timestamp now);        ///< passes the readings that are due to the devices
+  /// Passes a reading to a device, with the faults of now.
   void sense(std::size_t line, const Message& message, Timestamp now);
+  /// Moves bytes between a device and its line, with the faults of now.
   void exchange(std::size_t line, Timestamp now);
+  /// Unplugs and plugs a line, and sets its device's clock, as its faults say.
   void switchFaults(std::size_t line, Timestamp now);
+  /// Whether a line has a fault now.
   bool has(std::size_t line, EmulatorFault::Kind kind, Timestamp now) const;
   void wait(Timestamp now) const;
 

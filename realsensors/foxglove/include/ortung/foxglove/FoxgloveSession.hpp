@@ -9,36 +9,38 @@
 
 namespace ortung {
 
-/// One client of Foxglove's WebSocket protocol (subprotocols foxglove.websocket.v1 and
-/// foxglove.sdk.v1), which is told of a message board's robots in messages of ROS 2: a pure
-/// function of what both say, without sockets, clocks or threads. Channels are as
-/// `ortung::ros2::RobotTopics` makes them; in a simulation, and where there are several, each
-/// robot's have its name before them. A record can be played, paused and sought in
+/// The session of one client of Foxglove's WebSocket protocol (subprotocols foxglove.websocket.v1
+/// and foxglove.sdk.v1), which gets the readings of a message board's robots as messages of ROS 2.
+/// It is a pure function of the bytes of both sides, without sockets, clocks or threads. Channels
+/// are the topics of `ortung::ros2::RobotTopics`; in a simulation, and if there are several robots,
+/// their names begin with the robot's. A client can play, pause and seek in a record
 /// (PlaybackControl).
 ///
-/// What it wants to be said it leaves in toBoard and toClient, from which its caller takes it.
-/// Everything from the client is hostile; the board is our own. Not thread-safe.
+/// Bytes to send are appended to toBoard and toClient, from which the caller takes them. The client
+/// is not trusted; the board is. Not thread-safe.
 class ORTUNG_API FoxgloveSession {
  public:
+  /// A WebSocket message.
   struct Frame {
-    std::string bytes;
-    bool isBinary = true;
+    std::string bytes;     ///< its content
+    bool isBinary = true;  ///< whether it is binary, else text
   };
 
-  /// @param token for the board; "": it comes in as a viewer without one
+  /// Greets the board.
+  /// @param token token for the board; "": none, the session is a viewer's
   explicit FoxgloveSession(const std::string& token = "");
   ~FoxgloveSession();
   FoxgloveSession(const FoxgloveSession&) = delete;
   FoxgloveSession& operator=(const FoxgloveSession&) = delete;
 
-  /// A whole message of the client.
+  /// Takes a whole message of the client.
   void fromClient(std::string_view message, bool isBinary);
-  /// The next bytes that the board says, cut anywhere.
+  /// Takes the next bytes of the board, cut anywhere.
   void fromBoard(std::string_view bytes);
 
-  std::string toBoard;          ///< not said yet
-  std::vector<Frame> toClient;  ///< not said yet, in this order
-  bool isOver = false;          ///< the connection is closed when all is said
+  std::string toBoard;          ///< bytes to send to the board
+  std::vector<Frame> toClient;  ///< messages to send to the client, in this order
+  bool isOver = false;          ///< whether to close the connection after all was sent
 
  private:
   struct Parts;

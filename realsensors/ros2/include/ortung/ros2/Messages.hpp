@@ -12,99 +12,115 @@
 /// Files and messages of ROS 2 by their public specifications; no part of ROS is needed.
 namespace ortung::ros2 {
 
-// The messages of ROS 2 that have to do with a robot in the plane, field by field as their
-// packages define them (names here are ours). Lengths [m], angles [rad], times [ns since 1970].
-// What is left out of them, such as covariances of velocities, is written as zeros.
+// The messages of ROS 2 for a robot in the plane, field by field as their packages define them
+// (with Ortung's names). Lengths [m], angles [rad], times [ns since 1970]. Fields without a value,
+// such as covariances of velocities, are zeros.
 
+/// Time and frame of a message's data.
 struct Header {
-  std::int64_t stamp = 0;  ///< [ns]; within 2^31 s of 1970
-  std::string frame;
+  std::int64_t stamp = 0;  ///< time of measurement [ns], within 2^31 s of 1970
+  std::string frame;       ///< name of the frame
 };
+/// A vector or place in space; its unit depends on the message.
 struct Vector3 {
   double x = 0.0, y = 0.0, z = 0.0;
 };
+/// A rotation in space.
 struct Quaternion {
   double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
 };
+/// A pose in space.
 struct Pose {
-  Vector3 position;
-  Quaternion orientation;
+  Vector3 position;        ///< place [m]
+  Quaternion orientation;  ///< rotation
 };
-using Covariance = std::array<double, 36>;  ///< of x, y, z and turns about them, row-major
+using Covariance =
+    std::array<double, 36>;  ///< covariance of x, y, z and rotations about them, row-major [m, rad]
 
+/// A scan of a laser scanner.
 struct LaserScan {
   static constexpr std::string_view kType = "sensor_msgs/msg/LaserScan";
   Header header;
-  float angleMin = 0.0F, angleMax = 0.0F, angleIncrement = 0.0F;
-  float timeIncrement = 0.0F, scanTime = 0.0F;  ///< [s]
-  float rangeMin = 0.0F, rangeMax = 0.0F;
-  std::vector<float> ranges;  ///< NaN: not valid; +infinity: nothing within range (REP 117)
-  std::vector<float> intensities;
+  float angleMin = 0.0F, angleMax = 0.0F, angleIncrement = 0.0F;  ///< angles of beams [rad]
+  float timeIncrement = 0.0F, scanTime = 0.0F;  ///< time between beams, and between scans [s]
+  float rangeMin = 0.0F, rangeMax = 0.0F;       ///< limits of the ranges [m]
+  std::vector<float> ranges;       ///< ranges [m]; NaN: invalid; +infinity: nothing seen (REP 117)
+  std::vector<float> intensities;  ///< intensity of each range, or empty
 };
 
+/// Pose and velocity of a robot by its odometry, or by any other estimate.
 struct Odometry {
   static constexpr std::string_view kType = "nav_msgs/msg/Odometry";
   Header header;
-  std::string childFrame;
+  std::string childFrame;  ///< frame of the velocities, e.g. "base_link"
   Pose pose;
-  Covariance poseCovariance{};
-  Vector3 linear;   ///< in the child frame [m/s]
-  Vector3 angular;  ///< in the child frame [rad/s]
-  Covariance twistCovariance{};
+  Covariance poseCovariance{};   ///< covariance of the pose
+  Vector3 linear;                ///< velocity in the child frame [m/s]
+  Vector3 angular;               ///< angular velocity in the child frame [rad/s]
+  Covariance twistCovariance{};  ///< covariance of the velocities
 };
 
+/// The pose of a frame in its parent frame.
 struct TransformStamped {
   Header header;
-  std::string childFrame;
-  Pose transform;
+  std::string childFrame;  ///< frame whose pose this is
+  Pose transform;          ///< pose of the child frame in the header's frame
 };
+/// Poses of frames, at /tf and /tf_static.
 struct TfMessage {
   static constexpr std::string_view kType = "tf2_msgs/msg/TFMessage";
   std::vector<TransformStamped> transforms;
 };
 
+/// A pose with time and frame.
 struct PoseStamped {
   static constexpr std::string_view kType = "geometry_msgs/msg/PoseStamped";
   Header header;
   Pose pose;
 };
+/// A pose with its covariance, time and frame.
 struct PoseWithCovarianceStamped {
   static constexpr std::string_view kType = "geometry_msgs/msg/PoseWithCovarianceStamped";
   Header header;
   Pose pose;
-  Covariance covariance{};
+  Covariance covariance{};  ///< covariance of the pose
 };
+/// Several poses, e.g. samples of a filter.
 struct PoseArray {
   static constexpr std::string_view kType = "geometry_msgs/msg/PoseArray";
   Header header;
   std::vector<Pose> poses;
 };
 
+/// A grid map.
 struct OccupancyGrid {
   static constexpr std::string_view kType = "nav_msgs/msg/OccupancyGrid";
   Header header;
-  std::int64_t mapLoadTime = 0;  ///< [ns]
-  float resolution = 0.0F;       ///< edge of a cell
-  std::uint32_t width = 0, height = 0;
-  Pose origin;                    ///< of the lower left corner of cell (0, 0)
-  std::vector<std::int8_t> data;  ///< rows from below: 0 free to 100 occupied, -1 unknown
+  std::int64_t mapLoadTime = 0;         ///< time at which the map was loaded [ns since 1970]
+  float resolution = 0.0F;              ///< size of a cell [m]
+  std::uint32_t width = 0, height = 0;  ///< size of the map [cells]
+  Pose origin;                          ///< pose of the lower left corner of cell (0, 0)
+  std::vector<std::int8_t> data;        ///< rows from below: 0 free to 100 occupied, -1 unknown
 };
 
+/// A range of a sonar or an infrared sensor.
 struct Range {
   static constexpr std::string_view kType = "sensor_msgs/msg/Range";
   Header header;
-  std::uint8_t radiationType = 0;  ///< 0 sound, 1 infrared
-  float fieldOfView = 0.0F, minRange = 0.0F, maxRange = 0.0F;
-  float range = 0.0F;  ///< NaN: not valid; +infinity: nothing within range
+  std::uint8_t radiationType = 0;          ///< kind of radiation: 0 sound, 1 infrared
+  float fieldOfView = 0.0F;                ///< opening angle of the cone [rad]
+  float minRange = 0.0F, maxRange = 0.0F;  ///< limits of the range [m]
+  float range = 0.0F;  ///< range [m]; NaN: invalid; +infinity: nothing within range
 };
 
+/// An image of a camera.
 struct Image {
   static constexpr std::string_view kType = "sensor_msgs/msg/Image";
   Header header;
-  std::uint32_t height = 0, width = 0;
-  std::string encoding;  ///< "rgb8", "mono8", ...
-  std::uint8_t isBigEndian = 0;
-  std::uint32_t step = 0;  ///< bytes of a row
+  std::uint32_t height = 0, width = 0;  ///< size [px]
+  std::string encoding;                 ///< format of the pixels: "rgb8", "mono8", ...
+  std::uint8_t isBigEndian = 0;         ///< whether numbers of several bytes are big-endian
+  std::uint32_t step = 0;               ///< length of a row [bytes]
   std::vector<std::uint8_t> data;
 };
 
@@ -131,6 +147,7 @@ struct PointCloud {
 /// Numbers that have no other message.
 struct Words {
   static constexpr std::string_view kType = "std_msgs/msg/UInt32MultiArray";
+  /// A dimension of the array.
   struct Dimension {
     std::string label;
     std::uint32_t size = 0, stride = 0;
@@ -140,19 +157,20 @@ struct Words {
   std::vector<std::uint32_t> data;
 };
 
-/// The message in CDR (XCDR version 1), little endian, with the four bytes before it that say so.
-/// For every message with a kType. @pre stamps are within 2^31 s of 1970
+/// Encodes a message in CDR (XCDR version 1), little endian, after the four bytes that say so.
+/// Available for every message with a kType. @pre stamps are within 2^31 s of 1970
 template <class M>
 ORTUNG_API std::string toCdr(const M& message);
 
-/// Reads CDR of either byte order from bytes that nobody vouches for; bytes behind the message are
-/// passed over, as later versions of a type add fields at the end. Numbers may be NaN.
-/// @param why what was found and expected, where it is none
+/// Decodes CDR of either byte order from untrusted bytes. Bytes behind the message are ignored,
+/// since later versions of a type add fields at the end. Numbers may be NaN.
+/// @param why out: what was found and expected, if it is not such a message
+/// @return the message, or nothing
 template <class M>
 ORTUNG_API std::optional<M> fromCdr(std::string_view bytes, std::string& why);
 
-/// The definition of a message and of all that it is made of, in the form "ros2msg"; "" for a type
-/// that is not here.
+/// Returns the definition of a type and of all types that it contains, in the form "ros2msg"; ""
+/// for an unknown type.
 ORTUNG_API std::string schemaText(std::string_view type);
 
 }  // namespace ortung::ros2

@@ -17,7 +17,7 @@
 
 namespace ortung::ros2 {
 
-/// Where messages of one type come.
+/// A topic: a named stream of messages of one type.
 struct Topic {
   std::string name;          ///< "/scan"
   std::string_view type;     ///< "sensor_msgs/msg/LaserScan"
@@ -26,47 +26,48 @@ struct Topic {
   std::string format = {};   ///< of that feature, Format::toText(); "" if it is not known
 };
 
-/// The pose in the plane that a pose in space is seen from above, and the other way round.
+/// Converts a pose in the plane to one in space.
 ORTUNG_API Pose fromPose2(const Pose2& pose);
-/// @returns a pose that is not finite for one that is not, or whose quaternion is 0
+/// Projects a pose in space onto the plane.
+/// @returns a pose that is not finite if @p pose is not finite, or its quaternion is 0
 ORTUNG_API Pose2 toPose2(const Pose& pose);
 
 /// A robot's readings as messages of ROS 2: /odom, /scan, /range/..., /image/..., /ground_truth,
 /// the estimate of MCL at /pose and its samples at /particle_cloud, and the tree of frames
 /// map -> odom -> base_link -> sensors at /tf and /tf_static. All have the stamps of their
-/// readings. What ROS has no message for keeps its words, at /ortung/MODEL/TYPE/FEATURE, and so
-/// does odometry that has motion data, beside /odom. Not thread-safe.
+/// readings. Readings for which ROS has no message keep their words, at /ortung/MODEL/TYPE/FEATURE,
+/// as does odometry with motion data, beside /odom. Not thread-safe.
 class ORTUNG_API RobotTopics {
  public:
-  /// What says where the frame of odometry lies in the map.
+  /// What gives the pose of the odometry frame in the map.
   enum class MapFrame : std::uint8_t {
-    kBest,   ///< the estimate of MCL, from the first on; before it, the ground truth
+    kBest,   ///< the estimate of MCL; before the first one, the ground truth
     kTruth,  ///< the ground truth
-    kNone,   ///< nothing: whoever plays the messages to a localization of his own wants that
+    kNone,   ///< nothing, e.g. because another localization reads the messages
   };
   struct Options {
-    MapFrame mapFrame = MapFrame::kBest;
-    /// Before the names of its topics and frames, for several robots at a time; "": none.
+    MapFrame mapFrame = MapFrame::kBest;  ///< what gives the pose of the odometry frame
+    /// Prefix of the names of topics and frames, for several robots at a time; "": none.
     std::string robot = {};
   };
-  /// Gets a message. @param topic its number in topics()
+  /// Gets a message. @param topic index into topics()
   using Sink = std::function<void(std::size_t topic, Timestamp stamp, std::string_view cdr)>;
 
-  /// @param container must outlive this; its readings are not looked at
+  /// @param container features of the robot; must outlive this; its readings are not used
   RobotTopics(const SensorContainer& container, const Options& options);
   ~RobotTopics();
 
-  /// Grows as features appear that the container does not have; what is there stays.
+  /// All topics. Features that the container does not have append further ones.
   const std::vector<Topic>& topics() const;
-  /// A feature that the container does not have, whose words are told as they are. Once each.
+  /// Adds a feature that the container does not have; its messages are its words. Once for each.
   void addWords(const SensorId& feature);
-  /// Whose readings a topic's messages are made of, "MODEL/TYPE/FEATURE" or with "*".
+  /// The features of whose readings a topic's messages are made: "MODEL/TYPE/FEATURE" or with "*".
   std::vector<std::string> featuresOf(std::size_t topic) const;
-  /// What does not change: where the sensors sit.
+  /// Sends what does not change: the mounts of the sensors.
   void start(Timestamp stamp, const Sink& sink) const;
-  /// The map. Its stamp and frame are set here.
+  /// Sends the map, whose stamp and frame are set here.
   void show(OccupancyGrid map, Timestamp stamp, const Sink& sink) const;
-  /// The readings of one moment.
+  /// Sends the readings of one time.
   /// @throws std::invalid_argument for words that a feature refuses, and for a stamp that ROS does
   ///   not have
   void take(std::span<const Message> frame, const Sink& sink);
