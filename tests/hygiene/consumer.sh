@@ -16,4 +16,7 @@ for project in . components; do
     -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Debug > "$work/configure.log"
 done
 "$cmake" --build "$work/build" > "$work/build.log" || { cat "$work/build.log"; exit 1; }
-LD_LIBRARY_PATH=$(dirname "$(find "$work/prefix" -name libortung_container.so)") "$work/build/robot"
+LD_LIBRARY_PATH=$(dirname "$(find "$work/prefix" -name libortung_container.so)")
+export LD_LIBRARY_PATH
+"$work/build/robot"
+"$work/build/foreign" "$work/build/plugins"
