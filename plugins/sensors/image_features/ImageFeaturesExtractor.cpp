@@ -28,7 +28,7 @@ ImageFeaturesExtractor::ImageFeaturesExtractor(const Parameters& p)
 void ImageFeaturesExtractor::take(std::span<const SensorData* const> inputs) {
   const auto* image = dynamic_cast<const ImageData*>(inputs[0]);
   if (image == nullptr)
-    throw std::invalid_argument(toText(inputs[0]->id()) + " is no picture, expected one");
+    throw std::invalid_argument(toText(inputs[0]->id()) + " is not a picture, expected one");
   if (!image->camera())
     throw std::invalid_argument(toText(image->id()) +
                                 " has no calibration: its sensor has no table `camera`");

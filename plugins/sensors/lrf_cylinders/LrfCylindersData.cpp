@@ -26,7 +26,7 @@ class LrfCylindersExtractor : public Extractor {
   void take(std::span<const SensorData* const> inputs) override {
     const auto* scan = dynamic_cast<const ScanData*>(inputs[0]);
     if (scan == nullptr)
-      throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
+      throw std::invalid_argument(toText(inputs[0]->id()) + " is not a scan, expected one");
     scan_ = scan->reading();
     mount_ = scan->mount();
   }

@@ -21,7 +21,7 @@ std::vector<std::string> LrfIconicExtractor::inputs() const {
 void LrfIconicExtractor::take(std::span<const SensorData* const> inputs) {
   const auto* scan = dynamic_cast<const ScanData*>(inputs[0]);
   if (scan == nullptr)
-    throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
+    throw std::invalid_argument(toText(inputs[0]->id()) + " is not a scan, expected one");
   scan_ = scan->reading();
   mount_ = scan->mount();
   maxRange_ = scan->config().maxRange;

@@ -25,7 +25,7 @@ std::vector<std::string> TeammateExtractor::inputs() const {
 void TeammateExtractor::take(std::span<const SensorData* const> inputs) {
   const auto* talk = dynamic_cast<const TalkData*>(inputs[0]);
   if (talk == nullptr)
-    throw std::invalid_argument(toText(inputs[0]->id()) + " is no talk, expected some");
+    throw std::invalid_argument(toText(inputs[0]->id()) + " is not talk, expected some");
   talk_ = talk->reading();
   if (talk->stamp() < now_) {  // the clock was reset
     robots_.clear();
