@@ -183,13 +183,13 @@ TEST_F(MapFiles, MissingAndOddFilesAreRefused) {
 }
 
 TEST_F(MapFiles, BrokenImagesAreRefused) {
-  EXPECT_HAS(refusal(mapYaml(), "no image"), "no image that can be read");
-  EXPECT_HAS(refusal(mapYaml(), ""), "no image that can be read");
+  EXPECT_HAS(refusal(mapYaml(), "no image"), "not a known kind of image");
+  EXPECT_HAS(refusal(mapYaml(), ""), "not a known kind of image");
   EXPECT_HAS(refusal(mapYaml(), image.substr(0, image.size() - 1)),
              "ends after 11 bytes of pixels, expected 12");
   EXPECT_HAS(refusal(mapYaml(), "P5 2 1 65536\nabcd"), "white is 65536");
   EXPECT_HAS(refusal(mapYaml(), "P5 2 1 0\nab"), "white is 0");
-  EXPECT_HAS(refusal(mapYaml(), "P2 1 1 255\n0\n"), "no image that can be read");
+  EXPECT_HAS(refusal(mapYaml(), "P2 1 1 255\n0\n"), "not a known kind of image");
   const std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
   EXPECT_HAS(refusal(mapYaml(), png.substr(0, png.size() / 2)), "cannot be decoded");
   folder.write("torn.pgm.gz", packed<io::gzip_compressor>(image).substr(0, 20));

@@ -39,8 +39,8 @@ TEST(PlayerWish, ThatCantBeReadSaysWhy) {
   for (const auto& [text, why] :
        std::vector<std::pair<std::string, std::string>>{{"", "names no plugin"},
                                                         {":a=1", "names no plugin"},
-                                                        {"x@", "no name of a team"},
-                                                        {"x@red blue", "no name of a team"},
+                                                        {"x@", "not the name of a team"},
+                                                        {"x@red blue", "not the name of a team"},
                                                         {"x:a", "'a' is not key=value"},
                                                         {"x:=1", "is not key=value"},
                                                         {"x:a=1&&b=2", "is not key=value"},
