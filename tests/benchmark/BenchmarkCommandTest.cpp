@@ -60,7 +60,7 @@ TEST(BenchmarkCommand, ComparesWaysToSeeAndWritesAPage) {
               "--strikers", "roll", "--episodes", "3", "--html", page});
   ASSERT_EQ(played.exitCode, 0) << played.err;
   EXPECT_NE(played.out.find("intercepting:sees=localized"), std::string::npos);
-  EXPECT_NE(played.out.find("error of where the keeper believes to be"), std::string::npos);
+  EXPECT_NE(played.out.find("pose error of the keeper"), std::string::npos);
   EXPECT_NE(readBytes(page).find("<svg"), std::string::npos);
 }
 

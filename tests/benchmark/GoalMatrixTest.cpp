@@ -258,8 +258,7 @@ TEST(GoalMatrix, BadEntriesAreRefusedByName) {
   };
   EXPECT_NE(why("nobody", "striker").find("'nobody'"), std::string::npos);
   EXPECT_NE(why("goalkeeper:policy=x", "striker").find("policy is 'x'"), std::string::npos);
-  EXPECT_NE(why("goalkeeper@blue", "striker").find("gives team, name and start"),
-            std::string::npos);
+  EXPECT_NE(why("goalkeeper@blue", "striker").find("sets team, name and start"), std::string::npos);
   EXPECT_NE(why("wander", "striker").find("names no robot file"), std::string::npos);
   // One that has nothing to see by is stopped, and the message says in which episode.
   const std::string stopped = why("goalkeeper:stage=no", "striker");

@@ -98,7 +98,7 @@ TEST(TeamTalk, WhatCantBeToldIsRefused) {
             "ERR limit robot anna has 401 characters to say, expected at most 400");
   for (int i = 1; i < 64; ++i) ASSERT_EQ(anna.client.ask("TELL more"), "OK TELL") << i;
   EXPECT_EQ(anna.client.ask("TELL more"),
-            "ERR limit robot anna says more than 64 texts in a cycle");
+            "ERR limit robot anna sends more than 64 messages in a cycle");
   EXPECT_EQ(bert.client.ask("TELL mine"), "OK TELL");  // the limit is each robot's own
   goOn({&anna, &bert});
   EXPECT_EQ(bert.hear().size(), 64u);

@@ -94,7 +94,8 @@ TEST_F(RulesTest, HaveABaseThatIsThereAndHasNone) {
   EXPECT_NE(errorOf("base = \"r.toml\"\n").find("bases have none"), std::string::npos);
   EXPECT_NE(errorOf("base = \"none.toml\"\n").find("none.toml"), std::string::npos);
   EXPECT_NE(errorOf("base = \"none\"\n").find("there are no rules 'none'"), std::string::npos);
-  EXPECT_NE(errorOf("base = \"../msl\"\n").find("is no name of rules"), std::string::npos);
+  EXPECT_NE(errorOf("base = \"../msl\"\n").find("is not the name of shipped rules"),
+            std::string::npos);
 }
 
 /// Whatever the bytes are, they are rules or a ConfigError that says why.

@@ -129,7 +129,7 @@ TEST_F(MapFiles, NegatedImagesAreLightWhereOccupied) {
 }
 
 TEST_F(MapFiles, BrokenYamlIsRefusedWithItsPlace) {
-  EXPECT_HAS(refusal("image: [", image), "is no YAML");
+  EXPECT_HAS(refusal("image: [", image), "is not the YAML");
   EXPECT_HAS(refusal("just text", image), "expected keys and values");
   EXPECT_HAS(refusal("image: map.pgm\norigin: [0, 0, 0]\n", image), "has no resolution");
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0.5]"), image), "yaw of origin is 0.5");
@@ -147,7 +147,7 @@ TEST_F(MapFiles, BrokenYamlIsRefusedWithItsPlace) {
       refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nfree_thresh: 0.9\n", image),
       "free_thresh is above");
   EXPECT_HAS(refusal(std::string(100000, '#'), image), "has 100000 bytes, expected at most");
-  EXPECT_HAS(refusal(std::string(60000, '['), image), "is no YAML");
+  EXPECT_HAS(refusal(std::string(60000, '['), image), "is not the YAML");
 }
 
 TEST_F(MapFiles, NumbersOfAYamlHaveLimits) {
@@ -176,20 +176,20 @@ TEST_F(MapFiles, NumbersOfAYamlHaveLimits) {
 TEST_F(MapFiles, MissingAndOddFilesAreRefused) {
   EXPECT_HAS(refusal(mapYaml("gone.pgm"), image), "gone.pgm does not exist, nor with .gz or .xz");
   EXPECT_HAS(refusal("gone.yaml"), "no such file");
-  EXPECT_HAS(refusal("map.jpg"), "no kind of map");
+  EXPECT_HAS(refusal("map.jpg"), "not a known kind of map");
   ASSERT_EQ(::mkfifo((folder.path() / "pipe.yaml").c_str(), 0600), 0);
   EXPECT_HAS(refusal("pipe.yaml"), "is not a regular file");
   EXPECT_HAS(refusal(mapYaml("."), image), "is not a regular file");
 }
 
 TEST_F(MapFiles, BrokenImagesAreRefused) {
-  EXPECT_HAS(refusal(mapYaml(), "no image"), "no image that can be read");
-  EXPECT_HAS(refusal(mapYaml(), ""), "no image that can be read");
+  EXPECT_HAS(refusal(mapYaml(), "no image"), "not a known kind of image");
+  EXPECT_HAS(refusal(mapYaml(), ""), "not a known kind of image");
   EXPECT_HAS(refusal(mapYaml(), image.substr(0, image.size() - 1)),
              "ends after 11 bytes of pixels, expected 12");
   EXPECT_HAS(refusal(mapYaml(), "P5 2 1 65536\nabcd"), "white is 65536");
   EXPECT_HAS(refusal(mapYaml(), "P5 2 1 0\nab"), "white is 0");
-  EXPECT_HAS(refusal(mapYaml(), "P2 1 1 255\n0\n"), "no image that can be read");
+  EXPECT_HAS(refusal(mapYaml(), "P2 1 1 255\n0\n"), "not a known kind of image");
   const std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
   EXPECT_HAS(refusal(mapYaml(), png.substr(0, png.size() / 2)), "cannot be decoded");
   folder.write("torn.pgm.gz", packed<io::gzip_compressor>(image).substr(0, 20));

@@ -162,9 +162,9 @@ TEST(Manipulator, IsNamedWhenItIsNotThere) {
     }
     return "";
   };
-  EXPECT_EQ(complaint("arm", "up"), "robot kicker has no manipulator 'arm', but kicker");
+  EXPECT_EQ(complaint("arm", "up"), "robot kicker has no manipulator 'arm'; it has kicker");
   EXPECT_EQ(complaint("kicker", "up"),
-            "robot kicker: its manipulator kicker has no state 'up', but rest, kick");
+            "robot kicker: its manipulator kicker has no state 'up'; it has rest, kick");
 }
 
 TEST(RobotCommands, AreGivenByNumberOfAStateToo) {
@@ -311,7 +311,7 @@ TEST(SceneRun, RefusesWaypointsBehindWalls) {
 
 TEST(SceneFile, RefusesTwoRobotsOfOneName) {
   const std::string twice = refusalOfScene(robotOfScene("a", "") + robotOfScene("a", ""));
-  EXPECT_NE(twice.find("scene.toml:9: name is there twice: a"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("scene.toml:9: name is given twice: a"), std::string::npos) << twice;
 }
 
 TEST(SceneRun, CommandsThatNobodyCanFollowAreRefusedBeforeTimeBegins) {
@@ -333,9 +333,9 @@ TEST(SceneRun, CommandsThatNobodyCanFollowAreRefusedBeforeTimeBegins) {
   EXPECT_EQ(refusal(command), "");
   command.state = "up";
   EXPECT_EQ(refusal(command),
-            "robot one: its manipulator kicker has no state 'up', but rest, kick");
+            "robot one: its manipulator kicker has no state 'up'; it has rest, kick");
   command.manipulator = "arm";
-  EXPECT_EQ(refusal(command), "robot one has no manipulator 'arm', but kicker");
+  EXPECT_EQ(refusal(command), "robot one has no manipulator 'arm'; it has kicker");
   command.manipulator = "";
   command.vector = {1.0, 2.0, 3.0};
   const std::string vector = refusal(command);

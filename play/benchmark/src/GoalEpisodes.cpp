@@ -84,7 +84,7 @@ struct GoalEpisodes::Parts {
     PlayerWish wish = parsePlayer(text);
     if (!wish.team.empty() || !wish.name.empty() || wish.start)
       throw ConfigError("player '" + text +
-                        "': a benchmark gives team, name and start, so it can't say them");
+                        "': the benchmark sets team, name and start, so they can't be given");
     const auto player = factory.make<Player>(wish.plugin, wish.options);
     const auto file = wish.robot.empty() ? player->robotFile() : wish.robot;
     if (file.empty())

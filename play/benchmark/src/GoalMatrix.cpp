@@ -74,7 +74,7 @@ void checkNames(const std::vector<std::string>& names, const char* what) {
   std::set<std::string> known;
   for (const std::string& name : names)
     if (!known.insert(name).second)
-      throw std::invalid_argument("'" + name + "' is twice among the " + what);
+      throw std::invalid_argument("'" + name + "' is given twice among the " + what);
 }
 
 constexpr std::string_view kKeeper = "goalkeeper:policy=";
@@ -271,7 +271,7 @@ GoalMatrix mergeShards(std::span<const GoalMatrix> shards) {
                                   "and number of shards must be the same");
     if (!seen.insert(shard.config.shard).second)
       throw std::invalid_argument("shard " + std::to_string(shard.config.shard) +
-                                  " is there twice");
+                                  " is given twice");
     for (std::size_t c = 0; c < shard.cells.size(); ++c)
       for (std::size_t i = 0; i < shard.cells[c].episodes.size(); ++i)
         whole.cells[c].episodes[numberOf(shard.config, i)] = shard.cells[c].episodes[i];

@@ -163,7 +163,7 @@ std::string toJson(const GoalMatrix& matrix, std::string_view version) {
 
 GoalMatrix readGoalMatrix(std::string_view text, const std::string& name) {
   const auto refuse = [&](const std::string& why) -> GoalMatrix {
-    throw std::runtime_error(name + ": is no result of `ortung benchmark goalkeeper`: " + why);
+    throw std::runtime_error(name + ": is not a result of `ortung benchmark goalkeeper`: " + why);
   };
   try {
     const Json json = Json::parse(text);

@@ -99,7 +99,8 @@ std::string ratings(const GoalMatrix& matrix) {
   const GoalRatings found = rate(matrix);
   std::string html =
       "<h2>Ratings</h2><p>Points of Bradley and Terry: the odds of a goal are 10 to the power of "
-      "(striker - keeper) / 400. With yardstick-v1 it has 0 points. Mean: goals of 100 episodes "
+      "(striker - keeper) / 400. If yardstick-v1 plays, it has 0 points. Mean: goals of 100 "
+      "episodes "
       "over all opponents.</p><div class=\"wide\"><table><tr><th>player</th><th>points</th>"
       "<th>mean</th></tr>";
   const auto add = [&](const std::string& name, const Rating& rating) {
@@ -112,10 +113,10 @@ std::string ratings(const GoalMatrix& matrix) {
     add(matrix.config.keepers[k], found.keepers[k]);
   for (std::size_t s = 0; s < found.strikers.size(); ++s)
     add(matrix.config.strikers[s], found.strikers[s]);
-  return html + "</table></div><p>Strength alone misses most of all " +
+  return html + "</table></div><p>The ratings fit worst for " +
          escaped(shortName(matrix.config.strikers[found.worstStriker])) + " against " +
          escaped(shortName(matrix.config.keepers[found.worstKeeper])) +
-         format(": by %+.1f goals of 100.</p>", 100.0 * found.worstMiss);
+         format(", with an error of %+.1f goals of 100.</p>", 100.0 * found.worstMiss);
 }
 
 /// Draws the first episode of a pair with each outcome that occurs.
@@ -163,26 +164,25 @@ std::string toHtml(const GoalMatrix& matrix, std::string_view version) {
                     : std::string()) +
       ", Ortung " + escaped(std::string(version)) + ", world " + escaped(matrix.world) +
       ". Small figures are intervals of 95 %.</p>\n";
-  html += table(matrix, "Goals of 100 episodes", "With Wilson's intervals.",
+  html += table(matrix, "Goals of 100 episodes", "Intervals are Wilson's.",
                 [&](std::size_t k, std::size_t s) { return share(matrix.cell(k, s).scoring()); });
   if (c.keepers.size() > 1)
     html += table(matrix, "More goals than in the same situations against another keeper",
-                  "Against the same keeper with its first way to see, else against the first "
-                  "keeper; by bootstrap over the pairs.",
+                  "Compared with the same keeper with its first option sees, otherwise with the "
+                  "first keeper; intervals by bootstrap over the pairs.",
                   [&](std::size_t k, std::size_t s) {
                     const std::size_t base = matrix.baselineOf(k);
                     return k == base ? std::string("<td>–</td>")
                                      : difference(matrix.difference(k, base, s));
                   });
   if (hasErrors(matrix))
-    html += table(matrix, "How far from the truth the keeper believes to be",
-                  "Mean and median over episodes [m].", [&](std::size_t k, std::size_t s) {
-                    return error(matrix.cell(k, s).keeperError());
-                  });
+    html +=
+        table(matrix, "Pose error of the keeper", "Mean and median over episodes [m].",
+              [&](std::size_t k, std::size_t s) { return error(matrix.cell(k, s).keeperError()); });
   html += ratings(matrix);
   html +=
       "<h2>Episodes</h2><p>The first one of each outcome, seen from above with the goal at the "
-      "bottom. Hollow: where ball and keeper began.</p><div class=\"episodes\">\n";
+      "bottom. Hollow shapes: start of ball and keeper.</p><div class=\"episodes\">\n";
   GoalEpisodes episodes;
   for (const GoalCell& cell : matrix.cells) html += episodesOf(matrix, cell, episodes);
   return html + "</div></html>\n";

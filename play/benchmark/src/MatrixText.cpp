@@ -56,7 +56,8 @@ std::string errors(const std::optional<ErrorSummary>& error) {
 /// Returns the name of the keeper with which others are compared.
 std::string baseline(const GoalMatrix& matrix) {
   for (std::size_t k = 1; k < matrix.config.keepers.size(); ++k)
-    if (matrix.baselineOf(k) != 0) return "the same keeper's first way to see, or the first keeper";
+    if (matrix.baselineOf(k) != 0)
+      return "the same keeper with its first option sees, or the first keeper";
   return shortName(matrix.config.keepers.front());
 }
 
@@ -84,9 +85,9 @@ std::string ratingLines(const GoalMatrix& matrix) {
     add(matrix.config.strikers[s], ratings.strikers[s]);
   char miss[32];
   std::snprintf(miss, sizeof miss, "%+.1f", 100.0 * ratings.worstMiss);
-  return text + "  they miss most: " + shortName(matrix.config.strikers[ratings.worstStriker]) +
-         " against " + shortName(matrix.config.keepers[ratings.worstKeeper]) + ", " + miss +
-         " goals of 100\n";
+  return text + "  the ratings fit worst for " +
+         shortName(matrix.config.strikers[ratings.worstStriker]) + " against " +
+         shortName(matrix.config.keepers[ratings.worstKeeper]) + ", " + miss + " goals of 100\n";
 }
 
 }  // namespace
@@ -117,8 +118,8 @@ std::string toText(const GoalMatrix& matrix) {
   for (const bool ofKeepers : {true, false})
     if (hasErrors(matrix, ofKeepers))
       text += table(matrix,
-                    std::string("\nerror of where the ") + (ofKeepers ? "keeper" : "striker") +
-                        " believes to be: mean / median [m], [deg]",
+                    std::string("\npose error of the ") + (ofKeepers ? "keeper" : "striker") +
+                        ": mean / median [m], [deg]",
                     [&](std::size_t k, std::size_t s) {
                       const GoalCell& cell = matrix.cell(k, s);
                       return errors(ofKeepers ? cell.keeperError() : cell.strikerError());

@@ -38,9 +38,9 @@ const Quantity kKickAction{"kick if positive", "", -1, 1};
 
 std::vector<OptionHelp> optionsOf(std::vector<OptionHelp> own, const char* observation,
                                   const char* observations, const char* duration) {
-  own.push_back({"observation", observations, observation, "what an agent is told"});
+  own.push_back({"observation", observations, observation, "what an agent observes"});
   own.push_back({"action_s", "s", "0.1", "how long an action holds"});
-  own.push_back({"cycle_ms", "5 to 20", "20", "of the simulation"});
+  own.push_back({"cycle_ms", "5 to 20", "20", "cycle of the simulation"});
   own.push_back({"duration_s", "s", duration, "then the episode is truncated"});
   return own;
 }
@@ -48,15 +48,16 @@ std::vector<OptionHelp> optionsOf(std::vector<OptionHelp> own, const char* obser
 std::vector<EnvironmentInfo> makeAll() {
   const std::vector<Quantity> keeps = {kForwardAction, kTurnAction};
   const std::vector<Quantity> strikes = {kForwardAction, kTurnAction, kKickAction};
-  const OptionHelp keeperSpeed{"keeper_speed_m_s", "m/s", "1.5", "that forward 1 means"};
-  const OptionHelp strikerSpeed{"striker_speed_m_s", "m/s", "1", "that forward 1 means"};
-  const OptionHelp keeper{"keeper", "a policy, or a player's text", "blocking", "who keeps"};
+  const OptionHelp keeperSpeed{"keeper_speed_m_s", "m/s", "1.5", "speed of the action forward = 1"};
+  const OptionHelp strikerSpeed{"striker_speed_m_s", "m/s", "1", "speed of the action forward = 1"};
+  const OptionHelp keeper{"keeper", "a policy, or a player's text", "blocking", "the keeper"};
   OptionHelp stillKeeper = keeper;
   stillKeeper.fallback = "still";
-  const OptionHelp striker{"striker", "a kind, or a player's text", "yardstick-v1", "who strikes"};
-  const OptionHelp start{"start", "near|anywhere", "near", "whether MCL is told where it begins"};
+  const OptionHelp striker{"striker", "a kind, or a player's text", "yardstick-v1", "the striker"};
+  const OptionHelp start{"start", "near|anywhere", "near",
+                         "whether MCL gets the approximate start pose"};
   return {{"goalkeeper-v0",
-           "keeps a goal against a striker's one chance",
+           "keeps a goal against one attempt of a striker",
            {"keeper"},
            observationOf(false),
            {keeps},
@@ -68,13 +69,13 @@ std::vector<EnvironmentInfo> makeAll() {
            {strikes},
            optionsOf({keeper, strikerSpeed}, "features", "features|truth", "10")},
           {"keeper-vs-striker-v0",
-           "both of them, one against the other",
+           "a keeper and a striker against each other",
            {"keeper", "striker"},
            observationOf(false),
            {keeps, strikes},
            optionsOf({keeperSpeed, strikerSpeed}, "features", "features|truth", "10")},
           {"localize-and-score-v0",
-           "takes the ball to the goal and scores by where MCL says that it is",
+           "takes the ball to the goal and scores by its MCL pose",
            {"striker"},
            observationOf(true),
            {strikes},

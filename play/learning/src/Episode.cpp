@@ -59,7 +59,7 @@ Stand::Entrant& Stand::entrant(const std::string& text, const char* name) {
   PlayerWish& wish = entrant.wish;
   if (!wish.team.empty() || !wish.name.empty() || wish.start)
     throw ConfigError("player '" + text +
-                      "': an environment gives team, name and start, so it can't say them");
+                      "': the environment sets team, name and start, so they can't be given");
   const auto player = factory.make<Player>(wish.plugin, wish.options);
   const auto file = wish.robot.empty() ? player->robotFile() : wish.robot;
   if (file.empty())

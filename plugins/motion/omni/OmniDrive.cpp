@@ -69,7 +69,8 @@ struct OmniSettings {
     s.radius = drive.numberOr("wheel_distance_m", s.radius, {0.01, 10.0});
     constexpr double kAlmostParallel = 0.05;
     if (std::abs(Kinematics(s.angles, 1.0).determinant()) < kAlmostParallel)
-      drive.fail("wheel_angles_deg", "put two wheels almost on one place, or all on one side");
+      drive.fail("wheel_angles_deg",
+                 "puts two wheels almost in the same place, or all on one side");
     s.maxWheelSpeed = drive.numberOr("max_wheel_speed_m_s", s.maxWheelSpeed, {0.01, 50.0});
     s.wheelAcceleration =
         drive.numberOr("wheel_acceleration_m_s2", s.wheelAcceleration, {0.01, 100.0});

@@ -29,7 +29,7 @@ enum class SightMode : std::uint8_t {
 
 inline const PlayerOption kSeesOption{
     "sees", "truth|features|scan|localized", "truth",
-    "where things really are; or by its camera, and itself by ground truth, single scans or MCL"};
+    "the true state; or its camera, with its own pose by ground truth, single scans or MCL"};
 
 /// A sighting by a robot's camera, relative to the robot at that time.
 struct Sighting {

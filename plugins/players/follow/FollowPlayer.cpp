@@ -41,8 +41,9 @@ class FollowPlayer : public Player {
 
 struct FollowHelp : PlayerHelp {
   explicit FollowHelp(const Parameters&)
-      : PlayerHelp("goes straight from point to point, and stands at the last",
-                   {{"waypoints_m", "x1,y1,x2,y2,... in m", "", "where it goes"}, kSpeedOption}) {}
+      : PlayerHelp("goes straight from point to point, and stops at the last",
+                   {{"waypoints_m", "x1,y1,x2,y2,... in m", "", "points to drive through"},
+                    kSpeedOption}) {}
 };
 
 }  // namespace

@@ -233,24 +233,25 @@ class FootballerPlayer : public Player {
 struct FootballerHelp : PlayerHelp {
   explicit FootballerHelp(const Parameters&)
       : PlayerHelp(
-            "plays football in the field, in a team that shares roles by talk",
+            "plays football in the field, in a team that shares roles by messages",
             {{"sees", "truth|features|localized", "truth",
               "where everything really is; or ball and robots by its camera, and its pose by "
               "ground "
               "truth or by MCL"},
              kSpeedOption,
-             {"aim_noise_deg", "deg", "2.5", "sigma of the direction of its kicks"},
+             {"aim_noise_deg", "deg", "2.5", "standard deviation of the direction of its kicks"},
              {"shot_range_m", "m", "0.35 of the field's length",
-              "from where it shoots at the goal"},
-             {"carry_s", "s", "5", "for how long it keeps the ball at most"},
-             {"ball_ahead_m", "m", "0.28", "ball before the robot's middle when it has it"},
-             {"braking_m_s2", "m/s^2", "0.2943", "how the floor brakes a ball, as it believes"},
-             {"length_m", "m", "of the field", "between the goal lines"},
-             {"width_m", "m", "of the field", "between the touch lines"},
-             {"goal_width_m", "m", "of the field", "between the posts"},
-             {"wheel_angles_deg", "a,b,c in deg", "60,180,300", "of a robot on three wheels"},
-             {"wheel_distance_m", "m", "0.2", "of these wheels from its middle"},
-             {"period_s", "s", "0.04", "between two decisions"}}) {}
+              "distance from the goal within which it shoots"},
+             {"carry_s", "s", "5", "how long it keeps the ball at most"},
+             {"ball_ahead_m", "m", "0.28", "distance from its middle to a ball that it has"},
+             {"braking_m_s2", "m/s^2", "0.2943", "deceleration of a rolling ball that it assumes"},
+             {"length_m", "m", "of the field", "distance between the goal lines"},
+             {"width_m", "m", "of the field", "distance between the touch lines"},
+             {"goal_width_m", "m", "of the field", "distance between the posts"},
+             {"wheel_angles_deg", "a,b,c in deg", "60,180,300",
+              "wheel angles of a robot on three wheels"},
+             {"wheel_distance_m", "m", "0.2", "distance of these wheels from its middle"},
+             {"period_s", "s", "0.04", "time between two decisions"}}) {}
 };
 
 }  // namespace

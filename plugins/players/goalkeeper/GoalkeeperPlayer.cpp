@@ -184,19 +184,19 @@ class GoalkeeperPlayer : public Player {
 
 struct GoalkeeperHelp : PlayerHelp {
   explicit GoalkeeperHelp(const Parameters&)
-      : PlayerHelp(
-            "keeps a goal by one of six policies",
-            {{"policy", "still|random|pattern|blocking|intercepting|mixed", "intercepting",
-              "how it moves along its line"},
-             kSeesOption,
-             {"speed_m_s", "m/s", "1.5", "how fast it drives at most"},
-             {"delay_s", "s", "0", "how late it knows what it sees"},
-             {"noise_m", "m", "0", "sigma of where it sees the ball"},
-             {"period_s", "s", "0.04", "between two decisions"},
-             {"line_m", "m", "0.5", "how far its line is before the goal line"},
-             {"reach_m", "m", "0.75", "how far it goes to either side of the goal's middle"},
-             {"slack_m", "m", "0", "how far off its line it may be before it steers back"},
-             {"braking_m_s2", "m/s^2", "0.2943", "how the floor brakes a ball, as it believes"}}) {}
+      : PlayerHelp("keeps a goal by one of six policies",
+                   {{"policy", "still|random|pattern|blocking|intercepting|mixed", "intercepting",
+                     "how it moves along its line"},
+                    kSeesOption,
+                    {"speed_m_s", "m/s", "1.5", "how fast it drives at most"},
+                    {"delay_s", "s", "0", "delay of its sight"},
+                    {"noise_m", "m", "0", "standard deviation of where it sees the ball"},
+                    {"period_s", "s", "0.04", "time between two decisions"},
+                    {"line_m", "m", "0.5", "distance of its line from the goal line"},
+                    {"reach_m", "m", "0.75", "how far it goes to either side of the goal's middle"},
+                    {"slack_m", "m", "0", "distance from its line beyond which it steers back"},
+                    {"braking_m_s2", "m/s^2", "0.2943",
+                     "deceleration of a rolling ball that it assumes"}}) {}
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ struct KeeperLine {
 
   double within(double y) const { return std::clamp(y, goal.y - reach, goal.y + reach); }
   /// Returns y where the straight line from the ball to the goal's middle crosses the line [m]. A
-  /// ball behind the line is treated as one just before it.
+  /// ball behind the line is treated as one on it.
   double blockingPlace(const FloorPoint& ball) const {
     const double depth = (ball.x - goal.x) * (x > goal.x ? 1.0 : -1.0);
     const double share = std::abs(x - goal.x) / std::max(depth, std::abs(x - goal.x));

@@ -208,13 +208,14 @@ class LearnerPlayer : public Player {
 
 struct LearnerHelp : PlayerHelp {
   explicit LearnerHelp(const Parameters&)
-      : PlayerHelp("learns what its robot's sensors read at all poses, and writes the tables",
-                   {{"out", "file", "", "the table file; must be given"},
-                    {"cell_m", "m", "0.1", "edge of a cell"},
-                    {"heading_step_deg", "deg", "2", "between headings; divides a turn"},
-                    {"area", "auto|all|x;y", "auto",
-                     "which part of the floor: where a robot is, all of it, or around a point"},
-                    {"threads", "", "1", "what it learns does not depend on it"}}) {}
+      : PlayerHelp(
+            "learns the readings of its robot's sensors at all poses, and writes the tables",
+            {{"out", "file", "", "the table file; must be given"},
+             {"cell_m", "m", "0.1", "edge of a cell"},
+             {"heading_step_deg", "deg", "2", "angle between headings; divides a turn"},
+             {"area", "auto|all|x;y", "auto",
+              "part of the floor to learn: the main one, all of it, or the one around a point"},
+             {"threads", "", "1", "number of threads; the tables do not depend on it"}}) {}
 };
 
 }  // namespace

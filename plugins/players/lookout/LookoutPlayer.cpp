@@ -112,13 +112,12 @@ class LookoutPlayer : public Player {
 
 struct LookoutHelp : PlayerHelp {
   explicit LookoutHelp(const Parameters&)
-      : PlayerHelp("stands and tells its team where it sees robots and balls",
-                   {{"of", "name", "",
-                     "the robot that it takes those for which do not say where they are"},
+      : PlayerHelp("stays in place and reports to its team where it sees robots and balls",
+                   {{"of", "name", "", "the robot that an unidentified one is taken for"},
                     {"range_sigma_m", "m", "0.03", "error of its camera's distances"},
-                    {"range_sigma_per_m", "m/m", "0.03", "the same a metre farther away"},
+                    {"range_sigma_per_m", "m/m", "0.03", "growth of that error per metre"},
                     {"bearing_sigma_deg", "deg", "1", "error of its camera's bearings"},
-                    {"period_s", "s", "0.1", "between two looks"}}) {}
+                    {"period_s", "s", "0.1", "time between two looks"}}) {}
 };
 
 }  // namespace

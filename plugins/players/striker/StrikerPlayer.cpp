@@ -25,7 +25,7 @@ class StrikerPlayer : public Player {
         isBlind_(p.choiceOr("aim", "open", {"open", "random"}) == "random") {
     const bool mayLook = kind_ == "dribble" || kind_ == "feint" || kind_ == "seeker";
     if (!mayLook && own_ != SightMode::truth)
-      p.fail("sees", "must be truth for the kind '" + kind_ + "', which goes by the stage");
+      p.fail("sees", "must be truth for the kind '" + kind_ + "', which uses the stage");
     attack_.halfMouth = p.numberOr("goal_width_m", 2.0, {0.3, 20.0}) / 2.0;
     attack_.braking = p.numberOr("braking_m_s2", attack_.braking, {0.0, 10.0});
   }
@@ -76,7 +76,7 @@ class StrikerPlayer : public Player {
 
 struct StrikerHelp : PlayerHelp {
   explicit StrikerHelp(const Parameters&)
-      : PlayerHelp("plays at a goal from situations that it makes, to measure goalkeepers",
+      : PlayerHelp("attacks a goal from situations that it makes, to benchmark goalkeepers",
                    {{"kind", "roll|shot|dribble|feint|seeker|yardstick-v1", "shot",
                      "a ball that rolls, a free shot, a dribbler, one that draws the keeper aside, "
                      "one that finds the ball; yardstick-v1 never changes"},
@@ -84,8 +84,8 @@ struct StrikerHelp : PlayerHelp {
                      "how dribble, feint and seeker know where they, ball and keeper are"},
                     {"aim", "open|random", "open", "where roll aims: past the keeper or anywhere"},
                     {"again_s", "s", "0", "how often it makes another situation; 0: only once"},
-                    {"goal_width_m", "m", "2", "between the posts"},
-                    {"braking_m_s2", "m/s^2", "0.2943", "how the floor brakes the ball"}}) {}
+                    {"goal_width_m", "m", "2", "distance between the posts"},
+                    {"braking_m_s2", "m/s^2", "0.2943", "deceleration of a rolling ball"}}) {}
 };
 
 }  // namespace

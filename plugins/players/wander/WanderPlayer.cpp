@@ -136,7 +136,8 @@ class WanderPlayer : public Player {
 
 struct WanderHelp : PlayerHelp {
   explicit WanderHelp(const Parameters&)
-      : PlayerHelp("drives about for ever, preferring where it has not been", {kSpeedOption}) {}
+      : PlayerHelp("drives endlessly to random places, preferring unvisited ones", {kSpeedOption}) {
+  }
 };
 
 }  // namespace

@@ -125,7 +125,7 @@ void Match::whileReady(Stage&) {
   }
   if (toSeconds(scene_.now - since_) < config_.rules.restart.setPiece) return;
   tell("set-piece-over", restart_->team,
-       nameOfTeam(restart_->team) + " has not taken it in time, everybody may play");
+       nameOfTeam(restart_->team) + " has not taken it in time, all robots may play");
   play();
 }
 
@@ -151,7 +151,7 @@ void Match::leave(Stage& stage, const Leaving& leaving) {
   const std::string why = std::string("the ball left over the ") +
                           (overTouchLine ? "touch line" : "goal line") + " at " +
                           told(leaving.x, leaving.y) + ", last touched by " +
-                          (touches_.lastTeam() ? touches_.lastRobot() : "nobody");
+                          (touches_.lastTeam() ? touches_.lastRobot() : "no robot");
   const bool isRestart = overTouchLine ? config_.rules.out.hasThrowIn : config_.rules.out.hasKicks;
   if (isRestart)
     return give(stage,
@@ -174,7 +174,7 @@ void Match::judgeGoal(Stage& stage, const Leaving& leaving) {
       touches_.robots() < 2 && game_.restart != Game::Restart::kNone &&
       std::find(rules.direct.begin(), rules.direct.end(), game_.restart) == rules.direct.end();
   if (isDirect && touches_.robots() > 0) {
-    const std::string why = "no goal: nobody but " + touches_.lastRobot() +
+    const std::string why = "no goal: only " + touches_.lastRobot() +
                             " has touched the ball since the " + std::string(nameOf(game_.restart));
     tell("no-goal", scoring, why);
     const bool isOwn = touches_.lastTeam() == conceding;

@@ -18,7 +18,7 @@ void Match::order(std::string_view text) {
 void Match::obey(Stage& stage, const Order& order) {
   if (game_.phase == Game::Phase::kOver && order.kind != Order::Kind::kReset &&
       order.kind != Order::Kind::kBeginHalf && order.kind != Order::Kind::kNote) {
-    return tell("ignored", order.team, "the game is over: '" + order.text + "' does nothing");
+    return tell("ignored", order.team, "the game is over: '" + order.text + "' has no effect");
   }
   switch (order.kind) {
     case Order::Kind::kStart:
@@ -37,7 +37,7 @@ void Match::obey(Stage& stage, const Order& order) {
       return giveAt(stage, Game::Restart::kKickOff, 1 - *order.team, {}, "after a goal");
     case Order::Kind::kNoGoal:
       game_.teams[*order.team].score = std::max(game_.teams[*order.team].score - 1, 0);
-      return tell("no-goal", order.team, "a goal is taken away by order");
+      return tell("no-goal", order.team, "a goal is cancelled by order");
     case Order::Kind::kHalfTime:
       return endHalf();
     case Order::Kind::kBeginHalf:

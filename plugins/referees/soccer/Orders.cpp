@@ -70,7 +70,7 @@ Order orderOf(std::string_view text, const Game& game) {
   const std::string_view word = takeWord(rest);
   const auto known =
       std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& k) { return k.word == word; });
-  if (known == kKnown.end()) refuse(text, word.empty() ? "is empty" : "is none");
+  if (known == kKnown.end()) refuse(text, word.empty() ? "is empty" : "is unknown");
   Order order;
   order.kind = known->kind;
   order.half = known->half;

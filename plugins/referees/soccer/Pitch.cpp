@@ -115,8 +115,8 @@ void readRound(const World& world, Pitch& pitch) {
 }
 
 [[noreturn]] void miss(const char* what, const char* key) {
-  throw ConfigError("the referee can't tell " + std::string(what) +
-                    " from the world; the rules may say it: [pitch] " + key);
+  throw ConfigError("the referee can't find " + std::string(what) +
+                    " in the world; the rules may give it: [pitch] " + key);
 }
 
 }  // namespace

@@ -177,7 +177,8 @@ Rules readRules(const std::filesystem::path& file) { return read(file, 0); }
 
 std::filesystem::path shippedRules(const std::string& name) {
   if (name.empty() || name.find_first_of("/\\") != name.npos)
-    throw ConfigError("'" + name + "' is no name of rules that ship; those of files end in .toml");
+    throw ConfigError("'" + name +
+                      "' is not the name of shipped rules; names of files end in .toml");
   // The folder is part of the name, so that a world file of that name in the working folder is not
   // mistaken for it.
   const auto file = shippedFile(".", std::filesystem::path("rules") / (name + ".toml"));

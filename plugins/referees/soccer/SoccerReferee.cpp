@@ -23,7 +23,8 @@ Match::Config configOf(const Parameters& p) {
   Match::Config config;
   const std::string league = p.choiceOr("league", "f2000", {"f2000", "msl"});
   if (p.has("rules")) {
-    if (p.has("league")) p.fail("league", "is there, but so is rules, which names a file");
+    if (p.has("league"))
+      p.fail("league", "is given beside rules, which names a file; expected one of the two");
     const std::string rules = p.text("rules");
     const bool isFile = rules.ends_with(".toml") || rules.find('/') != rules.npos;
     config.rules = readRules(isFile ? std::filesystem::path(rules) : shippedRules(rules));

@@ -59,7 +59,7 @@ inline std::vector<std::string> readSee(const Parameters& p) {
   std::vector<std::string> see = kIconicFeatures;
   if (!p.has("see")) return see;
   see = p.texts("see");
-  if (see.empty()) p.fail("see", "is empty, expected what the camera sees");
+  if (see.empty()) p.fail("see", "is empty, expected features that the camera detects");
   for (std::size_t i = 0; i < see.size(); ++i) {
     if (std::find(kIconicFeatures.begin(), kIconicFeatures.end(), see[i]) == kIconicFeatures.end())
       p.fail("see",

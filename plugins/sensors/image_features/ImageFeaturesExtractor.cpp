@@ -29,7 +29,7 @@ void ImageFeaturesExtractor::take(std::span<const SensorData* const> inputs) {
   // A calibration is more than parameters of a format can tell: it is asked of the class.
   const auto* image = dynamic_cast<const ImageData*>(inputs[0]);
   if (image == nullptr)
-    throw std::invalid_argument(toText(inputs[0]->id()) + " is no picture, expected one");
+    throw std::invalid_argument(toText(inputs[0]->id()) + " is not a picture, expected one");
   if (!image->camera())
     throw std::invalid_argument(toText(image->id()) +
                                 " has no calibration: its sensor has no table `camera`");

@@ -49,7 +49,7 @@ namespace image_features {
 inline std::vector<std::string> readSee(const Parameters& p) {
   if (!p.has("see")) return {"lines"};
   const std::vector<std::string> see = p.texts("see");
-  if (see.empty()) p.fail("see", "is empty, expected what to look for");
+  if (see.empty()) p.fail("see", "is empty, expected features to find");
   for (std::size_t i = 0; i < see.size(); ++i) {
     if (std::find(kImageFeatures.begin(), kImageFeatures.end(), see[i]) == kImageFeatures.end())
       p.fail("see", "has \"" + see[i] + "\", expected lines, ball, obstacles, goals or posts");

@@ -15,7 +15,7 @@ struct LandmarksSettings {
   SensorId id;  ///< identifier; its feature is used only for a list
   Mounting mounting;
   bool isIdentified = true;  ///< whether real readings distinguish them
-  /// Whether the feature is one LandmarksData; otherwise each landmark has features:.
+  /// Whether the feature is one LandmarksData; otherwise each landmark has features of its own:
   bool isList = false;
   bool hasDistances = true;
   bool hasBearings = true;

@@ -21,7 +21,7 @@ std::vector<std::string> LrfIconicExtractor::inputs() const {
 
 void LrfIconicExtractor::take(std::span<const SensorData* const> inputs) {
   auto scan = readingAs<ScanData>(*inputs[0]);
-  if (!scan) throw std::invalid_argument(toText(inputs[0]->id()) + " is no scan, expected one");
+  if (!scan) throw std::invalid_argument(toText(inputs[0]->id()) + " is not a scan, expected one");
   scan_ = *std::move(scan);
   mount_ = inputs[0]->mount();
   maxRange_ = scanOf(inputs[0]->format()).maxRange;

@@ -24,9 +24,9 @@ std::vector<std::string> TeammateExtractor::inputs() const {
 
 void TeammateExtractor::take(std::span<const SensorData* const> inputs) {
   auto talk = readingAs<TalkData>(*inputs[0]);
-  if (!talk) throw std::invalid_argument(toText(inputs[0]->id()) + " is no talk, expected some");
+  if (!talk) throw std::invalid_argument(toText(inputs[0]->id()) + " is not talk, expected some");
   talk_ = *std::move(talk);
-  if (inputs[0]->stamp() < now_) {  // time has begun anew
+  if (inputs[0]->stamp() < now_) {  // the clock was reset
     robots_.clear();
     balls_.clear();
   }

@@ -77,16 +77,17 @@ class SimHelp : public SourceHelp {
   explicit SimHelp(const Parameters&)
       : SourceHelp("world or scene (needs --with-robot for a world)",
                    {{"duration", "s", "60, or the scene's", "time of the last readings"},
-                    {"seed", "", "1", "of noise, start and way"},
+                    {"seed", "", "1", "seed of noise, start and path"},
                     {"cycle_ms", "ms", "the world's", "time between two steps of the simulation"},
                     {"noise", "", "on", "off: sensors and odometry are exact"},
                     {"start", "m, m, deg", "at random", "x,y,theta; not with a scene"},
                     {"waypoints", "m", "wanders about",
                      "x,y;x,y;...: goes straight from one to the next; not with a scene"},
-                    {"speed", "m/s", "the drive's", "at most; 0: stands still; not with a scene"},
+                    {"speed", "m/s", "the drive's",
+                     "greatest speed; 0: it does not move; not with a scene"},
                     {"kidnap", "s", "never",
-                     "t,t,...: when the robot is carried elsewhere; not with a scene"},
-                    {"robot", "", "the first", "name of the robot, of a scene"},
+                     "t,t,...: times at which the robot is kidnapped; not with a scene"},
+                    {"robot", "", "the first", "name of the robot in a scene"},
                     {"pictures", "", "off",
                      "on: cameras draw although no feature is made of their pictures"}}) {}
 };

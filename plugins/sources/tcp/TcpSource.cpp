@@ -170,17 +170,18 @@ class TcpHelp : public SourceHelp {
       : SourceHelp(
             "HOST:PORT of a message board",
             {{"robot", "", "--with-robot", "robot file"},
-             {"duration", "s", "60 for a simulation, else all there is",
+             {"duration", "s", "60 for a simulation, otherwise all",
               "time from the first to the last readings"},
              {"drive", "", "none", "wander: the server drives the robot about"},
              {"start", "m, m, deg", "anywhere", "x,y,theta"},
              {"lockstep", "", "auto",
               "on: an error where it is not permitted; off: asks every cycle_ms what is new"},
              {"cycle_ms", "ms", "100", "without lockstep: time between two updates"},
-             {"wait_s", "s", "0.3", "how long a running robot's readings wait for late ones"},
-             {"form", "", "binary", "of readings on the wire; text has no pictures"},
-             {"name", "", "robot", "of client and robot"},
-             {"timeout", "s", "60", "how long the server may keep silent"}}) {}
+             {"wait_s", "s", "0.3",
+              "how long a running robot's readings are held for delayed ones"},
+             {"form", "", "binary", "format of readings on the wire; text has no pictures"},
+             {"name", "", "robot", "name of client and robot"},
+             {"timeout", "s", "60", "how long the server may be silent"}}) {}
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ using Keys = std::vector<std::pair<std::string_view, std::string_view>>;
 
 [[noreturn]] void failOn(std::string_view text) {
   throw std::invalid_argument("found '" + std::string(text.substr(0, 200)) +
-                              "', expected how a game stands, e.g. 'phase=ready restart=kick-off "
+                              "', expected the state of a game, e.g. 'phase=ready restart=kick-off "
                               "half=1 clock_s=12.5 blue=0 yellow=1 left=blue'");
 }
 

@@ -27,7 +27,7 @@ double PlayerGuard::processorTime() {
 std::string PlayerGuard::overdue(const char* what, double taken) const {
   if (taken <= budget_) return "";
   return who_ + ": " + what + "() took " + std::to_string(taken) +
-         " s of a processor, expected at most " + std::to_string(budget_) + " s";
+         " s of processor time, expected at most " + std::to_string(budget_) + " s";
 }
 
 PlayerNeeds needsOf(const Player& player, const std::string& plugin) {
@@ -50,7 +50,7 @@ void checkSaid(std::string_view text) {
                                 " characters to say, expected at most " +
                                 std::to_string(kMostText));
   if (std::any_of(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }))
-    throw std::invalid_argument("wants to say what is not printable ASCII");
+    throw std::invalid_argument("sends a message that is not printable ASCII");
 }
 
 }  // namespace ortung

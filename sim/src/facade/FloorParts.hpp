@@ -18,7 +18,7 @@ inline FieldParts floorParts(const SimWorld& world, const FieldRegion& whole,
 
 /// Returns the index of the part in which the robot most likely is. @pre there is a part
 inline std::size_t mainPart(const SimWorld& world, const FieldParts& parts) {
-  // A map marks what is outside as unknown, and no robot stands there.
+  // A map marks the outside as unknown, and no robot is there.
   return parts.main(world.solids().walls.empty());
 }
 

@@ -30,7 +30,7 @@ void checkStep(double headingStep) {
 struct Stop {
   const Sweep* sweep;
   std::size_t cell;
-  /// Time [us]; it stands still while the sensor turns, so the sensor may cache what it sees.
+  /// Time [us]; it is the same for all headings, so a sensor may cache what it sees at a place.
   Timestamp now;
 };
 

@@ -64,9 +64,10 @@ std::size_t addTo(std::vector<Sweep>& sweeps, const FieldRegion& region, const R
   group->features.push_back(feature);
   const std::vector<std::size_t> inputs = inputsOf(data, rig);
   if (inputs.empty() && !rig.sensors[device])
-    throw std::invalid_argument(toText(data.id()) +
-                                ": nothing in the simulator gives it, nor what it is made of, "
-                                "so it can't be learned");
+    throw std::invalid_argument(
+        toText(data.id()) +
+        ": no sensor in the simulator provides it or its inputs, so it can't "
+        "be learned");
   for (const std::size_t input : inputs)
     if (std::find(group->inputs.begin(), group->inputs.end(), input) == group->inputs.end())
       group->inputs.push_back(input);

@@ -94,8 +94,8 @@ std::shared_ptr<const RobotTables> TableStore::learnFor(const RobotConfig& robot
       std::count(area.region.open.begin(), area.region.open.end(), std::uint8_t{1}));
   if (open > kMostCells)
     throw std::runtime_error(
-        world_.string() + ": is too large to be learned on the way, with " + std::to_string(open) +
-        " cells, expected at most " + std::to_string(kMostCells) +
+        world_.string() + ": is too large to be learned during a run, with " +
+        std::to_string(open) + " cells, expected at most " + std::to_string(kMostCells) +
         "; let `ortung learn` do it, and give its file (tables=FILE, --tables FILE)");
   SensorContainer container;
   const std::vector<Device> devices = fillContainer(container, robot, factory);

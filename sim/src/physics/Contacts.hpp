@@ -29,7 +29,8 @@ struct Crowd {
 /// other.
 class HeightFilter : public b2ContactFilter {
  public:
-  /// To be called before each step of the engine, which may make contacts.
+  /// Counts the contacts of all bodies; to be called before each step of the engine, which may make
+  /// contacts.
   void count(b2World& world);
   bool ShouldCollide(b2Fixture* a, b2Fixture* b) override;
 };

@@ -146,8 +146,8 @@ void PlayerControl::Parts::say(std::string_view robot, std::string_view text) {
   checkSaid(text);
   if (std::count_if(said.begin(), said.end(),
                     [&](const Heard& one) { return one.from == robot; }) >= kMostSaid)
-    throw std::invalid_argument("says more than " + std::to_string(kMostSaid) +
-                                " texts in a cycle");
+    throw std::invalid_argument("sends more than " + std::to_string(kMostSaid) +
+                                " messages in a cycle");
   said.push_back({std::string(robot), simulation.now(), std::string(text)});
 }
 

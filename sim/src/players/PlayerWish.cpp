@@ -52,7 +52,7 @@ PlayerWish parse(const std::string& kind, const std::string& text) {
   const std::size_t at = rest.rfind('@');
   if (at != std::string_view::npos) {
     wish.team = rest.substr(at + 1);
-    if (!isTeam(wish.team)) refuse("'" + wish.team + "' is no name of a team");
+    if (!isTeam(wish.team)) refuse("'" + wish.team + "' is not the name of a team");
     rest = rest.substr(0, at);
   }
   std::optional<std::string_view> options = cut(rest, ':');
@@ -66,7 +66,7 @@ PlayerWish parse(const std::string& kind, const std::string& text) {
     options = cut(option, '&');
     const auto value = cut(option, '=');
     const std::string key(option);
-    if (!value || key.empty()) refuse("'" + key + "' is no key=value");
+    if (!value || key.empty()) refuse("'" + key + "' is not key=value");
     const bool isOwn =
         key == "robot" || key == "tables" || key == "name" || key == "start" || key == "stage";
     if (!given.insert(key).second) refuse(key + " is given twice");

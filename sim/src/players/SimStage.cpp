@@ -48,7 +48,7 @@ void SimStage::placeThing(std::string_view thing, const Pose2& pose, const Twist
   forget();
   for (std::size_t i = 0; i < simulation_.things().size(); ++i)
     if (simulation_.things()[i].name == thing) return simulation_.placeThing(i, pose, velocity);
-  throw std::invalid_argument("the world has nothing movable of the name '" + std::string(thing) +
+  throw std::invalid_argument("the world has no movable thing named '" + std::string(thing) +
                               "' to be placed");
 }
 

@@ -66,7 +66,7 @@ Manipulator readManipulator(const Parameters& table, double height) {
   manipulator.name = readWord(table);
   for (const Parameters& one : table.tables("state")) {
     ManipulatorState state = readState(one, height);
-    if (manipulator.find(state.name)) one.fail("name", "is there twice: " + state.name);
+    if (manipulator.find(state.name)) one.fail("name", "is given twice: " + state.name);
     manipulator.states.push_back(std::move(state));
   }
   if (manipulator.states.empty() || manipulator.states.size() > kMostStates)
@@ -116,7 +116,7 @@ RobotShape RobotShape::read(const RobotConfig& config) {
     Manipulator manipulator = readManipulator(table, shape.height);
     const auto same = std::find_if(shape.manipulators.begin(), shape.manipulators.end(),
                                    [&](const auto& m) { return m.name == manipulator.name; });
-    if (same != shape.manipulators.end()) table.fail("name", "is there twice: " + same->name);
+    if (same != shape.manipulators.end()) table.fail("name", "is given twice: " + same->name);
     if (shape.manipulators.size() == kMostManipulators)
       table.fail("name", "is one too many, expected at most 16 manipulators");
     shape.manipulators.push_back(std::move(manipulator));

@@ -189,7 +189,7 @@ void SimRobot::extract(Timestamp now) {
   } catch (const ExtractorError& error) {
     extracts_ = false;
     report(now, "robot " + config_.name + ": " + error.what() +
-                    "; nothing is made of other features any more");
+                    "; derived features are no longer extracted");
   }
   for (Mounted& mounted : sensors_) collect(mounted, now);
 }
@@ -285,10 +285,10 @@ SimRobot::WantedState SimRobot::findManipulator(std::string_view manipulator,
     for (const ManipulatorState& each : one.states)
       states += (states.empty() ? "" : ", ") + each.name;
     throw std::invalid_argument("robot " + config_.name + ": its manipulator " + one.name +
-                                " has no state '" + std::string(state) + "', but " + states);
+                                " has no state '" + std::string(state) + "'; it has " + states);
   }
   throw std::invalid_argument("robot " + config_.name + " has no manipulator '" +
-                              std::string(manipulator) + "', but " +
+                              std::string(manipulator) + "'; it has " +
                               (known.empty() ? "none" : known));
 }
 

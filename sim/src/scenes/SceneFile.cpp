@@ -59,7 +59,7 @@ void addRobot(const Parameters& table, const std::filesystem::path& folder,
   SceneRobot robot = readRobotOf(table, folder);
   for (const SceneRobot& other : robots)
     if (other.name == robot.name)
-      table.fail("name", "is there twice: " + robot.name + ", expected a name of its own");
+      table.fail("name", "is given twice: " + robot.name + ", expected a name of its own");
   robots.push_back(std::move(robot));
 }
 

@@ -202,7 +202,7 @@ std::size_t SceneRun::needThing(const std::string& thing) const {
   const auto things = simulation_->things();
   for (std::size_t i = 0; i < things.size(); ++i)
     if (things[i].name == thing) return i;
-  throw std::invalid_argument("the world has nothing movable of the name '" + thing + "'");
+  throw std::invalid_argument("the world has no movable thing named '" + thing + "'");
 }
 
 void SceneRun::step() {

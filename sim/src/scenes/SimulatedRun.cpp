@@ -58,7 +58,7 @@ std::vector<Timestamp> kidnapsOption(const Parameters& p) {
 /// Reads the scene of the file, which itself says which robots drive where.
 Scene readScene(const Parameters& p) {
   for (const char* key : {"start", "waypoints", "speed", "kidnap"})
-    if (p.has(key)) p.fail(key, "does not fit a scene, which says itself who goes where");
+    if (p.has(key)) p.fail(key, "does not fit a scene, which itself says where robots drive");
   p.textOr("robot_file", "");  // the scene names its own
   return Scene::read(p.text("path"));
 }

@@ -81,7 +81,7 @@ GridMap readGridMap(const std::filesystem::path& file) {
   for (const char* end : {".map", ".cmf", ".carmen", ".map.gz", ".cmf.gz", ".carmen.gz"})
     if (endsIn(end)) return readCarmenMap(file);
   throw MapError(file.string() +
-                 ": is no kind of map that can be read, expected a map_server map (.yaml, .yml), "
+                 ": is not a known kind of map, expected a map_server map (.yaml, .yml), "
                  "a CARMEN map (.map, .cmf, .carmen, also with .gz) or an MRPT grid map (.gridmap, "
                  ".gridmap.gz)");
 }

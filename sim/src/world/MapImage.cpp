@@ -90,7 +90,7 @@ MapImage decodeImage(const std::filesystem::path& file, const std::string& bytes
   if (bytes.starts_with("P5")) return decodePnm(file, bytes, 1);
   if (bytes.starts_with("P6")) return decodePnm(file, bytes, 3);
   throw MapError(file.string() +
-                 ": is no image that can be read, expected PNG, or PGM or PPM in binary (P5, P6)");
+                 ": is not a known kind of image, expected PNG, or PGM or PPM in binary (P5, P6)");
 }
 
 }  // namespace ortung

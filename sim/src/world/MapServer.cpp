@@ -66,7 +66,7 @@ class YamlMap {
   std::string text(const char* key) const {
     const YAML::Node node = need(key);
     if (!node.IsScalar() || node.Scalar().empty() || node.Scalar().find('\0') != std::string::npos)
-      refuse(node, std::string(key) + " is no text");
+      refuse(node, std::string(key) + " is not a text");
     return node.Scalar();
   }
 
@@ -109,7 +109,7 @@ MapDescription describe(const std::filesystem::path& yaml) {
   try {
     return YamlMap(yaml).read();
   } catch (const YAML::Exception& error) {
-    throw MapError(yaml.string() + ": is no YAML of a map_server map: " + error.what());
+    throw MapError(yaml.string() + ": is not the YAML of a map_server map: " + error.what());
   }
 }
 

@@ -38,13 +38,13 @@ void readMechanics(const Parameters& table, Primitive& primitive) {
   const bool isBall = primitive.kind == "ball";
   primitive.isMovable = table.flagOr("movable", isBall);
   if (!primitive.isMovable) {
-    if (table.has("mass_kg")) table.fail("mass_kg", "does not fit what is not movable");
+    if (table.has("mass_kg")) table.fail("mass_kg", "does not fit something that is not movable");
     return;
   }
   if (primitive.identity)
-    table.fail("identity", "does not fit what is movable: landmarks stay where they are");
+    table.fail("identity", "does not fit something movable: landmarks must not move");
   if (!isBall && !table.has("mass_kg"))
-    table.fail("mass_kg", "is missing, which everything movable needs but a ball");
+    table.fail("mass_kg", "is missing; everything movable except a ball needs it");
   primitive.mass =
       isBall ? table.numberOr("mass_kg", kBallMass, kMass) : table.number("mass_kg", kMass);
 }

@@ -32,8 +32,7 @@ struct LearnArea {
 /// @param inside a point [m] of the part to learn; nothing: the part that FieldParts::main()
 ///   chooses
 /// @throws std::invalid_argument as SimWorld::region(); if there is no room at @p inside, or none
-/// at
-///   all
+/// at all
 ORTUNG_API LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
                                const std::optional<std::array<double, 2>>& inside = {});
 

@@ -75,9 +75,10 @@ class ORTUNG_API Batch {
   std::span<const float> observations() const;  ///< observations, shape (N, agents, observation)
   /// Last observations of episodes that ended in this step, the same shape.
   std::span<const float> finalObservations() const;
-  std::span<const double> rewards() const;           ///< rewards, shape (N, agents)
-  std::span<const std::uint8_t> terminated() const;  ///< whether episodes have ended, shape (N)
-  std::span<const std::uint8_t> truncated() const;   ///< whether their time has run out, shape (N)
+  std::span<const double> rewards() const;  ///< rewards, shape (N, agents)
+  /// Whether episodes have ended, but not by time, shape (N).
+  std::span<const std::uint8_t> terminated() const;
+  std::span<const std::uint8_t> truncated() const;  ///< whether their time has run out, shape (N)
   /// Ending of each episode that ended in this step, shape (N).
   std::span<const std::uint8_t> endings() const;
   std::span<const std::uint64_t> seeds() const;    ///< seeds of the episodes, shape (N)

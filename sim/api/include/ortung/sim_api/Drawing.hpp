@@ -58,7 +58,7 @@ struct Lighting {
   std::uint32_t seed = 0;    ///< seed of the floor's pattern
 };
 
-/// What World::draw() is asked to draw.
+/// The arguments of World::draw(): camera, faces, sheet and light.
 struct Drawing {
   CameraPose camera;
   std::span<const SheetFace> faces;  ///< the pictures on the sheet

@@ -6,7 +6,7 @@
 #include "ortung/base/Random.hpp"
 #include "ortung/sim_api/Sight.hpp"
 
-/// What makes simulated readings as bad as real ones.
+/// Errors that make simulated readings as inaccurate as real ones.
 namespace ortung {
 
 /// The errors of a sensor that detects things.

@@ -17,7 +17,7 @@ namespace ortung {
 struct RefereeEvent {
   Timestamp stamp = 0;  ///< time of the event [us]
   std::string what;     ///< kind of event in one word: "goal", "throw-in", "half-time", ...
-  std::string team;     ///< the team that benefits; "": both or none
+  std::string team;     ///< the team that it concerns; "": both or none
   std::string text;     ///< description in one line
 };
 
