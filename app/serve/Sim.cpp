@@ -1,3 +1,5 @@
+#include "Sim.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 #include <thread>
 #include <utility>
 
-#include "ServingArguments.hpp"
-#include "Sim.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
@@ -17,6 +17,7 @@
 #include "RefBoxLink.hpp"
 #include "Rescue.hpp"
 #include "Serving.hpp"
+#include "ServingArguments.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/formats/TalkData.hpp"
 #include "ortung/mcl_served/LocalizationCommands.hpp"
@@ -46,7 +47,7 @@ PlayerControl::Config playersOf(const SimArguments& arguments,
   return {arguments.playerBudgetMs / 1000.0, onProblem};
 }
 
-/// The scene of the file, or the world of the file, with further robots that wander about.
+/// Returns the scene or world of the file, with further robots that wander about.
 Scene sceneOf(const SimArguments& arguments) {
   Scene scene = Scene::open(arguments.world);
   const std::size_t more = arguments.robots.size() + arguments.players.size();
@@ -75,12 +76,12 @@ Scene sceneOf(const SimArguments& arguments) {
   return scene;
 }
 
-/// Where everything was, as lines of a table, which grows as the simulation goes on.
+/// A table of the places of all bodies over time, which grows during the simulation.
 class Trace {
  public:
   explicit Trace(const std::filesystem::path& file) : file_(file) {}
   void add(const Simulation& simulation) {
-    constexpr Timestamp kPeriod = 50'000;                              // [us]
+    constexpr Timestamp kPeriod = 50'000;                              // time between lines [us]
     if (simulation.now() + kPeriod < next_) next_ = simulation.now();  // it has started over
     if (simulation.now() < next_) return;
     next_ += kPeriod;
@@ -118,12 +119,12 @@ class Trace {
   std::string text_ = "time_s,kind,name,x_m,y_m,theta_deg,vx_m_s,vy_m_s,w_deg_s,manipulators\n";
 };
 
-/// Waits until as much real time has passed as the pace wants.
+/// Waits until real time has caught up with the simulation, according to the pace.
 class Pacing {
  public:
   explicit Pacing(const ServingArguments& arguments)
       : speed_(arguments.speed), isFree_(arguments.freeRun), start_(Clock::now()) {}
-  /// A signal ends it.
+  /// Waits; a signal ends it.
   void waitFor(double seconds) const {
     using Seconds = std::chrono::duration<double>;
     constexpr Seconds kLongest(0.05);
@@ -151,7 +152,7 @@ Outputs outputsOf(const SimArguments& arguments) {
   return outputs;
 }
 
-/// What a referee has seen and decided, as a reading for whoever looks at the record.
+/// Returns a referee's observations and decisions as a reading, for records.
 Message messageOf(const std::vector<RefereeEvent>& events) {
   const Timestamp now = events.back().stamp;
   TalkData::Reading told;
@@ -160,10 +161,10 @@ Message messageOf(const std::vector<RefereeEvent>& events) {
   return {now, {"referee", "referee", "events"}, TalkData::encode(told)};
 }
 
-/// What a run leaves behind. It can't be had again where a robot's plugin has a will of its own,
-/// and a signal is how most runs end, so all of it is written as it comes.
+/// The outputs of a run. Plugins of robots need not be deterministic, and most runs end by a
+/// signal, so everything is written at once.
 struct Recording {
-  std::string name;  ///< of the robot; "": none is recorded
+  std::string name;  ///< name of the recorded robot; "": none
   RobotNumber robot = 0;
   std::optional<RecordWriter> record;
   std::optional<Trace> trace;
@@ -180,7 +181,8 @@ struct Recording {
     const auto found = run.find(name);
     if (!found) throw UsageError("--record: there is no robot '" + name + "' to record");
     robot = robots[*found]->state().number;
-    run.simulation().robots()[*found]->setWanted({}, true);  // whatever a record is read for
+    run.simulation().robots()[*found]->setWanted(
+        {}, true);  // all features, since a record may be used for anything
     record.emplace(outputs.ready(arguments.record), run.simulation().world().fingerprint(),
                    RecordWriter::Pace::kLive);
   }
@@ -202,7 +204,7 @@ void print(const std::vector<RefereeEvent>& events) {
   if (!events.empty()) flushOutput();
 }
 
-/// A served simulation whose referee a box may lead; what happens in the game is printed.
+/// A served simulation whose referee a RefBox may control; it prints the events of the game.
 class RefereedSimulation : public ServedSimulation {
  public:
   RefereedSimulation(const SimArguments& arguments, const Simulation::Config& config)
@@ -218,7 +220,7 @@ class RefereedSimulation : public ServedSimulation {
     if (trace_) trace_->add(run().simulation());
     printEvents();
   }
-  /// What the referee has seen and decided in this cycle, for records.
+  /// Observations and decisions of the referee in this cycle, for records.
   const std::vector<Message>& told() const { return told_; }
   void commit() {
     if (trace_) trace_->commit();
@@ -244,8 +246,8 @@ class RefereedSimulation : public ServedSimulation {
   std::optional<Trace> trace_;
 };
 
-/// With filters for those of its robots that can localize.
-/// @param world that simulation, and what else is told of it
+/// Returns the world with filters for those of its robots that can localize.
+/// @param world the simulation, with what clients get besides
 LocalizedWorld localized(ServedWorld& world, ServedSimulation& simulation,
                          const SimArguments& arguments) {
   LocalizedWorld::Config config;
