@@ -181,8 +181,7 @@ struct Recording {
     const auto found = run.find(name);
     if (!found) throw UsageError("--record: there is no robot '" + name + "' to record");
     robot = robots[*found]->state().number;
-    run.simulation().robots()[*found]->setWanted(
-        {}, true);  // all features, since a record may be used for anything
+    run.simulation().robots()[*found]->setWanted({}, true);  // all features
     record.emplace(outputs.ready(arguments.record), run.simulation().world().fingerprint(),
                    RecordWriter::Pace::kLive);
   }
