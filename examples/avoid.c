@@ -1,4 +1,4 @@
-/* A robot that drives about and turns away from what is in front of it, in C.
+/* A robot that drives about and turns away from obstacles ahead, in C.
  *
  *   avoid_c HOST PORT ROBOT_FILE [SECONDS]
  *
@@ -11,11 +11,11 @@
 
 enum { kMostBeams = 1024 };
 
-/* The nearest thing in the middle third of the scan [mm]; words of a scan are ranges. */
+/* Returns the least range in the middle third of the scan [mm]; words of a scan are ranges. */
 static uint32_t nearest_ahead(const uint32_t* ranges, long beams) {
   uint32_t nearest = 8000;
   for (long i = beams / 3; i < beams - beams / 3; ++i)
-    if (ranges[i] > 0 && ranges[i] < nearest) nearest = ranges[i]; /* 0: nothing valid was seen */
+    if (ranges[i] > 0 && ranges[i] < nearest) nearest = ranges[i]; /* 0: invalid */
   return nearest;
 }
 
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
       return 1;
     }
     const long beams = ortung_read(robot, "*/LRF/*", ranges, kMostBeams, &stamp);
-    if (beams < 1 || beams > kMostBeams) continue; /* nothing was sensed yet */
+    if (beams < 1 || beams > kMostBeams) continue; /* there is no reading yet */
     const uint32_t ahead = nearest_ahead(ranges, beams);
     if (!ortung_set_velocity(robot, ahead > 800 ? 0.5 : 0.0, ahead > 800 ? 0.0 : 0.8)) {
       ortung_trouble(robot, text, sizeof text);

@@ -1,4 +1,4 @@
-// A robot that drives about and turns away from what is in front of it, for the client library.
+// A robot that drives about and turns away from obstacles ahead, with the client library.
 //
 //   avoid HOST PORT ROBOT_FILE [SECONDS]
 //
@@ -12,7 +12,7 @@
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScanData.hpp"
 
-/// The nearest thing in the middle third of the scan [m]. Beams that saw nothing valid are NaN.
+/// Returns the least range in the middle third of the scan [m]. Invalid beams are NaN.
 static float nearestAhead(const std::vector<float>& ranges) {
   float nearest = 8.0F;
   for (std::size_t i = ranges.size() / 3; i < ranges.size() - ranges.size() / 3; ++i)
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     ortung::RemoteRobot robot(argv[3], options);
     for (int cycle = 0; cycle < seconds / options.cycle; ++cycle) {
       if (!robot.waitForUpdate(5.0)) throw std::runtime_error("no update: " + robot.trouble());
-      // Readings copied out of the container, which goes on filling itself.
+      // These are copies of readings, since the container is filled by another thread.
       const auto scan = robot.container().get<ortung::ScanData>({.type = "LRF"});
       const auto odometry = robot.container().get<ortung::OdometryData>({.type = "odometry"});
       if (!scan || !odometry) continue;

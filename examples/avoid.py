@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A robot that drives about and turns away from what is in front of it, on the bare protocol.
+"""A robot that drives about and turns away from obstacles ahead, by the bare protocol.
 
     avoid.py HOST PORT ROBOT_FILE [SECONDS]
 """
@@ -10,7 +10,7 @@ import time
 
 
 class Server:
-    """One line a request, one line a reply, and as many more as it says (docs/protocol.md)."""
+    """A connection: each request is a line, each reply a line and as many more as it says (docs/protocol.md)."""
     def __init__(self, host, port):
         self.lines = socket.create_connection((host, port), timeout=10).makefile("rw", newline="\n")
 
@@ -18,7 +18,7 @@ class Server:
         self.lines.write(request + "\n")
         self.lines.flush()
         reply = self.lines.readline()
-        while reply.startswith("* ") and not reply.startswith(("* ERR", "* BYE")):  # said unasked
+        while reply.startswith("* ") and not reply.startswith(("* ERR", "* BYE")):  # events
             reply = self.lines.readline()
         if not reply.startswith("OK"):
             raise RuntimeError(f"{request.split()[0]}: {reply.strip() or 'the connection is closed'}")
@@ -27,7 +27,7 @@ class Server:
 
 
 def readings(lines):
-    """{"LMS200/LRF/180DegreeScan": [words]} of the lines of a record."""
+    """Returns {"LMS200/LRF/180DegreeScan": [words]} from the lines of a record."""
     return {line.split()[1]: [int(word) for word in line.split()[3:]] for line in lines}
 
 

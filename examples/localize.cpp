@@ -1,5 +1,4 @@
-// Where a robot is, from whatever gives its readings: a simulator, a record, a foreign log, a
-// server.
+// Localizes a robot by the readings of any source: a simulator, a record, a foreign log, a server.
 //
 //   localize ROBOT_FILE TABLES KIND:PATH?key=value
 //

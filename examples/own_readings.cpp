@@ -1,9 +1,9 @@
-// Where a robot is, from readings that the program itself brings, e.g. of devices that it drives.
+// Localizes a robot by readings that the program itself provides, e.g. of devices that it drives.
 //
 //   own_readings ROBOT_FILE TABLES < READINGS
 //
-// Here each line stands for one reading of odometry and scanner: STAMP_US X Y THETA RANGE RANGE ...
-// in metres and radians; a range of 0 is not valid. The robot file has both as
+// Here each line is a reading of odometry and scanner: STAMP_US X Y THETA RANGE RANGE ...
+// in metres and radians; a range of 0 is invalid. The robot file has both as
 // maps/robots/pioneer.toml does.
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ int main(int argc, char** argv) try {
     std::vector<float> ranges{std::istream_iterator<float>(numbers), {}};
     std::ranges::replace(ranges, 0.0F, NAN);
     std::vector<std::uint32_t> scan;
-    ortung::ScanData::encode(ranges, 8.0, scan);  // the scanner sees as far as 8 m
+    ortung::ScanData::encode(ranges, 8.0, scan);  // the scanner's greatest range is 8 m
     localization.container().set(std::vector<ortung::Message>{
         {now, {"odometry", "odometry", "pose"}, ortung::OdometryData::encode({.pose = moved})},
         {now, {"LMS200", "LRF", "180DegreeScan"}, scan}});

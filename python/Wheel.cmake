@@ -1,7 +1,7 @@
 # What a wheel holds, as the component `wheel` that nothing but backend.py installs: the package with all
 # libraries, plugins and maps below it, wherever it comes to lie.
 
-# All of our libraries that TARGET is built on.
+# All of Ortung's libraries that TARGET links.
 function(ortung_libraries_of target result)
   set(found ${${result}})
   get_target_property(links ${target} LINK_LIBRARIES)

@@ -3,8 +3,8 @@
     /usr/bin/pip wheel . --no-build-isolation --no-deps
     /usr/bin/python3 -m build --wheel --no-isolation
 
-It compiles in build/wheel by CMake. Settings (-C of build, --config-settings of pip): build-dir=DIR takes what is
-built in DIR already, of whatever options; cmake-args=ARGUMENTS goes to CMake.
+It compiles in build/wheel by CMake. Settings (-C of build, --config-settings of pip): build-dir=DIR uses the build in
+DIR, which may have any options; cmake-args=ARGUMENTS is passed to CMake.
 """
 import os
 import pathlib
@@ -28,7 +28,7 @@ def _cmake(*arguments):
 
 
 def _compile(settings):
-    """The folder with the package's targets built, for the interpreter that runs this."""
+    """Builds the package's targets for the interpreter that runs this, and returns the build folder."""
     if "build-dir" in settings:
         return pathlib.Path(settings["build-dir"]).resolve()
     folder = ROOT / "build" / "wheel"
@@ -45,7 +45,7 @@ def _version(build):
 
 
 def _without_links(folder):
-    """A wheel has no links: each library bears the one name by which others ask for it."""
+    """Renames each library to the name by which others load it, since a wheel has no links."""
     for link in [path for path in folder.rglob("*") if path.is_symlink()]:
         target = link.resolve()
         link.unlink()

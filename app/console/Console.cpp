@@ -16,7 +16,7 @@ namespace {
 bool isControl(std::string_view text, std::size_t i) {
   const auto byte = static_cast<unsigned char>(text[i]);
   if (byte < 0x20 || byte == 0x7F) return true;
-  // The C1 controls in UTF-8: 0xC2 0x80 to 0xC2 0x9F.
+  // The C1 controls in UTF-8 are 0xC2 0x80 to 0xC2 0x9F.
   const bool afterC2 = i > 0 && static_cast<unsigned char>(text[i - 1]) == 0xC2;
   return afterC2 && byte >= 0x80 && byte < 0xA0;
 }
@@ -37,18 +37,18 @@ void fail(const std::string& text) { logger().error("{}", printable(text)); }
 void reserveStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
-    // Opened for the other direction; gets the lowest number that is free, which is this one.
+    // It is opened for the other direction, and gets the lowest free descriptor, which is this one.
     if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
   }
 }
 
 void flushOutput() {
-  static int error = 0;  // the first one tells more than what follows from it
+  static int error = 0;  // the first error, which causes the later ones
   const bool hasFailed = std::ferror(stdout) != 0;
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;
   if (flushed && !hasFailed) return;
-  // Where a print failed before, its reason is gone; what takes nothing at all says it again.
+  // If a print failed before, its error is lost; writing nothing returns it again.
   if (errno == 0 && ::write(STDOUT_FILENO, "", 0) == 0) errno = EIO;
   if (error == 0) error = errno;
   throw std::runtime_error("standard output: can't be written: " +

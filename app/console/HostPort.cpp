@@ -5,7 +5,7 @@
 namespace ortung::app {
 
 std::optional<HostPort> parseHostPort(const std::string& text) {
-  const std::size_t colon = text.rfind(':');  // [::1]:7777 is an address, too
+  const std::size_t colon = text.rfind(':');  // also in [::1]:7777
   HostPort found{text.substr(0, colon), std::nullopt};
   if (colon != text.npos) {
     const char* end = text.data() + text.size();

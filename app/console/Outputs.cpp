@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
   refuse(file, std::string("can't be written: ") + std::strerror(error));
 }
 
-/// What a kind is called, and how files of it can be told.
+/// The name of a kind, and how its files are recognized.
 struct Signature {
   const char* name;
   std::string_view begin;
@@ -53,7 +53,7 @@ Signature signatureOf(OutputKind kind) {
     case OutputKind::kPosesJson:
       return {"poses of `ortung localize --format json`", "{\"stamp_us\":", ""};
     case OutputKind::kPosesTum:
-      return {"poses as TUM has them", "# timestamp tx ty tz qx qy qz qw", ""};
+      return {"poses in TUM's format", "# timestamp tx ty tz qx qy qz qw", ""};
     case OutputKind::kBelief:
       return {"a belief of `ortung localize`", "PK\x03\x04", "stamp_us.npy"};
     case OutputKind::kTrace:
@@ -93,7 +93,7 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
          one.st_ino == two.st_ino && S_ISREG(one.st_mode);
 }
 
-/// Whether one of the standard outputs goes into that file: then it is written to, not replaced.
+/// Whether a standard output goes to that file, which is then written to, not replaced.
 bool isOwnOutput(const struct stat& status) {
   for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO}) {
     struct stat own{};
@@ -108,7 +108,7 @@ fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// A file that is not there yet.
+/// Checks a file that does not exist.
 void checkNew(const fs::path& file, const fs::path& place) {
   const fs::path folder = folderOf(place);
   std::error_code error;
@@ -118,20 +118,20 @@ void checkNew(const fs::path& file, const fs::path& place) {
   if (::access(folder.c_str(), W_OK) != 0) refuseFor(file, errno);
 }
 
-/// What is there already.
+/// Checks a file that exists.
 void checkOld(const std::string& option, const fs::path& file, const struct stat& status,
               OutputKind kind, bool force) {
   if (S_ISDIR(status.st_mode)) refuse(file, "is a folder, expected a file");
   if (S_ISBLK(status.st_mode) && !force)
-    refuse(file, "is a disk, of which " + option + " would overwrite what it holds; use --force");
+    refuse(file, "is a disk, whose data " + option + " would overwrite; use --force");
   if (!S_ISREG(status.st_mode) || isOwnOutput(status)) return;
   if (::access(file.c_str(), W_OK) != 0) refuseFor(file, errno);
   if (force || status.st_size == 0) return;
   if (isOfKind(file, kind)) return;
   refuse(file, kind == OutputKind::kSettings
                    ? "exists and would be overwritten; use --force"
-                   : "exists and does not hold what " + option + " writes (" +
-                         signatureOf(kind).name + "); it would be overwritten; use --force");
+                   : "exists and is not what " + option + " writes (" + signatureOf(kind).name +
+                         "); it would be overwritten; use --force");
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ void Outputs::reads(const fs::path& file) {
 }
 
 void Outputs::readsSource(const std::string& text) {
-  const std::string path = text.substr(text.find(':') + 1);  // all of it, if there is none
+  const std::string path = text.substr(text.find(':') + 1);  // all of the text if it has no colon
   reads(path.substr(0, path.find('?')));
 }
 

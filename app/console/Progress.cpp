@@ -22,7 +22,7 @@ std::string timeLeft(double share, double seconds) {
   return fmt::format(", {:.0f} s left", std::ceil(seconds * (1.0 - share) / share));
 }
 
-/// A terminal that is gone, or a full disk, is no reason to end the work.
+/// Prints text. A closed terminal or a full disk must not end the work, so errors are ignored.
 void show(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);

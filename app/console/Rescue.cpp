@@ -37,7 +37,7 @@ Rescue::~Rescue() {
 
 void Rescue::saveAllAndEnd(const std::string& why) {
   fail(why);
-  const std::lock_guard lock(rescues().mutex);  // for good: nobody is there to let go of it
+  const std::lock_guard lock(rescues().mutex);  // it is never released
   for (Rescue* rescue : rescues().all) {
     try {
       const auto held = rescue->hold();

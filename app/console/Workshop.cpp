@@ -35,7 +35,7 @@ void Workshop::declare(Outputs& outputs) const {
     if (made == file()) continue;
     if (!hasFolder)
       throw std::runtime_error(target_.string() + ": " + made.filename().string() +
-                               " has to lie beside it, so it must be a file in a folder");
+                               " is made beside it, so it must be a file in a folder");
     outputs.writes(option_, placeOf(made), OutputKind::kSettings);
   }
 }

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a picture with drawings goes; announced before any work begins.
+/// Returns the file of a picture with drawings; it is announced before any work begins.
 fs::path drawnFile(const fs::path& folder, const fs::path& picture) {
   return folder / (picture.stem().string() + ".png");
 }
@@ -61,14 +61,14 @@ Look lookAt(const fs::path& file) {
   return look;
 }
 
-/// The field's lines where the camera would see them.
+/// Draws the field's lines where the camera would see them.
 void drawField(Picture& picture, const FieldLines& field, const CameraView& view,
                const Pose2& pose) {
   const auto dot = [&](double x, double y) {
     const Pose2 place = inverse(pose) * Pose2{x, y, 0.0};
     if (const auto pixel = view.pixelOf({place.x, place.y, 0.0})) picture.dot(*pixel, 0, 0, 0, 255);
   };
-  constexpr double kStep = 0.02;  // [m]
+  constexpr double kStep = 0.02;  // distance between drawn points [m]
   for (const FieldLine& line : field.lines()) {
     if (line.shape == FieldLine::Shape::straight) {
       const double length = std::hypot(line.x1 - line.x0, line.y1 - line.y0);

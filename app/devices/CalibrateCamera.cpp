@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "9x6".
+/// Parses a size of a board, "9x6".
 BoardSize boardOf(const std::string& text) {
   constexpr int kMost = 100;
   BoardSize board;
@@ -38,7 +38,7 @@ BoardModel modelOf(const std::string& name) {
 
 struct Found {
   ImageSize size;
-  std::vector<fs::path> files;  ///< those that show the board
+  std::vector<fs::path> files;  ///< pictures that show the board
   std::vector<std::vector<Pixel>> boards;
 };
 
@@ -58,8 +58,8 @@ Found look(const CalibrateCameraArguments& arguments, const BoardSize& board) {
       found.boards.push_back(std::move(*corners));
       found.files.push_back(file);
     } else {
-      warn(fmt::format("{}: shows no whole board of {} x {} inner corners; left out", file.string(),
-                       board.columns, board.rows));
+      warn(fmt::format("{}: does not show a whole board of {} x {} inner corners; left out",
+                       file.string(), board.columns, board.rows));
     }
     progress.update(static_cast<double>(++done) / static_cast<double>(arguments.pictures.size()));
   }

@@ -1,5 +1,4 @@
 #include "Calibrate.hpp"
-
 #include "CommandModule.hpp"
 #include "OptionBuilder.hpp"
 
@@ -14,9 +13,9 @@ void addCamera(Builder& build) {
       .required();
   build
       .option("--board", a->board,
-              "Inner corners of the board, in a row and rows: where four squares meet")
+              "Inner corners of the board (where four squares meet): in a row x rows")
       .showsDefault();
-  build.option("--model", a->model, "What kind of camera it is")
+  build.option("--model", a->model, "Kind of camera model")
       .oneOf({"perspective", "fisheye", "unified", "ocam"})
       .showsDefault();
   build.option("--out", a->out, "File to write: the table [sensor.camera] of a robot file");
@@ -33,12 +32,14 @@ void addLines(Builder& build) {
       .required();
   build
       .option("--world", a->worlds,
-              "World with the field's lines; of several the one that fits best is taken")
+              "World with the field's lines; the best fitting one of several is used")
       .required();
-  build.option("--height", a->height, "About how high the camera is above the floor [m]")
+  build.option("--height", a->height, "Approximate height of the camera above the floor [m]")
       .within(0.05, 10.0)
       .showsDefault();
-  build.option("--height-share", a->heightShare, "How far off that may be, as a share (sigma)")
+  build
+      .option("--height-share", a->heightShare,
+              "Standard deviation of the height, as a share of it")
       .within(0.001, 1.0)
       .showsDefault();
   build.option("--out", a->out, "File to write: the table [sensor.camera] of a robot file");

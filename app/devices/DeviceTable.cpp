@@ -11,7 +11,7 @@
 namespace ortung::app {
 namespace {
 
-/// What did not go well, in a few words.
+/// Returns the problems of a device in a few words.
 std::string troublesOf(const DeviceStatus& device) {
   std::string text = device.reason;
   const std::pair<const char*, std::uint64_t> counts[] = {

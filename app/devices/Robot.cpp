@@ -17,16 +17,16 @@
 #include <utility>
 #include <vector>
 
-#include "LocalizationArguments.hpp"
-#include "Robot.hpp"
-#include "ServingArguments.hpp"
 #include "Console.hpp"
 #include "DeviceTable.hpp"
 #include "EstimatesText.hpp"
 #include "Interrupt.hpp"
+#include "LocalizationArguments.hpp"
 #include "Localizing.hpp"
 #include "Outputs.hpp"
+#include "Robot.hpp"
 #include "Serving.hpp"
+#include "ServingArguments.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/NewFile.hpp"
 #include "ortung/devices/DeviceStatusData.hpp"
@@ -43,9 +43,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatience{200};
 constexpr std::chrono::milliseconds kBetweenStatus{500};
-constexpr RobotId kRobot = 1;  // as clients know it
+constexpr RobotId kRobot = 1;  // number of the robot for clients
 
-/// The devices as a source that ends when it is told to, or with a signal.
+/// The devices as a source that can be stopped, also by a signal.
 class Readings : public Source {
  public:
   Readings(DevicesSource& devices, const std::atomic<bool>& isOver)
@@ -67,7 +67,7 @@ class Readings : public Source {
   const std::atomic<bool>& isOver_;
 };
 
-/// A robot that runs: its devices, its container and, if there are tables, where it is.
+/// A robot that runs: its devices, its container and, if there are tables, its localization.
 class RunningRobot {
  public:
   explicit RunningRobot(const RobotArguments& arguments)
@@ -113,7 +113,7 @@ class RunningRobot {
     return localization_ ? localization_->robot().tables.worldFingerprint : "";
   }
 
-  /// Until the end of the devices, a signal or stop().
+  /// Runs until the end of the devices, a signal or stop().
   void run() {
     writePoses(std::string(kEstimatesHeader));
     std::string text;
@@ -133,7 +133,7 @@ class RunningRobot {
     }
   }
   void stop() { isOver_ = true; }
-  /// For clients; null: it does not localize.
+  /// The localization for clients; null: it does not localize.
   LocalizedRobot* localized() { return localized_.get(); }
 
   void commit() {
@@ -141,7 +141,7 @@ class RunningRobot {
     if (poses_) poses_->commit();
   }
 
-  /// How the devices are, for clients.
+  /// Publishes the status of the devices for clients.
   void publishStatus(const std::vector<DeviceStatus>& all) {
     const Timestamp now = devices_.clock()();
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -182,7 +182,7 @@ class RunningRobot {
   Outputs outputs_;
   std::atomic<bool> isOver_ = false;
   DevicesSource devices_;
-  std::shared_ptr<Localization> localization_;  ///< or those three:
+  std::shared_ptr<Localization> localization_;  ///< localization; without, the next three
   std::unique_ptr<Robot> robot_;
   std::unique_ptr<Readings> readings_;
   std::unique_ptr<Feeder> feeder_;
@@ -190,13 +190,13 @@ class RunningRobot {
   std::optional<RecordWriter> record_;
   std::optional<NewFile> poses_;
   std::vector<SensorId> status_;
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards the members that follow
   std::optional<PoseEstimate> estimate_;
   std::size_t updates_ = 0;
 };
 
-/// Tells clients and whoever sits before the terminal how the devices are: a table that stays in
-/// its place, or where there is no terminal a line for each change.
+/// Shows the status of the devices to clients and on the terminal, as a table that is updated; if
+/// stderr is not a terminal, as a line for each change.
 class Watch {
  public:
   explicit Watch(RunningRobot& robot)
@@ -233,11 +233,11 @@ class Watch {
 
   RunningRobot& robot_;
   bool isTerminal_;
-  std::size_t lines_ = 0;  ///< of the table that stands there
+  std::size_t lines_ = 0;  ///< number of lines of the table that is shown
   std::vector<std::optional<DeviceState>> states_;
   std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::jthread thread_;  ///< last, so that it ends before what it uses
+  std::jthread thread_;  ///< last member: it ends before what it uses
 };
 
 void serveRobot(RunningRobot& robot, const ServingArguments& arguments,

@@ -1,7 +1,7 @@
 #include "CommandModule.hpp"
 #include "LocalizationArguments.hpp"
-#include "Robot.hpp"
 #include "OptionBuilder.hpp"
+#include "Robot.hpp"
 #include "ServingOptions.hpp"
 
 namespace ortung::app {
@@ -10,7 +10,7 @@ namespace {
 void addLocalization(Builder& build, LocalizationArguments& a) {
   build.option("--tables", a.tables, "Table file of `ortung learn`: localize, too");
   build.option("--seed", a.seed, "Seed of all random numbers").showsDefault();
-  build.option("--particles", a.particles, "Most samples; default: the robot file's")
+  build.option("--particles", a.particles, "Greatest number of samples; default: the robot file's")
       .within(1, 1e7);
   build.option("--threads", a.threads, "Threads of MCL; the result does not depend on it")
       .within(1, 256);
@@ -34,7 +34,7 @@ void addRobot(Builder& build) {
                "with emulated devices");
   build.option("--record", a->record, "Write all readings as a record");
   build.option("--out", a->out, "Write a pose for each update of MCL, as `ortung localize` does");
-  build.option("--duration", a->duration, "How long to run [s]; default: until a signal")
+  build.option("--duration", a->duration, "Time to run [s]; default: until a signal")
       .within(0.0, 1e9);
   addLocalization(build, a->localization);
   addDoor(build, a->serving);

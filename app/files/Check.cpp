@@ -1,3 +1,5 @@
+#include "Check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Check.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "ortung/base/Angles.hpp"
@@ -32,7 +33,7 @@ namespace fs = std::filesystem;
 
 enum class Kind { kWorld, kScene, kRobot, kTables, kRecord };
 
-/// What a file is, by its content.
+/// Recognizes the kind of a file by its content.
 Kind kindOf(const fs::path& file) {
   std::string why;
   std::ifstream in = openInput(file, why);
@@ -69,7 +70,7 @@ std::string landmarksOf(const SimWorld& world) {
 }
 
 void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
-  constexpr double kCell = 0.1;  // of `ortung learn`
+  constexpr double kCell = 0.1;  // default of `ortung learn` [m]
   const RobotSize size = arguments.robot.empty() ? RobotSize{RobotConfig().radius}
                                                  : sizeOf(readRobot(arguments.robot));
   const std::unique_ptr<SimWorld> world = readWorld(file);
@@ -83,7 +84,7 @@ void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
   if (countOf(region.standable) == 0) return;
   const double leftOut = learnArea(*world, kCell, size).leftOut;
   if (leftOut > 0.0)
-    fmt::print("  {:.1f} m^2 of that are parted by walls from where the robot is\n", leftOut);
+    fmt::print("  {:.1f} m^2 of that are separated by walls from the robot's area\n", leftOut);
 }
 
 void checkSceneFile(const fs::path& file) {
@@ -95,7 +96,7 @@ void checkSceneFile(const fs::path& file) {
              scene.commands.size());
 }
 
-/// What the simulator makes of a robot.
+/// Prints how the simulator sees a robot.
 void checkSimulated(Robot& robot) {
   const RobotShape shape = RobotShape::read(robot.config);
   const std::string plugin = robot.config.drive.textOr("plugin", "differential");
@@ -119,20 +120,21 @@ void checkRobotFile(const fs::path& file) {
   }
 }
 
-/// All that a localization with these tables asks of them.
+/// Loads tables as a localization does.
 void checkAsLoaded(const fs::path& file, const CheckArguments& arguments) {
   LocalizationConfig config;
   config.tables = file;
   if (!arguments.robot.empty()) {
     Localization(openRobot(arguments.robot, file), nullptr, config);
   } else if (auto robot = openLearnedRobot(file)) {
-    // [motion] may name files beside the robot file, and is not of the tables.
+    // [motion] is not part of the tables, and may name files beside the robot file.
     config.motion.emplace(file.string());
     Localization(std::move(robot), nullptr, config);
   } else {
-    warn(file.string() +
-         ": was learned by a version that did not keep the robot file, so whether a robot can load "
-         "it is not looked at; --robot does");
+    warn(
+        file.string() +
+        ": was learned by a version that did not store the robot file, so whether a robot can load "
+        "it is not checked; --robot does");
   }
 }
 
@@ -163,15 +165,15 @@ void checkTables(const fs::path& file, const CheckArguments& arguments) {
   if (!arguments.robot.empty()) fmt::print("  fits {}\n", printable(arguments.robot.string()));
 }
 
-/// Takes from a record what no longer is a whole moment.
+/// Cuts the incomplete end off a record.
 void mend(const fs::path& file) {
-  RecordSource source(file);  // which it must be
+  RecordSource source(file);  // throws unless it is a record
   if (const auto torn = mendRecord(file))
-    note(fmt::format("{}: cut off its last {} bytes, which were no whole moment", file.string(),
+    note(fmt::format("{}: cut off its last {} bytes, which were incomplete", file.string(),
                      torn->bytes));
 }
 
-/// The readings of a record by feature, and that a robot's features take them.
+/// Prints the readings of a record by feature, and checks that a robot's features accept them.
 void checkRecord(const fs::path& file, const CheckArguments& arguments) {
   if (arguments.mend) mend(file);
   RecordSource source(file);

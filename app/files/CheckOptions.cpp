@@ -1,5 +1,5 @@
-#include "CommandModule.hpp"
 #include "Check.hpp"
+#include "CommandModule.hpp"
 #include "OptionBuilder.hpp"
 
 namespace ortung::app {
@@ -8,11 +8,10 @@ namespace {
 void addCheck(Builder& build) {
   const auto a = build.command<CheckArguments>(
       "check", "ortung check hall.ortung --world hall.toml --robot robot.toml", runCheck);
-  build.option("files", a->files, "Files; their contents say what they are").required();
-  build.option("--world", a->world, "World that the tables must have been learned in");
-  build.option("--robot", a->robot, "Robot that the tables must have been learned for");
-  build.flag("--mend", a->mend,
-             "Cut off what a killed recorder left of the last moment of a record");
+  build.option("files", a->files, "Files; their kinds are recognized by their content").required();
+  build.option("--world", a->world, "World in which the tables must have been learned");
+  build.option("--robot", a->robot, "Robot for which the tables must have been learned");
+  build.flag("--mend", a->mend, "Cut off the incomplete end of a record whose recorder was killed");
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
+#include "Import.hpp"
+
 #include <fmt/format.h>
 
 #include <map>
 #include <optional>
 #include <stdexcept>
 
-#include "Import.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "KIND SOURCE", or "KIND:SOURCE?key=value" like everywhere.
+/// Parses "KIND SOURCE", or "KIND:SOURCE?key=value" as in other commands.
 SourceText namedSource(const ImportArguments& arguments) {
   const bool isOne = arguments.source.empty();
   if (!isOne && arguments.kind.find(':') != std::string::npos)
@@ -49,7 +50,7 @@ SourceText sourceText(const ImportArguments& arguments) {
   return text;
 }
 
-/// Makes the world and reads it back: what can't be learned in must not be delivered.
+/// Makes the world and reads it back: a world that can't be used must not be delivered.
 std::string makeWorld(const Source& source, const Workshop& workshop) {
   source.writeWorld(workshop.file());
   return readWorld(workshop.file())->fingerprint();
@@ -59,8 +60,8 @@ void makeRobot(const Source& source, const Workshop& workshop, const std::string
                const ImportArguments& arguments) {
   const std::string toml = source.robotToml();
   if (toml.empty()) {
-    throw std::runtime_error(fmt::format("{}: does not say what robot it is from; write {} by hand",
-                                         name, arguments.robotFile.string()));
+    throw std::runtime_error(fmt::format("{}: does not describe its robot; write {} by hand", name,
+                                         arguments.robotFile.string()));
   }
   writeFile(workshop.file(), toml);
   readRobot(workshop.file());
@@ -68,7 +69,7 @@ void makeRobot(const Source& source, const Workshop& workshop, const std::string
 
 /// What was written, for the summary.
 struct Written {
-  std::map<std::string, std::size_t> readings;  ///< by feature
+  std::map<std::string, std::size_t> readings;  ///< number of readings of each feature
   Timestamp first = 0;
   Timestamp last = 0;
 };
@@ -87,7 +88,7 @@ Written copyMessages(Source& source, RecordWriter& record, const ImportArguments
   return written;
 } catch (const std::exception&) {
   if (source.isLive() && record.messages() > 0)
-    note(fmt::format("what came before is in {}", arguments.out.string()));
+    note(fmt::format("earlier readings are in {}", arguments.out.string()));
   throw;
 }
 
@@ -119,7 +120,7 @@ std::string importHelp(const std::string& kind) {
   try {
     help = factory.make<SourceHelp>(kind, Parameters());
   } catch (const PluginError&) {
-    return fmt::format("{}: says nothing of its options; `ortung import --help` lists kinds\n",
+    return fmt::format("{}: does not describe its options; `ortung import --help` lists kinds\n",
                        printable(kind));
   }
   std::string text =
@@ -159,7 +160,7 @@ int runImport(const ImportArguments& arguments) {
   const Written written = copyMessages(*source, record, arguments);
   warnOf(*source);
   if (record.messages() == 0) {
-    throw std::runtime_error(fmt::format("{}:{}: holds no reading", text.kind, text.path));
+    throw std::runtime_error(fmt::format("{}:{}: has no reading", text.kind, text.path));
   }
   record.commit();
   if (world) world->deliver(outputs);

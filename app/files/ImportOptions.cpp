@@ -15,7 +15,7 @@ void addImport(Builder& build) {
                                      "ortung import mrclam data/ds6 --out ds6-3.rec --robot 3 "
                                      "--world ds6.toml --robot-file ds6-3.toml",
                                      runImport);
-  // Made when the help is asked for, and then knows the kind that stands before --help.
+  // This is made when the help is printed, and then has the kind before --help.
   build.footer([a] { return importHelp(a->kind.substr(0, a->kind.find(':'))); });
   build.option("kind", a->kind, "Kind of source, or KIND:SOURCE?key=value; see below").required();
   build.option("source", a->source, "File or folder to read, if KIND does not name it");
@@ -36,9 +36,10 @@ void addImport(Builder& build) {
         });
   }
   build.option("--with-robot", a->withRobot, "Robot file to read, for sources that need one (sim)");
-  build.flag("--force", a->force,
-             "Replace world and robot files that exist, and files that hold something else than "
-             "what is written (never what the run reads)");
+  build.flag(
+      "--force", a->force,
+      "Overwrite world and robot files that exist, and files of other kinds (but never files "
+      "that the run reads)");
   build.flag("--progress", a->progress, kProgress);
 }
 

@@ -1,3 +1,5 @@
+#include "Plugins.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "Plugins.hpp"
 #include "Console.hpp"
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/PluginFactory.hpp"
@@ -17,18 +18,18 @@
 namespace ortung::app {
 namespace {
 
-constexpr std::size_t kMostBytes = 1u << 20;  // of what a library offers
+constexpr std::size_t kMostBytes = 1u << 20;  // greatest size of a library's offer
 
-/// "ortung.Source/0.2.0-3f2a" is a Source.
+/// Returns the kind of an interface: that of "ortung.Source/0.2.0-3f2a" is "Source".
 std::string kindOf(const std::string& interface) {
   const std::size_t begin = interface.starts_with("ortung.") ? 7 : 0;
   return interface.substr(begin, interface.find('/', begin) - begin);
 }
 
-/// What a library offers, and what its players say of themselves, a line each.
+/// What a library offers, and the help of its players by lines.
 struct Offer {
   PluginFactory::Found found;
-  std::map<std::string, std::vector<std::string>> help;  ///< by player
+  std::map<std::string, std::vector<std::string>> help;  ///< lines of help by player
 };
 
 void print(const Offer& offer) {
@@ -73,9 +74,9 @@ Offer fromText(const std::string& text) {
   return offer;
 }
 
-// --- in a process of its own
+// --- in the child process
 
-/// Writes what was found and ends the process; what a library does at its end is not of interest.
+/// Writes what was found and ends the process without the library's destructors.
 [[noreturn]] void tell(int out, const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t count = ::write(out, text.data() + done, text.size() - done);
@@ -99,14 +100,14 @@ Offer lookInside(const std::filesystem::path& library) {
             "{}{}: {}{}", option.key, option.unit.empty() ? "" : " [" + option.unit + "]",
             option.meaning, option.fallback.empty() ? "" : "; default: " + option.fallback));
     } catch (const std::exception& error) {
-      lines = {std::string("does not say what it does: ") + error.what()};
+      lines = {std::string("does not describe itself: ") + error.what()};
     }
   }
   return offer;
 }
 
-/// Loads a library in this process and writes what it offers to standard output, where the
-/// library's own code writes nothing. That may hang, so somebody watches.
+/// Loads a library in this process and writes its offer to standard output, to which the library's
+/// code can't write. Loading may hang, so a thread watches it.
 [[noreturn]] void describe(const std::filesystem::path& library, double timeout) {
   const int out = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -121,9 +122,9 @@ Offer lookInside(const std::filesystem::path& library) {
   tell(out, toText(lookInside(library)));
 }
 
-// --- in ours
+// --- in the parent process
 
-/// What a library offers, whatever its code does when it is loaded.
+/// Returns what a library offers, whatever its code does when it is loaded.
 Offer look(const std::filesystem::path& library, double timeout) {
   Offer offer;
   PluginFactory::Found& found = offer.found;
@@ -153,7 +154,7 @@ int runPlugins(const PluginsArguments& arguments) {
     ++count;
     if (!offer.found.error.empty()) ++broken;
   }
-  fmt::print("{} libraries, {} broken; looked in", count, broken);
+  fmt::print("{} libraries, {} broken; searched in", count, broken);
   for (const auto& folder : folders) fmt::print(" {}", printable(folder.string()));
   fmt::print("\n  Source       record (built in)\n");
   return broken == 0 ? 0 : 1;

@@ -1,6 +1,6 @@
 #include "CommandModule.hpp"
-#include "Plugins.hpp"
 #include "OptionBuilder.hpp"
+#include "Plugins.hpp"
 
 namespace ortung::app {
 namespace {
@@ -8,10 +8,10 @@ namespace {
 void addPlugins(Builder& build) {
   const auto a = build.command<PluginsArguments>(
       "plugins", "ORTUNG_PLUGIN_PATH=~/my-plugins ortung plugins", runPlugins);
-  build.option("--timeout", a->timeout, "How long a library may take to load [s]")
+  build.option("--timeout", a->timeout, "Longest time to load a library [s]")
       .within(0.1, 3600.0)
       .showsDefault();
-  build.option("--inside", a->inside, "").hides();  // not shown: the command's own
+  build.option("--inside", a->inside, "").hides();  // not shown: for the child process
 }
 
 }  // namespace

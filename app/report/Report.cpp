@@ -15,8 +15,7 @@
 namespace ortung::app {
 namespace {
 
-constexpr std::size_t kMaxChartPoints =
-    8000;  ///< greatest number of points, more than a screen's columns
+constexpr std::size_t kMaxChartPoints = 8000;  ///< greatest number of points of a chart
 
 /// Appends a number as JSON.
 void append(std::string& json, double value) {

@@ -1,13 +1,14 @@
+#include "Demo.hpp"
+
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cmath>
 #include <thread>
 
-#include "Demo.hpp"
-#include "Sim.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "Sim.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -22,7 +23,7 @@ namespace {
 std::filesystem::path demoWorld() { return shippedFile("fields", "f2000.toml"); }
 std::filesystem::path demoRobot() { return shippedFile("robots", "pioneer.toml"); }
 
-/// What the demo's filter says of the robot, moment by moment.
+/// Follows the estimates of the demo's filter.
 class Finding {
  public:
   void hear(const Message& message) {
@@ -36,7 +37,7 @@ class Finding {
       isTracking_ = track.reading().status == TrackStatus::kTracking;
     }
   }
-  /// Where the robot is, once the filter is sure.
+  /// The robot's pose, once the filter is tracking.
   std::optional<Pose2> found() const { return isTracking_ ? pose_ : std::nullopt; }
 
  private:
@@ -44,11 +45,10 @@ class Finding {
   bool isTracking_ = false;
 };
 
-/// The demo without a page, until the robot has found its place; so it can be seen to work where
-/// nobody looks, and a script can tell.
+/// Runs the demo without a page until the robot is localized, for scripts and servers.
 int findOnce() {
   constexpr double kPatience = 60.0;  // [s]
-  constexpr double kRight = 0.5;      // [m], what "tracking" promises
+  constexpr double kRight = 0.5;      // [m], error bound of the status "tracking"
   Scene scene = Scene::open(demoWorld());
   SceneRobot robot;
   robot.file = demoRobot();
@@ -62,7 +62,7 @@ int findOnce() {
   const RobotId id = world.residents().front().robot;
   world.want(id, std::vector<SensorId>{{"mcl", "LOCALIZATION", "pose"},
                                        {"mcl", "LOCALIZATION", "status"}});
-  note("a robot wanders over the field and finds out where it is");
+  note("a robot wanders over the field and localizes itself");
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   Finding finding;
@@ -70,7 +70,7 @@ int findOnce() {
     checkInterrupt();
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (seconds > kPatience) {
-      fail(fmt::format("the robot has not found its place within {:g} s", kPatience));
+      fail(fmt::format("the robot was not localized within {:g} s", kPatience));
       return 1;
     }
     world.step();
@@ -81,14 +81,14 @@ int findOnce() {
   }
   const Pose2 truth = simulation.simRobot(id).state().pose;
   const double error = std::hypot(finding.found()->x - truth.x, finding.found()->y - truth.y);
-  fmt::print("found after {:.1f} s: x {:.2f} m, y {:.2f} m, {:.1f} cm from where it is\n",
+  fmt::print("localized after {:.1f} s: x {:.2f} m, y {:.2f} m, error {:.1f} cm\n",
              toSeconds(world.now()), finding.found()->x, finding.found()->y, 100.0 * error);
   return error < kRight ? 0 : 1;
 }
 
 }  // namespace
 
-/// `ortung sim` with everything chosen.
+/// Runs `ortung sim` with fixed arguments.
 int runDemo(const DemoArguments& arguments) {
   if (arguments.once) return findOnce();
   SimArguments sim;
@@ -97,7 +97,7 @@ int runDemo(const DemoArguments& arguments) {
   sim.localize = {"all"};
   sim.serving = arguments.serving;
   sim.serving.isViewing = true;
-  note("a robot wanders over the field and finds out where it is; Ctrl+C ends it");
+  note("a robot wanders over the field and localizes itself; Ctrl+C ends it");
   return runSim(sim);
 }
 

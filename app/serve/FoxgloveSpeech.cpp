@@ -11,7 +11,7 @@ class FoxgloveSpeech final : public WebSpeech {
  public:
   explicit FoxgloveSpeech(const std::string& token) : session_(token) { fetch(); }
   ~FoxgloveSpeech() override = default;
-  /// A client that talks without reading the answers is not listened to for ever.
+  /// Takes a message. A client that does not read its answers is disconnected.
   void fromClient(std::string_view message, bool isBinary) override {
     constexpr std::size_t kMost = 1U << 18;  // bytes of answers
     if (toClient.empty()) unread_ = 0;
@@ -36,10 +36,10 @@ class FoxgloveSpeech final : public WebSpeech {
     isOver = session_.isOver;
   }
   FoxgloveSession session_;
-  std::size_t unread_ = 0;  ///< bytes of answers since the client had read everything
+  std::size_t unread_ = 0;  ///< bytes of answers since the client last had read all
 };
 
-/// The query's token, if it is one that a token file may hold; else none.
+/// Returns the query's token, if a token file may contain it; else "".
 std::string tokenIn(std::string_view target) {
   constexpr std::string_view kKey = "token=";
   constexpr std::size_t kLongest = 256;

@@ -27,7 +27,7 @@ refbox::RefBoxConfig readConfig(const std::string& text) {
   return config;
 }
 
-/// What a team would tell of itself that knows all.
+/// Returns the world state of a team with perfect perception.
 refbox::WorldState stateOf(SceneRun& run, const std::string& team) {
   refbox::WorldState state;
   state.teamName = team;
@@ -50,7 +50,7 @@ refbox::WorldState stateOf(SceneRun& run, const std::string& team) {
 
 RefBoxLink::RefBoxLink(const std::string& text, const Run& run) {
   if (run().referee() == nullptr)
-    throw UsageError("--refbox: nobody referees; see --referee soccer:control=orders");
+    throw UsageError("--refbox: there is no referee; see --referee soccer:control=orders");
   refbox::RefBoxConfig config = readConfig(text);
   const Game& game = run().referee()->watch(run().players().stage());
   const auto own = game.find(config.ownTeam);

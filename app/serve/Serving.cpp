@@ -23,7 +23,7 @@
 namespace ortung::app {
 namespace {
 
-/// Fills in address and port of "[ADDRESS:]PORT".
+/// Parses address and port of "[ADDRESS:]PORT".
 void readListen(const std::string& text, BoardConfig& config) {
   const bool hasAddress = text.find(':') != text.npos;
   const auto found = parseHostPort(hasAddress ? text : ":" + text);
@@ -36,8 +36,8 @@ void readListen(const std::string& text, BoardConfig& config) {
   config.port = *found->port;
 }
 
-/// Ends the program if it goes on for too long after a signal: a cycle of the world that hangs is
-/// never asked whether to go on.
+/// Ends the program if it runs for too long after a signal, e.g. because a cycle of the world
+/// hangs.
 class Deadline {
  public:
   explicit Deadline(MessageBoard& board)
@@ -47,9 +47,9 @@ class Deadline {
           while (!isTold() && !stop.stop_requested()) wake_.wait_for(lock, stop, kLook, isTold);
           wake_.wait_for(lock, stop, kLongestEnd, [] { return false; });
           if (stop.stop_requested()) return;
-          warn(fmt::format("the world has not come to an end within {} s after the signal",
+          warn(fmt::format("the world has not ended within {} s after the signal",
                            kLongestEnd.count()));
-          board.abandon("the server ends, its world does not come to an end");
+          board.abandon("the server ends, since its world does not end");
           std::_Exit(128 + interruptSignal());
         }) {}
 
@@ -58,10 +58,10 @@ class Deadline {
   static constexpr std::chrono::seconds kLongestEnd{2};
   std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::jthread thread_;  ///< last, so that it ends before what it uses
+  std::jthread thread_;  ///< last member: it ends before what it uses
 };
 
-/// Nobody asked for the usual port, so another one will do where that is taken.
+/// Opens the board. If the default port is taken and was not requested, another one is used.
 std::unique_ptr<MessageBoard> openBoard(ServedWorld& world, BoardConfig& config,
                                         const ServingArguments& arguments) {
   try {
@@ -79,7 +79,8 @@ void checkPace(const ServingArguments& arguments) {
   if (arguments.freeRun && arguments.speed != 1.0)
     throw UsageError("--free-run and --speed exclude each other");
   if (arguments.freeRun && arguments.lockstep)
-    throw UsageError("--free-run and --lockstep exclude each other: in lockstep, clients decide");
+    throw UsageError(
+        "--free-run and --lockstep exclude each other: in lockstep, clients set the pace");
 }
 
 ClientRecords::ClientRecords(const ServingArguments& arguments)

@@ -44,7 +44,7 @@ PlayerControl::Config playersOf(const SimArguments& arguments,
   return {arguments.playerBudgetMs / 1000.0, onProblem};
 }
 
-/// The scene of the file, or the world of the file, with further robots that wander about.
+/// Returns the scene or world of the file, with further robots that wander about.
 Scene sceneOf(const SimArguments& arguments) {
   Scene scene = Scene::open(arguments.world);
   const std::size_t more = arguments.robots.size() + arguments.players.size();
@@ -73,12 +73,12 @@ Scene sceneOf(const SimArguments& arguments) {
   return scene;
 }
 
-/// Waits until as much real time has passed as the pace wants.
+/// Waits until real time has caught up with the simulation, according to the pace.
 class Pacing {
  public:
   explicit Pacing(const ServingArguments& arguments)
       : speed_(arguments.speed), isFree_(arguments.freeRun), start_(Clock::now()) {}
-  /// A signal ends it.
+  /// Waits; a signal ends it.
   void waitFor(double seconds) const {
     using Seconds = std::chrono::duration<double>;
     constexpr Seconds kLongest(0.05);
@@ -106,7 +106,7 @@ Outputs outputsOf(const SimArguments& arguments) {
   return outputs;
 }
 
-/// What a referee has seen and decided, as a reading for whoever looks at the record.
+/// Returns a referee's observations and decisions as a reading, for records.
 Message messageOf(const std::vector<RefereeEvent>& events) {
   const Timestamp now = events.back().stamp;
   TalkData::Reading told;
@@ -115,10 +115,10 @@ Message messageOf(const std::vector<RefereeEvent>& events) {
   return {now, {"referee", "referee", "events"}, TalkData::encode(told)};
 }
 
-/// What a run leaves behind. It can't be had again where a robot's plugin has a will of its own,
-/// and a signal is how most runs end, so all of it is written as it comes.
+/// The outputs of a run. Plugins of robots need not be deterministic, and most runs end by a
+/// signal, so everything is written at once.
 struct Recording {
-  std::string name;  ///< of the robot; "": none is recorded
+  std::string name;  ///< name of the recorded robot; "": none
   RobotNumber robot = 0;
   std::optional<RecordWriter> record;
   std::optional<Trace> trace;
@@ -135,7 +135,7 @@ struct Recording {
     const auto found = run.find(name);
     if (!found) throw UsageError("--record: there is no robot '" + name + "' to record");
     robot = robots[*found]->state().number;
-    run.simulation().robots()[*found]->setWanted({}, true);  // whatever a record is read for
+    run.simulation().robots()[*found]->setWanted({}, true);  // all features
     record.emplace(outputs.ready(arguments.record), run.simulation().world().fingerprint(),
                    RecordWriter::Pace::kLive);
   }
@@ -157,7 +157,7 @@ void print(const std::vector<RefereeEvent>& events) {
   if (!events.empty()) flushOutput();
 }
 
-/// A served simulation whose referee a box may lead; what happens in the game is printed.
+/// A served simulation whose referee a RefBox may control; it prints the events of the game.
 class RefereedSimulation : public ServedSimulation {
  public:
   RefereedSimulation(const SimArguments& arguments, const Simulation::Config& config)
@@ -173,7 +173,7 @@ class RefereedSimulation : public ServedSimulation {
     if (trace_) trace_->add(run().simulation());
     printEvents();
   }
-  /// What the referee has seen and decided in this cycle, for records.
+  /// Observations and decisions of the referee in this cycle, for records.
   const std::vector<Message>& told() const { return told_; }
   void commit() {
     if (trace_) trace_->commit();
@@ -199,8 +199,8 @@ class RefereedSimulation : public ServedSimulation {
   std::optional<Trace> trace_;
 };
 
-/// With filters for those of its robots that can localize.
-/// @param world that simulation, and what else is told of it
+/// Returns the world with filters for those of its robots that can localize.
+/// @param world the simulation, with what clients get besides
 LocalizedWorld localized(ServedWorld& world, ServedSimulation& simulation,
                          const SimArguments& arguments) {
   LocalizedWorld::Config config;

@@ -1,16 +1,17 @@
 #include "CommandModule.hpp"
 #include "Demo.hpp"
-#include "Sim.hpp"
 #include "OptionBuilder.hpp"
 #include "ServingOptions.hpp"
+#include "Sim.hpp"
 
 namespace ortung::app {
 namespace {
 
 void addDemo(Builder& build) {
   const auto a = build.command<DemoArguments>("demo", "ortung demo", runDemo);
-  build.flag("--once", a->once,
-             "Without a browser: say where the robot is, and how far off that is, and end");
+  build.flag(
+      "--once", a->once,
+      "Without a browser: print the robot's pose when it is localized, and its error, and end");
   addDoor(build, a->serving);
   addRecording(build, a->serving);
 }
@@ -34,14 +35,13 @@ void addSim(Builder& build) {
           "and stage (yes, no) are for all, `ortung plugins` shows the others; may be given again")
       .repeats();
   build.option("--referee", a->referee,
-               "PLUGIN[:key=value&key=value...]: who sees to the rules, e.g. soccer:league=msl");
+               "PLUGIN[:key=value&key=value...]: the referee, e.g. soccer:league=msl");
   build.option("--refbox", a->refBox,
-               "HOST[:PORT][@TEAM]: a RefBox of the Middle Size League leads the game; it is told "
-               "of TEAM (blue). With --referee soccer:control=orders");
+               "HOST[:PORT][@TEAM]: a RefBox of the Middle Size League controls the game, and gets "
+               "the places of TEAM (blue). With --referee soccer:control=orders");
   build
       .option("--player-budget-ms", a->playerBudgetMs,
-              "What a player may take of a processor for one call before it is stopped [ms]; 0: as "
-              "long as it likes")
+              "Processor time of a call after which a player is stopped [ms]; 0: unlimited")
       .within(0.0, 1e6)
       .showsDefault();
   build
@@ -50,10 +50,9 @@ void addSim(Builder& build) {
       .within(0.0, 1e6);
   build.option("--record", a->record, "Write all readings of one robot as a record");
   build.option("--recorded", a->recorded, "Name of the robot to record; default: the first");
-  build.option("--trace", a->trace, "Write where everything was, 20 times a second, as CSV");
-  build.flag("--digest", a->digest,
-             "Print a hash of all that happened: the same in every run that did the same");
-  build.option("--threads", a->threads, "Threads that sense; the result does not depend on it")
+  build.option("--trace", a->trace, "Write the places of all bodies, 20 times a second, as CSV");
+  build.flag("--digest", a->digest, "Print a hash of the simulation: equal for equal runs");
+  build.option("--threads", a->threads, "Threads for the sensors; the result does not depend on it")
       .within(1, 256);
   build.option("--seed", a->seed, "Seed of all random numbers").showsDefault();
   build
@@ -65,7 +64,7 @@ void addSim(Builder& build) {
   build
       .option("--localize", a->localize,
               "With --listen: names of robots (NAME,NAME,... or all) that are localized from the "
-              "beginning, for clients to see; these may begin and end it (LOCALIZE)")
+              "beginning, for clients, which may begin and end it, too (LOCALIZE)")
       .splitsAt(',');
   build.option(
       "--tables", a->tables,

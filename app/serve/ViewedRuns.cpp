@@ -20,7 +20,7 @@
 namespace ortung::app {
 namespace {
 
-/// What a client of the protocol may call a robot.
+/// Returns a name that the protocol allows for a robot.
 std::string nameOf(const std::string& text, std::size_t number) {
   constexpr std::size_t kLongest = 28;
   std::string name = std::filesystem::path(text).stem().string().substr(0, kLongest);
@@ -34,8 +34,8 @@ std::string nameOf(const std::string& text, std::size_t number) {
   return number == 0 ? name : fmt::format("{}-{}", name, number + 1);
 }
 
-/// The readings of a source and what MCL makes of them, as one record: what it publishes comes
-/// with the moment in which it does so.
+/// A record of the readings of a source and of the estimates of MCL, which have the time at which
+/// they are published.
 class LocalizedRecord {
  public:
   LocalizedRecord(const LocalizationArguments& arguments, const std::filesystem::path& file)
@@ -71,10 +71,10 @@ class LocalizedRecord {
 
   LocalizationArguments arguments_;
   std::unique_ptr<Localization> localization_;
-  std::vector<std::uint64_t> seen_;  ///< by feature: sequence number of what was written last
+  std::vector<std::uint64_t> seen_;  ///< sequence number last written of each feature
 };
 
-/// What a source gives, as a record; the source itself if it is one.
+/// Returns a record of a source's readings; the source itself if it is a record.
 std::filesystem::path recordOf(const SourceText& text, const ViewArguments& arguments,
                                const std::filesystem::path& file) {
   if (text.kind == "record" && text.options.empty()) return text.path;
@@ -91,7 +91,7 @@ std::filesystem::path recordOf(const SourceText& text, const ViewArguments& argu
   return file;
 }
 
-/// A record may be named as it is.
+/// Parses a source, which may be the path of a record.
 SourceText sourceTextOf(const std::string& argument) {
   std::error_code error;
   if (std::filesystem::is_regular_file(argument, error)) return {"record", argument, {}};
@@ -99,11 +99,11 @@ SourceText sourceTextOf(const std::string& argument) {
     return parseSourceText(argument);
   } catch (const std::invalid_argument& wrong) {
     throw UsageError(
-        fmt::format("{}: is no file, nor a source: {}", printable(argument), wrong.what()));
+        fmt::format("{}: is neither a file nor a source: {}", printable(argument), wrong.what()));
   }
 }
 
-/// The text that names it on a command line.
+/// Returns the source's text for a command line.
 std::string textOf(const SourceText& source) {
   std::string text = source.kind + ":" + source.path;
   char mark = '?';
@@ -114,7 +114,7 @@ std::string textOf(const SourceText& source) {
   return text;
 }
 
-/// Lines, walls and goals: of the tables, else of the world.
+/// Describes lines, walls and goals of the tables or, without those, of the world.
 void describeField(const ViewArguments& arguments, ServedPlayback::Config& config) {
   const auto boundsOf = [](const FieldRegion& region) {
     const FieldGrid& grid = region.grid;
@@ -137,7 +137,7 @@ void describeField(const ViewArguments& arguments, ServedPlayback::Config& confi
 
 ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const ScratchFolder& scratch) {
   if (arguments.localization.tables.empty() != arguments.localization.robot.empty())
-    throw UsageError("--robot and --tables come together: both, or nothing is localized");
+    throw UsageError("--robot and --tables belong together: give both to localize, or none");
   ServedPlayback::Config config;
   describeField(arguments, config);
   for (std::size_t i = 0; i < arguments.sources.size(); ++i) {

@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kClient = "view";
 
-/// 128 bits that nobody guesses.
+/// Returns a token of 128 random bits.
 std::string newToken() {
   std::random_device chance;
   std::string token;
@@ -44,7 +44,7 @@ WebConfig webConfigOf(const ServingArguments& arguments) {
   return config;
 }
 
-/// Where a browser finds what listens on all addresses.
+/// Returns the address for browsers; localhost for a server on all addresses.
 std::string reachable(const std::string& address) {
   if (address == "0.0.0.0" || address == "::") return "localhost";
   return address.find(':') == address.npos ? address : "[" + address + "]";
@@ -55,7 +55,7 @@ bool hasDesktop() {
          (std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr);
 }
 
-/// Whatever the desktop's browser says is not for our terminal.
+/// Opens a browser, whose output is discarded.
 void showInBrowser(const std::string& url) {
   posix_spawn_file_actions_t files;
   ::posix_spawn_file_actions_init(&files);
@@ -102,11 +102,11 @@ void Viewing::open(const MessageBoard& board) {
   const std::string key = token_.empty() ? "" : "#token=" + token_;
   if (!door_.hasPage())
     warn("this program has no viewer's page (board/web/page was not built): clients only");
-  fmt::print("look and steer: {}{}\n", url, key);
+  fmt::print("view and control: {}{}\n", url, key);
   if (token_.empty())
-    note("with #token=... behind it, the token of 'view' in the token file");
+    note("append #token=... with the token of 'view' in the token file");
   else if (arguments_.tokens.empty())
-    fmt::print("look only:      {}\n", url);
+    fmt::print("view only:        {}\n", url);
   if (arguments_.opensBrowser && hasDesktop() && door_.hasPage()) showInBrowser(url + key);
 }
 

@@ -21,8 +21,8 @@ SPREAD = np.array([0.5, 0.3, 0.3, 0.5])
 
 
 def features(o):
-    """(N, 4): where a straight line from the ball to the goal's middle comes over the keeper's line; the
-    ball's y; its velocity across; how far it goes across until it is at the line. [m], [m/s]"""
+    """Returns (N, 4): the y at which a straight line from the ball to the goal's middle crosses the keeper's
+    line; the ball's y; its velocity in y; how far it moves in y until it is at the line. [m], [m/s]"""
     ball = o[:, 8:23].reshape(-1, 5, 3)  # newest first: x, y, age
     x, y, age = ball[:, 0].T
     seen = (ball[:, :, 2] < 1.0).astype(float)
@@ -38,7 +38,7 @@ def features(o):
 
 
 def act(o, weights):
-    """Actions (N, 2) of a keeper that stands across on its line. weights: (N, 4)"""
+    """Returns actions (N, 2) of a keeper that drives along its line. weights: (N, 4)"""
     wanted = np.clip((features(o) * weights).sum(1), -REACH, REACH)
     away = wanted - o[:, 1]
     across = np.where(o[:, 3] >= 0, 1.0, -1.0)
@@ -51,7 +51,7 @@ def act(o, weights):
 
 
 def play(env, weights, seeds):
-    """Plays one episode of each place. Returns how each ended: 1 saved, -1 goal, 0 neither."""
+    """Plays an episode in each environment. Returns its result: 1 saved, -1 goal, 0 neither."""
     o, _ = env.reset(seed=seeds)
     result = np.zeros(env.num_envs)
     running = np.ones(env.num_envs, bool)
@@ -122,7 +122,7 @@ def picture(history, file):
     for key, colour, aside in (("goals", "#c03030", 8), ("saved", "#2060b0", -24)):
         points = [at(i, share) for i, share in enumerate(history[key])]
         first = at(0, history[key][0])
-        for x in range(left, width - 30, 12):  # where it began: blocking
+        for x in range(left, width - 30, 12):  # level of the first generation: blocking
             draw.line([(x, first[1]), (x + 5, first[1])], fill=colour)
         draw.line(points, fill=colour, width=3)
         for x, y in points:

@@ -1,8 +1,8 @@
 """Ortung: robots that localize themselves, and environments in which they learn to play.
 
-Readings and how probable they are: SensorContainer, Robot, Localization, Tables, readings(), shipped_file().
-Environments: make(), make_vec(), parallel_env(), Batch; see docs/learning.md. They alone need the libraries
-of the simulator, which are loaded when the first environment is asked for.
+Readings and their probabilities: SensorContainer, Robot, Localization, Tables, readings(), shipped_file().
+Environments: make(), make_vec(), parallel_env(), Batch; see docs/learning.md. Only they need the libraries
+of the simulator, which are loaded with the first environment.
 Errors of files and options (ConfigError, TableError, PluginError) name file, line and key.
 """
 from . import _base
@@ -48,4 +48,4 @@ def __dir__():
 try:
     register()  # Gymnasium finds environments by their ids once this package is imported
 except ImportError:
-    pass  # without the simulator's libraries there are none
+    pass  # without the simulator's libraries there are no environments

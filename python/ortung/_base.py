@@ -1,5 +1,5 @@
-"""What environments stand on: Gymnasium's and PettingZoo's own classes where they are installed, else
-small ones that keep the same rules."""
+"""Base classes of environments: those of Gymnasium and PettingZoo if they are installed, else small ones
+with the same behaviour."""
 import enum
 import os
 
@@ -21,7 +21,7 @@ except ImportError:
     AutoresetMode = None
 
     class Box:
-        """Numbers within bounds, of one shape."""
+        """A space of arrays of one shape, with bounds for each element."""
 
         def __init__(self, low, high, shape=None, dtype=np.float32, seed=None):
             self.dtype = np.dtype(dtype)
@@ -113,7 +113,7 @@ except ImportError:
             return getattr(self, name)
 
         def render(self):
-            raise NotImplementedError("there are no pictures of environments")
+            raise NotImplementedError("environments can't be rendered")
 
     class GymVectorEnv(_Seeded):
         metadata = {}
@@ -154,12 +154,12 @@ if AutoresetMode is None:
         DISABLED = "Disabled"
 
 
-# Of Debian 12: what the simulator links. They are not part of the package.
+# Debian 12's packages of the libraries that the simulator links. They are not part of this package.
 SIMULATOR_PACKAGES = ("libembree3-3", "libbox2d2", "libboost-iostreams1.74.0", "libpng16-16", "libyaml-cpp0.7")
 
 
 def learning():
-    """The module of environments, which is loaded when the first is asked for: it needs the simulator's
+    """Returns the module of environments. It is loaded on first use, since it needs the simulator's
     libraries, without which the rest of the package works."""
     try:
         from . import _learning
@@ -170,7 +170,7 @@ def learning():
 
 
 def describe(env_id):
-    """What there is to know of an environment. ValueError for an id that is none."""
+    """Returns the description of an environment. Raises ValueError for an unknown id."""
     known = {one["id"]: one for one in learning().environments()}
     if env_id not in known:
         raise ValueError(f"there is no environment '{env_id}', expected {', '.join(known)}")
@@ -183,7 +183,7 @@ def box_of(quantities):
 
 
 def check_seed(env_id, seed):
-    """A whole number that C++ can hold, or None."""
+    """Returns the seed as an int of 64 bits, or None. Raises TypeError, ValueError for other values."""
     if seed is None:
         return None
     if isinstance(seed, (bool, np.bool_)) or not isinstance(seed, (int, np.integer)):
@@ -194,7 +194,7 @@ def check_seed(env_id, seed):
 
 
 def check_action(where, action, shape):
-    """The action as float32. TypeError, ValueError that name the environment for what is none."""
+    """Returns the action as float32. Raises TypeError, ValueError, which name the environment."""
     array = np.asarray(action)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{where}: the action is of {array.dtype}, expected real numbers")

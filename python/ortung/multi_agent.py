@@ -5,7 +5,7 @@ from ._base import Box, ZooParallelEnv, box_of, check_action, check_seed, descri
 
 
 class ParallelEnv(ZooParallelEnv):
-    """All agents act at the same time, and leave together when the episode is over."""
+    """An environment in which all agents act at the same time, until the episode ends for all."""
 
     metadata = {"render_modes": [], "name": "keeper-vs-striker-v0", "is_parallelizable": True}
 
@@ -82,12 +82,12 @@ class ParallelEnv(ZooParallelEnv):
                 dict.fromkeys(self.possible_agents, truncated), infos)
 
     def state(self):
-        """What a critic may know: time, ball, keeper and striker as they are, see Batch.states."""
+        """Returns the true state of time, ball, keeper and striker, e.g. for a critic: see Batch.states."""
         self._need_open()
         return self._batch.states[0].copy()
 
     def render(self):
-        raise NotImplementedError("there are no pictures of environments")
+        raise NotImplementedError("environments can't be rendered")
 
     def close(self):
         self._batch = None
@@ -95,5 +95,5 @@ class ParallelEnv(ZooParallelEnv):
 
 
 def parallel_env(id="keeper-vs-striker-v0", **options):
-    """A ParallelEnv, as PettingZoo's modules call it."""
+    """Makes a ParallelEnv; PettingZoo's modules have a function of this name."""
     return ParallelEnv(id, **options)

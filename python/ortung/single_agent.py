@@ -1,4 +1,4 @@
-"""Environments with one agent by Gymnasium's rules: alone (Env) and as many at a time (VectorEnv)."""
+"""Environments with one agent by Gymnasium's rules: a single one (Env) and many at a time (VectorEnv)."""
 import numpy as np
 
 from ._base import (
@@ -21,12 +21,12 @@ def _check_reset_options(env_id, options):
 
 
 class Env(GymEnv):
-    """One episode after the other of an environment with one agent.
+    """An environment with one agent.
 
-    reset(seed=S) begins the episodes (S, 0), (S, 1), ...: each is a function of the id, its options,
-    seed and number alone. Without a seed the next one comes; the first seed of all is then chance.
-    reset(options={...}) lays options over those that the environment was made with, for all episodes
-    from then on.
+    reset(seed=S) begins the episodes (S, 0), (S, 1), ...: each is a function of the id, the options,
+    the seed and its number alone. reset() without a seed begins the next one; if there was no seed
+    yet, the seed is random. reset(options={...}) overrides options that the environment was made with,
+    for all further episodes.
     """
 
     metadata = {"render_modes": [], "render_fps": 10}
@@ -64,7 +64,7 @@ class Env(GymEnv):
             seed = int(self.np_random.integers(2**63))
         batch.reset_one(0, seed)
         self._is_seeded = self._is_running = True
-        self._observation = batch.observations[0, 0]  # views of what each step changes
+        self._observation = batch.observations[0, 0]  # views of arrays that each step changes
         self._rewards, self._endings = batch.rewards[0], batch.endings
         self._terminated, self._truncated = batch.terminated, batch.truncated
         self._seeds, self._numbers = batch.seeds, batch.numbers
@@ -85,7 +85,7 @@ class Env(GymEnv):
         return self._observation.copy(), float(self._rewards[0]), terminated, truncated, info
 
     def state(self):
-        """The whole state of the world, 12 numbers: see Batch.states."""
+        """Returns the complete state of the world, 12 numbers: see Batch.states."""
         self._need_open()
         return self._batch.states[0].copy()
 
@@ -95,10 +95,11 @@ class Env(GymEnv):
 
 
 class VectorEnv(GymVectorEnv):
-    """N environments of one id, which one call steps on all threads.
+    """N environments of one id, which are stepped by one call on several threads.
 
-    threads: 0 for as many as the machine has. autoreset: "NextStep", "SameStep" or "Disabled", see
-    Gymnasium's AutoresetMode. copy=False gives views of arrays that the next call changes.
+    threads: number of threads; 0: as many as the machine has. autoreset: "NextStep", "SameStep" or
+    "Disabled", see Gymnasium's AutoresetMode. copy=False returns views of arrays that the next call
+    changes.
     """
 
     metadata = {"render_modes": []}
@@ -201,7 +202,7 @@ class VectorEnv(GymVectorEnv):
                 self._out(batch.terminated), self._out(batch.truncated), infos)
 
     def states(self):
-        """The whole state of each world, (N, 12)."""
+        """Returns the complete state of each world, (N, 12)."""
         self._need_open()
         return self._out(self._batch.states)
 
@@ -210,17 +211,17 @@ class VectorEnv(GymVectorEnv):
 
 
 def make(id, **options):
-    """An Env of one of our environments, e.g. make("striker-v0", keeper="intercepting")."""
+    """Makes an Env of one of Ortung's environments, e.g. make("striker-v0", keeper="intercepting")."""
     return Env(id, **options)
 
 
 def make_vec(id, num_envs=1, **options):
-    """A VectorEnv of one of our environments."""
+    """Makes a VectorEnv of one of Ortung's environments."""
     return VectorEnv(id, num_envs, **options)
 
 
 def register():
-    """Tells Gymnasium, if it is installed, our environments with one agent as "ortung/ID"."""
+    """Registers the environments with one agent as "ortung/ID" at Gymnasium, if that is installed."""
     if gymnasium is None:
         return
     for info in learning().environments():

@@ -1,5 +1,5 @@
-"""Whether environments keep the rules of Gymnasium (alone and as vectors) and of PettingZoo's parallel
-API. Farama's own checkers look at the same; they are no Debian packages, so these run everywhere."""
+"""Checks that environments keep the rules of Gymnasium (alone and as vectors) and of PettingZoo's parallel
+API. Farama's checkers check the same, but are not Debian packages; these checks run everywhere."""
 import copy
 
 import numpy as np
@@ -30,7 +30,7 @@ def _check_space(space):
 
 
 def check_env(make):
-    """Gymnasium's rules for one environment."""
+    """Checks Gymnasium's rules for one environment."""
     env = make()
     _check_space(env.observation_space)
     _check_space(env.action_space)
@@ -47,12 +47,12 @@ def check_env(make):
     assert not equivalent(other[0], one[0])
     assert env.np_random.bit_generator.state != random.bit_generator.state
     env.reset(seed=123)
-    after = env.reset()  # no seed: not the same episode again, and chance is not seeded anew
+    after = env.reset()  # no seed: another episode, and the random numbers are not seeded anew
     assert not equivalent(after[0], one[0])
     assert env.np_random.bit_generator.state == random.bit_generator.state
     env.reset(seed=123)
     assert equivalent(env.reset(), after)
-    assert not equivalent(make().reset()[0], make().reset()[0])  # the first seed is chance
+    assert not equivalent(make().reset()[0], make().reset()[0])  # the first seed is random
     env.reset(options={})
 
     twin = make()
@@ -77,7 +77,7 @@ def check_env(make):
 
 
 def check_vector(make, mode):
-    """The rules of Gymnasium's vector API. @param make of a number of environments"""
+    """Checks the rules of Gymnasium's vector API. @param make makes a vector of so many environments"""
     n = 6
     env = make(n)
     assert env.metadata["autoreset_mode"].name == mode
@@ -125,7 +125,7 @@ def check_vector(make, mode):
 
 
 def check_parallel(make):
-    """PettingZoo's rules: its parallel_api_test and parallel_seed_test."""
+    """Checks PettingZoo's rules as its parallel_api_test and parallel_seed_test do."""
     env = make()
     assert env.metadata["name"].endswith("-v0")
     for agent in env.possible_agents:

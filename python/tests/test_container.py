@@ -1,4 +1,4 @@
-"""Containers of one's own: features are added, learn, and weigh; docs/python.md."""
+"""Tests containers made in Python: features are added, learn, and weigh; docs/python.md."""
 import sys
 import unittest
 

@@ -57,7 +57,7 @@ class Views(unittest.TestCase):
             if one[2] or one[3]:
                 break
         del batch
-        observations.sum()  # what a view looks at lives on
+        observations.sum()  # a view keeps its array alive
 
     def test_vectors_give_views_on_demand(self):
         env = ortung.make_vec("goalkeeper-v0", 4, copy=False)
@@ -99,7 +99,7 @@ class BadInput(unittest.TestCase):
                 (np.array([0, np.nan]), ValueError, "goalkeeper-v0|keeper|nan|turn"),
                 (np.array([np.inf, 0]), ValueError, "inf|forward")):
             self.fails(kind, words, lambda action=action: env.step(action))
-        env.step([1, 0])  # whole numbers will do
+        env.step([1, 0])  # integers are accepted
         zoo = ortung.parallel_env()
         zoo.reset(seed=1)
         self.fails(ValueError, "keeper|striker", lambda: zoo.step({"keeper": np.zeros(2)}))

@@ -1,4 +1,4 @@
-"""What notebooks use: robots, containers, tables, readings, MCL, maps."""
+"""Tests what notebooks use: robots, containers, tables, readings, MCL, maps."""
 import pathlib
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Whether the stubs say what the package has: names, members, properties, arguments, which of those are optional."""
+"""Tests that the stubs agree with the package: names, members, properties, arguments, which are optional."""
 import ast
 import importlib
 import inspect
@@ -26,7 +26,7 @@ def is_public(name):
 
 
 def arguments_of_text(text):
-    """By the signature that pybind11 writes: [(name, whether it may be left out)]."""
+    """Reads pybind11's signature: [(name, whether it is optional)]."""
     inside = text[text.index("(") + 1:text.rindex(") ->")]
     depth, parts = 0, [""]
     for letter in inside:
@@ -40,7 +40,7 @@ def arguments_of_text(text):
 
 
 def arguments_of(function):
-    """Of a function as it runs."""
+    """Reads the signature of a function at run time."""
     try:
         parameters = inspect.signature(function).parameters.values()
     except ValueError:  # of C++
@@ -64,7 +64,7 @@ def arguments_of_stub(node):
 
 
 def describe_stub(nodes):
-    """{name: what it is} of the statements of a stub or of one of its classes."""
+    """Returns {name: definition} of the statements of a stub or of one of its classes."""
     found = {}
     for node in nodes:
         if isinstance(node, ast.ClassDef):
@@ -108,7 +108,7 @@ def describe_module(module):
 
 
 def set_by_init(source, kind):
-    """Public attributes that a class written in Python gives itself."""
+    """Returns the public attributes that a class written in Python sets."""
     return set(re.findall(r"self\.([a-z]\w*)\b[^=\n(]*=[^=]", source)) | set(vars(kind))
 
 

@@ -18,7 +18,7 @@ for needed, package in (("numpy", "python3-numpy"), ("pip", "python3-pip"), ("wh
         print(f"test_wheel.py: Skipped\n{needed} is not there ({package})")
         sys.exit(77)
 
-# What of our libraries, and of the simulator's, a program has loaded.
+# Prints the libraries of Ortung and of the simulator that a program has loaded.
 LOADED = ("print(*sorted({line.split()[-1] for line in open('/proc/self/maps') "
           "if '.so' in line and any(one in line for one in ('ortung', 'embree', 'box2d'))}), sep='\\n')")
 ENVIRONMENT = {key: value for key, value in os.environ.items()
@@ -27,7 +27,7 @@ OFFLINE = {**ENVIRONMENT, "PIP_NO_INDEX": "1", "PIP_DISABLE_PIP_VERSION_CHECK": 
 
 
 def run(*command, cwd, **variables):
-    """What it prints; AssertionError with all it said if it fails."""
+    """Returns the command's output. Raises AssertionError with all its output if it fails."""
     done = subprocess.run(list(map(str, command)), cwd=cwd, env={**OFFLINE, **variables}, capture_output=True,
                           text=True)
     if done.returncode != 0:
@@ -114,7 +114,7 @@ class Wheel(unittest.TestCase):
         there = self.folder / "bare"
         shutil.copytree(self.package, there / "ortung")
         for library in (there / "ortung" / "lib").glob("libortung_sim.so*"):
-            library.unlink()  # as if one that it needs were not there
+            library.unlink()  # as if a library were not installed
         program = ("import ortung\n"
                    "print(len(ortung.Robot(ortung.shipped_file('robots', 'pioneer.toml')).container.features))\n"
                    "try:\n"

@@ -24,8 +24,7 @@ constexpr double kWidth = 0.173;                     // distance between the tra
 constexpr double kScannerAhead = 0.030;              // distance of the scanner ahead [m]
 constexpr double kAnglePerBeam = 0.006135923151543;  // angle between beams [rad]
 constexpr double kAngleOff = -0.06981317;            // angle of the beam in the middle [rad]
-constexpr double kLatency =
-    0.42;  // delay of scans after the reference [s], in the first half of the log
+constexpr double kLatency = 0.42;  // delay of scans in the first half of the log [s]
 constexpr double kMaxRange = 4.0;  // [m]; the arena is 2 m wide
 constexpr double kMargin = 0.5;    // distance from the outermost cylinders to the bounds [m]
 constexpr double kWayStep = 0.02;  // distance travelled over which a heading is taken [m]

@@ -33,8 +33,7 @@ namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
 constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
-constexpr int kSilentLooks =
-    200;  ///< consecutive reads without a scan (each >= 10 ms) that are an error
+constexpr int kSilentLooks = 200;  ///< consecutive reads (>= 10 ms) without a scan: error
 
 /// MRPT writes to the standard output, too, so this program's output gets a descriptor of its own.
 std::FILE* ownOutput() {

@@ -16,8 +16,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kMargin =
-    10.0;  // distance from the outermost beacons to the bounds [m]; the mower went 2 m beyond them
+constexpr double kMargin = 10.0;  // distance from beacons to bounds [m]; the mower went 2 m beyond
 constexpr double kMaxIdentity = 1e6;
 // Measured range / distance, fitted to the first half of plaza1 against GPS; 1.070 to 1.073 in the
 // second half.

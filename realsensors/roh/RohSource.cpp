@@ -15,8 +15,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kMargin =
-    0.5;  // distance from the beacons, which are at the corners, to the bounds [m]
+constexpr double kMargin = 0.5;  // distance from the beacons to the bounds [m]
 
 /// Bearings of beacons, measured by a stationary robot (Roh, KAIST, in the Triangulation Toolbox):
 /// a CSV file with a bearing [deg] of each beacon in a line. Its name "(X1.5,Y3.0).csv" is the

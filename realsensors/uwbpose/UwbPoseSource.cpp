@@ -16,8 +16,7 @@ namespace {
 
 constexpr std::size_t kMostTags = 16;
 constexpr std::int64_t kMostAnchors = 64;
-constexpr double kMargin =
-    1.0;  // distance from the anchors, which are at the walls, to the bounds [m]
+constexpr double kMargin = 1.0;         // distance from the anchors to the bounds [m]
 constexpr double kWayStep = 0.15;       // distance travelled over which a heading is taken [m]
 constexpr double kDefaultHeight = 1.0;  // height of the tags without ground truth [m]
 

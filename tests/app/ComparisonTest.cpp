@@ -160,8 +160,8 @@ TEST_F(RunFiles, OfEarlierVersionsAreRead) {
 }
 
 TEST_F(RunFiles, OthersAreRefusedWithWhatWasExpected) {
-  EXPECT_NE(refusal("").find("is no JSON"), std::string::npos);
-  EXPECT_NE(refusal("{\"a\": 1").find("is no JSON"), std::string::npos);
+  EXPECT_NE(refusal("").find("is not JSON"), std::string::npos);
+  EXPECT_NE(refusal("{\"a\": 1").find("is not JSON"), std::string::npos);
   EXPECT_NE(refusal("[]").find("found array, expected an object"), std::string::npos);
   EXPECT_NE(refusal("{}").find("has no key 'source'"), std::string::npos);
   EXPECT_NE(refusal(R"({"source": 1})").find("'source' is number, expected text"),

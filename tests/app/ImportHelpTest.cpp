@@ -77,7 +77,7 @@ TEST_F(ImportHelp, OfAKindHasItsOptionsAndWithoutOneItNamesTheKinds) {
     EXPECT_NE(all.out.find(part), std::string::npos) << part << all.out;
   const Outcome none = ortung({"import", "nix", "--help"});
   EXPECT_EQ(none.exitCode, 0) << none.err;
-  EXPECT_NE(none.out.find("nix: says nothing of its options"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("nix: does not describe its options"), std::string::npos) << none.out;
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ TEST_F(ImportedWorld, KeepsLinksAndWhatIsThere) {
 
 TEST_F(ImportedWorld, ReplacesNeitherADeviceNorTheMapThatItIsMadeOf) {
   expectRefused(import("/dev/null", {"--force"}), 1,
-                "ortung import: /dev/null: ", {"has to lie beside it"});
+                "ortung import: /dev/null: ", {"is made beside it"});
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   const std::string map = read("log/map.pgm");
   expectRefused(import(path("log/map.toml"), {"--force"}), 2, "ortung import: " + path("log/map."),

@@ -191,7 +191,7 @@ TEST_F(Served, RecordOfALostServerHasWhatCameUntilThen) {
   server_.signal(SIGKILL);
   const Outcome outcome = program.finish();
   EXPECT_EQ(outcome.exitCode, 1);
-  EXPECT_NE(outcome.err.find("what came before is in " + path("run.rec")), std::string::npos)
+  EXPECT_NE(outcome.err.find("earlier readings are in " + path("run.rec")), std::string::npos)
       << outcome.err;
   EXPECT_FALSE(tornEnd(path("run.rec")).has_value());
   EXPECT_GT(readingsOf("run.rec"), 3u);

@@ -239,8 +239,8 @@ TEST_F(Localize, ABeliefThatCantBeUsedIsNamedAndStays) {
                   {reason});
     EXPECT_TRUE(read("belief") == bytes) << reason;
   };
-  refused("what somebody wrote", "exists and does not hold what --belief writes");
-  refused(read("hall.ortung"), "exists and does not hold what --belief writes");
+  refused("what somebody wrote", "exists and is not what --belief writes");
+  refused(read("hall.ortung"), "exists and is not what --belief writes");
   refused(good.substr(0, good.size() / 2), "is torn");
   std::string turned = good;
   const std::size_t within = good.find("NUMPY", good.find("x.npy")) + 500;  // among the numbers

@@ -76,7 +76,7 @@ TEST(Outputs, OfAnotherKindAreReplacedByForceOnly) {
   writeBytes(folder / "a", "[robot]\nname = \"scout\"\n");
   EXPECT_EQ(refusal<std::runtime_error>(folder / "a", OutputKind::kTables),
             (folder / "a").string() +
-                ": exists and does not hold what --out writes (tables); it would be overwritten; "
+                ": exists and is not what --out writes (tables); it would be overwritten; "
                 "use --force");
   writeBytes(folder / "a", "");
   EXPECT_EQ(refusal<std::runtime_error>(folder / "a", OutputKind::kTables), "(nothing was thrown)");

@@ -68,7 +68,7 @@ TEST(RefBox, ThatCantBeIsAUsageError) {
   }
   const Outcome alone = ortung({"sim", kField, "--refbox", "localhost", "--duration", "1"});
   EXPECT_EQ(alone.exitCode, 2);
-  EXPECT_NE(alone.err.find("nobody referees"), std::string::npos) << alone.err;
+  EXPECT_NE(alone.err.find("there is no referee"), std::string::npos) << alone.err;
 }
 
 }  // namespace

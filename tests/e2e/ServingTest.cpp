@@ -75,7 +75,7 @@ TEST(Serving, ASignalEndsTheServerAlthoughACycleHangs) {
         arguments.listen = "0";
         app::serve(world, arguments);
       },
-      testing::ExitedWithCode(128 + SIGTERM), "has not come to an end within 2 s after the signal");
+      testing::ExitedWithCode(128 + SIGTERM), "has not ended within 2 s after the signal");
 }
 
 TEST(Serving, AnEmptyAddressIsNoAddress) {

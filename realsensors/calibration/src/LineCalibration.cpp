@@ -14,10 +14,9 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostPoints = 150;  ///< greatest number of points that are used of a picture
-constexpr double kAboveFloor =
-    0.02;                      ///< points so far above the floor's end are ignored, as a share
-constexpr double kNear = 5.0;  ///< range within which a fit is reported [m]
-constexpr double kFar = 15.0;  ///< range up to which points are used [m]
+constexpr double kAboveFloor = 0.02;      ///< margin above the floor's end [image heights]
+constexpr double kNear = 5.0;             ///< range within which a fit is reported [m]
+constexpr double kFar = 15.0;             ///< range up to which points are used [m]
 constexpr double kMostCost = 9.0;
 
 /// The parameters that are estimated. Lengths are their logarithms, which keeps them positive.

@@ -12,8 +12,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kUsefulRange =
-    30.0;  // [m]; beyond, old SICK scanners see little, with large errors
+constexpr double kUsefulRange = 30.0;  // [m]; beyond, old SICK scanners see little, inaccurately
 constexpr int kMaxBeams = 8192;
 
 /// Rounds to millionths of a degree: logs have no more digits.

@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::size_t kMostMotionData = 16;
 constexpr std::size_t kMostNumbers = 80;
-constexpr std::int64_t kFarthest =
-    2'000'000'000;  ///< greatest absolute number, except motion data and time
+constexpr std::int64_t kFarthest = 2'000'000'000;  ///< greatest number but motion data and time
 
 std::uint16_t checksum(std::string_view text) {
   boost::crc_ccitt_type crc;

@@ -13,9 +13,8 @@ namespace ortung {
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{100};  ///< longest wait for a reading
-constexpr std::chrono::milliseconds kBreath{
-    2};  ///< sleep after each read, to limit the load of a flood
-constexpr std::chrono::seconds kLongestEnd{3};  ///< longest wait for the thread's end
+constexpr std::chrono::milliseconds kBreath{2};  ///< sleep after each read, limits a flood's load
+constexpr std::chrono::seconds kLongestEnd{3};   ///< longest wait for the thread's end
 
 /// Blocks all signals in threads that are started while it lives.
 class SignalsElsewhere {

@@ -40,7 +40,7 @@ export async function startProgram(words, port = 0) {
   const ended = new Promise((resolve) => child.on("exit", resolve));
   const url = await new Promise((resolve, reject) => {
     createInterface({ input: child.stdout }).on("line", (line) => {
-      const match = /look and steer: +(http\S+)/.exec(line);
+      const match = /view and control: +(http\S+)/.exec(line);
       if (match) resolve(new URL(match[1]));
     });
     ended.then(() => reject(new Error(`the program ended before it listened: ${errors.slice(0, 500)}`)));

@@ -16,11 +16,10 @@
 
 namespace ortung {
 
-inline constexpr std::size_t kMaxLogLine = 1u << 20;  ///< greatest length of a line [bytes]
-inline constexpr std::uint64_t kMaxLogBytes =
-    1ull << 31;                                 ///< greatest length of a decompressed file [bytes]
-inline constexpr double kMaxLogSeconds = 1e10;  ///< greatest absolute time stamp [s]
-inline constexpr double kMaxLogMetres = 1e6;    ///< greatest absolute coordinate [m]
+inline constexpr std::size_t kMaxLogLine = 1u << 20;       ///< greatest length of a line [bytes]
+inline constexpr std::uint64_t kMaxLogBytes = 1ull << 31;  ///< greatest decompressed size [bytes]
+inline constexpr double kMaxLogSeconds = 1e10;             ///< greatest absolute time stamp [s]
+inline constexpr double kMaxLogMetres = 1e6;               ///< greatest absolute coordinate [m]
 
 /// Returns @p path if there is such a file, or the same name with .xz or .gz appended, or nothing.
 ORTUNG_API std::optional<std::filesystem::path> findLogFile(const std::filesystem::path& path);

@@ -38,8 +38,7 @@ struct McapMessage {
 /// most kMostBytes. Not thread-safe.
 class ORTUNG_API McapReader {
  public:
-  static constexpr std::uint64_t kMostBytes =
-      1U << 27;  ///< greatest size of a record or unpacked chunk [bytes]
+  static constexpr std::uint64_t kMostBytes = 1U << 27;  ///< limit of a record or chunk [bytes]
 
   /// Reads the beginning of a file.
   /// @param file the file, borrowed for as long as this lives

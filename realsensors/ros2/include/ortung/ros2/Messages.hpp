@@ -34,8 +34,8 @@ struct Pose {
   Vector3 position;        ///< place [m]
   Quaternion orientation;  ///< rotation
 };
-using Covariance =
-    std::array<double, 36>;  ///< covariance of x, y, z and rotations about them, row-major [m, rad]
+/// Covariance of x, y, z and the rotations about these axes, row-major [m, rad].
+using Covariance = std::array<double, 36>;
 
 /// A scan of a laser scanner.
 struct LaserScan {
