@@ -57,6 +57,32 @@ double metres(const std::string& line, int word) {
   return (value - 2147483648.0) / 1000.0;
 }
 
+TEST(Playback, KnowsFormatsByNamesThatAreAlwaysTheSameOrAsItIsTold) {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<SensorId, std::string>> known{
+      {kTruth, "pose"},
+      {{"odometry", "odometry", "pose"}, "odometry"},
+      {{"mcl", "LOCALIZATION", "pose"}, "fix"},
+      {{"mcl", "LOCALIZATION", "places"}, "clusters"},
+      {{"mcl", "LOCALIZATION", "samples"}, "samples"},
+      {{"mcl", "LOCALIZATION", "work"}, "work"},
+      {kCount, "counted row=identity"},  // the one that is told
+      {{"laser", "LRF", "scan"}, ""}};
+  RecordWriter record(folder / "a.rec", "0123456789abcdef");
+  for (const auto& [id, format] : known) record.write({kBegin, id, {}});
+  record.endMoment();
+  record.commit();
+  const ServedPlayback world(
+      {.name = "one",
+       .runs = {{folder / "a.rec", "a", {{kCount, "for people", {}, "counted row=identity"}}}}});
+  const std::vector<ServedFeature> features = world.residents().at(0).features;
+  ASSERT_EQ(features.size(), known.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    EXPECT_EQ(features[i].id, known[i].first);
+    EXPECT_EQ(features[i].format, known[i].second);
+  }
+}
+
 TEST(Playback, GoesToAnyTimeAndShowsWhatWasNewestThere) {
   Playback two;
   ServedPlayback world(two.config);

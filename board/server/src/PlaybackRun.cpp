@@ -7,7 +7,9 @@
 #include "Request.hpp"
 #include "ortung/formats/ClustersData.hpp"
 #include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
 #include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/TalkData.hpp"
 #include "ortung/formats/TrackData.hpp"
@@ -32,6 +34,8 @@ ServedFeature served(const SensorData& data) {
 /// What is known of a feature by its name alone.
 ServedFeature featureOf(const SensorId& id) {
   if (id.type == "groundTruth") return served(PoseData(id));
+  if (id == SensorId{"odometry", "odometry", "pose"}) return served(OdometryData(id));
+  if (id == SensorId{"mcl", "LOCALIZATION", "pose"}) return served(PoseFixData(id, {}));
   if (const TrackData track; track.id() == id) return served(track);
   if (const ClustersData clusters; clusters.id() == id) return served(clusters);
   if (const WorkData work; work.id() == id) return served(work);
