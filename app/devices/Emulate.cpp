@@ -1,3 +1,5 @@
+#include "Emulate.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -5,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "Emulate.hpp"
 #include "Console.hpp"
 #include "HostPort.hpp"
 #include "Interrupt.hpp"

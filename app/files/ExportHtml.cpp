@@ -1,3 +1,5 @@
+#include "ExportHtml.hpp"
+
 #include <fmt/format.h>
 
 #include <boost/iostreams/filter/gzip.hpp>
@@ -11,7 +13,6 @@
 #include <string>
 
 #include "Base64.hpp"
-#include "ExportHtml.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"

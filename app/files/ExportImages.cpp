@@ -1,10 +1,11 @@
+#include "ExportImages.hpp"
+
 #include <fmt/format.h>
 
 #include <limits>
 #include <optional>
 #include <stdexcept>
 
-#include "ExportImages.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "PictureSet.hpp"

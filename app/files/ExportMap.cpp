@@ -1,9 +1,10 @@
+#include "ExportMap.hpp"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
 #include <string>
 
-#include "ExportMap.hpp"
 #include "Console.hpp"
 #include "Outputs.hpp"
 #include "Workshop.hpp"

@@ -1,10 +1,11 @@
+#include "ExportMcap.hpp"
+
 #include <fmt/format.h>
 
 #include <map>
 #include <optional>
 #include <stdexcept>
 
-#include "ExportMcap.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"

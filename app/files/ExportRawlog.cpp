@@ -1,3 +1,5 @@
+#include "ExportRawlog.hpp"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -5,7 +7,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "ExportRawlog.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"

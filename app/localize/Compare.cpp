@@ -1,8 +1,9 @@
+#include "Compare.hpp"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
 
-#include "Compare.hpp"
 #include "Comparison.hpp"
 #include "Outputs.hpp"
 #include "RunFile.hpp"

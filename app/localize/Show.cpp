@@ -1,3 +1,5 @@
+#include "Show.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,7 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Show.hpp"
 #include "Console.hpp"
 #include "HeatMap.hpp"
 #include "Interrupt.hpp"

@@ -1,6 +1,6 @@
 #include "CommandModule.hpp"
-#include "Show.hpp"
 #include "OptionBuilder.hpp"
+#include "Show.hpp"
 
 namespace ortung::app {
 namespace {

@@ -1,4 +1,5 @@
 #include "Serve.hpp"
+
 #include "Console.hpp"
 #include "Serving.hpp"
 #include "SourceArguments.hpp"

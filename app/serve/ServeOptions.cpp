@@ -1,6 +1,6 @@
 #include "CommandModule.hpp"
-#include "Serve.hpp"
 #include "OptionBuilder.hpp"
+#include "Serve.hpp"
 #include "ServingOptions.hpp"
 
 namespace ortung::app {

@@ -1,9 +1,10 @@
-#include "ServingArguments.hpp"
 #include "View.hpp"
-#include "ViewArguments.hpp"
+
 #include "Interrupt.hpp"
 #include "Progress.hpp"
 #include "Serving.hpp"
+#include "ServingArguments.hpp"
+#include "ViewArguments.hpp"
 #include "ViewedRuns.hpp"
 #include "ortung/server/ServedPlayback.hpp"
 

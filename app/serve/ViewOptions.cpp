@@ -1,9 +1,9 @@
 #include "CommandModule.hpp"
-#include "View.hpp"
-#include "ViewArguments.hpp"
 #include "LocalizationOptions.hpp"
 #include "OptionBuilder.hpp"
 #include "ServingOptions.hpp"
+#include "View.hpp"
+#include "ViewArguments.hpp"
 
 namespace ortung::app {
 namespace {

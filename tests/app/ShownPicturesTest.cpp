@@ -5,11 +5,11 @@
 #include <span>
 #include <string>
 
-#include "Learn.hpp"
-#include "Show.hpp"
 #include "DecodedPng.hpp"
 #include "Files.hpp"
+#include "Learn.hpp"
 #include "Palette.hpp"
+#include "Show.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/records/RecordWriter.hpp"
 

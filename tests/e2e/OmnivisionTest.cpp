@@ -7,8 +7,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "Learn.hpp"
 #include "Files.hpp"
+#include "Learn.hpp"
 #include "ortung/run/Localization.hpp"
 
 namespace ortung::test {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Learn.hpp"
 #include "Files.hpp"
+#include "Learn.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ObjectsData.hpp"

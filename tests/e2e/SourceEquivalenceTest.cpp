@@ -6,8 +6,8 @@
 #include <bit>
 
 #include "../server/RunningBoard.hpp"
-#include "Learn.hpp"
 #include "Files.hpp"
+#include "Learn.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/records/RecordWriter.hpp"

@@ -154,8 +154,9 @@ TEST(Protocol, ManipulatorsAreSetByNameOrNumber) {
                   .starts_with("ERR no-manipulator robot striker: its manipulator kicker has no "
                                "state '99', but " +
                                first + ","));
-  EXPECT_TRUE(client.ask("MANIPULATOR arm up")
-                  .starts_with("ERR no-manipulator robot striker has no manipulator 'arm'; it has"));
+  EXPECT_TRUE(
+      client.ask("MANIPULATOR arm up")
+          .starts_with("ERR no-manipulator robot striker has no manipulator 'arm'; it has"));
   EXPECT_TRUE(
       client.ask("MOTION 1").starts_with("ERR number robot striker: a command of 1 numbers"));
 }

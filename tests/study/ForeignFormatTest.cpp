@@ -8,9 +8,9 @@
 #include "FakeRoom.hpp"
 #include "MadeSource.hpp"
 #include "Radar.hpp"
+#include "ortung/run/ReadingValues.hpp"
 #include "ortung/study/Evaluation.hpp"
 #include "ortung/study/NoiseLearner.hpp"
-#include "ortung/run/ReadingValues.hpp"
 
 namespace ortung::test {
 namespace {

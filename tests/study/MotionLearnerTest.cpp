@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "ortung/base/Random.hpp"
-#include "ortung/study/MotionLearner.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
+#include "ortung/study/MotionLearner.hpp"
 
 namespace ortung {
 namespace {

@@ -14,7 +14,8 @@ constexpr const char* kNoPage =
     "charset=\"utf-8\"><title>Ortung</title></head>\n"
     "<body>\n<h1>Ortung</h1>\n<p>This program was built without the viewer's page. Its source is "
     "in "
-    "<code>board/web/page</code>: <code>npm ci &amp;&amp; npm run build</code> makes it. Clients of "
+    "<code>board/web/page</code>: <code>npm ci &amp;&amp; npm run build</code> makes it. Clients "
+    "of "
     "the protocol work all the same.</p>\n</body>\n</html>\n";
 
 /// Types that browsers believe, as they are told not to guess.

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "ortung/base/Angles.hpp"
-#include "ortung/study/Evaluation.hpp"
 #include "ortung/run/ReadingValues.hpp"
+#include "ortung/study/Evaluation.hpp"
 
 namespace ortung {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "ortung/formats/PoseData.hpp"
-#include "ortung/study/Verdict.hpp"
 #include "ortung/run/Feeder.hpp"
+#include "ortung/study/Verdict.hpp"
 
 namespace ortung {
 

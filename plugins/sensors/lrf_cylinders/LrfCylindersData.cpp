@@ -25,7 +25,8 @@ class LrfCylindersExtractor : public Extractor {
 
   void take(std::span<const SensorData* const> inputs) override {
     auto scan = readingAs<ScanData>(*inputs[0]);
-    if (!scan) throw std::invalid_argument(toText(inputs[0]->id()) + " is not a scan, expected one");
+    if (!scan)
+      throw std::invalid_argument(toText(inputs[0]->id()) + " is not a scan, expected one");
     scan_ = *std::move(scan);
     mount_ = inputs[0]->mount();
   }

@@ -14,8 +14,8 @@ struct Interval {
   double high = 1.0;
 };
 
-/// The share of @p hits among @p n trials with its interval, which is right for shares near 0 and 1,
-/// too (Wilson, "Probable inference, the law of succession, and statistical inference", JASA 22,
+/// The share of @p hits among @p n trials with its interval, which is right for shares near 0 and
+/// 1, too (Wilson, "Probable inference, the law of succession, and statistical inference", JASA 22,
 /// 1927). No trials give 0, from 0 to 1. @pre hits <= n
 ORTUNG_API Interval wilson(std::uint64_t hits, std::uint64_t n);
 

@@ -12,8 +12,8 @@
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/SensorContainer.hpp"
-#include "ortung/study/NoiseFit.hpp"
 #include "ortung/robot/TableInfo.hpp"
+#include "ortung/study/NoiseFit.hpp"
 
 namespace ortung {
 
