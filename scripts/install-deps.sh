@@ -45,8 +45,8 @@ test=(
 all=(
   # Debian packages and libraries, and what looks at them
   dpkg-dev file debootstrap lintian abigail-tools
-  # benchmarks, fuzz targets, format
-  libbenchmark-dev clang-19 libclang-rt-19-dev clang-format-19
+  # benchmarks, fuzz targets, format, lint
+  libbenchmark-dev clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19
 )
 
 case ${1:-test} in
