@@ -15,10 +15,10 @@ namespace ortung {
 class ORTUNG_API ClockOffset {
  public:
   struct Exchange {
-    Timestamp sent = 0;      ///< on our clock
-    Timestamp received = 0;  ///< by the server, on its clock
-    Timestamp answered = 0;  ///< by the server, on its clock
-    Timestamp back = 0;      ///< on our clock
+    Timestamp sent = 0;      ///< departure of the question, on our clock [us]
+    Timestamp received = 0;  ///< arrival at the server, on its clock [us]
+    Timestamp answered = 0;  ///< departure of the answer, on the server's clock [us]
+    Timestamp back = 0;      ///< arrival of the answer, on our clock [us]
   };
 
   /// Takes an exchange, later than all before. One that contradicts those before (the server's

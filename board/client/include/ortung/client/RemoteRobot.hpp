@@ -17,9 +17,9 @@ namespace ortung {
 
 struct RemoteOptions {
   SessionOptions session;
-  double cycle = 0.1;      ///< between two updates of the container [s]; 0: by update() only;
+  double cycle = 0.1;      ///< period of the container's updates [s]; 0: only update() does them;
                            ///< less than 0 or NaN is refused
-  bool reconnects = true;  ///< after the connection was lost
+  bool reconnects = true;  ///< whether it connects again after the connection was lost
   /// Stamps are those of our own clock (`clock`), as if the sensors were here; otherwise the
   /// server's, which is what lockstep needs.
   bool hasLocalStamps = true;

@@ -17,7 +17,7 @@ struct ORTUNG_API RobotDescription {
   struct Feature {
     SensorId id;
     std::string words;           ///< what the words of its readings mean, for people
-    std::optional<Pose2> mount;  ///< of its sensor, in the robot frame
+    std::optional<Pose2> mount;  ///< the sensor's pose in the robot frame
     /// What they mean, for programs; nothing if the server does not know.
     std::optional<Format> format = {};
   };
@@ -28,12 +28,12 @@ struct ORTUNG_API RobotDescription {
 
   std::vector<Feature> features;
   std::string motion;      ///< what the numbers of setMotion() mean, for people
-  std::string motionKind;  ///< the same for programs, as of Drive; "": not known
+  std::string motionKind;  ///< its kind for programs, as Drive names it; "": not known
   std::optional<double> maxTranslationalVelocity;      ///< [m/s]
   std::optional<double> maxRotationalVelocity;         ///< [rad/s]
   std::optional<double> maxTranslationalAcceleration;  ///< [m/s^2]
   std::optional<double> maxRotationalAcceleration;     ///< [rad/s^2]
-  std::optional<double> radius;                        ///< of the circle around the body [m]
+  std::optional<double> radius;                        ///< radius of the circle around the body [m]
   std::optional<double> height;                        ///< [m]
   std::optional<double> mass;                          ///< [kg]
   std::vector<Manipulator> manipulators;

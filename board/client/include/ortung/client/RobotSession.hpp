@@ -46,14 +46,14 @@ class ORTUNG_API ServerRefused : public std::runtime_error {
 struct ORTUNG_API SessionOptions {
   std::string host = "127.0.0.1";
   std::uint16_t port = 7777;
-  std::string name = "robot";    ///< of client and robot: [A-Za-z0-9_-], 1 to 32 characters
-  std::string token;             ///< of printable characters without blanks; "": none
-  std::string team;              ///< of the robot: as a name; "": none
-  std::optional<Pose2> start;    ///< in the field frame; nothing: anywhere
+  std::string name = "robot";    ///< name of client and robot: [A-Za-z0-9_-], 1 to 32 characters
+  std::string token;             ///< secret of printable characters without blanks; "": none
+  std::string team;              ///< the robot's team, spelled like a name; "": none
+  std::optional<Pose2> start;    ///< pose in the field frame; nothing: anywhere
   bool wanders = false;          ///< the server drives the robot about
   bool isBinary = false;         ///< form of readings; without it there are no pictures
-  double timeout = 5.0;          ///< for an answer [s], above 0
-  double patience = 60.0;        ///< for the end of cycles in lockstep [s], above 0
+  double timeout = 5.0;          ///< longest wait for an answer [s], above 0
+  double patience = 60.0;        ///< longest wait for the end of cycles in lockstep [s], above 0
   bool isInterruptible = false;  ///< whether a signal ends what is under way
   /// A request to stop, from any thread, ends what is under way and all later calls with
   /// ConnectionLost; only the look-up of a computer's name goes on until it is answered.
@@ -67,7 +67,7 @@ struct ORTUNG_API SessionOptions {
 
 /// What another robot of the team has told.
 struct TeamWords {
-  Timestamp stamp = 0;  ///< when it said so, by the server's clock
+  Timestamp stamp = 0;  ///< time of the words on the server's clock [us]
   std::string from;     ///< the robot's name
   std::string text;
 };
@@ -154,8 +154,9 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::string fingerprint_;
   std::string kind_;
   Timestamp newest_ = 0;
-  std::map<std::string, Timestamp, std::less<>> stamps_;  ///< of a running robot's readings
-  Timestamp clock_ = 0;                                   ///< in lockstep: when the next cycle is
+  /// Newest stamp of each feature of a running robot.
+  std::map<std::string, Timestamp, std::less<>> stamps_;
+  Timestamp clock_ = 0;  ///< time of the next cycle in lockstep [us]
   std::vector<std::string> news_;
   std::uint64_t lastTag_ = 0;
 };

@@ -11,7 +11,7 @@ namespace ortung::refbox {
 
 /// What a referee box says: `{"command": "KICKOFF", "targetTeam": "224.16.32.10"}`.
 struct BoxCommand {
-  std::string command;     ///< without blanks around it
+  std::string command;     ///< the box's word, e.g. "KICKOFF", without blanks around it
   std::string targetTeam;  ///< address of a team; "": both
   std::optional<std::int64_t> robot;
 };
@@ -23,7 +23,7 @@ ORTUNG_API std::optional<BoxCommand> readBoxCommand(std::string_view message, st
 struct BoxTeams {
   std::string own = "blue";
   std::string other = "yellow";
-  std::string address;  ///< of the own team; "": not known yet
+  std::string address;  ///< address of the own team; "": not known yet
 };
 
 /// What a command means to a referee: an order (docs/referee.md), "" if there is nothing to do, or

@@ -11,16 +11,16 @@
 namespace ortung::refbox {
 
 struct ORTUNG_API RefBoxConfig {
-  std::string host = "127.0.0.1";  ///< of the box: name or address
+  std::string host = "127.0.0.1";  ///< name or address of the box's computer
   std::uint16_t port = 28097;
-  std::string ownTeam = "blue";  ///< as the referee calls it
+  std::string ownTeam = "blue";  ///< the own team's name at the referee
   std::string otherTeam = "yellow";
   /// How the box calls the own team; "": as its WELCOME says.
   std::string address;
-  double reportPeriod = 0.1;             ///< between two worldstates [s]
-  double retry = 1.0;                    ///< between two attempts to connect [s]
+  double reportPeriod = 0.1;             ///< period of worldstates [s], at least 0.01
+  double retry = 1.0;                    ///< pause between two attempts to connect [s]
   double connectTimeout = 5.0;           ///< [s]
-  std::size_t longestMessage = 1 << 16;  ///< of the box [bytes]
+  std::size_t longestMessage = 1 << 16;  ///< greatest length of the box's messages [bytes]
   void check() const;                    ///< @throws std::invalid_argument naming the field
 };
 

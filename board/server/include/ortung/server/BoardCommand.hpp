@@ -33,7 +33,7 @@ struct BoardCommand {
 
   std::string name;            ///< capitals, digits and '_', beginning with a capital, at most 32
   std::string help;            ///< its arguments and what it does, one line; may be empty
-  Role least = Role::kViewer;  ///< that may use it
+  Role least = Role::kViewer;  ///< least role that may use the command
   /// Executes it, on the thread of MessageBoard::run(), between two steps of the world: it may use
   /// the world, and whatever takes long holds it up.
   /// @throws ServeError to refuse it, answered as "ERR code text"; other errors as the board's own

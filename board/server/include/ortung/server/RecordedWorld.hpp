@@ -51,14 +51,14 @@ class ORTUNG_API RecordedWorld final : public ForwardedWorld {
     std::string name;
     std::vector<SensorId> features;
     bool isResident = false;
-    std::vector<SensorId> wanted = {};  ///< by clients
+    std::vector<SensorId> wanted = {};  ///< features that clients ask for
   };
   void meetResidents();
   Robot& find(RobotId robot);
 
   Recordings& recordings_;
   const Config config_;
-  std::optional<std::uint64_t> version_;  ///< of the residents that it has met
+  std::optional<std::uint64_t> version_;  ///< residentsVersion() at the last meetResidents()
   std::map<RobotId, Robot> robots_;
 };
 

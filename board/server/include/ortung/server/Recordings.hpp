@@ -34,8 +34,8 @@ class ORTUNG_API Recordings {
     enum class Kind : std::uint8_t { kOff, kOn, kFailed };
     Kind kind = Kind::kOff;
     std::string file = {};  ///< name of the present record, or of the last one; "": there was none
-    std::size_t moments = 0;  ///< in it
-    std::string text = {};    ///< of kFailed: why
+    std::size_t moments = 0;  ///< time steps written to the record
+    std::string text = {};    ///< reason of kFailed
   };
 
   /// @throws std::runtime_error if the folder can't be made, or nothing can be written there
@@ -72,7 +72,7 @@ class ORTUNG_API Recordings {
   std::string close(RobotId robot);
 
   const Config config_;
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards records_
   std::map<RobotId, Record> records_;
 };
 

@@ -17,9 +17,9 @@ namespace ortung {
 class ORTUNG_API ServedContainer : public PlainWorld {
  public:
   struct Config {
-    std::string robot = "robot";         ///< its name: [A-Za-z0-9_-], 1 to 32 characters
-    std::string fingerprint;             ///< of the world that it knows; "": none
-    double period = 0.05;                ///< between two looks [s], in [0.001, 10]
+    std::string robot = "robot";  ///< its name: [A-Za-z0-9_-], 1 to 32 characters
+    std::string fingerprint;      ///< digest of the robot's world; "": no world is known
+    double period = 0.05;         ///< time between two looks into the container [s], in [0.001, 10]
     std::vector<std::string> abilities;  ///< lines of DESCRIBE, see ServedWorld::abilities()
     /// Told which features clients ask for, whenever that changes; on the board's thread.
     std::function<void(std::span<const SensorId>)> onWant = {};
@@ -59,7 +59,7 @@ class ORTUNG_API ServedContainer : public PlainWorld {
   std::function<Timestamp()> clock_;
   Config config_;
   RobotCommands* commands_;
-  std::vector<std::uint64_t> seen_;  ///< by feature: sequence number of the reading last taken
+  std::vector<std::uint64_t> seen_;  ///< sequence number of the reading last taken, by feature
   std::vector<Message> frame_;
 };
 

@@ -23,20 +23,20 @@ struct FieldBounds {
 
 /// Something movable that is no robot.
 struct ServedObject {
-  std::string name;  ///< by which placeObject() knows it: one printable word, its own
+  std::string name;  ///< unique name for placeObject(), one printable word
   std::string kind;  ///< "ball", ...
   std::string colour = {};
-  double radius = 0.0;  ///< of the circle that holds it [m]
+  double radius = 0.0;  ///< radius of the smallest circle around it [m]
   double height = 0.0;  ///< [m]
 };
 
 struct WorldDescription {
   std::string name;
-  std::string fingerprint;                 ///< "" if it is not known
+  std::string fingerprint;                 ///< digest of the world; "": not known
   std::string kind;                        ///< "simulation", "record" or "robot"
   std::optional<FieldBounds> bounds = {};  ///< nothing: they are not known
   std::vector<ServedObject> objects = {};
-  std::optional<Timestamp> length = {};  ///< of a time line that clients may seek on [us]
+  std::optional<Timestamp> length = {};  ///< length of the time line that clients may seek on [us]
 };
 
 /// What a served world is, what is on its field, and what clients may use there. A part of

@@ -62,7 +62,7 @@ class ORTUNG_API ServedRecord : public PlainWorld {
   std::unique_ptr<FrameReader> reader_;
   std::vector<Message> ahead_;  ///< the moment that the next step gives
   Timestamp now_ = 0;
-  Timestamp shift_ = 0;  ///< by which stamps are later than the record's, in a repetition
+  Timestamp shift_ = 0;  ///< difference of our stamps to the record's, for repetitions [us]
   bool hasBegun_ = false;
   bool isAtEnd_ = false;
   std::map<RobotId, std::unique_ptr<Guest>> guests_;

@@ -21,16 +21,16 @@ namespace ortung {
 struct RobotWish {
   std::string name;
   RobotConfig config;
-  std::optional<Pose2> start;  ///< in the field frame; nothing: where there is room
-  std::string team = {};       ///< "": none
+  std::optional<Pose2> start;  ///< pose in the field frame; nothing: where there is room
+  std::string team = {};       ///< the robot's team; "": none
   bool wanders = false;        ///< the server drives it about until the first command
 };
 
 /// A robot that takes part.
 struct ServedRobot {
-  std::vector<ServedFeature> features;  ///< in the order of its readings
-  double raysPerSecond = 0.0;           ///< what its sensors cost, see Sensor::rays()
-  double raysAtOnce = 0.0;              ///< of one reading of each: about what they take of memory
+  std::vector<ServedFeature> features;  ///< features in the order of readings()
+  double raysPerSecond = 0.0;           ///< rays that its sensors cost [1/s], see Sensor::rays()
+  double raysAtOnce = 0.0;  ///< rays for one reading of each sensor, about what they take of memory
 };
 
 /// A robot that was there before any client: it belongs to the world.
@@ -42,7 +42,7 @@ struct Resident {
 
 /// What one robot said to all others of its team.
 struct ServedTalk {
-  Timestamp stamp = 0;  ///< when it said so, by the clock of the readings
+  Timestamp stamp = 0;  ///< time of the words on the clock of the readings [us]
   std::string from;     ///< the robot's name
   std::string text;     ///< printable ASCII
 };

@@ -39,7 +39,7 @@ class ORTUNG_API FilterThread {
     TableGiver tables;
     std::uint64_t seed = 1;
   };
-  static constexpr std::size_t kMostMoments = 256;  ///< that wait
+  static constexpr std::size_t kMostMoments = 256;  ///< time steps that may wait
 
   /// Off at first.
   explicit FilterThread(Config config);
@@ -94,16 +94,16 @@ class ORTUNG_API FilterThread {
   };
   std::vector<Output> outputs_;
 
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards the members from here to wantsSamples_
   std::condition_variable_any news_;
   Inbox inbox_;
   LocalizationState state_;
   std::shared_ptr<Localization> perceiver_;
   std::vector<SensorId> needs_;
-  std::vector<Message> published_;  ///< and not yet taken: the newest of each feature
+  std::vector<Message> published_;  ///< newest reading of each feature that was not taken yet
   bool wantsSamples_ = false;
 
-  std::atomic<bool> isWanted_ = false;  ///< on, as who ordered last wants it
+  std::atomic<bool> isWanted_ = false;  ///< whether the last order switched it on
   std::atomic<bool> isOver_ = false;
   std::jthread thread_;  ///< last, so that it ends before what it uses
 };

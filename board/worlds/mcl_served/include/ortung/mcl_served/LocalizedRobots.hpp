@@ -16,8 +16,8 @@ namespace ortung {
 struct LocalizationState {
   enum class Kind : std::uint8_t { kOff, kLearning, kSearching, kRunning, kFailed };
   Kind kind = Kind::kOff;
-  double progress = 0.0;  ///< of learning, in [0, 1]; 1 once that is done
-  std::string text = {};  ///< of kRunning how it is ("tracking: readings fit"), of kFailed why
+  double progress = 0.0;  ///< share of the tables that is learned, in [0, 1]
+  std::string text = {};  ///< status of kRunning ("tracking: readings fit"), reason of kFailed
 };
 
 /// "off", "learning", "searching", "running", "failed".
@@ -28,8 +28,8 @@ struct LocalizationOrder {
   enum class Kind : std::uint8_t {
     kOn,        ///< goes on if it is on already
     kOff,       ///< ends learning, too
-    kAnywhere,  ///< on, and the robot may be anywhere
-    kPlace      ///< on, and the robot is about at `pose`
+    kAnywhere,  ///< switches it on; the robot may be anywhere
+    kPlace      ///< switches it on; the robot is near `pose`
   };
   Kind kind = Kind::kOn;
   Pose2 pose = {};               ///< field frame

@@ -55,8 +55,8 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
  private:
   struct Filter {
     std::unique_ptr<FilterThread> thread;  ///< null: it was never on
-    std::vector<SensorId> wanted;          ///< by clients
-    std::vector<SensorId> needs;           ///< of the filter, as the world was told
+    std::vector<SensorId> wanted;          ///< features that clients ask for
+    std::vector<SensorId> needs;           ///< the filter's features, as reported to the world
   };
   void meetResidents();
   void restartFilters();
@@ -67,11 +67,11 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
   FilterThread& threadOf(RobotId robot, Filter& filter);
 
   Config config_;
-  std::vector<ServedFeature> features_;  ///< that filters add
+  std::vector<ServedFeature> features_;  ///< features that each filter adds
   std::optional<std::uint64_t> version_;
-  mutable std::mutex mutex_;  ///< of the list of filters, for what is thread-safe
+  mutable std::mutex mutex_;  ///< guards filters_ for members that are thread-safe
   std::map<RobotId, Filter> filters_;
-  std::vector<std::unique_ptr<FilterThread>> leaving_;  ///< of robots that are gone
+  std::vector<std::unique_ptr<FilterThread>> leaving_;  ///< threads of removed robots, not over yet
   std::vector<Message> frame_;
 };
 

@@ -103,16 +103,18 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   PluginFactory factory_;
   std::vector<std::string> plugins_;
   std::vector<std::string> playersHelp_;
-  std::vector<ServedObject> objects_;  ///< in the order of the simulation's things
+  std::vector<ServedObject> objects_;  ///< objects in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
   std::unique_ptr<Truth> truth_;
-  bool isMovePending_ = false;      ///< all have sensed, nothing has moved yet
-  std::vector<RobotSize> planned_;  ///< for robots of clients, the plan last asked for at the end
-  std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
+  bool isMovePending_ = false;  ///< all have sensed, nothing has moved yet
+  std::vector<RobotSize>
+      planned_;  ///< sizes of clients' robots with a planner, the most recent last
+  /// Robots by number, and so in the order in which they came.
+  std::map<RobotId, std::unique_ptr<Guest>> guests_;
   RobotId lastId_ = 0;
   std::deque<Event> events_;
   std::uint64_t eventsSoFar_ = 0;
-  std::uint64_t version_ = 0;  ///< of residents
+  std::uint64_t version_ = 0;  ///< counter of changes of residents()
   std::uint64_t entered_;      ///< robots since the last reset: each has chances of its own
 };
 
