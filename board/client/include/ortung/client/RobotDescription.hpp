@@ -10,10 +10,11 @@
 
 namespace ortung {
 
-/// A robot's parameters as its server tells them (paper, section 3): positions of sensors, greatest
-/// velocities, what it can be told. What the server does not say is empty: of a record it knows the
-/// features alone.
+/// A robot's parameters as its server reports them (paper, section 3): poses of sensors, greatest
+/// velocities, and commands that it takes. Parameters that the server does not know are empty: for
+/// a record it knows the features alone.
 struct ORTUNG_API RobotDescription {
+  /// One feature of the robot, whose readings the server sends.
   struct Feature {
     SensorId id;
     std::string words;           ///< what the words of its readings mean, for people
@@ -21,6 +22,7 @@ struct ORTUNG_API RobotDescription {
     /// What they mean, for programs; nothing if the server does not know.
     std::optional<Format> format = {};
   };
+  /// A part of the robot with named states, such as a kicker.
   struct Manipulator {
     std::string name;
     std::vector<std::string> states;  ///< it begins in the first

@@ -21,6 +21,7 @@ class ORTUNG_API PlayerStopped : public std::runtime_error {
   ~PlayerStopped() override;
 };
 
+/// Which player runs on which server, and how much it may take.
 struct RemotePlayConfig {
   SessionOptions session;  ///< its name is that of the robot
   std::string plugin;      ///< name of the player, for messages

@@ -13,7 +13,7 @@
 
 namespace ortung {
 
-/// What a client may take, at most. Whoever asks for more is told so.
+/// What clients may use at most. A request for more is refused with the limit.
 struct BoardLimits {
   std::size_t line = 64u << 10;           ///< length of a client's line [bytes]
   std::size_t configuration = 64u << 10;  ///< length of a robot's configuration [bytes]
@@ -44,9 +44,9 @@ struct BoardLimits {
 
 /// How time passes.
 enum class Pace {
-  kRealTime,  ///< `speed` times as fast as the clock on the wall
+  kRealTime,  ///< time runs `speed` times as fast as real time
   kFree,      ///< time runs as fast as the computer can
-  kLockstep,  ///< only when all lockstep clients have asked for the next cycle
+  kLockstep,  ///< a cycle begins when all lockstep clients have asked for it
 };
 
 /// A token that lets a client in.
@@ -55,7 +55,7 @@ struct BoardToken {
   std::string token;
 };
 
-/// Is given what speaks HTTP to the board's port instead of the protocol.
+/// Gets connections to the board's port that speak HTTP instead of the protocol.
 /// @param socket connected and non-blocking; nothing is read from it any more
 /// @param head all that was read: the request's head with the empty line that ends it, at most
 ///   BoardLimits::httpHead bytes, and whatever has come behind it
@@ -64,12 +64,13 @@ struct BoardToken {
 /// Called on the thread that talks to clients, so it must not wait; it may throw: not taken.
 using HttpTaker = std::function<bool(int socket, const std::string& head)>;
 
+/// How a board listens, whom it lets in, and how its world's time passes.
 struct BoardConfig {
   std::string address = "127.0.0.1";  ///< address to listen on; others than loopback need tokens
   std::uint16_t port = 0;             ///< port to listen on; 0: the system chooses
   std::vector<BoardToken> tokens;     ///< clients' tokens; none: every client may come in
   /// Tokens are for their own names alone: clients of other names come in without. Only where
-  /// nobody but programs of this computer can connect.
+  /// no computer but this one can connect.
   bool guests = false;
   /// Clients who may control the simulation; "*": all. Where there are tokens, each of these names
   /// needs one of its own.
@@ -79,10 +80,11 @@ struct BoardConfig {
   BoardLimits limits;
   std::vector<BoardCommand> commands;  ///< beside those of the protocol
   HttpTaker http;                      ///< empty: the board answers that it is no web server
-  /// Told what happens, one line each, from any thread; may be empty.
+  /// Is called with what happens, one line each, from any thread; may be empty.
   std::function<void(const std::string&)> log;
 };
 
+/// What has happened since run() began, and who is there now.
 struct BoardStatistics {
   std::uint64_t cycles = 0;
   std::uint64_t missedCycles = 0;  ///< cycles in real time that began after the next one was due
@@ -106,15 +108,16 @@ class ORTUNG_API MessageBoard {
   MessageBoard(const MessageBoard&) = delete;
   MessageBoard& operator=(const MessageBoard&) = delete;
 
+  /// The port that it listens on, also if the system chose it.
   std::uint16_t port() const;
 
   /// Serves until stop() is called or @p goesOn, asked ten times a second, says no; then all
-  /// clients are told goodbye. Once only.
+  /// clients get a BYE. Once only.
   void run(const std::function<bool()>& goesOn = {});
   void stop();  ///< thread-safe
 
-  /// For a world whose cycle does not come back, so that run() never will: lets nobody in any more
-  /// and tells all clients why. What remains is to end the program. Thread-safe.
+  /// For a world whose cycle does not come back, so that run() never will: refuses new clients
+  /// and sends the reason to all others. What remains is to end the program. Thread-safe.
   /// @returns whether that was done within a second
   bool abandon(const std::string& why);
 

@@ -30,6 +30,7 @@ struct ServedObject {
   double height = 0.0;  ///< [m]
 };
 
+/// What DESCRIBE world says.
 struct WorldDescription {
   std::string name;
   std::string fingerprint;                 ///< digest of the world; "": not known
@@ -56,8 +57,8 @@ class ORTUNG_API ServedField {
 
   /// What stands and is painted on the field, one line each: a kind and keys (docs/protocol.md).
   virtual std::vector<std::string> field() const = 0;
-  /// What the world says of itself to who looks on, in the order of its readings: clients know it
-  /// as robot 0. None: nothing.
+  /// Features of the world's true state, for spectators, in the order of their readings: for
+  /// clients they are those of robot 0. None: nothing.
   virtual std::vector<ServedFeature> truthFeatures() const = 0;
   /// How it is now; valid until the next call of anything.
   virtual std::span<Message> truth() = 0;

@@ -12,14 +12,15 @@ namespace ortung {
 
 /// Records with a time line, side by side: each is a robot of this world, with all the readings
 /// that are in it, and all begin at time 0. Clients pause, seek and change the speed. Unlike a
-/// ServedRecord it lets no robots of clients in: it is for who looks on.
+/// ServedRecord it lets no robots of clients in: it is for spectators.
 /// Not thread-safe.
 class ORTUNG_API ServedPlayback : public PlainWorld {
  public:
+  /// One record to play.
   struct Run {
     std::filesystem::path record;
     std::string name;  ///< the robot's name: [A-Za-z0-9_-], 1 to 32 characters
-    /// What is known of its features; of others clients are told the names alone.
+    /// What is known of its features; of other features clients get the names alone.
     std::vector<ServedFeature> features = {};
     std::vector<std::string> abilities = {};  ///< lines of DESCRIBE, see ServedWorld
   };

@@ -29,7 +29,7 @@ struct WebConfig {
   std::vector<std::string> origins;  ///< foreign pages that may connect: "https://..."
   std::vector<WebProtocol> protocols = {boardProtocol()};
   WebLimits limits;
-  /// Told what goes wrong, one line each, on the door's thread; may be empty.
+  /// Is called with what goes wrong, one line each, on the door's thread; may be empty.
   std::function<void(const std::string&)> log;
 };
 
@@ -37,7 +37,7 @@ struct WebConfig {
 /// joins each WebSocket to a connection of its own to the board, whose limits, roles and tokens
 /// hold for it as for any client.
 ///
-/// A page of somebody else can't use it: requests must name this computer by an address, as
+/// A foreign page can't use it: requests must name this computer by an address, as
 /// localhost or by a name of WebConfig::hosts (else DNS could be made to lead a strange page here),
 /// and a WebSocket's Origin must be the page's own or one of WebConfig::origins.
 ///

@@ -44,11 +44,14 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
   std::shared_ptr<const Robot> perceiver(RobotId robot) const override;
 
   // ServedWorld: what filters add
+  /// One cycle of the world; afterwards filters are created for robots that came and end for
+  /// others.
   void step() override;
   std::vector<Resident> residents() const override;
   void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
   std::vector<Message> lateReadings(RobotId robot) override;
+  /// Time jumps: filters restart with the tables that they have.
   void seek(Timestamp stamp) override;
   void reset(std::optional<std::uint64_t> seed) override;
 
