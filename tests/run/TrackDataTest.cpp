@@ -60,7 +60,7 @@ TEST(TrackData, ItsFormatNamesEveryStatusAndReason) {
             "track status=tracking,uncertain,lost reason=readings_fit,several_places_fit,"
             "the_belief_is_spread,no_reading_comes,"
             "a_device_repeats_its_reading_though_the_robot_moves,"
-            "readings_fit_worse_than_they_use_to,readings_fit_elsewhere,"
+            "readings_fit_worse_than_usual,readings_fit_elsewhere,"
             "readings_contradict_odometry,the_field_is_searched,readings_are_late,"
             "few_readings_have_confirmed_the_place_yet");
 }

@@ -57,7 +57,7 @@ class LineSocket {
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string server_;  ///< "HOST:PORT"
-  double timeout_;      ///< of connecting and sending [s]
+  double timeout_;      ///< longest wait while connecting and sending [s]
   bool isInterruptible_;
   StopSignal stop_;
   int socket_ = -1;

@@ -242,7 +242,7 @@ struct RemoteRobot::Parts {
   PluginFactory factory;
   SensorContainer container;
 
-  std::stop_source ending;  ///< of the session
+  std::stop_source ending;  ///< ends the session
   std::optional<std::stop_callback<std::function<void()>>> stopsWithCaller;
   std::atomic<bool> isConnected{false};
   mutable std::mutex talking;  ///< over what follows: one conversation at a time
@@ -261,7 +261,7 @@ struct RemoteRobot::Parts {
   std::condition_variable news;
   std::string trouble;
   std::deque<std::string> untold;
-  std::thread::id teller;  ///< who is telling, or nobody
+  std::thread::id teller;  ///< thread that is in onTrouble; none: no thread
   std::uint64_t updates = 0;
   bool isEnding = false;
   std::thread thread;

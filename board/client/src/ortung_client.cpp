@@ -23,7 +23,7 @@ struct ortung_robot {
 
  private:
   std::mutex mutex;
-  std::string failure;  ///< of the last call
+  std::string failure;  ///< message of the last call's error; "": none
 };
 
 namespace {

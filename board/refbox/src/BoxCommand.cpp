@@ -7,7 +7,7 @@
 namespace ortung::refbox {
 namespace {
 
-constexpr std::size_t kLongestWord = 64;  ///< of commands and addresses
+constexpr std::size_t kLongestWord = 64;  ///< characters of a command or an address
 constexpr std::int64_t kMostRobots = 99;
 
 std::string shown(std::string_view text) {
@@ -41,7 +41,7 @@ std::string trimmed(const std::string& text) {
 /// A command and the order that it is.
 struct Meaning {
   std::string_view command;
-  std::string_view order;  ///< "": nothing to do
+  std::string_view order;  ///< the referee's order; "": nothing to do
   bool isOfTeam = false;
 };
 

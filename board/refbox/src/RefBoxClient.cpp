@@ -18,8 +18,8 @@ namespace {
 using boost::asio::ip::tcp;
 using Error = boost::system::error_code;
 
-constexpr int kMostEvents = 64;        ///< that one poll() handles: no box keeps its caller
-constexpr int kMostComplaints = 20;    ///< of one connection
+constexpr int kMostEvents = 64;        ///< events per poll(), so that no box holds up the caller
+constexpr int kMostComplaints = 20;    ///< complaints reported per connection
 constexpr std::size_t kBuffer = 4096;  ///< [bytes]
 
 void need(bool holds, const std::string& what) {
@@ -52,7 +52,7 @@ struct RefBoxClient::Impl {
 
   boost::asio::io_context io;
   tcp::resolver resolver{io};
-  std::shared_ptr<tcp::socket> socket;  ///< of this connection; its handlers hold it
+  std::shared_ptr<tcp::socket> socket;  ///< this connection's socket; its handlers share it
   State state = State::kIdle;
   std::uint64_t connection = 0;  ///< counts them: what an old one still has to say is not heard
   double now = 0.0;

@@ -52,8 +52,8 @@ class Arrival : public std::enable_shared_from_this<Arrival> {
   const ClientId id_;
   const Timestamp started_;
   std::array<char, 4096> buffer_;
-  std::string bytes_;   ///< that have come
-  std::string answer_;  ///< to what speaks HTTP; empty: none yet
+  std::string bytes_;   ///< bytes received so far
+  std::string answer_;  ///< response to a request of HTTP; empty: none yet
   Timestamp answered_ = 0;
   bool isHttp_ = false;
   bool isLate_ = false;  ///< it has kept silent for too long

@@ -36,7 +36,7 @@ class BoardClock {
   mutable std::mutex mutex_;
   Timestamp stamp_ = 0;
   Timestamp wall_ = 0;  ///< [us] on the computer's clock
-  double rate_ = 0.0;   ///< 0: stands still
+  double rate_ = 0.0;   ///< speed relative to wall time; 0: the clock stands still
   Timestamp latest_ = std::numeric_limits<Timestamp>::max();
 };
 

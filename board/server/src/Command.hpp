@@ -21,7 +21,7 @@ std::optional<Role> roleOf(std::string_view name);
 /// A command of the protocol.
 struct Command {
   std::string name;
-  std::optional<Role> least;  ///< that may use it; nothing: everybody, also before HELLO
+  std::optional<Role> least;  ///< least role that may use it; nothing: all, also before HELLO
   std::string help;           ///< its arguments and what it does; may be empty
   /// Called on the thread that talks to clients, so it must not wait: what the world has to do is
   /// for Caller::order(), what takes long for Caller::aside(). Throws ServeErrors to refuse it,

@@ -74,10 +74,10 @@ class Conversation final : public Caller, public std::enable_shared_from_this<Co
     Timestamp due = 0;
     std::function<void(Caller&)> then;
   };
-  struct Text {  ///< that is on its way, see awaitText()
+  struct Text {  ///< a text whose line has not come yet, see awaitText()
     std::string tag;
     std::function<void(Caller&, std::string text)> then;
-    std::string fault;  ///< of it, or of the line before it; "": none
+    std::string fault;  ///< error of the text, or of the line before it; "": none
     std::string text = {};
   };
 
@@ -106,18 +106,18 @@ class Conversation final : public Caller, public std::enable_shared_from_this<Co
   std::string input_;
   std::size_t taken_ = 0;  ///< bytes of input_ that are done with
   std::size_t searched_ = 0;
-  Timestamp received_ = 0;  ///< when the present input came, on the computer's clock
+  Timestamp received_ = 0;  ///< arrival of the present input on the computer's clock [us]
   bool isOver_ = false;
   /// The same for other threads: nobody waits for an answer any more.
   const std::shared_ptr<std::atomic<bool>> isGone_ = std::make_shared<std::atomic<bool>>(false);
   bool isReceiving_ = false;
   bool isTurnOver_ = false;     ///< others come first
-  bool isFlushPosted_ = false;  ///< of the outlet
-  std::string heard_;           ///< of what others say, not told yet
+  bool isFlushPosted_ = false;  ///< whether a flush of the outlet has been posted
+  std::string heard_;           ///< lines that others said, not sent yet
   std::size_t unheard_ = 0;     ///< what others said while too much of that waited
   std::size_t pending_ = 0;     ///< orders that the world has not executed
   int waiting_ = 0;             ///< requests that wait for cycles
-  std::size_t errors_ = 0;      ///< in a row
+  std::size_t errors_ = 0;      ///< errors in a row
   std::optional<Held> held_;
   std::optional<Text> text_;
 };

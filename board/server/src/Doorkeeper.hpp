@@ -36,7 +36,7 @@ class Doorkeeper {
   bool isReserved(std::string_view name) const;
 
   const BoardConfig& config_;
-  std::map<std::string, Timestamp> refused_;  ///< by computer: when last
+  std::map<std::string, Timestamp> refused_;  ///< time of the last refusal, by computer [us]
   Timestamp logged_ = 0;
   std::size_t unlogged_ = 0;  ///< refusals since then
 };

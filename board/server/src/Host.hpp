@@ -71,12 +71,12 @@ class Host {
   const CommandTable commands;
   const WorldDescription description;
   const std::vector<std::string> plugins;
-  const std::vector<std::string> players;     ///< as DESCRIBE gives them
-  const std::vector<std::string> robotKinds;  ///< likewise
+  const std::vector<std::string> players;     ///< lines of DESCRIBE players
+  const std::vector<std::string> robotKinds;  ///< lines of DESCRIBE robots
   const RobotId liveRobot;                    ///< the robot of a live world; 0: it is not live
   WorldKeeper& keeper;
   Doorkeeper door;
-  TalkBudget talk;  ///< of all clients together
+  TalkBudget talk;  ///< budget that all clients share
 };
 
 }  // namespace ortung::server

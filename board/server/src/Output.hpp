@@ -24,7 +24,7 @@ class Output {
   void add(Output&& more);
 
   std::size_t size() const;          ///< [bytes]
-  std::size_t readingBytes() const;  ///< of that, words of readings
+  std::size_t readingBytes() const;  ///< words of readings in it [bytes]
   bool isEmpty() const { return size() == 0; }
 
   /// Appends the first bytes, @p most at most, in pieces that stay where they are until take().
@@ -39,7 +39,7 @@ class Output {
     std::string_view bytes() const;
   };
   std::list<Piece> pieces_;  ///< none is empty, but maybe the last
-  std::size_t taken_ = 0;    ///< of the first piece
+  std::size_t taken_ = 0;    ///< bytes of the first piece that were taken
   bool isLooked_ = false;    ///< what is there must stay where it is
 };
 

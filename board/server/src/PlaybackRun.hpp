@@ -57,7 +57,7 @@ class PlaybackRun {
   std::unique_ptr<RecordSource> source_;
   std::optional<Message> ahead_;
   std::vector<Message> newest_;
-  std::vector<std::size_t> taken_;  ///< by feature: its place in newest_, plus 1; 0: none
+  std::vector<std::size_t> taken_;  ///< place in newest_, plus 1, by feature; 0: none
   std::optional<Pose2> truth_;
   Timestamp truthStamp_ = 0;
 

@@ -20,7 +20,7 @@ class Request {
   explicit Request(std::string_view line);
 
   const std::string& tag() const { return tag_; }          ///< "#7", or ""
-  const std::string& command() const { return command_; }  ///< in capitals
+  const std::string& command() const { return command_; }  ///< the first word, in capitals
   /// Everything behind the command, as it came.
   const std::string& rest() const { return rest_; }
   /// What is wrong with the line, or "".

@@ -70,10 +70,10 @@ class RobotReadings {
 
  private:
   struct Entry {
-    Message newest;  ///< without words if it is large
+    Message newest;  ///< the newest reading, whose words are in `large` if there are many
     std::shared_ptr<const Message> large;
-    std::string line;         ///< of the newest reading, or "" if nobody asked yet
-    std::uint64_t count = 0;  ///< of readings
+    std::string line;         ///< text of the newest reading; "": no client has asked yet
+    std::uint64_t count = 0;  ///< number of readings so far
     bool isThere = false;
   };
   void append(Entry& entry, bool binary, Output& out) const;
@@ -86,8 +86,8 @@ class RobotReadings {
   std::vector<Entry> entries_;
   std::uint64_t cycle_ = 0;
   std::vector<std::uint64_t> wantedUntil_;  ///< cycle, by feature
-  std::vector<char> told_;                  ///< by feature: whether takeWanted() said so last
-  std::vector<std::size_t> chosen_;         ///< by write(), which one thread calls
+  std::vector<char> told_;                  ///< whether takeWanted() reported it last, by feature
+  std::vector<std::size_t> chosen_;         ///< scratch space of write(), which one thread calls
 };
 
 }  // namespace ortung::server

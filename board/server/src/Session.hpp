@@ -47,12 +47,12 @@ class Session : public std::enable_shared_from_this<Session> {
   const BoardLimits limits_;
   std::shared_ptr<Conversation> conversation_;
   std::array<char, 16384> buffer_;
-  Output output_;  ///< to be written
+  Output output_;  ///< bytes to be written to the socket
   std::vector<std::string_view> pieces_;
   Timestamp started_;
   Timestamp heard_;
   Timestamp finished_ = 0;
-  Timestamp progressed_;  ///< when output was last read by the client
+  Timestamp progressed_;  ///< time when the client last read output [us]
   bool isReading_ = false;
   bool isWriting_ = false;
   bool isFinishing_ = false;

@@ -17,7 +17,7 @@ class Subscriptions {
  public:
   struct Wish {
     Choice choice;
-    Timestamp period = 0;    ///< 0: each cycle
+    Timestamp period = 0;    ///< least time between two updates [us]; 0: each cycle
     std::int64_t ahead = 0;  ///< updates that may be on their way; 0: any number
   };
 
@@ -36,7 +36,7 @@ class Subscriptions {
   struct Subscription {
     Wish wish;
     Timestamp due = 0;
-    std::int64_t unread = 0;  ///< that the client has not said GOT to
+    std::int64_t unread = 0;  ///< updates that the client has not acknowledged by GOT
     bool isOwed = false;      ///< something newer waits for that
   };
   static bool send(Caller& caller, RobotId robot, Subscription& subscription);

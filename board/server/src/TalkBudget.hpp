@@ -37,7 +37,7 @@ class TalkBudget {
   double mostBytes_;
   double lines_;
   double bytes_;
-  Timestamp now_ = 0;  ///< when it was looked at; 0: never
+  Timestamp now_ = 0;  ///< time of the last call [us]; 0: never
 };
 
 }  // namespace ortung::server

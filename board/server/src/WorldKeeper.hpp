@@ -82,8 +82,8 @@ class WorldKeeper {
     bool isOperator = false;
     std::set<RobotId> robots;
     bool isLockstep = false;
-    std::uint64_t cycles = 0;  ///< that it has asked for
-    Done waiting;              ///< for them
+    std::uint64_t cycles = 0;  ///< cycles of its NEXT that are still to come; 0: no NEXT
+    Done waiting;              ///< takes the reply to that NEXT
   };
   const std::map<ClientId, Client>& clients() const { return clients_; }
   struct Robot {
@@ -126,22 +126,23 @@ class WorldKeeper {
   std::function<void()> onCycle_;
   BoardClock clock_;
 
-  mutable std::mutex mutex_;  ///< of the next three
+  mutable std::mutex mutex_;  ///< guards news_, orders_ and turns_
   std::condition_variable news_;
-  std::map<ClientId, std::deque<Given>> orders_;  ///< of clients that have given some
+  std::map<ClientId, std::deque<Given>> orders_;  ///< orders to be executed, by client
   std::deque<ClientId> turns_;                    ///< these clients, the next one first
   std::atomic<bool> isStopped_{false};
 
   std::map<ClientId, Client> clients_;
   std::map<RobotId, Robot> robots_;
-  std::vector<Message> told_;             ///< of the world, last
-  std::shared_ptr<RobotReadings> truth_;  ///< of robot 0; null if the world says nothing
+  std::vector<Message> told_;             ///< the world's readings that were last published
+  std::shared_ptr<RobotReadings> truth_;  ///< readings of robot 0; null if the world has none
   RobotId lastRobot_ = 0;
-  std::optional<std::uint64_t> residentsVersion_;  ///< of those that it has met
-  const Timestamp livePeriod_;                     ///< see ServedWorld [us]
-  std::map<RobotId, ClientId> commanders_;         ///< of live robots: who commanded them last
+  std::optional<std::uint64_t>
+      residentsVersion_;                    ///< residentsVersion() at the last meetResidents()
+  const Timestamp livePeriod_;              ///< see ServedWorld [us]
+  std::map<RobotId, ClientId> commanders_;  ///< client that last commanded a live robot
   bool isPaused_ = false;
-  std::uint64_t steps_ = 0;  ///< to be made although it is paused
+  std::uint64_t steps_ = 0;  ///< steps to be made although the world is paused
   Done stepsDone_;
   std::string failure_;
   double speed_;
@@ -149,11 +150,11 @@ class WorldKeeper {
   bool wasBlocked_ = true;
   Timestamp anchorStamp_ = 0;
   Timestamp anchorWall_ = 0;
-  Timestamp nextLook_ = 0;      ///< at a live world, on the computer's clock
-  Timestamp cycle_ = 0;         ///< length of the last one on the world's clock [us]
+  Timestamp nextLook_ = 0;  ///< time of the next look at a live world, on the computer's clock [us]
+  Timestamp cycle_ = 0;     ///< length of the last one on the world's clock [us]
   std::size_t executed_ = 0;    ///< orders since the last cycle
-  Timestamp spent_ = 0;         ///< with them [us]
-  Timestamp measuredWall_ = 0;  ///< since when the pace is measured, on the computer's clock
+  Timestamp spent_ = 0;         ///< time spent on these orders [us]
+  Timestamp measuredWall_ = 0;  ///< begin of the pace's measurement, on the computer's clock [us]
   Timestamp measuredStamp_ = 0;
   double achieved_ = 0.0;  ///< times real time, in the second before that
 

@@ -23,7 +23,7 @@ Response refusal(const Request& request, boost::beast::http::status status, std:
 /// A request for a WebSocket: what is to be spoken on it, and under which name; or why not.
 struct Speaking {
   const WebProtocol* protocol = nullptr;  ///< null: refused
-  std::string name;                       ///< of the subprotocol
+  std::string name;                       ///< name of the subprotocol
   boost::beast::http::status status = boost::beast::http::status::bad_request;
   std::string why;
 };

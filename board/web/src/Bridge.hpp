@@ -46,8 +46,8 @@ class Bridge : public std::enable_shared_from_this<Bridge> {
   Request request_;
   boost::beast::flat_buffer message_;
   std::array<char, 64u << 10> bytes_;
-  std::string saying_;        ///< to the board
-  WebSpeech::Frame showing_;  ///< to the client
+  std::string saying_;        ///< bytes that are being sent to the board
+  WebSpeech::Frame showing_;  ///< frame that is being sent to the client
   std::size_t shown_ = 0;     ///< frames that were taken from the speech
   bool isReadingClient_ = false;
   bool isReadingBoard_ = false;

@@ -13,7 +13,7 @@ namespace ortung::web {
 class Page {
  public:
   struct File {
-    std::string type;  ///< of MIME
+    std::string type;  ///< MIME type
     std::string bytes;
   };
 
@@ -26,7 +26,7 @@ class Page {
   const File* find(std::string_view target) const;
 
  private:
-  std::map<std::string, File, std::less<>> files_;  ///< by "/name"
+  std::map<std::string, File, std::less<>> files_;  ///< files by "/name"
   bool isThere_ = false;
 };
 

@@ -17,7 +17,7 @@ const char* nameOf(TrackReason reason) {
       "the belief is spread",
       "no reading comes",
       "a device repeats its reading though the robot moves",
-      "readings fit worse than they use to",
+      "readings fit worse than usual",
       "readings fit elsewhere",
       "readings contradict odometry",
       "the field is searched",

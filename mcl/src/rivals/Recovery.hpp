@@ -35,7 +35,7 @@ class ORTUNG_API Recovery {
     known_ = false;
     unusual_ = 0;
   }
-  /// Whether the newest readings fit worse than they use to: the robot may have left the track.
+  /// Whether the newest readings fit worse than usual: the robot may have left the track.
   /// Where odometry that stands has long been wrong, what is expected is always poor; then it
   /// counts that they fit nowhere in the belief.
   bool isDoubtful() const;

@@ -9,7 +9,7 @@
 namespace ortung::server {
 namespace {
 
-constexpr double kMostSpeed = 1e3;  ///< of any command [m/s, rad/s]; drives have their own limits
+constexpr double kMostSpeed = 1e3;  ///< limit of commands [m/s, rad/s]; drives have their own
 
 /// Gives what a robot does not take a code of its own.
 template <class Order>

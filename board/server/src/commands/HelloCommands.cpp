@@ -12,7 +12,7 @@ struct Greeting {
   std::string tag;
   std::string name;
   std::string token;
-  std::optional<Role> role;  ///< that it asks for
+  std::optional<Role> role;  ///< role that the client asks for; nothing: the greatest it may have
 };
 
 void join(Caller& caller, const Greeting& greeting) {

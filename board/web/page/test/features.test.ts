@@ -201,7 +201,7 @@ describe("readings of features", () => {
     expect(placesOf(new Uint32Array([6000, kMiddle, kMiddle, 18000, 1, 1, 1, 10000, 10000, 10000, 5]))).toHaveLength(1);
   });
 
-  it("say in words how sure the filter is", () => {
+  it("say the filter's status in words", () => {
     expect(statusOf(kinded(kTrack), new Uint32Array([1, 1, 4000, 5500]))).toEqual({
       status: "uncertain", reason: "several places fit", quality: 0.4, share: 0.55,
     });

@@ -28,8 +28,8 @@ describe("what the filter tells", () => {
     const keys = "columns=2 rows=1 x_min_m=-1 y_min_m=0 step_m=0.5 low=0 high=0.5";
     const map = parseMap(reply(`HEATMAP ${keys}`, [], new Uint8Array([0, 255])));
     expect(map).toMatchObject({ low: 0, high: 0.5, heat: { columns: 2, rows: 1, x: -1, step: 0.5 } });
-    expect(() => parseMap(reply(`HEATMAP ${keys}`, [], new Uint8Array(3)))).toThrow(/as many cells/);
-    expect(() => parseMap(reply("HEATMAP columns=1e9 rows=1e9 step_m=1"))).toThrow(/as many cells/);
+    expect(() => parseMap(reply(`HEATMAP ${keys}`, [], new Uint8Array(3)))).toThrow(/another number of cells/);
+    expect(() => parseMap(reply("HEATMAP columns=1e9 rows=1e9 step_m=1"))).toThrow(/another number of cells/);
   });
 
   it("says how far learning is", () => {

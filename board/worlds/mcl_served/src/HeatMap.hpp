@@ -14,23 +14,23 @@ namespace ortung {
 /// What a client wants to see of the field.
 struct HeatMapWish {
   std::vector<std::string> queries;  ///< "MODEL/TYPE/FEATURE"; none: all features that localize
-  std::optional<double> heading;     ///< of the robot [rad]; nothing: the best one for each cell
+  std::optional<double> heading;     ///< the robot's heading [rad]; nothing: each cell's best one
   bool isLogarithmic = false;        ///< levels of ln p instead of p
   bool isExpectation = false;        ///< what the feature expects, instead of how probable it is
-  std::size_t index = 0;             ///< which of its values is expected
-  std::size_t mostCells = 40'000;    ///< of the map; at least 1
+  std::size_t index = 0;             ///< index of the expected value to show
+  std::size_t mostCells = 40'000;    ///< greatest number of cells, at least 1
 };
 
 /// A map as a client gets it: a byte a cell, rows from the lowest y on.
 struct HeatMap {
-  Timestamp stamp = 0;  ///< of the newest reading that counts
+  Timestamp stamp = 0;  ///< stamp of the newest reading used [us]
   FieldGrid grid;
   double low = 0.0;          ///< what byte 1 is: p, or [m] or [rad]
   double high = 0.0;         ///< what byte 255 is; between them it is linear
-  std::string bytes = {};    ///< 0: the cell is not open, or nothing is expected there
-  std::size_t readings = 0;  ///< of a probability: how many features count; of none p is 1
-  std::size_t values = 0;    ///< of an expectation: how many the feature has
-  bool isAngle = false;      ///< of an expectation
+  std::string bytes = {};    ///< a byte per cell; 0: not open, or nothing is expected there
+  std::size_t readings = 0;  ///< number of features in a probability; without any p is 1
+  std::size_t values = 0;    ///< number of values of the feature, for an expectation
+  bool isAngle = false;      ///< whether the expected value is an angle
 };
 
 /// @param goOn asked often; false: nothing comes back

@@ -10,8 +10,8 @@ namespace ortung {
 
 /// How probable a robot's present readings are at one pose, and why.
 struct Why {
-  double p = 0.0;                  ///< of all together; kNoExpectation: none says anything
-  std::vector<std::string> lines;  ///< as docs/protocol.md states
+  double p = 0.0;  ///< probability of all readings together; kNoExpectation: no feature has any
+  std::vector<std::string> lines;  ///< lines of the reply, see WHY in docs/protocol.md
 };
 
 /// By the same rule as SensorContainer::getProbability().

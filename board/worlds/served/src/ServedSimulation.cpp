@@ -45,8 +45,8 @@ std::vector<std::string> helpOfPlayers(PluginFactory& factory) {
 struct ServedSimulation::Guest {
   RobotWish wish;
   RobotNumber robot = 0;    ///< the simulation's; 0: it is not there
-  bool isResident = false;  ///< of the scene, which has let it in
-  RobotSize size;           ///< of a robot that is no resident
+  bool isResident = false;  ///< whether it belongs to the scene
+  RobotSize size;           ///< size of a client's robot
 };
 
 ServedSimulation::ServedSimulation(const std::filesystem::path& file,

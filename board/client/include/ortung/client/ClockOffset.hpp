@@ -8,23 +8,26 @@
 
 namespace ortung {
 
-/// How a server's clock relates to ours, from exchanges of time stamps over a network (paper,
-/// section 2.2). An exchange tells our time at a moment of the server's with an error of at most
-/// half its round trip, so the shortest one tells best; older ones tell how fast the server's clock
-/// runs. Not thread-safe.
+/// Estimates how a server's clock relates to ours, from exchanges of time stamps over a network
+/// (paper, section 2.2). An exchange gives our time at one time of the server's with an error of at
+/// most half its round trip, so the shortest one is the most precise; older ones give the rate of
+/// the server's clock. Not thread-safe.
 class ORTUNG_API ClockOffset {
  public:
+  /// One question and its answer. Travel and waiting in between are unknown, so the offset is known
+  /// within half the round trip.
   struct Exchange {
-    Timestamp sent = 0;      ///< on our clock
-    Timestamp received = 0;  ///< by the server, on its clock
-    Timestamp answered = 0;  ///< by the server, on its clock
-    Timestamp back = 0;      ///< on our clock
+    Timestamp sent = 0;      ///< departure of the question, on our clock [us]
+    Timestamp received = 0;  ///< arrival at the server, on its clock [us]
+    Timestamp answered = 0;  ///< departure of the answer, on the server's clock [us]
+    Timestamp back = 0;      ///< arrival of the answer, on our clock [us]
   };
 
-  /// Takes an exchange, later than all before. One that contradicts those before (the server's
-  /// clock was paused or set) makes them forgotten. Nonsense is passed over.
+  /// Adds an exchange, later than all before. If it contradicts those before (the server's clock
+  /// was paused or set), they are dropped. Stamps that are impossible are ignored.
   void add(const Exchange& exchange);
 
+  /// Whether an exchange was added since the last contradiction.
   bool isKnown() const { return !readings_.empty(); }
   /// Our time when the server's clock showed @p server, within what a Timestamp can hold.
   /// @pre isKnown()

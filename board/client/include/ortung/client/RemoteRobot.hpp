@@ -15,19 +15,21 @@
 
 namespace ortung {
 
+/// How a RemoteRobot connects, updates its container, and reports what goes wrong.
 struct RemoteOptions {
+  /// Server, names and timeouts of each connection.
   SessionOptions session;
-  double cycle = 0.1;      ///< between two updates of the container [s]; 0: by update() only;
+  double cycle = 0.1;      ///< period of the container's updates [s]; 0: only update() does them;
                            ///< less than 0 or NaN is refused
-  bool reconnects = true;  ///< after the connection was lost
+  bool reconnects = true;  ///< whether it connects again after the connection was lost
   /// Stamps are those of our own clock (`clock`), as if the sensors were here; otherwise the
   /// server's, which is what lockstep needs.
   bool hasLocalStamps = true;
   /// Our clock [us]; empty: that of the computer, which never goes back. It must not use the robot.
   std::function<Timestamp()> clock;
-  /// Told what goes wrong, and when it is well again; from any thread, but by one at a time, and
-  /// with no lock held: it may command the robot, whose errors it then gets as exceptions and is
-  /// not told. What it throws is passed over. It must not destroy the robot. May be empty.
+  /// Is called with what goes wrong, and when it is well again; from any thread, but by one at a
+  /// time, and with no lock held: it may command the robot, whose errors it then gets as exceptions
+  /// only. What it throws is ignored. It must not destroy the robot. May be empty.
   std::function<void(const std::string&)> onTrouble;
 };
 
@@ -44,24 +46,28 @@ class ORTUNG_API RemoteRobot : public RobotCommands {
   RemoteRobot(const RemoteRobot&) = delete;
   RemoteRobot& operator=(const RemoteRobot&) = delete;
 
+  /// The container of the robot's features, which lives as long as the robot does.
   SensorContainer& container();
   /// What the server says of the robot, e.g. its greatest velocities; as of the last connection.
   RobotDescription description() const;
 
-  // --- commands, whose errors are those of RobotSession; trouble() tells them, too. While there is
+  // --- commands, whose errors are those of RobotSession; trouble() has them, too. While there is
   // no connection they throw ConnectionLost; a robot that comes back has to be commanded again
   void setTranslationalVelocity(double metresPerSecond) override;
   void setRotationalVelocity(double radiansPerSecond) override;
   void setMotion(std::span<const double> command) override;
   void setManipulator(std::string_view manipulator, std::string_view state) override;
 
-  /// To all other robots of the team, and what they told; errors as of commands.
+  /// Sends a text to all other robots of the team. Errors are those of commands.
   void tellTeam(const std::string& text);
+  /// Returns texts that other robots of the team sent since the last call, oldest first. Errors are
+  /// those of commands.
   std::vector<TeamWords> hearTeam();
-  /// How the game stands, as RobotSession::game(); errors as of commands.
+  /// Returns the state of the game, see RobotSession::game(). Errors are those of commands.
   std::string game();
 
   // --- what follows returns whether it was done; if not, trouble() says why
+  /// Says a text to all other clients of the server.
   bool say(const std::string& text);
   /// Brings the container up to date now.
   bool update();
@@ -73,6 +79,7 @@ class ORTUNG_API RemoteRobot : public RobotCommands {
   /// @param timeout [s]; 0 or less: does not wait; up to infinity, of which 30 years are waited
   /// @throws std::invalid_argument if @p timeout is NaN
   bool waitForUpdate(double timeout);
+  /// Whether there is a connection now; a lost one comes back if RemoteOptions::reconnects is set.
   bool isConnected() const;
   /// What went wrong last, or "".
   std::string trouble() const;

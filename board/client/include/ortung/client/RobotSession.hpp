@@ -37,23 +37,25 @@ class ORTUNG_API ServerRefused : public std::runtime_error {
   ServerRefused(std::string code, const std::string& what)
       : std::runtime_error(what), code_(std::move(code)) {}
   ~ServerRefused() override;
+  /// The error's code, one word such as "syntax" or "state" (docs/protocol.md).
   const std::string& code() const { return code_; }
 
  private:
   std::string code_;
 };
 
+/// Which server a session connects to, as whom, and how long it waits.
 struct ORTUNG_API SessionOptions {
   std::string host = "127.0.0.1";
   std::uint16_t port = 7777;
-  std::string name = "robot";    ///< of client and robot: [A-Za-z0-9_-], 1 to 32 characters
-  std::string token;             ///< of printable characters without blanks; "": none
-  std::string team;              ///< of the robot: as a name; "": none
-  std::optional<Pose2> start;    ///< in the field frame; nothing: anywhere
+  std::string name = "robot";    ///< name of client and robot: [A-Za-z0-9_-], 1 to 32 characters
+  std::string token;             ///< secret of printable characters without blanks; "": none
+  std::string team;              ///< the robot's team, spelled like a name; "": none
+  std::optional<Pose2> start;    ///< pose in the field frame; nothing: anywhere
   bool wanders = false;          ///< the server drives the robot about
   bool isBinary = false;         ///< form of readings; without it there are no pictures
-  double timeout = 5.0;          ///< for an answer [s], above 0
-  double patience = 60.0;        ///< for the end of cycles in lockstep [s], above 0
+  double timeout = 5.0;          ///< longest wait for an answer [s], above 0
+  double patience = 60.0;        ///< longest wait for the end of cycles in lockstep [s], above 0
   bool isInterruptible = false;  ///< whether a signal ends what is under way
   /// A request to stop, from any thread, ends what is under way and all later calls with
   /// ConnectionLost; only the look-up of a computer's name goes on until it is answered.
@@ -65,9 +67,9 @@ struct ORTUNG_API SessionOptions {
   void check() const;
 };
 
-/// What another robot of the team has told.
+/// A text that another robot of the team has sent.
 struct TeamWords {
-  Timestamp stamp = 0;  ///< when it said so, by the server's clock
+  Timestamp stamp = 0;  ///< time of the words on the server's clock [us]
   std::string from;     ///< the robot's name
   std::string text;
 };
@@ -87,6 +89,8 @@ class ORTUNG_API RobotSession : public RobotCommands {
   RobotSession(const RobotSession&) = delete;
   RobotSession& operator=(const RobotSession&) = delete;
 
+  /// Digest of the served world, to be compared with that of tables; "" if the server does not know
+  /// it.
   const std::string& worldFingerprint() const { return fingerprint_; }
   /// "simulation", "record" or "robot".
   const std::string& kind() const { return kind_; }
@@ -95,29 +99,34 @@ class ORTUNG_API RobotSession : public RobotCommands {
   /// lockstep the stamp of the newest reading that came; at first the time of greeting.
   Timestamp newest() const { return newest_; }
 
-  /// What the server says of the robot.
+  /// Asks the server for the robot's parameters.
   RobotDescription describe();
 
+  /// Commands of motion, executed by the server in its next cycle: velocities along and about the
+  /// robot's axes [m/s, rad/s], or the command vector of its drive.
   void setTranslationalVelocity(double metresPerSecond) override;
   void setRotationalVelocity(double radiansPerSecond) override;
   void setMotion(std::span<const double> command) override;
+  /// Brings a manipulator into one of the states of describe(), given by its name.
   void setManipulator(std::string_view manipulator, std::string_view state) override;
-  /// To all other clients.
+  /// Sends a text to all other clients.
   void say(const std::string& text);
-  /// To all other robots of the team, of clients and of the server: they hear it in the next cycle.
+  /// Sends a text to all other robots of the team, of clients and of the server, which get it in
+  /// the next cycle.
   void tellTeam(const std::string& text);
-  /// What others of the team have told since the last call, in the order of time.
+  /// Returns texts of others of the team since the last call, in the order of time.
   std::vector<TeamWords> hearTeam();
-  /// How the game stands, as GAME tells it (docs/protocol.md); "" where the server knows no game.
+  /// Returns the state of the game, the reply to GAME (docs/protocol.md); "" if there is no game.
   std::string game();
-  /// Readings that are new, oldest first, stamped by the server's clock.
+  /// Returns readings that are new, oldest first, stamped by the server's clock.
   /// @param queries "model/type/feature", separated by blanks; "": all
   std::vector<Message> update(const std::string& queries = "");
+  /// Switches lockstep on or off: in lockstep the world waits for next().
   void setLockstep(bool isOn);
   /// Lets the world go on, and returns what is new. Nothing at the end of a served record.
   std::optional<std::vector<Message>> next(std::uint64_t cycles = 1);
 
-  /// One exchange of time stamps.
+  /// Exchanges time stamps once, for a ClockOffset.
   /// @param clock ours
   template <class Clock>
   ClockOffset::Exchange exchangeTime(const Clock& clock) {
@@ -130,10 +139,10 @@ class ORTUNG_API RobotSession : public RobotCommands {
     return exchange;
   }
 
-  /// Any request, a line as docs/protocol.md has it; the reply without its tag. @p body gets the
-  /// lines that belong to it.
+  /// Sends any request, a line of docs/protocol.md, and returns the reply without its tag. @p body
+  /// gets the lines that belong to it.
   std::string ask(const std::string& request, std::vector<std::string>* body = nullptr);
-  /// What the server said unasked since the last call: "SAY client=2 name=bert ...".
+  /// Returns what the server said unasked since the last call: "SAY client=2 name=bert ...".
   std::vector<std::string> takeNews();
 
  private:
@@ -154,8 +163,9 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::string fingerprint_;
   std::string kind_;
   Timestamp newest_ = 0;
-  std::map<std::string, Timestamp, std::less<>> stamps_;  ///< of a running robot's readings
-  Timestamp clock_ = 0;                                   ///< in lockstep: when the next cycle is
+  /// Newest stamp of each feature of a running robot.
+  std::map<std::string, Timestamp, std::less<>> stamps_;
+  Timestamp clock_ = 0;  ///< time of the next cycle in lockstep [us]
   std::vector<std::string> news_;
   std::uint64_t lastTag_ = 0;
 };

@@ -9,10 +9,11 @@
 
 namespace ortung::refbox {
 
-/// What a referee box says: `{"command": "KICKOFF", "targetTeam": "224.16.32.10"}`.
+/// A message of a referee box: `{"command": "KICKOFF", "targetTeam": "224.16.32.10"}`.
 struct BoxCommand {
-  std::string command;     ///< without blanks around it
+  std::string command;     ///< the box's word, e.g. "KICKOFF", without blanks around it
   std::string targetTeam;  ///< address of a team; "": both
+  /// Number of the robot that is meant; nothing: the whole team.
   std::optional<std::int64_t> robot;
 };
 
@@ -23,11 +24,12 @@ ORTUNG_API std::optional<BoxCommand> readBoxCommand(std::string_view message, st
 struct BoxTeams {
   std::string own = "blue";
   std::string other = "yellow";
-  std::string address;  ///< of the own team; "": not known yet
+  std::string address;  ///< address of the own team; "": not known yet
 };
 
-/// What a command means to a referee: an order (docs/referee.md), "" if there is nothing to do, or
-/// nothing, and @p why says why, if it is unknown or nobody can tell for which team it is.
+/// Translates a command for a referee: into an order (docs/referee.md), or "" if there is nothing
+/// to do. Returns nothing, and @p why gets the reason, if the command is unknown or does not say
+/// for which team it is.
 ORTUNG_API std::optional<std::string> orderOf(const BoxCommand& command, const BoxTeams& teams,
                                               std::string& why);
 

@@ -11,9 +11,10 @@
 
 namespace ortung::refbox {
 
-/// What a team tells the box of itself. Field frame, [m], [rad], [m/s]. Entries with numbers that
+/// A team's report to the box. Field frame, [m], [rad], [m/s]. Entries with numbers that
 /// are not finite are left out of the message.
 struct WorldState {
+  /// One robot of the team, with the pose that it is heading for.
   struct Robot {
     int id = 0;
     Pose2 pose = {};
@@ -23,16 +24,19 @@ struct WorldState {
     double batteryLevel = 1.0;  ///< share
     bool ballEngaged = false;
   };
+  /// A position [m] or a velocity [m/s] in three dimensions.
   struct Point {
     double x = 0.0;
     double y = 0.0;
     double z = 0.0;
   };
+  /// A ball as the team perceives it; `confidence` is in [0, 1].
   struct Ball {
     Point position = {};
     Point velocity = {};
     double confidence = 1.0;
   };
+  /// A circular obstacle [m] with its velocity [m/s]; `confidence` is in [0, 1].
   struct Obstacle {
     double x = 0.0;
     double y = 0.0;

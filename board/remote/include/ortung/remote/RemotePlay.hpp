@@ -21,18 +21,20 @@ class ORTUNG_API PlayerStopped : public std::runtime_error {
   ~PlayerStopped() override;
 };
 
+/// Which player runs on which server, and how much it may take.
 struct RemotePlayConfig {
   SessionOptions session;  ///< its name is that of the robot
   std::string plugin;      ///< name of the player, for messages
-  std::string team;        ///< "": none
+  std::string team;        ///< the robot's team; "": none
   /// Robot file; empty: the player's own.
   std::filesystem::path robot;
   /// What is known of the field and what the robot's features expect; empty: nothing.
   std::filesystem::path tables;
-  std::uint64_t seed = 1;             ///< of the player's chance
-  bool isLockstep = false;            ///< the world goes on only as far as the player has acted
-  double budget = 1.0;                ///< of a processor for one call [s]; 0: as long as it likes
-  std::optional<double> duration;     ///< after which it ends [s]; nothing: when the player likes
+  std::uint64_t seed = 1;   ///< seed of the player's random numbers
+  bool isLockstep = false;  ///< the world goes on only as far as the player has acted
+  double budget = 1.0;      ///< processor time that one call may take [s]; 0: any
+  /// Time after which the player ends [s]; nothing: when the player itself ends.
+  std::optional<double> duration;
   std::function<bool()> goesOn = {};  ///< asked before each cycle; empty: it does
 };
 

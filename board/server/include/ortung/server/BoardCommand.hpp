@@ -8,7 +8,7 @@
 
 namespace ortung {
 
-/// A command that whoever hosts a message board adds to the protocol; HELP lists it. The board
+/// A command that the host of a message board adds to the protocol; HELP lists it. The board
 /// refuses one without name or handler, or whose name is another's or one of the protocol's.
 struct BoardCommand {
   /// What a client may do.
@@ -19,7 +19,7 @@ struct BoardCommand {
     std::vector<std::string> words;
     std::map<std::string, std::string> keys;  ///< the last one of each counts
     Role role = Role::kViewer;
-    /// Whether somebody still waits for the answer; thread-safe, never empty.
+    /// Whether the client still waits for the answer; thread-safe, never empty.
     std::function<bool()> isAwaited = [] { return true; };
   };
   /// "OK NAME words" or, if there are lines, "OK NAME words lines=N" and the lines behind it, or,
@@ -33,14 +33,14 @@ struct BoardCommand {
 
   std::string name;            ///< capitals, digits and '_', beginning with a capital, at most 32
   std::string help;            ///< its arguments and what it does, one line; may be empty
-  Role least = Role::kViewer;  ///< that may use it
+  Role least = Role::kViewer;  ///< least role that may use the command
   /// Executes it, on the thread of MessageBoard::run(), between two steps of the world: it may use
   /// the world, and whatever takes long holds it up.
   /// @throws ServeError to refuse it, answered as "ERR code text"; other errors as the board's own
   std::function<Reply(const Call&)> handle;
   /// It takes long: handle() is called on a thread of the board that has nothing else to do, so it
   /// holds up neither the world nor other clients, but must be thread-safe. The same client's lines
-  /// behind it wait for it; one after the other is executed, whoever asked.
+  /// behind it wait for it; they are executed one after the other, for all clients.
   bool isSlow = false;
 };
 

@@ -17,9 +17,9 @@ namespace server {
 class Request;
 }
 
-/// What a client said behind a command of whoever hosts the board, taken piece by piece, by the
-/// rules of the protocol's own commands. Refusals are ServeErrors: of a number that is none or out
-/// of its bounds, and at the end of what nobody asked for. Not thread-safe.
+/// The words and keys of a call of a BoardCommand, taken piece by piece by the rules of the
+/// protocol's own commands. Numbers that are malformed or out of bounds are refused with a
+/// ServeError, and at the end words and keys that the command does not know. Not thread-safe.
 class ORTUNG_API CallArguments {
  public:
   /// @param name of the command, for errors
@@ -28,13 +28,19 @@ class ORTUNG_API CallArguments {
   CallArguments(const CallArguments&) = delete;
   CallArguments& operator=(const CallArguments&) = delete;
 
+  /// Takes all words without a key, in their order.
   std::vector<std::string> takeWords();
+  /// Takes the text behind `key=`; nothing if the key is not there.
   std::optional<std::string> takeText(std::string_view key);
+  /// Takes the number behind `key=`; nothing if the key is not there.
+  /// @throws ServeError unless it is a finite number in [@p low, @p high]
   std::optional<double> takeNumber(std::string_view key, double low, double high);
+  /// Takes the integer behind `key=`, likewise.
   std::optional<std::int64_t> takeInteger(std::string_view key, std::int64_t low,
                                           std::int64_t high);
   /// x_m, y_m and theta_deg or theta_rad, 0 if both are missing; nothing if none is there.
   std::optional<Pose2> takePose();
+  /// Checks that all words and keys were taken. @throws ServeError naming what is left
   void refuseRest() const;
 
  private:

@@ -9,11 +9,13 @@
 
 namespace ortung {
 
-// What DESCRIBE answers, line by line (docs/protocol.md), for whoever tells it in another way.
+// What DESCRIBE answers, line by line (docs/protocol.md), for programs that show it in another way.
 
+/// The lines of DESCRIBE world: name, kind, bounds and objects.
 ORTUNG_API std::vector<std::string> worldText(const WorldDescription& world);
 
 /// @param abilities as of ServedWorld::abilities()
+/// The lines of DESCRIBE robot: its features and abilities.
 ORTUNG_API std::vector<std::string> robotText(std::span<const ServedFeature> features,
                                               std::span<const std::string> abilities);
 

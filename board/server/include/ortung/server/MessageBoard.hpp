@@ -13,49 +13,49 @@
 
 namespace ortung {
 
-/// What a client may take, at most. Whoever asks for more is told so.
+/// What clients may use at most. A request for more is refused with the limit.
 struct BoardLimits {
-  std::size_t line = 64u << 10;           ///< of a client [bytes]
-  std::size_t configuration = 64u << 10;  ///< of a robot [bytes]
-  std::size_t robots = 4;                 ///< a client
-  std::size_t sensors = 16;               ///< a robot
-  std::size_t features = 1024;            ///< a robot
-  double rays = 1e6;                      ///< that a robot's sensors need [1/s], see Sensor::rays()
-  double allRays = 2e7;                   ///< that the sensors of all robots need [1/s]
-  double allRaysAtOnce = 2e6;             ///< in one reading of each sensor of all robots
-  std::size_t sessions = 256;             ///< clients at a time
-  std::size_t sessionsOfAddress = 128;    ///< of them from one computer
-  std::size_t httpHead = 16u << 10;       ///< of a request of a web browser [bytes]
-  std::size_t output = 1u << 20;          ///< waiting to be read by a client [bytes]; more: dropped
-  std::size_t readings = 16u << 20;       ///< the same of readings that are too large for a line
-  std::size_t orders = 64;                ///< of a client, waiting for the world
-  double talkLines = 1000.0;              ///< that others hear of a client [1/s], each counted
-  double talkBytes = 256.0 * 1024.0;      ///< the same in bytes [1/s]
-  std::size_t say = 4096;                 ///< one text to say [bytes]
-  std::size_t talk = 64u << 10;           ///< of others, waiting for a client [bytes]; more: lost
-  std::size_t queries = 64;               ///< of a request for readings
-  std::size_t errors = 100;               ///< of a client in a row; more: dropped
-  double handshake = 5.0;  ///< from connecting to HELLO, or to the end of HTTP's head [s]
-  double idle = 30.0;      ///< without a line from a client, subscribers apart [s]
-  double refusal = 2.0;    ///< until a wrong token is answered, and until greetings from the same
-                           ///< computer are looked at in the minute after it [s]
-  double stall = 10.0;     ///< with output that a client does not read [s]
+  std::size_t line = 64u << 10;           ///< length of a client's line [bytes]
+  std::size_t configuration = 64u << 10;  ///< length of a robot's configuration [bytes]
+  std::size_t robots = 4;                 ///< robots per client
+  std::size_t sensors = 16;               ///< sensors per robot
+  std::size_t features = 1024;            ///< features per robot
+  double rays = 1e6;           ///< rays that a robot's sensors cost [1/s], see Sensor::rays()
+  double allRays = 2e7;        ///< rays that all robots' sensors cost together [1/s]
+  double allRaysAtOnce = 2e6;  ///< rays for one reading of each sensor of all robots
+  std::size_t sessions = 256;  ///< clients connected at a time
+  std::size_t sessionsOfAddress = 128;  ///< clients connected from one computer
+  std::size_t httpHead = 16u << 10;     ///< head of a web browser's request [bytes]
+  std::size_t output = 1u << 20;        ///< unread output of a client [bytes]; more: it is dropped
+  std::size_t readings = 16u << 20;     ///< unread readings too large for a line [bytes]
+  std::size_t orders = 64;              ///< a client's orders that the world has not executed
+  double talkLines = 1000.0;  ///< lines to others caused by a client [1/s], counted per listener
+  double talkBytes = 256.0 * 1024.0;  ///< bytes to others caused by a client [bytes/s]
+  std::size_t say = 4096;             ///< length of one text to say [bytes]
+  std::size_t talk = 64u << 10;       ///< others' words waiting for a client [bytes]; more: lost
+  std::size_t queries = 64;           ///< queries in one request for readings
+  std::size_t errors = 100;           ///< a client's errors in a row; more: it is dropped
+  double handshake = 5.0;  ///< time from connecting to HELLO or to the end of HTTP's head [s]
+  double idle = 30.0;      ///< silence of a client that has not subscribed [s]
+  double refusal = 2.0;    ///< delay of the answer to a wrong token, and of greetings from the same
+                           ///< computer in the minute after it [s]
+  double stall = 10.0;     ///< time during which a client reads none of its output [s]
 };
 
 /// How time passes.
 enum class Pace {
-  kRealTime,  ///< `speed` times as fast as the clock on the wall
-  kFree,      ///< as fast as the computer can
-  kLockstep,  ///< only when all lockstep clients have asked for the next cycle
+  kRealTime,  ///< time runs `speed` times as fast as real time
+  kFree,      ///< time runs as fast as the computer can
+  kLockstep,  ///< a cycle begins when all lockstep clients have asked for it
 };
 
 /// A token that lets a client in.
 struct BoardToken {
-  std::string name;  ///< of the client that it belongs to; "*": any that has no token of its own
+  std::string name;  ///< name of the client; "*": any that has no token of its own
   std::string token;
 };
 
-/// Is given what speaks HTTP to the board's port instead of the protocol.
+/// Gets connections to the board's port that speak HTTP instead of the protocol.
 /// @param socket connected and non-blocking; nothing is read from it any more
 /// @param head all that was read: the request's head with the empty line that ends it, at most
 ///   BoardLimits::httpHead bytes, and whatever has come behind it
@@ -64,12 +64,13 @@ struct BoardToken {
 /// Called on the thread that talks to clients, so it must not wait; it may throw: not taken.
 using HttpTaker = std::function<bool(int socket, const std::string& head)>;
 
+/// How a board listens, whom it lets in, and how its world's time passes.
 struct BoardConfig {
-  std::string address = "127.0.0.1";  ///< to listen on; others than loopback need tokens
-  std::uint16_t port = 0;             ///< 0: the system chooses
-  std::vector<BoardToken> tokens;     ///< none: everybody may come in
+  std::string address = "127.0.0.1";  ///< address to listen on; others than loopback need tokens
+  std::uint16_t port = 0;             ///< port to listen on; 0: the system chooses
+  std::vector<BoardToken> tokens;     ///< clients' tokens; none: every client may come in
   /// Tokens are for their own names alone: clients of other names come in without. Only where
-  /// nobody but programs of this computer can connect.
+  /// no computer but this one can connect.
   bool guests = false;
   /// Clients who may control the simulation; "*": all. Where there are tokens, each of these names
   /// needs one of its own.
@@ -79,13 +80,14 @@ struct BoardConfig {
   BoardLimits limits;
   std::vector<BoardCommand> commands;  ///< beside those of the protocol
   HttpTaker http;                      ///< empty: the board answers that it is no web server
-  /// Told what happens, one line each, from any thread; may be empty.
+  /// Is called with what happens, one line each, from any thread; may be empty.
   std::function<void(const std::string&)> log;
 };
 
+/// What has happened since run() began, and who is there now.
 struct BoardStatistics {
   std::uint64_t cycles = 0;
-  std::uint64_t missedCycles = 0;  ///< that began later than the next one should have, in real time
+  std::uint64_t missedCycles = 0;  ///< cycles in real time that began after the next one was due
   std::size_t clients = 0;
   std::size_t robots = 0;
 };
@@ -106,15 +108,16 @@ class ORTUNG_API MessageBoard {
   MessageBoard(const MessageBoard&) = delete;
   MessageBoard& operator=(const MessageBoard&) = delete;
 
+  /// The port that it listens on, also if the system chose it.
   std::uint16_t port() const;
 
   /// Serves until stop() is called or @p goesOn, asked ten times a second, says no; then all
-  /// clients are told goodbye. Once only.
+  /// clients get a BYE. Once only.
   void run(const std::function<bool()>& goesOn = {});
   void stop();  ///< thread-safe
 
-  /// For a world whose cycle does not come back, so that run() never will: lets nobody in any more
-  /// and tells all clients why. What remains is to end the program. Thread-safe.
+  /// For a world whose cycle does not come back, so that run() never will: refuses new clients
+  /// and sends the reason to all others. What remains is to end the program. Thread-safe.
   /// @returns whether that was done within a second
   bool abandon(const std::string& why);
 

@@ -18,12 +18,14 @@ class ORTUNG_API PlainWorld : public ServedWorld {
  public:
   ~PlainWorld() override;
 
+  /// Nothing is on its field, and there are no players.
   std::vector<std::string> players() const override { return {}; }
   std::vector<std::string> robotKinds() const override { return {}; }
   std::vector<std::string> field() const override { return {}; }
   std::vector<ServedFeature> truthFeatures() const override { return {}; }
   std::span<Message> truth() override { return {}; }
 
+  /// Its time is the board's, begins at once and never ends; there is no time line and no seed.
   Timestamp livePeriod() const override { return 0; }
   bool isReady() const override { return true; }
   bool isAtEnd() const override { return false; }
@@ -31,6 +33,7 @@ class ORTUNG_API PlainWorld : public ServedWorld {
   void seek(Timestamp stamp) override;
   std::optional<std::uint64_t> seed() const override { return std::nullopt; }
 
+  /// It has no robots of its own and no talk, and senses all features whatever clients ask for.
   std::vector<Resident> residents() const override { return {}; }
   std::uint64_t residentsVersion() const override { return 0; }
   std::string side(RobotId /*robot*/) const override { return {}; }

@@ -20,7 +20,7 @@ namespace ortung {
 class ORTUNG_API RecordedWorld final : public ForwardedWorld {
  public:
   struct Config {
-    /// Whether records take what readings() gives. If not, somebody else writes their moments.
+    /// Whether records take what readings() gives. If not, the host writes their time steps itself.
     bool takesReadings = true;
     /// What else belongs to the present cycle in each record; may be empty.
     std::function<std::vector<Message>()> also = {};
@@ -33,8 +33,11 @@ class ORTUNG_API RecordedWorld final : public ForwardedWorld {
   /// All that can be recorded.
   std::vector<RobotId> robots();
   /// @throws ServeError as Recordings does, or if there is no such robot
+  /// Begins a record of a robot, or goes on with the one under way.
   void begin(RobotId robot);
+  /// Ends the record of a robot, if there is one.
   void end(RobotId robot);
+  /// State of a robot's record.
   Recordings::State state(RobotId robot);
 
   void step() override;
@@ -51,14 +54,14 @@ class ORTUNG_API RecordedWorld final : public ForwardedWorld {
     std::string name;
     std::vector<SensorId> features;
     bool isResident = false;
-    std::vector<SensorId> wanted = {};  ///< by clients
+    std::vector<SensorId> wanted = {};  ///< features that clients ask for
   };
   void meetResidents();
   Robot& find(RobotId robot);
 
   Recordings& recordings_;
   const Config config_;
-  std::optional<std::uint64_t> version_;  ///< of the residents that it has met
+  std::optional<std::uint64_t> version_;  ///< residentsVersion() at the last meetResidents()
   std::map<RobotId, Robot> robots_;
 };
 

@@ -19,23 +19,24 @@
 namespace ortung {
 
 /// Records of robots, begun and ended while these run: files of one folder, whose names are made of
-/// those of the robots and a number that is free, so nobody who asks for a record names a file.
-/// A record that can't be written any more ends, and its robot's state says why. Thread-safe; who
-/// gives readings never waits for a disk that closes another record.
+/// those of the robots and a number that is free, so a client that asks for a record can't choose
+/// the file. A record that can't be written any more ends, and its robot's state says why.
+/// Thread-safe; who gives readings never waits for a disk that closes another record.
 class ORTUNG_API Recordings {
  public:
   struct Config {
     std::filesystem::path folder;  ///< made if it is not there; "": nothing is recorded
     std::size_t most = 64;         ///< open at a time
-    /// Told what could not be written; from any thread. May be empty.
+    /// Is called with what could not be written; from any thread. May be empty.
     std::function<void(const std::string&)> onProblem = {};
   };
+  /// Whether a robot is recorded, and into which file.
   struct State {
     enum class Kind : std::uint8_t { kOff, kOn, kFailed };
     Kind kind = Kind::kOff;
     std::string file = {};  ///< name of the present record, or of the last one; "": there was none
-    std::size_t moments = 0;  ///< in it
-    std::string text = {};    ///< of kFailed: why
+    std::size_t moments = 0;  ///< time steps written to the record
+    std::string text = {};    ///< reason of kFailed
   };
 
   /// @throws std::runtime_error if the folder can't be made, or nothing can be written there
@@ -54,11 +55,12 @@ class ORTUNG_API Recordings {
   void write(RobotId robot, std::span<const Message> moment, std::span<const Message> more = {});
   /// Makes the record whole, if there is one. @throws ServeError if it could not be written
   void end(RobotId robot);
+  /// How the robot's record is; kOff if it never had one.
   State state(RobotId robot) const;
 
   /// The robot has left for good: ends its record and forgets it.
   void forget(RobotId robot);
-  /// Ends all that are on; what goes wrong is told as a problem. @returns how they are now
+  /// Ends all that are on; errors go to onProblem. @returns how they are now
   std::vector<State> endAll();
 
  private:
@@ -72,7 +74,7 @@ class ORTUNG_API Recordings {
   std::string close(RobotId robot);
 
   const Config config_;
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards records_
   std::map<RobotId, Record> records_;
 };
 

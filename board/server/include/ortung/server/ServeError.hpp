@@ -11,6 +11,8 @@ namespace ortung {
 /// A request that can't be granted: becomes "ERR code text" on the wire.
 class ORTUNG_API ServeError : public std::runtime_error {
  public:
+  /// @param code one word for programs, such as "state" or "no-robot" (docs/protocol.md)
+  /// @param text what is wrong and what would be right, for people
   ServeError(std::string code, const std::string& text)
       : std::runtime_error(text), code_(std::move(code)) {}
   ~ServeError() override;

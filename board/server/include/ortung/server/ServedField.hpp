@@ -23,20 +23,21 @@ struct FieldBounds {
 
 /// Something movable that is no robot.
 struct ServedObject {
-  std::string name;  ///< by which placeObject() knows it: one printable word, its own
+  std::string name;  ///< unique name for placeObject(), one printable word
   std::string kind;  ///< "ball", ...
   std::string colour = {};
-  double radius = 0.0;  ///< of the circle that holds it [m]
+  double radius = 0.0;  ///< radius of the smallest circle around it [m]
   double height = 0.0;  ///< [m]
 };
 
+/// What DESCRIBE world says.
 struct WorldDescription {
   std::string name;
-  std::string fingerprint;                 ///< "" if it is not known
+  std::string fingerprint;                 ///< digest of the world; "": not known
   std::string kind;                        ///< "simulation", "record" or "robot"
   std::optional<FieldBounds> bounds = {};  ///< nothing: they are not known
   std::vector<ServedObject> objects = {};
-  std::optional<Timestamp> length = {};  ///< of a time line that clients may seek on [us]
+  std::optional<Timestamp> length = {};  ///< length of the time line that clients may seek on [us]
 };
 
 /// What a served world is, what is on its field, and what clients may use there. A part of
@@ -56,8 +57,8 @@ class ORTUNG_API ServedField {
 
   /// What stands and is painted on the field, one line each: a kind and keys (docs/protocol.md).
   virtual std::vector<std::string> field() const = 0;
-  /// What the world says of itself to who looks on, in the order of its readings: clients know it
-  /// as robot 0. None: nothing.
+  /// Features of the world's true state, for spectators, in the order of their readings: for
+  /// clients they are those of robot 0. None: nothing.
   virtual std::vector<ServedFeature> truthFeatures() const = 0;
   /// How it is now; valid until the next call of anything.
   virtual std::span<Message> truth() = 0;

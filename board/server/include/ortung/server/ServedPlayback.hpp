@@ -12,27 +12,28 @@ namespace ortung {
 
 /// Records with a time line, side by side: each is a robot of this world, with all the readings
 /// that are in it, and all begin at time 0. Clients pause, seek and change the speed. Unlike a
-/// ServedRecord it lets no robots of clients in: it is for who looks on.
+/// ServedRecord it lets no robots of clients in: it is for spectators.
 /// Not thread-safe.
 class ORTUNG_API ServedPlayback : public PlainWorld {
  public:
+  /// One record to play.
   struct Run {
     std::filesystem::path record;
-    std::string name;  ///< of its robot: [A-Za-z0-9_-], 1 to 32 characters
-    /// What is known of its features; of others clients are told the names alone.
+    std::string name;  ///< the robot's name: [A-Za-z0-9_-], 1 to 32 characters
+    /// What is known of its features; of other features clients get the names alone.
     std::vector<ServedFeature> features = {};
     std::vector<std::string> abilities = {};  ///< lines of DESCRIBE, see ServedWorld
   };
   struct Config {
-    std::string name;                        ///< of the world, for clients
-    std::vector<Run> runs;                   ///< 1 to 16
+    std::string name;                        ///< the world's name for clients
+    std::vector<Run> runs;                   ///< records to play, 1 to 16
     std::vector<std::string> field = {};     ///< lines of DESCRIBE field
-    std::optional<FieldBounds> bounds = {};  ///< by default around all true poses
-    double period = 0.02;                    ///< of a cycle [s], in [0.001, 10]
+    std::optional<FieldBounds> bounds = {};  ///< field; nothing: the box around all true poses
+    double period = 0.02;                    ///< length of a cycle [s], in [0.001, 10]
   };
   /// Something that happened in a run.
   struct Mark {
-    Timestamp stamp = 0;  ///< on the time line [us]
+    Timestamp stamp = 0;  ///< time of the event on the time line [us]
     std::string text;     ///< e.g. "scout: lost"
   };
 
@@ -46,7 +47,7 @@ class ORTUNG_API ServedPlayback : public PlainWorld {
   /// When the localization lost itself and found itself again, a robot was carried away, or a
   /// referee decided, in the order of time; at most 10,000.
   const std::vector<Mark>& marks() const;
-  Timestamp length() const;  ///< of the longest run [us]
+  Timestamp length() const;  ///< length of the longest run [us]
 
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return {}; }

@@ -29,12 +29,14 @@ class ORTUNG_API ServedRecord : public PlainWorld {
   Timestamp now() const override { return now_; }
   bool isReady() const override { return hasBegun_ || !guests_.empty(); }
   bool isAtEnd() const override { return isAtEnd_; }
+  /// Gives the readings of the next time step of the record, and reads one further ahead.
   void step() override;
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId) const override { return {}; }
   void removeRobot(RobotId robot) override;
   std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override;
+  /// Begins the record anew; it has no random numbers, so the seed changes nothing.
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;
@@ -62,7 +64,7 @@ class ORTUNG_API ServedRecord : public PlainWorld {
   std::unique_ptr<FrameReader> reader_;
   std::vector<Message> ahead_;  ///< the moment that the next step gives
   Timestamp now_ = 0;
-  Timestamp shift_ = 0;  ///< by which stamps are later than the record's, in a repetition
+  Timestamp shift_ = 0;  ///< difference of our stamps to the record's, for repetitions [us]
   bool hasBegun_ = false;
   bool isAtEnd_ = false;
   std::map<RobotId, std::unique_ptr<Guest>> guests_;

@@ -29,9 +29,9 @@ class ORTUNG_API ServedTime {
   /// Goes to a time of its time line [us]; readings() are then what was newest there. What lies
   /// before or behind becomes its beginning or end.
   virtual void seek(Timestamp stamp) = 0;
-  /// Of its chance; nothing: there is none.
+  /// Seed of its random numbers; nothing: it has none.
   virtual std::optional<std::uint64_t> seed() const = 0;
-  /// Starts over: time, chance and robots as at their beginning.
+  /// Starts over: time, random numbers and robots are as at their beginning.
   virtual void reset(std::optional<std::uint64_t> seed) = 0;
 };
 

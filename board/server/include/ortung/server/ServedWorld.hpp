@@ -10,7 +10,7 @@ namespace ortung {
 
 /// What the message board serves: a simulation, a record as if it were one, a running robot.
 ///
-/// It has no defaults, so that whoever passes questions on to another world (ForwardedWorld) can
+/// It has no defaults, so that a world that forwards calls to another one (ForwardedWorld) can
 /// forget none; a world of your own derives from PlainWorld, which has them.
 /// Not thread-safe: one thread owns it. Refusals are ServeErrors, or the errors of configurations
 /// and plugins.

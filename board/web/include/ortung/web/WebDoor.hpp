@@ -15,21 +15,21 @@ namespace ortung {
 
 /// What browsers may take, at most.
 struct WebLimits {
-  std::size_t head = 16u << 10;      ///< of a request [bytes]
-  std::size_t message = 128u << 10;  ///< of a client over a WebSocket [bytes]
+  std::size_t head = 16u << 10;      ///< head of a request [bytes]
+  std::size_t message = 128u << 10;  ///< a client's message over a WebSocket [bytes]
   std::size_t page = 16u << 20;      ///< all files of the page together [bytes]
-  std::size_t connections = 256;     ///< at a time
-  double request = 15.0;             ///< for a request to come, or for its answer to be read [s]
-  double silence = 60.0;             ///< of a WebSocket that does not answer a ping either [s]
+  std::size_t connections = 256;     ///< connections at a time
+  double request = 15.0;             ///< time to receive a request, or to have its answer read [s]
+  double silence = 60.0;  ///< silence of a WebSocket that does not answer a ping either [s]
 };
 
 struct WebConfig {
   std::filesystem::path page;        ///< folder of the built page; without it a note stands there
   std::vector<std::string> hosts;    ///< names of this computer, beside localhost and addresses
-  std::vector<std::string> origins;  ///< of pages that may connect beside our own: "https://..."
+  std::vector<std::string> origins;  ///< foreign pages that may connect: "https://..."
   std::vector<WebProtocol> protocols = {boardProtocol()};
   WebLimits limits;
-  /// Told what goes wrong, one line each, on the door's thread; may be empty.
+  /// Is called with what goes wrong, one line each, on the door's thread; may be empty.
   std::function<void(const std::string&)> log;
 };
 
@@ -37,7 +37,7 @@ struct WebConfig {
 /// joins each WebSocket to a connection of its own to the board, whose limits, roles and tokens
 /// hold for it as for any client.
 ///
-/// A page of somebody else can't use it: requests must name this computer by an address, as
+/// A foreign page can't use it: requests must name this computer by an address, as
 /// localhost or by a name of WebConfig::hosts (else DNS could be made to lead a strange page here),
 /// and a WebSocket's Origin must be the page's own or one of WebConfig::origins.
 ///

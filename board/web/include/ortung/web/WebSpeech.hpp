@@ -27,15 +27,17 @@ class ORTUNG_API WebSpeech {
   /// The next bytes that the board says, cut anywhere.
   virtual void fromBoard(std::string_view bytes) = 0;
 
-  std::string toBoard;          ///< not said yet
-  std::vector<Frame> toClient;  ///< not said yet, in this order
+  std::string toBoard;          ///< bytes to be sent to the board
+  std::vector<Frame> toClient;  ///< frames to be sent to the client, in this order
   bool isOver = false;          ///< the connection is closed when all is said
 };
 
 /// A subprotocol of WebSockets that the door lets in.
 struct WebProtocol {
-  std::vector<std::string> names;  ///< of Sec-WebSocket-Protocol; the client's first one of them
-  std::string path;                ///< at which it is spoken, "/board"; "": any
+  /// Names in Sec-WebSocket-Protocol; of several the first one that the client gives is agreed
+  /// upon.
+  std::vector<std::string> names;
+  std::string path;  ///< path of its requests, e.g. "/board"; "": any
   /// For each connection; may be called often. Gets the path and query that were asked for, which
   /// are hostile.
   std::function<std::unique_ptr<WebSpeech>(std::string_view target)> make;

@@ -82,7 +82,7 @@ function TokenNote() {
   const { session, ui } = usePage();
   const [token, setToken] = useState("");
   if (!board.needsToken) return null;
-  const why = board.needsToken === "wrong" ? "The token of this address is not (or not any more) the server's" : "This server wants a token";
+  const why = board.needsToken === "wrong" ? "The token in this address is not, or no longer, valid" : "This server requires a token";
   return (
     <form
       class="token-note"
@@ -94,7 +94,7 @@ function TokenNote() {
         session.useToken(given);
       }}
     >
-      <span>{why}{board.link === "open" && ": looking only"}. It printed one when it was started.</span>
+      <span>{why}{board.link === "open" && ": view only"}. It printed one when it was started.</span>
       <input aria-label="Token" placeholder="token" value={token} onInput={(event) => setToken(event.currentTarget.value)} />
       <button type="submit">Use it</button>
     </form>

@@ -78,7 +78,7 @@ export function FieldView() {
             <button onClick={() => { board.robot?.joinOdometry(); ui.redraw(); }}>Odometry starts here</button>
           )}
           {ui.layers.expected && board.link === "open" && !board.can("WHY") && (
-            <p class="hint">This server does not tell what is expected.</p>
+            <p class="hint">This server does not report expected readings.</p>
           )}
         </div>
       </details>

@@ -12,7 +12,7 @@ export class View {
   y = 0;
   /** Pixels a metre. */
   scale = 60;
-  /** Whether the user has moved it; a view that nobody moved fits itself to the field. */
+  /** Whether the user has moved it; otherwise the view fits itself to the field. */
   isFree = false;
 
   toPixel({ x, y }: Point): Point {

@@ -138,7 +138,7 @@ export class Connection {
 
   private lost(reason: string): void {
     this.socket = null;
-    const why = this.why || reason || "the server is not there";
+    const why = this.why || reason || "the server can't be reached";
     const waiting = this.waiting;
     this.waiting = [];
     for (const { line, reject } of waiting) reject(new BoardError("closed", "the connection was lost", line));
@@ -157,7 +157,7 @@ export class Connection {
     }
     const first = this.waiting.shift();
     if (!first || first.tag !== match[1]) {
-      this.fail(`an answer came that nobody asked for: ${line.slice(0, 80)}`);
+      this.fail(`an answer came without a request: ${line.slice(0, 80)}`);
       return;
     }
     if (match[2] === "ERR") {

@@ -43,7 +43,7 @@ export class SideLine {
 
   private wait(): void {
     this.greeted = new Promise((resolve, reject) => (this.settle = { resolve, reject }));
-    this.greeted.catch(() => {}); // who asks is told; there may be nobody
+    this.greeted.catch(() => {}); // requests report the failure; there may be none
   }
 
   private async greet(): Promise<void> {

@@ -28,7 +28,7 @@ export function numberOf(keys: Map<string, string>, key: string, otherwise: numb
 
 /** A number as the protocol takes it: plain decimals, at most six of them. */
 export function plain(value: number): string {
-  if (!Number.isFinite(value)) throw new Error("a number that is none can't be sent");
+  if (!Number.isFinite(value)) throw new Error("only finite numbers can be sent");
   const text = value.toFixed(6).replace(/\.?0+$/, "");
   return text === "-0" ? "0" : text;
 }

@@ -166,7 +166,7 @@ export class Insight {
   private async askMaps(began: number, turn: number): Promise<void> {
     const { wish } = this;
     if (wish.of === "expectation" && this.features.length - wish.without.size !== 1) {
-      this.error = "an expectation is that of one feature: choose it above";
+      this.error = "choose one feature above to show what it expects";
       this.map = null;
       this.mapped = "";
       return;
@@ -250,7 +250,7 @@ export function parseMap({ keys, bytes }: Reply): Omit<FeatureMap, "feature"> {
   const rows = numberOf(keys, "rows", 0);
   const step = numberOf(keys, "step_m", 0);
   const isMap = columns > 0 && rows > 0 && step > 0 && bytes !== null && bytes.length === columns * rows;
-  if (!isMap) throw new BoardError("reply", "the map that came has not as many cells as it says", "HEATMAP");
+  if (!isMap) throw new BoardError("reply", "the map has another number of cells than its reply says", "HEATMAP");
   return {
     heat: { columns, rows, step, x: numberOf(keys, "x_min_m", 0), y: numberOf(keys, "y_min_m", 0), cells: bytes },
     low: numberOf(keys, "low", 0),

@@ -12,7 +12,7 @@ export interface Held {
   words: Uint32Array;
 }
 
-/** Where a robot believes to be: what other poses with sigmas tell is a sensor's. */
+/** A robot's estimate of its pose; other poses with sigmas are those of sensors. */
 export const kEstimate = "mcl/LOCALIZATION/pose";
 
 const kTrail = 400;
@@ -90,14 +90,14 @@ export class Robot {
     return feature && this.readings.get(feature.name);
   }
 
-  /** How sure its localization is; null without one. */
+  /** Status of its localization; null without one. */
   get status(): Status | null {
     const feature = this.featureOf("track");
     const held = feature && this.readings.get(feature.name);
     return held ? statusOf(feature.kind, held.words) : null;
   }
 
-  /** Where it is drawn: where it is, or else where it believes to be. */
+  /** Pose at which it is drawn: the true one, or else its estimate. */
   get pose(): Pose | null {
     return this.truth ?? this.estimate ?? this.odometry;
   }

@@ -37,7 +37,7 @@ export class Session {
   private worldPeriod = 0;
   /** " ahead=N" if the server lets us say how many updates may be under way. */
   private ahead = "";
-  /** Updates that were read and not yet told so, by robot. */
+  /** Updates that were read and not yet acknowledged, by robot. */
   private readonly got: number[] = [];
 
   constructor(

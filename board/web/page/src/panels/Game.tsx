@@ -30,7 +30,7 @@ export function GamePanel() {
         </Section>
       )}
       {board.can("EVENTS") && (
-        <Section title="What has happened">
+        <Section title="Events">
           <Events />
         </Section>
       )}
@@ -53,7 +53,7 @@ function Score() {
             <small>{team}</small> <b>{score}</b>
           </span>
         ))}
-        {!scores.length && <span class="hint">Nobody counts.</span>}
+        {!scores.length && <span class="hint">There is no score.</span>}
       </p>
       {game.has("phase") && (
         <p class="hint">
@@ -123,10 +123,10 @@ function StartPlayer() {
   if (!kind) return <p class="hint">This server has no players.</p>;
   const set = (key: string, value: string) => setValues({ ...values, [key]: value });
   const general = [
-    { key: "team", unit: "name", text: "whom it plays for" },
-    { key: "name", unit: "name", text: "of its robot" },
-    { key: "robot", unit: "name", text: "the kind of robot: a file that ships with the program" },
-    { key: "start", unit: "x,y,deg", text: "where it begins" },
+    { key: "team", unit: "name", text: "team that it plays for" },
+    { key: "name", unit: "name", text: "name of its robot" },
+    { key: "robot", unit: "name", text: "kind of robot: a file that ships with the program" },
+    { key: "start", unit: "x,y,deg", text: "pose at the start" },
   ];
   const line = playLine(kind, general.map(({ key }) => key), values);
   return (

@@ -8,7 +8,7 @@ export function Help() {
   useEffect(() => dialog.current!.showModal(), []);
   return (
     <dialog ref={dialog} class="help" aria-labelledby="help-title" onClose={() => ui.change({ isHelpOpen: false })}>
-      <h2 id="help-title">Keys and hands</h2>
+      <h2 id="help-title">Keys and mouse</h2>
       <dl>
         {kKeys.map(({ keys, about }) => (
           <div key={keys}>
@@ -21,8 +21,8 @@ export function Help() {
       <ul>
         <li>Wheel or two fingers: larger, smaller. Drag the floor, or arrow keys: move.</li>
         <li>Click a robot to select it. Operators drag robots and balls; with <kbd>Alt</kbd> a robot turns.</li>
-        <li><kbd>Shift</kbd> and drag: the selected robot is about here, looking that way.</li>
-        <li>With a map shown: click to see why a place is as probable as it is.</li>
+        <li><kbd>Shift</kbd> and drag: gives the filter the selected robot's approximate pose.</li>
+        <li>With a map shown: click to see each feature's probability at a place.</li>
       </ul>
       <button class="primary" onClick={() => dialog.current!.close()}>Close</button>
     </dialog>

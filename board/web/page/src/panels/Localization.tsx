@@ -31,13 +31,13 @@ function FilterSection({ robot }: { robot: Robot }) {
   const { localize } = insight;
   const isOn = localize !== null && /^(learning|searching|running)$/.test(localize.state);
   return (
-    <Section title={`Where ${robot.label} believes to be`}>
+    <Section title={`Estimated pose of ${robot.label}`}>
       {status ? (
         <p class={`verdict ${status.status}`} role="status">
           <strong>{status.status}</strong>: {status.reason}
           <span class="meter">
             <meter min={0} max={1} value={status.quality} aria-label="Probability that the error is below 0.5 m" />
-            {(status.quality * 100).toFixed(0)} % sure of 0.5 m
+            {(status.quality * 100).toFixed(0)} % probability of an error below 0.5 m
           </span>
         </p>
       ) : (
@@ -64,7 +64,7 @@ function FilterSection({ robot }: { robot: Robot }) {
       {localize && (localize.state === "failed" || localize.state === "none") && localize.text && (
         <p class="hint">{localize.text}</p>
       )}
-      {isOn && <p class="hint">Shift and drag on the field: the robot is about here, looking that way.</p>}
+      {isOn && <p class="hint">Shift and drag on the field to give the filter the robot's approximate pose.</p>}
       <ErrorNote at="localization" />
     </Section>
   );
@@ -184,7 +184,7 @@ function MapSection() {
             <label>
               <span class="key">heading</span>
               <select value={headings} onChange={(event) => setHeadings(event.currentTarget.value as typeof headings)}>
-                <option value="best">the best of all</option>
+                <option value="best">the most probable</option>
                 <option value="robot">the robot's</option>
                 <option value="given">given</option>
               </select>
@@ -224,7 +224,7 @@ function MapSection() {
           <div class="maps">
             {insight.small.map((map) => <SmallMap key={map.feature} map={map} />)}
           </div>
-          <p class="hint">Click on the field to see why a place is as probable as it is.</p>
+          <p class="hint">Click on the field to see each feature's probability at a place.</p>
           <ErrorNote at="why" />
           {insight.why && <WhyList why={insight.why} />}
         </>

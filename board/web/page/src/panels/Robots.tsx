@@ -25,7 +25,7 @@ export function RobotsPanel() {
                   {isRecorded(robot) && <span class="badge recorded" title={robot.record}>rec</span>}
                   {status && <span class={`badge ${status.status}`}>{status.status}</span>}
                   <span class="where">
-                    {pose ? `${pose.x.toFixed(2)}, ${pose.y.toFixed(2)}, ${degrees(pose.theta).toFixed(0)}°` : "nowhere yet"}
+                    {pose ? `${pose.x.toFixed(2)}, ${pose.y.toFixed(2)}, ${degrees(pose.theta).toFixed(0)}°` : "no pose yet"}
                   </span>
                 </button>
               </li>

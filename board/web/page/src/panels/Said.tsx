@@ -17,10 +17,10 @@ export function SaidBar() {
       <button
         class="toggle"
         aria-expanded={ui.isLogOpen}
-        title="What the page has said to the server (l)"
+        title="Requests of this page to the server, and the replies (l)"
         onClick={() => ui.change({ isLogOpen: !ui.isLogOpen })}
       >
-        What was said
+        Protocol log
       </button>
       {!ui.isLogOpen && last && (
         <span class={last.isError ? "last bad" : "last"}>
@@ -31,7 +31,7 @@ export function SaidBar() {
       {!ui.isLogOpen && !last && <span class="last hint">every action shows its line of the protocol here</span>}
       {ui.isLogOpen && (
         <>
-          <div ref={list} class="lines" role="log" aria-label="What was said" tabIndex={0}>
+          <div ref={list} class="lines" role="log" aria-label="Protocol log" tabIndex={0}>
             <ol>
             {board.said.map(({ id, time, line, outcome, isError, times }) => (
               <li key={id} class={isError ? "bad" : ""}>
@@ -49,8 +49,8 @@ export function SaidBar() {
             }}
           >
             <input
-              aria-label="Say a line of the protocol"
-              placeholder="say a line of the protocol, e.g. STATUS"
+              aria-label="Send a line of the protocol"
+              placeholder="send a line of the protocol, e.g. STATUS"
               value={text}
               disabled={board.link !== "open"}
               onInput={(event) => setText(event.currentTarget.value)}

@@ -26,7 +26,7 @@ export function SensorsPanel() {
           value={text}
           onInput={(event) => setText(event.currentTarget.value)}
         />
-        {!found.length && <p class="hint">{robot.features.length ? "Nothing has that name." : "It has no features."}</p>}
+        {!found.length && <p class="hint">{robot.features.length ? "No feature has that name." : "It has no features."}</p>}
         <ul class="features">
           {found.map((feature) => (
             <FeatureItem key={feature.name} robot={robot} feature={feature} now={board.now} />

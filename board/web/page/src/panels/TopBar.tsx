@@ -83,7 +83,7 @@ function TimeControls() {
         </select>
       </label>
       {achieved !== undefined && (
-        <span class="hint achieved" title="how fast it really goes">{Number(achieved).toFixed(2)}×</span>
+        <span class="hint achieved" title="speed that is achieved">{Number(achieved).toFixed(2)}×</span>
       )}
       {!isRecord && (
         <form
@@ -103,7 +103,7 @@ function TimeControls() {
             disabled={!board.isOperator}
             onInput={(event) => setSeed(event.currentTarget.value)}
           />
-          <button type="submit" disabled={!board.isOperator} title="RESET: time, chance, robots and score start over">
+          <button type="submit" disabled={!board.isOperator} title="RESET: time, random numbers, robots and score start over">
             Reset
           </button>
         </form>

@@ -13,7 +13,7 @@ export const kKeys: { keys: string; about: string }[] = [
   { keys: "m", about: "measure" },
   { keys: "d", about: "drive with W A S D or the arrow keys" },
   { keys: "v", about: "two or three dimensions" },
-  { keys: "l", about: "what was said" },
+  { keys: "l", about: "protocol log" },
   { keys: "?", about: "this help" },
 ];
 

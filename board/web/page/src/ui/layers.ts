@@ -1,4 +1,4 @@
-/** What of the selected robot, and of all, is drawn on the field. */
+/** Layers of the field's drawing, some of them of the selected robot alone. */
 export interface Layers {
   names: boolean;
   trails: boolean;
@@ -19,8 +19,8 @@ export const kLayers: Record<keyof Layers, { label: string; about: string; on: b
   expected: { label: "expected", about: "what the features should read where the robot is", on: false },
   samples: { label: "samples", about: "samples of the filter, as arrows by their weight", on: true },
   places: { label: "places", about: "clusters of samples, as ellipses of two sigmas", on: true },
-  estimate: { label: "estimate", about: "where the filter believes the robot to be", on: true },
-  ghost: { label: "odometry", about: "where it would be by odometry alone", on: false },
+  estimate: { label: "estimate", about: "the filter's estimate of the robot's pose", on: true },
+  ghost: { label: "odometry", about: "the pose by odometry alone", on: false },
 };
 
 export const kLayerNames = Object.keys(kLayers) as (keyof Layers)[];

@@ -21,7 +21,7 @@ enum class TrackReason : std::uint8_t {
   kSpread,       ///< one place, but a wide one
   kNoReading,    ///< for three times as long as is usual
   kFrozen,       ///< a device repeats its reading though the robot moves
-  kPoorFit,      ///< readings fit worse than they use to
+  kPoorFit,      ///< readings fit worse than usual
   kRival,        ///< several readings have fitted better elsewhere
   kOdometry,     ///< readings contradict it
   kSearching,    ///< a global start has found no place yet
@@ -32,7 +32,7 @@ enum class TrackReason : std::uint8_t {
 
 /// "tracking", "uncertain", "lost".
 ORTUNG_API const char* nameOf(TrackStatus status);
-/// A few words, such as "readings fit worse than they use to".
+/// A few words, such as "readings fit worse than usual".
 ORTUNG_API const char* nameOf(TrackReason reason);
 
 }  // namespace ortung

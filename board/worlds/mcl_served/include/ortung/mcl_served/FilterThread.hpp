@@ -23,23 +23,25 @@
 
 namespace ortung {
 
-/// Gives a robot its tables, learned or read; null if @p goOn, told the share that is done, has
-/// said no. Called on the threads of filters. @throws std::exception, whose text clients are told
+/// Gives a robot its tables, learned or read; null if @p goOn, called with the share that is
+/// done, has returned false. Called on the threads of filters. @throws std::exception, whose text
+/// clients get
 using TableGiver = std::function<std::shared_ptr<const RobotTables>(
     const Robot& robot, const std::function<bool(double)>& goOn)>;
 
-/// Localizes one robot by readings that somebody else takes, on a thread of its own, which also
-/// waits for the tables. Whoever gives readings never waits: where the filter lags behind, it sets
-/// one moment after the other and updates once; where it lags far behind, moments are lost.
+/// Localizes one robot by given readings, on a thread of its own, which also waits for the tables.
+/// The caller of take() never waits: where the filter lags behind, it sets one time step after the
+/// other and updates once; where it lags far behind, time steps are lost.
 /// Thread-safe.
 class ORTUNG_API FilterThread {
  public:
+  /// Which robot is localized, and by which tables.
   struct Config {
     std::filesystem::path robot;  ///< its file
     TableGiver tables;
     std::uint64_t seed = 1;
   };
-  static constexpr std::size_t kMostMoments = 256;  ///< that wait
+  static constexpr std::size_t kMostMoments = 256;  ///< time steps that may wait
 
   /// Off at first.
   explicit FilterThread(Config config);
@@ -47,14 +49,16 @@ class ORTUNG_API FilterThread {
   FilterThread(const FilterThread&) = delete;
   FilterThread& operator=(const FilterThread&) = delete;
 
-  /// Readings of one moment; those that no filter looks at are left out.
+  /// Adds readings of one time step; those of features that the filter does not use are left out.
   void take(std::span<const Message> moment);
   /// @throws ServeError for a place where the robot can't stand, if the field is known already
   void order(const LocalizationOrder& order);
   /// Time and odometry have begun anew: so does the filter, if it is on, with the tables it has.
   void restart();
+  /// Whether clients read the samples, which are published only then.
   void wantSamples(bool wanted);
 
+  /// How far the localization is.
   LocalizationState state() const;
   /// Null unless it is searching or running.
   std::shared_ptr<const Robot> perceiver() const;
@@ -94,16 +98,16 @@ class ORTUNG_API FilterThread {
   };
   std::vector<Output> outputs_;
 
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards the members from here to wantsSamples_
   std::condition_variable_any news_;
   Inbox inbox_;
   LocalizationState state_;
   std::shared_ptr<Localization> perceiver_;
   std::vector<SensorId> needs_;
-  std::vector<Message> published_;  ///< and not yet taken: the newest of each feature
+  std::vector<Message> published_;  ///< newest reading of each feature that was not taken yet
   bool wantsSamples_ = false;
 
-  std::atomic<bool> isWanted_ = false;  ///< on, as who ordered last wants it
+  std::atomic<bool> isWanted_ = false;  ///< whether the last order switched it on
   std::atomic<bool> isOver_ = false;
   std::jthread thread_;  ///< last, so that it ends before what it uses
 };

@@ -35,7 +35,7 @@ class ORTUNG_API LocalizedRobot final : public LocalizedRobots {
 
  private:
   const std::shared_ptr<Localization> localization_;
-  std::mutex mutex_;  ///< of the orders
+  std::mutex mutex_;  ///< guards orders_
   std::vector<LocalizationOrder> orders_;
 };
 

@@ -16,20 +16,20 @@ namespace ortung {
 struct LocalizationState {
   enum class Kind : std::uint8_t { kOff, kLearning, kSearching, kRunning, kFailed };
   Kind kind = Kind::kOff;
-  double progress = 0.0;  ///< of learning, in [0, 1]; 1 once that is done
-  std::string text = {};  ///< of kRunning how it is ("tracking: readings fit"), of kFailed why
+  double progress = 0.0;  ///< share of the tables that is learned, in [0, 1]
+  std::string text = {};  ///< status of kRunning ("tracking: readings fit"), reason of kFailed
 };
 
 /// "off", "learning", "searching", "running", "failed".
 ORTUNG_API const char* nameOf(LocalizationState::Kind kind);
 
-/// What somebody tells a localization.
+/// A client's order to a localization.
 struct LocalizationOrder {
   enum class Kind : std::uint8_t {
     kOn,        ///< goes on if it is on already
     kOff,       ///< ends learning, too
-    kAnywhere,  ///< on, and the robot may be anywhere
-    kPlace      ///< on, and the robot is about at `pose`
+    kAnywhere,  ///< switches it on; the robot may be anywhere
+    kPlace      ///< switches it on; the robot is near `pose`
   };
   Kind kind = Kind::kOn;
   Pose2 pose = {};               ///< field frame
@@ -48,7 +48,10 @@ class ORTUNG_API LocalizedRobots {
   /// Whether there is but one side: then players, too, may know what any robot perceives.
   /// Thread-safe.
   virtual bool isForAll() const = 0;
+  /// How far the localization of a robot is. @throws ServeError if the robot can't be localized
   virtual LocalizationState state(RobotId robot) = 0;
+  /// Passes a client's order to the localization of a robot.
+  /// @throws ServeError if the robot can't be localized, or can't stand at the pose
   virtual void order(RobotId robot, const LocalizationOrder& order) = 0;
   /// A robot whose features have tables, with its present readings. Its container takes further
   /// ones meanwhile; all else of it stays as it is. Thread-safe. @throws ServeError

@@ -44,19 +44,22 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
   std::shared_ptr<const Robot> perceiver(RobotId robot) const override;
 
   // ServedWorld: what filters add
+  /// One cycle of the world; afterwards filters are created for robots that came and end for
+  /// others.
   void step() override;
   std::vector<Resident> residents() const override;
   void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
   std::vector<Message> lateReadings(RobotId robot) override;
+  /// Time jumps: filters restart with the tables that they have.
   void seek(Timestamp stamp) override;
   void reset(std::optional<std::uint64_t> seed) override;
 
  private:
   struct Filter {
     std::unique_ptr<FilterThread> thread;  ///< null: it was never on
-    std::vector<SensorId> wanted;          ///< by clients
-    std::vector<SensorId> needs;           ///< of the filter, as the world was told
+    std::vector<SensorId> wanted;          ///< features that clients ask for
+    std::vector<SensorId> needs;           ///< the filter's features, as reported to the world
   };
   void meetResidents();
   void restartFilters();
@@ -67,11 +70,11 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
   FilterThread& threadOf(RobotId robot, Filter& filter);
 
   Config config_;
-  std::vector<ServedFeature> features_;  ///< that filters add
+  std::vector<ServedFeature> features_;  ///< features that each filter adds
   std::optional<std::uint64_t> version_;
-  mutable std::mutex mutex_;  ///< of the list of filters, for what is thread-safe
+  mutable std::mutex mutex_;  ///< guards filters_ for members that are thread-safe
   std::map<RobotId, Filter> filters_;
-  std::vector<std::unique_ptr<FilterThread>> leaving_;  ///< of robots that are gone
+  std::vector<std::unique_ptr<FilterThread>> leaving_;  ///< threads of removed robots, not over yet
   std::vector<Message> frame_;
 };
 

@@ -9,7 +9,7 @@
 namespace ortung {
 
 /// PLAY, STOP and PLAYERS: clients start, stop and list the players of a served simulation;
-/// REFEREE and GAME: what its referee is told, and what he says.
+/// REFEREE gives orders to its referee, and GAME returns the state of the game.
 /// @param simulation borrowed
 ORTUNG_API std::vector<BoardCommand> playerCommands(ServedSimulation& simulation);
 

@@ -42,6 +42,7 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;
+  /// Team and player of a robot, for LIST robots.
   std::string side(RobotId robot) const override;
   void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
@@ -60,12 +61,13 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   std::unique_ptr<PlayerHelp> helpOf(const std::string& player);
   /// Ends the player on a robot. @throws ServeError if there is none
   void stopPlayer(const std::string& robot);
-  /// @throws ServeError if nobody referees; std::invalid_argument for an order that is none
+  /// @throws ServeError if there is no referee; std::invalid_argument for an order that is none
   void orderReferee(const std::string& order);
   /// The file of the world, or of the scene's.
   const std::filesystem::path& worldFile() const { return scene_.world; }
   /// @throws ServeError if there is no such robot
   const SimRobot& simRobot(RobotId robot) const { return find(robot); }
+  /// The state of the game.
   const Game& game() const { return run_->game(); }
   /// What is under way; after a reset it is another one.
   SceneRun& run() { return *run_; }
@@ -78,6 +80,7 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   const std::deque<Event>& events() const { return events_; }
   /// The number of the event that comes next.
   std::uint64_t eventsSoFar() const { return eventsSoFar_; }
+  /// Players that control a robot at present, with their robots.
   std::vector<PlayerControl::Seated> seated() const { return run_->players().players(); }
 
  private:
@@ -103,16 +106,18 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   PluginFactory factory_;
   std::vector<std::string> plugins_;
   std::vector<std::string> playersHelp_;
-  std::vector<ServedObject> objects_;  ///< in the order of the simulation's things
+  std::vector<ServedObject> objects_;  ///< objects in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
   std::unique_ptr<Truth> truth_;
-  bool isMovePending_ = false;      ///< all have sensed, nothing has moved yet
-  std::vector<RobotSize> planned_;  ///< for robots of clients, the plan last asked for at the end
-  std::map<RobotId, std::unique_ptr<Guest>> guests_;  ///< in the order of their coming
+  bool isMovePending_ = false;  ///< all have sensed, nothing has moved yet
+  std::vector<RobotSize>
+      planned_;  ///< sizes of clients' robots with a planner, the most recent last
+  /// Robots by number, and so in the order in which they came.
+  std::map<RobotId, std::unique_ptr<Guest>> guests_;
   RobotId lastId_ = 0;
   std::deque<Event> events_;
   std::uint64_t eventsSoFar_ = 0;
-  std::uint64_t version_ = 0;  ///< of residents
+  std::uint64_t version_ = 0;  ///< counter of changes of residents()
   std::uint64_t entered_;      ///< robots since the last reset: each has chances of its own
 };
 
