@@ -10,9 +10,9 @@ namespace ortung {
 struct Parameters::Table {
   std::string where;
   std::map<std::string, Node> values;
-  std::set<std::string> read;   ///< of the values
+  std::set<std::string> read;   ///< keys whose values were read
   std::set<std::string> asked;  ///< what somebody would have read
-  int line = 0;                 ///< where the table begins; 0: not known
+  int line = 0;                 ///< line at which the table begins; 0: not known
 };
 
 namespace {

@@ -62,8 +62,9 @@ class FisheyeModel : public CameraModel {
 
   std::vector<double> focal_;
   RadialPolynomial radial_;
-  double mostAngle_ = 0.0;   ///< to the axis, up to which the model is one to one [rad]
-  double mostRadius_ = 0.0;  ///< in focal lengths
+  double mostAngle_ =
+      0.0;  ///< greatest angle to the axis up to which the model is one to one [rad]
+  double mostRadius_ = 0.0;  ///< radius in the image at mostAngle_ [focal lengths]
 };
 
 }  // namespace

@@ -74,8 +74,8 @@ class IsometricModel : public CameraModel {
            tomlLine("height_m", height_);
   }
 
-  double scale_;   ///< of the floor
-  double height_;  ///< of the viewpoint above the floor [m]
+  double scale_;   ///< resolution on the floor [px/m]
+  double height_;  ///< height of the viewpoint above the floor [m]
 };
 
 }  // namespace

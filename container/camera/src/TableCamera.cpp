@@ -118,12 +118,12 @@ class TableModel : public CameraModel {
            tomlLine("floor_m", floor_);
   }
 
-  double height_;             ///< of the viewpoint above the floor [m]
+  double height_;             ///< height of the viewpoint above the floor [m]
   std::vector<double> grid_;  ///< columns, rows
   std::vector<double> floor_;
   int columns_ = 0;
   int rows_ = 0;
-  double stepU_ = 1.0;  ///< between columns [px]
+  double stepU_ = 1.0;  ///< distance between columns [px]
   double stepV_ = 1.0;
   std::vector<Point3> rays_;  ///< row by row, in the camera's frame; z = 0: no floor
 };

@@ -44,9 +44,9 @@ class Extraction {
     std::unique_ptr<PluginGuard> guard;
     std::vector<SensorData*> outputs;
     std::vector<const SensorData*> inputs;
-    std::vector<std::uint64_t> seen;  ///< by input: sequence number of the last reading taken
+    std::vector<std::uint64_t> seen;  ///< sequence number of the last reading taken, by input
     std::vector<std::optional<Extractor::Words>> words;
-    std::vector<std::uint64_t> made;  ///< by output: sequence number of what was made last
+    std::vector<std::uint64_t> made;  ///< sequence number of the reading made last, by output
   };
   static bool take(Step& step, Timestamp& stamp);
   static void put(Step& step, Timestamp stamp);

@@ -11,9 +11,9 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kBlurredPoints = 64;  ///< at most
+constexpr std::size_t kBlurredPoints = 64;  ///< most points of a blurred reading
 
-constexpr double kStepsAnOctave = 4.0;  ///< of noise, when it grows
+constexpr double kStepsAnOctave = 4.0;  ///< steps of noise per doubling of it
 
 /// Cells in which points lie, as a robot at (x, y) sees them.
 struct EndCells {

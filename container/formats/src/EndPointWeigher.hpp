@@ -19,11 +19,11 @@ namespace ortung {
 /// An end-point field with all that weighing points against it needs, whatever the reading.
 struct EndPointTables {
   using LogByLevel = std::array<float, 256>;
-  FieldGrid region;     ///< where the sensor may be
-  EndPointField field;  ///< where points should lie
+  FieldGrid region;     ///< cells in which the sensor may be
+  EndPointField field;  ///< distances to the places where points should lie
   /// The same, finer than cells; empty: nobody learned it.
   std::shared_ptr<SurfaceField> surfaces = std::make_shared<SurfaceField>();
-  double maxRange = 1.0;  ///< of points; their sigma grows with range [m]
+  double maxRange = 1.0;  ///< greatest range of points [m]; their sigma grows with range
   float floor = 0.0F;     ///< ln p of a point that fits nowhere
 
   /// Computes ln p by distance, once the field is complete.
@@ -71,7 +71,7 @@ class EndPointWeigher final : public BlurrableWeigher, public Polishable {
   std::vector<float> endX_;           ///< [m]
   std::vector<float> endY_;           ///< [m]
   std::vector<const float*> endLog_;  ///< ln p by level, for its range
-  std::vector<float> ranges_;         ///< from the sensor [m]
+  std::vector<float> ranges_;         ///< ranges from the sensor [m]
   float floor_;                       ///< ln p of a point that fits nowhere
   SurfaceFit fit_;
   /// Of a blurred one, by noise in steps: endLog_ points here.

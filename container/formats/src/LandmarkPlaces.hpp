@@ -50,7 +50,7 @@ class LandmarkPlaces {
   FieldGrid grid_;
   std::vector<double> x_;  ///< sums of sightings until finish()
   std::vector<double> y_;
-  std::vector<double> counts_;  ///< of sightings, while learning
+  std::vector<double> counts_;  ///< number of sightings by landmark, while learning
   std::vector<std::uint16_t> nearest_;
 };
 

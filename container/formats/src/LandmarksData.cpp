@@ -42,7 +42,8 @@ struct LandmarksData::Tables {
     for (std::size_t i = 0; i < config.identities.size(); ++i)
       landmarks.push_back({PositionTable(config.maxRange), {}});
   }
-  std::vector<Landmark> landmarks;  ///< in the order of the list of identities; or none, but
+  std::vector<Landmark>
+      landmarks;  ///< tables in the order of the identities; empty if unidentified
   std::shared_ptr<LandmarkPlaces> places = std::make_shared<LandmarkPlaces>();
 };
 
@@ -63,7 +64,7 @@ class LandmarksData::Sight final : public Weigher, public Polishable, public Cor
     const Tables::Landmark* landmark;
     double range;    ///< [m]
     double bearing;  ///< [rad]
-    double sigma;    ///< of the range [m]
+    double sigma;    ///< standard deviation of the range [m]
   };
 
   double logProbabilityAt(const Pose2& pose) const override {

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kKinds[] = {"robot", "ball"};
 constexpr std::size_t kNumbers = 9;
 constexpr double kFarthest = 1e5;  ///< [m]
-constexpr double kLeast = 1e-6;    ///< of a sigma [m], [rad]
+constexpr double kLeast = 1e-6;    ///< least sigma of a position [m] and of a heading [rad]
 
 /// The next word; empty at the end.
 std::string_view nextWord(std::string_view& text) {

@@ -17,13 +17,14 @@
 namespace ortung {
 namespace {
 
-constexpr std::uint8_t kLargestCost = 250;  ///< of one beam: the outlier floor in quantized form
+constexpr std::uint8_t kLargestCost =
+    250;  ///< greatest cost of one beam: the outlier floor in quantized form
 /// Samples whose rows are looked up and prefetched at a time.
 constexpr std::size_t kSamplesABlock = 64;
 constexpr std::size_t kCacheLine = 64;  ///< [bytes]
 /// Steps of cost are chosen from a scale of so many an octave, so that few occur in one scan.
 constexpr double kStepsAnOctave = 8.0;
-constexpr double kMostEntriesALevel = 3.9;  ///< of the table of costs
+constexpr double kMostEntriesALevel = 3.9;  ///< most entries of the table of costs per level
 
 /// Where samples look into the ray table, a block of them at a time: without branches and calls, so
 /// that the compiler vectorizes it.
@@ -126,20 +127,21 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
   Pose2 mount_;
   float firstAngle_;
   SensorModel model_;
-  PoseResolution spread_;  ///< of the poses, standard deviations
+  PoseResolution spread_;  ///< standard deviations of the poses
   RangeScale scale_;
   std::vector<Beam> beams_;
-  std::size_t run_;                   ///< directions that the scan spans
-  double unit_;                       ///< nats of a cost of 1
-  float nats_;                        ///< ln p of a cost of 1, exponent included (negative)
-  std::vector<std::uint8_t> levels_;  ///< by direction from the first beam on, padded
+  std::size_t run_;  ///< directions that the scan spans
+  double unit_;      ///< nats of a cost of 1
+  float nats_;       ///< ln p of a cost of 1, exponent included (negative)
+  std::vector<std::uint8_t>
+      levels_;  ///< levels of the reading, by direction from the first beam on, padded
   std::vector<std::uint8_t> caps_;
   std::vector<std::uint8_t> steps_;  ///< none: all of 1
   int shift_ = 0;
   std::array<std::uint8_t, kLevelDifferences> costs_{};
   SurfaceFit fit_;
-  std::uint32_t floorCost_ = 0;         ///< of a sample without expectation
-  std::vector<double> levelsPerSigma_;  ///< by direction, where there is a beam
+  std::uint32_t floorCost_ = 0;         ///< cost of a sample without expectation
+  std::vector<double> levelsPerSigma_;  ///< levels per sigma, by direction; zero: no beam
 };
 
 /// One table of costs serves beams of different noise: a difference of levels of each counts so

@@ -15,12 +15,12 @@ constexpr double kLeastSlant = 0.15;
 constexpr double kSupposed = 10.0;
 constexpr double kMostAlike = 0.95;
 constexpr int kScatterSteps = 4;
-constexpr double kLeastScatter = 0.01;  ///< of the model's variance
+constexpr double kLeastScatter = 0.01;  ///< least scatter, as a share of the model's variance
 
 /// One residual, in standard deviations of the model.
 struct Residual {
   double off;
-  double variance;  ///< of the model [m^2]
+  double variance;  ///< variance by the model [m^2]
   std::array<double, 3> expectation;
   bool follows;  ///< it is of the beam beside that of the one before
 };

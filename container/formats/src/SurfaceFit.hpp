@@ -29,9 +29,9 @@ class SurfaceFit {
 
  private:
   struct End {
-    double x;      ///< in the robot frame [m]
+    double x;      ///< x in the robot frame [m]
     double y;      ///< [m]
-    double range;  ///< from the sensor [m]
+    double range;  ///< distance from the sensor [m]
   };
   std::shared_ptr<const SurfaceField> surfaces_;
   Pose2 mount_;

@@ -6,7 +6,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kStep = 0.5;  ///< between places that are looked at [cells]
+constexpr double kStep = 0.5;  ///< distance between places that are looked at [cells]
 /// How far the ray may be from the mean of a cell's ends where it meets their line: a cell's
 /// diagonal, since neighbours have ends of their own [cells].
 constexpr double kReach = 1.0;
@@ -14,7 +14,7 @@ constexpr double kGrazes = 0.05;  ///< sine; a ray along a line meets it where i
 
 struct Hit {
   double range;
-  double off;  ///< from the mean of the cell's ends [m]
+  double off;  ///< distance of the hit from the mean of the cell's ends [m]
 };
 
 /// Where a ray meets a surface's line; of spots, and of lines along the ray, where it is nearest.

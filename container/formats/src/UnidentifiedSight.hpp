@@ -50,13 +50,13 @@ class UnidentifiedSight final : public BlurrableWeigher, public Polishable {
   std::shared_ptr<const LandmarkPlaces> places_;
   Pose2 mount_;
   std::vector<double> ranges_;    ///< [m]
-  std::vector<double> bearings_;  ///< in the sensor's frame [rad]
+  std::vector<double> bearings_;  ///< bearings in the sensor's frame [rad]
   // Of each, in the sensor's frame:
   std::vector<float> aheadX_;  ///< its direction
   std::vector<float> aheadY_;
   std::vector<float> metres_;     ///< its range [m]
-  std::vector<float> perAlong_;   ///< 1 / sigma along the direction [1/m]
-  std::vector<float> perAcross_;  ///< 1 / sigma across it [1/m]
+  std::vector<float> perAlong_;   ///< weight 1 / sigma along the direction [1/m]
+  std::vector<float> perAcross_;  ///< weight 1 / sigma across the direction [1/m]
 };
 
 }  // namespace ortung

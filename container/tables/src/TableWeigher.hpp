@@ -143,7 +143,7 @@ class TableWeigher {
   float originY_;
   float perMetre_;
   std::int32_t columns_;
-  std::int32_t right_;  ///< from a cell to the one at its right, or above; 0: there is none
+  std::int32_t right_;  ///< offset to the cell at the right; 0: the grid has one column
   std::int32_t up_;
   float mostColumns_;  ///< place of the last column
   float mostRows_;
@@ -151,11 +151,12 @@ class TableWeigher {
   float lastRow_;
   SensorPoses poses_{};
   std::size_t n_ = 0;
-  std::array<std::int32_t, kBlock> cells_;    ///< that hold the samples; -1: outside
+  std::array<std::int32_t, kBlock> cells_;    ///< cells that hold the samples; -1: outside
   std::array<std::int32_t, kBlock> corners_;  ///< the lower left one of the four around
   std::array<float, kBlock> shareX_;
   std::array<float, kBlock> shareY_;
-  std::array<std::int32_t, kBlock> levels_;  ///< of the four; all alike: that of the cell itself
+  std::array<std::int32_t, kBlock>
+      levels_;  ///< levels of the lower left cells, or of the sample's own cell (then in all four)
   std::array<std::int32_t, kBlock> right1_;
   std::array<std::int32_t, kBlock> up1_;
   std::array<std::int32_t, kBlock> both1_;

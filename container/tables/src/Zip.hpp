@@ -17,12 +17,13 @@ struct Member {
   std::string name;
   std::uint32_t crc = 0;
   std::uint32_t size = 0;
-  std::uint32_t headerOffset = 0;  ///< of its local header
+  std::uint32_t headerOffset = 0;  ///< offset of the member's local header in the file [bytes]
 };
 
 inline constexpr std::size_t kMostMembers = 65535;
 inline constexpr std::size_t kLongestName = 300;
-inline constexpr std::size_t kAlignment = 64;  ///< of every member's data in the file
+inline constexpr std::size_t kAlignment =
+    64;  ///< alignment of every member's data in the file [bytes]
 
 /// Local header of @p member, padded so that its data begins at a multiple of kAlignment.
 std::string localHeader(const Member& member);

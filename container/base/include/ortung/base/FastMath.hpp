@@ -5,19 +5,20 @@
 
 #include "ortung/base/InstructionSet.hpp"
 
-/// Functions of single precision in loops that vectorize, and with the same bits on every machine:
-/// those of standard libraries differ between versions and processors. Coefficients are those of
-/// S. L. Moshier's Cephes library. (-ffp-contract=off, as in InstructionSet.hpp.)
+/// Functions of single precision for loops that vectorize. They give the same bits on every
+/// machine; those of standard libraries differ between versions and processors. Coefficients are
+/// those of S. L. Moshier's Cephes library. (-ffp-contract=off, as in InstructionSet.hpp.)
 namespace ortung {
 
+/// Sine and cosine of the same angle.
 struct SinCos {
   float sin;
   float cos;
 };
 
-/// Sine and cosine of one angle [rad] at once. Wrong by less than 2e-7 for |angle| < 1e4; an angle
-/// at or beyond 1e5 counts as 0; NaN stays NaN. Cephes' sinf.c: reduction to an eighth of a turn,
-/// polynomials.
+/// Returns sine and cosine of one angle [rad] at once. They are wrong by less than 2e-7 for |angle|
+/// < 1e4; an angle at or beyond 1e5 counts as 0; NaN stays NaN. Cephes' sinf.c: reduction to an
+/// eighth of a turn, polynomials.
 inline SinCos sinCos(float angle) {
   constexpr float kMost = 1e5F;  // the quarter turns fit 16 bits, so their products are exact
   const bool usual =
@@ -39,7 +40,8 @@ inline SinCos sinCos(float angle) {
   return {(quarter & 2) != 0 ? -sine : sine, ((quarter + 1) & 2) != 0 ? -cosine : cosine};
 }
 
-/// ln x for normal positive x, wrong by less than 2e-7 relative to max(1, |ln x|). Cephes' logf.c.
+/// Returns ln x for normal positive x, wrong by less than 2e-7 relative to max(1, |ln x|). Cephes'
+/// logf.c.
 ORTUNG_INLINE float naturalLog(float x) {
   const auto bits = std::bit_cast<std::int32_t>(x);
   const auto half = std::bit_cast<float>((bits & 0x007FFFFF) | 0x3F000000);  // in [0.5, 1)
@@ -60,8 +62,8 @@ ORTUNG_INLINE float naturalLog(float x) {
   return m + y + 0.693359375F * e;
 }
 
-/// e^x for x <= 0, wrong by less than 2e-7 relative; 0 below -87 (less than the smallest float),
-/// above 0 and for NaN. Cephes' expf.c.
+/// Returns e^x for x <= 0, wrong by less than 2e-7 relative; 0 below -87 (less than the smallest
+/// float), above 0 and for NaN. Cephes' expf.c.
 ORTUNG_INLINE float powerOfE(float x) {
   constexpr float kLeast = -87.0F;
   // All bits where x is usual, not for NaN. Choices by bits: compilers make branches of others.

@@ -9,10 +9,11 @@
 
 namespace ortung {
 
-/// Where a helper program of ours is: in $ORTUNG_LIBEXEC if that is set, else beside the running
-/// program, or where those of libortung_container.so were installed (libexec/ortung) or built.
+/// Returns the path of one of Ortung's helper programs: in $ORTUNG_LIBEXEC if that is set, else
+/// beside the running program, or where the helpers of libortung_container.so were installed
+/// (libexec/ortung) or built.
 /// @param about what errors begin with, e.g. the file that is read
-/// @throws std::runtime_error naming these places
+/// @throws std::runtime_error naming these places if it is in none of them
 ORTUNG_API std::filesystem::path findHelper(const std::string& name, const std::string& about);
 
 /// Runs a program that does what may crash or run away, e.g. reads a file with a foreign library,

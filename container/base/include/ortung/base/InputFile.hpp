@@ -8,19 +8,20 @@
 
 namespace ortung {
 
-/// Opens a file to read it, and notes that this process does: see isInput().
+/// Opens a file to read it, and notes that this process reads it: see isInput().
 /// @param why gets the reason where that is not possible; the stream has failed then
-/// Thread-safe, like all here.
+/// Thread-safe, like all functions of this header.
 ORTUNG_API std::ifstream openInput(const std::filesystem::path& file, std::string& why);
 
-/// What @p error, a value of errno, keeps from being read: "can't be read: Permission denied".
+/// Returns why a file can't be read, for messages: "can't be read: Permission denied".
+/// @param error value of errno
 ORTUNG_API std::string cantBeRead(int error);
 
 /// Notes a file that is read by other means than openInput().
 ORTUNG_API void noteInput(const std::filesystem::path& file);
 
-/// Whether this process has read that very file, by whatever name or link. Devices and pipes do not
-/// count.
+/// Returns whether this process has read that very file, by whatever name or link. Devices and
+/// pipes do not count.
 ORTUNG_API bool isInput(const std::filesystem::path& file);
 
 }  // namespace ortung

@@ -4,21 +4,23 @@
 
 #include "ortung/base/Export.hpp"
 
-/// Loops that are compiled for several instruction sets and chosen when the program runs. All give
-/// the same bits: they are whole-numbered, or use additions, multiplications and roots only, which
-/// IEEE 754 rounds alike at every width (and the compiler must not fuse them: -ffp-contract=off).
+/// Loops are compiled for several instruction sets, and the program chooses one when it runs. All
+/// give the same bits: they are whole-numbered, or use additions, multiplications and roots only,
+/// which IEEE 754 rounds alike at every width (and the compiler must not fuse them:
+/// -ffp-contract=off).
 namespace ortung {
 
+/// Instruction sets that loops are compiled for, from the narrowest to the widest vectors.
 enum class InstructionSet { kPortable, kAvx2, kAvx512 };
 
-/// Whether this machine (and build) has it.
+/// Returns whether this machine (and build) can run it.
 ORTUNG_API bool hasInstructionSet(InstructionSet set);
 
-/// The widest of this machine; $ORTUNG_SIMD (portable, avx2, avx512) lowers the choice, any other
-/// word does nothing: see checkInstructionSet().
+/// Returns the widest set of this machine; $ORTUNG_SIMD (portable, avx2, avx512) lowers the choice,
+/// any other word does nothing: see checkInstructionSet().
 ORTUNG_API InstructionSet instructionSet();
 
-/// For programs, at their beginning.
+/// Checks the environment; programs call it at their beginning.
 /// @throws std::invalid_argument if $ORTUNG_SIMD is none of these words
 ORTUNG_API void checkInstructionSet();
 

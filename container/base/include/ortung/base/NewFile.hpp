@@ -16,19 +16,21 @@ namespace ortung {
 /// dies before leaves nothing behind (where the file system has no files without a name: one named
 /// ".ortung-part-...", which the next NewFile in that folder clears away).
 ///
-/// Or it is put in its place by publish(), and grows there: what was written by the last flush() is
-/// there whatever happens to the program.
+/// Or publish() puts it in its place, where it grows: what was written by the last flush() is there
+/// whatever happens to the program.
 ///
 /// Links are followed, so a link stays and what it names is replaced. What is no regular file (a
 /// device, a FIFO, /dev/stdout) is written to as it comes. Not thread-safe.
 class ORTUNG_API NewFile {
  public:
-  /// @throws std::runtime_error naming file and reason, as do the others
+  /// Opens a new file out of sight. @throws std::runtime_error naming file and reason, as do the
+  /// other members
   explicit NewFile(std::filesystem::path file);
-  ~NewFile();  ///< without commit() and publish(): leaves nothing behind
+  ~NewFile();  ///< removes what was written, unless commit() or publish() came before
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
+  /// Appends to the file.
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
   /// Hands what was written to the operating system, so that the death of this process can't take
@@ -37,9 +39,9 @@ class ORTUNG_API NewFile {
   void publish();  ///< flushes and puts the file in its place, to grow there
   void commit();   ///< flushes, puts the file in its place once it is on the disk, and closes it
 
-  /// Whether it is no regular file, or one that this process has open as an output.
+  /// Returns whether it is no regular file, or one that this process has open as an output.
   bool isStream() const { return state_ == State::kStream; }
-  std::uintmax_t size() const { return size_ + buffer_.size(); }  ///< written so far [bytes]
+  std::uintmax_t size() const { return size_ + buffer_.size(); }  ///< bytes written so far
 
  private:
   enum class State : std::uint8_t { kUnnamed, kNamed, kInPlace, kStream, kClosed };
@@ -53,23 +55,24 @@ class ORTUNG_API NewFile {
   void syncFolder() const;
   [[noreturn]] void fail() const;
 
-  std::filesystem::path file_;    ///< as errors call it
-  std::filesystem::path place_;   ///< of kUnnamed and kNamed: the file itself, behind all links
-  std::filesystem::path folder_;  ///< of the place
-  std::filesystem::path named_;   ///< of kNamed: where it is until it is put in its place
+  std::filesystem::path file_;    ///< path as the caller gave it, for error messages
+  std::filesystem::path place_;   ///< path of the file itself, behind all links (kUnnamed, kNamed)
+  std::filesystem::path folder_;  ///< folder that holds place_
+  std::filesystem::path named_;   ///< temporary path until the file is put in its place (kNamed)
   State state_ = State::kClosed;
   int descriptor_ = -1;
   std::string buffer_;
-  std::uintmax_t size_ = 0;     ///< without the buffer
+  std::uintmax_t size_ = 0;     ///< bytes written to the file; those in the buffer are not counted
   std::uintmax_t flushed_ = 0;  ///< size at the last flush
 };
 
-/// A whole file at once. @throws std::runtime_error naming file and reason
+/// Writes a whole file at once, which appears whole or not at all. @throws std::runtime_error
+/// naming file and reason
 ORTUNG_API void writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes);
 ORTUNG_API void writeFile(const std::filesystem::path& file, std::string_view text);
 
-/// Where writing to that name would lead: itself, or what a chain of links names.
-/// A name of one of this process's own descriptors (/dev/stdout, /dev/fd/3) is not followed.
+/// Returns the path that writing to that name would lead to: itself, or what a chain of links
+/// names. A name of one of this process's own descriptors (/dev/stdout, /dev/fd/3) is not followed.
 ORTUNG_API std::filesystem::path behindLinks(const std::filesystem::path& file);
 
 }  // namespace ortung

@@ -13,7 +13,7 @@
 
 namespace ortung {
 
-/// A setting that is missing, of the wrong kind, out of its range or not known.
+/// Thrown for a setting that is missing, of the wrong kind, out of its range or not known.
 /// The message says where (file, line, key), what was found and what was expected.
 class ORTUNG_API ConfigError : public std::runtime_error {
  public:
@@ -23,22 +23,25 @@ class ORTUNG_API ConfigError : public std::runtime_error {
 
 /// Permitted values of a number, both ends included.
 struct Range {
+  /// least permitted value
   double low = -std::numeric_limits<double>::infinity();
+  /// greatest permitted value
   double high = std::numeric_limits<double>::infinity();
 };
 
 /// Settings of one plugin or one part of a file: a table of keys with numbers, texts, flags, lists
 /// and further tables. Keys end in their unit: "max_range_m", "fov_deg".
-/// Remembers what was read, so that a misspelt key shows. Copies share what they know.
+/// It remembers which keys were read, so that a misspelt key shows. Copies share their values.
 /// Not thread-safe.
 class ORTUNG_API Parameters {
  public:
-  struct Node;  ///< one value
+  struct Node;  ///< one value with its place in the file
   using List = std::vector<Node>;
 
-  /// An empty table. @param where what errors call it, e.g. "robots/pioneer.toml"
+  /// Makes an empty table. @param where what errors call it, e.g. "robots/pioneer.toml"
   explicit Parameters(std::string where = "");
 
+  /// Sets a value, or replaces it.
   void set(const std::string& key, bool value);
   void set(const std::string& key, double value);
   void set(const std::string& key, const char* value);
@@ -47,39 +50,44 @@ class ORTUNG_API Parameters {
   void set(const std::string& key, Node value);
 
   bool has(const std::string& key) const;
-  std::vector<std::string> keys() const;  ///< in the order of the alphabet
+  std::vector<std::string> keys() const;  ///< keys of this table in alphabetical order
 
-  /// A finite number within @p range. @throws ConfigError
+  // The getters below throw ConfigError if the value is missing (except those with a fallback), of
+  // another kind, or out of its range.
+  /// Returns a finite number within @p range. @throws ConfigError
   double number(const std::string& key, const Range& range = {}) const;
+  /// Returns the number, or @p fallback if the key is missing. @throws ConfigError
   double numberOr(const std::string& key, double fallback, const Range& range = {}) const;
-  /// A whole number within @p range. @throws ConfigError
+  /// Returns a whole number within @p range. @throws ConfigError
   std::int64_t integer(const std::string& key, const Range& range = {}) const;
   std::int64_t integerOr(const std::string& key, std::int64_t fallback,
                          const Range& range = {}) const;
   std::string text(const std::string& key) const;
   std::string textOr(const std::string& key, const std::string& fallback) const;
-  /// One of @p choices. @throws ConfigError listing them
+  /// Returns one of @p choices, or @p fallback if the key is missing. @throws ConfigError listing
+  /// them
   std::string choiceOr(const std::string& key, const std::string& fallback,
                        const std::vector<std::string>& choices) const;
   bool flagOr(const std::string& key, bool fallback) const;
-  /// A list of finite numbers within @p range; @p count of them, or any number if it is -1.
+  /// Returns a list of finite numbers within @p range; @p count of them, or any number if it is -1.
+  /// @throws ConfigError
   std::vector<double> numbers(const std::string& key, int count = -1,
                               const Range& range = {}) const;
   std::vector<double> numbersOr(const std::string& key, const std::vector<double>& fallback,
                                 int count = -1, const Range& range = {}) const;
   std::vector<std::string> texts(const std::string& key) const;
-  /// A table; empty (and has() false) if it is missing.
+  /// Returns the table @p key; an empty one if it is missing (has() tells that apart).
   Parameters table(const std::string& key) const;
-  /// The same for somebody else to read and to check: refuseUnread() here looks no more into it.
+  /// The same for another reader, which checks it: refuseUnread() here no longer looks into it.
   Parameters takeTable(const std::string& key) const;
-  /// The tables of an array of tables, none if it is missing.
+  /// Returns the tables of an array of tables, none if it is missing.
   std::vector<Parameters> tables(const std::string& key) const;
 
-  /// A ConfigError at the place of @p key.
+  /// Throws a ConfigError that names the place of @p key.
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
-  /// @throws ConfigError at the first key nobody asked for, here or in a table that was asked for
+  /// @throws ConfigError naming the first key that was never read, here or in a table that was read
   void refuseUnread() const;
-  const std::string& where() const;  ///< file or what else this came from
+  const std::string& where() const;  ///< file or other origin, as errors call it
 
  private:
   struct Table;
@@ -92,7 +100,7 @@ class ORTUNG_API Parameters {
 /// One value with its place in the file.
 struct Parameters::Node {
   std::variant<bool, std::int64_t, double, std::string, List, Parameters> value;
-  int line = 0;  ///< 0: not from a file
+  int line = 0;  ///< line of the file, from 1; 0: the value is not from a file
 };
 
 }  // namespace ortung

@@ -9,17 +9,17 @@ namespace ortung {
 /// and Eigen maps it in place.
 using PoseCovariance = std::array<double, 9>;
 
-/// Of independent errors, by their variances [m^2], [m^2], [rad^2].
+/// Returns the covariance of independent errors with these variances [m^2], [m^2], [rad^2].
 constexpr PoseCovariance independent(double x, double y, double theta) {
   return {x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, theta};
 }
 
-/// Mean square of the distance from the mean [m^2].
+/// Returns the mean square of the distance from the mean [m^2].
 constexpr double positionVariance(const PoseCovariance& covariance) {
   return covariance[0] + covariance[4];
 }
 
-/// [rad^2]
+/// Returns the variance of the heading [rad^2].
 constexpr double headingVariance(const PoseCovariance& covariance) { return covariance[8]; }
 
 /// Adds errors that are independent of those so far.

@@ -10,18 +10,20 @@ namespace ortung {
 /// Counter-based random numbers: Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy
 /// as 1, 2, 3", SC 2011). A number depends on seed, stream and its place in the stream alone, so a
 /// result never depends on how work was shared between threads.
-/// Own distributions: those of the standard library differ between vendors. Not thread-safe.
+/// The distributions are its own, since those of the standard library differ between vendors.
+/// Not thread-safe.
 class ORTUNG_API Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
-  std::uint32_t next();  ///< 32 uniform bits
-  double uniform();      ///< in [0, 1)
+  std::uint32_t next();  ///< draws 32 uniform bits
+  double uniform();      ///< draws a uniform number from [0, 1)
+  /// Draws a uniform number from [low, high).
   double uniform(double low, double high);
-  std::uint64_t below(std::uint64_t n);  ///< in [0, n); @pre n > 0
-  double gaussian();                     ///< mean 0, sigma 1
+  std::uint64_t below(std::uint64_t n);  ///< draws a whole number from [0, n), uniform; @pre n > 0
+  double gaussian();                     ///< draws from N(0, 1)
 
-  /// An independent generator of the same seed.
+  /// Returns an independent generator of the same seed.
   Random fork(std::uint64_t stream) const;
 
  private:

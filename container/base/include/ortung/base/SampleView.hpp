@@ -13,6 +13,7 @@ struct SampleView {
   std::span<const float> theta;  ///< [rad]
 
   std::size_t size() const { return x.size(); }
+  /// Returns samples [first, first + count). @pre first + count <= size()
   SampleView part(std::size_t first, std::size_t count) const {
     return {x.subspan(first, count), y.subspan(first, count), theta.subspan(first, count)};
   }

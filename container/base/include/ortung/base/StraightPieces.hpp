@@ -15,6 +15,7 @@ struct PlanePoint {
   double y = 0.0;  ///< [m]
 };
 
+/// Returns the distance between two points [m].
 inline double distance(const PlanePoint& a, const PlanePoint& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
@@ -23,9 +24,10 @@ inline double distance(const PlanePoint& a, const PlanePoint& b) {
 struct StraightPiece {
   PlanePoint from;
   PlanePoint to;
-  std::vector<PlanePoint> points;  ///< of the outline
+  std::vector<PlanePoint> points;  ///< points of the outline that the piece fits, in its order
 };
 
+/// What counts as a straight piece.
 struct StraightPiecesConfig {
   double tolerance = 0.08;  ///< points of one piece are within it of a straight line [m]
   double shortest = 0.5;    ///< shorter pieces are left out [m]
@@ -37,9 +39,9 @@ struct StraightPiecesConfig {
 ORTUNG_API std::vector<StraightPiece> straightPiecesOf(std::span<const PlanePoint> outline,
                                                        const StraightPiecesConfig& config);
 
-/// Where an outline bends: the point farthest from its chord, or 0 if all are within @p tolerance
-/// [m]. An outline that comes back to where it began has no chord worth the name: there, the
-/// farthest from its beginning.
+/// Returns where an outline bends: the index of the point farthest from its chord, or 0 if all are
+/// within @p tolerance [m]. Of an outline that comes back to its beginning, which has no usable
+/// chord, it is the point farthest from the beginning.
 ORTUNG_API std::size_t bendOf(std::span<const PlanePoint> outline, double tolerance);
 
 }  // namespace ortung

@@ -23,8 +23,8 @@ ORTUNG_AVX512 void avx512(Arguments... arguments) {
 
 }  // namespace widest
 
-/// Loop::run(arguments...), a static ORTUNG_INLINE function that gives the same bits however wide
-/// it is (InstructionSet.hpp). Arguments are copied: pointers, numbers.
+/// Calls Loop::run(arguments...), a static ORTUNG_INLINE function that gives the same bits however
+/// wide it is (InstructionSet.hpp). Arguments are copied: pointers, numbers.
 template <class Loop, class... Arguments>
 void runWidest(Arguments... arguments) {
 #ifdef ORTUNG_X86

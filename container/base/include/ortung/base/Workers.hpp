@@ -7,7 +7,7 @@
 
 namespace ortung {
 
-/// Does equal pieces of work with several threads that wait for it.
+/// A pool of threads that share equal pieces of work. One caller at a time.
 class ORTUNG_API Workers {
  public:
   /// @param threads at least 1, with the caller's own

@@ -22,7 +22,7 @@ struct Pixel {
   double v = 0.0;
 };
 
-/// A point [m] or a direction; whoever names one names its frame.
+/// A point [m] or a direction; the place where it is used says in which frame.
 struct Point3 {
   double x = 0.0;
   double y = 0.0;
@@ -42,30 +42,31 @@ class ORTUNG_API CameraModel {
 
   ImageSize size() const { return common_.size; }
 
-  /// The pixel that shows a point or a direction in the camera frame; it may lie beyond the image's
-  /// edges. Nothing where the camera does not look: behind it, beyond the angle up to which the
-  /// model is one to one, within the masked part.
+  /// Returns the pixel that shows a point or a direction in the camera frame; it may lie beyond the
+  /// image's edges. Nothing is returned outside of the field of view: behind the camera, beyond the
+  /// angle up to which the model is one to one, within the masked part.
   std::optional<Pixel> project(const Point3& point) const;
 
-  /// The direction that a pixel shows, of length 1; the inverse of project().
+  /// Returns the direction that a pixel shows, of length 1; the inverse of project(). Nothing where
+  /// a pixel shows nothing of the world.
   std::optional<Point3> unproject(const Pixel& pixel) const;
 
-  /// Whether a pixel lies in the image.
+  /// Returns whether a pixel lies in the image.
   bool contains(const Pixel& p) const {
     return p.u >= -0.5 && p.v >= -0.5 && p.u < size().width - 0.5 && p.v < size().height - 0.5;
   }
 
-  /// The lines of a TOML table that make it again, see readCamera().
+  /// Returns the lines of a TOML table from which readCamera() makes the same model.
   std::string toml() const;
 
  protected:
-  /// What all models have.
+  /// Settings that all models have.
   struct Common {
     ImageSize size;
-    Pixel centre;             ///< principal point
+    Pixel centre;             ///< principal point [px]
     bool isMirrored = false;  ///< left and right are exchanged, as a mirror does
-    double inner = 0.0;       ///< what is nearer to the centre shows nothing of the world [px]
-    double outer = 0.0;       ///< nor what is farther [px]; 0: no such border
+    double inner = 0.0;       ///< radius around the centre that shows nothing of the world [px]
+    double outer = 0.0;       ///< radius beyond which nothing is shown [px]; 0: no such border
   };
   explicit CameraModel(const Common& common) : common_(common) {}
   static Common readCommon(const Parameters& camera);

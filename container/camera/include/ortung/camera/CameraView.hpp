@@ -11,15 +11,15 @@
 
 namespace ortung {
 
-/// How a camera stands on its sensor's mount. The sensor's frame lies on the floor: x where the
+/// The camera's pose on its sensor's mount. The sensor's frame lies on the floor: x where the
 /// sensor looks, y to the left, z up.
 struct CameraPlace {
-  double z = 0.0;     ///< above the floor [m]
-  double tilt = 0.0;  ///< of the optical axis below the horizon [rad]; pi / 2: straight down
+  double z = 0.0;     ///< the camera's height above the floor [m]
+  double tilt = 0.0;  ///< angle of the optical axis below the horizon [rad]; pi / 2: straight down
   double roll = 0.0;  ///< about the optical axis, clockwise as the camera looks [rad]
 };
 
-/// A camera in its place: from the world around the sensor to pixels and back.
+/// A camera in its place, which maps the world around the sensor to pixels and back.
 /// Immutable, hence thread-safe.
 class ORTUNG_API CameraView {
  public:
@@ -29,15 +29,16 @@ class ORTUNG_API CameraView {
   const std::shared_ptr<const CameraModel>& sharedModel() const { return model_; }
   const CameraPlace& place() const { return place_; }
 
-  /// Pixel of a point in the sensor's frame [m]; nothing as in CameraModel::project().
+  /// Returns the pixel of a point in the sensor's frame [m], or nothing as in
+  /// CameraModel::project().
   std::optional<Pixel> pixelOf(const Point3& point) const;
-  /// Where the ray of a pixel meets the plane at height @p z [m], in the sensor's frame; nothing if
-  /// it does not.
+  /// Returns where the ray of a pixel meets the plane at height @p z [m], in the sensor's frame
+  /// [m]; nothing if it does not.
   std::optional<Point3> floorAt(const Pixel& pixel, double z = 0.0) const;
-  /// Direction of a pixel in the sensor's frame, of length 1.
+  /// Returns the direction that a pixel shows in the sensor's frame, of length 1.
   std::optional<Point3> rayAt(const Pixel& pixel) const;
-  /// The camera's axes x, y, z in the sensor's frame, three numbers each:
-  /// a point in the camera is the matrix of these rows times (point - (0, 0, place().z)).
+  /// Returns the camera's axes x, y, z in the sensor's frame, three numbers each:
+  /// a point in the camera frame is the matrix of these rows times (point - (0, 0, place().z)).
   const std::array<double, 9>& axes() const { return axes_; }
 
  private:
@@ -50,7 +51,7 @@ class ORTUNG_API CameraView {
 /// @param z the sensor's height above the floor [m] @throws ConfigError
 ORTUNG_API CameraView readCameraView(const Parameters& camera, double z);
 
-/// The table's lines that make it again.
+/// Returns the lines of that table, from which readCameraView() makes the same view.
 ORTUNG_API std::string toToml(const CameraView& view);
 
 }  // namespace ortung

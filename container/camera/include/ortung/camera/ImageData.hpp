@@ -13,13 +13,13 @@
 
 namespace ortung {
 
-/// How a pixel is kept.
+/// How a pixel is stored; the number is its bytes.
 enum class PixelFormat : std::uint32_t {
-  kGrey = 1,  ///< a byte
+  kGrey = 1,  ///< one byte: brightness
   kRgb = 3,   ///< three bytes: red, green, blue
 };
 
-/// A picture whose pixels belong to somebody else.
+/// A picture whose pixels the caller owns.
 struct ImageView {
   ImageSize size;
   PixelFormat format = PixelFormat::kRgb;
@@ -40,19 +40,21 @@ struct ImageView {
 class ORTUNG_API ImageData : public SensorData {
  public:
   static constexpr std::size_t kHeaderWords = 3;
-  static constexpr int kMostSide = 4096;  ///< [px]
+  static constexpr int kMostSide = 4096;  ///< greatest width and height [px]
   using Reading = ImageView;
 
-  /// @param camera nothing: it is not calibrated, and any size is taken; else pictures of its size
+  /// @param camera the calibration: only pictures of its size are taken. Without one, the camera is
+  ///   not calibrated and any size is taken
   ImageData(SensorId id, const Pose2& mount, std::optional<CameraView> camera = {});
   ~ImageData() override;
 
-  /// Of the newest words; pixels live as long as those.
+  /// Returns the newest picture; its pixels live as long as the words of that reading.
   ImageView reading() const;
   const std::optional<CameraView>& camera() const { return camera_; }
 
-  /// Words for a picture with room for its pixels, which pixelsOf() gives to be written.
+  /// Sets @p words to a picture without content; the caller writes its pixels into pixelsOf().
   static void start(ImageSize size, PixelFormat format, std::vector<std::uint32_t>& words);
+  /// Returns the bytes of the pixels within words that start() made, row by row.
   static std::span<std::uint8_t> pixelsOf(std::vector<std::uint32_t>& words);
   static std::vector<std::uint32_t> encode(const ImageView& image);
 

@@ -15,17 +15,17 @@
 
 namespace ortung {
 
-/// An extractor that failed; the message names it and says why.
+/// Thrown when an extractor failed; the message names it and says why.
 class ORTUNG_API ExtractorError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
   ~ExtractorError() override;
 };
 
-/// Makes features of other features of the same robot and of what is known of the field: the third
-/// half that a sensor plugin may have, on the robot, under the same name and from the same
-/// parameters as the data half whose features it fills. So a real scanner or a log fills them as
-/// the simulated one does.
+/// Makes features of other features of the same robot and of what is known of the field. It is the
+/// third part that a sensor plugin may have; it runs on the robot, under the same name and with the
+/// same parameters as the data half whose features it fills. So these features are there with a
+/// real scanner or a log as with the simulated one.
 ///
 /// The container calls it whenever one of its inputs has a new reading. Not thread-safe; calls come
 /// from any thread, one at a time.
@@ -36,8 +36,9 @@ class ORTUNG_API Extractor {
 
   virtual ~Extractor();
 
-  /// What it reads: "model/type/feature", each may be "*"; the first match is taken that its own
-  /// device does not have. Features of its own, which something else fills, have their full names.
+  /// Returns what it reads: "model/type/feature", where each part may be "*"; the first match is
+  /// taken that is not of its own device. Features of its own device, which something else fills,
+  /// are given by their full names.
   virtual std::vector<std::string> inputs() const = 0;
 
   /// Copies what it needs of the readings; the container is locked meanwhile.
@@ -45,8 +46,8 @@ class ORTUNG_API Extractor {
   virtual void take(std::span<const SensorData* const> inputs) = 0;
 
   /// Computes from what it took, without a lock.
-  /// @param words by feature of its device, in their order; what stays empty-handed (nullopt) gets
-  ///   no new reading
+  /// @param words new words by feature of its device, in their order; a feature whose entry stays
+  ///   nullopt gets no new reading
   virtual void extract(const FieldModel& field, std::span<std::optional<Words>> words) = 0;
 };
 

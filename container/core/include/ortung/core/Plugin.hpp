@@ -13,7 +13,7 @@
 
 namespace ortung {
 
-/// Raised whenever PluginInfo or PluginEntry changes.
+/// Version of the binary layout; it is raised whenever PluginInfo or PluginEntry changes.
 inline constexpr std::uint32_t kPluginAbi = 1;
 
 #define ORTUNG_STR_(x) #x
@@ -29,27 +29,28 @@ inline constexpr const char* kBuildTag =
     "container " ORTUNG_CONTAINER_ABI
     ", gcc" ORTUNG_STR(__GNUC__) "-cxx11abi" ORTUNG_STR(_GLIBCXX_USE_CXX11_ABI) ORTUNG_DEBUG_STL;
 
-/// One plugin: which interface (name and version), under which name, and how to make it.
+/// One plugin of a library.
 struct PluginEntry {
-  const char* interface;
-  const char* name;
-  void* (*create)(const Parameters&);
+  const char* interface;  ///< kInterface of the class that it implements: name and version
+  const char* name;       ///< name by which it is made
+  void* (*create)(const Parameters&);  ///< returns a new Interface*; throws ConfigError
 };
 
 /// The only symbol of a plugin library. The first two members never move.
 struct PluginInfo {
-  std::uint32_t abi;
-  std::uint32_t size;
-  const char* buildTag;
-  const char* library;
-  const char* version;
-  const PluginEntry* entries;
+  std::uint32_t abi;           ///< kPluginAbi of the library
+  std::uint32_t size;          ///< bytes of this struct
+  const char* buildTag;        ///< kBuildTag of the library
+  const char* library;         ///< name of the library, for messages
+  const char* version;         ///< version of the container's interface
+  const PluginEntry* entries;  ///< array of `count` plugins
   std::size_t count;
 };
 
-/// All features of one device, as its data half makes them.
+/// All features of one device, made by its data half.
 using DeviceData = std::vector<std::unique_ptr<SensorData>>;
 
+/// The entry of a plugin class that implements @p Interface and is constructed from Parameters.
 template <class Interface, class Plugin>
 constexpr PluginEntry provide(const char* name) {
   return {Interface::kInterface, name,

@@ -12,7 +12,7 @@
 
 namespace ortung {
 
-/// A plugin that can't be found, loaded or made; the message names it and says why.
+/// Thrown if a plugin can't be found, loaded or made; the message names it and says why.
 class ORTUNG_API PluginError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,10 +26,10 @@ class ORTUNG_API PluginError : public std::runtime_error {
 /// stay loaded until the program ends, so plugins may outlive the factory.
 class ORTUNG_API PluginFactory {
  public:
-  /// What a library offers, for `ortung plugins`.
+  /// The content of a library, for `ortung plugins`.
   struct Found {
     std::filesystem::path file;
-    std::string library;  ///< "" if it could not be loaded
+    std::string library;  ///< name of the library; "" if it could not be loaded
     std::string buildTag;
     std::string version;
     struct Entry {
@@ -37,14 +37,14 @@ class ORTUNG_API PluginFactory {
       std::string name;
     };
     std::vector<Entry> entries;
-    std::string error;  ///< why it could not be loaded, or ""
+    std::string error;  ///< reason why it could not be loaded, or ""
   };
 
   PluginFactory() = default;
   /// @param folders searched in this order
   explicit PluginFactory(std::vector<std::filesystem::path> folders);
 
-  /// $ORTUNG_PLUGIN_PATH (folders, separated by ':'), then ortung/plugins in the folder of
+  /// Returns $ORTUNG_PLUGIN_PATH (folders, separated by ':'), then ortung/plugins in the folder of
   /// libortung_container.so: the plugins that were built or installed with it.
   static std::vector<std::filesystem::path> standardFolders();
 
@@ -52,10 +52,10 @@ class ORTUNG_API PluginFactory {
   ///   another ABI; the message says which and what to do
   void load(const std::filesystem::path& library);
 
-  /// The libraries ortung_PART*.so of the search path, folder by folder, in the order of the
-  /// alphabet; nothing is loaded.
+  /// Returns the libraries ortung_PART*.so of the search path, folder by folder, in alphabetical
+  /// order; nothing is loaded.
   std::vector<std::filesystem::path> libraries(const std::string& part = "") const;
-  /// Loads a library and tells what it offers; a broken one comes with its error.
+  /// Loads a library and returns what it offers, or its error if it can't be loaded.
   Found look(const std::filesystem::path& library);
   /// The same of all libraries of the search path.
   std::vector<Found> list();
@@ -71,15 +71,15 @@ class ORTUNG_API PluginFactory {
     return plugin;
   }
 
-  /// Makes a plugin as make() does, or gives null if the libraries loaded so far do not have it:
-  /// for a half that a plugin may have or not, once another half was made.
+  /// Makes a plugin as make() does, or returns null if the libraries loaded so far do not have it.
+  /// It is for an optional half of a plugin, once another half was made.
   template <class Interface>
   std::unique_ptr<Interface> makeIfThere(const std::string& name, const Parameters& parameters) {
     if (findEntry(Interface::kInterface, name) == nullptr) return nullptr;
     return make<Interface>(name, parameters);
   }
 
-  /// The data half of a sensor: all features of the device @p name (paper, section 4).
+  /// Makes the data half of a sensor: all features of the device @p name (paper, section 4).
   /// @throws as make()
   std::vector<std::unique_ptr<SensorData>> makeData(const std::string& name,
                                                     const Parameters& parameters);

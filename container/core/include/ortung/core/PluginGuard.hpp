@@ -13,27 +13,27 @@
 
 namespace ortung {
 
-/// What a plugin did wrong at its work: it threw something, or gave numbers that make no sense. The
-/// message names the plugin, whose it is and the call.
+/// Thrown when a plugin failed in a call: it threw something, or returned invalid numbers. The
+/// message names the plugin, its robot and the call.
 class ORTUNG_API PluginFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
   ~PluginFailure() override;
 };
 
-/// The way into one plugin at work: drives, sensors, extractors and motion models are called
-/// through a guard alone. Whatever they throw comes out as PluginFailure, and a PluginWatch sees
-/// when a call does not come back. A call costs two atomic additions more.
+/// All calls into one running plugin go through its guard: drives, sensors, extractors and motion
+/// models are called through a guard only. Whatever they throw comes out as PluginFailure, and a
+/// PluginWatch sees when a call does not return. A guarded call costs two more atomic additions.
 /// Thread-safe.
 class ORTUNG_API PluginGuard {
  public:
-  /// @param who for messages: "the drive plugin 'omni' of robot bob"
+  /// @param who the plugin's name in messages: "the drive plugin 'omni' of robot bob"
   explicit PluginGuard(std::string who);
   ~PluginGuard();
   PluginGuard(const PluginGuard&) = delete;
   PluginGuard& operator=(const PluginGuard&) = delete;
 
-  /// As long as it lives, the plugin is at work: for calls whose errors are dealt with otherwise.
+  /// Marks the plugin as busy while it lives: for calls whose errors are handled otherwise.
   class Inside {
    public:
     Inside(const PluginGuard& guard, const char* what) : guard_(guard) {
@@ -64,7 +64,7 @@ class ORTUNG_API PluginGuard {
     }
   }
 
-  /// For what the plugin gave back. @throws PluginFailure
+  /// Reports an invalid result of the plugin. @throws PluginFailure
   [[noreturn]] void fail(const char* what, const std::string& why) const;
 
  private:
@@ -76,14 +76,15 @@ class ORTUNG_API PluginGuard {
   mutable std::atomic<std::uint64_t> left_ = 0;     ///< calls that ended
 };
 
-/// Looks from a thread of its own whether a plugin stays in one call for longer than it may: a
-/// thread can't be ended from outside, so all that is left is to say so, save what there is, and
-/// end the program. It does nothing to the plugin, and learns of calls in time steps of a tenth of
-/// the budget. Time in which the whole program stands still (stopped, asleep) does not count.
+/// Watches from a thread of its own whether a plugin stays in one call for too long. A thread can't
+/// be ended from outside, so the program can only report it, save its data, and end. The watch does
+/// nothing to the plugin, and samples calls in time steps of a tenth of the budget. Time in which
+/// the whole program is stopped or suspended does not count.
 class ORTUNG_API PluginWatch {
  public:
-  /// @param seconds a call may take; 0: as long as it likes
-  /// @param overdue is told which plugin is in which call for too long, once, on the watch's thread
+  /// @param seconds longest time that a call may take [s]; 0: no limit
+  /// @param overdue called once, on the watch's thread, with the text of which plugin is in which
+  ///   call for too long
   /// @throws std::invalid_argument for a time that is negative or no number
   PluginWatch(double seconds, std::function<void(const std::string&)> overdue);
   ~PluginWatch();

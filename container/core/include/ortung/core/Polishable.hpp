@@ -9,14 +9,14 @@
 
 namespace ortung {
 
-/// What readings say of a small change d = (x [m], y [m], theta [rad]) of a pose, in the field
-/// frame: ln p(s|l + d) = ln p(s|l) + pull d - d^T information d / 2, after Gauss and Newton: of
-/// the second derivatives those of the expectations are left out.
+/// The log-likelihood of readings for a small change d = (x [m], y [m], theta [rad]) of a pose, in
+/// the field frame: ln p(s|l + d) = ln p(s|l) + pull d - d^T information d / 2, after Gauss and
+/// Newton: of the second derivatives those of the expectations are left out.
 struct ORTUNG_API Slope {
   std::array<double, 9> information{};  ///< row-major, symmetric, positive semidefinite
   std::array<double, 3> pull{};         ///< gradient of ln p
-  /// Standard deviation of what the readings are compared with, which no number of them averages
-  /// out: of positions [m], and of headings [rad].
+  /// Standard deviation of what the readings are compared with, e.g. the map, which more readings
+  /// do not average out: of positions [m], and of headings [rad].
   double blurMetres = 0.0;
   double blurRadians = 0.0;
 
@@ -29,7 +29,7 @@ struct ORTUNG_API Slope {
         information[3 * row + column] += weight * expectation[row] * expectation[column];
     }
   }
-  /// Adds what another reading says, so many times.
+  /// Adds another reading's slope, scaled by @p times.
   void add(const Slope& other, double times) {
     for (std::size_t k = 0; k < 3; ++k) pull[k] += times * other.pull[k];
     for (std::size_t k = 0; k < 9; ++k) information[k] += times * other.information[k];
@@ -38,13 +38,13 @@ struct ORTUNG_API Slope {
   }
 };
 
-/// A weigher that also tells how its answer changes around a pose. With it a pose is polished
-/// beyond what tables round to and samples are apart; readings of others take part in weighing
-/// alone.
+/// A weigher that also knows how its probability changes around a pose. With it a pose is refined
+/// beyond the resolution of tables and the spacing of samples; readings of other weighers only take
+/// part in weighing.
 class ORTUNG_API Polishable {
  public:
   virtual ~Polishable();
-  /// At @p pose; zero where nothing that is expected fits. Thread-safe.
+  /// Returns the slope at @p pose; zero where the reading fits no expectation. Thread-safe.
   virtual Slope slopeAt(const Pose2& pose) const = 0;
 
  protected:

@@ -7,10 +7,10 @@
 
 namespace ortung {
 
-/// The newest reading of a feature of the format whose class is T, whatever its own class is: any
-/// feature whose format() has that name gives it, from its words and parameters. Nothing for one of
-/// another format, and before the first reading. Under the container's read lock if others set
-/// readings.
+/// Returns the newest reading of a feature as the reading of the format class T, whatever the
+/// feature's own class is: any feature whose format() has that name is decoded from its words and
+/// parameters. Returns nothing for another format, and before the first reading. The caller holds
+/// the container's read lock if other threads set readings.
 template <class T>
 std::optional<typename T::Reading> readingAs(const SensorData& feature) {
   if (feature.sequence() == 0) return std::nullopt;

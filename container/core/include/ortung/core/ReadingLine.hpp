@@ -10,20 +10,20 @@
 
 namespace ortung {
 
-/// One reading as a line without its end:
+/// Appends one reading to @p line, without an end of line:
 /// "<stamp us> <model>/<type>/<feature> <number of words> <word> <word> ...".
-/// Appends to @p line. The same line is the log and the wire.
+/// The same line is in the log and on the wire.
 ORTUNG_API void writeLine(const Message& message, std::string& line);
 
-/// Reads such a line: exactly one blank between two words, none elsewhere. Nothing for anything
-/// else; then @p why (if given) says what is wrong. Never throws, never allocates more than the
-/// line is long.
+/// Reads such a line: exactly one blank between two words, none elsewhere. Returns nothing for
+/// anything else; then @p why (if given) says what is wrong. Never throws, never allocates more
+/// than the line is long.
 ORTUNG_API std::optional<Message> parseLine(std::string_view line, std::string* why = nullptr);
 
-inline constexpr std::size_t kMaxWords = 1u << 24;       ///< words of one reading
-inline constexpr std::size_t kMaxLineBytes = 64u << 20;  ///< of a record
+inline constexpr std::size_t kMaxWords = 1u << 24;       ///< most words of one reading
+inline constexpr std::size_t kMaxLineBytes = 64u << 20;  ///< most bytes of a record's line
 
-/// @p token in quotes, as errors show it: what is not printable, and more than 40 bytes, left out.
+/// Returns @p token in quotes for messages, without unprintable characters and all beyond 40 bytes.
 ORTUNG_API std::string inQuotation(std::string_view token);
 
 }  // namespace ortung

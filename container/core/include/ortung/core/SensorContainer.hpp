@@ -15,7 +15,7 @@
 
 namespace ortung {
 
-/// What to look for; an empty name (or "*") matches everything (paper, section 3).
+/// A query for features; an empty name (or "*") matches everything (paper, section 3).
 struct SensorQuery {
   std::string_view model = {};
   std::string_view type = {};
@@ -25,15 +25,15 @@ struct SensorQuery {
 /// Reads "LMS200/LRF/*"; the query borrows from @p text. @throws std::invalid_argument
 ORTUNG_API SensorQuery parseSensorQuery(std::string_view text);
 
-/// Whether a name matches in all three parts.
+/// Returns whether an id matches the query in all three parts.
 ORTUNG_API bool matches(const SensorQuery& query, const SensorId& id);
 
 class Extraction;
 
 /// Owns the sensor data of one robot.
-/// Many writers and readers: writers go through set(), readers of readings hold a ReadLock, so
-/// that they see one consistent frame. The list of features itself must not change while others use
-/// it.
+/// Many threads may write and read: writers go through set(), readers of readings hold a ReadLock,
+/// so that they see one consistent frame. The list of features itself must not change while others
+/// use it.
 class ORTUNG_API SensorContainer {
  public:
   using ReadLock = std::shared_lock<std::shared_mutex>;
@@ -46,45 +46,47 @@ class ORTUNG_API SensorContainer {
   /// Takes ownership. @throws std::invalid_argument if the id is already present.
   SensorData& add(std::unique_ptr<SensorData> data);
 
-  /// From now on, @p outputs are made of other features. @param name what errors call it
-  /// Where readings of all of them come with those of the inputs, at the same moment, these stand.
+  /// Adds an extractor that makes the readings of @p outputs from other features. Where readings of
+  /// all outputs arrive together with those of the inputs, at the same time, these are kept.
+  /// @param name what errors call it
   void add(std::string name, std::unique_ptr<Extractor> extractor,
            std::vector<SensorData*> outputs);
-  /// Once all features and extractors are there: finds what reads what.
+  /// Connects extractors to their inputs, once all features and extractors were added.
   /// @throws std::invalid_argument for an extractor whose input is not there, and for circles, with
   ///   the names of all that are in them
   void connect();
-  /// What a feature is made of, directly; nothing if no extractor makes it.
+  /// Returns the features from which a feature is made directly; none if no extractor makes it.
   std::vector<const SensorData*> inputsOf(const SensorData& made) const;
-  /// What is known of the field; readings that are made before know nothing of it.
+  /// Sets what is known of the field; extractors use it from then on.
   void setField(std::shared_ptr<const FieldModel> field);
-  /// Makes features of others that have new readings: whoever writes without set() calls it.
+  /// Makes features from others that have new readings; callers that write without set() call it.
   /// @throws ExtractorError
   void extract();
 
-  /// The first match in the order of insertion, or nullptr.
+  /// Returns the first match in the order of insertion, or nullptr.
   SensorData* find(const SensorQuery& query) const;
-  /// All matches in the order of insertion.
+  /// Returns all matches in the order of insertion.
   std::vector<SensorData*> findAll(const SensorQuery& query) const;
+  /// Returns the feature with this id, or nullptr.
   SensorData* findExactly(const SensorId& id) const;
   std::span<const std::unique_ptr<SensorData>> all() const { return data_; }
 
-  /// Sets one feature's reading, and makes what is made of it. Returns false if the container has
-  /// no such feature.
+  /// Sets one feature's reading, and makes the features that depend on it. Returns false if the
+  /// container has no such feature.
   /// @throws std::invalid_argument for words that the feature refuses; ExtractorError
   bool set(const Message& message);
   /// Sets all readings of one moment under one lock, or none of them if a feature refuses its
-  /// words; then makes what is made of them, without the lock. Returns how many features it does
-  /// not have.
+  /// words; then makes the features that depend on them, without the lock. Returns how many
+  /// readings are of features that the container lacks.
   /// @throws std::invalid_argument for words that a feature refuses; ExtractorError
   std::size_t set(std::span<const Message> frame);
 
-  /// Shared lock over all readings.
+  /// Returns a shared lock over all readings.
   ReadLock read() const;
 
-  /// Newest reading of the first match as T::Reading, copied under the lock, or nothing.
-  /// T is a format's class, container.get<ScanData>({.type = "LRF"}): features of that format give
-  /// it, whatever classes they have.
+  /// Returns the newest reading of the first match as T::Reading, copied under the lock, or
+  /// nothing. T is the class of a format, e.g. container.get<ScanData>({.type = "LRF"}); features
+  /// of that format have it, whatever their own classes are.
   template <class T>
   std::optional<typename T::Reading> get(const SensorQuery& query) const {
     const ReadLock lock = read();
@@ -93,8 +95,8 @@ class ORTUNG_API SensorContainer {
   }
 
   /// Adds ln p(s|l_i) over all features that can weigh (paper, section 5.2: independent features).
-  /// Where one of them expects nothing it gives its outlier floor, the least that it ever gives: so
-  /// a pose that nobody expects never beats one with bad expectations.
+  /// A feature without an expectation at a pose adds its outlier floor, its least value; so a pose
+  /// without expectations never beats one with bad ones.
   void getProbability(const SampleView& poses, std::span<float> logProbability) const;
   /// The same product for one pose, by the same rule, to the precision of float; 1 for a perfect
   /// match. kNoExpectation only if no feature can weigh, wherever the robot is. (Features by
@@ -105,7 +107,8 @@ class ORTUNG_API SensorContainer {
   std::size_t take(std::span<const Message> frame, bool& isRead);
 
   std::vector<std::unique_ptr<SensorData>> data_;
-  std::vector<SensorData*> targets_;  ///< of the frame that is being set; kept for its memory
+  std::vector<SensorData*>
+      targets_;  ///< features of the frame that is being set; a member to reuse its memory
   std::unique_ptr<Extraction> extraction_;
   mutable std::shared_mutex mutex_;
 };

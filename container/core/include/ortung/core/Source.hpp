@@ -15,7 +15,7 @@
 
 namespace ortung {
 
-/// Whatever fills a container: simulator, record, foreign log, network, devices.
+/// Anything that fills a container: simulator, record, foreign log, network, devices.
 /// It gives readings in the order of their time stamps. Not thread-safe.
 ///
 /// A source is a plugin; its Parameters are "path" (text; what stands behind "KIND:" up to "?"),
@@ -25,24 +25,24 @@ class ORTUNG_API Source {
   static constexpr const char* kInterface = "ortung.Source/" ORTUNG_CONTAINER_ABI;
   virtual ~Source();
 
-  /// The next reading, or false at the end.
+  /// Reads the next reading; returns false at the end.
   /// @throws std::runtime_error naming file, place, what was found and expected
   virtual bool next(Message& message) = 0;
 
-  /// Share of the whole that has been read, in [0, 1], or -1 if there is no end.
+  /// Returns the share of the whole that was read, in [0, 1], or -1 if there is no end.
   virtual double progress() const { return -1.0; }
 
-  /// Whether its readings are of now, so that they can't be had again: whoever keeps them keeps
-  /// them as they come, and a signal ends them like any end.
+  /// Returns whether its readings are of now and can't be read again: a record of them is written
+  /// as they arrive, and a signal ends them like any other end.
   virtual bool isLive() const { return false; }
 
-  /// What whoever reads to the end should be told, in a sentence; "": nothing.
+  /// Returns a sentence that the user should see at the end; "": nothing to say.
   virtual std::string remark() const { return ""; }
 
-  /// Fingerprint of the world the readings come from, or "" if it is not known.
+  /// Returns the fingerprint of the world the readings come from, or "" if it is not known.
   virtual std::string worldFingerprint() const { return ""; }
 
-  /// Robot file (TOML text) that fits the readings, or "" if the source can't know it.
+  /// Returns the robot file (TOML text) that fits the readings, or "" if the source can't know it.
   virtual std::string robotToml() const { return ""; }
 
   /// Writes the world file that goes with the readings, and the files it names beside it.
@@ -50,14 +50,14 @@ class ORTUNG_API Source {
   virtual void writeWorld(const std::filesystem::path& file) const;
 };
 
-/// "KIND:PATH?key=value&key=value", e.g. "mrclam:data/ds6?robot=3".
+/// The parts of "KIND:PATH?key=value&key=value", e.g. "mrclam:data/ds6?robot=3".
 struct SourceText {
   std::string kind;
   std::string path;
   std::map<std::string, std::string> options;
 };
 
-/// @throws std::invalid_argument saying what is wrong with the text
+/// Splits such a text. @throws std::invalid_argument saying what is wrong with it
 ORTUNG_API SourceText parseSourceText(const std::string& text);
 
 /// Groups the messages of a source by time stamp. Not thread-safe.
@@ -65,9 +65,9 @@ class ORTUNG_API FrameReader {
  public:
   explicit FrameReader(Source& source) : source_(source) {}
 
-  /// All messages of the next moment, in the source's order; false at the end.
-  /// @throws std::runtime_error if time runs backwards, or is farther than 2^60 us from 0: whoever
-  ///   plays readings may add and subtract times
+  /// Reads all messages of the next moment, in the source's order; returns false at the end.
+  /// @throws std::runtime_error if time runs backwards, or is farther than 2^60 us from 0, so that
+  ///   players may add and subtract times
   bool next(std::vector<Message>& frame);
 
  private:

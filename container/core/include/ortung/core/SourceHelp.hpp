@@ -13,16 +13,16 @@ namespace ortung {
 struct SourceOption {
   std::string key;
   std::string unit;      ///< "m", "x,y,theta in m and degrees"; "" if there is none
-  std::string fallback;  ///< what holds without the option
-  std::string meaning;
+  std::string fallback;  ///< value that holds without the option
+  std::string meaning;   ///< what it does, for people
 };
 
-/// What a kind of source says of itself, without opening anything: a plugin beside the Source,
-/// under the same name, which a kind may have or not. Immutable.
+/// The help of a kind of source, which is there without opening anything. It is an optional plugin
+/// beside the Source, under the same name. Immutable.
 class ORTUNG_API SourceHelp {
  public:
   static constexpr const char* kInterface = "ortung.SourceHelp/" ORTUNG_CONTAINER_ABI;
-  /// @param path what stands behind "KIND:", e.g. "folder of a run"
+  /// @param path meaning of the text behind "KIND:", e.g. "folder of a run"
   SourceHelp(std::string path, std::vector<SourceOption> options);
   virtual ~SourceHelp();
 

@@ -11,18 +11,20 @@
 
 namespace ortung {
 
-/// Finite decimal numbers with @p separator between them; nothing for anything else.
+/// Reads finite decimal numbers with @p separator between them; returns nothing for anything else.
 ORTUNG_API std::optional<std::vector<double>> parseNumbers(std::string_view text,
                                                            char separator = ',');
 
 // The options of a source (behind the "?" of its text) come as text.
 
-/// A number, or nothing where the option is not given. @throws ConfigError naming the option
+/// Returns a number, or nothing where the option is not given. @throws ConfigError naming the
+/// option
 ORTUNG_API std::optional<double> optionNumber(const Parameters& options, const std::string& key,
                                               const Range& range);
 ORTUNG_API double optionNumber(const Parameters& options, const std::string& key, double fallback,
                                const Range& range);
-/// "x,y,theta" in metres and degrees, or nothing where the option is not given. @throws ConfigError
+/// Returns the pose of "x,y,theta" in metres and degrees, or nothing where the option is not given.
+/// @throws ConfigError
 ORTUNG_API std::optional<Pose2> optionPose(const Parameters& options, const std::string& key);
 
 }  // namespace ortung

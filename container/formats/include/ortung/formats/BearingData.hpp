@@ -20,9 +20,10 @@ namespace ortung {
 class ORTUNG_API BearingData : public SensorData {
  public:
   struct Config {
-    double fieldOfView = 0.0;  ///< [rad]; 0 or 2 pi: all around
-    SensorModel model{.sigma = 0.02};
+    double fieldOfView = 0.0;  ///< the sensor's whole field of view [rad]; 0 or 2 pi: all around
+    SensorModel model{.sigma = 0.02};  ///< noise of the bearing [rad]
   };
+  /// Bearing [rad]; nothing: the sensor looked and saw nothing.
   using Reading = std::optional<double>;
 
   BearingData(SensorId id, const Pose2& mount, const Config& config);
@@ -31,7 +32,8 @@ class ORTUNG_API BearingData : public SensorData {
   Reading reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
 
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<BearingData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;

@@ -15,12 +15,12 @@ namespace ortung {
 /// The places that a localization's belief is spread over, heaviest first: the feature
 /// mcl/LOCALIZATION/places (LocalizationConfig::publish), as Mcl::places() tells them.
 /// Ten words a place: its share of the belief [1/10000], then the nine words of PoseFixData. It
-/// says nothing about the pose, so it weighs no samples. Not thread-safe, see SensorData.
+/// only reports, so it weighs no samples. Not thread-safe, see SensorData.
 class ORTUNG_API ClustersData : public SensorData {
  public:
   struct Cluster {
-    double share = 0.0;  ///< of the belief, in [0, 1]
-    PoseFixData::Fix fix;
+    double share = 0.0;    ///< share of the belief, in [0, 1]
+    PoseFixData::Fix fix;  ///< mean and covariance of the place
   };
   using Reading = std::vector<Cluster>;
   static constexpr std::size_t kMostClusters = PoseFixData::kMostFixes;
@@ -28,7 +28,7 @@ class ORTUNG_API ClustersData : public SensorData {
   ClustersData();
   ~ClustersData() override;
   const Reading& reading() const { return reading_; }
-  /// The first kMostClusters of them.
+  /// Returns the words of the first kMostClusters places.
   static std::vector<std::uint32_t> encode(std::span<const Cluster> places);
   static Message message(Timestamp stamp, std::span<const Cluster> places);
   Format format() const override;
@@ -37,7 +37,7 @@ class ORTUNG_API ClustersData : public SensorData {
  private:
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  PoseFixData fixes_;  ///< without the shares
+  PoseFixData fixes_;  ///< decoder of the fixes, without their shares
   Reading reading_;
 };
 

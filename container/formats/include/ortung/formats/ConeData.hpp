@@ -19,12 +19,12 @@ namespace ortung {
 class ORTUNG_API ConeData : public SensorData {
  public:
   struct Config {
-    double openingAngle = 0.35;                                    ///< whole angle [rad]
-    double maxRange = 3.0;                                         ///< [m]
-    RangeResolution resolution{.metres = 0.03, .perMetre = 0.02};  ///< of the table
+    double openingAngle = 0.35;  ///< whole angle of the cone [rad]
+    double maxRange = 3.0;       ///< greatest range [m]
+    RangeResolution resolution{.metres = 0.03, .perMetre = 0.02};  ///< resolution of the table
     SensorModel model{.sigma = 0.03, .sigmaPerMetre = 0.02, .outliers = 0.1};
   };
-  /// [m]; +infinity: nothing within range; NaN: not valid
+  /// Distance [m]; +infinity: nothing within range; NaN: not valid.
   using Reading = double;
 
   ConeData(SensorId id, const Pose2& mount, const Config& config);
@@ -32,9 +32,12 @@ class ORTUNG_API ConeData : public SensorData {
 
   Reading reading() const { return reading_; }
   const Config& config() const { return config_; }
+  /// Returns the word of a reading: NaN becomes 0, anything at or beyond @p maxRange a word above
+  /// it.
   static std::uint32_t encode(Reading reading, double maxRange);
 
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<ConeData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Names of the formats that come with Ortung (core/Format.hpp). What the words of each are is told
-/// beside its class. A plugin's own format has any other name, and tells its words by the parameter
-/// `row` (core/FormatRow.hpp).
+/// Names of the formats that come with Ortung (core/Format.hpp). The class of each describes its
+/// words. A plugin's own format has any other name, and describes its words by the parameter `row`
+/// (core/ReadingValue.hpp).
 namespace ortung::formats {
 
 inline constexpr const char* kRange = "range";          ///< ScalarData [max_m=]
@@ -26,10 +26,11 @@ inline constexpr const char* kWork = "work";            ///< WorkData
 inline constexpr const char* kSamples = "samples";      ///< SamplesData
 inline constexpr const char* kDevice = "device";        ///< DeviceStatusData status=, their names
 
-/// What a world says of itself: rows of number, x, y [mm + 2^31, field frame], heading [1/100
+/// The robots of a world: rows of number, x, y [mm + 2^31, field frame], heading [1/100
 /// degree, 0 to 35999], states of manipulators.
 inline constexpr const char* kWorldRobots = "world_robots";
-/// Rows of x, y, z [mm + 2^31, field frame], heading [1/100 degree, 0 to 35999].
+/// The movable objects of a world: rows of x, y, z [mm + 2^31, field frame], heading [1/100 degree,
+/// 0 to 35999].
 inline constexpr const char* kWorldObjects = "world_objects";
 
 }  // namespace ortung::formats

@@ -18,26 +18,27 @@ namespace ortung {
 /// Ranges and bearings of landmarks seen at one moment.
 /// Words: three a landmark: identity, [mm], [angle]; none: looked and saw nothing.
 /// Learns a position and a bearing table for each landmark of its list or, if they can't be told
-/// apart, where each of them is: the readings that it learns from say which is which, all others
-/// need not. A sighting is then of the landmark that fits best (UnidentifiedSight.hpp).
+/// apart, the position of each: the readings that it learns from have identities, all others need
+/// none. A sighting then belongs to the landmark that fits best (UnidentifiedSight.hpp).
 /// Not thread-safe, see SensorData.
 class ORTUNG_API LandmarksData : public SensorData {
  public:
-  /// Identity of a sighting of which nobody knows it.
+  /// Identity of a sighting whose identity is not known.
   static constexpr std::uint32_t kUnknown = 0xFFFFFFFF;
   struct Config {
-    std::vector<std::uint32_t> identities;  ///< of the landmarks; not empty, unique
+    std::vector<std::uint32_t> identities;  ///< identities of the landmarks; not empty, unique
     bool identified = true;                 ///< whether readings tell them apart
-    double maxRange = 20.0;                 ///< [m]
-    double fieldOfView = 0.0;               ///< [rad]; 0 or 2 pi: all around
+    double maxRange = 20.0;                 ///< greatest range [m]
+    double fieldOfView = 0.0;               ///< whole field of view [rad]; 0 or 2 pi: all around
     SensorModel range{};
     SensorModel bearing{.sigma = 0.02};
-    SightingBias bias{};  ///< of readings; they are corrected before they are weighed
+    SightingBias
+        bias{};  ///< systematic error of readings, which is corrected before they are weighed
   };
   struct Sighting {
     std::uint32_t identity = 0;
-    double range = 0.0;    ///< [m]
-    double bearing = 0.0;  ///< in the sensor's frame [rad]
+    double range = 0.0;    ///< range along the floor [m]
+    double bearing = 0.0;  ///< bearing in the sensor's frame [rad]
   };
   using Reading = std::vector<Sighting>;
 
@@ -45,22 +46,24 @@ class ORTUNG_API LandmarksData : public SensorData {
   ~LandmarksData() override;
 
   const Reading& reading() const { return reading_; }
+  /// Returns the words of a reading. @throws std::invalid_argument for numbers that are not finite
   static std::vector<std::uint32_t> encode(const Reading& reading);
   static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
   const Config& config() const { return config_; }
-  /// A sighting without what the sensor gets wrong always in the same way.
+  /// Returns a sighting without the sensor's systematic error.
   Sighting corrected(const Sighting& sighting) const;
-  /// Place in the list of identities of what is sighted with the robot at @p pose, by its identity
-  /// or, without one, the landmark that is nearest to where it lies; -1: none.
+  /// Returns the index in the list of identities of a landmark that is sighted from @p pose: by its
+  /// identity or, without one, the landmark nearest to the sighting; -1: none.
   std::ptrdiff_t indexOf(const Sighting& sighting, const Pose2& pose) const;
 
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<LandmarksData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override;
-  /// Range and bearing of each landmark of the list, in its order.
+  /// Returns range [m] and bearing [rad] of each landmark of the list, in its order.
   std::vector<double> expectation(const Pose2& pose) const override;
   bool isAngle(std::size_t index) const override { return index % 2 == 1; }
   std::vector<double> measured(const Pose2& pose) const override;
@@ -70,8 +73,8 @@ class ORTUNG_API LandmarksData : public SensorData {
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
-  struct Model;   ///< what stays: how probable residuals are
-  struct Tables;  ///< of each landmark, or where all of them are
+  struct Model;   ///< likelihood of residuals, the same for all readings
+  struct Tables;  ///< expectations by landmark, or the places of all landmarks
   class Sight;    ///< the weigher
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;

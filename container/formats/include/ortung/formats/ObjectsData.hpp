@@ -10,7 +10,7 @@
 
 namespace ortung {
 
-/// Things that may be anywhere: balls, robots, obstacles. Since they move, they say nothing about
+/// Objects that may be anywhere: balls, robots, obstacles. Since they move, they say nothing about
 /// the robot's own pose: this feature neither learns nor localizes.
 /// Words: five an object: identity (0: not known), colour, [mm], [angle], radius [mm];
 /// none: looked and saw nothing. A colour is 0xRRGGBB, or kNoColour.
@@ -20,11 +20,11 @@ class ORTUNG_API ObjectsData : public SensorData {
   static constexpr std::uint32_t kNoColour = 1u << 24;
   static constexpr std::size_t kMostObjects = 1024;
   struct Object {
-    std::uint32_t identity = 0;
-    std::uint32_t colour = kNoColour;
-    double range = 0.0;    ///< to its middle, along the floor [m]
-    double bearing = 0.0;  ///< of its middle in the sensor's frame [rad]
-    double radius = 0.0;   ///< [m]
+    std::uint32_t identity = 0;        ///< number of the object; zero: not known
+    std::uint32_t colour = kNoColour;  ///< colour as 0xRRGGBB, or kNoColour
+    double range = 0.0;                ///< distance to the object's middle along the floor [m]
+    double bearing = 0.0;              ///< bearing of its middle in the sensor's frame [rad]
+    double radius = 0.0;               ///< radius on the floor [m]
   };
   using Reading = std::vector<Object>;
 
@@ -34,7 +34,8 @@ class ORTUNG_API ObjectsData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(std::span<const Object> objects);
   static void encode(std::span<const Object> objects, std::vector<std::uint32_t>& words);
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<ObjectsData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;

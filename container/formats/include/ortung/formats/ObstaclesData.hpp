@@ -23,7 +23,7 @@ class ORTUNG_API ObstaclesData : public SensorData {
     Shape shape = Shape::kCircle;
     double x = 0.0;       ///< middle of a circle, or one end, in the sensor's frame [m]
     double y = 0.0;       ///< [m]
-    double radius = 0.0;  ///< of a circle [m]
+    double radius = 0.0;  ///< radius of a circle [m]
     double endX = 0.0;    ///< other end of a segment [m]
     double endY = 0.0;    ///< [m]
   };
@@ -34,7 +34,8 @@ class ORTUNG_API ObstaclesData : public SensorData {
 
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(std::span<const Obstacle> obstacles);
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<ObstaclesData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;

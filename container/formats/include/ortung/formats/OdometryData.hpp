@@ -18,21 +18,22 @@ namespace ortung {
 /// Not thread-safe, see SensorData.
 class ORTUNG_API OdometryData : public SensorData {
  public:
-  /// What stands before the lateral velocity. As a velocity it would be 2147 km/s.
+  /// Word that stands before the lateral velocity. As a velocity it would be 2147 km/s.
   static constexpr std::uint32_t kLateralFollows = 4294967295U;
   struct Reading {
-    Pose2 pose;                          ///< in the odometry frame
-    double translationalVelocity = 0.0;  ///< along the robot's x axis [m/s]
-    double rotationalVelocity = 0.0;     ///< [rad/s]
-    std::vector<std::uint32_t> motionData;
-    double lateralVelocity = 0.0;  ///< along the robot's y axis, to the left [m/s]
+    Pose2 pose;                             ///< pose in the odometry frame
+    double translationalVelocity = 0.0;     ///< velocity along the robot's x axis [m/s]
+    double rotationalVelocity = 0.0;        ///< turn rate, counter-clockwise [rad/s]
+    std::vector<std::uint32_t> motionData;  ///< words of the motion plugin's own, at most 16
+    double lateralVelocity = 0.0;  ///< velocity along the robot's y axis, to the left [m/s]
   };
   explicit OdometryData(SensorId id);
   ~OdometryData() override;
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
   static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<OdometryData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;

@@ -13,29 +13,30 @@
 
 namespace ortung {
 
-/// Something at a place in the field frame, as somebody says.
+/// A robot or ball at a place in the field frame, as another robot reports it.
 struct Place {
   enum class Kind : std::uint8_t { robot, ball };
-  static constexpr double kNoHeading = 100.0;  ///< sigma of a heading that nobody knows [rad]
+  static constexpr double kNoHeading = 100.0;  ///< sigma of an unknown heading [rad]
 
   Kind kind = Kind::robot;
-  std::string name;      ///< of what is there: 1 to 64 of [A-Za-z0-9_.-]
-  PoseFixData::Fix fix;  ///< sigma of the heading kNoHeading: only the position is known
+  std::string name;      ///< name of what is there: 1 to 64 of [A-Za-z0-9_.-]
+  PoseFixData::Fix fix;  ///< pose; with a heading's sigma of kNoHeading, only its position is known
   bool hasHeading() const {
     return headingVariance(fix.covariance) < 0.25 * kNoHeading * kNoHeading;
   }
 };
 
-/// Where others say that robots and balls are. They move, so it neither learns nor localizes.
+/// Places of robots and balls that others report. They move, so it neither learns nor localizes.
 /// Words: of each place 0 for a robot or 1 for a ball, its name as a text (see TalkData), how old
 /// it is [us], and the nine words of a fix (see PoseFixData). Not thread-safe, see SensorData.
 class ORTUNG_API PlacesData : public SensorData {
  public:
   static constexpr std::size_t kMostPlaces = 256;
+  /// A place that was reported.
   struct Told {
     Place place;
-    double age = 0.0;  ///< when the reading was taken [s]
-    std::string from;  ///< who said it
+    double age = 0.0;  ///< age of the report at the time of the reading [s]
+    std::string from;  ///< name of the robot that reported it
   };
   using Reading = std::vector<Told>;
 
@@ -45,7 +46,8 @@ class ORTUNG_API PlacesData : public SensorData {
   const Reading& reading() const { return reading_; }
   /// @throws std::invalid_argument for more places than a reading can hold, and for bad names
   static std::vector<std::uint32_t> encode(const Reading& reading);
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<PlacesData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
@@ -56,12 +58,13 @@ class ORTUNG_API PlacesData : public SensorData {
   Reading reading_;
 };
 
-/// What a robot tells its team of a place: "robot NAME X Y DEG SX SY SDEG CXY CXT CYT", positions
-/// and their sigmas in metres, headings in degrees, correlations between -1 and 1; DEG and SDEG are
+/// Returns the text by which a robot reports a place to its team: "robot NAME X Y DEG SX SY SDEG
+/// CXY CXT CYT", positions and their sigmas in metres, headings in degrees, correlations between -1
+/// and 1; DEG and SDEG are
 /// "-" where the heading is not known. @throws std::invalid_argument for a bad name, and for
 /// numbers that are not finite
 ORTUNG_API std::string toText(const Place& place);
-/// The place that a text tells of; nothing if it is about something else, or not right.
+/// Returns the place that such a text reports; nothing if the text is of another kind, or wrong.
 ORTUNG_API std::optional<Place> placeIn(std::string_view text);
 
 }  // namespace ortung

@@ -16,21 +16,21 @@ struct EndPointTables;
 /// Points that can't be told apart, e.g. where scan lines of an image cross the field's lines, or
 /// goals that look alike. Words: two a point: [mm] along the floor, [angle]; none: looked and saw
 /// nothing.
-/// Learns an end-point field: a point is probable where one was seen from anywhere. What is not
-/// seen says nothing: it may be hidden. Not thread-safe, see SensorData.
+/// Learns an end-point field: a point is probable where one was seen from anywhere. A point that is
+/// not seen says nothing: it may be hidden. Not thread-safe, see SensorData.
 class ORTUNG_API PointsData : public SensorData {
  public:
   struct Config {
     double maxRange = 6.0;     ///< points beyond it neither learn nor weigh [m]
-    double fieldOfView = 0.0;  ///< of the sensor [rad]; 0 or 2 pi: all around
-    int usedPoints = 0;        ///< weigh with at most so many, evenly picked; 0: all
+    double fieldOfView = 0.0;  ///< the sensor's whole field of view [rad]; 0 or 2 pi: all around
+    int usedPoints = 0;        ///< most points that weigh, evenly picked; 0: all
     double cell = 0.05;        ///< edge of the end-point field's cell [m]
-    double margin = 1.0;       ///< how far beyond the field's bounds points may lie [m]
+    double margin = 1.0;       ///< greatest distance of points beyond the field's bounds [m]
     SensorModel model{.sigma = 0.1, .sigmaPerMetre = 0.05, .exponent = 0.3};
   };
   struct Point {
-    double range = 0.0;    ///< [m]
-    double bearing = 0.0;  ///< in the sensor's frame [rad]
+    double range = 0.0;    ///< range along the floor [m]
+    double bearing = 0.0;  ///< bearing in the sensor's frame [rad]
   };
   using Reading = std::vector<Point>;
   static constexpr std::size_t kMostPoints = 4096;
@@ -43,16 +43,17 @@ class ORTUNG_API PointsData : public SensorData {
   static std::vector<std::uint32_t> encode(std::span<const Point> points);
   static void encode(std::span<const Point> points, std::vector<std::uint32_t>& words);
 
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<PointsData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override;
-  /// Distance to the nearest learned point for each point of the reading, as if it were seen at
-  /// @p pose [m].
+  /// Returns the distance [m] to the nearest learned point for each point of the reading, as if it
+  /// were seen from @p pose.
   std::vector<double> expectation(const Pose2& pose) const override;
-  /// Nothing: how far each point is from a learned one should be 0.
+  /// Returns nothing: the distance of each point from a learned one should be 0.
   std::vector<double> measured(const Pose2&) const override { return {}; }
   bool isAngle(std::size_t) const override { return false; }
   std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;

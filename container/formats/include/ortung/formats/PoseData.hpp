@@ -20,7 +20,8 @@ class ORTUNG_API PoseData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Pose2& pose);
   static void encode(const Pose2& pose, std::vector<std::uint32_t>& words);
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<PoseData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;

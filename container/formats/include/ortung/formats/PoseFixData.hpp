@@ -12,22 +12,23 @@
 
 namespace ortung {
 
-/// Absolute poses of the robot in the field, each with its covariance: what a sensor that knows the
-/// field finds by itself, e.g. a scanner from walls and goals. Where the field looks alike from
-/// several places, there are several, and one of them is right.
+/// Absolute poses of the robot in the field, each with its covariance, found by a sensor that knows
+/// the field, e.g. a scanner from walls and goals. Where the field looks alike from several places,
+/// there are several poses, and one of them is right.
 /// Words: nine a pose: x, y [signed mm], [angle], sigma of x, of y [um] and of the heading
 /// [1/10000 degree], correlations xy, x-heading, y-heading [1/10000 + 10000]; none: not found.
 /// Weighs a pose by its best fix. There is nothing to learn. Not thread-safe, see SensorData.
 class ORTUNG_API PoseFixData : public SensorData {
  public:
   struct Config {
-    double addedSigma = 0.05;         ///< of positions: what the fix does not know [m]
-    double addedHeadingSigma = 0.03;  ///< [rad]
-    SensorModel model{};              ///< outliers and exponent alone
+    double addedSigma =
+        0.05;  ///< standard deviation of positions that is added to the fix's own [m]
+    double addedHeadingSigma = 0.03;  ///< standard deviation of headings that is added [rad]
+    SensorModel model{};              ///< outliers and exponent; its sigmas are not used
   };
   struct Fix {
-    Pose2 pose;  ///< of the robot, in the field frame
-    PoseCovariance covariance{};
+    Pose2 pose;                   ///< pose of the robot in the field frame
+    PoseCovariance covariance{};  ///< covariance along the axes of the field frame
   };
   using Reading = std::vector<Fix>;
   static constexpr std::size_t kMostFixes = 64;
@@ -37,19 +38,20 @@ class ORTUNG_API PoseFixData : public SensorData {
 
   const Reading& reading() const { return reading_; }
   const Config& config() const { return config_; }
-  /// Sigmas are at least 1 um and 1/10000 degree.
+  /// Returns the words of fixes. Sigmas are raised to at least 1 um and 1/10000 degree.
   static std::vector<std::uint32_t> encode(std::span<const Fix> fixes);
 
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<PoseFixData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }
   double headingSpacing() const override { return 0.0; }
-  /// The pose itself.
+  /// Returns the pose itself.
   std::vector<double> expectation(const Pose2& pose) const override;
   bool isAngle(std::size_t index) const override { return index == 2; }
-  /// The fix that is nearest to the pose by its covariance: x, y [m], heading [rad].
+  /// Returns the fix that is nearest to the pose by its covariance: x, y [m], heading [rad].
   std::vector<double> measured(const Pose2& pose) const override;
   std::vector<double> covariance(const Pose2& pose) const override;
   std::string learningKey() const override { return "fix"; }

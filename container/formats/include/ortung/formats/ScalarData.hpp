@@ -20,10 +20,11 @@ namespace ortung {
 class ORTUNG_API ScalarData : public SensorData {
  public:
   struct Config {
-    double maxRange = 20.0;    ///< expectations beyond it are not kept [m]
-    double fieldOfView = 0.0;  ///< of the sensor [rad]; 0 or 2 pi: all around
-    SensorModel model{};
+    double maxRange = 20.0;    ///< greatest expectation that is stored [m]
+    double fieldOfView = 0.0;  ///< the sensor's whole field of view [rad]; 0 or 2 pi: all around
+    SensorModel model{};       ///< noise of the distance [m]
   };
+  /// Distance [m]; nothing: the sensor looked and saw nothing.
   using Reading = std::optional<double>;
 
   ScalarData(SensorId id, const Pose2& mount, const Config& config);
@@ -32,7 +33,8 @@ class ORTUNG_API ScalarData : public SensorData {
   Reading reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
 
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<ScalarData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;

@@ -22,17 +22,18 @@ class SurfaceField;
 /// Learns a ray table or an end-point field. Not thread-safe, see SensorData.
 class ORTUNG_API ScanData : public SensorData {
  public:
+  /// Which table expectations come from: ranges of rays, or places of their end points.
   enum class Perception { kRays, kEndPoints };
   struct Config {
-    int beams = 180;          ///< 1 to 8192
-    double firstAngle = 0.0;  ///< of beam 0 in the sensor's frame [rad]
-    double angleStep = 0.0;   ///< between beams [rad], positive; beams * angleStep <= 2 pi
-    double minRange = 0.0;    ///< readings below it are not valid [m]
-    double maxRange = 8.0;    ///< [m]
-    RangeResolution resolution{.metres = 0.05, .perMetre = 0.01};  ///< of a ray table
+    int beams = 180;          ///< number of beams, 1 to 8192
+    double firstAngle = 0.0;  ///< angle of beam 0 in the sensor's frame [rad]
+    double angleStep = 0.0;   ///< angle between beams [rad], positive; beams * angleStep <= 2 pi
+    double minRange = 0.0;    ///< least valid reading [m]
+    double maxRange = 8.0;    ///< greatest range [m]
+    RangeResolution resolution{.metres = 0.05, .perMetre = 0.01};  ///< resolution of a ray table
     Perception perception = Perception::kRays;
-    bool localizes = true;       ///< false: it only serves others, e.g. an Extractor
-    int usedBeams = 0;           ///< thin to about this many; 0: all that differ in the table
+    bool localizes = true;       ///< false: it only serves other features, by an Extractor
+    int usedBeams = 0;           ///< about how many beams weigh; 0: all that differ in the table
     double endPointCell = 0.05;  ///< edge of an end-point field's cell [m]
     /// The exponent is that of ray tables: their cells make neighbouring beams err alike.
     SensorModel model{.sigma = 0.05, .sigmaPerMetre = 0.01, .exponent = 0.06};
@@ -40,9 +41,9 @@ class ORTUNG_API ScanData : public SensorData {
   /// A good exponent for end-point fields, which do not round the pose.
   static constexpr double kEndPointExponent = 0.3;
   struct Reading {
-    double firstAngle = 0.0;    ///< [rad]
-    double angleStep = 0.0;     ///< [rad]
-    std::vector<float> ranges;  ///< [m]; NaN: not valid; +infinity: nothing within range
+    double firstAngle = 0.0;    ///< angle of beam 0 in the sensor's frame [rad]
+    double angleStep = 0.0;     ///< angle between beams [rad]
+    std::vector<float> ranges;  ///< ranges [m]; NaN: not valid; +infinity: nothing within range
   };
 
   ScanData(SensorId id, const Pose2& mount, const Config& config);
@@ -50,19 +51,21 @@ class ORTUNG_API ScanData : public SensorData {
 
   Reading reading() const;
   const Config& config() const { return config_; }
-  /// NaN becomes 0, anything at or beyond @p maxRange (and infinity) one word above it.
+  /// Writes the words of a scan: NaN becomes 0, anything at or beyond @p maxRange (and infinity)
+  /// one word above it.
   static void encode(std::span<const float> ranges, double maxRange,
                      std::vector<std::uint32_t>& words);
 
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<ScanData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return config_.localizes; }
   double headingSpacing() const override;
   double positionSpacing() const override;
-  /// Range of each beam [m]; the greatest range where nothing is expected to be seen.
-  /// With an end-point field: empty, since that does not keep ranges.
+  /// Returns the range of each beam [m]; the greatest range where nothing is expected in sight. It
+  /// is empty with an end-point field, which does not store ranges.
   std::vector<double> expectation(const Pose2& pose) const override;
   bool isAngle(std::size_t) const override { return false; }
   std::vector<double> measured(const Pose2& pose) const override;
@@ -73,7 +76,7 @@ class ORTUNG_API ScanData : public SensorData {
   void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
-  struct Learning;  ///< what only a sweep needs
+  struct Learning;  ///< data that only a sweep needs
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
   void startTables(const FieldRegion& region, double headingStep) override;
@@ -92,7 +95,7 @@ class ORTUNG_API ScanData : public SensorData {
   RangeScale scale_;
   std::shared_ptr<DirectionTable> rays_;
   std::shared_ptr<EndPointTables> endPoints_;
-  std::shared_ptr<SurfaceField> surfaces_;  ///< beside a ray table
+  std::shared_ptr<SurfaceField> surfaces_;  ///< surfaces that refine a ray table
   std::vector<float> ranges_;
   std::unique_ptr<Learning> learning_;
 };

@@ -4,30 +4,30 @@
 
 namespace ortung {
 
-/// What an observer of landmarks gets wrong always in the same way. Of a landmark at range r [m]
-/// and bearing b [rad] it measures
+/// The systematic error of an observer of landmarks. Of a landmark at range r [m] and bearing b
+/// [rad] it measures
 ///   range:   r (1 + perMetre + perMetreRad b + perMetreRad2 b^2) + metres
 ///   bearing: b + radians + perRad b + perRad2 b^2
 /// A camera that measures distances along its optical axis has perMetreRad2 of -1/2, since the
 /// cosine of a small b is 1 - b^2/2; the other terms are those of its lens. Immutable.
 struct ORTUNG_API SightingBias {
-  double metres = 0.0;        ///< [m]
-  double perMetre = 0.0;      ///< [m/m]
+  double metres = 0.0;        ///< constant error of ranges [m]
+  double perMetre = 0.0;      ///< error per metre of range [m/m]
   double perMetreRad = 0.0;   ///< [1/rad]
   double perMetreRad2 = 0.0;  ///< [1/rad^2]
-  double radians = 0.0;       ///< [rad]
+  double radians = 0.0;       ///< constant error of bearings [rad]
   double perRad = 0.0;        ///< [rad/rad]
   double perRad2 = 0.0;       ///< [1/rad]
 
   bool operator==(const SightingBias&) const = default;
 
   struct Sight {
-    double range = 0.0;    ///< [m]
-    double bearing = 0.0;  ///< in the sensor's frame [rad]
+    double range = 0.0;    ///< range [m]
+    double bearing = 0.0;  ///< bearing in the sensor's frame [rad]
   };
-  /// What is measured of what is there. Ranges are never below 0.
+  /// Returns what is measured of a landmark that truly is at @p truth. Ranges are never below 0.
   Sight measured(const Sight& truth) const;
-  /// What is there, of what is measured: the inverse of the above.
+  /// Returns the true range and bearing of a measurement: the inverse of measured().
   Sight corrected(const Sight& measured) const;
 
  private:

@@ -10,24 +10,24 @@
 
 namespace ortung {
 
-/// What others have told a robot since its last reading: it neither learns nor localizes, but
-/// extractors may find in it what does.
+/// The messages that a robot has received since its last reading. It neither learns nor localizes,
+/// but extractors may make features of it that do.
 /// Words: a text is the number of its bytes, and its bytes, four a word, the first one lowest, the
 /// last word filled up with 0. The reading is the text of the listener's name, then three for each
-/// message: how long ago [us], the text of who said it, the text of what was said.
+/// message: its age [us], the text of its sender's name, the text of the message.
 /// Not thread-safe, see SensorData.
 class ORTUNG_API TalkData : public SensorData {
  public:
   static constexpr std::size_t kMostMessages = 1000;
-  static constexpr std::size_t kLongestName = 64;   ///< [characters]
-  static constexpr std::size_t kLongestText = 400;  ///< [characters]
+  static constexpr std::size_t kLongestName = 64;   ///< most characters of a name
+  static constexpr std::size_t kLongestText = 400;  ///< most characters of a message
   struct Message {
-    double age = 0.0;  ///< when the reading was taken [s]
-    std::string from;  ///< name of the robot, or of whoever spoke
-    std::string text;  ///< printable ASCII
+    double age = 0.0;  ///< age of the message at the time of the reading [s]
+    std::string from;  ///< name of the robot or program that sent it
+    std::string text;  ///< content, printable ASCII
   };
   struct Reading {
-    std::string listener;  ///< name of the robot that was told
+    std::string listener;  ///< name of the robot that received the messages
     std::vector<Message> messages;
   };
 
@@ -38,7 +38,8 @@ class ORTUNG_API TalkData : public SensorData {
   /// @throws std::invalid_argument for more or longer messages than a reading can hold, and for
   ///   characters that can't be printed
   static std::vector<std::uint32_t> encode(const Reading& reading);
-  /// One with the words of another feature of this format; null if it is of none (readingAs()).
+  /// Makes a feature of this class with the words and parameters of another one that has this
+  /// format, whatever its class; null if its format is another one (readingAs()).
   static std::unique_ptr<TalkData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;

@@ -12,10 +12,10 @@
 
 namespace ortung {
 
-/// How far a localization's estimate can be relied on, for others to read: the feature
+/// How far a localization's estimate can be relied on, for other programs: the feature
 /// mcl/LOCALIZATION/status beside mcl/LOCALIZATION/pose (LocalizationConfig::publish).
 /// Words: status (0 tracking, 1 uncertain, 2 lost), reason (in the order of TrackReason), quality
-/// and share [1/10000], both in [0, 1]. It says nothing about the pose, so it weighs no samples.
+/// and share [1/10000], both in [0, 1]. It only reports, so it weighs no samples.
 /// Not thread-safe, see SensorData.
 class ORTUNG_API TrackData : public SensorData {
  public:
@@ -23,7 +23,7 @@ class ORTUNG_API TrackData : public SensorData {
     TrackStatus status = TrackStatus::kLost;
     TrackReason reason = TrackReason::kNoReading;
     double quality = 0.0;  ///< probability that the position error is below 0.5 m, in [0, 1]
-    double share = 0.0;    ///< of the estimate's cluster in the whole belief, in [0, 1]
+    double share = 0.0;    ///< share of the estimate's cluster in the whole belief, in [0, 1]
   };
 
   TrackData();

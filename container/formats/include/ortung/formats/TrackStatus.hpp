@@ -8,31 +8,31 @@ namespace ortung {
 
 /// How far an estimate can be relied on.
 enum class TrackStatus : std::uint8_t {
-  kTracking,   ///< the position error is below 0.5 m almost surely
-  kUncertain,  ///< it may well be, but something speaks against it
-  kLost,       ///< it is not, more likely than not
+  kTracking,   ///< the position error is almost certainly below 0.5 m
+  kUncertain,  ///< the error may be below 0.5 m, but there is evidence against it
+  kLost,       ///< the error is more likely above 0.5 m than below
   kLast = kLost,
 };
 
-/// Why it can, or can't. Their numbers are words of the protocol: new ones come last.
+/// The reason for a status. The numbers are words of the protocol: new ones come last.
 enum class TrackReason : std::uint8_t {
-  kFits,
-  kSeveralPlaces,
-  kSpread,       ///< one place, but a wide one
-  kNoReading,    ///< for three times as long as is usual
-  kFrozen,       ///< a device repeats its reading though the robot moves
-  kPoorFit,      ///< readings fit worse than usual
-  kRival,        ///< several readings have fitted better elsewhere
-  kOdometry,     ///< readings contradict it
-  kSearching,    ///< a global start has found no place yet
-  kLate,         ///< the stamps of readings are, against odometry's
-  kUnconfirmed,  ///< a global start has found one that few readings have confirmed
+  kFits,           ///< readings fit one place
+  kSeveralPlaces,  ///< the belief has several places
+  kSpread,         ///< the belief has one place, but a wide one
+  kNoReading,      ///< no reading came for three times as long as usual
+  kFrozen,         ///< a device repeats its reading though the robot moves
+  kPoorFit,        ///< readings fit worse than usual
+  kRival,          ///< several readings have fitted better elsewhere
+  kOdometry,       ///< readings contradict odometry
+  kSearching,      ///< a global start has found no place yet
+  kLate,           ///< stamps of readings are late against odometry's
+  kUnconfirmed,    ///< a global start has found a place that few readings have confirmed
   kLast = kUnconfirmed,
 };
 
-/// "tracking", "uncertain", "lost".
+/// Returns "tracking", "uncertain" or "lost".
 ORTUNG_API const char* nameOf(TrackStatus status);
-/// A few words, such as "readings fit worse than usual".
+/// Returns a few words, such as "readings fit worse than usual".
 ORTUNG_API const char* nameOf(TrackReason reason);
 
 }  // namespace ortung

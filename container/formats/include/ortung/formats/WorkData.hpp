@@ -11,17 +11,18 @@
 
 namespace ortung {
 
-/// What a localization has to do: the feature mcl/LOCALIZATION/work (LocalizationConfig::publish).
-/// Words: samples, what these are worth as equal samples, duration of the newest update [us],
-/// estimates so far. It says nothing about the pose, so it weighs no samples. Not thread-safe, see
+/// The work load of a localization: the feature mcl/LOCALIZATION/work
+/// (LocalizationConfig::publish). Words: samples, effective samples, duration of the newest update
+/// [us], estimates so far. It only reports, so it weighs no samples. Not thread-safe, see
 /// SensorData.
 class ORTUNG_API WorkData : public SensorData {
  public:
   struct Reading {
-    std::size_t samples = 0;
-    double effectiveSamples = 0.0;  ///< 1 / sum w^2 of their weights, rounded
-    double seconds = 0.0;           ///< that the newest update took
-    std::uint64_t estimates = 0;    ///< so far; begins anew after 2^32
+    std::size_t samples = 0;  ///< size of the sample set
+    double effectiveSamples =
+        0.0;               ///< samples that are worth as much: 1 / sum w^2 of the weights, rounded
+    double seconds = 0.0;  ///< computing time of the newest update [s]
+    std::uint64_t estimates = 0;  ///< number of estimates so far; begins anew after 2^32
   };
 
   WorkData();

@@ -22,7 +22,7 @@ namespace ortung {
 /// Not thread-safe while it is filled; then any number of threads may read it.
 class ORTUNG_API DirectionTable {
  public:
-  static constexpr int kSlack = 64;
+  static constexpr int kSlack = 64;  ///< readable bytes behind a row's last entry
   static constexpr int kMostDirections = 36000;
 
   DirectionTable() = default;
@@ -35,29 +35,32 @@ class ORTUNG_API DirectionTable {
   /// Gives directions that no angle fell on the level of a neighbour at most kWidestGap away,
   /// drops rows that still have holes, and repeats the beginnings of rows behind their ends.
   void finish();
-  static constexpr int kWidestGap = 2;
+  static constexpr int kWidestGap = 2;  ///< directions to a neighbour that finish() copies, at most
 
   int directions() const { return directions_; }
-  double step() const;  ///< [rad]
+  double step() const;  ///< angle between directions [rad]
   const FieldGrid& grid() const { return grid_; }
-  /// Row of levels of the cell that holds the point, or nullptr.
+  /// Returns the row of levels of the cell that holds the point, or nullptr.
   /// directions() + longestRun entries can be read, and kSlack more bytes belong to the table, so
   /// that whole vectors may be loaded.
   const std::uint8_t* row(double x, double y) const {
     const std::ptrdiff_t cell = grid_.cellAt(x, y);
     return cell < 0 ? nullptr : rowOfCell(cell);
   }
+  /// The same by the cell's number. @pre the cell is in the grid
   const std::uint8_t* rowOfCell(std::ptrdiff_t cell) const {
     const std::int32_t row = rowOf_[static_cast<std::size_t>(cell)];
     return row < 0 ? nullptr : levels_.data() + static_cast<std::size_t>(row) * stride_;
   }
-  /// Nearest direction to @p angle, in [0, directions()).
+  /// Returns the direction nearest to @p angle [rad], in [0, directions()).
   int directionOf(double angle) const;
 
+  /// Returns the number of each cell's row, -1 for cells without one.
   std::span<const std::int32_t> rowIndex() const { return rowOf_; }
   std::span<const std::uint8_t> levels() const { return levels_; }
   std::size_t stride() const { return stride_; }
 
+  /// Writes the table's arrays, whose names begin with @p prefix. @throws TableError
   void save(TableWriter& file, const std::string& prefix) const;
   /// @param longestRunOf longest run by number of directions, as given to start()
   /// @throws TableError also for row numbers outside of the table
@@ -70,10 +73,11 @@ class ORTUNG_API DirectionTable {
   std::size_t stride_ = 1;
   std::vector<std::int32_t> ownRowOf_;
   std::vector<std::uint8_t> ownLevels_;
-  std::vector<std::uint8_t> closeness_;  ///< while learning: of the angle learned; 0: none yet
+  std::vector<std::uint8_t>
+      closeness_;  ///< closeness of the angle learned, by entry, while learning; 0: none yet
   std::span<const std::int32_t> rowOf_;
   std::span<const std::uint8_t> levels_;
-  std::shared_ptr<const TableFile> file_;  ///< kept for the spans; may be null
+  std::shared_ptr<const TableFile> file_;  ///< owner of the spans' memory; may be null
 };
 
 }  // namespace ortung

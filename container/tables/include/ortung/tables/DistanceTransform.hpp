@@ -9,17 +9,17 @@
 
 namespace ortung {
 
-/// Distance from the centre of each cell of a grid to the centre of the nearest marked one, exact:
-/// the lower envelope of parabolas (P. Felzenszwalb, D. Huttenlocher, "Distance Transforms of
-/// Sampled Functions", 2012). Not thread-safe.
+/// Computes the exact distance from the centre of each cell of a grid to the centre of the nearest
+/// marked one, by the lower envelope of parabolas (P. Felzenszwalb, D. Huttenlocher, "Distance
+/// Transforms of Sampled Functions", 2012). Not thread-safe.
 class ORTUNG_API DistanceTransform {
  public:
   /// @param marked row by row; not 0: marked. Is not kept
   /// @pre marked.size() == columns * rows
   DistanceTransform(int columns, int rows, std::span<const std::uint8_t> marked);
 
-  /// Squared distances of a row's cells, in cells; infinity if nothing is marked. Valid until the
-  /// next call.
+  /// Returns the squared distances of a row's cells [cells^2]; infinity if nothing is marked. The
+  /// span is valid until the next call.
   std::span<const double> squaredOf(int row);
 
  private:
@@ -31,11 +31,12 @@ class ORTUNG_API DistanceTransform {
 
   int columns_;
   int rows_;
-  int far_;                    ///< more than any distance: nothing is marked in the column
-  std::vector<int> inColumn_;  ///< of each cell, to the nearest marked one in its column
-  std::vector<int> place_;     ///< column of each parabola
-  std::vector<double> from_;   ///< where it begins to be the lowest
-  std::size_t count_ = 0;      ///< of the parabolas
+  int far_;  ///< more than any distance: nothing is marked in the column
+  std::vector<int>
+      inColumn_;            ///< distance to the nearest marked cell in the column, by cell [cells]
+  std::vector<int> place_;  ///< column of each parabola
+  std::vector<double> from_;  ///< column where each parabola begins to be the lowest
+  std::size_t count_ = 0;     ///< number of parabolas in the envelope
   std::vector<double> squared_;
 };
 

@@ -42,19 +42,19 @@ struct FieldGrid {
 /// Both masks have grid.size() entries, 0 or 1.
 struct FieldRegion {
   FieldGrid grid;
-  std::vector<std::uint8_t> open;       ///< centre of the cell is not inside anything solid
-  std::vector<std::uint8_t> standable;  ///< the robot's body fits with its centre here
-  /// How well the world knows where its surfaces are, standard deviation: of maps that are made of
-  /// cells, what rounding to them leaves open [m].
+  std::vector<std::uint8_t> open;       ///< by cell, 1: its centre is not inside anything solid
+  std::vector<std::uint8_t> standable;  ///< by cell, 1: the robot's body fits with its centre here
+  /// Standard deviation of the world's surfaces [m]: in maps that are made of cells, the error of
+  /// rounding to these.
   double surfaceSigma = 0.0;
 
   /// @throws std::invalid_argument when sizes do not fit or nothing is standable
   ORTUNG_API void check() const;
 };
 
-/// Open cells that are about @p spacing [m] apart, in the order of their numbers: of each square
-/// block of so many cells the open one that is nearest to its middle, so that no part of the region
-/// is left out. All open cells if the spacing is no wider than two of them.
+/// Returns open cells that are about @p spacing [m] apart, in the order of their numbers: from each
+/// square block of cells the open one that is nearest to its middle, so that no part of the region
+/// is left out. Returns all open cells if the spacing is no wider than two of them.
 ORTUNG_API std::vector<std::size_t> openCellsApart(const FieldRegion& region, double spacing);
 
 }  // namespace ortung

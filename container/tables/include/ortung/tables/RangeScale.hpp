@@ -6,12 +6,13 @@
 
 namespace ortung {
 
-/// How finely a table keeps ranges, relative to each other: coarser the farther away, as most
-/// sensors measure. It is the table's own, so that tables serve whatever noise a sensor has.
+/// How finely a table stores ranges: coarser with distance, as most sensors measure. It belongs to
+/// the table, not to the noise of a sensor, so that tables serve whatever noise a sensor has.
 struct RangeResolution {
-  double metres = 0.05;    ///< at range 0, positive
-  double perMetre = 0.01;  ///< grows by this per metre of range, not negative
+  double metres = 0.05;    ///< resolution at range 0 [m], positive
+  double perMetre = 0.01;  ///< growth of the resolution with range [m/m], not negative
 
+  /// Returns the resolution at a range [m].
   double at(double range) const { return metres + perMetre * range; }
 };
 
@@ -20,15 +21,16 @@ struct RangeResolution {
 /// Level 255 means "nothing within range". Immutable once made.
 class ORTUNG_API RangeScale {
  public:
-  static constexpr std::uint8_t kNothing = 255;
+  static constexpr std::uint8_t kNothing = 255;  ///< level of "nothing within range"
 
   RangeScale() = default;
-  /// @param maxRange readings at or beyond it see nothing [m]
+  /// @param maxRange range from which on a reading counts as "nothing seen" [m]
   RangeScale(double maxRange, const RangeResolution& resolution);
 
-  std::uint8_t level(double range) const;  ///< kNothing at or beyond maxRange
+  std::uint8_t level(double range) const;  ///< level of a range [m]; kNothing at or beyond maxRange
   double range(std::uint8_t level) const;  ///< middle of the level [m]; maxRange for kNothing
-  /// How many levels lie within one sigma of a reading with noise of @p sigma at @p range [m].
+  /// Returns how many levels lie within one sigma of a reading with noise of @p sigma at @p range
+  /// [m].
   double levelsPerSigma(double range, double sigma) const {
     return levelsPerUnit_ * (sigma / resolution_.at(range));
   }
@@ -38,7 +40,7 @@ class ORTUNG_API RangeScale {
   double place(double range) const;
   double maxRange_ = 1.0;
   RangeResolution resolution_;
-  double levelsPerUnit_ = 1.0;  ///< of the resolution
+  double levelsPerUnit_ = 1.0;  ///< levels per width of the resolution
 };
 
 }  // namespace ortung

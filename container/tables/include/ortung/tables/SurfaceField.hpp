@@ -13,14 +13,14 @@
 
 namespace ortung {
 
-/// A piece of what beams end on: a line, or a spot where the ends lie all around.
+/// A piece of what beams end on: a line, or a spot around which the ends scatter.
 struct Surface {
-  float x = 0.0F;  ///< a point of it, in the field [m]
+  float x = 0.0F;  ///< a point of the surface in the field frame [m]
   float y = 0.0F;
-  float normalX = 1.0F;  ///< of a line
+  float normalX = 1.0F;  ///< x of the line's unit normal
   float normalY = 0.0F;
-  float across = 0.0F;  ///< standard deviation of ends across it [m]
-  float along = -1.0F;  ///< along it [m]; negative: a line, of which nothing is known along
+  float across = 0.0F;  ///< standard deviation of ends across the surface [m]
+  float along = -1.0F;  ///< standard deviation along it [m]; negative: a line, unbounded along
 };
 
 /// The surfaces that beams end on, finer than any cell: learned end points are summed up by cell,
@@ -30,18 +30,19 @@ struct Surface {
 /// while it is filled; then any number of threads may read it.
 class ORTUNG_API SurfaceField {
  public:
-  static constexpr int kReach = 6;  ///< cells from a point to the surface it may lie on
+  static constexpr int kReach = 6;  ///< greatest distance from a point to its surface [cells]
 
   /// Covers the region's grid and @p margin beyond it on all sides [m], with cells of @p cell [m].
   void start(const FieldRegion& region, double cell, double margin);
-  void mark(double x, double y);  ///< outside: ignored
+  void mark(double x, double y);  ///< adds an end point [m]; ignored outside
+  /// Makes the surfaces, once all end points are added.
   void finish();
 
-  /// How well the world knows where its surfaces are (FieldRegion::surfaceSigma) [m].
+  /// Returns the standard deviation of the world's surfaces (FieldRegion::surfaceSigma) [m].
   double sigma() const { return sigma_; }
   bool isEmpty() const { return surfaces_.empty(); }
   const FieldGrid& grid() const { return grid_; }
-  /// The nearest surface, or null.
+  /// Returns the surface nearest to a point [m], or null if none is within kReach.
   const Surface* near(double x, double y) const {
     const std::ptrdiff_t cell = grid_.cellAt(x, y);
     if (cell < 0) return nullptr;
@@ -62,7 +63,7 @@ class ORTUNG_API SurfaceField {
     float xx = 0.0F;
     float xy = 0.0F;
     float yy = 0.0F;
-    float count = 0.0F;  ///< of ends
+    float count = 0.0F;  ///< number of ends in the cell
   };
   struct Sums {
     double count = 0.0;
@@ -99,12 +100,12 @@ class ORTUNG_API SurfaceField {
   FieldGrid grid_;
   double sigma_ = 0.0;
   std::size_t blockColumns_ = 0;
-  std::vector<std::int32_t> blockOf_;  ///< by block of the grid: place in blocks_; -1: nothing near
-  std::vector<Block> blocks_;          ///< of a cell: number of its surface; -1: none
-  std::vector<std::int32_t> cells_;    ///< of the surfaces
+  std::vector<std::int32_t> blockOf_;  ///< index in blocks_, by block of the grid; -1: nothing near
+  std::vector<Block> blocks_;          ///< blocks of surface numbers, one for each cell; -1: none
+  std::vector<std::int32_t> cells_;    ///< number of the cell in which each surface lies
   std::vector<Ends> ends_;
   std::vector<Surface> surfaces_;
-  std::vector<Sums> sums_;  ///< while learning
+  std::vector<Sums> sums_;  ///< sums of each cell's ends, while learning
 };
 
 }  // namespace ortung

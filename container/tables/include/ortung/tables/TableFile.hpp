@@ -13,7 +13,8 @@
 
 namespace ortung {
 
-/// A table file that can't be used; the message names the file, what was found and expected.
+/// Thrown for a table file that can't be used; the message names the file, what was found and
+/// expected.
 class ORTUNG_API TableError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -31,11 +32,11 @@ struct TableArray {
 };
 
 /// Writes a table file: a store-only zip of .npy arrays and meta.json, so `numpy.load` reads it.
-/// The old file stays whole until commit() has put the new one in its place. Not thread-safe.
+/// An older file stays whole until commit() has put the new one in its place. Not thread-safe.
 class ORTUNG_API TableWriter {
  public:
   explicit TableWriter(std::filesystem::path file);
-  ~TableWriter();  ///< without commit(): leaves nothing behind
+  ~TableWriter();  ///< removes what was written, unless commit() came before
   TableWriter(const TableWriter&) = delete;
   TableWriter& operator=(const TableWriter&) = delete;
 
@@ -68,12 +69,14 @@ class ORTUNG_API TableFile {
 
   const std::filesystem::path& path() const;
   const std::vector<TableArray>& arrays() const;
-  std::string text(const std::string& name) const;  ///< @throws TableError if missing
+  /// Returns the text member @p name. @throws TableError if it is missing
+  std::string text(const std::string& name) const;
 
-  /// The array @p name as elements of T. @throws TableError if it is missing, of another type or
-  /// does not have the shape @p shape (0 = any extent).
+  /// Returns the array @p name as elements of T. @throws TableError if it is missing, of another
+  /// type or does not have the shape @p shape (0 = any extent).
   template <class T>
   std::span<const T> get(const std::string& name, const std::vector<std::size_t>& shape) const;
+  /// Returns the array @p name of any type and shape. @throws TableError if it is missing
   const TableArray& array(const std::string& name) const;
 
  private:
@@ -82,6 +85,7 @@ class ORTUNG_API TableFile {
 };
 
 // --- templates -----------------------------------------------------------------------------
+/// The ElementType of a C++ type.
 template <class T>
 struct ElementOf;
 template <>
@@ -105,6 +109,7 @@ struct ElementOf<double> {
   static constexpr ElementType kType = ElementType::kFloat64;
 };
 
+/// Checks type and shape (0 = any extent) of an array. @throws TableError naming file and array
 ORTUNG_API void checkArray(const TableFile& file, const TableArray& array, ElementType type,
                            const std::vector<std::size_t>& shape);
 
