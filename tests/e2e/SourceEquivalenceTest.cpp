@@ -1,4 +1,4 @@
-// The project's promise: whoever fills the container is nobody's business. The same run gives the
+// The project's promise: it makes no difference what fills the container. The same run gives the
 // same words and the same estimates, bit for bit, in process, over the network, and from its
 // record.
 #include <gtest/gtest.h>

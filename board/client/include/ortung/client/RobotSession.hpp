@@ -146,9 +146,14 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::vector<std::string> takeNews();
 
  private:
+  /// Sends CREATE with the options and the text of the robot file.
   void create(std::string_view robotToml);
+  /// Whether a reading of a running robot is newer than the last one of its feature; notes its
+  /// stamp.
   bool isNew(const Message& reading);
+  /// Sends a request with a new tag and waits for its reply "OK ..."; other lines go to note().
   std::string exchange(const std::string& request, double timeout);
+  /// Asks, and turns refusals of a command's arguments into std::invalid_argument.
   void tell(const std::string& request);
   Message takeBinary(const std::string& reply, std::size_t& left);
   std::vector<Message> takeReadings(const std::string& reply);
@@ -156,6 +161,7 @@ class ORTUNG_API RobotSession : public RobotCommands {
   std::size_t countOf(const std::string& reply, std::string_view key, std::size_t most) const;
   Timestamp stampOf(const std::string& reply, std::string_view key) const;
   void note(std::string_view line);
+  /// @throws ConnectionLost with @p what the server said, which is not of the protocol
   [[noreturn]] void failOn(std::string_view what) const;
 
   SessionOptions options_;

@@ -16,13 +16,13 @@ namespace ortung::refbox {
 struct WorldState {
   /// One robot of the team, with the pose that it is heading for.
   struct Robot {
-    int id = 0;
-    Pose2 pose = {};
-    Pose2 targetPose = {};
-    Twist velocity = {};
-    std::string intention = {};
-    double batteryLevel = 1.0;  ///< share
-    bool ballEngaged = false;
+    int id = 0;                  ///< number of the robot in its team
+    Pose2 pose = {};             ///< estimated pose
+    Pose2 targetPose = {};       ///< pose that it is driving to
+    Twist velocity = {};         ///< velocity in the field frame
+    std::string intention = {};  ///< what it is doing, for people
+    double batteryLevel = 1.0;   ///< charge, in [0, 1]
+    bool ballEngaged = false;    ///< whether it has the ball
   };
   /// A position [m] or a velocity [m/s] in three dimensions.
   struct Point {
@@ -46,12 +46,12 @@ struct WorldState {
     double confidence = 1.0;
   };
 
-  std::string teamName;
-  std::string intention;
+  std::string teamName;   ///< the team's name
+  std::string intention;  ///< what the team is doing, for people
   std::vector<Robot> robots;
   std::vector<Ball> balls;
   std::vector<Obstacle> obstacles;
-  double age = 0.0;  ///< [s]
+  double age = 0.0;  ///< time since the state was true [s], at least 0
 };
 
 /// The message `worldstate` without its NUL byte, on one line. Bytes that are no UTF-8 are

@@ -58,6 +58,7 @@ class ORTUNG_API ForwardedWorld : public ServedWorld {
   }
 
  protected:
+  /// The world that is served, for derived classes.
   ServedWorld& world() const { return world_; }
 
  private:

@@ -44,19 +44,25 @@ class ORTUNG_API RecordedWorld final : public ForwardedWorld {
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   void removeRobot(RobotId robot) override;
   std::string side(RobotId robot) const override;
+  /// Remembers what clients want; while a robot is recorded, all of its features stay wanted.
   void want(RobotId robot, std::span<const SensorId> features) override;
+  /// Readings of the world, which are written into the robot's record.
   std::span<Message> readings(RobotId robot) override;
+  /// Jumps of time end all records.
   void seek(Timestamp stamp) override;
   void reset(std::optional<std::uint64_t> seed) override;
 
  private:
+  /// A robot that can be recorded.
   struct Robot {
     std::string name;
     std::vector<SensorId> features;
     bool isResident = false;
     std::vector<SensorId> wanted = {};  ///< features that clients ask for
   };
+  /// Notes which robots of the world came and left; a record ends with its robot.
   void meetResidents();
+  /// @throws ServeError if there is no such robot
   Robot& find(RobotId robot);
 
   Recordings& recordings_;

@@ -69,8 +69,10 @@ class ORTUNG_API Recordings {
     State state;
     Timestamp last = 0;  ///< stamp of the newest reading
   };
+  /// Returns a file name that is not in use, made of the robot's name and a number.
   std::string newFile(const std::string& name) const;
   static void write(Record& record, std::span<const Message> readings);
+  /// Ends a record; returns what went wrong, or "".
   std::string close(RobotId robot);
 
   const Config config_;

@@ -56,6 +56,7 @@ class ORTUNG_API ServedContainer : public PlainWorld {
   void placeObject(const std::string& object, const Pose2& pose) override;
 
  private:
+  /// @throws ServeError unless it is the one robot, number 1
   static void check(RobotId robot);
 
   const SensorContainer& container_;

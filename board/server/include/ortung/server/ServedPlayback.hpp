@@ -57,8 +57,10 @@ class ORTUNG_API ServedPlayback : public PlainWorld {
   Timestamp now() const override;
   bool isAtEnd() const override;
   void step() override;
+  /// Jumps on the time line of all runs; readings of the seconds before are found, too.
   void seek(Timestamp stamp) override;
   std::vector<Resident> residents() const override;
+  /// Robots can't be added or placed: these calls throw ServeErrors.
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId robot) const override;
   void removeRobot(RobotId robot) override;

@@ -26,11 +26,13 @@ class ORTUNG_API ServedRecord : public PlainWorld {
 
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return plugins_; }
+  /// Stamp of the next time step; in repetitions time goes on.
   Timestamp now() const override { return now_; }
   bool isReady() const override { return hasBegun_ || !guests_.empty(); }
   bool isAtEnd() const override { return isAtEnd_; }
   /// Gives the readings of the next time step of the record, and reads one further ahead.
   void step() override;
+  /// Gives a client's robot the record's readings of the features in its configuration.
   ServedRobot addRobot(RobotId robot, RobotWish wish) override;
   std::vector<std::string> abilities(RobotId) const override { return {}; }
   void removeRobot(RobotId robot) override;
@@ -38,6 +40,7 @@ class ORTUNG_API ServedRecord : public PlainWorld {
   RobotCommands& commands(RobotId robot) override;
   /// Begins the record anew; it has no random numbers, so the seed changes nothing.
   void reset(std::optional<std::uint64_t> seed) override;
+  /// A record can't be changed: placing throws a ServeError.
   void placeRobot(RobotId robot, const Pose2& pose) override;
   void placeObject(const std::string& object, const Pose2& pose) override;
 
@@ -52,8 +55,11 @@ class ORTUNG_API ServedRecord : public PlainWorld {
     void setMotion(std::span<const double>) override {}
     void setManipulator(std::string_view, std::string_view) override {}
   };
+  /// Opens the record from its beginning.
   void open();
+  /// Reads the next time step, or notes the end of the record.
   void readAhead();
+  /// @throws ServeError if there is no such robot
   void check(RobotId robot) const;
 
   std::filesystem::path file_;

@@ -73,25 +73,35 @@ class ORTUNG_API FilterThread {
 
  private:
   using Order = LocalizationOrder;
+  /// What other threads have given and this one has not taken yet.
   struct Inbox {
     std::deque<std::vector<Message>> moments;
     std::vector<Order> orders;
     bool isRestarted = false;
   };
+  /// Body of the thread: waits for the inbox, executes orders, and localizes.
   void run(const std::stop_token& stop);
+  /// Waits until there is something to do, and takes it; nothing when the thread is to end.
   std::optional<Inbox> await(const std::stop_token& stop);
   void obey(const Order& order, const std::stop_token& stop);
+  /// Learns or reads the tables if there are none yet, then opens the filter.
   void start(const Order& order, const std::stop_token& stop);
+  /// Creates a filter with a belief about @p start, and publishes its features.
   void open(const LocalizationStart& start);
+  /// Destroys the filter and drops all readings that wait.
   void close(LocalizationState state);
+  /// Sets the readings of all time steps in their order, then updates the filter once.
   void localize(const std::deque<std::vector<Message>>& moments);
+  /// Copies new readings of the filter's features for takePublished().
   void publish();
+  /// Sets the state unless the filter was switched off meanwhile.
   void set(LocalizationState state);
 
   const Config config_;
   // For the thread alone.
   std::shared_ptr<const RobotTables> tables_;
   std::shared_ptr<Localization> localization_;  ///< null: off
+  /// A feature of the filter that is published.
   struct Output {
     const SensorData* data;
     std::uint64_t seen;  ///< sequence number of the reading last published

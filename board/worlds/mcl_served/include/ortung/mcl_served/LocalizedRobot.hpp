@@ -23,9 +23,11 @@ class ORTUNG_API LocalizedRobot final : public LocalizedRobots {
 
   std::optional<RobotId> usual() const override;
   bool isForAll() const override { return true; }
+  /// State of the newest estimate: searching or running.
   LocalizationState state(RobotId robot) override;
   /// It can't be switched off: others than clients rely on it.
   void order(RobotId robot, const LocalizationOrder& order) override;
+  /// The robot of the localization, while that runs.
   std::shared_ptr<const Robot> perceiver(RobotId robot) const override;
 
   /// Which features clients ask for (ServedContainer::Config::onWant).

@@ -47,8 +47,10 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
   /// One cycle of the world; afterwards filters are created for robots that came and end for
   /// others.
   void step() override;
+  /// The world's own robots, with the features of LOCALIZATION in addition.
   std::vector<Resident> residents() const override;
   void want(RobotId robot, std::span<const SensorId> features) override;
+  /// Readings of the world, which its filter takes, and behind them new ones of the filter.
   std::span<Message> readings(RobotId robot) override;
   std::vector<Message> lateReadings(RobotId robot) override;
   /// Time jumps: filters restart with the tables that they have.
@@ -56,17 +58,24 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
   void reset(std::optional<std::uint64_t> seed) override;
 
  private:
+  /// The filter of one robot.
   struct Filter {
     std::unique_ptr<FilterThread> thread;  ///< null: it was never on
     std::vector<SensorId> wanted;          ///< features that clients ask for
     std::vector<SensorId> needs;           ///< the filter's features, as reported to the world
   };
+  /// Creates filters for robots that came, and ends those of robots that left.
   void meetResidents();
+  /// Restarts all filters after a jump of time, with the tables that they have.
   void restartFilters();
+  /// Checks Config::names. @throws std::invalid_argument
   void checkNames() const;
   bool isNamed(const std::string& name) const;
+  /// Asks the world for the features that clients or the filter need.
   void tellWanted(RobotId robot, const Filter& filter);
+  /// @throws ServeError if there is no such robot, or it has no features to localize by
   Filter& filter(RobotId robot);
+  /// Returns the thread of a filter, and creates it if there is none.
   FilterThread& threadOf(RobotId robot, Filter& filter);
 
   Config config_;

@@ -33,6 +33,8 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   std::vector<std::string> players() const override { return playersHelp_; }
   std::vector<std::string> robotKinds() const override;
   Timestamp now() const override;
+  /// Lets all sensors read and players act. Bodies move at the end of the cycle, which is before
+  /// the next step or any other call that depends on poses.
   void step() override;
   std::vector<std::string> field() const override;
   std::vector<ServedFeature> truthFeatures() const override;
@@ -44,14 +46,17 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   void removeRobot(RobotId robot) override;
   /// Team and player of a robot, for LIST robots.
   std::string side(RobotId robot) const override;
+  /// Switches features off that no client wants, so that these need not be computed.
   void want(RobotId robot, std::span<const SensorId> features) override;
   std::span<Message> readings(RobotId robot) override;
   RobotCommands& commands(RobotId robot) override;
+  /// @throws ServeError for a text that exceeds the limits of talk
   void tell(RobotId robot, std::string_view text) override;
   std::vector<ServedTalk> takeHeard(RobotId robot) override;
   std::optional<std::uint64_t> seed() const override { return config_.seed; }
   void reset(std::optional<std::uint64_t> seed) override;
   void placeRobot(RobotId robot, const Pose2& pose) override;
+  /// @throws ServeError if there is no such object, or no room for it
   void placeObject(const std::string& object, const Pose2& pose) override;
 
   /// Starts a player on a robot of its own, until the next reset. @returns the robot's name
@@ -88,15 +93,25 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   Guest& guest(RobotId robot) const;
   SimRobot& find(RobotId robot) const;
   Simulation& simulation() const { return run_->simulation(); }
+  /// Moves all bodies, if sensors have read in this cycle and nothing has moved yet.
   void finishCycle();
+  /// Appends the referee's new events to events_.
   void noteEvents();
+  /// Adds a client's robot to the simulation. @throws ServeError if there is no room for it
   void enter(RobotId robot, Guest& guest);
+  /// Takes a robot out of the simulation, if it is there.
   void takeOff(Guest& guest);
+  /// Gives each object a name that is one word and unique.
   void nameObjects();
+  /// Brings guests_ up to date with the scene's own robots.
   void enterResidents();
   void addResident(SimRobot& robot);
+  /// Removes residents whose players have ended.
   void dropLeavers();
+  /// Plans paths for robots of a size, if there is no such plan; plans cost memory, so they are
+  /// few.
   void preparePlanner(const RobotSize& size, bool wanders);
+  /// Frees plans that no wandering robot uses, the oldest first, until at most @p most are left.
   void dropPlanners(std::size_t most);
   bool hasWanderer(const RobotSize& size) const;
 
