@@ -229,9 +229,9 @@ class Fit {
   }
 
   std::vector<Chain> chains_;
-  std::vector<double> counts_;  ///< 1, or 0 for what is too far off to be motion; by chain
-  std::vector<double>
-      precision_;           ///< of the error, times its variance if it is no outlier; by chain
+  std::vector<double> counts_;  ///< count of each chain: 1, or 0 if it is too far off to be motion
+  /// Precision of each chain's error, relative to that of an error that is no outlier.
+  std::vector<double> precision_;
   double outliers_ = 0.05;  ///< share of errors
   std::array<bool, 2> used_{};
   std::array<double, 2> scale_{};

@@ -17,10 +17,10 @@ struct MotionError {
 
 /// error = sum scale_k cause_k + noise of variance sum variance_k roughness_k + error of the truth.
 struct MotionFit {
-  std::array<double, 2> scale{};  ///< 0 where it could be chance
+  std::array<double, 2> scale{};  ///< factor of each cause; zero where it could be random
   std::array<double, 2>
-      variance{};              ///< below 0: nothing is known, since the roughness was always 0
-  double truthVariance = 0.0;  ///< of the difference of two true values
+      variance{};  ///< variance per roughness; below 0: not known, as the roughness was always 0
+  double truthVariance = 0.0;  ///< variance of the difference of two true values
   double outliers = 0.0;       ///< share of errors that are four times as large as others
   double logLikelihood = 0.0;  ///< mean of an error, robust
 };

@@ -5,7 +5,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kKept = 6.0;  ///< of odometry: twice as old as readings may be [s]
+constexpr double kKept =
+    6.0;  ///< length of odometry that is kept [s]: twice the greatest age of readings
 
 }  // namespace
 

@@ -19,10 +19,10 @@ namespace {
 constexpr std::size_t kBlock = 256;         ///< samples whose noise is drawn at once
 constexpr std::size_t kNumbersASample = 4;  ///< first turn, way, second turn, sideways
 constexpr float kSlip = 4.0F;               ///< times the noise of samples that slip
-constexpr double kMostSlip = 0.2;           ///< that is learned
-constexpr double kSmallestSigma = 0.005;    ///< that is learned
-constexpr double kMostWayBias = 0.5;        ///< of a way
-constexpr double kShortestWay = 1e-3;       ///< below, a way has no direction of its own [m]
+constexpr double kMostSlip = 0.2;           ///< greatest share of slip that is learned
+constexpr double kSmallestSigma = 0.005;    ///< least sigma that is learned
+constexpr double kMostWayBias = 0.5;        ///< greatest bias, as a share of the distance travelled
+constexpr double kShortestWay = 1e-3;       ///< least distance that has a direction of its own [m]
 
 double square(double value) { return value * value; }
 

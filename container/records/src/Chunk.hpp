@@ -20,19 +20,20 @@
 namespace ortung::chunk {
 
 inline constexpr std::string_view kMagic = "ortung record 2\n";
-inline constexpr std::string_view kApartNote = "# binary ";  ///< before "STAMP ID WORDS STRIDE"
-inline constexpr std::size_t kMaxTextWords = 4096;           ///< of a reading that is a line
+inline constexpr std::string_view kApartNote =
+    "# binary ";  ///< begin of the note "# binary STAMP ID WORDS STRIDE"
+inline constexpr std::size_t kMaxTextWords = 4096;  ///< most words of a reading that is a line
 inline constexpr std::size_t kMaxTextBytes = kMaxLineBytes;  ///< lines of a chunk
 
 /// What stands before a chunk.
 struct Head {
   Timestamp first = 0;         ///< stamp of its first reading
-  Timestamp last = 0;          ///< of its last one
-  std::uint32_t readings = 0;  ///< 0: notes alone
+  Timestamp last = 0;          ///< stamp of its last reading
+  std::uint32_t readings = 0;  ///< number of readings; zero: the chunk has notes alone
   std::uint32_t apart = 0;     ///< readings that are not among the lines, but behind them
   std::uint64_t textBytes = 0;
-  std::uint64_t packedBytes = 0;  ///< of the frame with the lines
-  std::uint64_t apartBytes = 0;   ///< of the frames with readings, behind it
+  std::uint64_t packedBytes = 0;  ///< size of the frame with the lines [bytes]
+  std::uint64_t apartBytes = 0;   ///< size of the frames with readings behind it [bytes]
   bool operator==(const Head&) const = default;
 };
 
@@ -79,7 +80,7 @@ class Frames {
 
   std::uint64_t offset() const { return offset_; }
   std::uint64_t chunkBegin() const { return chunk_; }
-  std::uint64_t size() const { return size_; }  ///< of a file, as it was opened
+  std::uint64_t size() const { return size_; }  ///< size of a file when it was opened [bytes]
   bool isFile() const { return isFile_; }
   /// What follows the last whole chunk, once it was come across.
   const std::optional<TornRecord>& torn() const { return torn_; }
@@ -99,7 +100,7 @@ class Frames {
   bool isFile_ = false;
   std::uint64_t size_ = 0;
   std::uint64_t offset_ = 0;
-  std::uint64_t chunk_ = 0;  ///< where it begins
+  std::uint64_t chunk_ = 0;  ///< offset of the present chunk in the file
   std::optional<TornRecord> torn_;
 };
 

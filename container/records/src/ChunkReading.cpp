@@ -13,8 +13,8 @@ namespace ortung::chunk {
 namespace {
 
 constexpr std::size_t kFields = 48;           ///< bytes of a head
-constexpr std::size_t kMostHead = 128;        ///< of the frame around it
-constexpr std::uint64_t kSmallestChunk = 40;  ///< which none is smaller than
+constexpr std::size_t kMostHead = 128;        ///< most bytes of the frame around a head
+constexpr std::uint64_t kSmallestChunk = 40;  ///< lower bound for the size of a chunk [bytes]
 constexpr std::size_t kPlaceBytes = 16;
 constexpr std::size_t kPiece = 1u << 20;
 /// What writeApart() has made differences of.

@@ -36,9 +36,9 @@ class ChunkRecord final : public RecordReader {
   bool isOpen_ = false;    ///< whether there is a chunk that is read
   chunk::Head head_;       ///< its head
   std::string lines_;      ///< its lines
-  std::size_t begin_ = 0;  ///< of the next line
+  std::size_t begin_ = 0;  ///< offset of the next line in lines_
   std::size_t line_ = 0;   ///< the number of the last one
-  std::uint64_t end_ = 0;  ///< of the chunk in the file
+  std::uint64_t end_ = 0;  ///< end of the chunk in the file [bytes]
   std::uint32_t readings_ = 0;
   std::uint32_t apart_ = 0;
   Timestamp last_ = std::numeric_limits<Timestamp>::min();

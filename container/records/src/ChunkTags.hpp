@@ -7,7 +7,7 @@
 namespace ortung::chunk {
 
 inline constexpr int kOfOrtung = 13;  ///< variant of skippable frames: magic, heads, index
-inline constexpr int kApart = 14;     ///< of those that hold a reading
+inline constexpr int kApart = 14;     ///< variant of skippable frames that hold a reading
 inline constexpr std::string_view kChunkTag = "CHNK";
 inline constexpr std::string_view kIndexTag = "INDX";
 inline constexpr std::string_view kIndexEnd = "ORTINDEX";

@@ -23,7 +23,7 @@ namespace {
 constexpr std::uintmax_t kSmallestChunk = 256;
 constexpr std::uintmax_t kLargestChunk = 1u << 20;
 constexpr std::uintmax_t kLongestStamp = 24;
-constexpr int kMostLines = 65536;  ///< of one moment; FrameReader takes no more
+constexpr int kMostLines = 65536;  ///< most lines of one moment, as FrameReader takes them
 
 /// A file read from its end.
 class Backwards {

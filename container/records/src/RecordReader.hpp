@@ -13,7 +13,7 @@ namespace ortung {
 class RecordReader {
  public:
   virtual ~RecordReader();
-  virtual bool next(Message& message) = 0;  ///< as Source::next()
+  virtual bool next(Message& message) = 0;  ///< reads the next reading, as Source::next()
   /// Goes on with a reading that is not later than the first one from @p from on, where that is
   /// quicker than to read all that lies before.
   virtual void seek(Timestamp from) = 0;

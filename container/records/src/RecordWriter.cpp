@@ -64,7 +64,7 @@ class RecordWriter::Lines final : public Output {
   void commit() override { file_->commit(); }
 
  private:
-  std::string lines_;  ///< of the moment that is not whole yet
+  std::string lines_;  ///< lines of the moment that is not whole yet
 };
 
 class RecordWriter::Chunks final : public Output {
@@ -145,15 +145,15 @@ class RecordWriter::Chunks final : public Output {
 
   zstd::Packer packer_{kTextLevel};
   zstd::Packer apartPacker_{kApartLevel};
-  std::string lines_;  ///< of the chunk, and of the moment that is not whole yet
-  std::string apart_;  ///< likewise
+  std::string lines_;  ///< lines of the chunk, and of the moment that is not whole yet
+  std::string apart_;  ///< frames with large readings of the chunk and of that moment
   std::string packed_;
   chunk::Head head_;
-  chunk::Head whole_;  ///< without that moment, like the two below
+  chunk::Head whole_;  ///< head without that moment, which the two sizes below leave out, too
   std::size_t wholeLines_ = 0;
   std::size_t wholeApart_ = 0;
   bool hasFailed_ = false;
-  Timestamp since_ = 0;  ///< of the last reading that is in the file
+  Timestamp since_ = 0;  ///< stamp of the last reading that is in the file
   std::vector<chunk::Place> index_;
 };
 

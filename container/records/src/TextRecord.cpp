@@ -55,7 +55,7 @@ class TextRecord final : public RecordReader {
   std::string world_;
   std::size_t lineNumber_ = 0;
   bool isFile_ = false;
-  std::uintmax_t size_ = 0;  ///< of a file, when it was opened
+  std::uintmax_t size_ = 0;  ///< size of a file when it was opened [bytes]
   std::uintmax_t done_ = 0;
   std::optional<TornRecord> torn_;
   Timestamp last_ = std::numeric_limits<Timestamp>::min();

@@ -12,7 +12,7 @@ namespace ortung {
 namespace {
 
 // The parser recurses for dots and brackets: bound them before it sees the text.
-constexpr int kMostDots = 1024;  ///< of keys, in one statement
+constexpr int kMostDots = 1024;  ///< most dots of keys in one statement
 constexpr int kMostOpenBrackets = 64;
 constexpr int kDeepest = 64;  ///< tables and lists within each other
 

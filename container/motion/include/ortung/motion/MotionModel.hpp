@@ -13,7 +13,8 @@
 
 namespace ortung {
 
-/// Samples to be moved, as three arrays of equal size in the field frame ([m], [m], [rad]).
+/// Samples that are to be moved, as three arrays of equal size in the field frame ([m], [m],
+/// [rad]).
 struct MovableSamples {
   std::span<float> x;
   std::span<float> y;
@@ -22,14 +23,14 @@ struct MovableSamples {
 
 /// What a motion model sees of one odometry reading.
 struct OdometryView {
-  Pose2 pose;                                 ///< in the odometry frame
-  double translationalVelocity = 0.0;         ///< [m/s]
-  double rotationalVelocity = 0.0;            ///< [rad/s]
-  std::span<const std::uint32_t> motionData;  ///< of the drive
-  double lateralVelocity = 0.0;               ///< to the left [m/s]
+  Pose2 pose;                                 ///< pose in the odometry frame
+  double translationalVelocity = 0.0;         ///< velocity forwards [m/s]
+  double rotationalVelocity = 0.0;            ///< turn rate, counter-clockwise [rad/s]
+  std::span<const std::uint32_t> motionData;  ///< words of the drive's own, see OdometryData
+  double lateralVelocity = 0.0;               ///< velocity to the left [m/s]
 };
 
-/// How odometry and the true motion of the robot hang together: the motion side's twin of
+/// The relation between odometry and the true motion of the robot: the counterpart for motion of
 /// learnProbability / getProbability, which the paper only plans (end of section 5.2).
 /// Not thread-safe, but sampleMotion() may be called by several threads at once.
 class ORTUNG_API MotionModel {
@@ -41,13 +42,13 @@ class ORTUNG_API MotionModel {
   // --- odometry ---
   /// Takes odometry's newest reading.
   virtual void follow(Timestamp stamp, const OdometryView& reading);
-  /// The pose in the odometry frame that stands for where the robot is at @p stamp, or nothing
-  /// before the first reading. By default odometry's own, delay() earlier.
+  /// Returns the pose in the odometry frame that belongs to the robot's true pose at @p stamp, or
+  /// nothing before the first reading. By default it is odometry's own pose, delay() earlier.
   virtual std::optional<Pose2> odometryAt(Timestamp stamp) const;
   /// Forgets what follow() took.
   virtual void forget();
-  /// How much later than odometry says the robot moves, e.g. since odometry is made of commands
-  /// [s].
+  /// Returns by how much the robot moves later than odometry says [s], e.g. since odometry is made
+  /// of commands.
   double delay() const { return delay_; }
 
   // --- sampling ---
@@ -61,13 +62,15 @@ class ORTUNG_API MotionModel {
 
   // --- learning ---
   /// Takes one pair of changes of pose over the same time, each in the robot's old frame. Pairs
-  /// follow each other without a gap until endDrive(), so that errors of longer ways show, too.
+  /// follow each other without a gap until endDrive(), so that errors over longer distances show,
+  /// too.
   virtual void learnMotion(const Pose2& odometryChange, const Pose2& trueChange);
+  /// Ends a drive: the next pair does not follow the last one.
   virtual void endDrive();
   /// Fits the model to all pairs; returns the mean ln p of a pair, by which models compare.
   /// @throws std::runtime_error if the pairs are too few, or the model can't learn
   virtual double endLearning();
-  /// The model as [motion] of a robot file has it.
+  /// Returns the model's settings as the table [motion] of a robot file.
   virtual Parameters settings() const;
 
  protected:

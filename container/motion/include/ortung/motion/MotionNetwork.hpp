@@ -8,19 +8,19 @@
 
 namespace ortung {
 
-/// Velocities of a robot, or those it is told to have.
+/// Velocities of a robot, measured or commanded.
 struct Velocities {
-  double translational = 0.0;  ///< v_t [m/s]
-  double rotational = 0.0;     ///< v_r [rad/s]
+  double translational = 0.0;  ///< v_t, forwards [m/s]
+  double rotational = 0.0;     ///< v_r, counter-clockwise [rad/s]
 };
 
-/// A neural network that says how a robot answers to commands (paper, section 4): (x, y, theta,
-/// v_r, v_t) at t1 = t0 + step() from the state and the commanded velocities at t0. Since bases
-/// answer late, it also sees the commands of some steps before.
+/// A neural network that predicts how a robot answers to commands (paper, section 4): (x, y, theta,
+/// v_r, v_t) at t1 = t0 + step from the state and the commanded velocities at t0. Since bases
+/// answer with a delay, commands of some earlier steps are inputs, too.
 ///
-/// Layers are full, tanh between them, none behind the last. Inputs: v_t, v_r, then v_t, v_r of
-/// each command, the newest first; outputs: what x, y, theta (robot frame at t0), v_t, v_r at t1
-/// differ by from those of a robot that keeps its velocities. Both are scaled.
+/// Layers are fully connected, with tanh between them and none behind the last. Inputs: v_t, v_r,
+/// then v_t, v_r of each command, the newest first; outputs: the differences of x, y, theta (robot
+/// frame at t0), v_t, v_r at t1 from those of a robot that keeps its velocities. Both are scaled.
 /// Plain data; several threads may call predict() at once.
 class ORTUNG_API MotionNetwork {
  public:
@@ -28,20 +28,21 @@ class ORTUNG_API MotionNetwork {
     std::size_t inputs = 0;
     std::size_t outputs = 0;
     std::vector<double> weights;  ///< row-major, outputs x inputs
-    std::vector<double> bias;     ///< by output
+    std::vector<double> bias;     ///< biases, one for each output
   };
   struct Prediction {
-    Pose2 change;         ///< of pose over a step, in the robot's old frame
-    Velocities velocity;  ///< at its end
+    Pose2 change;         ///< change of pose over a step, in the robot's old frame
+    Velocities velocity;  ///< velocities at the end of the step
   };
   static constexpr std::size_t kOutputs = 5;
 
-  double step = 0.1;              ///< [s], in [0.01, 1]
-  std::size_t commands = 4;       ///< newest ones that it sees, in [1, 64]
-  bool fromVelocities = false;    ///< in a record, the commands are odometry's velocities; else the
-                                  ///< last two words of its motion data
-  Velocities limit;               ///< velocities never leave [-limit, limit]
-  std::vector<double> inputMean;  ///< by input
+  double step = 0.1;         ///< time step [s], in [0.01, 1]
+  std::size_t commands = 4;  ///< number of newest commands among the inputs, in [1, 64]
+  /// Whether the commands in a record are odometry's velocities; else they are the last two words
+  /// of its motion data.
+  bool fromVelocities = false;
+  Velocities limit;                 ///< velocities never leave [-limit, limit]
+  std::vector<double> inputMean;    ///< mean of each input
   std::vector<double> inputScale;   ///< scaled = (input - mean) * scale
   std::vector<double> outputScale;  ///< output = scaled * scale
   std::vector<Layer> layers;
@@ -50,26 +51,28 @@ class ORTUNG_API MotionNetwork {
   /// @throws std::invalid_argument saying what has a wrong shape or range, or is no number
   void check() const;
 
-  /// @param given commands, the newest first; at least `commands` of them
+  /// Predicts one step. @param given commanded velocities, the newest first; at least `commands` of
+  /// them
   Prediction predict(const Velocities& state, std::span<const Velocities> given) const;
 };
 
-/// A robot that moves as a network says: one command a step. Not thread-safe.
+/// A simulated robot that moves as a network predicts, with one command per step. Not thread-safe.
 class ORTUNG_API NeuralRobot {
  public:
+  /// @param network borrowed
   explicit NeuralRobot(const MotionNetwork& network);
-  /// Stands still and always was commanded to.
+  /// Starts anew with this velocity; all earlier commands count as zero.
   void reset(const Velocities& velocity = {});
-  /// The next step under @p command: the change of pose in the old frame.
+  /// Moves by a step under @p command. Returns the change of pose in the robot's old frame.
   Pose2 step(const Velocities& command);
   const Velocities& velocity() const { return velocity_; }
-  /// Something pushed or held the robot, so that it now moves like this.
+  /// Sets the velocity after something pushed or held the robot.
   void setVelocity(const Velocities& velocity) { velocity_ = velocity; }
 
  private:
   const MotionNetwork& network_;
   Velocities velocity_;
-  std::vector<Velocities> commands_;  ///< the newest first
+  std::vector<Velocities> commands_;  ///< commands so far, the newest first
 };
 
 }  // namespace ortung

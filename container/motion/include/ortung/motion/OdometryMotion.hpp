@@ -8,49 +8,50 @@
 namespace ortung {
 
 /// The odometry motion model (Thrun, Burgard, Fox, "Probabilistic Robotics", table 5.6): a change
-/// of pose is turn, way, turn, each with noise. Where the book lets sigma grow with way and turn,
-/// we let the variance grow: so the noise of a way is the same in however many pieces it is
-/// followed, and readings may come at any rate.
+/// of pose is turn, distance, turn, each with noise. Where the book lets sigma grow with distance
+/// and turn, we let the variance grow: so the noise of a path does not depend on the number of
+/// pieces that it is followed in, and readings may come at any rate.
 struct OdometryNoise {          // standard deviations
-  double turnPerTurn = 0.2;     ///< `turn_per_turn`: of a turn, after turning 1 rad [rad]
-  double turnPerMetre = 0.1;    ///< `turn_per_m`: of a turn, after driving 1 m [rad]
-  double wayPerMetre = 0.1;     ///< `way_per_m`: of a way, after driving 1 m [m]
-  double wayPerTurn = 0.03;     ///< `way_per_turn`: of a way, after turning 1 rad [m]
-  double floorMetres = 0.003;   ///< `floor_m`: of every step, sideways too [m]
-  double floorRadians = 0.002;  ///< `floor_deg`: of every step [rad]
-  /// `slip_share`: of samples whose noise is four times that, for wheels that slip and bases that
-  /// are held: errors of real robots have longer tails than Gaussians.
+  double turnPerTurn = 0.2;     ///< `turn_per_turn`: noise of a turn after turning 1 rad [rad]
+  double turnPerMetre = 0.1;    ///< `turn_per_m`: noise of a turn after driving 1 m [rad]
+  double wayPerMetre = 0.1;     ///< `way_per_m`: noise of a distance after driving 1 m [m]
+  double wayPerTurn = 0.03;     ///< `way_per_turn`: noise of a distance after turning 1 rad [m]
+  double floorMetres = 0.003;   ///< `floor_m`: noise of every step, sideways, too [m]
+  double floorRadians = 0.002;  ///< `floor_deg`: noise of every step [rad]
+  /// `slip_share`: share of samples whose noise is four times as large, in [0, 0.5], for wheels
+  /// that slip and bases that are held: errors of real robots have longer tails than Gaussians.
   double slipShare = 0.0;
 
-  /// @throws std::invalid_argument
+  /// @throws std::invalid_argument if a value is out of its range
   ORTUNG_API void check() const;
   /// Reads [motion] of a robot file, which may hold nothing else. @throws ConfigError
   ORTUNG_API static OdometryNoise read(const Parameters& motion);
 };
 
-/// What odometry gets wrong always in the same way.
+/// The systematic error of odometry.
 struct OdometryCorrection {
-  double wayScale = 1.0;          ///< `way_scale`: true way of what odometry says
-  double turnScale = 1.0;         ///< `turn_scale`: true turn of what odometry says
-  double turnBiasPerMetre = 0.0;  ///< `turn_bias_deg_per_m`: to be added to turns [rad/m]
-  double wayBiasPerRadian =
-      0.0;             ///< `way_bias_m_per_rad`: to be added to ways [m/rad], at most half
-                       ///< of the way: e.g. below 0 for a base that slows down in curves
-  double delay = 0.0;  ///< `delay_s`: odometry is ahead of the robot [s]
+  double wayScale = 1.0;          ///< `way_scale`: true distance / odometry's distance
+  double turnScale = 1.0;         ///< `turn_scale`: true turn / odometry's turn
+  double turnBiasPerMetre = 0.0;  ///< `turn_bias_deg_per_m`: turn added per distance [rad/m]
+  /// `way_bias_m_per_rad`: distance added per turn [m/rad], at most half of the distance; e.g.
+  /// below 0 for a base that slows down in curves.
+  double wayBiasPerRadian = 0.0;
+  double delay = 0.0;  ///< `delay_s`: time by which odometry is ahead of the robot [s]
 
-  /// The true change of pose that odometry stands for.
+  /// Returns the corrected change of pose, in the robot's old frame.
   ORTUNG_API Pose2 apply(const Pose2& odometryChange) const;
   /// Reads the keys of [motion]. @throws ConfigError
   ORTUNG_API static OdometryCorrection read(const Parameters& motion);
 };
 
-/// Turn, way, turn: fits all robots that drive where they face, and serves others, too.
+/// The motion model of turn, distance, turn: it fits all robots that drive where they face, and
+/// serves others, too.
 /// Not thread-safe, but sampleMotion() may be called by several threads at once.
 class ORTUNG_API OdometryMotion : public MotionModel {
  public:
   explicit OdometryMotion(const OdometryNoise& noise = {},
                           const OdometryCorrection& correction = {});
-  /// Reads [motion]; `plugin` says which plugin it is for and is of no concern here.
+  /// Reads [motion]; its key `plugin` is ignored here.
   explicit OdometryMotion(const Parameters& motion);
   ~OdometryMotion() override;
 
@@ -58,8 +59,8 @@ class ORTUNG_API OdometryMotion : public MotionModel {
                     std::uint64_t stream, std::uint64_t first) const override;
   void learnMotion(const Pose2& odometryChange, const Pose2& trueChange) override;
   void endDrive() override;
-  /// The most likely noise and correction but for floors and delay; what the pairs say nothing
-  /// about stays as it is. A correction that could be chance is none.
+  /// Finds the most likely noise and correction, except floors and delay; settings that the pairs
+  /// do not determine stay as they are. A correction that could be random is left out.
   double endLearning() override;
   Parameters settings() const override;
 

@@ -10,7 +10,7 @@
 
 namespace ortung {
 
-/// The way odometry took lately: poses between its readings, and a little beyond. Not thread-safe.
+/// The recent path of odometry: poses between its readings, and a little beyond. Not thread-safe.
 class ORTUNG_API OdometryTrack {
  public:
   /// @param kept how much of the past is kept [s]
@@ -22,13 +22,13 @@ class ORTUNG_API OdometryTrack {
   void add(Timestamp stamp, const Pose2& pose, double v, double w, double sideways = 0.0);
   void clear() { readings_.clear(); }
   bool empty() const { return readings_.empty(); }
-  Timestamp first() const { return readings_.front().stamp; }  ///< @pre not empty()
-  Timestamp last() const { return readings_.back().stamp; }    ///< @pre not empty()
+  Timestamp first() const { return readings_.front().stamp; }  ///< oldest stamp; @pre not empty()
+  Timestamp last() const { return readings_.back().stamp; }    ///< newest stamp; @pre not empty()
 
-  /// The pose at @p stamp: on the arc between two readings; beyond the first and the last one, on
-  /// the arc of its velocities for at most 0.3 s. Nothing if there is no reading.
+  /// Returns the pose at @p stamp: on the arc between two readings; beyond the first and the last
+  /// one, on the arc of its velocities for at most 0.3 s. Nothing if there is no reading.
   std::optional<Pose2> at(Timestamp stamp) const;
-  /// Time between the two readings around @p stamp [s]; infinite outside of all.
+  /// Returns the time between the two readings around @p stamp [s]; infinite outside of all.
   double gapAt(Timestamp stamp) const;
 
  private:

@@ -15,7 +15,7 @@ namespace ortung {
 
 class RecordReader;
 
-/// Whether a file with these first bytes (24 or more) is a record.
+/// Returns whether a file with these first bytes (24 or more) is a record.
 ORTUNG_API bool isRecord(std::string_view begin);
 
 /// Part of a record: the readings from @p from on and before @p to [s], both counted from the
@@ -26,11 +26,11 @@ struct RecordPart {
 };
 
 /// Plays a record file (source kind "record"; no plugin needed), compressed or lines of text.
-/// A torn one is played up to its last whole moment, or where that can't be known beforehand (lines
-/// from a pipe) up to its last whole line; remark() says so. Of a compressed one that is no pipe,
-/// what lies before the part is not read.
+/// A torn record is played up to its last whole moment, or where that can't be known beforehand
+/// (lines from a pipe) up to its last whole line; remark() says so. In a compressed file, readings
+/// before the part are skipped without reading them.
 ///
-/// It needs no more memory than 64 MiB for lines and 64 MiB for a reading, whatever a file says.
+/// It needs at most 64 MiB of memory for lines and 64 MiB for a reading, whatever the file holds.
 /// Not thread-safe.
 class ORTUNG_API RecordSource : public Source {
  public:
@@ -43,7 +43,7 @@ class ORTUNG_API RecordSource : public Source {
   bool isLive() const override;
   std::string remark() const override;
   std::string worldFingerprint() const override;
-  /// Whether it is compressed; else it is lines of text.
+  /// Returns whether it is compressed; else it is lines of text.
   bool isCompressed() const { return isCompressed_; }
 
  private:

@@ -17,30 +17,34 @@ inline constexpr std::string_view kRecordMagic = "# ortung record 1";
 
 /// Writes a record file: notes ("# world ..."), then readings (docs/files.md).
 ///
-/// It is compressed, in chunks of whole moments that can be read alone; or, where its name ends in
-/// ".txt" and where it is no file (a pipe, a terminal), lines of text, each moment as it comes.
+/// A record is compressed, in chunks of whole moments that can be read alone. If its name ends in
+/// ".txt" or it is no regular file (a pipe, a terminal), it is lines of text, and each moment is
+/// written as it comes.
 /// @throws std::runtime_error if the file can't be written, as do the others
 /// Not thread-safe.
 class ORTUNG_API RecordWriter {
  public:
   enum class Pace : std::uint8_t {
-    kWhole,  ///< it appears whole, at commit(): for what can be had again
-    kLive    ///< it is there from its first moment on, and grows
+    kWhole,  ///< it appears whole, at commit(): for readings that can be made again
+    kLive    ///< it exists from its first moment on, and grows
   };
+  /// The form of the file: kByName takes it from the file's name.
   enum class Form : std::uint8_t { kByName, kText, kCompressed };
-  /// Of a live record that is compressed, who kills the writer takes no more than so many seconds
-  /// of readings, by their stamps; of one in lines the moment that is on its way.
+  /// Longest time of readings [s], by their stamps, that a live compressed record loses if the
+  /// writer is killed; a record in lines loses only the moment that is being written.
   static constexpr double kLiveSeconds = 1.0;
 
   explicit RecordWriter(const std::filesystem::path& file, const std::string& worldFingerprint = "",
                         Pace pace = Pace::kWhole, Form form = Form::kByName);
-  ~RecordWriter();  ///< without commit(): a live record keeps its whole moments, else none is left
+  ~RecordWriter();  ///< keeps the whole moments of a live record; removes others without commit()
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
+  /// Writes a reading. @pre its stamp is not earlier than that of the one before
   void write(const Message& message);
-  /// Says that the moment is whole. So does a message of a later one, and commit().
+  /// Ends the present moment. A message of a later one, and commit(), end it, too.
   void endMoment();
+  /// Completes the file, which is then in its place and on the disk.
   void commit();
   std::size_t messages() const { return messages_; }
 

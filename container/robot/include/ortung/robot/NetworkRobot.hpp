@@ -8,10 +8,11 @@
 
 namespace ortung {
 
-/// Reads a robot file that a stranger sent: at most kMaxNetworkConfigBytes, plugins of a list only,
-/// nothing that could name a file of this computer (no text with a slash, no key `path`, `file`,
+/// Reads a robot file that comes from an untrusted client: at most kMaxNetworkConfigBytes, plugins
+/// of a list only, nothing that could name a file of this computer (no text with a slash, no key
+/// `path`, `file`,
 /// `..._path` or `..._file`), and at most 32 pieces of geometry in all states together, of which an
-/// ellipse that is no circle counts 8. [motion] and [mcl] are for the stranger's own half, may say
+/// ellipse that is no circle counts 8. [motion] and [mcl] are for the client's own half, may say
 /// what they like, and come out empty.
 /// @param name what errors call it
 /// @param plugins names that are permitted

@@ -16,7 +16,7 @@ class ORTUNG_API RobotTables {
   explicit RobotTables(const std::filesystem::path& file);
 
   const TableInfo& info() const { return *info_; }
-  /// Where the robot can stand.
+  /// Returns where the robot can stand.
   std::shared_ptr<const FieldRegion> region() const { return {info_, &info_->region}; }
   /// Gives every localizing feature of a container its tables, and the container what is known of
   /// the field. @throws TableError as loadTables()

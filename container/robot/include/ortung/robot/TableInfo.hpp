@@ -12,20 +12,21 @@
 
 namespace ortung {
 
-/// What a table file says of itself.
+/// The description that a table file has of itself.
 struct TableInfo {
-  std::string world;  ///< the world's name
-  std::string worldFingerprint;
-  std::string robot;         ///< the robot's name
-  double headingStep = 0.0;  ///< [rad]
-  FieldRegion region;
+  std::string world;             ///< the world's name
+  std::string worldFingerprint;  ///< digest of the world's content
+  std::string robot;             ///< the robot's name
+  double headingStep = 0.0;      ///< step between the directions of its tables [rad]
+  FieldRegion region;            ///< cells that were learned
+  /// A feature with tables.
   struct Feature {
     std::string id;      ///< "model/type/feature"
     std::string key;     ///< SensorData::learningKey()
-    std::string prefix;  ///< of its arrays' names
+    std::string prefix;  ///< begin of its arrays' names
   };
   std::vector<Feature> features;
-  FieldModel field = {};       ///< what does not move in the world; may be empty
+  FieldModel field = {};       ///< static parts of the world; may be empty
   std::string robotToml = {};  ///< text of the robot file; "" if the tables do not hold it
 };
 
@@ -34,7 +35,7 @@ struct TableInfo {
 ORTUNG_API std::uintmax_t writeTables(const std::filesystem::path& file,
                                       const SensorContainer& container, const TableInfo& info);
 
-/// Reads and checks what a table file says of itself. @throws TableError
+/// Reads and checks the description in a table file. @throws TableError
 ORTUNG_API TableInfo readTableInfo(const TableFile& file);
 
 /// Gives every localizing feature of @p container its tables, and the container what is known of

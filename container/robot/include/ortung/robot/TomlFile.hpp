@@ -8,17 +8,19 @@
 
 namespace ortung {
 
-inline constexpr std::size_t kMaxConfigBytes = 8u << 20;  ///< a file from disk: 65,536 primitives
-inline constexpr std::size_t kMaxNetworkConfigBytes = 64u << 10;  ///< a text from the network
+inline constexpr std::size_t kMaxConfigBytes =
+    8u << 20;  ///< most bytes of a file from disk: 65,536 primitives
+inline constexpr std::size_t kMaxNetworkConfigBytes =
+    64u << 10;  ///< most bytes of a text from the network
 
 /// Reads a TOML file into Parameters whose errors name file and line.
 /// @throws ConfigError if it is missing, too large, nested too deep or no TOML
 ORTUNG_API Parameters readToml(const std::filesystem::path& file);
 
-/// The text of a TOML file as it is. @throws ConfigError if it is missing or too large
+/// Returns the text of a TOML file, unparsed. @throws ConfigError if it is missing or too large
 ORTUNG_API std::string readTomlText(const std::filesystem::path& file);
 
-/// Reads TOML text. @param name what errors call it
+/// Reads TOML text. @param name what errors call it @throws ConfigError
 ORTUNG_API Parameters parseToml(std::string_view text, const std::string& name,
                                 std::size_t maxBytes = kMaxConfigBytes);
 

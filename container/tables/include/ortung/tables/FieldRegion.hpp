@@ -42,8 +42,8 @@ struct FieldGrid {
 /// Both masks have grid.size() entries, 0 or 1.
 struct FieldRegion {
   FieldGrid grid;
-  std::vector<std::uint8_t> open;       ///< by cell, 1: its centre is not inside anything solid
-  std::vector<std::uint8_t> standable;  ///< by cell, 1: the robot's body fits with its centre here
+  std::vector<std::uint8_t> open;       ///< whether the cell's centre is not inside anything solid
+  std::vector<std::uint8_t> standable;  ///< whether the robot's body fits with its centre here
   /// Standard deviation of the world's surfaces [m]: in maps that are made of cells, the error of
   /// rounding to these.
   double surfaceSigma = 0.0;
