@@ -84,7 +84,7 @@ std::optional<Timestamp> Intake::clockSetBack(const SensorContainer& container,
   std::optional<Timestamp> newest;
   std::optional<Timestamp> newestToCome;
   for (const auto& data : container.all()) {
-    const bool isAsked = data->localizes() || isOf(*data, formats::kOdometry);
+    const bool isAsked = data->localizes() || isOdometry(*data);
     if (data->sequence() == 0 || !isAsked) continue;
     newest = std::max(newest.value_or(data->stamp()), data->stamp());
     if (std::exchange(seen_[data.get()], data->sequence()) != data->sequence())
@@ -112,11 +112,18 @@ void Intake::passOver(const SensorContainer& container, Timestamp stamp) {
       uses_[data.get()] = {data->sequence(), 0, {}};
 }
 
+/// Formats do not change, and asking for one makes a text: each feature is asked once.
+bool Intake::isOdometry(const SensorData& data) {
+  const auto known = isOdometry_.find(&data);
+  if (known != isOdometry_.end()) return known->second;
+  return isOdometry_.emplace(&data, isOf(data, formats::kOdometry)).first->second;
+}
+
 /// The first feature that is odometry tells how the robot moves.
 void Intake::takeOdometry(const SensorContainer& container) {
   newestOdometry_.reset();
   for (const auto& data : container.all()) {
-    if (data->sequence() == 0 || !isOf(*data, formats::kOdometry)) continue;
+    if (data->sequence() == 0 || !isOdometry(*data)) continue;
     newestOdometry_ = data->stamp();
     const auto reading =
         data->sequence() != odometrySequence_ ? readingAs<OdometryData>(*data) : std::nullopt;

@@ -63,6 +63,7 @@ class ORTUNG_API Intake {
   };
   std::optional<Timestamp> clockSetBack(const SensorContainer& container, Timestamp ofBelief);
   void passOver(const SensorContainer& container, Timestamp stamp);
+  bool isOdometry(const SensorData& data);
   void takeOdometry(const SensorContainer& container);
   bool isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry,
               Timestamp delay) const;
@@ -74,6 +75,7 @@ class ORTUNG_API Intake {
   std::map<const SensorData*, Use> uses_;
   std::map<const SensorData*, Words> words_;
   std::map<const SensorData*, std::uint64_t> seen_;  ///< sequences at the look before
+  std::map<const SensorData*, bool> isOdometry_;  ///< whether a feature is odometry, by its format
   int looksBehind_ = 0;        ///< on end in which all that came was older by far than the belief
   Timestamp behindSince_ = 0;  ///< the newest of what came at the first of them
   std::optional<Timestamp> newestOdometry_;
