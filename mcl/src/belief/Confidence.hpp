@@ -16,8 +16,8 @@ struct Signs {
   double lead = 0.0;       ///< lead of an alternative place over the belief [nats]
   bool isFrozen = false;   ///< whether a device repeats its reading though the robot moves
   bool trustsOdometry = true;
-  bool isConfirmed =
-      true;  ///< whether readings since have confirmed the place that a global start has found
+  /// Whether readings since have confirmed the place that a global start has found.
+  bool isConfirmed = true;
   /// Time since the last reading that was weighed, in usual intervals; none: no reading.
   std::optional<double> silence = 0.0;
   bool isLate = false;  ///< whether stamps of readings are late

@@ -20,8 +20,8 @@ struct News {
   const SensorData* feature;  ///< identity of the feature, which is not read any more
   std::uint64_t sequence;
   std::shared_ptr<const Weigher> weigher;
-  std::shared_ptr<const Weigher> asRead =
-      {};  ///< weigher without the correction; null: nothing was corrected
+  /// Weigher without the correction; null: nothing was corrected.
+  std::shared_ptr<const Weigher> asRead = {};
 };
 
 using NewsByTime = std::map<Timestamp, std::vector<News>>;

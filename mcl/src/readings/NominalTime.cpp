@@ -5,8 +5,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kOtherNanoseconds =
-    50.0;  ///< time per pose of weighers that don't report their own [ns]
+/// Time per pose of weighers that don't report their own [ns].
+constexpr double kOtherNanoseconds = 50.0;
 
 }  // namespace
 

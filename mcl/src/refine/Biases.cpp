@@ -21,8 +21,8 @@ constexpr double kScale = 0.05;
 constexpr double kErrors = 4.0;       ///< standard errors from zero at which a bias becomes known
 constexpr double kStillErrors = 1.5;  ///< standard errors from zero at which it stays known
 constexpr int kFewest = 30;           ///< values that a bias is known by
-constexpr double kMostErrors =
-    4.0;  ///< greatest innovation of an inlier, and of places that are the same [sigma]
+/// Greatest innovation of an inlier, and of places that are the same [sigma].
+constexpr double kMostErrors = 4.0;
 constexpr double kMisfits = 0.5;  ///< share of outliers above which the place is wrong
 /// Readings of a feature from places nearer to each other err alike [m].
 constexpr double kApart = 0.3;

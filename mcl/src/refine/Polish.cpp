@@ -21,8 +21,8 @@ using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 constexpr int kMostSteps = 8;
 constexpr double kSettledMetres = 2e-4;
 constexpr double kSettledRadians = 2e-5;
-constexpr double kMostSigmas =
-    4.0;  ///< greatest distance of a cluster and a pose that are one place [sigma]
+/// Greatest distance of a cluster and a pose that are one place [sigma].
+constexpr double kMostSigmas = 4.0;
 // A cluster's mean is known no better than this: cells, few samples.
 constexpr double kClusterMetres = 0.03;
 constexpr double kClusterRadians = 0.02;
@@ -33,8 +33,8 @@ constexpr double kTold = 0.1;
 constexpr double kForeseen = 0.02;
 /// Estimates are consistent if squared innovations are not so many times larger than expected.
 constexpr double kKept = 2.0;
-constexpr double kChance =
-    1.5;  ///< ratio of squared innovations to expected ones that may be random
+/// Ratio of squared innovations to expected ones that may be random.
+constexpr double kChance = 1.5;
 constexpr double kMostTimes = 9.0;  ///< most that an innovation counts, in usual ones
 constexpr double kRate = 0.05;      ///< rate at which innovations are averaged; faster at first
 

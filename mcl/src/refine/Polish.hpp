@@ -38,8 +38,8 @@ class ORTUNG_API Polish {
   void put(PoseEstimate& cluster) const;
   void learnTimes(double observed);
 
-  std::optional<PoseEstimate>
-      place_;  ///< refined place; its covariance is that of readings and motion
+  /// Refined place; its covariance is that of readings and motion.
+  std::optional<PoseEstimate> place_;
   std::optional<PoseEstimate> cluster_;  ///< cluster of samples as the last readings left it
   /// Of the place, row-major: what its readings were compared with is off by this, times something
   /// of variance 1 that is the same for all of them, so that it is mixed, but never averaged out.

@@ -16,8 +16,8 @@ namespace ortung {
 namespace {
 
 constexpr double kLate = 0.02;  ///< probability of any delay, before anything is known
-constexpr double kChanges =
-    1e-4;  ///< rate at which another delay begins, as probable as at first [1/s]
+/// Rate at which another delay begins, as probable as at first [1/s].
+constexpr double kChanges = 1e-4;
 constexpr double kMetres = 0.05;    ///< errors of places beyond the model of odometry's errors [m]
 constexpr double kRadians = 0.03;   ///< errors of headings beyond that model [rad]
 constexpr double kSmallest = 1e-6;  ///< variance of a belief, so that it can be inverted

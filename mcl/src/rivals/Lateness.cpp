@@ -14,16 +14,16 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kSamples = 128;
-constexpr std::uint64_t kFirstNumber =
-    1ULL << 28;                      ///< number of their noise, which no other samples have
+/// Number of their noise, which no other samples have.
+constexpr std::uint64_t kFirstNumber = 1ULL << 28;
 constexpr double kEffective = 16.0;  ///< samples: fewer climb
 
 constexpr double kPiece = 1.0;      ///< least time between places that are compared [s]
 constexpr double kSurely = 10.0;    ///< times more probable: then another delay is in force
 constexpr double kLeftOut = 0.005;  ///< probability of delays that may be left out
 constexpr double kSamePlace = 0.5;  ///< [m]
-constexpr double kFarthest =
-    50.0;  ///< greatest distance within some seconds [m]; else odometry's counter jumped
+/// Greatest distance within some seconds [m]; else odometry's counter jumped.
+constexpr double kFarthest = 50.0;
 constexpr double kNegligible = 1e-6;    ///< probability that is not looked at
 constexpr double kEnoughForNone = 8.0;  ///< [nats] for a jump: to have no delay is the rule
 constexpr double kMostSharp = 20.0;     ///< most that one reading counts to tell jumps apart [nats]

@@ -42,8 +42,8 @@ class ORTUNG_API Rivals {
     Timestamp stamp = 0;
     Pose2 predicted;           ///< pose at which the belief expects the robot
     double logEvidence = 0.0;  ///< ln p(readings | belief)
-    double way =
-        0.0;  ///< distance travelled since the readings before [m]; a turn of 1 rad counts as 1 m
+    /// Distance travelled since the readings before [m]; a turn of 1 rad counts as 1 m.
+    double way = 0.0;
     std::uint64_t stream = 0;  ///< stream of random numbers
     std::optional<Pose2> odometry = {};
     std::vector<std::shared_ptr<const Weigher>> readings = {};

@@ -16,8 +16,8 @@
 namespace ortung {
 namespace {
 
-constexpr float kMostNats =
-    1e4F;  ///< bound of |ln p| of one moment's readings, whatever plugins return
+/// Bound of |ln p| of one moment's readings, whatever plugins return.
+constexpr float kMostNats = 1e4F;
 constexpr float kNowhere = -std::numeric_limits<float>::infinity();
 constexpr std::size_t kBatch = 8 * kChunk;
 /// Standard deviation of a pose that may be anywhere between its neighbours, in spacings: 0.29 if

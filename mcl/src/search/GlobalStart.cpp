@@ -21,8 +21,8 @@ constexpr std::size_t kSamples = 2000;      ///< number of samples of all places
 constexpr std::size_t kSamplesAPlace = 50;  ///< additional samples for each place
 constexpr double kLeastShare = 1e-4;        ///< least share of the belief that is not neglected
 constexpr double kCandidates = 4.0;         ///< candidates for each sample
-constexpr double kFewestCandidates =
-    2.0;  ///< least number of candidates for each sample, all over the floor
+/// Least number of candidates for each sample, all over the floor.
+constexpr double kFewestCandidates = 2.0;
 constexpr double kMostCandidates = 1e5;  ///< most candidates together, however large the building
 /// Of drawing, beside what readings take: random numbers, choices [ns a pose].
 constexpr double kDrawNanoseconds = 150.0;

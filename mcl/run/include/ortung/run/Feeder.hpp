@@ -41,9 +41,8 @@ class ORTUNG_API Feeder {
   bool next();
 
   Timestamp stamp() const { return stamp_; }  ///< time of the present moment [us]
-  double seconds() const {
-    return toSeconds(stamp_) - toSeconds(first_);
-  }  ///< time since the first moment [s]
+  /// Time since the first moment [s].
+  double seconds() const { return toSeconds(stamp_) - toSeconds(first_); }
   std::size_t moments() const { return moments_; }
   /// Returns the share of the source that was read, in [0, 1], or -1 if it has no end.
   double progress() const { return source_.progress(); }

@@ -19,8 +19,8 @@ namespace ortung {
 
 /// The expectations of one feature over the field (Fig. 7a).
 struct ExpectationMap {
-  std::vector<double>
-      values;             ///< values [m] or [rad] by the feature's format; NaN: nothing expected
+  /// Values [m] or [rad] by the feature's format; NaN: nothing expected.
+  std::vector<double> values;
   std::size_t count = 0;  ///< most values that the feature expects at a pose
 };
 

@@ -34,10 +34,10 @@ struct LocalizationStart {
   };
   Kind kind = Kind::kGlobal;
   Pose2 pose = {};  ///< pose of kPose, field frame
-  double sigmaPosition =
-      0.3;  ///< standard deviation of positions with kTruth and kPose [m], at least 0
-  double sigmaHeading =
-      0.1745;  ///< standard deviation of headings with kTruth and kPose [rad], at least 0
+  /// Standard deviation of positions with kTruth and kPose [m], at least 0.
+  double sigmaPosition = 0.3;
+  /// Standard deviation of headings with kTruth and kPose [rad], at least 0.
+  double sigmaHeading = 0.1745;
 };
 
 /// The filter that estimates where the robot is.
@@ -53,8 +53,8 @@ struct LocalizationConfig {
   std::filesystem::path tables = {};  ///< table file of `ortung learn` for this robot and world
   std::string source = {};            ///< "KIND:PATH?key=value"; "": the program sets readings
   std::uint64_t seed = 1;             ///< seed of all random numbers
-  std::optional<std::size_t> particles =
-      {};                                ///< greatest number of samples; none: the robot file's
+  /// Greatest number of samples; none: the robot file's.
+  std::optional<std::size_t> particles = {};
   std::optional<unsigned> threads = {};  ///< threads of MCL; the result does not depend on them
   LocalizationStart start = {};
   std::optional<Parameters> motion = {};  ///< settings in place of the robot file's [motion]
