@@ -62,8 +62,8 @@ class FisheyeModel : public CameraModel {
 
   std::vector<double> focal_;
   RadialPolynomial radial_;
-  double mostAngle_ =
-      0.0;  ///< greatest angle to the axis up to which the model is one to one [rad]
+  /// Greatest angle to the axis up to which the model is one to one [rad].
+  double mostAngle_ = 0.0;
   double mostRadius_ = 0.0;  ///< radius in the image at mostAngle_ [focal lengths]
 };
 

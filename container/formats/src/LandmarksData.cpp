@@ -42,8 +42,8 @@ struct LandmarksData::Tables {
     for (std::size_t i = 0; i < config.identities.size(); ++i)
       landmarks.push_back({PositionTable(config.maxRange), {}});
   }
-  std::vector<Landmark>
-      landmarks;  ///< tables in the order of the identities; empty if unidentified
+  /// Tables in the order of the identities; empty if unidentified.
+  std::vector<Landmark> landmarks;
   std::shared_ptr<LandmarkPlaces> places = std::make_shared<LandmarkPlaces>();
 };
 

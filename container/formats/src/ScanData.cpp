@@ -61,8 +61,8 @@ struct ScanData::Learning {
   std::vector<std::uint8_t> levelOfWord;
   int views = 0;  ///< headings a turn; 0: not known yet
   FieldGrid grid;
-  std::vector<bool>
-      showsSurfaces;  ///< whether the scan from a cell marks surfaces, by cell of the grid
+  /// Whether the scan from a cell marks surfaces, by cell of the grid.
+  std::vector<bool> showsSurfaces;
 };
 
 ScanData::ScanData(SensorId id, const Pose2& mount, const Config& config)

@@ -17,8 +17,8 @@
 namespace ortung {
 namespace {
 
-constexpr std::uint8_t kLargestCost =
-    250;  ///< greatest cost of one beam: the outlier floor in quantized form
+/// Greatest cost of one beam: the outlier floor in quantized form.
+constexpr std::uint8_t kLargestCost = 250;
 /// Samples whose rows are looked up and prefetched at a time.
 constexpr std::size_t kSamplesABlock = 64;
 constexpr std::size_t kCacheLine = 64;  ///< [bytes]
@@ -133,8 +133,8 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
   std::size_t run_;  ///< directions that the scan spans
   double unit_;      ///< nats of a cost of 1
   float nats_;       ///< ln p of a cost of 1, exponent included (negative)
-  std::vector<std::uint8_t>
-      levels_;  ///< levels of the reading, by direction from the first beam on, padded
+  /// Levels of the reading, by direction from the first beam on, padded.
+  std::vector<std::uint8_t> levels_;
   std::vector<std::uint8_t> caps_;
   std::vector<std::uint8_t> steps_;  ///< none: all of 1
   int shift_ = 0;

@@ -5,8 +5,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kKept =
-    6.0;  ///< length of odometry that is kept [s]: twice the greatest age of readings
+/// Length of odometry that is kept [s]: twice the greatest age of readings.
+constexpr double kKept = 6.0;
 
 }  // namespace
 

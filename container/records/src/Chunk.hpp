@@ -20,8 +20,8 @@
 namespace ortung::chunk {
 
 inline constexpr std::string_view kMagic = "ortung record 2\n";
-inline constexpr std::string_view kApartNote =
-    "# binary ";  ///< begin of the note "# binary STAMP ID WORDS STRIDE"
+/// Begin of the note "# binary STAMP ID WORDS STRIDE".
+inline constexpr std::string_view kApartNote = "# binary ";
 inline constexpr std::size_t kMaxTextWords = 4096;  ///< most words of a reading that is a line
 inline constexpr std::size_t kMaxTextBytes = kMaxLineBytes;  ///< lines of a chunk
 

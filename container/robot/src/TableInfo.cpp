@@ -11,8 +11,8 @@ namespace ortung {
 namespace {
 
 constexpr int kFormat = 1;
-constexpr std::size_t kMostCells = std::size_t{1}
-                                   << 26;  ///< most cells of a region, as many as the learner makes
+/// Most cells of a region, as many as the learner makes.
+constexpr std::size_t kMostCells = std::size_t{1} << 26;
 constexpr std::size_t kMostMeta = std::size_t{64} << 20;  ///< bytes
 constexpr int kDeepest = 8;
 constexpr const char* kMeta = "meta.json";

@@ -22,8 +22,8 @@ struct ScanReading {
   /// What a difference of levels counts for each beam, in units of 2^-shift, in [0, 127]; none: 1.
   std::span<const std::uint8_t> steps;
   int shift = 0;  ///< exponent of the unit of `steps`, in [0, kMostShift]
-  std::array<std::uint8_t, kLevelDifferences>
-      costs{};  ///< costs by steps of difference, not falling
+  /// Costs by steps of difference, not falling.
+  std::array<std::uint8_t, kLevelDifferences> costs{};
 };
 inline constexpr int kMostShift = 9;  ///< products and half a unit have 15 bits
 

@@ -14,13 +14,13 @@ constexpr std::size_t kMostCells = 1U << 27;
 constexpr int kWidest = 2;  ///< cells beside one that take part in its surface
 /// A surface is thinner than this [cells]; the stairs that a slanting wall is in a grid are 0.3.
 constexpr double kThickest = 0.35;
-constexpr double kFewEnds =
-    0.2;  ///< share of the fullest neighbour's ends; cells with fewer count less
+/// Share of the fullest neighbour's ends; cells with fewer count less.
+constexpr double kFewEnds = 0.2;
 constexpr double kLineRatio = 0.45;  ///< a line is so much thinner than it is long, at least
 /// Nothing is known better, with ends in whole millimetres [m].
 constexpr double kThinnest = 0.0005;
-constexpr float kMostCellsOff =
-    1.0F;  ///< greatest distance of a file's means from their cell's centre [cells]
+/// Greatest distance of a file's means from their cell's centre [cells].
+constexpr float kMostCellsOff = 1.0F;
 
 }  // namespace
 

@@ -155,8 +155,8 @@ class TableWeigher {
   std::array<std::int32_t, kBlock> corners_;  ///< the lower left one of the four around
   std::array<float, kBlock> shareX_;
   std::array<float, kBlock> shareY_;
-  std::array<std::int32_t, kBlock>
-      levels_;  ///< levels of the lower left cells, or of the sample's own cell (then in all four)
+  /// Levels of the lower left cells, or of the sample's own cell (then in all four).
+  std::array<std::int32_t, kBlock> levels_;
   std::array<std::int32_t, kBlock> right1_;
   std::array<std::int32_t, kBlock> up1_;
   std::array<std::int32_t, kBlock> both1_;

@@ -22,8 +22,8 @@ struct Member {
 
 inline constexpr std::size_t kMostMembers = 65535;
 inline constexpr std::size_t kLongestName = 300;
-inline constexpr std::size_t kAlignment =
-    64;  ///< alignment of every member's data in the file [bytes]
+/// Alignment of every member's data in the file [bytes].
+inline constexpr std::size_t kAlignment = 64;
 
 /// Local header of @p member, padded so that its data begins at a multiple of kAlignment.
 std::string localHeader(const Member& member);

@@ -26,7 +26,8 @@
 namespace ortung {
 namespace {
 
-constexpr Timestamp kAsking = 100'000;  ///< between two times that a program asks [us]
+/// Time between two calls of a program that asks for estimates [us].
+constexpr Timestamp kAsking = 100'000;
 
 MclConfig readMcl(const LocalizationConfig& config, const RobotConfig& robot) {
   MclConfig mcl = MclConfig::read(robot.mcl);

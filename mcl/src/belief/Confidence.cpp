@@ -21,7 +21,7 @@ constexpr double kOfLead = -0.12;  ///< a nat
 constexpr double kMostLead = 16.0;
 
 constexpr double kTracking = 0.9;  ///< quality of an estimate that may be relied on, at least
-constexpr double kLost = 0.5;      ///< and of one that is none
+constexpr double kLost = 0.5;      ///< quality below which an estimate is lost
 constexpr double kRivalNats = 4.0;
 constexpr double kOfOnePlace = 0.8;  ///< share of the belief
 constexpr double kLongSilence = 3.0;

@@ -10,16 +10,17 @@ namespace ortung {
 
 /// What tells how far an estimate can be trusted.
 struct Signs {
-  double fit = 1.0;        ///< newest readings where they fit best, as a share of what is usual
-  double fitLately = 1.0;  ///< the same, averaged over some readings
-  int unusual = 0;         ///< readings on end that did not fit as they use to
-  double lead = 0.0;       ///< of a rival over the belief [nats]
-  bool isFrozen = false;   ///< a device repeats its reading though the robot moves
+  double fit = 1.0;        ///< best fit of the newest readings, as a share of the usual one
+  double fitLately = 1.0;  ///< short-term average of the fit
+  int unusual = 0;         ///< number of readings in a row that fitted worse than usual
+  double lead = 0.0;       ///< lead of an alternative place over the belief [nats]
+  bool isFrozen = false;   ///< whether a device repeats its reading though the robot moves
   bool trustsOdometry = true;
-  bool isConfirmed = true;  ///< where a global start has found the robot, by readings since
-  /// Time since the last reading that was weighed, in what is usual between two; none: no reading.
+  /// Whether readings since have confirmed the place that a global start has found.
+  bool isConfirmed = true;
+  /// Time since the last reading that was weighed, in usual intervals; none: no reading.
   std::optional<double> silence = 0.0;
-  bool isLate = false;  ///< readings, by their stamps
+  bool isLate = false;  ///< whether stamps of readings are late
 };
 
 /// Probability that a position is within @p metres of the mean of a Gaussian with this covariance.

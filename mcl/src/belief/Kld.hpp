@@ -56,7 +56,7 @@ class ORTUNG_API PoseBins {
   float perRadian_;
   /// Sets that lie together have a table of all bins between the outermost; others are hashed.
   Bin low_{};
-  std::size_t columns_ = 0;  ///< of that table; 0: hashed
+  std::size_t columns_ = 0;  ///< number of the table's columns; zero: hashed
   std::size_t rows_ = 0;
   std::vector<Bin> bins_;
   std::vector<std::uint32_t> binOf_;

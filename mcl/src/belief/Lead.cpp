@@ -5,7 +5,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kEnoughNats = 16.0;  ///< for a place to be left
+constexpr double kEnoughNats = 16.0;  ///< lead that is enough to leave a place [nats]
 constexpr double kHopelessNats = -12.0;
 
 }  // namespace

@@ -31,13 +31,13 @@ struct Moment {
 /// All hypotheses were moved to a moment.
 struct Predicted {
   Timestamp stamp;
-  std::size_t drifted = 0;  ///< of the belief, from this sample on they drifted; 0: none
+  std::size_t drifted = 0;  ///< first sample of the belief that drifted; zero: none
 };
-/// The moment's readings have weighed the belief, and tell what others are to be compared with.
+/// The moment's readings have weighed the belief, and give what alternatives are compared with.
 struct Weighed {
   Moment moment;
   std::vector<double> weights;
-  std::optional<Rivals::Moment> compared;  ///< none: the belief fits, so nobody competes with it
+  std::optional<Rivals::Moment> compared;  ///< none: the belief fits, so there are no alternatives
   double logEvidence;                      ///< ln p(readings | belief)
 };
 /// The belief is the hypothesis that leads.
@@ -45,7 +45,7 @@ struct Led {
   Moment moment;
   std::vector<double> weights;
   PoseBins bins;
-  PoseEstimate estimate;  ///< of the samples alone
+  PoseEstimate estimate;  ///< estimate of the samples alone
 };
 /// The estimate is made.
 struct Estimated {
@@ -58,8 +58,8 @@ struct Estimated {
 struct Mcl::Impl {
   /// Up to where the samples were moved.
   struct Reached {
-    std::optional<Pose2> odometry;   ///< by this
-    std::optional<Timestamp> stamp;  ///< to weigh them
+    std::optional<Pose2> odometry;   ///< odometry's pose up to which they were moved
+    std::optional<Timestamp> stamp;  ///< stamp of the weighing that they were moved to
   };
 
   Tools tools;
@@ -67,8 +67,8 @@ struct Mcl::Impl {
   LastingParts parts;
   Intake intake;
   Reached reached;
-  double usualInterval = 0.0;  ///< between weighings, lately at most [s]
-  PoseEstimate estimate;       ///< of the newest weighing
+  double usualInterval = 0.0;  ///< longest recent time between weighings [s]
+  PoseEstimate estimate;       ///< estimate of the newest weighing
   std::uint64_t step = 0;
 
   Impl(const MclConfig& c, FieldRegion r, std::unique_ptr<MotionModel> m)

@@ -44,14 +44,14 @@ struct Tools {
   Workers workers;
 };
 
-/// Since the last weighing.
+/// The distance travelled since the last weighing.
 struct Way {
-  double all = 0.0;     ///< [m]; a turn of 1 rad counts as 1 m
-  double metres = 0.0;  ///< without turns
+  double all = 0.0;     ///< distance and turns [m]; a turn of 1 rad counts as 1 m
+  double metres = 0.0;  ///< distance travelled, without turns [m]
 };
 
 /// All that belongs to one belief. Another belief gets another track, so nothing of the old one is
-/// left, whoever adds a member here.
+/// left, even if members are added here.
 struct Track {
   Track(Tools& tools, SampleSet samples, bool waits)
       : belief(std::move(samples)),
@@ -61,28 +61,27 @@ struct Track {
         rivals(tools.config, tools.region, tools.search, *tools.motion, tools.time, tools.workers) {
   }
 
-  /// Whether there are samples that anybody may be told of.
+  /// Returns whether there are samples that may be reported.
   bool isKnown() const { return !waitsForStart && belief.samples().size() > 0; }
 
   Hypothesis belief;
   /// Of the samples as they are now; made when it is asked for.
   mutable std::optional<PoseEstimate> present;
-  PoseResolution coarsest;  ///< of the tables that weighed it last
+  PoseResolution coarsest;  ///< coarsest resolution of the tables that weighed it last
   bool waitsForStart;       ///< a global start waits for the first reading, or searches
-  bool hasStarted = false;  ///< there is an estimate that no update() has told of yet
+  bool hasStarted = false;  ///< whether update() has yet to report an estimate
   Way way;
-  bool isBlind = true;  ///< nobody tells how the robot moved up to this reading
-  Momentum momentum;    ///< where it is blind
+  bool isBlind = true;  ///< whether there is no odometry up to this reading
+  Momentum momentum;    ///< motion that is assumed while it is blind
   OdometryTrust trust;
   SampleSet anchor;  ///< the belief when it was weighed last, while odometry is not trusted
   Recovery recovery;
   Rivals rivals;
-  Confirmation confirmation;  ///< of where a global start has found the robot
+  Confirmation confirmation;  ///< confirmation of the place that a global start has found
 };
 
-/// Parts that keep something where another belief begins, for it is of devices, sensors and the
-/// map: delays, how far readings keep their promises, which devices there are, a cover of the
-/// floor.
+/// Parts that keep something when another belief begins, since it belongs to devices, sensors and
+/// the map: delays, how consistent readings are, which devices there are, a cover of the floor.
 struct LastingParts {
   Lateness lateness;
   Polish polish;

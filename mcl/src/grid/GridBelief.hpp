@@ -75,16 +75,16 @@ class ORTUNG_API GridBelief {
   FieldGrid area_;
   double cell_;
   int turns_;
-  double step_;  ///< of headings [rad]
+  double step_;  ///< angle between headings [rad]
   int columns_;
   int rows_;
-  double turnOffset_ = 0.0;  ///< of all headings, at most half a step [rad]
+  double turnOffset_ = 0.0;  ///< common offset of all headings, at most half a step [rad]
   std::vector<Offset> offsets_;
-  int firstLayer_ = 0;                  ///< that of heading 0: turns move no memory
-  std::vector<float> shares_;           ///< (layer, row, column)
-  std::vector<float> buffer_;           ///< likewise; zeros
-  std::vector<std::uint8_t> isFilled_;  ///< layers that have any
-  Box box_;                             ///< of all layers: outside there is nothing
+  int firstLayer_ = 0;                  ///< layer of heading 0; turns change it and move no memory
+  std::vector<float> shares_;           ///< shares by (layer, row, column)
+  std::vector<float> buffer_;           ///< scratch memory in the same order; zeros
+  std::vector<std::uint8_t> isFilled_;  ///< whether a layer has any share
+  Box box_;  ///< bounding box of all layers; outside, all shares are zero
 };
 
 }  // namespace ortung

@@ -125,7 +125,7 @@ struct GridFilter::Impl {
   Intake intake;
   GridBelief belief;
   PoseEstimate estimate;
-  mutable std::optional<PoseEstimate> present;  ///< of the belief as it is now
+  mutable std::optional<PoseEstimate> present;  ///< estimate of the present belief
   std::optional<Pose2> lastOdometry;
   std::optional<Timestamp> lastTime;
   std::uint64_t step = 0;

@@ -32,7 +32,7 @@ class ORTUNG_API Momentum {
     Pose2 pose;
     Timestamp stamp;
     double open;      ///< variance of the position along an axis [m^2]
-    double openTurn;  ///< of the heading [rad^2]
+    double openTurn;  ///< variance of the heading [rad^2]
   };
   const MclConfig& config_;
   std::optional<Seen> last_;

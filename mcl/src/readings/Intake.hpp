@@ -22,7 +22,7 @@ class ORTUNG_API Intake {
  public:
   /// What is new in a container.
   struct Look {
-    NewsByTime news;  ///< by time, since what was read at one moment is weighed together
+    NewsByTime news;  ///< news by time; those of one moment are weighed together
     /// Time itself went back, to this: a clock was set, or a log begins anew.
     std::optional<Timestamp> clockSetTo;
   };
@@ -74,12 +74,12 @@ class ORTUNG_API Intake {
   MotionModel& motion_;
   std::map<const SensorData*, Use> uses_;
   std::map<const SensorData*, Words> words_;
-  std::map<const SensorData*, std::uint64_t> seen_;  ///< sequences at the look before
+  std::map<const SensorData*, std::uint64_t> seen_;  ///< sequence numbers at the look before
   std::map<const SensorData*, bool> isOdometry_;  ///< whether a feature is odometry, by its format
-  int looksBehind_ = 0;        ///< on end in which all that came was older by far than the belief
-  Timestamp behindSince_ = 0;  ///< the newest of what came at the first of them
+  int looksBehind_ = 0;        ///< looks in a row at which all news was much older than the belief
+  Timestamp behindSince_ = 0;  ///< newest stamp at the first of those looks
   std::optional<Timestamp> newestOdometry_;
-  std::uint64_t odometrySequence_ = 0;  ///< of the newest reading that motion took
+  std::uint64_t odometrySequence_ = 0;  ///< sequence number of the newest odometry that motion took
   const SensorData* frozen_ = nullptr;
 };
 

@@ -17,10 +17,11 @@ class Workers;
 /// A reading that is to be weighed: all that is needed of it once the container's lock is given
 /// back.
 struct News {
-  const SensorData* feature;  ///< which one; not looked at any more
+  const SensorData* feature;  ///< identity of the feature, which is not read any more
   std::uint64_t sequence;
   std::shared_ptr<const Weigher> weigher;
-  std::shared_ptr<const Weigher> asRead = {};  ///< without what was corrected; none: nothing was
+  /// Weigher without the correction; null: nothing was corrected.
+  std::shared_ptr<const Weigher> asRead = {};
 };
 
 using NewsByTime = std::map<Timestamp, std::vector<News>>;

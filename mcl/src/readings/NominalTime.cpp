@@ -5,7 +5,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kOtherNanoseconds = 50.0;  ///< that weighers take for a pose if they don't say
+/// Time per pose of weighers that don't report their own [ns].
+constexpr double kOtherNanoseconds = 50.0;
 
 }  // namespace
 

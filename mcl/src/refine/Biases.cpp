@@ -18,14 +18,15 @@ using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 /// Biases are of the size of the noise, and scales of this size, as long as nothing is known.
 constexpr double kScale = 0.05;
-constexpr double kErrors = 4.0;       ///< from none, of a bias that is known
-constexpr double kStillErrors = 1.5;  ///< and of one that stays known
+constexpr double kErrors = 4.0;       ///< standard errors from zero at which a bias becomes known
+constexpr double kStillErrors = 1.5;  ///< standard errors from zero at which it stays known
 constexpr int kFewest = 30;           ///< values that a bias is known by
-constexpr double kMostErrors = 4.0;  ///< of a value that is no outlier, of places that are the same
-constexpr double kMisfits = 0.5;     ///< so large a share of outliers: the place is wrong
+/// Greatest innovation of an inlier, and of places that are the same [sigma].
+constexpr double kMostErrors = 4.0;
+constexpr double kMisfits = 0.5;  ///< share of outliers above which the place is wrong
 /// Readings of a feature from places nearer to each other err alike [m].
 constexpr double kApart = 0.3;
-constexpr double kRate = 0.02;  ///< at which outliers are followed
+constexpr double kRate = 0.02;  ///< rate at which the share of outliers is averaged
 
 }  // namespace
 

@@ -37,19 +37,19 @@ class ORTUNG_API Biases {
 
  private:
   static constexpr Eigen::Index kPose = 3;
-  static constexpr Eigen::Index kTerms = 3;  ///< of DeviceBias, in its order
+  static constexpr Eigen::Index kTerms = 3;  ///< number of terms of DeviceBias, in its order
   struct Device {
     std::string name;
-    int values = 0;             ///< learned from
-    bool hasDistances = false;  ///< there are readings of them
+    int values = 0;             ///< number of values it was learned from
+    bool hasDistances = false;  ///< whether there are readings of distances
     bool hasBearings = false;
-    bool knowsDistances = false;  ///< that they are biased
+    bool knowsDistances = false;  ///< whether distances are known to be biased
     bool knowsBearings = false;
   };
 
   struct Feature {
     std::size_t device = 0;
-    double learnedAt = -1.0;  ///< by way_; below 0: never
+    double learnedAt = -1.0;  ///< value of way_ when it learned last [m]; negative: never
   };
 
   Feature& featureOf(const News& news);
@@ -63,13 +63,13 @@ class ORTUNG_API Biases {
   }
 
   std::map<const SensorData*, Feature> features_;
-  double way_ = 0.0;  ///< come while it is running [m]; a turn of 1 rad counts as 1 m
+  double way_ = 0.0;  ///< distance travelled while running [m]; a turn of 1 rad counts as 1 m
   std::vector<Device> devices_;
   bool isRunning_ = false;
   Pose2 pose_;
-  Eigen::VectorXd mean_;  ///< of biases; its first three are those of the pose's error, always 0
+  Eigen::VectorXd mean_;  ///< mean of all biases; its first three are the pose's error, always zero
   Eigen::MatrixXd covariance_;
-  double misfit_ = 0.0;  ///< share of values that don't fit, lately
+  double misfit_ = 0.0;  ///< recent share of values that don't fit
 };
 
 }  // namespace ortung

@@ -21,20 +21,22 @@ using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 constexpr int kMostSteps = 8;
 constexpr double kSettledMetres = 2e-4;
 constexpr double kSettledRadians = 2e-5;
-constexpr double kMostSigmas = 4.0;  ///< between a cluster and a pose that are one place
+/// Greatest distance of a cluster and a pose that are one place [sigma].
+constexpr double kMostSigmas = 4.0;
 // A cluster's mean is known no better than this: cells, few samples.
 constexpr double kClusterMetres = 0.03;
 constexpr double kClusterRadians = 0.02;
-/// Directions of which readings tell less than this share of what was open don't surprise.
+/// Directions in which readings remove less than this share of the uncertainty have no innovation.
 constexpr double kTold = 0.1;
-/// Where readings are so much (1 / 50) narrower than what was foreseen, all of a surprise is the
-/// motion's: it tells nothing of the readings.
+/// Where readings are so much (1 / 50) narrower than the prediction, all of an innovation is the
+/// motion's: it says nothing about the readings.
 constexpr double kForeseen = 0.02;
-constexpr double kKept =
-    2.0;  ///< promises are, if squares of surprises are not so many times larger
-constexpr double kChance = 1.5;     ///< of squares of surprises, so much may be chance
-constexpr double kMostTimes = 9.0;  ///< a surprise counts at most so many times what is usual
-constexpr double kRate = 0.05;      ///< at which surprises are followed; at first faster
+/// Estimates are consistent if squared innovations are not so many times larger than expected.
+constexpr double kKept = 2.0;
+/// Ratio of squared innovations to expected ones that may be random.
+constexpr double kChance = 1.5;
+constexpr double kMostTimes = 9.0;  ///< most that an innovation counts, in usual ones
+constexpr double kRate = 0.05;      ///< rate at which innovations are averaged; faster at first
 
 Matrix matrixOf(const std::array<double, 9>& values) {
   return Eigen::Map<const RowMajor>(values.data());
@@ -66,7 +68,7 @@ struct Prior {
 struct Solution {
   Pose2 pose;
   Matrix covariance;
-  Slope slope;  ///< of the readings there
+  Slope slope;  ///< sum of the readings' slopes there
 };
 
 Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose) {

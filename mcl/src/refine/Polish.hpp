@@ -38,13 +38,14 @@ class ORTUNG_API Polish {
   void put(PoseEstimate& cluster) const;
   void learnTimes(double observed);
 
-  std::optional<PoseEstimate> place_;    ///< with what readings and motion promise as covariance
-  std::optional<PoseEstimate> cluster_;  ///< of samples, as the last readings left it
+  /// Refined place; its covariance is that of readings and motion.
+  std::optional<PoseEstimate> place_;
+  std::optional<PoseEstimate> cluster_;  ///< cluster of samples as the last readings left it
   /// Of the place, row-major: what its readings were compared with is off by this, times something
   /// of variance 1 that is the same for all of them, so that it is mixed, but never averaged out.
   std::array<double, 9> blur_{};
-  /// How many times as large as promised the squares of surprises are: readings that are wrong
-  /// alike, surfaces that are not where the map has them, odometry that errs more than its model.
+  /// Ratio of squared innovations to those of consistent estimates: it grows where readings have
+  /// common errors, surfaces are not where the map has them, or odometry errs more than its model.
   double times_ = kTimesAtFirst;
   int surprises_ = 0;
   static constexpr double kTimesAtFirst = 10.0;

@@ -4,7 +4,7 @@ namespace ortung {
 namespace {
 
 constexpr double kWay = 1.0;  ///< [m]: as rivals elsewhere need
-constexpr int kReadings = 3;  ///< on it, at least
+constexpr int kReadings = 3;  ///< least number of readings that confirm a place
 
 }  // namespace
 

@@ -15,10 +15,11 @@
 namespace ortung {
 namespace {
 
-constexpr double kLate = 0.02;      ///< probability of any delay, before anything is known
-constexpr double kChanges = 1e-4;   ///< that another one begins [1/s]: then it is as before
-constexpr double kMetres = 0.05;    ///< that the model of odometry's errors does not tell of
-constexpr double kRadians = 0.03;   ///< the same
+constexpr double kLate = 0.02;  ///< probability of any delay, before anything is known
+/// Rate at which another delay begins, as probable as at first [1/s].
+constexpr double kChanges = 1e-4;
+constexpr double kMetres = 0.05;    ///< errors of places beyond the model of odometry's errors [m]
+constexpr double kRadians = 0.03;   ///< errors of headings beyond that model [rad]
 constexpr double kSmallest = 1e-6;  ///< variance of a belief, so that it can be inverted
 
 double prior(std::size_t delay) {
@@ -91,7 +92,7 @@ void Delays::follow(const Predicted& predicted, std::size_t inForce, const PoseE
   const Eigen::LLT<Eigen::Matrix3d> read(belief - present.information);
   if (read.info() != Eigen::Success) return;
   std::array<double, kCount> nats{};
-  double best = -std::numeric_limits<double>::infinity();  ///< of a motion that leads there
+  double best = -std::numeric_limits<double>::infinity();  ///< best of `met` [nats]
   for (std::size_t i = 0; i < kCount; ++i) {
     const Normal other = normalOf(predicted[i], seen.pose);
     const auto here = ratio(other, present, belief);

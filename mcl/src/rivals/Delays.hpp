@@ -18,8 +18,8 @@ namespace ortung {
 /// any time. Not thread-safe.
 class ORTUNG_API Delays {
  public:
-  static constexpr double kStep = 0.25;      ///< between delays that are told apart [s]
-  static constexpr std::size_t kCount = 13;  ///< up to 3 s
+  static constexpr double kStep = 0.25;      ///< step between delays that are distinguished [s]
+  static constexpr std::size_t kCount = 13;  ///< number of delays: zero to 3 s
   /// Where the robot is, field frame, if it moved as odometry tells for each delay.
   using Predicted = std::array<PoseEstimate, kCount>;
 

@@ -44,8 +44,8 @@ class ORTUNG_API Hypothesis {
   struct Climb {
     std::size_t from;        ///< samples that begin, drawn by their weights so far
     std::size_t to;          ///< samples that arrive
-    Random offset;           ///< by which those that begin are drawn
-    Random random;           ///< of the climb
+    Random offset;           ///< random numbers that draw those that begin
+    Random random;           ///< random numbers of the climb
     bool isOfBelief = true;  ///< each stays within its own surroundings; else it may go anywhere
   };
 

@@ -14,24 +14,26 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kSamples = 128;
-constexpr std::uint64_t kFirstNumber = 1ULL << 28;  ///< of their noise, which no other samples have
-constexpr double kEffective = 16.0;                 ///< samples: fewer climb
+/// Number of their noise, which no other samples have.
+constexpr std::uint64_t kFirstNumber = 1ULL << 28;
+constexpr double kEffective = 16.0;  ///< samples: fewer climb
 
-constexpr double kPiece = 1.0;          ///< of time between places that are compared, at least [s]
-constexpr double kSurely = 10.0;        ///< times more probable: then another delay is in force
-constexpr double kLeftOut = 0.005;      ///< probability of delays that may be left out
-constexpr double kSamePlace = 0.5;      ///< [m]
-constexpr double kFarthest = 50.0;      ///< within some seconds [m]: else odometry's counter jumped
+constexpr double kPiece = 1.0;      ///< least time between places that are compared [s]
+constexpr double kSurely = 10.0;    ///< times more probable: then another delay is in force
+constexpr double kLeftOut = 0.005;  ///< probability of delays that may be left out
+constexpr double kSamePlace = 0.5;  ///< [m]
+/// Greatest distance within some seconds [m]; else odometry's counter jumped.
+constexpr double kFarthest = 50.0;
 constexpr double kNegligible = 1e-6;    ///< probability that is not looked at
 constexpr double kEnoughForNone = 8.0;  ///< [nats] for a jump: to have no delay is the rule
-constexpr double kMostSharp = 20.0;     ///< that one reading counts to tell jumps apart [nats]
+constexpr double kMostSharp = 20.0;     ///< most that one reading counts to tell jumps apart [nats]
 
 // Where a delay may have begun.
-constexpr double kPlacesApart = 0.3;  ///< so that it shows [m + rad]
+constexpr double kPlacesApart = 0.3;  ///< least difference of places that shows a delay [m + rad]
 constexpr double kIndependent = 0.2;  ///< way after which a reading counts whole [m + rad]
-constexpr double kLongGap = 3.0;      ///< between readings, of what is usual
-constexpr double kGapKept = 0.9;      ///< of what is usual, from reading to reading
-constexpr double kGapMore = 1.5;      ///< the same, at most
+constexpr double kLongGap = 3.0;      ///< ratio of a long gap between readings to the usual one
+constexpr double kGapKept = 0.9;      ///< least ratio of the usual gap to the one before
+constexpr double kGapMore = 1.5;      ///< greatest ratio of the usual gap to the one before
 constexpr double kDropped = -2.0;     ///< [nats]: it has not
 
 /// Ways and turns alike.

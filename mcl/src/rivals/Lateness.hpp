@@ -38,7 +38,7 @@ class ORTUNG_API Lateness {
     double logEvidence = 0.0;  ///< ln p(readings | belief)
     bool isDoubtful = false;   ///< the belief did not fit
     PoseEstimate estimate;     ///< now that they have weighed it
-    std::uint64_t stream = 0;  ///< of random numbers
+    std::uint64_t stream = 0;  ///< stream of random numbers
   };
   /// Another delay is in force from now on.
   struct Change {
@@ -91,9 +91,9 @@ class ORTUNG_API Lateness {
   };
   /// What belongs to a belief, and is made anew with it.
   struct OfBelief {
-    std::optional<Timestamp> before;  ///< of the last reading
-    Odometry odometry;                ///< then
-    double usualGap = 0.0;            ///< between readings [s]
+    std::optional<Timestamp> before;  ///< stamp of the last reading
+    Odometry odometry;                ///< odometry at that time
+    double usualGap = 0.0;            ///< usual time between readings [s]
     std::optional<Anchor> anchor;
     std::vector<Jump> jumps;
   };

@@ -45,7 +45,7 @@ class ORTUNG_API Recovery {
   /// The newest best fit, and the average of the last ones, as shares of what is usual.
   double fitOfUsual() const { return best_ ? last_ / *best_ : 1.0; }
   double fitOfUsualLately() const { return best_ ? lately_ / *best_ : 1.0; }
-  /// Readings on end that did not fit as they use to.
+  /// Number of readings in a row that fitted worse than usual.
   int unusual() const { return unusual_; }
   /// @param fit of the same moment's readings where they fit the belief best: with the weights that
   ///   they have given it. How wide a belief has become on a long way does not matter then.
@@ -54,17 +54,17 @@ class ORTUNG_API Recovery {
   bool isUsual(double best) const;
 
  private:
-  bool fitsBadly() const;  ///< where the robot was expected
+  bool fitsBadly() const;  ///< whether readings fit badly where the robot was expected
   double rateFast_;
   double rateSlow_;
   double now_ = 0.0;
   bool stands_ = false;
   double fast_ = 0.0;
   double slow_ = 0.0;
-  int unusual_ = 0;             ///< readings on end that did not fit as they use to
-  double last_ = 0.0;           ///< best fit
+  int unusual_ = 0;             ///< number of readings in a row that fitted worse than usual
+  double last_ = 0.0;           ///< newest best fit
   double lately_ = 0.0;         ///< its short-term average
-  std::optional<double> best_;  ///< what they use to be: most of them are no better
+  std::optional<double> best_;  ///< usual best fit: most are no better
   bool known_ = false;
 };
 

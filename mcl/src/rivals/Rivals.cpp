@@ -13,28 +13,32 @@ namespace ortung {
 namespace {
 
 // Around the estimate.
-constexpr double kRing = 0.5;             ///< at first [m]
+constexpr double kRing = 0.5;             ///< initial radius of the ring [m]
 constexpr double kRingPerSecond = 1.5;    ///< [m/s]: as fast as wheels lie
 constexpr double kLargestRing = 3.0;      ///< [m]
-constexpr double kTurn = 0.35;            ///< to either side, at first [rad]
+constexpr double kTurn = 0.35;            ///< initial turn to either side [rad]
 constexpr double kTurnPerSecond = 0.35;   ///< [rad/s]
 constexpr double kLargestTurn = 1.6;      ///< [rad]
 constexpr double kIndependentNear = 0.1;  ///< way after which a reading counts whole [m]
-constexpr double kSamePlace = 0.3;        ///< from the belief: no rival [m]
-constexpr double kSameTurn = 0.2;         ///< [rad]
-constexpr double kShareTaken = 0.9;       ///< of the belief; the rest stays where it was
+constexpr double kSamePlace = 0.3;  ///< least distance from the belief of an alternative place [m]
+constexpr double kSameTurn = 0.2;   ///< [rad]
+/// Share of the belief that is taken; the rest stays where it was.
+constexpr double kShareTaken = 0.9;
 constexpr std::size_t kSamplesAround = 400;
-constexpr std::size_t kSpreadAround = 1000;  ///< that follow odometry, and as many that drift
-constexpr double kDroppedAround = -2.0;      ///< [nats]: then they are drawn anew
-constexpr double kCandidatesAround = 10.0;   ///< for each of them
+/// Samples that follow odometry, and as many that drift.
+constexpr std::size_t kSpreadAround = 1000;
+constexpr double kDroppedAround = -2.0;     ///< [nats]: then they are drawn anew
+constexpr double kCandidatesAround = 10.0;  ///< candidates for each of these samples
 
 // Elsewhere.
 constexpr double kIndependentFar = 0.3;  ///< [m]
-constexpr double kWayElsewhere = 1.0;    ///< that readings are spread over, at least [m]
-constexpr int kReadingsElsewhere = 5;    ///< at least
-constexpr int kMostUnusual = 4;          ///< readings on end that fit badly: it was a chance hit
+/// Least distance travelled over which readings are spread [m].
+constexpr double kWayElsewhere = 1.0;
+constexpr int kReadingsElsewhere = 5;  ///< least number of readings
+constexpr int kMostUnusual = 4;        ///< bad readings in a row after which it was a random hit
 constexpr std::size_t kSamplesElsewhere = 1000;
-constexpr double kCandidatesElsewhere = 4.0;   ///< for each of them, around what a search has found
+/// Candidates for each sample, around what a search has found.
+constexpr double kCandidatesElsewhere = 4.0;
 constexpr double kEffectiveElsewhere = 100.0;  ///< samples
 constexpr double kSearchNats = 12.0;           ///< places that fit so much worse are none
 constexpr double kSearchRing = 0.25;           ///< around a place [m]

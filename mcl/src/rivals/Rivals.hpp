@@ -40,10 +40,11 @@ class ORTUNG_API Rivals {
   /// A reading's moment.
   struct Moment {
     Timestamp stamp = 0;
-    Pose2 predicted;           ///< where the belief expects the robot
+    Pose2 predicted;           ///< pose at which the belief expects the robot
     double logEvidence = 0.0;  ///< ln p(readings | belief)
-    double way = 0.0;          ///< since the readings before [m]; a turn of 1 rad counts as 1 m
-    std::uint64_t stream = 0;  ///< of random numbers
+    /// Distance travelled since the readings before [m]; a turn of 1 rad counts as 1 m.
+    double way = 0.0;
+    std::uint64_t stream = 0;  ///< stream of random numbers
     std::optional<Pose2> odometry = {};
     std::vector<std::shared_ptr<const Weigher>> readings = {};
   };

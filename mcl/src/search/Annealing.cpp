@@ -13,13 +13,13 @@ namespace ortung {
 namespace {
 
 constexpr double kWorth = 0.5;  ///< share of the set that each rise of b leaves effective
-constexpr int kMostRises = 12;  ///< of b, even if 1 is not reached
+constexpr int kMostRises = 12;  ///< most rises of b, even if 1 is not reached
 constexpr std::size_t kMostTempered = 65536;    ///< poses that tell how far it may rise
 constexpr double kStepMetres[] = {0.15, 0.05};  ///< sigma of a Metropolis step, coarse and fine [m]
 constexpr double kStepRadians[] = {0.08, 0.02};  ///< [rad]
 // Sigmas of a sample's surroundings, at least: motion models promise more than wheels keep.
 constexpr double kLeastMetres = 0.06;   ///< [m]
-constexpr double kMostMetres = 0.15;    ///< at most [m]
+constexpr double kMostMetres = 0.15;    ///< greatest sigma of a position [m]
 constexpr double kMostRadians = 0.1;    ///< [rad]
 constexpr double kLeastRadians = 0.03;  ///< [rad]
 

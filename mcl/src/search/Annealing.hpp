@@ -25,7 +25,7 @@ class ORTUNG_API Annealing {
   /// Whether a climbing pose may go there.
   using Within = std::function<bool(float x, float y, float theta)>;
   struct Drawn {
-    SampleSet samples;   ///< with what is left of ln p beyond the last b as `logWeight`
+    SampleSet samples;   ///< poses; the rest of ln p beyond the last b is their `logWeight`
     double logEvidence;  ///< ln of the mean of p over all poses that were drawn from
   };
 
@@ -43,7 +43,7 @@ class ORTUNG_API Annealing {
  private:
   struct Climbing {
     SampleSet set;
-    SampleSet origins;  ///< of a belief: where each of them began
+    SampleSet origins;  ///< poses where the samples of a belief began
     std::vector<float> fit;
   };
   double logPriorOf(const Climbing& some, std::size_t i, float x, float y, float theta) const;
@@ -54,8 +54,8 @@ class ORTUNG_API Annealing {
   Weigh weigh_;
   Within within_;
   bool isOfBelief_ = false;
-  std::array<double, 9> precision_{};  ///< of a sample's surroundings
-  double mostMetres_ = 1.0;            ///< of a step's sigma
+  std::array<double, 9> precision_{};  ///< inverse covariance of a sample's surroundings, row-major
+  double mostMetres_ = 1.0;            ///< greatest sigma of a step [m]
   double mostRadians_ = 1.0;
 };
 
@@ -80,11 +80,11 @@ class ORTUNG_API Annealing::Draw {
   std::size_t n_;
   Random random_;
   Random offsets_;
-  Random climb_;  ///< of this rise
+  Random climb_;  ///< random numbers of the present rise
   Climbing climbing_;
-  SampleSet weighing_;      ///< at first those that are drawn from, then those that are proposed
-  std::vector<float> fit_;  ///< of the first of those
-  std::size_t step_ = 0;    ///< of a climb
+  SampleSet weighing_;      ///< poses that are drawn from at first, later those that are proposed
+  std::vector<float> fit_;  ///< ln p of the first poses of weighing_
+  std::size_t step_ = 0;    ///< number of the present climb's step
   int rises_ = 0;
   double exponent_ = 0.0;
   double logEvidence_ = 0.0;

@@ -26,12 +26,12 @@ class Workers;
 class ORTUNG_API FieldSearch {
  public:
   struct Settings {
-    double spacing = 0.3;          ///< of the cover [m]; rounded to cells
-    int headings = 32;             ///< of the cover, a turn, at least 1
+    double spacing = 0.3;          ///< spacing of the cover's positions [m]; rounded to cells
+    int headings = 32;             ///< headings of the cover per turn, at least 1
     std::size_t survivors = 2000;  ///< most poses that are divided, at least 1
     std::size_t places = 50;       ///< most that are found, at least 1
-    double apartMetres = 0.5;      ///< two places differ by this ...
-    double apartRadians = 0.35;    ///< ... or by this
+    double apartMetres = 0.5;      ///< least distance between two places [m]
+    double apartRadians = 0.35;    ///< least difference of headings [rad]: either is enough
     Workers* workers = nullptr;    ///< borrowed; what is found does not depend on them
     /// @throws std::invalid_argument for what makes no sense
     void check() const;
@@ -69,7 +69,7 @@ class ORTUNG_API FieldSearch {
   struct Candidate {
     Pose2 pose;
     float logProbability = 0.0F;
-    std::size_t number = 0;  ///< in its stage: decides between those of the same probability
+    std::size_t number = 0;  ///< number in its stage, which orders candidates of equal probability
     bool isBetterThan(const Candidate& other) const {
       return logProbability != other.logProbability ? logProbability > other.logProbability
                                                     : number < other.number;
@@ -99,17 +99,17 @@ class ORTUNG_API FieldSearch {
   std::vector<std::uint32_t> cover_;  ///< cells
   Readings sharp_;
   Stage stage_ = Stage::kDone;
-  Readings present_;                 ///< of this stage
-  double spacing_ = 0.0;             ///< of its poses [m]
+  Readings present_;                 ///< readings as the present stage weighs them
+  double spacing_ = 0.0;             ///< spacing of the stage's poses [m]
   double turn_ = 0.0;                ///< [rad]
   double nanosecondsOfCover_ = 0.0;  ///< a pose
   double worked_ = 0.0;              ///< [ns]
   int climbs_ = 0;
-  std::vector<Candidate> parents_;  ///< of its poses; none while it is the cover
+  std::vector<Candidate> parents_;  ///< parents of the stage's poses; none while it is the cover
   std::size_t next_ = 0;            ///< number of the pose that comes next
   SampleSet batch_;                 ///< weighed last; `logWeight` is ln p
   std::vector<Candidate> kept_;     ///< the best of this stage so far, unordered, and some more
-  bool isPruned_ = false;           ///< then the last one of those is the worst that counts
+  bool isPruned_ = false;  ///< whether kept_ was pruned: its last one is then the worst that counts
   std::vector<Place> places_;
 };
 

@@ -17,12 +17,13 @@ constexpr double kRing = 0.25;  ///< around a place [m]
 constexpr double kTurn = 0.17;  ///< [rad]
 /// A hill that has lost less than this at the edge of its ring is wider than that [nats].
 constexpr double kEdgeNats = 3.0;
-constexpr std::size_t kSamples = 2000;      ///< of all places ...
-constexpr std::size_t kSamplesAPlace = 50;  ///< ... and so many more for each
-constexpr double kLeastShare = 1e-4;        ///< of the belief: less is nothing
-constexpr double kCandidates = 4.0;         ///< for each sample
-constexpr double kFewestCandidates = 2.0;   ///< for each sample, all over the floor
-constexpr double kMostCandidates = 1e5;     ///< in all, however large the building
+constexpr std::size_t kSamples = 2000;      ///< number of samples of all places together ...
+constexpr std::size_t kSamplesAPlace = 50;  ///< additional samples for each place
+constexpr double kLeastShare = 1e-4;        ///< least share of the belief that is not neglected
+constexpr double kCandidates = 4.0;         ///< candidates for each sample
+/// Least number of candidates for each sample, all over the floor.
+constexpr double kFewestCandidates = 2.0;
+constexpr double kMostCandidates = 1e5;  ///< most candidates together, however large the building
 /// Of drawing, beside what readings take: random numbers, choices [ns a pose].
 constexpr double kDrawNanoseconds = 150.0;
 

@@ -31,7 +31,7 @@ class ORTUNG_API GlobalStart {
   struct Moment {
     Timestamp stamp = 0;
     std::optional<Pose2> odometry = {};
-    std::uint64_t stream = 0;  ///< of random numbers
+    std::uint64_t stream = 0;  ///< stream of random numbers
     std::vector<News> news = {};
   };
 
@@ -70,12 +70,12 @@ class ORTUNG_API GlobalStart {
   Workers& workers_;
   std::optional<FieldSearch> field_;  ///< its cover is made once
   std::optional<Moment> moment_;
-  double nanoseconds_ = 0.0;                   ///< that drawing takes for a pose
+  double nanoseconds_ = 0.0;                   ///< time that drawing takes per pose [ns]
   bool isFound_ = false;                       ///< the places, by the search of the field
   std::vector<PoseSearch::Ring> rings_;        ///< around the places that were found
-  std::optional<PoseSearch::Drawing> around_;  ///< of those
+  std::optional<PoseSearch::Drawing> around_;  ///< drawing of the samples in these rings
   std::size_t beside_ = 0;                     ///< samples of all other poses, if they may matter
-  std::optional<PoseSearch::Drawing> others_;  ///< of those
+  std::optional<PoseSearch::Drawing> others_;  ///< drawing of the samples of all other poses
 };
 
 }  // namespace ortung

@@ -34,7 +34,7 @@ class ORTUNG_API PoseSearch {
   struct Ring {
     Pose2 pose;
     double radius;  ///< [m]
-    double turn;    ///< to either side [rad]
+    double turn;    ///< greatest turn to either side [rad]
   };
   static bool isWithin(const Ring& ring, float x, float y, float theta);
   /// @p n poses spread evenly over a ring, whether or not the map says that a robot can stand
@@ -57,7 +57,7 @@ class ORTUNG_API PoseSearch {
   /// The same, to be spread over time.
   struct Drawing {
     Annealing::Draw draw;
-    double logShare;  ///< of the part that is drawn from, in the whole floor
+    double logShare;  ///< ln of the share of the floor that is drawn from
     /// @pre draw.isDone()
     Drawn take();
   };

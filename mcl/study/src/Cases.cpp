@@ -14,13 +14,14 @@
 namespace ortung {
 namespace {
 
-constexpr double kFar = 8.0;           ///< [m]
-constexpr double kNearest = 0.5;       ///< to be carried elsewhere at all [m]
-constexpr double kBefore = 60.0;       ///< that a kidnapped robot tracks at most [s]
-constexpr double kAfter = 300.0;       ///< that it has to find its place at most [s]
-constexpr double kLeastBefore = 20.0;  ///< or a quarter of the log [s]
+constexpr double kFar = 8.0;      ///< [m]
+constexpr double kNearest = 0.5;  ///< least distance to be carried elsewhere at all [m]
+constexpr double kBefore = 60.0;  ///< longest time that a kidnapped robot tracks before [s]
+constexpr double kAfter = 300.0;  ///< longest time that it has to find its place [s]
+/// Least time before the kidnap, or a quarter of the log [s].
+constexpr double kLeastBefore = 20.0;
 constexpr double kLeastAfter = 30.0;
-constexpr double kLeastTime = 20.0;  ///< after waking up, or a quarter of the log [s]
+constexpr double kLeastTime = 20.0;  ///< least time after waking up, or a quarter of the log [s]
 constexpr double kShortest = 10.0;   ///< log [s]
 constexpr int kTries = 10000;
 

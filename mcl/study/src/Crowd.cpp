@@ -9,12 +9,12 @@
 namespace ortung {
 namespace {
 
-constexpr double kNearest = 0.4;            ///< of what is seen of them [m]
+constexpr double kNearest = 0.4;            ///< least distance of what is seen of them [m]
 constexpr double kFarthest = 1.5;           ///< [m]
 constexpr double kSector = 40.0 * kDegree;  ///< about as much of the scan for each of them
 constexpr double kLeastCover = 0.55;        ///< share of a sector that its person hides
 constexpr double kMostCover = 0.75;
-constexpr double kShortestPeriod = 8.0;  ///< of their coming and going [s]
+constexpr double kShortestPeriod = 8.0;  ///< shortest period of their coming and going [s]
 constexpr double kLongestPeriod = 25.0;
 
 /// A leg or a body, as a circle that covers the same share of its sector of the scan always, and

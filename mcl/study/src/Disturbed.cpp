@@ -16,14 +16,15 @@ namespace {
 constexpr std::uint64_t kStream = 0xFA17ULL << 32;  ///< apart from those of MCL
 /// Features of a hostile log that get disturbances of their own.
 constexpr std::size_t kMostFeatures = 10000;
-constexpr Timestamp kFarthest = Timestamp{1} << 60;  ///< as far as FrameReader takes readings
+/// Farthest stamp from 0 that FrameReader takes [us].
+constexpr Timestamp kFarthest = Timestamp{1} << 60;
 
 /// What a fault needs to know of a feature.
 struct Known {
   const SensorData* data;
   std::string format;  ///< its name
 };
-using Formats = std::map<std::string, Known>;  ///< of all features but ground truth
+using Formats = std::map<std::string, Known>;  ///< formats of all features but ground truth
 
 Formats formatsOf(const SensorContainer& robot) {
   Formats formats;
@@ -116,7 +117,7 @@ class Disturbed : public Source {
   };
   struct Feature {
     std::vector<std::pair<std::size_t, std::unique_ptr<Disturbance>>> faults;
-    Timestamp newest = 0;  ///< of what came in time, before it was altered
+    Timestamp newest = 0;  ///< newest stamp of readings that came in time, before it was altered
   };
   struct Waiting {
     Message message;

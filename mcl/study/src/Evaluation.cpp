@@ -14,7 +14,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kNeesBound = 16.266;  ///< 99.9 % of chi-square with 3 degrees of freedom
+/// Quantile of chi-square with 3 degrees of freedom for 99.9 %.
+constexpr double kNeesBound = 16.266;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double rootMeanSquare(const std::vector<double>& values) {

@@ -38,7 +38,7 @@ struct Shape {
   double perMetre = 0.0;
   double outliers = 0.05;
   double width = 1.0;  ///< over which outliers are spread
-  bool grows = true;   ///< with range
+  bool grows = true;   ///< whether sigma grows with range
 };
 
 double medianOf(std::vector<double> values) {

@@ -107,7 +107,7 @@ class Expected {
   const SensorData& feature_;
   const FieldGrid& grid_;
   Pose2 back_;
-  double step_;  ///< between directions of its tables [rad]; 0: they have none
+  double step_;  ///< angle between directions of its tables [rad]; zero: they have none
 };
 
 /// Makes residuals of readings for what is already known of the device.

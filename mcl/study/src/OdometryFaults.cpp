@@ -78,8 +78,8 @@ class Altered : public Disturbance {
   }
 
   Fault fault_;
-  std::optional<Pose2> last_;  ///< that the robot said
-  Pose2 sum_;                  ///< that is said instead
+  std::optional<Pose2> last_;  ///< last pose that the robot reported
+  Pose2 sum_;                  ///< pose that is reported instead
   bool begun_ = false;
 };
 

@@ -17,7 +17,7 @@ constexpr std::size_t kStride = 10;
 /// sigmas, of stretches that overlap.
 constexpr double kSignificant = 4.0 * kStride;
 constexpr double kRounded = 4.0 * 1e-6 / 12.0;  ///< variance of four words of 1 mm [m^2]
-constexpr int kDraws = 8;                       ///< of errors, a step
+constexpr int kDraws = 8;                       ///< number of draws of errors, per step
 
 /// Variances of ahead, aside and turn after 1 m of way and after 1 rad of turn.
 struct MotionNoise {

@@ -17,8 +17,8 @@
 namespace ortung {
 namespace {
 
-constexpr Timestamp kLongestPause = 1'000'000;  ///< between two pieces [us]
-constexpr Timestamp kUsualPause = 100'000;      ///< where the log tells none
+constexpr Timestamp kLongestPause = 1'000'000;  ///< longest pause between two pieces [us]
+constexpr Timestamp kUsualPause = 100'000;      ///< pause where the log has no next moment [us]
 
 using Names = std::set<std::string>;
 
@@ -33,7 +33,7 @@ Names odometryOf(const SensorContainer& robot) {
 struct JoinedOdometry {
   std::size_t piece = 0;
   std::optional<Pose2> told;  ///< newest pose, as it was given
-  Pose2 frame;                ///< of the piece's odometry frame in that of the first one
+  Pose2 frame;                ///< odometry frame of the piece in that of the first one
 
   void join(Message& message, std::size_t now) {
     OdometryData data(message.id);

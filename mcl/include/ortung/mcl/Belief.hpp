@@ -6,12 +6,13 @@
 
 namespace ortung {
 
-/// All that the filter knows of where the robot is at one time, to be kept and given back.
+/// The filter's posterior at one time, to be saved and restored.
 struct ORTUNG_API Belief {
-  Timestamp stamp = 0;  ///< of the samples, in the clock of the readings
+  Timestamp stamp = 0;  ///< time of the samples, in the clock of the readings
   SampleSet samples;
 
-  /// @throws std::invalid_argument saying which sample can't be: arrays of different sizes, no
+  /// Checks the samples. @throws std::invalid_argument naming the wrong sample or array: arrays of
+  /// different sizes, no
   ///   samples or more than 5,000,000, poses that are not finite or farther than 1e6 m away,
   ///   weights that are NaN or +infinity, or all of them zero
   void check() const;

@@ -16,9 +16,9 @@ namespace ortung {
 
 /// Settings of the grid filter.
 struct GridConfig {
-  double cell = 0.1;                        ///< edge [m], in [0.01, 10]
-  double headingStep = 0.0872664625997165;  ///< about; a whole number of them is a turn [rad]
-  std::size_t mostBytes = 2'000'000'000;    ///< of memory
+  double cell = 0.1;                        ///< edge of a cell [m], in [0.01, 10]
+  double headingStep = 0.0872664625997165;  ///< approximate step [rad], adapted to divide a turn
+  std::size_t mostBytes = 2'000'000'000;    ///< most memory that it may take [bytes]
 
   /// @throws std::invalid_argument naming the field, its value and the range
   ORTUNG_API void check() const;
@@ -26,13 +26,13 @@ struct GridConfig {
 
 /// Markov localization over all poses of a grid (Fox, Burgard, Thrun, "Markov localization for
 /// mobile robots in dynamic environments", JAIR 11, 1999): eqs. 6 to 8 of the paper without
-/// samples, on the container's interface alone like Mcl. It is what MCL's samples should come near
-/// to, thousands of times as slow: a reference for small fields. Of the motion model it takes mean
-/// and covariance of each change; it has neither recovery nor polishing, and knows nothing finer
+/// samples, on the container's interface alone like Mcl. It is a reference for small fields, which
+/// MCL's samples should approximate, and thousands of times slower. It uses mean and covariance of
+/// the motion model's changes; it has neither recovery nor refinement, and resolves nothing finer
 /// than its cells. Not thread-safe.
 class ORTUNG_API GridFilter {
  public:
-  /// @param config which readings are news, and bins of places; as of Mcl
+  /// @param config which readings are new, and bins of places; as for Mcl
   /// @param region where the robot can stand; the grid covers all of it
   /// @throws std::invalid_argument for settings that make no sense, or if the grid would take more
   ///   than GridConfig::mostBytes, saying how large it is
@@ -42,29 +42,31 @@ class ORTUNG_API GridFilter {
   GridFilter(const GridFilter&) = delete;
   GridFilter& operator=(const GridFilter&) = delete;
 
-  /// Unknown start: evenly over all poses where the robot can stand.
+  /// Starts with a uniform belief over all poses where the robot can stand.
   void startGlobal();
-  /// Known start with standard deviations [m], [rad]; none is finer than the cells.
+  /// Starts at a known pose with standard deviations [m], [rad]; none is finer than the cells.
   /// @throws std::invalid_argument if that is off the grid
   void startAt(const Pose2& pose, double sigmaPosition, double sigmaHeading);
 
-  /// As of Mcl: moves the belief by odometry up to each new reading (eq. 8) and weighs it (eq. 7).
-  /// Returns whether it was weighed.
+  /// Does as Mcl::update(): moves the belief by odometry up to each new reading (eq. 8) and weighs
+  /// it (eq. 7). Returns whether it was weighed.
   bool update(const SensorContainer& container);
+  /// Takes odometry only, so that estimate(stamp) includes it before the next update().
   void followOdometry(const SensorContainer& container);
 
-  /// As of the newest reading that was weighed; status and quality are those of share and
-  /// covariance.
+  /// Returns the estimate at the newest reading that was weighed; status and quality follow from
+  /// share and covariance alone.
   const PoseEstimate& estimate() const;
-  /// Carried on by odometry. Nothing before the first reading.
+  /// Returns the estimate at @p stamp, carried on by odometry; nothing before the first reading.
   std::optional<PoseEstimate> estimate(Timestamp stamp) const;
+  /// Returns whether there has been odometry.
   bool hasOdometry() const;
-  /// The belief: centres of all cells with a share above 1e-9, weighted.
+  /// Returns the belief: the centres of all cells with a share above 1e-9, weighted.
   SampleSet cells() const;
 
-  /// Kullback-Leibler divergence of a sample set from the belief, sum of q ln(q / p) over the bins
-  /// of places (MclConfig) that samples are in [nats]. What p leaves out counts as 1e-9. Of n
-  /// independent samples it is about half their bins / n.
+  /// Returns the Kullback-Leibler divergence of a sample set from the belief, sum of q ln(q / p)
+  /// over the bins of places (MclConfig) that samples are in [nats]. What p leaves out counts as
+  /// 1e-9. For n independent samples it is about half their number of bins / n.
   double divergenceOf(const SampleSet& samples) const;
 
  private:

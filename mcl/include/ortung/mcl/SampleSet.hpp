@@ -9,9 +9,9 @@ namespace ortung {
 
 /// The belief as weighted samples (paper, section 5.2): struct of arrays, all of size N.
 struct SampleSet {
-  std::vector<float> x;          ///< [m], field frame
-  std::vector<float> y;          ///< [m]
-  std::vector<float> theta;      ///< [rad], any turn
+  std::vector<float> x;          ///< x in the field frame [m]
+  std::vector<float> y;          ///< y in the field frame [m]
+  std::vector<float> theta;      ///< heading [rad], not wrapped
   std::vector<float> logWeight;  ///< ln of the weight, up to a common constant
 
   std::size_t size() const { return x.size(); }
@@ -21,7 +21,7 @@ struct SampleSet {
     theta.resize(n);
     logWeight.resize(n);
   }
-  /// @p count of them from @p first on. @pre first + count <= size()
+  /// Returns @p count samples from @p first on. @pre first + count <= size()
   SampleSet part(std::size_t first, std::size_t count) const {
     const auto begin = static_cast<std::ptrdiff_t>(first);
     const auto end = static_cast<std::ptrdiff_t>(first + count);
@@ -30,7 +30,7 @@ struct SampleSet {
             {theta.begin() + begin, theta.begin() + end},
             {logWeight.begin() + begin, logWeight.begin() + end}};
   }
-  /// Those from @p first on. @pre first <= size()
+  /// Returns all samples from @p first on. @pre first <= size()
   SampleSet from(std::size_t first) const { return part(first, size() - first); }
   SampleView view() const { return {x, y, theta}; }
 };

@@ -107,8 +107,8 @@ class ORTUNG_API SensorContainer {
   std::size_t take(std::span<const Message> frame, bool& isRead);
 
   std::vector<std::unique_ptr<SensorData>> data_;
-  std::vector<SensorData*>
-      targets_;  ///< features of the frame that is being set; a member to reuse its memory
+  /// Features of the frame that is being set; a member to reuse its memory.
+  std::vector<SensorData*> targets_;
   std::unique_ptr<Extraction> extraction_;
   mutable std::shared_mutex mutex_;
 };

@@ -32,8 +32,8 @@ class ORTUNG_API LandmarksData : public SensorData {
     double fieldOfView = 0.0;               ///< whole field of view [rad]; 0 or 2 pi: all around
     SensorModel range{};
     SensorModel bearing{.sigma = 0.02};
-    SightingBias
-        bias{};  ///< systematic error of readings, which is corrected before they are weighed
+    /// Systematic error of readings, which is corrected before they are weighed.
+    SightingBias bias{};
   };
   struct Sighting {
     std::uint32_t identity = 0;

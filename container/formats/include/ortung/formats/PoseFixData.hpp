@@ -21,8 +21,8 @@ namespace ortung {
 class ORTUNG_API PoseFixData : public SensorData {
  public:
   struct Config {
-    double addedSigma =
-        0.05;  ///< standard deviation of positions that is added to the fix's own [m]
+    /// Standard deviation of positions that is added to the fix's own [m].
+    double addedSigma = 0.05;
     double addedHeadingSigma = 0.03;  ///< standard deviation of headings that is added [rad]
     SensorModel model{};              ///< outliers and exponent; its sigmas are not used
   };

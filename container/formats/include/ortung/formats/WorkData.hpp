@@ -19,9 +19,9 @@ class ORTUNG_API WorkData : public SensorData {
  public:
   struct Reading {
     std::size_t samples = 0;  ///< size of the sample set
-    double effectiveSamples =
-        0.0;               ///< samples that are worth as much: 1 / sum w^2 of the weights, rounded
-    double seconds = 0.0;  ///< computing time of the newest update [s]
+    /// Samples that are worth as much: 1 / sum w^2 of the weights, rounded.
+    double effectiveSamples = 0.0;
+    double seconds = 0.0;         ///< computing time of the newest update [s]
     std::uint64_t estimates = 0;  ///< number of estimates so far; begins anew after 2^32
   };
 

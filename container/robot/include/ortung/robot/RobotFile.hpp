@@ -33,8 +33,8 @@ struct RobotConfig {
   Parameters drive;                      ///< [drive]: limits of the simulated robot, may be empty
   std::vector<Parameters> body;          ///< [[body]]: shapes of the simulated robot, may be none
   std::vector<Parameters> manipulators;  ///< [[manipulator]] of the simulated robot, may be none
-  double deviceWait =
-      0.05;  ///< longest time that readings of a device wait for those of others [s]
+  /// Longest time that readings of a device wait for those of others [s].
+  double deviceWait = 0.05;
 };
 
 /// Reads a robot file. @throws ConfigError naming file, line and key

@@ -8,10 +8,10 @@
 
 namespace ortung {
 
-inline constexpr std::size_t kMaxConfigBytes =
-    8u << 20;  ///< most bytes of a file from disk: 65,536 primitives
-inline constexpr std::size_t kMaxNetworkConfigBytes =
-    64u << 10;  ///< most bytes of a text from the network
+/// Most bytes of a file from disk: 65,536 primitives.
+inline constexpr std::size_t kMaxConfigBytes = 8u << 20;
+/// Most bytes of a text from the network.
+inline constexpr std::size_t kMaxNetworkConfigBytes = 64u << 10;
 
 /// Reads a TOML file into Parameters whose errors name file and line.
 /// @throws ConfigError if it is missing, too large, nested too deep or no TOML

@@ -73,8 +73,8 @@ class ORTUNG_API DirectionTable {
   std::size_t stride_ = 1;
   std::vector<std::int32_t> ownRowOf_;
   std::vector<std::uint8_t> ownLevels_;
-  std::vector<std::uint8_t>
-      closeness_;  ///< closeness of the angle learned, by entry, while learning; 0: none yet
+  /// Closeness of the angle learned, by entry, while learning; 0: none yet.
+  std::vector<std::uint8_t> closeness_;
   std::span<const std::int32_t> rowOf_;
   std::span<const std::uint8_t> levels_;
   std::shared_ptr<const TableFile> file_;  ///< owner of the spans' memory; may be null

@@ -32,9 +32,9 @@ class ORTUNG_API DistanceTransform {
   int columns_;
   int rows_;
   int far_;  ///< more than any distance: nothing is marked in the column
-  std::vector<int>
-      inColumn_;            ///< distance to the nearest marked cell in the column, by cell [cells]
-  std::vector<int> place_;  ///< column of each parabola
+  /// Distance to the nearest marked cell in the column, by cell [cells].
+  std::vector<int> inColumn_;
+  std::vector<int> place_;    ///< column of each parabola
   std::vector<double> from_;  ///< column where each parabola begins to be the lowest
   std::size_t count_ = 0;     ///< number of parabolas in the envelope
   std::vector<double> squared_;

@@ -17,8 +17,8 @@ class ORTUNG_API FieldParts {
  public:
   struct Part {
     std::size_t cells = 0;  ///< number of cells in which the robot can stand
-    bool reachesEdge =
-        false;  ///< whether it reaches the edge of the grid: it may be the outside of walls
+    /// Whether it reaches the edge of the grid: it may be the outside of walls.
+    bool reachesEdge = false;
   };
   /// @param passable grid.size() entries, 0 or 1: cells with room for something small. Over their
   ///   edges one gets from one to the next, so it must not be so small that it slips through walls

@@ -21,23 +21,23 @@ class ORTUNG_API CellTable {
   static constexpr std::uint16_t kNone = 0xFFFF;  ///< no expectation in this cell
 
   void start(const FieldGrid& grid);
-  void set(double x, double y,
-           std::uint16_t level);  ///< sets a cell's level; ignored outside of the grid
+  /// Sets a cell's level; ignored outside of the grid.
+  void set(double x, double y, std::uint16_t level);
   std::uint16_t at(double x, double y) const {
     const std::ptrdiff_t cell = grid_.cellAt(x, y);
     return cell < 0 ? kNone : levels_[static_cast<std::size_t>(cell)];
   }
   const FieldGrid& grid() const { return grid_; }
   std::span<const std::uint16_t> levels() const { return levels_; }
-  void save(TableWriter& file,
-            const std::string& name) const;  ///< writes one array of shape (rows, columns)
+  /// Writes one array of shape (rows, columns).
+  void save(TableWriter& file, const std::string& name) const;
   void load(const std::shared_ptr<const TableFile>& file, const std::string& name,
             const FieldGrid& grid);
 
  private:
   FieldGrid grid_;
-  std::vector<std::uint16_t>
-      own_;  ///< levels while the table is filled; empty once loaded from a file
+  /// Levels while the table is filled; empty once loaded from a file.
+  std::vector<std::uint16_t> own_;
   std::span<const std::uint16_t> levels_;  ///< levels by cell, in own_ or in the mapped file
   std::shared_ptr<const TableFile> file_;  ///< owner of the memory behind levels_; may be null
 };

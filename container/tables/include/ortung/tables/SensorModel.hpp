@@ -45,8 +45,8 @@ class ORTUNG_API GaussianTable {
     return static_cast<int>((place < kFloorPlace ? place : kFloorPlace) + 0.5F);
   }
   float atPlace(int place) const { return values_[static_cast<std::size_t>(place)]; }
-  static constexpr int kFloorPlace =
-      1023;  ///< last entry of the table, at 8 sigma; from there on only the floor is left
+  /// Last entry of the table, at 8 sigma; from there on only the floor is left.
+  static constexpr int kFloorPlace = 1023;
 
  private:
   static constexpr float kPerSigma = 128.0F;

@@ -20,8 +20,8 @@ namespace ortung {
 /// Type of the feature that holds ground truth.
 inline constexpr const char* kGroundTruth = "groundTruth";
 
-/// Fills a container from a source, moment by moment in the order of time, and keeps an eye on what
-/// passes. Not thread-safe; the container may be read by others meanwhile.
+/// Fills a container from a source, moment by moment in the order of time, and watches what passes.
+/// Not thread-safe; the container may be read by others meanwhile.
 class ORTUNG_API Feeder {
  public:
   /// @param name what errors call the source
@@ -30,27 +30,30 @@ class ORTUNG_API Feeder {
 
   /// Also writes everything that passes into @p record, which is borrowed.
   void recordInto(RecordWriter& record) { record_ = &record; }
-  /// Also shows each moment to @p listener, before it is in the container; on the thread of next().
+  /// Also passes each moment to @p listener, before it is in the container; on the thread of
+  /// next().
   void showTo(std::function<void(std::span<const Message>)> listener) {
     listener_ = std::move(listener);
   }
 
-  /// Fills in the next moment; false at the end.
+  /// Fills in the next moment; returns false at the end.
   /// @throws std::runtime_error naming the source, the time and what is wrong with a reading
   bool next();
 
-  Timestamp stamp() const { return stamp_; }  ///< of the present moment
-  double seconds() const { return toSeconds(stamp_) - toSeconds(first_); }  ///< since the first one
+  Timestamp stamp() const { return stamp_; }  ///< time of the present moment [us]
+  /// Time since the first moment [s].
+  double seconds() const { return toSeconds(stamp_) - toSeconds(first_); }
   std::size_t moments() const { return moments_; }
-  /// Share of the source that has been read, in [0, 1], or -1 if it has no end.
+  /// Returns the share of the source that was read, in [0, 1], or -1 if it has no end.
   double progress() const { return source_.progress(); }
 
-  /// Ground truth of the present moment, if the source gave it then. Never comes from the
-  /// container, so it is there for every robot file; the first feature that gives it wins.
+  /// Returns the ground truth of the present moment, if the source gave it then. It does not come
+  /// from the container, so it is there for every robot file; the first feature that gives it is
+  /// taken.
   const std::optional<Pose2>& truth() const { return truth_; }
 
-  /// How many readings came of features that the container lacks, by "model/type/feature"; at most
-  /// 1000 names. They are passed over, so whoever runs this may want to say so.
+  /// Returns how many readings came of features that the container lacks, by "model/type/feature";
+  /// at most 1000 names. These readings are ignored, which programs may want to report.
   const std::map<std::string, std::size_t>& unknown() const { return unknown_; }
 
  private:

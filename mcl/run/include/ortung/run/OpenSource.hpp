@@ -11,7 +11,7 @@
 
 namespace ortung {
 
-/// The text that names a source is wrong in itself, whatever the files it speaks of.
+/// Thrown if the text that names a source is wrong by itself, whatever the files that it names.
 class ORTUNG_API SourceTextError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;

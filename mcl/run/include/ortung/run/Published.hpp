@@ -7,14 +7,15 @@
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 
-// What a localization tells, in the formats of the container (LocalizationConfig::publish).
+// What a localization publishes, in the formats of the container (LocalizationConfig::publish).
 namespace ortung {
 
-/// mcl/LOCALIZATION/status, see TrackData.
+/// Makes the reading of mcl/LOCALIZATION/status, see TrackData.
 ORTUNG_API Message trackMessage(const PoseEstimate& estimate);
-/// mcl/LOCALIZATION/places, see ClustersData. @param places heaviest first
+/// Makes the reading of mcl/LOCALIZATION/places, see ClustersData. @param places heaviest first
 ORTUNG_API Message clustersMessage(Timestamp stamp, std::span<const PoseEstimate> places);
-/// mcl/LOCALIZATION/samples, see SamplesData: of more than these can hold, evenly picked ones.
+/// Makes the reading of mcl/LOCALIZATION/samples, see SamplesData; if there are more samples than
+/// it can hold, they are picked evenly.
 ORTUNG_API Message samplesMessage(Timestamp stamp, const SampleSet& samples);
 
 }  // namespace ortung

@@ -10,17 +10,18 @@
 
 namespace ortung {
 
-/// One value of a reading beside what the feature expects of it at a pose.
+/// One value of a reading with its expectation at a pose.
 struct ReadingValue {
-  bool isAngle = false;            ///< [rad]; otherwise [m]
-  std::optional<double> measured;  ///< nothing: not measured, or not comparable
-  std::optional<double> expected;  ///< nothing: nothing is expected there
+  bool isAngle = false;            ///< whether it is an angle [rad]; else it is a length [m]
+  std::optional<double> measured;  ///< measured value; nothing: not measured, or not comparable
+  std::optional<double> expected;  ///< expected value; nothing: no expectation there
 };
 
-/// All values of a feature, in the order of SensorData::expectation(): beams of a scan, range and
-/// bearing of each landmark of a list, one of all else. Of points only expectations are there: how
-/// far each is from the nearest learned one. What is beyond the sensor's range is infinite.
-/// None of a feature that has not learned. Under the container's read lock if others set readings.
+/// Returns all values of a feature, in the order of SensorData::expectation(): beams of a scan,
+/// range and bearing of each landmark of a list, one value of other features. Points have
+/// expectations only: the distance of each from the nearest learned one. Values beyond the sensor's
+/// range are infinite. A feature that has not learned has no values. The caller holds the
+/// container's read lock if other threads set readings.
 ORTUNG_API std::vector<ReadingValue> readingValues(const SensorData& feature, const Pose2& pose);
 
 }  // namespace ortung

@@ -15,13 +15,13 @@
 namespace ortung {
 
 /// A robot as its file describes it: a container with its features, and their tables if it was
-/// opened with some. The container is for many threads, as it says itself; all else for one.
+/// opened with some. Many threads may use the container (see there), only one the rest.
 struct Robot {
   PluginFactory factory{PluginFactory::standardFolders()};
   RobotConfig config;
   SensorContainer container;
-  std::vector<Device> devices;  ///< point into config and container
-  TableInfo tables;             ///< without tables: its region has no cells
+  std::vector<Device> devices;  ///< devices, which point into config and container
+  TableInfo tables;  ///< description of the tables; without tables its region has no cells
 };
 
 /// Makes the features of a robot file, which learn or take readings, but can't weigh.
@@ -32,20 +32,20 @@ ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFi
 ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
                                             const std::filesystem::path& tablesFile);
 
-/// The same with tables that others have opened. @throws ConfigError, PluginError, TableError
+/// The same with tables that the caller has opened. @throws ConfigError, PluginError, TableError
 ORTUNG_API std::unique_ptr<Robot> openRobot(const std::filesystem::path& robotFile,
                                             const RobotTables& tables);
 
-/// The robot that tables were learned for, by the text of its file that they hold; null if they
-/// hold none. @throws ConfigError, PluginError, TableError
+/// Makes the robot that tables were learned for, from the text of its file that they hold; returns
+/// null if they hold none. @throws ConfigError, PluginError, TableError
 ORTUNG_API std::unique_ptr<Robot> openLearnedRobot(const std::filesystem::path& tablesFile);
 
-/// The motion model that [motion] of a robot file asks for; "odometry" if that names no plugin.
+/// Makes the motion model that [motion] of a robot file names; "odometry" if it names no plugin.
 /// @throws ConfigError, PluginError
 ORTUNG_API std::unique_ptr<MotionModel> makeMotion(const Parameters& motion,
                                                    PluginFactory& factory);
 
-/// [motion] of a robot file or of a file of its own, such as `ortung learn-motion` writes.
+/// Reads [motion] from a robot file, or from a file of its own as `ortung learn-motion` writes it.
 /// @throws ConfigError
 ORTUNG_API Parameters readMotionFile(const std::filesystem::path& file);
 

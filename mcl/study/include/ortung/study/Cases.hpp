@@ -9,29 +9,30 @@
 
 namespace ortung {
 
-// Cases that show whether a robot finds its place, made of a recording with ground truth. The same
-// seed gives the same case.
+// Test cases that show whether a robot finds its place, made from a recording with ground truth.
+// The same seed gives the same case.
 
-/// How far a robot is carried at least: 8 m, or a third of the diagonal of the rectangle in which
-/// the truth lies, if that is less [m].
+/// Returns the least distance that a robot is carried [m]: 8 m, or a third of the diagonal of the
+/// rectangle in which the truth lies, if that is less.
 ORTUNG_API double carriedFar(const Recording& recording);
 
-/// The log from up to 60 s before a random moment, at which the robot is carried to where it is at
-/// another random moment, carriedFar() away, from which the log goes on for up to 300 s.
+/// Returns the log from up to 60 s before a random moment, at which the robot is carried to its
+/// pose at another random moment, at least carriedFar() away, from which the log goes on for up to
+/// 300 s.
 /// @throws std::invalid_argument if the recording has no such places, or is shorter than 10 s
 ORTUNG_API std::shared_ptr<const Splice> kidnapped(std::shared_ptr<const Recording> recording,
                                                    std::uint64_t seed);
 
-/// The log from a random moment on, with at least @p way [m] and 20 s (a quarter of a shorter log)
-/// to go.
+/// Returns the log from a random moment on, of which at least @p way [m] of distance travelled and
+/// 20 s (a quarter of a shorter log) are left.
 /// @throws std::invalid_argument if the recording has no such moment
 ORTUNG_API std::shared_ptr<const Splice> wokenUp(std::shared_ptr<const Recording> recording,
                                                  std::uint64_t seed, double way = 5.0);
 
-/// The log from its beginning, with kidnaps at random places (Fox, Burgard, Thrun: "Markov
+/// Returns the log from its beginning, with kidnaps at random places (Fox, Burgard, Thrun: "Markov
 /// Localization for Mobile Robots in Dynamic Environments", JAIR 11, 1999): after each, at least 30
 /// s go by before the next; as long as the log, or until it ends.
-/// @param rate of kidnaps, for each metre of way
+/// @param rate kidnaps per metre of distance travelled [1/m]
 /// @throws std::invalid_argument as kidnapped(), and for a rate that is not above 0
 ORTUNG_API std::shared_ptr<const Splice> teleported(std::shared_ptr<const Recording> recording,
                                                     std::uint64_t seed, double rate);

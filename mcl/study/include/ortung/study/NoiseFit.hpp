@@ -11,14 +11,14 @@
 
 namespace ortung {
 
-/// What a sensor gets wrong always in the same way.
+/// A term of a sensor's systematic error.
 enum class NoiseTerm : std::uint8_t {
-  kRangeBias,    ///< by which ranges are too long [m]
-  kBearingBias,  ///< by which bearings are too large [rad]
-  kMountX,       ///< where the sensor is, beyond where the robot file says, robot frame [m]
-  kMountY,
-  kMountTheta,  ///< [rad]
-  kLatency,     ///< how much older readings are than their stamps say [s]
+  kRangeBias,    ///< error by which ranges are too long [m]
+  kBearingBias,  ///< error by which bearings are too large [rad]
+  kMountX,       ///< x of the sensor's mount beyond the robot file's, robot frame [m]
+  kMountY,       ///< y of the mount beyond the robot file's [m]
+  kMountTheta,   ///< heading of the mount beyond the robot file's [rad]
+  kLatency,      ///< age of readings at their stamps [s]
   // Of sightings at range r and bearing b, see SightingBias; ranges are too long by
   kRangePerMetre,      ///< r times this
   kRangePerMetreRad,   ///< r b times this [1/rad]
@@ -31,14 +31,14 @@ inline constexpr std::size_t kNoiseTerms = 11;
 template <class T>
 using ByNoiseTerm = std::array<T, kNoiseTerms>;
 
-/// One value of a reading beside its expectation at a known pose.
+/// One value of a reading with its expectation at a known pose.
 struct NoiseResidual {
-  Timestamp stamp = 0;    ///< of the reading
-  std::size_t log = 0;    ///< that it is of: of different logs errors are independent
-  bool isAngle = false;   ///< [rad]; otherwise [m]
+  Timestamp stamp = 0;    ///< stamp of the reading [us]
+  std::size_t log = 0;    ///< number of its log; errors of different logs are independent
+  bool isAngle = false;   ///< whether it is an angle [rad]; else it is a length [m]
   double residual = 0.0;  ///< reading - expectation, [m] or [rad]
-  double range = 0.0;     ///< with which the noise grows [m]; not of angles
-  /// How the residual grows with each term.
+  double range = 0.0;     ///< range with which the noise grows [m]; not used for angles
+  /// Derivative of the residual by each term.
   ByNoiseTerm<double> by{};
 };
 
@@ -50,29 +50,30 @@ struct Learned {
 
 /// The noise of distances, or of angles.
 struct NoiseShape {
-  std::size_t values = 0;  ///< that it was learned from; 0: nothing is known
-  Learned sigma;           ///< at range 0 [m] or [rad]
-  Learned sigmaPerMetre;   ///< of distances
+  std::size_t values = 0;  ///< number of values that it was learned from; zero: not known
+  Learned sigma;           ///< standard deviation at range 0 [m] or [rad]
+  Learned sigmaPerMetre;   ///< growth of sigma with range, for distances [m/m]
   Learned outliers;        ///< share of values that lie anywhere, in [0, 1]
   /// p of an outlier, relative to that of a perfect reading: SensorModel::outliers.
   double floor = 0.0;
-  /// For how many independent values one counts, in (0, 1]: what is wrong for 10 s is wrong once.
+  /// Number of independent values that one value counts for, in (0, 1], since errors of 10 s are
+  /// correlated.
   double independent = 1.0;
 };
 
-/// What fitNoise() found.
+/// The result of fitNoise().
 struct NoiseFit {
-  ByNoiseTerm<Learned> terms;
-  ByNoiseTerm<bool> isKnown{};  ///< false: not asked for, or less than three errors from none
-  NoiseShape distances;
-  NoiseShape angles;
+  ByNoiseTerm<Learned> terms;   ///< values of the terms, in their units
+  ByNoiseTerm<bool> isKnown{};  ///< whether a term is wanted and at least three errors from zero
+  NoiseShape distances;         ///< noise of lengths [m]
+  NoiseShape angles;            ///< noise of angles [rad]
 };
 
 /// Fits the mixture of the sensor model, a Gaussian and values anywhere, to residuals by
-/// expectation maximization, with the terms that residuals have in common. A term that is not three
-/// standard errors away from none is none. Errors are of blocks of 10 s (the sandwich of Huber
-/// 1967, clustered), since what is wrong with one reading is wrong with the next one.
-/// @param wanted terms to learn; of others nothing is said
+/// expectation maximization, with the terms that residuals have in common. A term less than three
+/// standard errors from zero is left out. Standard errors are clustered by blocks of 10 s (the
+/// sandwich of Huber 1967), since errors of consecutive readings are correlated.
+/// @param wanted terms to learn; the others stay unknown
 /// @param already values of the terms for which the residuals were made
 /// @throws std::invalid_argument if fewer than 50 residuals are of a kind that occurs
 ORTUNG_API NoiseFit fitNoise(std::span<const NoiseResidual> residuals,

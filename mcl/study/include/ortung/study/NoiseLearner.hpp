@@ -17,42 +17,46 @@
 
 namespace ortung {
 
-/// Readings of a robot beside where it was.
+/// Readings of a robot with its true poses.
 struct NoiseLog {
   struct Reading {
     Timestamp stamp = 0;
     std::vector<std::uint32_t> words;
   };
-  std::vector<std::pair<Timestamp, Pose2>> reference;    ///< in the order of time
-  std::map<std::string, std::vector<Reading>> readings;  ///< by "model/type/feature"
+  std::vector<std::pair<Timestamp, Pose2>> reference;  ///< true poses, field frame; stamps rise
+  /// Readings in order of time, keyed by "model/type/feature".
+  std::map<std::string, std::vector<Reading>> readings;
 };
 
-/// Keeps the newest readings of all features that localize, if they are new.
+/// Collects new readings of all features that localize. Not thread-safe.
 class ORTUNG_API NoiseLogger {
  public:
+  /// Appends readings that are newer than those of the last call.
   void look(const SensorContainer& container, NoiseLog& log);
 
  private:
   std::map<const SensorData*, std::uint64_t> seen_;
 };
 
-/// How to learn.
+/// Options of learning noise.
 struct NoiseLearning {
   ByNoiseTerm<bool> wanted = {true, true, true, true, true, true, true, true, true, true, true};
-  double longestGap = 1.0;          ///< of the reference, within which it is interpolated [s]
-  std::size_t mostValues = 100000;  ///< of longer logs some readings and beams count
+  double longestGap = 1.0;  ///< longest gap over which the reference is interpolated [s]
+  /// Most values; longer logs are thinned to some readings and beams.
+  std::size_t mostValues = 100000;
 };
 
-/// The noise of features that are of one device, pooled.
+/// The noise of the features of one device, pooled.
 struct LearnedNoise {
-  std::size_t readings = 0;  ///< with a reference
+  std::size_t readings = 0;  ///< number of readings with a reference
   NoiseFit fit;
 };
 
-/// Learns from residuals: readings beside what the features expect at the reference, interpolated
-/// between the cells and directions of their tables. Distances beyond reach say nothing.
-/// @param features of one device, with tables; they take readings of the logs meanwhile
-/// @param tables what their tables say of themselves
+/// Learns the noise from residuals: readings minus the features' expectations at the reference,
+/// interpolated between the cells and directions of their tables. Distances beyond the range are
+/// not used.
+/// @param features features of one device, with tables; their readings are overwritten by the logs'
+/// @param tables description of their tables
 /// @throws std::runtime_error if there are too few values, or the features' format has no
 ///   expectations to compare with
 ORTUNG_API LearnedNoise learnNoise(std::span<SensorData* const> features, const TableInfo& tables,

@@ -12,17 +12,17 @@
 
 namespace ortung {
 
-/// All readings of a source in memory, from which runs are made. It does not change once it is
-/// made: for any number of threads.
+/// All readings of a source in memory, from which runs are made. It is immutable, so any number of
+/// threads may use it.
 class ORTUNG_API Recording {
  public:
   struct Truth {
-    Timestamp stamp = 0;
-    Pose2 pose;
-    double way = 0.0;         ///< of the robot since the first one [m]
+    Timestamp stamp = 0;      ///< time of the moment [us]
+    Pose2 pose;               ///< true pose, field frame
+    double way = 0.0;         ///< distance travelled since the first truth [m]
     std::size_t message = 0;  ///< index of the first message of its moment
   };
-  static constexpr std::size_t kMostBytes = std::size_t{4} << 30;  ///< of readings
+  static constexpr std::size_t kMostBytes = std::size_t{4} << 30;  ///< most bytes of readings
 
   /// Reads @p source to its end. @param name what errors call it
   /// @throws std::invalid_argument for a live source, and for one without an end
@@ -33,7 +33,7 @@ class ORTUNG_API Recording {
   const std::string& name() const { return name_; }
   const std::string& worldFingerprint() const { return worldFingerprint_; }
   const std::vector<Message>& messages() const { return messages_; }
-  /// Of the first feature that gives it, one a moment.
+  /// Returns the ground truth of the first feature that has it, one per moment.
   const std::vector<Truth>& truth() const { return truth_; }
 
  private:

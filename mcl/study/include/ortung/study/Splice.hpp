@@ -12,15 +12,15 @@
 
 namespace ortung {
 
-/// Messages [begin, end) of a recording, whole moments.
+/// A piece of a recording: its messages [begin, end), in whole moments.
 struct Piece {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-/// Pieces of one recording, joined: time goes on, and odometry does not notice, as if somebody had
-/// carried the robot from the end of one to the beginning of the next. Immutable, for any number of
-/// threads.
+/// Pieces of one recording, joined: time goes on, and odometry does not notice, as if the robot was
+/// carried from the end of one to the beginning of the next. It is immutable, so any number of
+/// threads may use it.
 class ORTUNG_API Splice {
  public:
   /// @throws std::invalid_argument if there is no piece, or one is empty or outside of the
@@ -28,14 +28,16 @@ class ORTUNG_API Splice {
   Splice(std::shared_ptr<const Recording> recording, std::vector<Piece> pieces);
   ~Splice();
 
-  /// The first stamps of all pieces but the first one, when the robot is elsewhere of a sudden.
+  /// Returns the first stamps of all pieces but the first one, when the robot suddenly is
+  /// elsewhere.
   const std::vector<Timestamp>& joins() const { return joins_; }
   Timestamp first() const;  ///< stamp of the first message
-  /// Moments in [from, to) at which anything was read but odometry and ground truth.
+  /// Returns the number of moments in [from, to) with other readings than odometry and ground
+  /// truth.
   std::size_t readings(const SensorContainer& robot, Timestamp from, Timestamp to) const;
   const Recording& recording() const { return *recording_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
-  /// What is to be added to the stamps of a piece.
+  /// Returns the time that is added to the stamps of a piece [us].
   Timestamp shift(std::size_t piece) const { return shifts_.at(piece); }
 
  private:
@@ -45,7 +47,8 @@ class ORTUNG_API Splice {
   std::vector<Timestamp> joins_;
 };
 
-/// Plays it from its beginning. @param robot tells what is odometry; only asked here
+/// Returns a source that plays the splice from its beginning.
+/// @param robot says which features are odometry; only used in this call
 ORTUNG_API std::unique_ptr<Source> play(std::shared_ptr<const Splice> splice,
                                         const SensorContainer& robot);
 

@@ -13,33 +13,34 @@ namespace ortung {
 
 /// When an estimate counts as right.
 struct RightRule {
-  double metres = 0.5;                                       ///< error below this ...
-  double radians = 0.2617993877991494;                       ///< ... and below this, 15 degrees ...
-  double seconds = 5.0;                                      ///< ... for at least so long
-  double mostWay = std::numeric_limits<double>::infinity();  ///< begun after no more way [m]
+  double metres = 0.5;                  ///< greatest error in position [m]
+  double radians = 0.2617993877991494;  ///< greatest error in heading [rad], 15 degrees
+  double seconds = 5.0;                 ///< least time for which both errors stay below [s]
+  /// Longest distance travelled before that [m].
+  double mostWay = std::numeric_limits<double>::infinity();
 };
 
 /// Whether and when an estimate became right.
 struct Verdict {
   enum class State : std::uint8_t {
     kOpen,   ///< it may still become right
-    kRight,  ///< since `stamp`
-    kWrong   ///< not within RightRule::mostWay
+    kRight,  ///< it is right since `stamp`
+    kWrong   ///< it did not become right within RightRule::mostWay
   };
   State state = State::kOpen;
-  Timestamp stamp = 0;   ///< of the first point that was right
-  double seconds = 0.0;  ///< until then, from where it was looked at on
-  double way = 0.0;      ///< that the robot went until then [m]
+  Timestamp stamp = 0;   ///< time of the first point that was right [us]
+  double seconds = 0.0;  ///< time until then since the beginning of the judged interval [s]
+  double way = 0.0;      ///< distance travelled until then [m]
 };
 
-/// Looks at the points with stamps in [since, until), in the order of time.
+/// Judges the points with stamps in [since, until), in the order of time.
 ORTUNG_API Verdict judge(std::span<const EvaluationPoint> points, Timestamp since, Timestamp until,
                          const RightRule& rule);
 
-/// How far a robot went, in pieces of 5 cm, which leaves out how what measured it trembles.
+/// Measures how far a robot went, in pieces of 5 cm, so that noise of the poses does not count.
 class ORTUNG_API WayMeter {
  public:
-  /// @returns the way so far [m]
+  /// Adds the next pose. @returns the distance travelled so far [m]
   double add(const Pose2& pose);
 
  private:
