@@ -173,7 +173,7 @@ TEST_F(EvalMany, WhatMakesNoSenseIsWrongUsage) {
     expectRefused(eval(arguments), 2, "ortung eval: ", {part});
   };
   refused({"--runs", "2", "--report", path("o.html")}, "--report is for one run, and there are 2");
-  refused({"--wake-ups", "2", "--record", path("o.rec")}, "--record is of one run");
+  refused({"--wake-ups", "2", "--record", path("o.rec")}, "--record is for one run");
   refused({"--kidnap", "2", "--runs", "3"}, "leave out --runs");
   refused({"--kidnap", "2", "--start", "1,2,3"}, "kidnaps and teleports begin at the truth");
   refused({"--runs", "0"}, "--runs");

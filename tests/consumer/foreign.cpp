@@ -8,9 +8,9 @@
 #include "ortung/base/Random.hpp"
 #include "ortung/base/Words.hpp"
 #include "ortung/core/PluginFactory.hpp"
-#include "ortung/run/Disturbed.hpp"
-#include "ortung/run/NoiseLearner.hpp"
 #include "ortung/run/ReadingValues.hpp"
+#include "ortung/study/Disturbed.hpp"
+#include "ortung/study/NoiseLearner.hpp"
 
 using namespace ortung;
 

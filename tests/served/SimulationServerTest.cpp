@@ -152,7 +152,7 @@ TEST(Protocol, ManipulatorsAreSetByNameOrNumber) {
   EXPECT_EQ(client.ask("MANIPULATOR kicker 1"), "OK MANIPULATOR");
   EXPECT_TRUE(client.ask("MANIPULATOR kicker 99")
                   .starts_with("ERR no-manipulator robot striker: its manipulator kicker has no "
-                               "state '99', but " +
+                               "state '99'; it has " +
                                first + ","));
   EXPECT_TRUE(
       client.ask("MANIPULATOR arm up")
