@@ -122,12 +122,15 @@ def play_with(rules):
 
 
 def what_check_says(folder):
-    """{file: what `ortung check` says of it}, without the folder's name."""
+    """{file: what `ortung check` says of it}, without the folder's name and what is for people: a feature's and a
+    drive's help."""
     said = {}
     for kind in ("fields", "robots", "scenes"):
         for file in sorted((folder / kind).glob("*.toml")):
             code, text, error = ortung("check", file)
-            said[f"{kind}/{file.name}"] = (text if code == 0 else error).replace(str(folder) + "/", "")
+            text = (text if code == 0 else error).replace(str(folder) + "/", "")
+            text = re.sub(r"^(  \w[^/ ]*/[^/ ]+/[^/ ]+) +(localizes; )?.*$", r"\1 \2", text, flags=re.MULTILINE)
+            said[f"{kind}/{file.name}"] = re.sub(r"^(  drive '\w+'), commands .*; ", r"\1; ", text, flags=re.MULTILINE)
     return said
 
 
