@@ -32,7 +32,7 @@ export function runProgram(words) {
 /** Starts `ortung WORDS --listen PORT --view` and reads the address that it prints. */
 export async function startProgram(words, port = 0) {
   const all = [...words, "--listen", String(port), "--view", "--no-browser", ...(words[0] === "sim" ? ["--idle", "600"] : [])];
-  const env = { ...process.env, ORTUNG_VIEW_PATH: join(root, "sim", "web", "built") };
+  const env = { ...process.env, ORTUNG_VIEW_PATH: join(root, "board", "web", "built") };
   const child = spawn(program, all, { cwd: root, env, stdio: ["ignore", "pipe", "pipe"] });
   process.on("exit", () => child.kill()); // also after a test that failed
   let errors = "";
