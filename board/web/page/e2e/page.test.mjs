@@ -169,8 +169,8 @@ describe("the page of a match", () => {
     await robot(page, "blue2").waitFor();
     await page.keyboard.press("l");
     const evil = "<img src=x onerror=alert(1)>";
-    await page.getByLabel("Say a line of the protocol").fill(`SAY ${evil}`);
-    await page.getByRole("button", { name: "Say", exact: true }).click();
+    await page.getByLabel("Send a line of the protocol").fill(`SAY ${evil}`);
+    await page.getByRole("button", { name: "Send", exact: true }).click();
     await page.getByRole("log").getByText(`SAY ${evil}`).waitFor();
     assert.equal(await page.locator("img[src=x]").count(), 0);
     assert.deepEqual(page.problems, []);

@@ -55,7 +55,7 @@ export function SaidBar() {
               disabled={board.link !== "open"}
               onInput={(event) => setText(event.currentTarget.value)}
             />
-            <button type="submit" disabled={board.link !== "open"}>Say</button>
+            <button type="submit" disabled={board.link !== "open"}>Send</button>
           </form>
         </>
       )}
