@@ -39,7 +39,8 @@ TEST(Plugins, PlayersSayWhatTheyDoAndWhatTheirOptionsAre) {
   const Outcome outcome = ortung({"plugins"});
   EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
   const std::string wander = linesOf(outcome.out, "ortung_wander_player");
-  EXPECT_NE(wander.find("  Player       wander\n    drives endlessly to random places"), std::string::npos)
+  EXPECT_NE(wander.find("  Player       wander\n    drives endlessly to random places"),
+            std::string::npos)
       << wander;
   EXPECT_NE(wander.find("\n    speed_m_s [m/s]: how fast it drives at most; default: as fast"),
             std::string::npos)

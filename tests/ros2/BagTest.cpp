@@ -134,8 +134,9 @@ TEST_F(BagSource, ATiltedScannerIsRefusedAndALonelyFrameIsTold) {
   BagMaker lonely;
   lonely.add("/odom", odometryAt(0, 0, 0)).add("/scan", scanOf(0, "laser", {1.0F, 2.0F, 3.0F}));
   const auto source = makeSource(write(lonely));
-  EXPECT_NE(source->remark().find("the mount of frame 'laser' of /scan in 'base_footprint' is not known"),
-            std::string::npos)
+  EXPECT_NE(
+      source->remark().find("the mount of frame 'laser' of /scan in 'base_footprint' is not known"),
+      std::string::npos)
       << source->remark();
 }
 
