@@ -93,7 +93,7 @@ double carriedFar(const Recording& recording) {
   return std::min(kFar, std::hypot(high[0] - low[0], high[1] - low[1]) / 3.0);
 }
 
-std::shared_ptr<const Splice> kidnapped(std::shared_ptr<const Recording> recording,
+std::shared_ptr<const Splice> kidnapped(const std::shared_ptr<const Recording>& recording,
                                         std::uint64_t seed) {
   const Moments moments(*recording);
   moments.requireFar();
@@ -114,7 +114,7 @@ std::shared_ptr<const Splice> kidnapped(std::shared_ptr<const Recording> recordi
                " m apart to carry the robot between");
 }
 
-std::shared_ptr<const Splice> wokenUp(std::shared_ptr<const Recording> recording,
+std::shared_ptr<const Splice> wokenUp(const std::shared_ptr<const Recording>& recording,
                                       std::uint64_t seed, double way) {
   const Moments moments(*recording);
   Random chance(seed, kWakeUps);

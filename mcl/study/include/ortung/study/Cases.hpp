@@ -20,13 +20,13 @@ ORTUNG_API double carriedFar(const Recording& recording);
 /// pose at another random moment, at least carriedFar() away, from which the log goes on for up to
 /// 300 s.
 /// @throws std::invalid_argument if the recording has no such places, or is shorter than 10 s
-ORTUNG_API std::shared_ptr<const Splice> kidnapped(std::shared_ptr<const Recording> recording,
-                                                   std::uint64_t seed);
+ORTUNG_API std::shared_ptr<const Splice> kidnapped(
+    const std::shared_ptr<const Recording>& recording, std::uint64_t seed);
 
 /// Returns the log from a random moment on, of which at least @p way [m] of distance travelled and
 /// 20 s (a quarter of a shorter log) are left.
 /// @throws std::invalid_argument if the recording has no such moment
-ORTUNG_API std::shared_ptr<const Splice> wokenUp(std::shared_ptr<const Recording> recording,
+ORTUNG_API std::shared_ptr<const Splice> wokenUp(const std::shared_ptr<const Recording>& recording,
                                                  std::uint64_t seed, double way = 5.0);
 
 /// Returns the log from its beginning, with kidnaps at random places (Fox, Burgard, Thrun: "Markov
