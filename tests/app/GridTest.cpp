@@ -41,7 +41,9 @@ TEST_F(Grid, FindsTheRobotAsMclDoes) {
   EXPECT_TRUE(figures().at("grid_divergence_median").is_null());
   const Outcome outcome = eval({"--filter", "grid"});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
+  // A machine that is slow is told how far the run is.
+  const std::regex progress("[^\n]*: localizing: [^\n]*\n");
+  EXPECT_EQ(std::regex_replace(outcome.err, progress, ""), "");
   EXPECT_LT(figures().at("position_rmse_m").get<double>(), 1.5 * ofMcl + 0.05);
   EXPECT_EQ(figures().at("lost_share"), 0.0);
   const std::string poses = path("poses.txt");
