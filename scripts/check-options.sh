@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 export CMAKE_GENERATOR=Ninja
 work=$PWD/build/options
 mkdir -p "$work"
-for option in SIM SERVER CLIENT REALSENSORS MRPT VISION APP PYTHON TESTS INSTALL; do
+for option in SIM SERVER CLIENT REALSENSORS MRPT VISION STUDY APP PYTHON TESTS INSTALL; do
   cmake --preset dev -B "$work/$option" "-DORTUNG_$option=OFF" -DORTUNG_BENCH=ON > "$work/$option.log" 2>&1 ||
     { cat "$work/$option.log"; echo "check-options: ORTUNG_$option=OFF alone does not configure" >&2; exit 1; }
 done
