@@ -77,17 +77,21 @@ export class Insight {
   private smallAsked = 0;
   /** Counts robots that were looked at. */
   private turn = 0;
+  /** Ends the pause between two questions for the filter's state. */
+  private askSoon: () => void = () => {};
 
   constructor(
     private readonly session: Session,
     private readonly changed: () => void,
-  ) {}
+  ) {
+    session.onLocalize = () => this.askSoon();
+  }
 
   start(): void {
     if (this.isRunning) return;
     this.isRunning = true;
     void this.run(() => this.askSlow());
-    void this.run(() => this.askState());
+    void this.run(() => this.askState(), (end) => (this.askSoon = end));
   }
 
   /** Forgets all, since another robot is looked at. */
@@ -101,8 +105,8 @@ export class Insight {
     this.changed();
   }
 
-  /** Asks again and again; @p once tells how long to wait. */
-  private async run(once: () => Promise<number>): Promise<void> {
+  /** Asks again and again; @p once says how long to wait, and @p waits is given what ends the wait early. */
+  private async run(once: () => Promise<number>, waits?: (end: () => void) => void): Promise<void> {
     for (;;) {
       let pause = kSlowPause;
       const { board } = this.session;
@@ -114,7 +118,10 @@ export class Insight {
         if (turn === this.turn && board.link === "open" && this.wantsMap) this.error = error.message;
         this.mapped = "";
       }
-      await new Promise((resolve) => setTimeout(resolve, pause));
+      await new Promise<void>((resolve) => {
+        waits?.(resolve);
+        setTimeout(resolve, pause);
+      });
     }
   }
 

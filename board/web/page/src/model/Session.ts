@@ -37,6 +37,8 @@ export class Session {
   private worldPeriod = 0;
   /** " ahead=N" if the server lets us say how many updates may be under way. */
   private ahead = "";
+  /** Called when the user has begun or ended a robot's localization. */
+  onLocalize: () => void = () => {};
   /** Updates that were read and not yet acknowledged, by robot. */
   private readonly got: number[] = [];
 
@@ -109,6 +111,7 @@ export class Session {
   }
 
   private acted(verb: string): void {
+    if (verb === "LOCALIZE") this.onLocalize();
     if (verb === "PLAY" || verb === "STOP" || verb === "RESET" || verb === "RECORD") void this.poll();
     if (verb === "RESET") this.startOver();
     if (verb === "PAUSE" || verb === "RESUME" || verb === "SPEED" || verb === "REFEREE") void this.poll();
