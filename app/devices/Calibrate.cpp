@@ -70,7 +70,7 @@ void drawField(Picture& picture, const FieldLines& field, const CameraView& view
   };
   constexpr double kStep = 0.02;  // distance between drawn points [m]
   for (const FieldLine& line : field.lines()) {
-    if (line.shape == FieldLine::Shape::straight) {
+    if (line.shape == FieldLine::Shape::kStraight) {
       const double length = std::hypot(line.x1 - line.x0, line.y1 - line.y0);
       for (double d = 0.0; d <= length; d += kStep)
         dot(line.x0 + (line.x1 - line.x0) * d / length, line.y0 + (line.y1 - line.y0) * d / length);

@@ -5,7 +5,7 @@
 namespace ortung::app {
 
 std::vector<std::array<double, 2>> pointsOf(const FieldLine& line) {
-  if (line.shape == FieldLine::Shape::straight) return {{line.x0, line.y0}, {line.x1, line.y1}};
+  if (line.shape == FieldLine::Shape::kStraight) return {{line.x0, line.y0}, {line.x1, line.y1}};
   constexpr int kPieces = 48;
   std::vector<std::array<double, 2>> points;
   for (int i = 0; i <= kPieces; ++i) {

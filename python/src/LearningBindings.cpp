@@ -124,9 +124,9 @@ auto array(const Get& get, bool hasAgents, std::size_t last) {
 
 void bindLearning(py::module_& module) {
   py::enum_<Autoreset>(module, "Autoreset")
-      .value("NEXT_STEP", Autoreset::nextStep)
-      .value("SAME_STEP", Autoreset::sameStep)
-      .value("DISABLED", Autoreset::disabled);
+      .value("NEXT_STEP", Autoreset::kNextStep)
+      .value("SAME_STEP", Autoreset::kSameStep)
+      .value("DISABLED", Autoreset::kDisabled);
   module.def(
       "environments",
       [] {
@@ -159,7 +159,7 @@ void bindLearning(py::module_& module) {
                  id, values, learning::BatchConfig{episodes, threads, autoreset, seed});
            }),
            py::arg("id"), py::arg("options") = py::dict(), py::arg("episodes") = 1,
-           py::arg("threads") = 1, py::arg("autoreset") = Autoreset::nextStep, py::arg("seed") = 1)
+           py::arg("threads") = 1, py::arg("autoreset") = Autoreset::kNextStep, py::arg("seed") = 1)
       .def("step", &step, py::arg("actions"), "actions: (N, agents, action), float")
       .def(
           "reset",

@@ -295,7 +295,7 @@ TEST(Report, MapShowsLandmarksAndLinesOfTheField) {
   line.x1 = 3.0;
   line.y1 = 1.0;
   FieldLine circle;
-  circle.shape = FieldLine::Shape::arc;
+  circle.shape = FieldLine::Shape::kArc;
   circle.radiusX = circle.radiusY = 1.0;
   circle.to = 6.283185307179586;
   run.tableInfo.field.lines = {line, circle};

@@ -39,7 +39,7 @@ void naive(benchmark::State& state, const char* id, const Options& options) {
   double count = 0.0;
   std::uint64_t seed = 1;
   for (auto _ : state) {
-    Batch batch(id, options, {.autoreset = Autoreset::disabled, .seed = seed++});
+    Batch batch(id, options, {.autoreset = Autoreset::kDisabled, .seed = seed++});
     for (; batch.endings()[0] == 0; count += 1.0) {
       act(batch, actions);
       batch.step(actions);

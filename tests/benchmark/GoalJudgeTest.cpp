@@ -32,19 +32,19 @@ struct Chance {
 };
 
 TEST(GoalJudge, TellsGoalsSavesAndMisses) {
-  EXPECT_EQ(Chance(-0.6).roll({-3.0, 0.5, 0.0}, -3.0, 0.0), GoalOutcome::goal);
-  EXPECT_EQ(Chance(0.5).roll({-3.0, 0.5, 0.0}, -3.0, 0.0), GoalOutcome::saved);
-  EXPECT_EQ(Chance(0.5).roll({-3.0, 2.0, 0.0}, -3.0, 0.0), GoalOutcome::out);
-  EXPECT_EQ(Chance(0.5).roll({-1.0, 0.5, 0.0}, -1.2, 0.0), GoalOutcome::out) << "it stops before";
-  EXPECT_EQ(Chance(0.5).roll({-3.0, 0.5, 0.0}, 0.0, 0.0), GoalOutcome::time) << "nobody shoots";
+  EXPECT_EQ(Chance(-0.6).roll({-3.0, 0.5, 0.0}, -3.0, 0.0), GoalOutcome::kGoal);
+  EXPECT_EQ(Chance(0.5).roll({-3.0, 0.5, 0.0}, -3.0, 0.0), GoalOutcome::kSaved);
+  EXPECT_EQ(Chance(0.5).roll({-3.0, 2.0, 0.0}, -3.0, 0.0), GoalOutcome::kOut);
+  EXPECT_EQ(Chance(0.5).roll({-1.0, 0.5, 0.0}, -1.2, 0.0), GoalOutcome::kOut) << "it stops before";
+  EXPECT_EQ(Chance(0.5).roll({-3.0, 0.5, 0.0}, 0.0, 0.0), GoalOutcome::kTime) << "nobody shoots";
 }
 
 // The keeper's body is 0.45 m wide and the circle around it 0.64 m: who passes its corner within
 // the circle, 3 cm from the body, and misses the goal was not saved.
 TEST(GoalJudge, AKeeperSavesWithItsBody) {
-  EXPECT_EQ(Chance(1.2).roll({-3.0, 1.2 + 0.225 + 0.11 + 0.03, 0.0}, -3.0, 0.0), GoalOutcome::out);
+  EXPECT_EQ(Chance(1.2).roll({-3.0, 1.2 + 0.225 + 0.11 + 0.03, 0.0}, -3.0, 0.0), GoalOutcome::kOut);
   // What touches it on its way past the post is.
-  EXPECT_EQ(Chance(0.8).roll({-3.0, 0.8 + 0.225 + 0.05, 0.0}, -3.0, 0.0), GoalOutcome::saved);
+  EXPECT_EQ(Chance(0.8).roll({-3.0, 0.8 + 0.225 + 0.05, 0.0}, -3.0, 0.0), GoalOutcome::kSaved);
 }
 
 }  // namespace

@@ -103,8 +103,8 @@ TEST(GoalMatrix, SeekersScoreByTheirOwnSensors) {
   config.strikers = {strikerText("seeker"), strikerText("seeker:sees=truth")};
   config.episodes = 30;
   const GoalMatrix matrix = playMatrix(config, {.threads = 2});
-  EXPECT_GT(matrix.cell(0, 0).count(GoalOutcome::goal), 12u);
-  EXPECT_GT(matrix.cell(0, 1).count(GoalOutcome::goal), 18u);
+  EXPECT_GT(matrix.cell(0, 0).count(GoalOutcome::kGoal), 12u);
+  EXPECT_GT(matrix.cell(0, 1).count(GoalOutcome::kGoal), 18u);
   EXPECT_LT(matrix.cell(0, 0).strikerError()->mean, 0.1);
 }
 
@@ -203,7 +203,8 @@ TEST(GoalMatrix, AFileIsReadAsItWasWritten) {
 TEST(GoalMatrix, VerifyFindsATamperedEpisode) {
   GoalMatrix matrix = playMatrix(someConfig(4), {});
   GoalEpisode& episode = matrix.cells[3].episodes[2];
-  episode.outcome = episode.outcome == GoalOutcome::goal ? GoalOutcome::saved : GoalOutcome::goal;
+  episode.outcome =
+      episode.outcome == GoalOutcome::kGoal ? GoalOutcome::kSaved : GoalOutcome::kGoal;
   // Written with a hash that fits, so that nobody sees it by reading.
   const GoalMatrix read = readGoalMatrix(toJson(matrix, "1"), "m.json");
   std::uint64_t played = 0;

@@ -15,14 +15,14 @@ RollingBall ballAt(double x, double y, double vx = 0.0, double vy = 0.0) {
 }
 
 TEST(KeeperPolicy, StillNeverWantsAnything) {
-  KeeperMind mind(KeeperPolicy::still, kLine);
+  KeeperMind mind(KeeperPolicy::kStill, kLine);
   Random random(1);
   for (Timestamp now = 0; now < 5'000'000; now += 40'000)
     EXPECT_FALSE(mind.decide(now, 0.0, ballAt(-3.0, 1.0, -3.0, 0.0), random));
 }
 
 TEST(KeeperPolicy, BlockingStandsBetweenBallAndMiddleOfTheGoal) {
-  KeeperMind mind(KeeperPolicy::blocking, kLine);
+  KeeperMind mind(KeeperPolicy::kBlocking, kLine);
   Random random(1);
   for (const double y : {-2.0, -0.3, 0.0, 1.7}) {
     const auto wanted = mind.decide(0, 0.0, ballAt(-3.0, y), random);
@@ -41,7 +41,7 @@ TEST(KeeperPolicy, BlockingDoesSoBeforeTheOtherGoal) {
 }
 
 TEST(KeeperPolicy, InterceptingGoesWhereTheBallWillCome) {
-  KeeperMind mind(KeeperPolicy::intercepting, kLine);
+  KeeperMind mind(KeeperPolicy::kIntercepting, kLine);
   Random random(1);
   // 2.5 m ahead with a slope of 1/5: half a metre aside.
   EXPECT_NEAR(*mind.decide(0, 0.0, ballAt(-3.0, 0.0, -2.5, 0.5), random), 0.5, 1e-12);
@@ -53,7 +53,7 @@ TEST(KeeperPolicy, InterceptingGoesWhereTheBallWillCome) {
 }
 
 TEST(KeeperPolicy, PatternGoesToAndFroBetweenItsEnds) {
-  KeeperMind mind(KeeperPolicy::pattern, kLine);
+  KeeperMind mind(KeeperPolicy::kPattern, kLine);
   Random random(1);
   double y = 0.1;
   double most = y;
@@ -77,9 +77,9 @@ TEST(KeeperPolicy, PatternGoesToAndFroBetweenItsEnds) {
 
 TEST(KeeperPolicy, RandomGoesEverywhereAndIsTheSameForASeed) {
   std::set<int> tenths;
-  KeeperMind a(KeeperPolicy::random, kLine);
-  KeeperMind b(KeeperPolicy::random, kLine);
-  KeeperMind c(KeeperPolicy::random, kLine);
+  KeeperMind a(KeeperPolicy::kRandom, kLine);
+  KeeperMind b(KeeperPolicy::kRandom, kLine);
+  KeeperMind c(KeeperPolicy::kRandom, kLine);
   Random ofA(4);
   Random ofB(4);
   Random ofC(5);
@@ -96,7 +96,7 @@ TEST(KeeperPolicy, RandomGoesEverywhereAndIsTheSameForASeed) {
 }
 
 TEST(KeeperPolicy, MixedIsEachOfTheOthersInTurn) {
-  KeeperMind mind(KeeperPolicy::mixed, kLine);
+  KeeperMind mind(KeeperPolicy::kMixed, kLine);
   Random random(2);
   int none = 0;
   int blocks = 0;

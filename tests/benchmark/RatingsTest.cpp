@@ -23,7 +23,8 @@ GoalMatrix drawn(const std::vector<std::vector<double>>& shares, std::uint64_t e
       GoalCell cell{matrix.config.keepers[k], matrix.config.strikers[s], {}};
       for (std::uint64_t i = 0; i < episodes; ++i) {
         GoalEpisode episode;
-        episode.outcome = random.uniform() < shares[k][s] ? GoalOutcome::goal : GoalOutcome::saved;
+        episode.outcome =
+            random.uniform() < shares[k][s] ? GoalOutcome::kGoal : GoalOutcome::kSaved;
         cell.episodes.push_back(episode);
       }
       matrix.cells.push_back(std::move(cell));
@@ -106,7 +107,7 @@ TEST(MatrixPage, NeedsNoOtherFileAndShowsEpisodes) {
     ++pictures;
   std::size_t outcomes = 0;
   for (const GoalCell& cell : matrix.cells)
-    for (const GoalOutcome outcome : {GoalOutcome::goal, GoalOutcome::saved, GoalOutcome::out})
+    for (const GoalOutcome outcome : {GoalOutcome::kGoal, GoalOutcome::kSaved, GoalOutcome::kOut})
       outcomes += cell.count(outcome) > 0 ? 1 : 0;
   EXPECT_EQ(pictures, outcomes);
   EXPECT_EQ(html, toHtml(matrix, "1<2"));

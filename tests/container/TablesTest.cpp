@@ -192,7 +192,7 @@ TEST_F(Tables, NamesThatLookAlikeDoNotCollide) {
 FieldModel someField() {
   FieldModel field;
   FieldLine arc;
-  arc.shape = FieldLine::Shape::arc;
+  arc.shape = FieldLine::Shape::kArc;
   arc.x = 1.0;
   arc.radiusX = arc.radiusY = 0.5;
   arc.to = 2.0;
@@ -216,7 +216,7 @@ TEST_F(Tables, KeepWhatIsKnownOfTheField) {
   writeTables(folder_ / "field.npz", robot.container, info);
   const TableInfo read = readTableInfo(TableFile(folder_ / "field.npz"));
   ASSERT_EQ(read.field.lines.size(), 2u);
-  EXPECT_EQ(read.field.lines[0].shape, FieldLine::Shape::arc);
+  EXPECT_EQ(read.field.lines[0].shape, FieldLine::Shape::kArc);
   EXPECT_EQ(read.field.lines[0].to, 2.0);
   EXPECT_EQ(read.field.lines[0].colour, "white");
   EXPECT_EQ(read.field.lines[1].x1, 3.0);

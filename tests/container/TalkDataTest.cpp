@@ -21,7 +21,7 @@ std::string printableText(std::size_t longest) {
 }
 
 Place placeAt(double x, double y, double theta) {
-  return {Place::Kind::robot,
+  return {Place::Kind::kRobot,
           "blue-1",
           {{x, y, theta}, {0.04, 0.01, 0.002, 0.01, 0.09, 0.003, 0.002, 0.003, 0.01}}};
 }
@@ -87,7 +87,7 @@ TEST(TalkData, RefusesWhatIsNoTalk) {
 
 TEST(PlacesData, KeepsPlaces) {
   Place ball = placeAt(-1.0, 2.0, 0.0);
-  ball.kind = Place::Kind::ball;
+  ball.kind = Place::Kind::kBall;
   ball.name = "ball";
   ball.fix.covariance[8] = Place::kNoHeading * Place::kNoHeading;
   ball.fix.covariance[2] = ball.fix.covariance[6] = 0.0;
@@ -102,7 +102,7 @@ TEST(PlacesData, KeepsPlaces) {
   EXPECT_NEAR(robot.place.fix.pose.x, 1.5, 1e-9);
   EXPECT_NEAR(robot.place.fix.covariance[1], 0.01, 1e-5);
   EXPECT_TRUE(robot.place.hasHeading());
-  EXPECT_EQ(data.reading()[1].place.kind, Place::Kind::ball);
+  EXPECT_EQ(data.reading()[1].place.kind, Place::Kind::kBall);
   EXPECT_FALSE(data.reading()[1].place.hasHeading());
   EXPECT_THROW(data.setData(2, Words{2}), std::invalid_argument);
   EXPECT_THROW(data.setData(2, Words{0, 0}), std::invalid_argument);

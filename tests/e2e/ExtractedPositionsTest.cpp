@@ -135,7 +135,7 @@ TEST(ExtractedPositions, OfGoalsAlone) {
   container.connect();
   container.setField(std::make_shared<FieldModel>(fieldModelOf(*world)));
   Primitive round;
-  round.shape = Primitive::Shape::ellipse;
+  round.shape = Primitive::Shape::kEllipse;
   round.kind = "robot";
   round.halfX = round.halfY = 0.25;
   std::vector<RobotNumber> others;

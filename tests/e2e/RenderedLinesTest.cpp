@@ -41,7 +41,7 @@ std::vector<Pose2> placesOn(const FieldLines& field) {
   std::vector<Pose2> places;
   constexpr double kStep = 0.05;
   for (const FieldLine& line : field.lines()) {
-    if (line.shape == FieldLine::Shape::straight) {
+    if (line.shape == FieldLine::Shape::kStraight) {
       const double length = std::hypot(line.x1 - line.x0, line.y1 - line.y0);
       for (double d = 0.0; d <= length; d += kStep)
         places.push_back({line.x0 + (line.x1 - line.x0) * d / length,

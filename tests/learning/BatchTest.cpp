@@ -72,7 +72,7 @@ TEST(Batch, PlaysTheEpisodesOfTheBenchmark) {
   for (const char* kind : {"roll", "shot", "dribble"}) {
     constexpr std::size_t kEpisodes = 8;
     Batch batch("goalkeeper-v0", {{"striker", {std::string(kind)}}, {"cycle_ms", {10.0}}},
-                {.episodes = 1, .autoreset = Autoreset::nextStep, .seed = 77});
+                {.episodes = 1, .autoreset = Autoreset::kNextStep, .seed = 77});
     const std::vector<float> nothing(2);
     for (std::size_t n = 0; n < kEpisodes; ++n) {
       const GoalEpisode truth = benchmark.play("goalkeeper:policy=still", strikerText(kind), 77, n);
@@ -101,8 +101,8 @@ TEST(Batch, NextStepTakesNoActionAndGivesNoReward) {
 }
 
 TEST(Batch, SameStepHasTheEndAmongItsFinalObservations) {
-  Batch next("goalkeeper-v0", {}, {.autoreset = Autoreset::nextStep, .seed = 9});
-  Batch same("goalkeeper-v0", {}, {.autoreset = Autoreset::sameStep, .seed = 9});
+  Batch next("goalkeeper-v0", {}, {.autoreset = Autoreset::kNextStep, .seed = 9});
+  Batch same("goalkeeper-v0", {}, {.autoreset = Autoreset::kSameStep, .seed = 9});
   const std::vector<float> nothing(2);
   while (next.endings()[0] == 0) {
     next.step(nothing);
@@ -118,7 +118,7 @@ TEST(Batch, SameStepHasTheEndAmongItsFinalObservations) {
 }
 
 TEST(Batch, AnEpisodeThatIsOverMustBeReset) {
-  Batch batch("goalkeeper-v0", {}, {.episodes = 2, .autoreset = Autoreset::disabled, .seed = 9});
+  Batch batch("goalkeeper-v0", {}, {.episodes = 2, .autoreset = Autoreset::kDisabled, .seed = 9});
   const std::vector<float> nothing(4);
   while (batch.endings()[0] == 0 && batch.endings()[1] == 0) batch.step(nothing);
   const std::size_t over = batch.endings()[0] != 0 ? 0 : 1;
@@ -140,7 +140,7 @@ TEST(Batch, TimeTruncates) {
   }
   EXPECT_EQ(batch.truncated()[0], 1);
   EXPECT_EQ(batch.terminated()[0], 0);
-  EXPECT_EQ(batch.endings()[0], static_cast<std::uint8_t>(Ending::time));
+  EXPECT_EQ(batch.endings()[0], static_cast<std::uint8_t>(Ending::kTime));
 }
 
 TEST(Batch, WhatOneWinsTheOtherLoses) {

@@ -86,8 +86,8 @@ Score play(Batch& batch, int steps, const Act& act) {
     batch.step(act(batch));
     for (const std::uint8_t ending : batch.endings()) {
       score.episodes += ending != 0;
-      score.goals += ending == static_cast<std::uint8_t>(Ending::goal);
-      score.saves += ending == static_cast<std::uint8_t>(Ending::saved);
+      score.goals += ending == static_cast<std::uint8_t>(Ending::kGoal);
+      score.saves += ending == static_cast<std::uint8_t>(Ending::kSaved);
     }
   }
   return score;

@@ -54,7 +54,7 @@ struct FullWorld {
         world->addBody({"robot", "red1", "red", {box(0.2, 0.25, 0.0, 0.6), horn}}, {2.6, 0.4, 0.8});
     own = world->addBody({"robot", "own", "black", {box(0.2, 0.2, 0.0, 0.6)}}, {0.4, 0.0, 0.0});
     Primitive round;
-    round.shape = Primitive::Shape::ellipse;
+    round.shape = Primitive::Shape::kEllipse;
     round.halfX = round.halfY = 0.11;
     round.zHigh = 0.22;
     ball = world->addBody({"ball", "ball", "orange", {round}}, {1.8, -0.6, 0.0});
@@ -73,7 +73,7 @@ void compareWithRays(CameraPicture& camera, const FullWorld& scene, const Pose2&
     for (int u = 1; u < seen.size.width; u += 3) {
       const PixelClass kind = seen.kind(u, v);
       // A ball is a cylinder for rays, and lines are nothing.
-      if (!seen.isInside(u, v) || kind == PixelClass::ball) continue;
+      if (!seen.isInside(u, v) || kind == PixelClass::kBall) continue;
       const auto ray = camera.camera().rayAt({static_cast<double>(u), static_cast<double>(v)});
       if (!ray) continue;
       const double z = camera.camera().place().z;
@@ -86,12 +86,12 @@ void compareWithRays(CameraPicture& camera, const FullWorld& scene, const Pose2&
       const Pose2& ball = scene.world->objects().back().pose;
       if (std::hypot(hit.x - ball.x, hit.y - ball.y) < 0.12) continue;
       const double floor = ray->z < 0.0 ? z / -ray->z : 1e9;
-      const bool isFloor = kind == PixelClass::field || kind == PixelClass::line ||
-                           (kind == PixelClass::background && ray->z < 0.0);
+      const bool isFloor = kind == PixelClass::kField || kind == PixelClass::kLine ||
+                           (kind == PixelClass::kBackground && ray->z < 0.0);
       const double expected = isFloor ? floor : range;
       if (isFloor) {
         EXPECT_GE(range, std::min(floor, 60.0) - 0.02) << u << ", " << v;
-      } else if (kind == PixelClass::background) {
+      } else if (kind == PixelClass::kBackground) {
         EXPECT_TRUE(std::isinf(seen.ranges[seen.index(u, v)]));
         EXPECT_FLOAT_EQ(range, 60.0F) << u << ", " << v;
         continue;
@@ -142,11 +142,11 @@ TEST(Things, AreOfTheirClassAndTheirPlaceAmongObjects) {
       if (object == 0) continue;
       ASSERT_LE(object, scene.world->objects().size());
       const WorldObject& is = scene.world->objects()[object - 1];
-      const std::string kind = seen.kind(u, v) == PixelClass::robot  ? "robot"
-                               : seen.kind(u, v) == PixelClass::ball ? "ball"
-                               : seen.kind(u, v) == PixelClass::post ? "post"
-                               : seen.kind(u, v) == PixelClass::wall ? "wall"
-                                                                     : "obstacle";
+      const std::string kind = seen.kind(u, v) == PixelClass::kRobot  ? "robot"
+                               : seen.kind(u, v) == PixelClass::kBall ? "ball"
+                               : seen.kind(u, v) == PixelClass::kPost ? "post"
+                               : seen.kind(u, v) == PixelClass::kWall ? "wall"
+                                                                      : "obstacle";
       EXPECT_EQ(is.kind, kind);
       EXPECT_NE(is.name, "own");
     }
@@ -162,7 +162,7 @@ TEST(Things, ThatAreBallsAreRound) {
   int compared = 0;
   for (int v = 0; v < seen.size.height; ++v)
     for (int u = 0; u < seen.size.width; ++u) {
-      if (seen.kind(u, v) != PixelClass::ball || !seen.isInside(u, v)) continue;
+      if (seen.kind(u, v) != PixelClass::kBall || !seen.isInside(u, v)) continue;
       const auto ray = *camera.camera().rayAt({static_cast<double>(u), static_cast<double>(v)});
       const double along = ray.x * inSensor.x + ray.y * inSensor.y + ray.z * (0.11 - 0.7);
       const double squared = inSensor.x * inSensor.x + inSensor.y * inSensor.y + 0.59 * 0.59;

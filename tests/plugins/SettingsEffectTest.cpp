@@ -75,7 +75,7 @@ std::unique_ptr<SimWorld> field() {
   auto world = readWorld(folder / "world.toml");
   const auto add = [&](const char* kind, double x, double y, double radius) {
     Primitive round;
-    round.shape = Primitive::Shape::ellipse;
+    round.shape = Primitive::Shape::kEllipse;
     round.halfX = round.halfY = radius;
     round.zHigh = 0.8;
     world->addBody({kind, "", "red", {round}}, {x, y, 0});

@@ -120,7 +120,7 @@ double nearestPoint(const Primitive& body, double heading) {
       const double v = static_cast<double>(k) / kSteps;
       double x = 0.0;
       double y = 0.0;
-      if (body.shape == Primitive::Shape::ellipse) {
+      if (body.shape == Primitive::Shape::kEllipse) {
         const double t = 2.0 * std::numbers::pi * v;
         const double own[] = {u * body.halfX * std::cos(t), u * body.halfY * std::sin(t)};
         x = body.centre.x + own[0] * std::cos(body.angle) - own[1] * std::sin(body.angle);
@@ -146,16 +146,16 @@ TEST(SonarCone, SeesTheNearestPointOfBodiesOfAnyShape) {
   int seen = 0;
   for (int i = 0; i < 60; ++i) {
     Primitive body;
-    body.shape = i % 3 == 0   ? Primitive::Shape::ellipse
-                 : i % 3 == 1 ? Primitive::Shape::rectangle
-                              : Primitive::Shape::triangle;
+    body.shape = i % 3 == 0   ? Primitive::Shape::kEllipse
+                 : i % 3 == 1 ? Primitive::Shape::kRectangle
+                              : Primitive::Shape::kTriangle;
     body.centre = {random.uniform(0.8, 3.0), random.uniform(-0.8, 0.8)};
     body.halfX = random.uniform(0.02, 0.5);
     body.halfY = random.uniform(0.02, 0.5);
     body.angle = random.uniform(-3.0, 3.0);
     body.zLow = random.uniform(0.0, 0.4);
     body.zHigh = body.zLow + random.uniform(0.02, 0.3);
-    if (body.shape == Primitive::Shape::triangle) {
+    if (body.shape == Primitive::Shape::kTriangle) {
       for (std::size_t k = 0; k < 3; ++k) {
         const double t = body.angle + 2.0 * std::numbers::pi / 3.0 * static_cast<double>(k);
         body.corners[k] = {body.centre.x + body.halfX * std::cos(t),

@@ -16,7 +16,7 @@ namespace {
 /// A place without correlations.
 Place placeOf(const std::string& name, const Pose2& pose, double sx, double sy, double heading) {
   return {
-      Place::Kind::robot, name, {pose, {sx * sx, 0, 0, 0, sy * sy, 0, 0, 0, heading * heading}}};
+      Place::Kind::kRobot, name, {pose, {sx * sx, 0, 0, 0, sy * sy, 0, 0, 0, heading * heading}}};
 }
 
 /// A robot named anna that hears its team.
@@ -114,7 +114,7 @@ TEST(Teammate, WhatCameReadyMadeStays) {
 TEST(Teammate, WhereOthersAre) {
   Listener anna("keep_s = 1");
   Place ball = placeOf("ball", {0, 0, 0}, 0.1, 0.1, Place::kNoHeading);
-  ball.kind = Place::Kind::ball;
+  ball.kind = Place::Kind::kBall;
   anna.hear(1.0, {{0.0, "bert", toText(placeOf("bert", {1, 1, 0}, 0.1, 0.1, 0.1))},
                   {0.0, "bert", toText(placeOf("carl", {2, 2, 0}, 0.3, 0.3, 0.1))},
                   {0.0, "bert", toText(ball)}});

@@ -57,7 +57,7 @@ WorldObject roundBody(const char* kind, const std::string& name, const Pose2& po
   body.zHigh = height;
   body.isRound = body.isMovable = true;
   WorldPiece& piece = body.pieces.emplace_back();
-  piece.shape = WorldPiece::Shape::ellipse;
+  piece.shape = WorldPiece::Shape::kEllipse;
   piece.halfX = piece.halfY = radius;
   piece.zHigh = height;
   return body;

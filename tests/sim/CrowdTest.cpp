@@ -37,7 +37,7 @@ TEST(Crowd, OfRobotsWithManyPiecesDoesNotHoldUpTheWorld) {
     std::vector<Primitive> star;
     for (int k = 0; k < 64; ++k)
       star.push_back(box(0.0, 0.0, random.uniform(0.0, 3.0), random.uniform(0.5, 0.52)));
-    robots.push_back(physics.add(star, {10.0, Physics::Floor::drives},
+    robots.push_back(physics.add(star, {10.0, Physics::Floor::kDrives},
                                  {0.8 * (i % 4) - 1.2, 0.8 * (i / 4) - 1.2, 0.0}));
   }
   const double before = secondsOfProcess();
@@ -64,7 +64,7 @@ TEST(Crowd, PiecesWithinOthersCountOnce) {
   EXPECT_EQ(withoutHidden(pieces).size(), 1u);
   pieces.push_back(box(0.05, 0.05, 0.3, 0.2));
   Primitive round = box(0.0, 0.0, 0.0, 0.3);
-  round.shape = Primitive::Shape::ellipse;
+  round.shape = Primitive::Shape::kEllipse;
   pieces.push_back(round);
   EXPECT_EQ(withoutHidden(pieces).size(), 1u);
   // What sticks out somewhere, or behaves otherwise, stays.
@@ -79,7 +79,7 @@ TEST(Crowd, PiecesWithinOthersCountOnce) {
 TEST(Crowd, OfTwoDiscsTheOneWithinTheOtherIsHidden) {
   const auto disc = [](double x, double radius) {
     Primitive shape = box(x, 0.0, 0.0, 2.0 * radius);
-    shape.shape = Primitive::Shape::ellipse;
+    shape.shape = Primitive::Shape::kEllipse;
     return shape;
   };
   const auto left = [&](double x, double radius) {  // beside a disc of 0.5 m in the middle
@@ -99,8 +99,8 @@ TEST(Crowd, HiddenPiecesWeighNothing) {
   Physics physics({}, {{-5.0, 5.0, -5.0, 5.0}, {}, {}});
   const Primitive whole = box(0.0, 0.0, 0.0, 0.6);
   const std::vector<Primitive> pieces{whole, box(0.2, 0.2, 0.0, 0.1)};
-  const auto one = physics.add({&whole, 1}, {10.0, Physics::Floor::slides}, {});
-  const auto other = physics.add(pieces, {10.0, Physics::Floor::slides}, {2.0, 0.0, 0.0});
+  const auto one = physics.add({&whole, 1}, {10.0, Physics::Floor::kSlides}, {});
+  const auto other = physics.add(pieces, {10.0, Physics::Floor::kSlides}, {2.0, 0.0, 0.0});
   EXPECT_NEAR(physics.inertia(one), 10.0 * 0.6 * 0.6 / 6.0, 1e-9);
   EXPECT_EQ(physics.inertia(other), physics.inertia(one));
   EXPECT_EQ(physics.centreOfMass(other).x, 2.0);
@@ -154,8 +154,8 @@ TEST(Crowd, ContactsThatAreOverCountForNothing) {
   // and leaves.
   Physics physics({.cycle = kCycle}, {{-5.0, 5.0, -5.0, 5.0}, {box(3.0, 0.0, 0.0, 1.0)}, {}});
   const Primitive crate = box(0.0, 0.0, 0.0, 0.4);
-  const auto body = physics.add({&crate, 1}, {1.0, Physics::Floor::slides}, {});
-  const auto other = physics.add({&crate, 1}, {1.0, Physics::Floor::slides}, {-3.0, 0.0, 0.0});
+  const auto body = physics.add({&crate, 1}, {1.0, Physics::Floor::kSlides}, {});
+  const auto other = physics.add({&crate, 1}, {1.0, Physics::Floor::kSlides}, {-3.0, 0.0, 0.0});
   for (int i = 0; i < 300; ++i)
     for (const double x : {0.0, 2.295, 0.0, -2.595}) {
       physics.place(body, {x, 0.0, 0.0});

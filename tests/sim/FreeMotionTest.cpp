@@ -20,7 +20,7 @@ Primitive boxAt(double x, double y, double halfX, double halfY) {
 
 Primitive circle(double radius) {
   Primitive shape;
-  shape.shape = Primitive::Shape::ellipse;
+  shape.shape = Primitive::Shape::kEllipse;
   shape.halfX = shape.halfY = radius;
   return shape;
 }
@@ -31,7 +31,7 @@ struct Lopsided {
   explicit Lopsided(bool neighbour)
       : physics({.cycle = kCycle, .floorFriction = 0.0}, room(neighbour)) {
     const std::vector<Primitive> pieces{boxAt(0.3, 0.1, 0.2, 0.1), boxAt(0.5, 0.1, 0.05, 0.3)};
-    body = physics.add(pieces, {3.0, Physics::Floor::slides}, {0.0, 0.0, 0.4});
+    body = physics.add(pieces, {3.0, Physics::Floor::kSlides}, {0.0, 0.0, 0.4});
     physics.place(body, {0.0, 0.0, 0.4}, {0.2, -0.1, 1.5});
   }
   static Solids room(bool neighbour) {
@@ -47,16 +47,16 @@ struct Lopsided {
 TEST(FreeMotion, ATriangleIsAsHardToTurnAsItsShapeSays) {
   Physics physics({.cycle = kCycle}, {{-5.0, 5.0, -5.0, 5.0}, {}, {}});
   Primitive wedge;
-  wedge.shape = Primitive::Shape::triangle;
+  wedge.shape = Primitive::Shape::kTriangle;
   wedge.corners = {{{-0.2, -0.3}, {0.4, -0.3}, {-0.2, 0.6}}};
-  const auto one = physics.add({&wedge, 1}, {10.0, Physics::Floor::slides}, {});
+  const auto one = physics.add({&wedge, 1}, {10.0, Physics::Floor::kSlides}, {});
   EXPECT_NEAR(physics.inertia(one), 10.0 * (0.6 * 0.6 + 0.9 * 0.9) / 18.0, 1e-9);
   // Two of them, back to back, are a rectangle: m (a^2 + b^2) / 12.
   Primitive other = wedge;
   other.corners = {{{0.4, 0.6}, {-0.2, 0.6}, {0.4, -0.3}}};
   other.centre = {0.2, 0.3};
   const std::vector<Primitive> pieces{wedge, other};
-  const auto both = physics.add(pieces, {10.0, Physics::Floor::slides}, {2.0, 0.0, 0.0});
+  const auto both = physics.add(pieces, {10.0, Physics::Floor::kSlides}, {2.0, 0.0, 0.0});
   EXPECT_NEAR(physics.inertia(both), 10.0 * (0.6 * 0.6 + 0.9 * 0.9) / 12.0, 1e-9);
 }
 
@@ -108,8 +108,8 @@ TEST(Friction, OfTwoBodiesIsTheGeometricMeanOfTheirOwn) {
     Primitive other = circle(0.2);
     one.friction = c.first;
     other.friction = c.second;
-    const auto a = physics.add({&one, 1}, {5.0, Physics::Floor::slides}, {-0.6, 0.0, 0.0});
-    physics.add({&other, 1}, {5.0, Physics::Floor::slides}, {});
+    const auto a = physics.add({&one, 1}, {5.0, Physics::Floor::kSlides}, {-0.6, 0.0, 0.0});
+    physics.add({&other, 1}, {5.0, Physics::Floor::kSlides}, {});
     physics.place(a, {-0.6, 0.0, 0.0}, {1.0, 0.0, 30.0});  // its rim: 6 m/s across
     for (int i = 0; i < 40; ++i) physics.step(kCycle);
     const Twist v = physics.velocity(a);
@@ -123,7 +123,7 @@ TEST(LongCycles, AreDoneInParts) {
   for (const double cycle : {0.01, 0.2, 1.0}) {
     Physics physics({.cycle = cycle, .floorFriction = 0.3}, {{-50.0, 50.0, -50.0, 50.0}, {}, {}});
     const Primitive shape = circle(0.11);
-    const auto body = physics.add({&shape, 1}, {1.0, Physics::Floor::slides}, {});
+    const auto body = physics.add({&shape, 1}, {1.0, Physics::Floor::kSlides}, {});
     physics.place(body, {}, {3.0, 0.0, 0.0});
     for (double t = 0.0; t < 3.0; t += cycle) physics.step(cycle);
     EXPECT_NEAR(physics.pose(body).x, 9.0 / (2.0 * 0.3 * kGravity), 0.04) << cycle;

@@ -28,8 +28,8 @@ struct Motion {
 };
 
 struct Approach {
-  Primitive first = shaped(Primitive::Shape::ellipse, 0.25, 0.25);
-  Primitive second = shaped(Primitive::Shape::ellipse, 0.25, 0.25);
+  Primitive first = shaped(Primitive::Shape::kEllipse, 0.25, 0.25);
+  Primitive second = shaped(Primitive::Shape::kEllipse, 0.25, 0.25);
   double firstMass = 10.0, secondMass = 10.0;  ///< [kg]
   double restitution = 0.5;
   double friction = 0.3;
@@ -50,8 +50,8 @@ class TwoBodies {
                  {{-50.0, 50.0, -50.0, 50.0}, {}, {}}) {
     const double gap = 0.02 + setup.speed * 0.005;  // [m]
     const double distance = gap + reachOf(setup.first) + reachOf(setup.second);
-    first_ = physics_.add({&setup.first, 1}, {setup.firstMass, Physics::Floor::slides}, {});
-    second_ = physics_.add({&setup.second, 1}, {setup.secondMass, Physics::Floor::slides}, {});
+    first_ = physics_.add({&setup.first, 1}, {setup.firstMass, Physics::Floor::kSlides}, {});
+    second_ = physics_.add({&setup.second, 1}, {setup.secondMass, Physics::Floor::kSlides}, {});
     physics_.place(first_, {-distance, 0.0, 0.3},
                    {setup.speed + setup.firstExtra.x, setup.firstExtra.y, setup.firstExtra.theta});
     physics_.place(second_, {0.0, setup.offset, -0.2}, {setup.firstExtra.x, setup.firstExtra.y, 0});
@@ -216,8 +216,8 @@ TEST(Impact, OfTwoCirclesObeysTheEquations) {
 TEST(Impact, OfRectanglesAndEllipsesKeepsMomenta) {
   forGrid([](Approach setup) {
     if (setup.speed > 3.0) return;
-    setup.first = shaped(Primitive::Shape::rectangle, 0.25, 0.1);
-    setup.second = shaped(Primitive::Shape::ellipse, 0.3, 0.15);
+    setup.first = shaped(Primitive::Shape::kRectangle, 0.25, 0.1);
+    setup.second = shaped(Primitive::Shape::kEllipse, 0.3, 0.15);
     setup.friction = 0.0;
     TwoBodies impact(setup);
     if (!impact.run(60.0 * std::max(1.0, 0.05 / setup.speed))) return;  // they may miss each other
@@ -278,12 +278,12 @@ TEST(Impact, OfABallWithAThinWallNeverGoesThrough) {
     for (const double angle : {0.0, 0.3, 1.0}) {
       Solids solids;
       solids.bounds = {-5.0, 5.0, -30.0, 30.0};
-      Primitive wall = shaped(Primitive::Shape::rectangle, 0.01, 30.0);
+      Primitive wall = shaped(Primitive::Shape::kRectangle, 0.01, 30.0);
       wall.centre.x = 2.0;
       solids.primitives.push_back(wall);
       Physics physics({.cycle = cycle, .rollingResistance = 0.0}, solids);
-      const Primitive ball = shaped(Primitive::Shape::ellipse, 0.11, 0.11);
-      const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
+      const Primitive ball = shaped(Primitive::Shape::kEllipse, 0.11, 0.11);
+      const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {});
       physics.place(body, {0.0, -10.0 * std::sin(angle), 0.0},
                     {12.0 * std::cos(angle), 12.0 * std::sin(angle), 0.0});
       double farthest = 0.0;
@@ -301,11 +301,11 @@ TEST(Impact, NothingGoesThroughOutlinesOrFences) {
   solids.bounds = {-3.0, 3.0, -3.0, 3.0};
   solids.walls.push_back({{1.0, -3.0}, {1.0, 3.0}, 0.0, 1.0});
   Physics physics({.restitution = 0.9, .floorFriction = 0.0, .rollingResistance = 0.0}, solids);
-  const Primitive ball = shaped(Primitive::Shape::ellipse, 0.11, 0.11);
-  const Primitive crate = shaped(Primitive::Shape::rectangle, 0.2, 0.15);
-  const Physics::Body one = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
+  const Primitive ball = shaped(Primitive::Shape::kEllipse, 0.11, 0.11);
+  const Primitive crate = shaped(Primitive::Shape::kRectangle, 0.2, 0.15);
+  const Physics::Body one = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {});
   const Physics::Body other =
-      physics.add({&crate, 1}, {5.0, Physics::Floor::slides}, {-2.0, 1.0, 0.0});
+      physics.add({&crate, 1}, {5.0, Physics::Floor::kSlides}, {-2.0, 1.0, 0.0});
   physics.place(one, {0.0, 0.0, 0.0}, {12.0, 5.0, 0.0});
   physics.place(other, {-2.0, 1.0, 0.0}, {6.0, -2.0, 3.0});
   for (int i = 0; i < 5000; ++i) {
@@ -321,15 +321,15 @@ TEST(Impact, NothingGoesThroughOutlinesOrFences) {
 TEST(Impact, HappensOnlyWhereHeightsOverlap) {
   Solids solids;
   solids.bounds = {-5.0, 5.0, -5.0, 5.0};
-  Primitive bar = shaped(Primitive::Shape::rectangle, 0.05, 3.0);
+  Primitive bar = shaped(Primitive::Shape::kRectangle, 0.05, 3.0);
   bar.centre.x = 1.0;
   bar.zLow = 1.0;
   bar.zHigh = 1.1;
   solids.primitives.push_back(bar);
   Physics physics({.rollingResistance = 0.0}, solids);
-  Primitive ball = shaped(Primitive::Shape::ellipse, 0.11, 0.11);
+  Primitive ball = shaped(Primitive::Shape::kEllipse, 0.11, 0.11);
   ball.zHigh = 0.22;
-  const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
+  const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {});
   physics.place(body, {}, {2.0, 0.0, 0.0});
   for (int i = 0; i < 100; ++i) physics.step(kCycle);
   EXPECT_NEAR(physics.pose(body).x, 2.0, 1e-3);
@@ -337,9 +337,9 @@ TEST(Impact, HappensOnlyWhereHeightsOverlap) {
 
 TEST(Floor, BrakesWhatRollsLittleAndWhatSlidesMuch) {
   Physics physics({.floorFriction = 0.5, .rollingResistance = 0.03}, {{-50, 50, -50, 50}, {}, {}});
-  const Primitive ball = shaped(Primitive::Shape::ellipse, 0.11, 0.11);
-  const Physics::Body rolling = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
-  const Physics::Body sliding = physics.add({&ball, 1}, {0.43, Physics::Floor::slides}, {0, 5, 0});
+  const Primitive ball = shaped(Primitive::Shape::kEllipse, 0.11, 0.11);
+  const Physics::Body rolling = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {});
+  const Physics::Body sliding = physics.add({&ball, 1}, {0.43, Physics::Floor::kSlides}, {0, 5, 0});
   physics.place(rolling, {}, {3.0, 0.0, 0.0});
   physics.place(sliding, {0, 5, 0}, {3.0, 0.0, 0.0});
   for (int i = 0; i < 2000; ++i) physics.step(kCycle);

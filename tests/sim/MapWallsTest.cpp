@@ -27,7 +27,9 @@ GridBody roomMap(double halfX, double halfY, double turn) {
       const double v = std::abs(-std::sin(turn) * x + std::cos(turn) * y);
       const bool inside = u < halfX && v < halfY;
       const bool wall = u < halfX + 0.2 && v < halfY + 0.2;
-      map.cells.push_back(inside ? GridCell::free : wall ? GridCell::occupied : GridCell::unknown);
+      map.cells.push_back(inside ? GridCell::kFree
+                          : wall ? GridCell::kOccupied
+                                 : GridCell::kUnknown);
     }
   }
   return body;
@@ -74,9 +76,9 @@ TEST(MapWalls, OfAnEmptyMapAreNone) {
   std::vector<FieldWall> walls;
   addMapWalls(body, walls);
   body.map.columns = body.map.rows = 3;
-  body.map.cells.assign(9, GridCell::free);
+  body.map.cells.assign(9, GridCell::kFree);
   addMapWalls(body, walls);
-  body.map.cells.assign(9, GridCell::occupied);
+  body.map.cells.assign(9, GridCell::kOccupied);
   addMapWalls(body, walls);
   EXPECT_TRUE(walls.empty());
 }

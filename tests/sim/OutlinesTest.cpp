@@ -54,7 +54,7 @@ std::vector<Primitive> pieces() {
   bar.halfY = 0.1;
   bar.colour = "red";
   Primitive triangle;
-  triangle.shape = Primitive::Shape::triangle;
+  triangle.shape = Primitive::Shape::kTriangle;
   triangle.corners = {Point2{0.8, 0.1}, Point2{0.9, 0.7}, Point2{1.0, 0.1}};  // with the clock
   triangle.centre = {0.9, 0.3};
   triangle.zLow = 0.2;

@@ -15,7 +15,7 @@ constexpr double kDeepest = 0.003;  ///< that bodies may overlap [m]
 
 Primitive circle(double radius) {
   Primitive shape;
-  shape.shape = Primitive::Shape::ellipse;
+  shape.shape = Primitive::Shape::kEllipse;
   shape.halfX = shape.halfY = radius;
   return shape;
 }
@@ -43,9 +43,9 @@ TEST(Overlap, HeadOnRobotsStayApart) {
     for (const double aside : {0.0, 0.1, 0.3}) {
       Physics physics({.cycle = kCycle}, room());
       const Primitive shape = circle(0.2);
-      const auto one = physics.add({&shape, 1}, {10.0, Physics::Floor::drives}, {-2.0, 0.0, 0.0});
+      const auto one = physics.add({&shape, 1}, {10.0, Physics::Floor::kDrives}, {-2.0, 0.0, 0.0});
       const auto other =
-          physics.add({&shape, 1}, {10.0, Physics::Floor::drives}, {2.003, aside, 3.14159265});
+          physics.add({&shape, 1}, {10.0, Physics::Floor::kDrives}, {2.003, aside, 3.14159265});
       double nearest = 10.0;
       for (int i = 0; i < (3.0 / speed + 1.0) / kCycle; ++i) {
         for (const auto body : {one, other}) physics.want(body, {speed * kCycle, 0.0, 0.0});
@@ -63,8 +63,8 @@ TEST(Overlap, RobotsDoNotGetIntoWallsOrCrates) {
     Physics physics({.cycle = kCycle}, room({box(2.0, 0.0, 0.02, 5.0)}));
     const Primitive shape = circle(0.2);
     const Primitive crate = box(0.0, 0.0, 0.4, 0.4);
-    const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::drives}, {-6.0, 0.0, 0.0});
-    const auto pushed = physics.add({&crate, 1}, {5.0, Physics::Floor::slides}, {1.0, 0.0, 0.0});
+    const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::kDrives}, {-6.0, 0.0, 0.0});
+    const auto pushed = physics.add({&crate, 1}, {5.0, Physics::Floor::kSlides}, {1.0, 0.0, 0.0});
     double nearest = 10.0;
     double farthest = -10.0;
     for (int i = 0; i < 3000; ++i) {
@@ -85,7 +85,7 @@ TEST(Overlap, AnArmOpensOnlyWhereItHasRoom) {
   const std::vector<Primitive> arm{box(0.35, 0.0, 0.3, 0.1)};  // to 0.5 m
   std::vector<Primitive> open = closed;
   open.push_back(arm.front());
-  const auto robot = physics.add(closed, {10.0, Physics::Floor::drives}, {});
+  const auto robot = physics.add(closed, {10.0, Physics::Floor::kDrives}, {});
   EXPECT_FALSE(physics.reshape(robot, open, arm));
   for (int i = 0; i < 50; ++i) physics.step(kCycle);
   EXPECT_EQ(physics.pose(robot).x, 0.0);
@@ -113,8 +113,8 @@ TEST(Overlap, AnArmDoesNotOpenIntoAnotherRobot) {
   const std::vector<Primitive> arm{box(0.35, 0.0, 0.3, 0.1)};
   std::vector<Primitive> open = closed;
   open.push_back(arm.front());
-  const auto robot = physics.add(closed, {10.0, Physics::Floor::drives}, {});
-  const auto other = physics.add(closed, {10.0, Physics::Floor::drives}, {0.6, 0.0, 0.0});
+  const auto robot = physics.add(closed, {10.0, Physics::Floor::kDrives}, {});
+  const auto other = physics.add(closed, {10.0, Physics::Floor::kDrives}, {0.6, 0.0, 0.0});
   EXPECT_FALSE(physics.reshape(robot, open, arm));
   physics.place(other, {0.72, 0.0, 0.0});
   EXPECT_TRUE(physics.reshape(robot, open, arm));
@@ -127,8 +127,8 @@ TEST(Overlap, AnArmPushesABallAsideAtOnce) {
   std::vector<Primitive> open = closed;
   open.push_back(arm.front());
   const Primitive ball = circle(0.11);
-  const auto robot = physics.add(closed, {10.0, Physics::Floor::drives}, {});
-  const auto pushed = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {0.32, 0.0, 0.0});
+  const auto robot = physics.add(closed, {10.0, Physics::Floor::kDrives}, {});
+  const auto pushed = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {0.32, 0.0, 0.0});
   EXPECT_TRUE(physics.reshape(robot, open, arm));
   EXPECT_NEAR(physics.pose(pushed).x, 0.51, 0.002);  // the shortest way
   EXPECT_NEAR(physics.pose(pushed).y, 0.0, 1e-6);
@@ -145,8 +145,8 @@ TEST(Overlap, AnArmDoesNotPushABallThroughAWall) {
   std::vector<Primitive> open = closed;
   open.push_back(arm.front());
   const Primitive ball = circle(0.11);
-  const auto robot = physics.add(closed, {10.0, Physics::Floor::drives}, {});
-  const auto pushed = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {0.33, 0.0, 0.0});
+  const auto robot = physics.add(closed, {10.0, Physics::Floor::kDrives}, {});
+  const auto pushed = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {0.33, 0.0, 0.0});
   EXPECT_FALSE(physics.reshape(robot, open, arm));
   EXPECT_EQ(physics.pose(pushed).x, 0.33);
   for (int i = 0; i < 50; ++i) physics.step(kCycle);
@@ -159,8 +159,8 @@ TEST(Push, TooWeakMovesNothing) {
     Physics physics({.cycle = kCycle, .restitution = 0.0}, room());
     const Primitive shape = circle(0.2);
     const Primitive crate = box(0.0, 0.0, 0.4, 0.4);
-    const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::drives}, {-0.41, 0.0, 0.0});
-    const auto pushed = physics.add({&crate, 1}, {mass, Physics::Floor::slides}, {});
+    const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::kDrives}, {-0.41, 0.0, 0.0});
+    const auto pushed = physics.add({&crate, 1}, {mass, Physics::Floor::kSlides}, {});
     const auto push = [&](int cycles) {
       const double from = physics.pose(pushed).x;
       for (int i = 0; i < cycles; ++i) {
@@ -180,8 +180,8 @@ TEST(Push, StrongEnoughMovesAsItMust) {
   Physics physics({.cycle = kCycle, .restitution = 0.0, .floorFriction = 0.5}, room());
   const Primitive shape = circle(0.2);
   const Primitive crate = box(0.0, 0.0, 0.4, 0.4);
-  const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::drives}, {-0.401, 0.0, 0.0});
-  const auto pushed = physics.add({&crate, 1}, {mass, Physics::Floor::slides}, {});
+  const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::kDrives}, {-0.401, 0.0, 0.0});
+  const auto pushed = physics.add({&crate, 1}, {mass, Physics::Floor::kSlides}, {});
   for (int i = 0; i < 50; ++i) {
     physics.want(robot, {10.0 * kCycle, 0.0, 0.0});
     physics.step(kCycle);
@@ -194,8 +194,8 @@ TEST(Push, AStandingRobotIsNotCreptAway) {
   for (const double mass : {12.0, 30.0}) {
     Physics physics({.cycle = kCycle, .restitution = 0.0}, room());
     const Primitive shape = circle(0.2);
-    const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::drives}, {-0.41, 0.0, 0.0});
-    const auto stands = physics.add({&shape, 1}, {mass, Physics::Floor::drives}, {});
+    const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::kDrives}, {-0.41, 0.0, 0.0});
+    const auto stands = physics.add({&shape, 1}, {mass, Physics::Floor::kDrives}, {});
     double first = 0.0;
     for (int i = 0; i < 2100; ++i) {
       physics.want(robot, {0.1 * kCycle, 0.0, 0.0});

@@ -43,10 +43,10 @@ double simulatedDeflection(const Shot& shot, const Primitive& post, double resti
                    .rollingResistance = 0.0},
                   solids);
   Primitive ball;
-  ball.shape = Primitive::Shape::ellipse;
+  ball.shape = Primitive::Shape::kEllipse;
   ball.halfX = ball.halfY = kBall;
   const Pose2 start{place.x - shot.start, place.y - shot.offset, 0.0};
-  const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, start);
+  const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, start);
   physics.place(body, start, {shot.speed, 0.0, 0.0});
   for (int i = 0; i < 2.0 * shot.start / shot.speed / kCycle + 5; ++i) physics.step(kCycle);
   const Twist v = physics.velocity(body);
@@ -61,7 +61,7 @@ struct Error {
 Error errorOver(int shots, double radius, const Point2& place) {
   Random random(7, 1);
   Primitive post;
-  post.shape = Primitive::Shape::ellipse;
+  post.shape = Primitive::Shape::kEllipse;
   post.halfX = post.halfY = radius;
   Error error;
   for (int i = 0; i < shots; ++i) {

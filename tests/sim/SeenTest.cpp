@@ -31,14 +31,14 @@ size_m = [0.15, 0.15]
 )");
   ASSERT_EQ(world->lines().size(), 3u);
   const FieldLine& touch = world->lines()[0];
-  EXPECT_EQ(touch.shape, FieldLine::Shape::straight);
+  EXPECT_EQ(touch.shape, FieldLine::Shape::kStraight);
   EXPECT_NEAR(touch.x0, 1.0, 1e-12);
   EXPECT_NEAR(std::min(touch.y0, touch.y1), 0.0, 1e-12);
   EXPECT_NEAR(std::max(touch.y0, touch.y1), 4.0, 1e-12);
   EXPECT_NEAR(touch.width, 0.1, 1e-12);
   EXPECT_EQ(touch.colour, "white");
   const FieldLine& arc = world->lines()[1];
-  EXPECT_EQ(arc.shape, FieldLine::Shape::arc);
+  EXPECT_EQ(arc.shape, FieldLine::Shape::kArc);
   EXPECT_NEAR(arc.radiusX, 1.9, 1e-12);  // the stroke lies within the size
   EXPECT_NEAR(arc.radiusY, 1.4, 1e-12);
   EXPECT_NEAR(arc.to - arc.from, std::numbers::pi / 2.0, 1e-12);

@@ -28,7 +28,7 @@ Primitive shapeOf(int kind) {
   shape.halfX = 0.25;
   shape.halfY = 0.12;
   if (kind == 3) {
-    shape.shape = Primitive::Shape::ellipse;
+    shape.shape = Primitive::Shape::kEllipse;
     shape.halfX = shape.halfY = 0.11;
   }
   shape.corners = {Point2{-0.2, -0.15}, Point2{0.25, -0.1}, Point2{-0.05, 0.25}};  // about (0, 0)
@@ -47,7 +47,8 @@ class TwoShapes {
     for (const int kind : {first, second}) {
       const Primitive shape = shapeOf(kind);
       const bool isFirst = body_.empty();
-      body_.push_back(physics_.add({&shape, 1}, {random.uniform(0.5, 20.0), Physics::Floor::slides},
+      body_.push_back(physics_.add({&shape, 1},
+                                   {random.uniform(0.5, 20.0), Physics::Floor::kSlides},
                                    {isFirst ? -1.0 : 1.0, 0.0, 0.0}));
     }
     physics_.place(body_[0], {-1.0, random.uniform(-0.2, 0.2), random.uniform(-3.0, 3.0)},

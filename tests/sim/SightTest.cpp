@@ -26,7 +26,7 @@ std::vector<double> crossings(const Ray2& ray, const FieldLine& line) {
 
 FieldLine circle(double radius, double from = 0.0, double to = 2.0 * kPi) {
   FieldLine arc;
-  arc.shape = FieldLine::Shape::arc;
+  arc.shape = FieldLine::Shape::kArc;
   arc.radiusX = arc.radiusY = radius;
   arc.from = from;
   arc.to = to;
@@ -42,7 +42,7 @@ TEST(Rays2, NothingIsCrossedNearerThanTheLeastRange) {
     FieldLine line = circle(random.uniform(0.05, 3.0), 0.0, random.uniform(0.5, 2.0 * kPi));
     line.radiusY = random.uniform(0.05, 3.0);
     line.angle = random.uniform(-kPi, kPi);
-    if (i % 2 == 0) line.shape = FieldLine::Shape::straight;
+    if (i % 2 == 0) line.shape = FieldLine::Shape::kStraight;
     if (i % 7 == 0) line.radiusX = line.radiusY = 0.1;  // a spot
     line.x = line.x0 = random.uniform(-5.0, 5.0);
     line.y = line.y0 = random.uniform(-5.0, 5.0);

@@ -28,7 +28,7 @@ Primitive anyTriangle(Random& random, const Point2& centre) {
   const double height = std::min(thinSize(random), base);
   const double foot = random.uniform(0.0, base);
   Primitive triangle;
-  triangle.shape = Primitive::Shape::triangle;
+  triangle.shape = Primitive::Shape::kTriangle;
   triangle.corners = {Point2{0.0, 0.0}, Point2{base, 0.0}, Point2{foot, height}};
   for (Point2& corner : triangle.corners) {
     const double x = corner.x - (base + foot) / 3.0;
@@ -44,7 +44,7 @@ Primitive anyShape(Random& random, const Point2& centre) {
   const std::uint64_t kind = random.below(4);
   if (kind == 0) return anyTriangle(random, centre);
   Primitive shape;
-  shape.shape = kind == 1 ? Primitive::Shape::rectangle : Primitive::Shape::ellipse;
+  shape.shape = kind == 1 ? Primitive::Shape::kRectangle : Primitive::Shape::kEllipse;
   shape.centre = centre;
   shape.halfX = thinSize(random) / 2.0;
   shape.halfY = kind == 3 ? shape.halfX : anySize(random) / 2.0;
@@ -73,10 +73,10 @@ void meet(std::uint64_t seed, const Point2& place, double far = 50.0) {
   const Physics::Body body = physics.add({&moved, 1}, {1.0, floor}, start);
   const Primitive other = anyShape(random, {});
   const Physics::Body pushed =
-      physics.add({&other, 1}, {1.0, Physics::Floor::slides}, {place.x - 5.0, place.y, 0.0});
+      physics.add({&other, 1}, {1.0, Physics::Floor::kSlides}, {place.x - 5.0, place.y, 0.0});
   physics.place(body, start, {25.0, 0.0, random.uniform(-5.0, 5.0)});
   for (int i = 0; i < 50; ++i) {
-    if (floor == Physics::Floor::drives) physics.want(body, {0.2, 0.0, 0.01});
+    if (floor == Physics::Floor::kDrives) physics.want(body, {0.2, 0.0, 0.01});
     if (i == 25) {
       const Primitive next = anyShape(random, {});
       physics.reshape(body, {&next, 1}, {&next, 1});
@@ -114,7 +114,7 @@ TEST(ThinShapes, AreWhereTheFileSays) {
       solids.primitives.push_back(plate);
       const Physics physics({}, solids);
       Primitive ball;
-      ball.shape = Primitive::Shape::ellipse;
+      ball.shape = Primitive::Shape::kEllipse;
       ball.halfX = ball.halfY = 0.1;
       const double touching = x + size / 2.0 + 0.1;
       EXPECT_TRUE(physics.isFree({&ball, 1}, {touching + 2e-4, 0.0, 0.0}, Physics::kNobody))
@@ -127,7 +127,7 @@ TEST(ThinShapes, AreWhereTheFileSays) {
 /// A triangle of a size, its corners against the clock.
 Primitive wedge(double base, double height) {
   Primitive triangle;
-  triangle.shape = Primitive::Shape::triangle;
+  triangle.shape = Primitive::Shape::kTriangle;
   triangle.corners = {Point2{0.0, 0.0}, Point2{base, 0.0}, Point2{0.4 * base, height}};
   triangle.centre = {1.4 * base / 3.0, height / 3.0};
   return triangle;
@@ -143,7 +143,7 @@ TEST(ThinShapes, OfTrianglesAllThreeSidesAreWhereTheFileSays) {
     const Physics physics({}, solids);
     const auto& corners = solids.primitives.front().corners;
     Primitive ball;
-    ball.shape = Primitive::Shape::ellipse;
+    ball.shape = Primitive::Shape::kEllipse;
     ball.halfX = ball.halfY = 0.1;
     for (std::size_t i = 0; i < 3; ++i) {
       const Point2& a = corners[i];
@@ -172,9 +172,9 @@ TEST(ThinShapes, StopABall) {
     for (const double speed : {0.5, 3.0, 12.0, 50.0}) {
       Physics physics({.restitution = 0.5, .rollingResistance = 0.0}, solids);
       Primitive ball;
-      ball.shape = Primitive::Shape::ellipse;
+      ball.shape = Primitive::Shape::kEllipse;
       ball.halfX = ball.halfY = 0.11;
-      const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::rolls}, {});
+      const Physics::Body body = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {});
       physics.place(body, {}, {speed, 0.0, 0.0});
       for (int i = 0; i < 3.0 / speed / kCycle; ++i) physics.step(kCycle);
       EXPECT_NEAR(physics.velocity(body).x, -0.5 * speed, 1e-3 * speed) << size << " " << speed;

@@ -61,7 +61,7 @@ inline std::string refusalOf(const std::string& toml) {
 /// A robot that is an upright cylinder, far away from everything.
 inline RobotNumber addRobot(SimWorld& world, double radius, double height) {
   Primitive circle;
-  circle.shape = Primitive::Shape::ellipse;
+  circle.shape = Primitive::Shape::kEllipse;
   circle.kind = "robot";
   circle.halfX = circle.halfY = radius;
   circle.zHigh = height;

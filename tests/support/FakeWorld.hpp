@@ -38,7 +38,7 @@ class FakeWorld : public SimWorld {
     objects_.push_back(object);
     if (!object.pieces.empty()) return;
     WorldPiece& piece = objects_.back().pieces.emplace_back();
-    piece.shape = object.isRound ? WorldPiece::Shape::ellipse : WorldPiece::Shape::rectangle;
+    piece.shape = object.isRound ? WorldPiece::Shape::kEllipse : WorldPiece::Shape::kRectangle;
     piece.halfX = object.halfX;
     piece.halfY = object.halfY;
     piece.zLow = object.zLow;
@@ -146,7 +146,7 @@ class FakeWorld : public SimWorld {
     solids.bounds = {-halfWidth_, halfWidth_, -halfHeight_, halfHeight_};
     for (const Post& post : posts_) {
       Primitive circle;
-      circle.shape = Primitive::Shape::ellipse;
+      circle.shape = Primitive::Shape::kEllipse;
       circle.centre = {post.x, post.y};
       circle.halfX = circle.halfY = post.radius;
       solids.primitives.push_back(circle);

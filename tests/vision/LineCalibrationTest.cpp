@@ -37,7 +37,7 @@ LinePicture pictureFrom(const FieldLines& field, const CameraView& view, const P
         {{pixel->u + random.gaussian() * 0.5, pixel->v + random.gaussian() * 0.5}, 5.0, true});
   };
   for (const FieldLine& line : field.lines()) {
-    if (line.shape == FieldLine::Shape::straight) {
+    if (line.shape == FieldLine::Shape::kStraight) {
       const double length = std::hypot(line.x1 - line.x0, line.y1 - line.y0);
       for (double d = 0.0; d <= length; d += 0.15)
         add(line.x0 + (line.x1 - line.x0) * d / length, line.y0 + (line.y1 - line.y0) * d / length);

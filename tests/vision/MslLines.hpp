@@ -26,7 +26,7 @@ inline std::vector<FieldLine> mslLines(const MslSizes& m) {
   };
   const auto arc = [&](double x, double y, double radius, double from, double to, double width) {
     FieldLine line;
-    line.shape = FieldLine::Shape::arc;
+    line.shape = FieldLine::Shape::kArc;
     line.x = x, line.y = y, line.radiusX = line.radiusY = radius;
     line.from = from, line.to = to, line.width = width;
     lines.push_back(line);

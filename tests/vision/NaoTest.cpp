@@ -33,7 +33,7 @@ constexpr double kTiltOffset = 0.0728;
 std::vector<FieldLine> labLines() {
   std::vector<FieldLine> lines;
   for (const FieldLine& line : mslLines({.length = 9.0, .width = 6.0, .circle = 1.5, .line = 0.05}))
-    if ((line.shape == FieldLine::Shape::arc && line.x == 0.0) ||
+    if ((line.shape == FieldLine::Shape::kArc && line.x == 0.0) ||
         (line.x0 == 0.0 && line.x1 == 0.0))
       lines.push_back(line);
   const auto straight = [&](double x0, double y0, double x1, double y1) {

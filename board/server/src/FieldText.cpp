@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kMostWalls = 20'000;
 
 std::string lineText(const FieldLine& line) {
-  std::string text = line.shape == FieldLine::Shape::straight
+  std::string text = line.shape == FieldLine::Shape::kStraight
                          ? "line" + keyValue("x0_m", line.x0) + keyValue("y0_m", line.y0) +
                                keyValue("x1_m", line.x1) + keyValue("y1_m", line.y1)
                          : "arc" + keyValue("x_m", line.x) + keyValue("y_m", line.y) +

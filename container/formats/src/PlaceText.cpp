@@ -94,7 +94,7 @@ std::optional<Place> placeIn(std::string_view text) {
   Place place;
   const std::string_view kind = nextWord(text);
   if (kind != kKinds[0] && kind != kKinds[1]) return std::nullopt;
-  place.kind = kind == kKinds[0] ? Place::Kind::robot : Place::Kind::ball;
+  place.kind = kind == kKinds[0] ? Place::Kind::kRobot : Place::Kind::kBall;
   const std::string_view name = nextWord(text);
   if (!isName(name)) return std::nullopt;
   place.name = name;

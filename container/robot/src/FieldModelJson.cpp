@@ -27,7 +27,7 @@ double number(const json& list, std::size_t at) {
 }
 
 json listOf(const FieldLine& l) {
-  if (l.shape == FieldLine::Shape::straight)
+  if (l.shape == FieldLine::Shape::kStraight)
     return {"straight", l.x0, l.y0, l.x1, l.y1, l.width, l.colour};
   return {"arc", l.x, l.y, l.radiusX, l.radiusY, l.angle, l.from, l.to, l.width, l.colour};
 }
@@ -43,7 +43,7 @@ FieldLine lineOf(const json& l) {
     line.colour = l.at(6).get<std::string>();
     return line;
   }
-  line.shape = FieldLine::Shape::arc;
+  line.shape = FieldLine::Shape::kArc;
   line.x = number(l, 1);
   line.y = number(l, 2);
   line.radiusX = number(l, 3);

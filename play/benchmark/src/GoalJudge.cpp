@@ -46,7 +46,7 @@ bool GoalJudge::sees(const Simulation::Thing& ball, const SimRobot& keeper, doub
   velocity_ = ball.velocity;
   wasTouched_ = wasTouched_ || (wasShot_ && bump > kBump && isAt(keeper, ball, cycle));
   if (ball.pose.x < GoalField::kGoalX - GoalField::kBall) {
-    outcome_ = std::abs(ball.pose.y) < GoalField::kHalfMouth ? GoalOutcome::goal : missed();
+    outcome_ = std::abs(ball.pose.y) < GoalField::kHalfMouth ? GoalOutcome::kGoal : missed();
     return true;
   }
   const bool isOff = ball.pose.x > GoalField::kHalfLength + GoalField::kBall ||

@@ -184,8 +184,8 @@ std::uint64_t GoalCell::count(GoalOutcome outcome) const {
 std::optional<double> GoalCell::meanTimeToScore() const {
   Timestamp sum = 0;
   for (const GoalEpisode& episode : episodes)
-    if (episode.outcome == GoalOutcome::goal) sum += episode.end;
-  const std::uint64_t goals = count(GoalOutcome::goal);
+    if (episode.outcome == GoalOutcome::kGoal) sum += episode.end;
+  const std::uint64_t goals = count(GoalOutcome::kGoal);
   if (goals == 0) return std::nullopt;
   return toSeconds(sum) / static_cast<double>(goals);
 }
@@ -224,8 +224,8 @@ Interval GoalMatrix::difference(std::size_t keeper, std::size_t other, std::size
   const auto& b = cell(other, striker).episodes;
   std::vector<int> differences;
   for (std::size_t i = 0; i < a.size(); ++i)
-    differences.push_back(int{a[i].outcome == GoalOutcome::goal} -
-                          int{b[i].outcome == GoalOutcome::goal});
+    differences.push_back(int{a[i].outcome == GoalOutcome::kGoal} -
+                          int{b[i].outcome == GoalOutcome::kGoal});
   return pairedBootstrap(differences, config.seed);
 }
 

@@ -82,7 +82,7 @@ Json cellJson(const GoalMatrix& matrix, std::size_t k, std::size_t s) {
   const GoalCell& cell = matrix.cell(k, s);
   Json json = {{"keeper", cell.keeper}, {"striker", cell.striker}};
   for (const GoalOutcome outcome :
-       {GoalOutcome::goal, GoalOutcome::saved, GoalOutcome::out, GoalOutcome::time})
+       {GoalOutcome::kGoal, GoalOutcome::kSaved, GoalOutcome::kOut, GoalOutcome::kTime})
     json["count"][std::string(nameOf(outcome))] = cell.count(outcome);
   json["scoring"] = toJson(cell.scoring());
   const auto time = cell.meanTimeToScore();

@@ -123,7 +123,7 @@ std::string ratings(const GoalMatrix& matrix) {
 std::string episodesOf(const GoalMatrix& matrix, const GoalCell& cell, GoalEpisodes& episodes) {
   std::string html;
   const GoalMatrixConfig& c = matrix.config;
-  for (const GoalOutcome outcome : {GoalOutcome::goal, GoalOutcome::saved, GoalOutcome::out}) {
+  for (const GoalOutcome outcome : {GoalOutcome::kGoal, GoalOutcome::kSaved, GoalOutcome::kOut}) {
     const auto one = std::find_if(cell.episodes.begin(), cell.episodes.end(),
                                   [&](const GoalEpisode& e) { return e.outcome == outcome; });
     if (one == cell.episodes.end()) continue;

@@ -93,7 +93,7 @@ std::vector<std::uint8_t> goalsOf(const GoalMatrix& matrix, std::size_t episodes
   std::vector<std::uint8_t> goals(episodes * pairs);
   for (std::size_t c = 0; c < pairs; ++c)
     for (std::size_t i = 0; i < episodes; ++i)
-      goals[i * pairs + c] = matrix.cells[c].episodes[i].outcome == GoalOutcome::goal ? 1 : 0;
+      goals[i * pairs + c] = matrix.cells[c].episodes[i].outcome == GoalOutcome::kGoal ? 1 : 0;
   return goals;
 }
 

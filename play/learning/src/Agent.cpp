@@ -22,7 +22,7 @@ Agent::Agent(const Settings& settings, bool kicks, double speed, const SimRobot&
 
 void Agent::begin(PlayerSeat& seat) {
   seat_ = &seat;
-  if (settings_.sight != Sight::truth) {
+  if (settings_.sight != Sight::kTruth) {
     const auto feature = [&](std::string_view name) {
       const SensorData* data = seat.container().find({.feature = name});
       return data != nullptr && isOf(*data, formats::kObjects) ? data : nullptr;
@@ -31,7 +31,7 @@ void Agent::begin(PlayerSeat& seat) {
     others_ = feature("robots");
     if (ball_ == nullptr) throw std::runtime_error("its robot has no feature 'ball'");
   }
-  if (settings_.sight != Sight::localized) return;
+  if (settings_.sight != Sight::kLocalized) return;
   self_.emplace(seat);
   if (settings_.startsAnywhere) return;
   self_->startNear(robot_.state().pose, kNearPosition, kNearHeading, seat.random());
@@ -70,7 +70,7 @@ void Agent::look(Timestamp now) {
 }
 
 void Agent::lookForBall(Timestamp now) {
-  if (settings_.sight == Sight::truth) {
+  if (settings_.sight == Sight::kTruth) {
     if (sights_.front() && now - sights_.front()->stamp < kTrueSights) return;
     for (const StagedThing& thing : seat_->stage()->things())
       if (thing.kind == "ball") return see(now, thing.pose.x, thing.pose.y);
@@ -87,7 +87,7 @@ void Agent::lookForBall(Timestamp now) {
 }
 
 void Agent::lookForOther(Timestamp now) {
-  if (settings_.sight == Sight::truth) {
+  if (settings_.sight == Sight::kTruth) {
     for (const StagedRobot& robot : seat_->stage()->robots())
       if (robot.name != seat_->name()) other_ = Seen{now, robot.pose.x - kGoalLine, robot.pose.y};
     return;

@@ -20,7 +20,7 @@ class Agent : public Player {
   /// @param robot borrowed
   Agent(const Settings& settings, bool kicks, double speed, const SimRobot& robot);
 
-  bool needsTables() const override { return settings_.sight == Sight::localized; }
+  bool needsTables() const override { return settings_.sight == Sight::kLocalized; }
   void begin(PlayerSeat& seat) override;
   bool senseAndAct(PlayerSeat& seat) override;
 

@@ -165,10 +165,10 @@ void Batch::Parts::step(Stand& stand, std::size_t i, std::span<const float> acti
   const Ending ending = slot.episode->ending();
   slot.episode->reward(std::span(rewards).subspan(i * agents(), agents()));
   look(i);
-  if (ending == Ending::none) return;
+  if (ending == Ending::kNone) return;
   endings[i] = static_cast<std::uint8_t>(ending);
-  (ending == Ending::time ? truncated : terminated)[i] = 1;
-  if (config.autoreset != Autoreset::sameStep) return;
+  (ending == Ending::kTime ? truncated : terminated)[i] = 1;
+  if (config.autoreset != Autoreset::kSameStep) return;
   std::copy_n(observations.begin() + static_cast<std::ptrdiff_t>(i * seen()), seen(),
               finals.begin() + static_cast<std::ptrdiff_t>(i * seen()));
   ++slot.number;
@@ -191,7 +191,7 @@ void Batch::Parts::checkActions(std::span<const float> actions) const {
                                 " as '" + info.actions[agent][k % width].name +
                                 "', expected a finite number");
   }
-  if (config.autoreset != Autoreset::disabled) return;
+  if (config.autoreset != Autoreset::kDisabled) return;
   for (std::size_t i = 0; i < slots.size(); ++i)
     if (!slots[i].episode || slots[i].episode->isOver())
       throw std::logic_error(nameOf(i) + " is over, and must be reset before it is stepped again");

@@ -124,7 +124,7 @@ Episode::~Episode() = default;
 /// away and face less towards the goal.
 void Episode::placeStriker() {
   Random random = stream(kOfStriker);
-  const bool isLost = settings_->task == Task::localize;
+  const bool isLost = settings_->task == Task::kLocalize;
   for (int i = 0; i < kTries; ++i) {
     Pose2 pose{kGoalLine + random.uniform(3.0, isLost ? 6.0 : 4.5),
                random.uniform(-1.0, 1.0) * (isLost ? 2.5 : 1.5), 0.0};
@@ -176,7 +176,7 @@ void Episode::step(std::span<const float> actions, std::size_t width) {
       ending_ = static_cast<Ending>(static_cast<int>(judge_.outcome()) + 1);
     sense();
   }
-  if (++steps_ >= settings_->steps && !isOver()) ending_ = Ending::time;
+  if (++steps_ >= settings_->steps && !isOver()) ending_ = Ending::kTime;
 }
 
 void Episode::observe(std::span<float> out) {
@@ -188,7 +188,7 @@ void Episode::observe(std::span<float> out) {
 
 /// Writes the rewards: what the striker wins the keeper loses.
 void Episode::reward(std::span<double> out) const {
-  const double scored = ending_ == Ending::goal ? 1.0 : ending_ == Ending::saved ? -1.0 : 0.0;
+  const double scored = ending_ == Ending::kGoal ? 1.0 : ending_ == Ending::kSaved ? -1.0 : 0.0;
   std::size_t agent = 0;
   if (settings_->keeperIsAgent()) out[agent++] = scored == 0.0 ? 0.0 : -scored;
   if (settings_->strikerIsAgent()) out[agent] = scored;

@@ -69,7 +69,7 @@ class Episode {
   /// Plays one step. @param actions shape (agents, width) @throws std::runtime_error if a player
   /// was stopped
   void step(std::span<const float> actions, std::size_t width);
-  bool isOver() const { return ending_ != Ending::none; }
+  bool isOver() const { return ending_ != Ending::kNone; }
   Ending ending() const { return ending_; }
   /// Writes the observations. @param out shape (agents, observation)
   void observe(std::span<float> out);
@@ -98,7 +98,7 @@ class Episode {
   SimRobot* striker_ = nullptr;
   std::vector<Agent*> agents_;  ///< the agents, which control_ owns
   GoalJudge judge_;
-  Ending ending_ = Ending::none;
+  Ending ending_ = Ending::kNone;
   int steps_ = 0;
 };
 

@@ -146,11 +146,11 @@ void heuristic(const EnvironmentInfo& environment, std::size_t agent,
   check(observation, action, environment.observation.size(), environment.actions[agent].size());
   const Look look(observation);
   if (environment.agents[agent] == "keeper") return keep(look, action);
-  strike(look, observation.size() == kLocalized, action);
+  strike(look, observation.size() == kLocalizedSize, action);
 }
 
 void blocking(std::span<const float> observation, std::span<float> action) {
-  check(observation, action, kPlain, 2);
+  check(observation, action, kPlainSize, 2);
   const Look look(observation);
   const Place ball = look.ball(0);
   slide(look, ball.age > kKnown ? 0.0 : blockingPlace(ball), action);

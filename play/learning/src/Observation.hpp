@@ -20,9 +20,10 @@ constexpr std::size_t kX = 0, kY = 1, kCos = 2, kSin = 3, kForward = 4, kLeft = 
 constexpr std::size_t kTimeLeft = 7;
 constexpr std::size_t kBall = 8;  ///< first of x, y, age of each sight
 constexpr std::size_t kOther = kBall + 3 * kSights;
-constexpr std::size_t kPlain = kOther + 3;  ///< number of values without MCL's
-constexpr std::size_t kSigmaPosition = kPlain, kSigmaHeading = kPlain + 1, kTracks = kPlain + 2;
-constexpr std::size_t kLocalized = kPlain + 3;  ///< number of values with MCL's
+constexpr std::size_t kPlainSize = kOther + 3;  ///< number of values without MCL's
+constexpr std::size_t kSigmaPosition = kPlainSize, kSigmaHeading = kPlainSize + 1,
+                      kTracks = kPlainSize + 2;
+constexpr std::size_t kLocalizedSize = kPlainSize + 3;  ///< number of values with MCL's
 
 constexpr double kGoalLine = -6.0;  ///< x of the keeper's goal line in the field frame [m]
 

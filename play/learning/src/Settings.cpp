@@ -10,18 +10,18 @@ namespace ortung::learning {
 namespace {
 
 Task taskOf(const std::string& id) {
-  if (id == "goalkeeper-v0") return Task::keep;
-  if (id == "striker-v0") return Task::strike;
-  return id == "keeper-vs-striker-v0" ? Task::both : Task::localize;
+  if (id == "goalkeeper-v0") return Task::kKeep;
+  if (id == "striker-v0") return Task::kStrike;
+  return id == "keeper-vs-striker-v0" ? Task::kBoth : Task::kLocalize;
 }
 
 Sight readSight(const Parameters& p, Task task) {
-  if (task == Task::localize)
+  if (task == Task::kLocalize)
     return p.choiceOr("observation", "localized", {"localized", "features"}) == "features"
-               ? Sight::features
-               : Sight::localized;
-  return p.choiceOr("observation", "features", {"features", "truth"}) == "truth" ? Sight::truth
-                                                                                 : Sight::features;
+               ? Sight::kFeatures
+               : Sight::kLocalized;
+  return p.choiceOr("observation", "features", {"features", "truth"}) == "truth" ? Sight::kTruth
+                                                                                 : Sight::kFeatures;
 }
 
 }  // namespace
@@ -33,10 +33,10 @@ Settings Settings::read(const EnvironmentInfo& environment, const Options& optio
   s.task = taskOf(environment.id);
   s.sight = readSight(p, s.task);
   s.keeperRobot = "goalkeeper.toml";
-  s.strikerRobot = s.task == Task::localize ? "striker_lrf.toml" : "striker.toml";
-  if (s.task == Task::keep) s.striker = strikerText(p.textOr("striker", "yardstick-v1"));
-  if (s.task == Task::strike) s.keeper = keeperText(p.textOr("keeper", "blocking"));
-  if (s.task == Task::localize) {
+  s.strikerRobot = s.task == Task::kLocalize ? "striker_lrf.toml" : "striker.toml";
+  if (s.task == Task::kKeep) s.striker = strikerText(p.textOr("striker", "yardstick-v1"));
+  if (s.task == Task::kStrike) s.keeper = keeperText(p.textOr("keeper", "blocking"));
+  if (s.task == Task::kLocalize) {
     s.keeper = keeperText(p.textOr("keeper", "still"));
     s.startsAnywhere = p.choiceOr("start", "near", {"near", "anywhere"}) == "anywhere";
   }
@@ -45,7 +45,8 @@ Settings Settings::read(const EnvironmentInfo& environment, const Options& optio
     s.strikerSpeed = p.numberOr("striker_speed_m_s", s.strikerSpeed, {0.1, 3.5});
   const auto cycle = p.integerOr("cycle_ms", 20, {5, 20});
   const double action = p.numberOr("action_s", 0.1, {0.005, 1.0});
-  const double longest = p.numberOr("duration_s", s.task == Task::localize ? 20.0 : 10.0, {1, 120});
+  const double longest =
+      p.numberOr("duration_s", s.task == Task::kLocalize ? 20.0 : 10.0, {1, 120});
   s.cycle = 1e-3 * static_cast<double>(cycle);
   s.cycles = static_cast<int>(std::lround(action / s.cycle));
   if (s.cycles < 1 || std::abs(s.cycles * s.cycle - action) > 1e-9)

@@ -10,19 +10,19 @@
 namespace ortung::learning {
 
 /// The task of an environment: which of the two robots agents drive.
-enum class Task : std::uint8_t { keep, strike, both, localize };
+enum class Task : std::uint8_t { kKeep, kStrike, kBoth, kLocalize };
 
 /// What an agent observes.
 enum class Sight : std::uint8_t {
-  truth,     ///< true pose and true ball
-  features,  ///< true pose; ball and other robot as its camera sees them
-  localized  ///< pose by MCL on its own sensors; ball and other robot as its camera sees them
+  kTruth,     ///< true pose and true ball
+  kFeatures,  ///< true pose; ball and other robot as its camera sees them
+  kLocalized  ///< pose by MCL on its own sensors; ball and other robot as its camera sees them
 };
 
 /// The options of an environment, read and checked.
 struct Settings {
-  Task task = Task::keep;
-  Sight sight = Sight::features;
+  Task task = Task::kKeep;
+  Sight sight = Sight::kFeatures;
   std::string keeper;                  ///< the keeper as a player's text; "": an agent drives it
   std::string striker;                 ///< the striker as a player's text; "": an agent drives it
   std::filesystem::path keeperRobot;   ///< robot file of a keeper that is an agent

@@ -39,7 +39,7 @@ struct Ground {
       if (landmark.kind == "post") ground.posts.push_back({{landmark.x, landmark.y}, 0.1});
     }
     for (const FieldLine& line : field.lines)
-      if (line.shape == FieldLine::Shape::straight)
+      if (line.shape == FieldLine::Shape::kStraight)
         width = std::max({width, std::abs(line.y0), std::abs(line.y1)});
     if (ground.halfLength <= 0.0) ground.halfLength = length;
     if (ground.halfWidth <= 0.0) ground.halfWidth = width;

@@ -21,10 +21,10 @@ namespace ortung {
 
 /// The source of a player's knowledge of its robot's pose.
 enum class SightMode : std::uint8_t {
-  truth,     ///< the stage, from which everything else is known, too
-  features,  ///< the ground truth feature; all else by its robot's camera
-  scan,      ///< the newest position of a single scan; all else by the camera
-  localized  ///< MCL on all that its robot senses; all else by the camera
+  kTruth,     ///< the stage, from which everything else is known, too
+  kFeatures,  ///< the ground truth feature; all else by its robot's camera
+  kScan,      ///< the newest position of a single scan; all else by the camera
+  kLocalized  ///< MCL on all that its robot senses; all else by the camera
 };
 
 inline const PlayerOption kSeesOption{
@@ -49,21 +49,21 @@ class OwnSight {
     return static_cast<SightMode>(std::find(kModes.begin(), kModes.end(), name) - kModes.begin());
   }
 
-  bool isTruth() const { return mode_ == SightMode::truth; }
-  bool needsTables() const { return mode_ == SightMode::localized; }
+  bool isTruth() const { return mode_ == SightMode::kTruth; }
+  bool needsTables() const { return mode_ == SightMode::kLocalized; }
   /// Returns the file of a robot that has the sensors: "NAME.toml", "NAME_scan.toml" or
   /// "NAME_lrf.toml".
   std::string robotFile(const std::string& name) const {
-    const char* scanner = mode_ == SightMode::scan        ? "_scan"
-                          : mode_ == SightMode::localized ? "_lrf"
-                                                          : "";
+    const char* scanner = mode_ == SightMode::kScan        ? "_scan"
+                          : mode_ == SightMode::kLocalized ? "_lrf"
+                                                           : "";
     return name + scanner + ".toml";
   }
 
   /// Begins at a pose that is known with these standard deviations [m], [rad].
   void begin(PlayerSeat& seat, const Pose2& told, double sigma, double sigmaHeading) {
-    if (mode_ == SightMode::scan) scan_.emplace(seat, told);
-    if (mode_ == SightMode::localized) {
+    if (mode_ == SightMode::kScan) scan_.emplace(seat, told);
+    if (mode_ == SightMode::kLocalized) {
       if (!self_) self_ = std::make_unique<SelfLocalization>(seat);
       self_->startAt(told, sigma, sigmaHeading);
     }
@@ -97,13 +97,13 @@ class OwnSight {
 
   std::optional<Pose2> poseAt(PlayerSeat& seat, Timestamp now) const {
     switch (mode_) {
-      case SightMode::truth:
+      case SightMode::kTruth:
         return poseOf(seat);
-      case SightMode::features:
+      case SightMode::kFeatures:
         return seat.container().get<PoseData>({.type = "groundTruth"});
-      case SightMode::scan:
+      case SightMode::kScan:
         return scan_ ? std::optional(scan_->at(now)) : std::nullopt;
-      case SightMode::localized:
+      case SightMode::kLocalized:
         break;
     }
     const auto estimate = self_ ? self_->estimate(now) : std::nullopt;

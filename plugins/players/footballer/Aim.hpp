@@ -12,8 +12,8 @@ constexpr double kBallRadius = 0.11;  ///< radius of the ball [m]
 
 /// The intention of a player with the ball.
 struct Aim {
-  enum class Kind { shot, pass, clearance, carry };
-  Kind kind = Kind::carry;
+  enum class Kind { kShot, kPass, kClearance, kCarry };
+  Kind kind = Kind::kCarry;
   FloorPoint target;
 };
 

@@ -63,8 +63,8 @@ class Attack {
   /// Chooses what to do with the ball. A choice holds for some time.
   void choose(const Moment& m, Random& random) {
     const Timestamp keeps = owesPass_ ? 3 * kKeeps : kKeeps;
-    if (aim_ && m.view.now - chosen_ < keeps && aim_->kind != Aim::Kind::carry) return;
-    const Aim::Kind before = aim_ ? aim_->kind : Aim::Kind::carry;
+    if (aim_ && m.view.now - chosen_ < keeps && aim_->kind != Aim::Kind::kCarry) return;
+    const Aim::Kind before = aim_ ? aim_->kind : Aim::Kind::kCarry;
     aim_ = best(m);
     chosen_ = m.view.now;
     if (aim_->kind != before) error_ = skill_.aimNoise * random.gaussian();
@@ -73,23 +73,23 @@ class Attack {
     const FloorPoint ball = m.view.ball->at;
     if (owesPass_) {
       const auto mate = bestMate(m, ball, m.hands.canHold() ? 4.0 : 0.5);
-      if (mate && hasRoomBehind(m, *mate, behind())) return {Aim::Kind::pass, *mate};
-      return {Aim::Kind::clearance, clearance(m, behind())};
+      if (mate && hasRoomBehind(m, *mate, behind())) return {Aim::Kind::kPass, *mate};
+      return {Aim::Kind::kClearance, clearance(m, behind())};
     }
     const double toGoal = lengthOf(m.otherGoal() - ball);
     const auto corner = openCorner(m, ball);
-    if (toGoal < skill_.shotRange && corner) return {Aim::Kind::shot, *corner};
+    if (toGoal < skill_.shotRange && corner) return {Aim::Kind::kShot, *corner};
     const bool isLate = had(m.view.now) > skill_.carryTime;
     const bool isPressed = m.view.opponentTo(ball) < kPressed;
     const bool isShutOut = toGoal < skill_.shotRange;  // no corner is open, or it would have shot
     if (isPressed || isLate || isShutOut)
       if (const auto mate = bestMate(m, ball, isLate || isShutOut ? 3.0 : 0.5))
-        return {Aim::Kind::pass, *mate};
+        return {Aim::Kind::kPass, *mate};
     if (toGoal < 0.4 * skill_.shotRange || (isLate && toGoal < 1.6 * skill_.shotRange))
-      return {Aim::Kind::shot, corner.value_or(m.otherGoal())};
+      return {Aim::Kind::kShot, corner.value_or(m.otherGoal())};
     const bool isAtHome = lengthOf(m.ownGoal() - ball) < 0.6 * m.ground.halfLength;
-    if (isLate || (isPressed && isAtHome)) return {Aim::Kind::clearance, clearance(m, behind())};
-    return {Aim::Kind::carry, m.otherGoal()};
+    if (isLate || (isPressed && isAtHome)) return {Aim::Kind::kClearance, clearance(m, behind())};
+    return {Aim::Kind::kCarry, m.otherGoal()};
   }
   /// Approaches the ball from the side opposite to its target.
   void fetch(const Moment& m) {
@@ -126,10 +126,10 @@ class Attack {
   bool isAimed(const Moment& m, double error) const {
     constexpr double kAimed = 0.06, kAnywhere = 0.4;  // [rad]
     constexpr double kPost = 0.2;                     // least gap to a post [m]
-    if (aim_->kind == Aim::Kind::carry) return false;
-    if (aim_->kind == Aim::Kind::clearance) return std::abs(error) < kAnywhere;
+    if (aim_->kind == Aim::Kind::kCarry) return false;
+    if (aim_->kind == Aim::Kind::kClearance) return std::abs(error) < kAnywhere;
     if (std::abs(error) < kAimed) return true;
-    if (aim_->kind != Aim::Kind::shot) return false;
+    if (aim_->kind != Aim::Kind::kShot) return false;
     const FloorPoint way = towards(m.view.pose.theta);
     const FloorPoint from = m.view.place();
     if (way.x * m.forward < 0.3) return false;
@@ -145,7 +145,7 @@ class Attack {
     const double wanted = angleOf(aim_->target - from) + error_;
     const double error = wrapAngle(wanted - pose.theta);
     if (isAimed(m, error) && m.view.now - lastWithout_ > kSettles) {
-      if (m.hands.kick(aim_->kind == Aim::Kind::pass, m.robot)) {
+      if (m.hands.kick(aim_->kind == Aim::Kind::kPass, m.robot)) {
         owesPass_ = false;
         aim_.reset();
         since_.reset();
@@ -153,7 +153,7 @@ class Attack {
       return m.chassis.drive(0.3, 0.0, m.robot);
     }
     double way = wanted;
-    if (aim_->kind == Aim::Kind::carry) {
+    if (aim_->kind == Aim::Kind::kCarry) {
       std::vector<Disc> discs;
       for (const Other& other : m.view.others) discs.push_back({other.at, other.radius + 0.1});
       way = go_.direction(from, aim_->target, m.view.radius, discs).value_or(wanted);

@@ -98,7 +98,7 @@ class FootballerPlayer : public Player {
     const double cost = costOf(moment, ball);
     talk(seat, *view, cost);
     if (!seat.game().mayPlay(seat.team())) {
-      role_ = Role::cover;
+      role_ = Role::kCover;
       attack_->forget();
       hands_->hold(false, seat.robot());
       unjam_.act(moment, false, seat.random());
@@ -134,7 +134,7 @@ class FootballerPlayer : public Player {
     const FloorPoint way = unit(meeting.at - m.view.place());
     const FloorPoint wanted = unit(m.otherGoal() - meeting.at);
     const double wrong = 0.5 * (1.0 - dot(way, wanted));
-    return meeting.after + kWrongSide * wrong - (role_ == Role::attack ? kLoyalty : 0.0);
+    return meeting.after + kWrongSide * wrong - (role_ == Role::kAttack ? kLoyalty : 0.0);
   }
 
   void talk(PlayerSeat& seat, const View& view, double cost) {
@@ -145,9 +145,9 @@ class FootballerPlayer : public Player {
     // The same message for mates that read it like a sensor (plugin `teammate`).
     constexpr double kOwn = 0.05;   // approximate standard deviation of its own pose [m], [rad]
     constexpr double kBall = 0.15;  // approximate standard deviation of the ball's place [m]
-    seat.say(toText(Place{Place::Kind::robot, seat.name(), fixOf(view.pose, kOwn, kOwn)}));
+    seat.say(toText(Place{Place::Kind::kRobot, seat.name(), fixOf(view.pose, kOwn, kOwn)}));
     if (const auto& ball = eyes_->ownBall())
-      seat.say(toText(Place{Place::Kind::ball, "ball",
+      seat.say(toText(Place{Place::Kind::kBall, "ball",
                             fixOf({ball->at.x, ball->at.y, 0.0}, kBall, Place::kNoHeading)}));
   }
 
@@ -162,7 +162,7 @@ class FootballerPlayer : public Player {
       all.push_back({name, told.word.cost, told.word.at});
     role_ =
         shareRoles(std::move(all), seat.name(), coverPlace(ground_, m.forward, ball), m.forward);
-    if (role_ != Role::attack) {
+    if (role_ != Role::kAttack) {
       attack_->forget();
       if (unjam_.act(m, isOnTheWay_, seat.random())) return;
       return takePlace(m, ball);
@@ -224,7 +224,7 @@ class FootballerPlayer : public Player {
   Mates mates_;
   Go go_;
   Unjam unjam_;
-  Role role_ = Role::cover;
+  Role role_ = Role::kCover;
   bool isOnTheWay_ = false;
   FloorPoint lastBall_;  ///< place where the ball was last seen
   Timestamp nextWord_ = 0;

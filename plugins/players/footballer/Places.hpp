@@ -23,7 +23,7 @@ inline FloorPoint coverPlace(const Ground& ground, double forward, const FloorPo
 /// its side.
 inline FloorPoint supportPlace(const Ground& ground, double forward, const FloorPoint& ball,
                                Role role) {
-  const bool isAhead = role == Role::support;
+  const bool isAhead = role == Role::kSupport;
   const double side = (ball.y < 0.0 ? -1.0 : 1.0) * (isAhead ? -1.0 : 1.0);
   double along = forward * ball.x + (isAhead ? 0.35 : -0.22) * ground.halfLength;
   // It is outside of both penalty areas.
@@ -33,8 +33,8 @@ inline FloorPoint supportPlace(const Ground& ground, double forward, const Floor
 
 /// Returns the place of a role, clear of the ball.
 inline FloorPoint placeOf(Role role, const Ground& ground, double forward, const FloorPoint& ball) {
-  const FloorPoint place = role == Role::cover ? coverPlace(ground, forward, ball)
-                                               : supportPlace(ground, forward, ball, role);
+  const FloorPoint place = role == Role::kCover ? coverPlace(ground, forward, ball)
+                                                : supportPlace(ground, forward, ball, role);
   constexpr double kClear = 1.2;  // [m]
   const FloorPoint off = place - ball;
   if (lengthOf(off) >= kClear) return ground.within(place, 0.4);

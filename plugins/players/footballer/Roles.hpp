@@ -11,10 +11,10 @@
 namespace ortung::football {
 
 enum class Role : std::uint8_t {
-  attack,   ///< goes for the ball
-  cover,    ///< stays between the ball and the own goal
-  support,  ///< offers itself for a pass, on one side
-  wing      ///< offers itself for a pass, on the other side
+  kAttack,   ///< goes for the ball
+  kCover,    ///< stays between the ball and the own goal
+  kSupport,  ///< offers itself for a pass, on one side
+  kWing      ///< offers itself for a pass, on the other side
 };
 
 /// A robot that takes part in the game.
@@ -39,11 +39,11 @@ inline Role shareRoles(std::vector<Candidate> all, const std::string& own,
     return name;
   };
   if (take([](const Candidate& one) { return one.cost; }) == own || all.empty())
-    return Role::attack;
+    return Role::kAttack;
   if (take([&](const Candidate& one) { return lengthOf(one.at - coverPlace); }) == own)
-    return Role::cover;
-  if (take([&](const Candidate& one) { return -forward * one.at.x; }) == own) return Role::support;
-  return Role::wing;
+    return Role::kCover;
+  if (take([&](const Candidate& one) { return -forward * one.at.x; }) == own) return Role::kSupport;
+  return Role::kWing;
 }
 
 }  // namespace ortung::football

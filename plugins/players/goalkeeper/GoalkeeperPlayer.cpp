@@ -21,8 +21,8 @@ const std::vector<std::string> kPolicies = {"still",    "random",       "pattern
                                             "blocking", "intercepting", "mixed"};
 
 struct Settings {
-  KeeperPolicy policy = KeeperPolicy::intercepting;
-  SightMode sees = SightMode::truth;
+  KeeperPolicy policy = KeeperPolicy::kIntercepting;
+  SightMode sees = SightMode::kTruth;
   double speed = 1.5;       ///< greatest speed [m/s]
   double delay = 0.0;       ///< delay of its sight [s]
   double noise = 0.0;       ///< noise of its sight: standard deviation of both coordinates [m]

@@ -13,7 +13,14 @@
 namespace ortung {
 
 /// How a goalkeeper moves along its line (paper, section 5.1).
-enum class KeeperPolicy : std::uint8_t { still, random, pattern, blocking, intercepting, mixed };
+enum class KeeperPolicy : std::uint8_t {
+  kStill,
+  kRandom,
+  kPattern,
+  kBlocking,
+  kIntercepting,
+  kMixed
+};
 
 /// The line before its goal on which a keeper moves. The frame is the field's.
 struct KeeperLine {
@@ -42,27 +49,27 @@ class KeeperMind {
   std::optional<double> decide(Timestamp now, double y, const std::optional<RollingBall>& ball,
                                Random& random) {
     KeeperPolicy policy = policy_;
-    if (policy == KeeperPolicy::mixed) {
+    if (policy == KeeperPolicy::kMixed) {
       if (now >= mixedUntil_) {
-        constexpr std::array kMix = {KeeperPolicy::still, KeeperPolicy::random,
-                                     KeeperPolicy::pattern, KeeperPolicy::blocking,
-                                     KeeperPolicy::intercepting};
+        constexpr std::array kMix = {KeeperPolicy::kStill, KeeperPolicy::kRandom,
+                                     KeeperPolicy::kPattern, KeeperPolicy::kBlocking,
+                                     KeeperPolicy::kIntercepting};
         mixed_ = kMix[random.below(kMix.size())];
         mixedUntil_ = now + kMixed;
       }
       policy = mixed_;
     }
     switch (policy) {
-      case KeeperPolicy::random:
+      case KeeperPolicy::kRandom:
         return wander(now, y, random);
-      case KeeperPolicy::pattern:
+      case KeeperPolicy::kPattern:
         return swing(y);
-      case KeeperPolicy::blocking:
+      case KeeperPolicy::kBlocking:
         return ball ? line_.blockingPlace(ball->at) : line_.goal.y;
-      case KeeperPolicy::intercepting:
+      case KeeperPolicy::kIntercepting:
         return intercept(ball);
-      case KeeperPolicy::still:
-      case KeeperPolicy::mixed:
+      case KeeperPolicy::kStill:
+      case KeeperPolicy::kMixed:
         break;
     }
     return std::nullopt;
@@ -100,7 +107,7 @@ class KeeperMind {
   std::optional<double> target_;
   Timestamp wanderUntil_ = 0;
   double side_ = 1.0;
-  KeeperPolicy mixed_ = KeeperPolicy::still;
+  KeeperPolicy mixed_ = KeeperPolicy::kStill;
   Timestamp mixedUntil_ = 0;
 };
 

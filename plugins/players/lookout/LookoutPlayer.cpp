@@ -33,7 +33,7 @@ class LookoutPlayer : public Player {
     if (!pose) return true;        // it has no pose yet
     constexpr double kOwn = 0.01;  // standard deviation of its pose [m], [rad]
     const double s = kOwn * kOwn;
-    tell(seat, {Place::Kind::robot, seat.name(), {*pose, {s, 0, 0, 0, s, 0, 0, 0, s}}});
+    tell(seat, {Place::Kind::kRobot, seat.name(), {*pose, {s, 0, 0, 0, s, 0, 0, 0, s}}});
     tellWhatItSees(seat, *pose, "robots");
     tellWhatItSees(seat, *pose, "ball");
     return true;
@@ -50,7 +50,7 @@ class LookoutPlayer : public Player {
     for (const Heard& heard : seat.heard()) {
       const auto place = placeIn(heard.text);
       constexpr std::size_t kMost = 100;
-      const bool isOwn = place && place->kind == Place::Kind::robot && place->name == heard.from;
+      const bool isOwn = place && place->kind == Place::Kind::kRobot && place->name == heard.from;
       if (isOwn && (mates_.size() < kMost || mates_.contains(heard.from)))
         mates_[heard.from] = {place->fix.pose.x, place->fix.pose.y};
     }
@@ -94,7 +94,7 @@ class LookoutPlayer : public Player {
     const double b = across * across;
     const double xy = (a - b) * c * s;
     constexpr double kHeading = Place::kNoHeading * Place::kNoHeading;
-    return {isBall ? Place::Kind::ball : Place::Kind::robot,
+    return {isBall ? Place::Kind::kBall : Place::Kind::kRobot,
             isBall ? "ball" : of_,
             {{eye.x + object.range * c, eye.y + object.range * s, 0.0},
              {a * c * c + b * s * s, xy, 0.0, xy, a * s * s + b * c * c, 0.0, 0.0, 0.0, kHeading}}};

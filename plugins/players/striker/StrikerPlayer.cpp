@@ -24,7 +24,7 @@ class StrikerPlayer : public Player {
         own_(OwnSight::read(p, kind_ == "seeker" ? "localized" : "truth")),
         isBlind_(p.choiceOr("aim", "open", {"open", "random"}) == "random") {
     const bool mayLook = kind_ == "dribble" || kind_ == "feint" || kind_ == "seeker";
-    if (!mayLook && own_ != SightMode::truth)
+    if (!mayLook && own_ != SightMode::kTruth)
       p.fail("sees", "must be truth for the kind '" + kind_ + "', which uses the stage");
     attack_.halfMouth = p.numberOr("goal_width_m", 2.0, {0.3, 20.0}) / 2.0;
     attack_.braking = p.numberOr("braking_m_s2", attack_.braking, {0.0, 10.0});

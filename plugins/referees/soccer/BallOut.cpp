@@ -33,7 +33,7 @@ std::optional<Leaving> BallOut::look(const Scene::Ball& ball, const Pitch& pitch
   if (intoGoal <= 1.0) {
     const double y = between(from.y, to.y, intoGoal);
     if (std::abs(y) < pitch.halfGoal)
-      return Leaving{Leaving::Over::intoGoal, std::copysign(pitch.halfLength, to.x), y};
+      return Leaving{Leaving::Over::kIntoGoal, std::copysign(pitch.halfLength, to.x), y};
   }
   const double overGoalLine = shareAt(from.x, to.x, pitch.halfLength + beyond);
   const double overTouchLine = shareAt(from.y, to.y, pitch.halfWidth + beyond);
@@ -42,12 +42,12 @@ std::optional<Leaving> BallOut::look(const Scene::Ball& ball, const Pitch& pitch
   if (overTouchLine <= 1.0 && overTouchLine <= overGoalLine) {
     const double x =
         std::clamp(between(from.x, to.x, overTouchLine), -pitch.halfLength, pitch.halfLength);
-    return Leaving{Leaving::Over::touchLine, x, std::copysign(pitch.halfWidth, to.y)};
+    return Leaving{Leaving::Over::kTouchLine, x, std::copysign(pitch.halfWidth, to.y)};
   }
   if (overGoalLine <= 1.0 && !isInMouth) {
     const double y =
         std::clamp(between(from.y, to.y, overGoalLine), -pitch.halfWidth, pitch.halfWidth);
-    return Leaving{Leaving::Over::goalLine, std::copysign(pitch.halfLength, to.x), y};
+    return Leaving{Leaving::Over::kGoalLine, std::copysign(pitch.halfLength, to.x), y};
   }
   return std::nullopt;
 }

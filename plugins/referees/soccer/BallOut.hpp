@@ -9,8 +9,8 @@ namespace ortung::soccer {
 
 /// The way in which the ball has left the pitch.
 struct Leaving {
-  enum class Over { touchLine, goalLine, intoGoal };
-  Over over = Over::touchLine;
+  enum class Over { kTouchLine, kGoalLine, kIntoGoal };
+  Over over = Over::kTouchLine;
   double x = 0.0;  ///< x where its middle crossed the line's outer edge [m]
   double y = 0.0;
 };

@@ -146,8 +146,8 @@ void Match::whilePlaying(Stage& stage) {
 }
 
 void Match::leave(Stage& stage, const Leaving& leaving) {
-  if (leaving.over == Leaving::Over::intoGoal) return judgeGoal(stage, leaving);
-  const bool overTouchLine = leaving.over == Leaving::Over::touchLine;
+  if (leaving.over == Leaving::Over::kIntoGoal) return judgeGoal(stage, leaving);
+  const bool overTouchLine = leaving.over == Leaving::Over::kTouchLine;
   const std::string why = std::string("the ball left over the ") +
                           (overTouchLine ? "touch line" : "goal line") + " at " +
                           told(leaving.x, leaving.y) + ", last touched by " +

@@ -21,13 +21,13 @@ struct Painted {
 };
 
 bool isAcross(const FieldLine& line) {
-  return line.shape == FieldLine::Shape::straight && std::abs(line.x0 - line.x1) < kStraight;
+  return line.shape == FieldLine::Shape::kStraight && std::abs(line.x0 - line.x1) < kStraight;
 }
 
 Painted paintedOn(const World& world) {
   Painted painted;
   for (const FieldLine& line : world.lines()) {
-    if (line.shape != FieldLine::Shape::straight) continue;
+    if (line.shape != FieldLine::Shape::kStraight) continue;
     const double half = line.width / 2.0;
     if (isAcross(line)) {
       painted.halfLength = std::max(painted.halfLength, std::abs(line.x0) + half);
@@ -107,7 +107,7 @@ void readAreas(const World& world, Pitch& pitch) {
 
 void readRound(const World& world, Pitch& pitch) {
   for (const FieldLine& line : world.lines()) {
-    if (line.shape != FieldLine::Shape::arc || std::abs(line.y) > kStraight) continue;
+    if (line.shape != FieldLine::Shape::kArc || std::abs(line.y) > kStraight) continue;
     const double radius = line.radiusX + line.width / 2.0;
     if (std::abs(line.x) < kStraight && radius > kLeastCircle) pitch.circle = radius;
     if (line.x > kNear && radius < kLeastCircle) pitch.penaltyMark = pitch.halfLength - line.x;

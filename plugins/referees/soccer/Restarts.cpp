@@ -73,7 +73,7 @@ Restart restartAfter(const Leaving& leaving, std::optional<std::size_t> last, co
                      const Rules::Places& places, const Game& game) {
   const std::size_t defender = defenderOf(leaving.x, game);
   const FloorPoint at{leaving.x, leaving.y};
-  if (leaving.over == Leaving::Over::touchLine) {
+  if (leaving.over == Leaving::Over::kTouchLine) {
     const std::size_t team = last ? 1 - *last : defender;
     return restartAt(Game::Restart::kThrowIn, team, at, pitch, places, game);
   }
@@ -83,7 +83,7 @@ Restart restartAfter(const Leaving& leaving, std::optional<std::size_t> last, co
 }
 
 FloorPoint putBack(const Leaving& leaving, const Pitch& pitch, double inside) {
-  const bool overTouchLine = leaving.over == Leaving::Over::touchLine;
+  const bool overTouchLine = leaving.over == Leaving::Over::kTouchLine;
   return onPitch({leaving.x, leaving.y}, pitch, overTouchLine ? 0.0 : inside,
                  overTouchLine ? inside : 0.0);
 }

@@ -68,7 +68,7 @@ void TeammateExtractor::extract(const FieldModel&, std::span<std::optional<Words
     if (!place) continue;
     const std::string name = place->name;
     Known known{{std::move(*place), message.age, message.from}, now_ - fromSeconds(message.age)};
-    if (known.told.place.kind == Place::Kind::ball) {
+    if (known.told.place.kind == Place::Kind::kBall) {
       remember(balls_, std::move(known), message.from);
       isOfBalls = true;
     } else if (name == talk_.listener) {

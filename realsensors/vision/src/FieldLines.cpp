@@ -66,7 +66,7 @@ FieldLines::FieldLines(std::span<const FieldLine> lines) : lines_(lines.begin(),
     yMax_ = std::max(yMax_, y);
   };
   for (const FieldLine& line : lines_) {
-    if (line.shape == FieldLine::Shape::straight) {
+    if (line.shape == FieldLine::Shape::kStraight) {
       hold(line.x0, line.y0);
       hold(line.x1, line.y1);
     } else {
@@ -79,8 +79,8 @@ FieldLines::FieldLines(std::span<const FieldLine> lines) : lines_(lines.begin(),
 
 FieldLines::Nearest FieldLines::nearestOn(std::size_t line, double x, double y) const {
   const FieldLine& one = lines_[line];
-  return one.shape == FieldLine::Shape::straight ? nearestOnStraight(one, x, y)
-                                                 : nearestOnArc(one, x, y);
+  return one.shape == FieldLine::Shape::kStraight ? nearestOnStraight(one, x, y)
+                                                  : nearestOnArc(one, x, y);
 }
 
 FieldLines::Nearest FieldLines::nearest(double x, double y) const {

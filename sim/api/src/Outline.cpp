@@ -20,13 +20,13 @@ std::vector<FloorPoint> outlineOf(const WorldObject& object, const WorldPiece& p
     const Pose2 point = frame * Pose2{x, y, 0.0};
     outline.push_back({point.x, point.y});
   };
-  if (piece.shape == WorldPiece::Shape::triangle) {
+  if (piece.shape == WorldPiece::Shape::kTriangle) {
     for (const FloorPoint& corner : piece.corners) add(object.pose, corner.x, corner.y);
     if (winding(piece.corners) < 0.0) std::reverse(outline.begin(), outline.end());
     return outline;
   }
   const Pose2 frame = object.pose * piece.pose;
-  if (piece.shape == WorldPiece::Shape::rectangle) {
+  if (piece.shape == WorldPiece::Shape::kRectangle) {
     add(frame, -piece.halfX, -piece.halfY);
     add(frame, piece.halfX, -piece.halfY);
     add(frame, piece.halfX, piece.halfY);

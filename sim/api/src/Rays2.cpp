@@ -87,7 +87,7 @@ std::vector<double> rangesToCircle(const Ray2& ray, double x, double y, double r
 }
 
 double leastRange(double x, double y, const FieldLine& line) {
-  if (line.shape == FieldLine::Shape::arc) {
+  if (line.shape == FieldLine::Shape::kArc) {
     const double radius = std::max(line.radiusX, line.radiusY) + line.width / 2.0;
     return std::max(std::hypot(line.x - x, line.y - y) - radius, 0.0);
   }
@@ -100,7 +100,7 @@ double leastRange(double x, double y, const FieldLine& line) {
 }
 
 void addCrossings(const Ray2& ray, const FieldLine& line, std::vector<double>& ranges) {
-  if (line.shape == FieldLine::Shape::straight) {
+  if (line.shape == FieldLine::Shape::kStraight) {
     if (const auto range = rangeToSegment(ray, line.x0, line.y0, line.x1, line.y1))
       ranges.push_back(*range);
   } else if (isSpot(line)) {

@@ -197,7 +197,7 @@ class ModelledWorld final : public SimWorld {
     if (pieces.empty()) throw std::invalid_argument("a moving body has no pieces");
     for (const Primitive& piece : pieces) {
       const Box2 box = boundsOf(piece);
-      const double least = piece.shape == Primitive::Shape::triangle
+      const double least = piece.shape == Primitive::Shape::kTriangle
                                ? std::min(box.xHigh - box.xLow, box.yHigh - box.yLow)
                                : 2.0 * std::min(piece.halfX, piece.halfY);
       const double height = piece.zHigh - piece.zLow;
@@ -218,7 +218,7 @@ class ModelledWorld final : public SimWorld {
     object.halfX = object.halfY = object.radius = 0.0;
     object.zLow = pieces.front().zLow;
     object.zHigh = pieces.front().zHigh;
-    object.isRound = pieces.size() == 1 && pieces.front().shape == Primitive::Shape::ellipse;
+    object.isRound = pieces.size() == 1 && pieces.front().shape == Primitive::Shape::kEllipse;
     for (const Primitive& piece : pieces) {
       const Box2 box = boundsOf(piece);
       object.halfX = std::max({object.halfX, std::abs(box.xLow), std::abs(box.xHigh)});

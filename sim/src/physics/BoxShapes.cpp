@@ -88,8 +88,9 @@ std::vector<std::unique_ptr<b2Shape>> wedgesOf(const Primitive& ellipse, double 
 
 /// Returns half the smallest width of a primitive [m].
 double thinnest(const Primitive& primitive) {
-  return primitive.shape == Primitive::Shape::triangle ? inscribedIn(primitive.corners).radius
-                                                       : std::min(primitive.halfX, primitive.halfY);
+  return primitive.shape == Primitive::Shape::kTriangle
+             ? inscribedIn(primitive.corners).radius
+             : std::min(primitive.halfX, primitive.halfY);
 }
 
 Primitive seenFrom(Primitive primitive, const Point2& origin) {
@@ -107,7 +108,7 @@ bool isWithin(const Primitive& inner, const Primitive& outer) {
     return std::hypot(apart.x, apart.y) + inner.halfX <= outer.halfX;
   }
   Primitive around = inner;  // the bounding rectangle if it is an ellipse
-  if (inner.shape == Primitive::Shape::ellipse) around.shape = Primitive::Shape::rectangle;
+  if (inner.shape == Primitive::Shape::kEllipse) around.shape = Primitive::Shape::kRectangle;
   const std::vector<Point2> corners = cornersOf(around);
   return std::all_of(corners.begin(), corners.end(),
                      [&](const Point2& corner) { return distanceTo(outer, corner) == 0.0; });
@@ -116,7 +117,7 @@ bool isWithin(const Primitive& inner, const Primitive& outer) {
 Bulk bulkOf(const Primitive& piece) {
   Bulk bulk;
   bulk.centre = piece.centre;
-  if (piece.shape == Primitive::Shape::triangle) {
+  if (piece.shape == Primitive::Shape::kTriangle) {
     const auto& c = piece.corners;
     bulk.area = 0.5 * std::abs((c[1].x - c[0].x) * (c[2].y - c[0].y) -
                                (c[2].x - c[0].x) * (c[1].y - c[0].y));
@@ -130,7 +131,7 @@ Bulk bulkOf(const Primitive& piece) {
     return bulk;
   }
   const double squares = piece.halfX * piece.halfX + piece.halfY * piece.halfY;
-  const bool isRound = piece.shape == Primitive::Shape::ellipse;
+  const bool isRound = piece.shape == Primitive::Shape::kEllipse;
   bulk.area = (isRound ? std::numbers::pi : 4.0) * piece.halfX * piece.halfY;
   bulk.inertia = squares / (isRound ? 4.0 : 3.0);
   return bulk;
@@ -141,7 +142,7 @@ Bulk bulkOf(const Primitive& piece) {
 Primitive drawnIn(const Primitive& primitive, double depth) {
   Primitive smaller = primitive;
   depth = std::min(depth, thinnest(primitive) / 2.0);
-  if (primitive.shape == Primitive::Shape::triangle) {
+  if (primitive.shape == Primitive::Shape::kTriangle) {
     const Inscribed circle = inscribedIn(primitive.corners);
     for (Point2& corner : smaller.corners)
       corner = add(circle.centre, away(circle.centre, corner), 1.0 - depth / circle.radius);
@@ -165,7 +166,7 @@ std::vector<std::unique_ptr<b2Shape>> boxShapesOf(const Primitive& primitive,
   }
   const double skin = std::min(kSkin, thinnest(whole) / 2.0);
   const Primitive core = drawnIn(whole, skin);
-  if (whole.shape == Primitive::Shape::ellipse) return wedgesOf(core, skin);
+  if (whole.shape == Primitive::Shape::kEllipse) return wedgesOf(core, skin);
   shapes.push_back(polygon(cornersOf(core), skin));
   return shapes;
 }

@@ -68,7 +68,7 @@ void Physics::Engine::drive(Item& item, double dt) const {
 
 /// Decelerates a body: a rolling ball little, a sliding body much.
 void Physics::Engine::brake(Item& item, double dt) const {
-  const bool rolls = item.properties.floor == Floor::rolls;
+  const bool rolls = item.properties.floor == Floor::kRolls;
   const double friction = rolls ? config.rollingResistance : config.floorFriction;
   const double step = friction * kGravity * dt;
   const b2Vec2 is = item.body->GetLinearVelocity();
@@ -80,7 +80,7 @@ void Physics::Engine::brake(Item& item, double dt) const {
 }
 
 void Physics::Engine::plan(Item& item, double dt) {
-  if (item.properties.floor == Floor::drives)
+  if (item.properties.floor == Floor::kDrives)
     drive(item, dt);
   else
     brake(item, dt);
@@ -89,10 +89,10 @@ void Physics::Engine::plan(Item& item, double dt) {
 /// Passes velocities to the engine. Sliding bodies are left out: the engine brakes them by the
 /// joint that holds them to the floor.
 void Physics::Engine::launch(Item& item) const {
-  if (item.properties.floor == Floor::slides) return;
+  if (item.properties.floor == Floor::kSlides) return;
   item.body->SetLinearVelocity(item.given);
   item.body->SetAngularVelocity(item.givenTurn);
-  if (item.properties.floor != Floor::drives) return;
+  if (item.properties.floor != Floor::kDrives) return;
   item.floor->SetLinearVelocity(item.given);
   item.floor->SetAngularVelocity(item.givenTurn);
   item.grip->SetMaxForce(single(item.properties.mass * item.freeGrip));
@@ -102,7 +102,7 @@ void Physics::Engine::launch(Item& item) const {
 void Physics::Engine::end(Item& item) const {
   const b2Vec2 velocity = item.body->GetLinearVelocity();
   const float turn = item.body->GetAngularVelocity();
-  if (item.properties.floor == Floor::slides) {
+  if (item.properties.floor == Floor::kSlides) {
     if (config.floorFriction == 0.0) return;
     if (isSame(velocity, {0.0f, 0.0f}, kStill)) item.body->SetLinearVelocity({0.0f, 0.0f});
     if (std::abs(turn) <= kStill) item.body->SetAngularVelocity(0.0f);
@@ -202,7 +202,7 @@ void Physics::Engine::step(double dt) {
     item.isDisturbed = false;
     item.before = item.body->GetPosition();
     item.beforeAngle = item.body->GetAngle();
-    if (item.properties.floor != Floor::drives) continue;
+    if (item.properties.floor != Floor::kDrives) continue;
     const Point2 from = item.arm(item.pose.theta);
     const Point2 to = item.arm(item.planned.theta);
     item.wanted = toEngine({(item.planned.x + to.x - item.pose.x - from.x) / dt,
@@ -225,7 +225,7 @@ void Physics::Engine::step(double dt) {
   }
   for (Item& item : items) {
     if (item.body == nullptr) continue;
-    const bool drives = item.properties.floor == Floor::drives;
+    const bool drives = item.properties.floor == Floor::kDrives;
     if (isFlying || (drives && !item.isDisturbed)) {
       item.body->SetLinearVelocity(item.given);
       item.body->SetAngularVelocity(item.givenTurn);

@@ -113,14 +113,14 @@ void Physics::Engine::weigh(Item& item, std::span<const Primitive> pieces) {
 /// Joins a body to the floor at its centre of mass. The joint is solved together with contacts, so
 /// that a body that is pushed too weakly does not move at all.
 void Physics::Engine::holdOn(Item& item) {
-  if (item.properties.floor == Floor::rolls) return;
+  if (item.properties.floor == Floor::kRolls) return;
   if (item.grip != nullptr) world.DestroyJoint(item.grip);
   b2FrictionJointDef joint;
   joint.bodyA = item.floor;
   joint.bodyB = item.body;
   joint.localAnchorB = item.body->GetLocalCenter();
   joint.collideConnected = true;
-  if (item.properties.floor == Floor::slides) {
+  if (item.properties.floor == Floor::kSlides) {
     const double force = config.floorFriction * kGravity * item.properties.mass;
     joint.maxForce = single(kScale * force);
     // Friction that is uniform over a disc of radius r has a torque of 2/3 mu m g r.
@@ -140,7 +140,7 @@ void Physics::Engine::create(Item& item, std::span<const Primitive> pieces) {
   definition.userData.pointer = reinterpret_cast<uintptr_t>(item.crowd.get());
   item.body = world.CreateBody(&definition);
   item.floor = ground;
-  if (item.properties.floor == Floor::drives) {
+  if (item.properties.floor == Floor::kDrives) {
     b2BodyDef floor;
     floor.type = b2_kinematicBody;
     floor.allowSleep = false;
@@ -152,7 +152,7 @@ void Physics::Engine::create(Item& item, std::span<const Primitive> pieces) {
 
 void Physics::Engine::destroy(Item& item) {
   world.DestroyBody(item.body);
-  if (item.properties.floor == Floor::drives) world.DestroyBody(item.floor);
+  if (item.properties.floor == Floor::kDrives) world.DestroyBody(item.floor);
   item = {};
 }
 

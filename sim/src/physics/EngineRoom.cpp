@@ -51,7 +51,7 @@ bool Physics::Engine::findObstacles(const Item& item, std::span<const Primitive>
   for (const b2Body* body : bodies) {
     if (body->GetType() != b2_dynamicBody) return false;
     Item& other = itemOf(body);
-    if (other.properties.floor == Floor::drives) return false;
+    if (other.properties.floor == Floor::kDrives) return false;
     if (std::find(found.begin(), found.end(), &other) == found.end()) found.push_back(&other);
   }
   return found.size() <= kMostPushed;

@@ -18,13 +18,13 @@ class Physics {
  public:
   /// How a body is in contact with the floor.
   enum class Floor {
-    rolls,   ///< a ball
-    slides,  ///< a crate
-    drives   ///< a robot: moves as it wants as far as its wheels have grip
+    kRolls,   ///< a ball
+    kSlides,  ///< a crate
+    kDrives   ///< a robot: moves as it wants as far as its wheels have grip
   };
   struct Properties {
     double mass = 1.0;  ///< mass [kg]
-    Floor floor = Floor::slides;
+    Floor floor = Floor::kSlides;
   };
   using Body = std::size_t;
 

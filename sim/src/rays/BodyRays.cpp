@@ -31,7 +31,7 @@ BodyRays::Piece BodyRays::pieceOf(const Primitive& primitive) {
   piece.zLow = primitive.zLow;
   piece.zHigh = primitive.zHigh;
   piece.middle = primitive.centre;
-  piece.isRound = primitive.shape == Primitive::Shape::ellipse;
+  piece.isRound = primitive.shape == Primitive::Shape::kEllipse;
   if (piece.isRound) {
     const double c = std::cos(primitive.angle);
     const double s = std::sin(primitive.angle);

@@ -35,7 +35,7 @@ FieldLine arcOf(const Primitive& ellipse) {
   const double smaller = std::min(ellipse.halfX, ellipse.halfY);
   const double width = ellipse.stroke > 0.0 ? std::min(ellipse.stroke, smaller) : smaller;
   FieldLine arc;
-  arc.shape = FieldLine::Shape::arc;
+  arc.shape = FieldLine::Shape::kArc;
   arc.x = ellipse.centre.x;
   arc.y = ellipse.centre.y;
   arc.radiusX = ellipse.halfX - width / 2.0;
@@ -54,9 +54,9 @@ std::vector<FieldLine> linesOf(const WorldModel& world) {
   std::vector<FieldLine> lines;
   for (const Primitive& primitive : world.primitives) {
     if (primitive.isSolid()) continue;
-    if (primitive.shape == Primitive::Shape::rectangle) lines.push_back(lineOf(primitive));
-    if (primitive.shape == Primitive::Shape::ellipse) lines.push_back(arcOf(primitive));
-    if (primitive.shape != Primitive::Shape::triangle) continue;
+    if (primitive.shape == Primitive::Shape::kRectangle) lines.push_back(lineOf(primitive));
+    if (primitive.shape == Primitive::Shape::kEllipse) lines.push_back(arcOf(primitive));
+    if (primitive.shape != Primitive::Shape::kTriangle) continue;
     for (std::size_t i = 0; i < 3; ++i)
       lines.push_back(
           straight(primitive.corners[i], primitive.corners[(i + 1) % 3], 0.0, primitive.colour));
@@ -72,14 +72,14 @@ std::vector<WorldPiece> worldPiecesOf(std::span<const Primitive> pieces) {
     piece.zLow = primitive.zLow;
     piece.zHigh = primitive.zHigh;
     piece.pose = {primitive.centre.x, primitive.centre.y, 0.0};
-    if (primitive.shape == Primitive::Shape::triangle) {
-      piece.shape = WorldPiece::Shape::triangle;
+    if (primitive.shape == Primitive::Shape::kTriangle) {
+      piece.shape = WorldPiece::Shape::kTriangle;
       for (std::size_t i = 0; i < 3; ++i)
         piece.corners[i] = {primitive.corners[i].x, primitive.corners[i].y};
       continue;
     }
-    const bool isRound = primitive.shape == Primitive::Shape::ellipse;
-    piece.shape = isRound ? WorldPiece::Shape::ellipse : WorldPiece::Shape::rectangle;
+    const bool isRound = primitive.shape == Primitive::Shape::kEllipse;
+    piece.shape = isRound ? WorldPiece::Shape::kEllipse : WorldPiece::Shape::kRectangle;
     piece.pose.theta = wrapAngle(primitive.angle);
     piece.halfX = primitive.halfX;
     piece.halfY = primitive.halfY;
@@ -93,7 +93,7 @@ WorldObject objectOf(const Primitive& primitive) {
   object.name = primitive.name;
   object.colour = primitive.colour;
   object.pose = {primitive.centre.x, primitive.centre.y, wrapAngle(primitive.angle)};
-  object.isRound = primitive.shape == Primitive::Shape::ellipse;
+  object.isRound = primitive.shape == Primitive::Shape::kEllipse;
   object.isMovable = primitive.isMovable;
   object.isNet = primitive.isNet;
   object.zLow = primitive.zLow;
@@ -105,7 +105,7 @@ WorldObject objectOf(const Primitive& primitive) {
   const Primitive own = inOwnFrame(primitive);
   object.pieces = worldPiecesOf({&own, 1});
   object.pieces.front().colour.clear();
-  if (primitive.shape != Primitive::Shape::triangle) return object;
+  if (primitive.shape != Primitive::Shape::kTriangle) return object;
   object.pose.theta = 0.0;
   for (const Point2& corner : own.corners) {
     object.radius = std::max(object.radius, std::hypot(corner.x, corner.y));

@@ -20,7 +20,7 @@ constexpr double kEndless = 2000.0;  ///< length of a line without ends [m]
 void LineMesh::add(const FieldLine& line) {
   const Rgba colour = rgbaOf(line.colour, kWhite);
   if (scene_.lines.size() > kMostVertices || !(line.width > 0.0)) return;
-  if (line.shape == FieldLine::Shape::straight)
+  if (line.shape == FieldLine::Shape::kStraight)
     addStraight(line, colour);
   else
     addArc(line, colour);

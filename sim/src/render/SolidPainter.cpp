@@ -129,7 +129,7 @@ void SolidPainter::paintWalls(const FaceView& face, const std::array<double, 3>&
                      static_cast<float>(-camera[2]), static_cast<float>(1.0 - camera[2]));
   gl_.VertexAttrib4f(kPaint, 0.78F, 0.78F, 0.76F, 1.0F);
   gl_.VertexAttrib4f(kBand, 0.0F, 0.0F, 0.0F, 0.0F);
-  constexpr auto kWall = static_cast<float>(PixelClass::wall) / 255.0F;
+  constexpr auto kWall = static_cast<float>(PixelClass::kWall) / 255.0F;
   gl_.VertexAttrib4f(kWhat, kWall, 0.0F, 0.0F, 0.0F);
   gl_.MultiDrawArrays(GL_TRIANGLES, firsts_.data(), counts_.data(),
                       static_cast<GLsizei>(firsts_.size()));

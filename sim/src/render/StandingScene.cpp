@@ -15,23 +15,23 @@ constexpr Rgba kWallGrey{200, 200, 195, 255};
 constexpr double kBandShare = 0.25;  ///< share of a robot's height that shows its team
 
 PixelClass classOf(const std::string& kind) {
-  if (kind == "goal") return PixelClass::goal;
-  if (kind == "post") return PixelClass::post;
-  if (kind == "ball") return PixelClass::ball;
-  if (kind == "robot") return PixelClass::robot;
-  if (kind == "wall") return PixelClass::wall;
-  return PixelClass::obstacle;
+  if (kind == "goal") return PixelClass::kGoal;
+  if (kind == "post") return PixelClass::kPost;
+  if (kind == "ball") return PixelClass::kBall;
+  if (kind == "robot") return PixelClass::kRobot;
+  if (kind == "wall") return PixelClass::kWall;
+  return PixelClass::kObstacle;
 }
 
 Rgba usualColour(PixelClass kind) {
   switch (kind) {
-    case PixelClass::goal:
+    case PixelClass::kGoal:
       return {245, 245, 245, 255};
-    case PixelClass::ball:
+    case PixelClass::kBall:
       return {255, 140, 20, 255};
-    case PixelClass::robot:
+    case PixelClass::kRobot:
       return {50, 50, 54, 255};
-    case PixelClass::wall:
+    case PixelClass::kWall:
       return kWallGrey;
     default:
       return {150, 130, 110, 255};
@@ -40,7 +40,7 @@ Rgba usualColour(PixelClass kind) {
 
 /// Places a unit shape: the columns of the matrix are the images of its axes.
 void place(const WorldPiece& piece, const Pose2& object, Instance& instance) {
-  if (piece.shape == WorldPiece::Shape::triangle) {
+  if (piece.shape == WorldPiece::Shape::kTriangle) {
     std::array<FloorPoint, 3> c = piece.corners;
     const auto twiceArea = [&] {
       return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
@@ -54,7 +54,7 @@ void place(const WorldPiece& piece, const Pose2& object, Instance& instance) {
     const FloorPoint a = turned(c[1].x - c[0].x, c[1].y - c[0].y);
     const FloorPoint b = turned(c[2].x - c[0].x, c[2].y - c[0].y);
     const FloorPoint o = turned(c[0].x, c[0].y);
-    instance.shape = UnitShape::prism;
+    instance.shape = UnitShape::kPrism;
     instance.matrix = {a.x, b.x, a.y, b.y};
     instance.x = object.x + o.x;
     instance.y = object.y + o.y;
@@ -67,8 +67,8 @@ void place(const WorldPiece& piece, const Pose2& object, Instance& instance) {
   instance.matrix = {cos * piece.halfX, -sin * piece.halfY, sin * piece.halfX, cos * piece.halfY};
   instance.x = pose.x;
   instance.y = pose.y;
-  const bool isRound = piece.shape == WorldPiece::Shape::ellipse;
-  instance.shape = isRound ? UnitShape::cylinder : UnitShape::box;
+  const bool isRound = piece.shape == WorldPiece::Shape::kEllipse;
+  instance.shape = isRound ? UnitShape::kCylinder : UnitShape::kBox;
   instance.reach =
       isRound ? 1.01 * std::max(piece.halfX, piece.halfY) : std::hypot(piece.halfX, piece.halfY);
 }
@@ -149,7 +149,8 @@ void addInstances(const WorldObject& object, std::size_t place_, std::vector<Ins
   for (const WorldPiece& piece : object.pieces) {
     Instance& one = instances.emplace_back();
     place(piece, object.pose, one);
-    if (kind == PixelClass::ball && one.shape == UnitShape::cylinder) one.shape = UnitShape::ball;
+    if (kind == PixelClass::kBall && one.shape == UnitShape::kCylinder)
+      one.shape = UnitShape::kBall;
     one.zLow = piece.zLow;
     one.zHigh = piece.zHigh;
     one.reach = std::hypot(one.reach, 0.5 * (piece.zHigh - piece.zLow));

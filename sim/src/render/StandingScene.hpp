@@ -11,14 +11,14 @@
 namespace ortung {
 
 /// The shapes of which all bodies are drawn, stretched and turned.
-enum class UnitShape : std::uint8_t { box, cylinder, prism, ball };
+enum class UnitShape : std::uint8_t { kBox, kCylinder, kPrism, kBall };
 inline constexpr std::size_t kUnitShapes = 4;
 
 using Rgba = std::array<std::uint8_t, 4>;
 
 /// A stretched unit shape: points p of the unit shape are moved to matrix * p + (x, y).
 struct Instance {
-  UnitShape shape = UnitShape::box;
+  UnitShape shape = UnitShape::kBox;
   std::array<double, 4> matrix{1, 0, 0, 1};  ///< matrix, row by row
   double x = 0.0, y = 0.0;                   ///< position in the field frame [m]
   double zLow = 0.0, zHigh = 0.0;            ///< heights of bottom and top [m]

@@ -81,10 +81,10 @@ class Shapes {
 UnitMesh unitMesh() {
   UnitMesh mesh;
   Shapes shapes(mesh);
-  shapes.begin(UnitShape::box);
+  shapes.begin(UnitShape::kBox);
   shapes.prism({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, false);
   shapes.end();
-  shapes.begin(UnitShape::cylinder);
+  shapes.begin(UnitShape::kCylinder);
   // The corners are as far outside the circle as the edges are inside.
   const double radius = 2.0 / (1.0 + std::cos(kTurn / (2 * kCorners)));
   std::vector<std::array<float, 2>> circle;
@@ -93,10 +93,10 @@ UnitMesh unitMesh() {
                       static_cast<float>(radius * std::sin(kTurn * i / kCorners))});
   shapes.prism(circle, true);
   shapes.end();
-  shapes.begin(UnitShape::prism);
+  shapes.begin(UnitShape::kPrism);
   shapes.prism({{0, 0}, {1, 0}, {0, 1}}, false);
   shapes.end();
-  shapes.begin(UnitShape::ball);
+  shapes.begin(UnitShape::kBall);
   shapes.ball();
   shapes.end();
   return mesh;

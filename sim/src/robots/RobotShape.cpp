@@ -19,8 +19,8 @@ Primitive readPiece(const Parameters& table, double height) {
   Primitive piece;
   const std::string shape =
       table.choiceOr("shape", "rectangle", {"rectangle", "ellipse", "triangle"});
-  if (shape == "ellipse") piece.shape = Primitive::Shape::ellipse;
-  if (shape == "triangle") piece.shape = Primitive::Shape::triangle;
+  if (shape == "ellipse") piece.shape = Primitive::Shape::kEllipse;
+  if (shape == "triangle") piece.shape = Primitive::Shape::kTriangle;
   piece.kind = "robot";
   piece.zHigh = height;
   piece.colour = readColour(table);
@@ -81,7 +81,7 @@ Manipulator readManipulator(const Parameters& table, double height) {
 std::size_t partsOf(const std::vector<Primitive>& pieces) {
   std::size_t parts = 0;
   for (const Primitive& piece : pieces)
-    parts += piece.shape == Primitive::Shape::ellipse && !piece.isCircle() ? 8 : 1;
+    parts += piece.shape == Primitive::Shape::kEllipse && !piece.isCircle() ? 8 : 1;
   return parts;
 }
 
@@ -102,7 +102,7 @@ RobotShape RobotShape::read(const RobotConfig& config) {
   shape.pieces = readPieces(config.body, shape.height);
   if (shape.pieces.empty()) {
     Primitive circle;
-    circle.shape = Primitive::Shape::ellipse;
+    circle.shape = Primitive::Shape::kEllipse;
     circle.kind = "robot";
     circle.halfX = circle.halfY = config.radius;
     circle.zHigh = shape.height;

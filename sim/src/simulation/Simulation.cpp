@@ -36,7 +36,7 @@ std::vector<Primitive> piecesOf(const SimRobot& robot) {
 }
 
 Pose2 poseOf(const Primitive& primitive) {
-  const bool hasAngle = primitive.shape != Primitive::Shape::triangle;
+  const bool hasAngle = primitive.shape != Primitive::Shape::kTriangle;
   return {primitive.centre.x, primitive.centre.y, hasAngle ? wrapAngle(primitive.angle) : 0.0};
 }
 
@@ -78,7 +78,8 @@ void Simulation::addThings() {
       throw std::invalid_argument(describe(thing) + " overlaps something or is off the field");
     const bool rolls = thing.kind == "ball";
     thingBodies_.push_back(physics_->add(
-        pieces, {thing.mass, rolls ? Physics::Floor::rolls : Physics::Floor::slides}, thing.pose));
+        pieces, {thing.mass, rolls ? Physics::Floor::kRolls : Physics::Floor::kSlides},
+        thing.pose));
     thingNumbers_.push_back(
         world_->addBody({thing.kind, thing.name, movable.colour, pieces}, thing.pose));
     thingPieces_.push_back(pieces);
@@ -114,7 +115,7 @@ SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory
   auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
   robot->container().setField(field_);
   robot->state_.number = world_->addBody({"robot", config.name, shape.colour, pieces}, start);
-  robotBodies_.push_back(physics_->add(pieces, {shape.mass, Physics::Floor::drives}, start));
+  robotBodies_.push_back(physics_->add(pieces, {shape.mass, Physics::Floor::kDrives}, start));
   robots_.push_back(std::move(robot));
   readings_.emplace_back();
   ++added_;

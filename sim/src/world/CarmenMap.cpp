@@ -83,8 +83,8 @@ GridCell toCell(const Bytes& chunk, float occupied) {
     message << "a cell is " << occupied << ", expected -1 (unknown) or 0 (free) to 1 (occupied)";
     chunk.refuse(message.str());
   }
-  if (occupied > kOccupiedAbove) return GridCell::occupied;
-  return occupied >= 0.0f && occupied < kFreeBelow ? GridCell::free : GridCell::unknown;
+  if (occupied > kOccupiedAbove) return GridCell::kOccupied;
+  return occupied >= 0.0f && occupied < kFreeBelow ? GridCell::kFree : GridCell::kUnknown;
 }
 
 }  // namespace

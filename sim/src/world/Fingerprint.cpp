@@ -52,7 +52,7 @@ std::string describe(const Primitive& primitive) {
   line.add(primitive.kind).add(primitive.colour);
   line.add(primitive.identity ? std::to_string(*primitive.identity) : "");
   line.add(primitive.zLow).add(primitive.zHigh);
-  if (primitive.shape == Primitive::Shape::triangle) {
+  if (primitive.shape == Primitive::Shape::kTriangle) {
     for (const Point2& corner : primitive.corners) line.add(corner.x).add(corner.y);
     return line.text();
   }

@@ -61,7 +61,7 @@ bool FreeSpace::isKnown(const Grid& grid, double x, double y) {
   const double row = std::floor((y - map.originY) / map.cell);
   if (!(column >= 0 && row >= 0 && column < map.columns && row < map.rows)) return false;
   const GridCell cell = map.at(static_cast<int>(column), static_cast<int>(row));
-  return cell == GridCell::free || cell == GridCell::unknownNearFree;
+  return cell == GridCell::kFree || cell == GridCell::kUnknownNearFree;
 }
 
 bool FreeSpace::touches(const Grid& grid, double x, double y, double radius) {
@@ -83,7 +83,7 @@ bool FreeSpace::touches(const Grid& grid, double x, double y, double radius) {
     const double low = map.originY + r * map.cell;
     const double dy = std::max({0.0, low - y, y - low - map.cell});
     for (int c = columns.from; c < columns.to; ++c) {
-      if (map.at(c, r) != GridCell::occupied) continue;
+      if (map.at(c, r) != GridCell::kOccupied) continue;
       const double left = map.originX + c * map.cell;
       const double dx = std::max({0.0, left - x, x - left - map.cell});
       if (dx * dx + dy * dy <= radius * radius) return true;

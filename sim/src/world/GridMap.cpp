@@ -38,8 +38,8 @@ void markUnknownNearFree(GridMap& map, double margin) {
     GridCell& cell = map.cells[map.index(column, row)];
     const double dx = column - from.sourceColumn;
     const double dy = row - from.sourceRow;
-    if (cell != GridCell::unknown || dx * dx + dy * dy > reach * reach) return;
-    cell = GridCell::unknownNearFree;
+    if (cell != GridCell::kUnknown || dx * dx + dy * dy > reach * reach) return;
+    cell = GridCell::kUnknownNearFree;
     front.push_back({column, row, from.sourceColumn, from.sourceRow});
   };
   const auto visitNeighbours = [&](const Spread& from) {
@@ -50,7 +50,7 @@ void markUnknownNearFree(GridMap& map, double margin) {
   };
   for (int row = 0; row < map.rows; ++row)
     for (int column = 0; column < map.columns; ++column)
-      if (map.at(column, row) == GridCell::free) visitNeighbours({column, row, column, row});
+      if (map.at(column, row) == GridCell::kFree) visitNeighbours({column, row, column, row});
   while (!front.empty()) {  // ring by ring
     std::vector<Spread> ring;
     ring.swap(front);
@@ -61,7 +61,7 @@ void markUnknownNearFree(GridMap& map, double margin) {
 std::vector<float> distanceToOccupied(const GridMap& map) {
   std::vector<std::uint8_t> occupied(map.cells.size());
   std::transform(map.cells.begin(), map.cells.end(), occupied.begin(),
-                 [](GridCell cell) { return cell == GridCell::occupied ? 1 : 0; });
+                 [](GridCell cell) { return cell == GridCell::kOccupied ? 1 : 0; });
   DistanceTransform distances(map.columns, map.rows, occupied);
   std::vector<float> result;
   result.reserve(map.cells.size());

@@ -18,10 +18,10 @@ class MapError : public std::runtime_error {
 };
 
 enum class GridCell : std::uint8_t {
-  free,
-  unknownNearFree,  ///< unknown, but so near to a free cell that robots and sensors may be there
-  unknown,
-  occupied
+  kFree,
+  kUnknownNearFree,  ///< unknown, but so near to a free cell that robots and sensors may be there
+  kUnknown,
+  kOccupied
 };
 
 /// An occupancy grid. Cell (column, row) begins at originX + column * cell and originY + row *

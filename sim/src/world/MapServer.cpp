@@ -142,12 +142,12 @@ GridMap readMapServer(const std::filesystem::path& yaml) {
       const std::size_t pixel = map.index(column, map.rows - 1 - row);
       const double light = image.grey[pixel] / 255.0;
       const double occupied = about.negate ? light : 1.0 - light;
-      GridCell cell = GridCell::unknown;
+      GridCell cell = GridCell::kUnknown;
       if (occupied > about.occupiedAbove)
-        cell = GridCell::occupied;
+        cell = GridCell::kOccupied;
       else if (occupied < about.freeBelow)
-        cell = GridCell::free;
-      if (!image.opaque.empty() && image.opaque[pixel] == 0) cell = GridCell::unknown;
+        cell = GridCell::kFree;
+      if (!image.opaque.empty() && image.opaque[pixel] == 0) cell = GridCell::kUnknown;
       map.cells[map.index(column, row)] = cell;
     }
   }

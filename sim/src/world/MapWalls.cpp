@@ -49,8 +49,8 @@ class Outlines {
   bool is(int column, int row, bool occupied) const {
     if (column < 0 || row < 0 || column >= map_.columns || row >= map_.rows) return false;
     const GridCell cell = map_.at(column, row);
-    return occupied ? cell == GridCell::occupied
-                    : cell == GridCell::free || cell == GridCell::unknownNearFree;
+    return occupied ? cell == GridCell::kOccupied
+                    : cell == GridCell::kFree || cell == GridCell::kUnknownNearFree;
   }
   /// Returns whether the edge from a corner has a free cell on its left and an occupied one on its
   /// right.

@@ -55,7 +55,7 @@ void addPrimitive(const Primitive& primitive, Builder& builder) {
 
 bool isOccupied(const GridMap& map, int column, int row) {
   return column >= 0 && row >= 0 && column < map.columns && row < map.rows &&
-         map.at(column, row) == GridCell::occupied;
+         map.at(column, row) == GridCell::kOccupied;
 }
 
 /// Calls found(from, to) for every longest run of i in [0, n) for which isPart(i) holds.
@@ -95,7 +95,7 @@ void addCaps(const GridBody& body, Builder& builder) {
     std::vector<int> now(begun.size(), -1);
     if (r < map.rows)
       forRuns(
-          map.columns, [&](int c) { return map.at(c, r) == GridCell::occupied; },
+          map.columns, [&](int c) { return map.at(c, r) == GridCell::kOccupied; },
           [&](int from, int to) { now[static_cast<std::size_t>(from)] = to; });
     for (int c = 0; c < map.columns; ++c) {
       const auto i = static_cast<std::size_t>(c);
@@ -132,7 +132,7 @@ Mesh makeMesh(const WorldModel& world) {
   Builder builder(mesh);
   for (const Primitive& primitive : world.primitives) {
     if (!primitive.isSolid()) continue;
-    if (primitive.shape == Primitive::Shape::ellipse)
+    if (primitive.shape == Primitive::Shape::kEllipse)
       mesh.round.push_back({primitive.centre, primitive.halfX, primitive.halfY, primitive.angle,
                             primitive.zLow, primitive.zHigh});
     else

@@ -51,9 +51,9 @@ GridMap readMrptGridMap(const std::filesystem::path& file) {
   map.cells.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const int free = static_cast<unsigned char>(output[end + 1 + i]);
-    map.cells[i] = free < kUnknownFrom ? GridCell::occupied
-                   : free > kUnknownTo ? GridCell::free
-                                       : GridCell::unknown;
+    map.cells[i] = free < kUnknownFrom ? GridCell::kOccupied
+                   : free > kUnknownTo ? GridCell::kFree
+                                       : GridCell::kUnknown;
   }
   return map;
 }

@@ -68,18 +68,18 @@ double distanceToEllipse(double a, double b, double x, double y) {
 }  // namespace
 
 double distanceTo(const Primitive& primitive, const Point2& point) {
-  if (primitive.shape == Primitive::Shape::triangle)
+  if (primitive.shape == Primitive::Shape::kTriangle)
     return distanceToTriangle(primitive.corners, point);
   const Point2 local = toLocal(primitive, point);
   if (primitive.isCircle()) return std::max(0.0, std::hypot(local.x, local.y) - primitive.halfX);
-  if (primitive.shape == Primitive::Shape::ellipse)
+  if (primitive.shape == Primitive::Shape::kEllipse)
     return distanceToEllipse(primitive.halfX, primitive.halfY, local.x, local.y);
   return std::hypot(std::max(0.0, std::abs(local.x) - primitive.halfX),
                     std::max(0.0, std::abs(local.y) - primitive.halfY));
 }
 
 Box2 boundsOf(const Primitive& primitive) {
-  if (primitive.shape == Primitive::Shape::triangle) {
+  if (primitive.shape == Primitive::Shape::kTriangle) {
     const auto& c = primitive.corners;
     return {std::min({c[0].x, c[1].x, c[2].x}), std::max({c[0].x, c[1].x, c[2].x}),
             std::min({c[0].y, c[1].y, c[2].y}), std::max({c[0].y, c[1].y, c[2].y})};
@@ -88,7 +88,7 @@ Box2 boundsOf(const Primitive& primitive) {
   const double s = std::abs(std::sin(primitive.angle));
   const double hx = primitive.halfX;
   const double hy = primitive.halfY;
-  const bool round = primitive.shape == Primitive::Shape::ellipse;
+  const bool round = primitive.shape == Primitive::Shape::kEllipse;
   const double width = round ? std::hypot(hx * c, hy * s) : hx * c + hy * s;
   const double height = round ? std::hypot(hx * s, hy * c) : hx * s + hy * c;
   return {primitive.centre.x - width, primitive.centre.x + width, primitive.centre.y - height,
@@ -96,7 +96,7 @@ Box2 boundsOf(const Primitive& primitive) {
 }
 
 double reachOf(const Primitive& primitive) {
-  if (primitive.shape == Primitive::Shape::ellipse)
+  if (primitive.shape == Primitive::Shape::kEllipse)
     return std::hypot(primitive.centre.x, primitive.centre.y) +
            std::max(primitive.halfX, primitive.halfY);
   double reach = 0.0;
@@ -112,7 +112,7 @@ double topOf(std::span<const Primitive> primitives) {
 }
 
 std::vector<Point2> cornersOf(const Primitive& primitive) {
-  if (primitive.shape == Primitive::Shape::triangle)
+  if (primitive.shape == Primitive::Shape::kTriangle)
     return {primitive.corners.begin(), primitive.corners.end()};
   const double hx = primitive.halfX;
   const double hy = primitive.halfY;

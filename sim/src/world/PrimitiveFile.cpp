@@ -65,7 +65,7 @@ void readHeights(const Parameters& table, Primitive& primitive) {
 }
 
 void readOutline(const Parameters& table, Primitive& primitive) {
-  if (primitive.shape == Primitive::Shape::triangle) {
+  if (primitive.shape == Primitive::Shape::kTriangle) {
     readTriangle(table, primitive);
     return;
   }

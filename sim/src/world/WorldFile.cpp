@@ -71,7 +71,7 @@ Primitive readPrimitive(const Parameters& table, Primitive::Shape shape) {
   primitive.shape = shape;
   readCommon(table, primitive);
   readOutline(table, primitive);
-  if (primitive.isSolid() || shape != Primitive::Shape::ellipse) return primitive;
+  if (primitive.isSolid() || shape != Primitive::Shape::kEllipse) return primitive;
   // Circles and arcs painted on the floor.
   primitive.stroke = table.numberOr("stroke_m", 0.0, {0.0, 10.0});
   const auto arc = table.numbersOr("arc_deg", {0.0, 360.0}, 2, {-360.0, 720.0});
@@ -189,9 +189,9 @@ WorldModel readWorldModel(const std::filesystem::path& file) {
   world.name = about.textOr("name", file.stem().string());
   checkPrintable(about, "name", world.name);
   const std::array<std::pair<const char*, Primitive::Shape>, 3> shapes{
-      {{"rectangle", Primitive::Shape::rectangle},
-       {"ellipse", Primitive::Shape::ellipse},
-       {"triangle", Primitive::Shape::triangle}}};
+      {{"rectangle", Primitive::Shape::kRectangle},
+       {"ellipse", Primitive::Shape::kEllipse},
+       {"triangle", Primitive::Shape::kTriangle}}};
   for (const auto& [key, shape] : shapes)
     for (const auto& table : readTables(toml, key, kMaxPrimitives))
       world.primitives.push_back(readPrimitive(table, shape));

@@ -48,19 +48,19 @@ TEST(FootballRoles, AreSharedSoThatEachIsThereOnce) {
                                       {"c", 2.0, {-3.0, 0.0}},
                                       {"d", 4.0, {1.0, 1.0}}};
   const auto role = [&](const char* name) { return shareRoles(all, name, {-2.5, 0.0}, 1.0); };
-  EXPECT_EQ(role("b"), Role::attack);
-  EXPECT_EQ(role("c"), Role::cover);
-  EXPECT_EQ(role("a"), Role::support);
-  EXPECT_EQ(role("d"), Role::wing);
+  EXPECT_EQ(role("b"), Role::kAttack);
+  EXPECT_EQ(role("c"), Role::kCover);
+  EXPECT_EQ(role("a"), Role::kSupport);
+  EXPECT_EQ(role("d"), Role::kWing);
   // The other way round the foremost is another one.
-  EXPECT_EQ(shareRoles(all, "d", {-2.5, 0.0}, -1.0), Role::support);
+  EXPECT_EQ(shareRoles(all, "d", {-2.5, 0.0}, -1.0), Role::kSupport);
 }
 
 TEST(FootballRoles, EqualsAreToldApartByName) {
   const std::vector<Candidate> all = {{"b", 1.0, {}}, {"a", 1.0, {}}};
-  EXPECT_EQ(shareRoles(all, "a", {}, 1.0), Role::attack);
-  EXPECT_EQ(shareRoles(all, "b", {}, 1.0), Role::cover);
-  EXPECT_EQ(shareRoles({{"a", 1000.0, {}}}, "a", {}, 1.0), Role::attack);
+  EXPECT_EQ(shareRoles(all, "a", {}, 1.0), Role::kAttack);
+  EXPECT_EQ(shareRoles(all, "b", {}, 1.0), Role::kCover);
+  EXPECT_EQ(shareRoles({{"a", 1000.0, {}}}, "a", {}, 1.0), Role::kAttack);
 }
 
 TEST(FootballTalk, IsReadAsItWasSaid) {
@@ -180,11 +180,11 @@ TEST(FootballPlaces, CoverIsBetweenBallAndGoalAndNobodyIsInTheTakersWay) {
   const Ground ground = field();
   for (const double forward : {1.0, -1.0}) {
     const FloorPoint ball{forward * 2.0, 1.0};
-    const FloorPoint cover = placeOf(Role::cover, ground, forward, ball);
+    const FloorPoint cover = placeOf(Role::kCover, ground, forward, ball);
     EXPECT_NEAR(distanceToWay(cover, ball, ground.goal(-forward)), 0.0, 1e-9);
     for (double x = -6.0; x <= 6.0; x += 0.5)
       for (double y = -4.0; y <= 4.0; y += 0.5)
-        for (const Role role : {Role::cover, Role::support, Role::wing}) {
+        for (const Role role : {Role::kCover, Role::kSupport, Role::kWing}) {
           const FloorPoint place = placeOf(role, ground, forward, {x, y});
           EXPECT_LE(std::abs(place.x), 6.0 - 0.4 + 1e-9);
           EXPECT_LE(std::abs(place.y), 4.0 - 0.4 + 1e-9);

@@ -12,7 +12,7 @@ constexpr int kCornersOfEllipse = 24;
 
 /// Corners of a piece in the frame that it lies in, in order.
 std::vector<Point2> outlineOf(const Primitive& piece) {
-  if (piece.shape != Primitive::Shape::ellipse) return cornersOf(piece);
+  if (piece.shape != Primitive::Shape::kEllipse) return cornersOf(piece);
   std::vector<Point2> corners;
   for (int i = 0; i < kCornersOfEllipse; ++i) {
     const double t = 2.0 * std::numbers::pi * i / kCornersOfEllipse;

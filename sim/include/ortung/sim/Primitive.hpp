@@ -25,9 +25,9 @@ struct Box2 {
 /// A shape on the floor, extruded in z. A line (kind "line") is flat: neither rays nor bodies meet
 /// it.
 struct Primitive {
-  enum class Shape { rectangle, ellipse, triangle };
+  enum class Shape { kRectangle, kEllipse, kTriangle };
 
-  Shape shape = Shape::rectangle;
+  Shape shape = Shape::kRectangle;
   Point2 centre;                    ///< its centre; a triangle's centroid
   double halfX = 0.0;               ///< half the size along its own x axis [m]; not of triangles
   double halfY = 0.0;               ///< half the size along its own y axis [m]; not of triangles
@@ -51,7 +51,7 @@ struct Primitive {
   std::optional<double> restitution;  ///< restitution against other bodies; none: the world's
 
   bool isSolid() const { return kind != "line"; }
-  bool isCircle() const { return shape == Shape::ellipse && halfX == halfY; }
+  bool isCircle() const { return shape == Shape::kEllipse && halfX == halfY; }
 };
 
 /// Returns the distance of a point from the filled shape [m]; 0 inside and on its edge.

@@ -15,10 +15,10 @@ namespace ortung {
 
 /// A robot or ball at a place in the field frame, as another robot reports it.
 struct Place {
-  enum class Kind : std::uint8_t { robot, ball };
+  enum class Kind : std::uint8_t { kRobot, kBall };
   static constexpr double kNoHeading = 100.0;  ///< sigma of an unknown heading [rad]
 
-  Kind kind = Kind::robot;
+  Kind kind = Kind::kRobot;
   std::string name;      ///< name of what is there: 1 to 64 of [A-Za-z0-9_.-]
   PoseFixData::Fix fix;  ///< pose; with a heading's sigma of kNoHeading, only its position is known
   bool hasHeading() const {

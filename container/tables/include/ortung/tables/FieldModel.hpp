@@ -21,8 +21,8 @@ struct Landmark {
 /// A line painted on the floor: straight, or along an ellipse. A filled spot is an arc whose width
 /// is twice its radius. The border of a painted triangle is three straight lines of width 0.
 struct FieldLine {
-  enum class Shape { straight, arc };
-  Shape shape = Shape::straight;
+  enum class Shape { kStraight, kArc };
+  Shape shape = Shape::kStraight;
   double x0 = 0.0, y0 = 0.0;  ///< one end of a straight line's middle [m]
   double x1 = 0.0, y1 = 0.0;  ///< the other end [m]
   double x = 0.0, y = 0.0;    ///< middle of the ellipse along which an arc runs [m]

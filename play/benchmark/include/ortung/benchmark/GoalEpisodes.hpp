@@ -26,7 +26,7 @@ struct PoseError {
 
 /// The result of an episode.
 struct GoalEpisode {
-  GoalOutcome outcome = GoalOutcome::time;
+  GoalOutcome outcome = GoalOutcome::kTime;
   Timestamp end = 0;         ///< time from its beginning to its end [us]
   std::uint32_t digest = 0;  ///< digest of the bits of all poses at the end
   PoseError keeper = {};     ///< the keeper's pose error

@@ -11,10 +11,10 @@ namespace ortung {
 
 /// The outcome of a striker's attempt at the goal.
 enum class GoalOutcome : std::uint8_t {
-  goal,   ///< the ball is in the goal
-  saved,  ///< the keeper touched the ball, which then lay still, came back or left the field
-  out,    ///< the ball left the field, lay still or came back without a touch of the keeper
-  time    ///< none of these within 10 s
+  kGoal,   ///< the ball is in the goal
+  kSaved,  ///< the keeper touched the ball, which then lay still, came back or left the field
+  kOut,    ///< the ball left the field, lay still or came back without a touch of the keeper
+  kTime    ///< none of these within 10 s
 };
 /// Returns "goal", "saved", "out" or "time".
 ORTUNG_API std::string_view nameOf(GoalOutcome outcome);
@@ -43,9 +43,9 @@ class ORTUNG_API GoalJudge {
   bool wasShot() const { return wasShot_; }
 
  private:
-  GoalOutcome missed() const { return wasTouched_ ? GoalOutcome::saved : GoalOutcome::out; }
+  GoalOutcome missed() const { return wasTouched_ ? GoalOutcome::kSaved : GoalOutcome::kOut; }
 
-  GoalOutcome outcome_ = GoalOutcome::time;
+  GoalOutcome outcome_ = GoalOutcome::kTime;
   bool wasShot_ = false;
   bool wasTouched_ = false;
   Twist velocity_;  ///< velocity of the ball in the previous cycle

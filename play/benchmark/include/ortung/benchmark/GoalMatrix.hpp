@@ -57,7 +57,7 @@ struct ORTUNG_API GoalCell {
   /// Returns the number of episodes with this outcome.
   std::uint64_t count(GoalOutcome outcome) const;
   /// Returns the striker's share of goals with its 95 % interval (Wilson).
-  Interval scoring() const { return wilson(count(GoalOutcome::goal), episodes.size()); }
+  Interval scoring() const { return wilson(count(GoalOutcome::kGoal), episodes.size()); }
   std::optional<double> meanTimeToScore() const;  ///< mean time of goals [s]; nothing: no goal
   /// Return the pose errors; nothing if the player reported no pose in any episode.
   std::optional<ErrorSummary> keeperError() const;

@@ -13,14 +13,14 @@ namespace ortung::learning {
 
 /// How an episode that is over is reset (the terms are Gymnasium's).
 enum class Autoreset : std::uint8_t {
-  nextStep,  ///< the next step begins a new episode: it takes no action and gives no reward
+  kNextStep,  ///< the next step begins a new episode: it takes no action and gives no reward
   /// The step that ends it begins a new one; finalObservations() has its last observation.
-  sameStep,
-  disabled  ///< the caller resets it
+  kSameStep,
+  kDisabled  ///< the caller resets it
 };
 
 /// How an episode ended.
-enum class Ending : std::uint8_t { none, goal, saved, out, time };
+enum class Ending : std::uint8_t { kNone, kGoal, kSaved, kOut, kTime };
 /// Returns "none", "goal", "saved", "out" or "time".
 ORTUNG_API std::string_view nameOf(Ending ending);
 
@@ -28,7 +28,7 @@ ORTUNG_API std::string_view nameOf(Ending ending);
 struct ORTUNG_API BatchConfig {
   std::size_t episodes = 1;  ///< number of parallel episodes, at most 65536
   unsigned threads = 1;      ///< number of threads; 0: as many as the machine has
-  Autoreset autoreset = Autoreset::nextStep;
+  Autoreset autoreset = Autoreset::kNextStep;
   std::uint64_t seed = 1;  ///< base of the seeds: episode i has seed + i
   /// Checks it. @throws std::invalid_argument naming the field, its value and what was expected
   void check() const;
@@ -68,7 +68,7 @@ class ORTUNG_API Batch {
   /// Steps all episodes by 0.1 s (option `action_s`).
   /// @param actions shape (N, agents, actionSize); numbers are clamped to [-1, 1]
   /// @throws std::invalid_argument for another size or numbers that are not finite,
-  ///   std::logic_error for an episode that is over (Autoreset::disabled); then nothing has
+  ///   std::logic_error for an episode that is over (Autoreset::kDisabled); then nothing has
   ///   changed. std::runtime_error that names seed and number if a player was stopped
   void step(std::span<const float> actions);
 

@@ -10,15 +10,15 @@ namespace ortung {
 
 /// The class of the thing that a pixel shows, as written into Sheet::things.
 enum class PixelClass : std::uint8_t {
-  background,  ///< nothing, or the floor beyond the field
-  field,       ///< the playing field's floor
-  line,        ///< a line painted on it
-  goal,        ///< posts and bars of goals
-  post,        ///< a body of kind "post"
-  ball,        ///< a ball
-  robot,       ///< a robot's body
-  obstacle,    ///< any other body
-  wall         ///< a wall of the world or of a map
+  kBackground,  ///< nothing, or the floor beyond the field
+  kField,       ///< the playing field's floor
+  kLine,        ///< a line painted on it
+  kGoal,        ///< posts and bars of goals
+  kPost,        ///< a body of kind "post"
+  kBall,        ///< a ball
+  kRobot,       ///< a robot's body
+  kObstacle,    ///< any other body
+  kWall         ///< a wall of the world or of a map
 };
 
 /// The pose of a camera. The camera frame has x to the right, y down and z forward.

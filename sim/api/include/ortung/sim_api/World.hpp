@@ -48,9 +48,9 @@ struct FloorPoint {
 
 /// A convex piece of a body: an upright prism or elliptic cylinder.
 struct WorldPiece {
-  enum class Shape { rectangle, ellipse, triangle };
+  enum class Shape { kRectangle, kEllipse, kTriangle };
 
-  Shape shape = Shape::rectangle;
+  Shape shape = Shape::kRectangle;
   Pose2 pose;          ///< pose of its middle in the frame of its object; a triangle's heading is 0
   double halfX = 0.0;  ///< half its size along its own x axis [m]; 0 for a triangle
   double halfY = 0.0;  ///< half its size along its own y axis [m]; 0 for a triangle
