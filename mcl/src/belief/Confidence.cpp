@@ -4,27 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "BeliefTuning.hpp"
+
 namespace ortung {
 namespace {
 
-constexpr double kRight = 0.5;  ///< error of a position that is right [m]
-/// The covariance counts twice: the reference, the map and the readings' models err, too.
-constexpr double kInflation = 2.0;
-
-// Logistic regression of "the error is below 0.5 m" over eight laser logs and five of landmarks, as
-// they are, with constructed faults (but late stamps) and with kidnaps; docs/mcl.md.
-constexpr double kConstant = -8.0;
-constexpr double kOfBelief = 0.65;  ///< ln odds of share and covariance alone
-constexpr double kOfFit = 5.5;
-constexpr double kOfFitLately = 4.4;
-constexpr double kOfLead = -0.12;  ///< a nat
-constexpr double kMostLead = 16.0;
-
-constexpr double kTracking = 0.9;  ///< quality of an estimate that may be relied on, at least
-constexpr double kLost = 0.5;      ///< quality below which an estimate is lost
-constexpr double kRivalNats = 4.0;
-constexpr double kOfOnePlace = 0.8;  ///< share of the belief
-constexpr double kLongSilence = 3.0;
+using namespace tuning::confidence;
 
 double square(double v) { return v * v; }
 

@@ -4,9 +4,6 @@
 
 namespace ortung {
 
-/// That one reading counts [nats].
-inline constexpr double kMostNatsOfAReading = 4.0;
-
 /// What readings say for another place than the belief's: the sum of ln p(s | there) - ln p(s |
 /// belief). No single reading decides, however sure its model is: errors of one scan are of one
 /// piece, so each counts 4 nats at most. Nor do readings from one place: they count by the way

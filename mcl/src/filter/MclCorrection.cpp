@@ -3,16 +3,15 @@
 #include <cmath>
 
 #include "Annealing.hpp"
+#include "FilterTuning.hpp"
 #include "MclImpl.hpp"
+#include "MotionTuning.hpp"
 #include "Resampling.hpp"
 
 namespace ortung {
 namespace {
 
-/// That a sample is weighed until readings that come in by degrees are in, about: a quarter of them
-/// climbs eight times in two steps.
-constexpr double kTimesWeighed = 5.0;
-constexpr double kFewLeft = 25.0;  ///< effective samples: readings are far sharper than the belief
+using namespace tuning::correction;
 
 std::vector<const Weigher*> readingsOf(const std::vector<News>& news) {
   std::vector<const Weigher*> readings;
@@ -48,7 +47,7 @@ Weighed Mcl::Impl::weigh(const std::vector<News>& news, Predicted predicted) {
   Moment moment = momentOf(news, predicted.stamp);
   Hypothesis::Said said = track->belief.ask(moment.evidence, &tools.workers);
   if (const auto fit = fitOfBelief(moment, said.before))
-    track->recovery.follow(*fit, reached.odometry && track->way.all < kStands);
+    track->recovery.follow(*fit, reached.odometry && track->way.all < tuning::trust::kStands);
   std::optional<Rivals::Moment> compared = competition(moment, said);
   const double logEvidence = said.logEvidence;
   std::vector<double> weights = predicted.drifted > 0

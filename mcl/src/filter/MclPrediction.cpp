@@ -3,19 +3,19 @@
 #include <cmath>
 
 #include "Drift.hpp"
+#include "FilterTuning.hpp"
 #include "MclImpl.hpp"
 #include "MotionPieces.hpp"
+#include "MotionTuning.hpp"
 #include "Resampling.hpp"
 
 namespace ortung {
 namespace {
 
+using namespace tuning::prediction;
+
 // The noise of rivals is not that of the belief's samples.
 constexpr std::size_t kNumberOfRivals = 1U << 24;
-constexpr double kIntervalKept = 0.9;
-/// Where nobody knows how the robot moved there are so many samples at least, if the set may be so
-/// large.
-constexpr std::size_t kSpreadSamples = 4000;
 
 }  // namespace
 
@@ -68,7 +68,7 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
   if (now) moveBy(*now);
   if (now && track->trust.isLost()) {
     // Odometry that says that the robot stands, though the readings say that it does not, is none.
-    track->isBlind = track->way.all < kStands;
+    track->isBlind = track->way.all < tuning::trust::kStands;
     if (track->isBlind)
       moveBlindly(stamp);
     else

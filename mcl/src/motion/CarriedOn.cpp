@@ -4,11 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "MotionTuning.hpp"
+
 namespace ortung {
 namespace {
 
-/// Of a pose: the mean is off by a tenth of the noise's sigma, and asking takes microseconds.
-constexpr std::size_t kCopies = 128;
+using namespace tuning::carried;
 
 /// Adds noise of the robot's frame at heading @p theta, turned into the field's.
 void add(const PoseCovariance& noise, double theta, PoseCovariance& covariance) {

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "MotionTuning.hpp"
+
 namespace ortung {
 namespace {
 
-constexpr double kFastest = 4.0;  ///< sigmas of what it may drift in 1 s: more is another place
+using namespace tuning::momentum;
 
 /// What counts of a change that was seen.
 double known(double drifted, double open) {

@@ -1,13 +1,8 @@
 #include "OdometryTrust.hpp"
 
+#include "MotionTuning.hpp"
+
 namespace ortung {
-namespace {
-
-constexpr double kIndependent = 0.1;  ///< way after which a reading counts whole [m]
-constexpr double kWorst = -8.0;       ///< [nats]: what is long past does not count against it
-constexpr double kRegained = 8.0;     ///< [nats]
-
-}  // namespace
 
 void OdometryTrust::lose() {
   lost_ = true;
@@ -15,9 +10,9 @@ void OdometryTrust::lose() {
 }
 
 void OdometryTrust::compare(double ratio, double way) {
-  lead_.count(ratio, way / kIndependent);
-  lead_.atLeast(kWorst);
-  if (lead_.nats() >= kRegained) lost_ = false;
+  lead_.count(ratio, way / tuning::trust::kIndependent);
+  lead_.atLeast(-tuning::trust::kRegained);
+  if (lead_.nats() >= tuning::trust::kRegained) lost_ = false;
 }
 
 }  // namespace ortung

@@ -5,9 +5,6 @@
 
 namespace ortung {
 
-/// Way of odometry that stands, at most [m]; a turn of 1 rad counts as 1 m.
-inline constexpr double kStands = 0.002;
-
 /// Whether odometry is believed. It is until readings have put the robot where odometry does not
 /// lead (Rivals, around the estimate): wheels slip, are held, count backwards, or the robot is
 /// pushed. From then on half of the samples go anywhere near, and both halves are compared: nobody

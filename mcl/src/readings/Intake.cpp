@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "ReadingsTuning.hpp"
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
@@ -12,10 +13,8 @@
 namespace ortung {
 namespace {
 
-constexpr double kTimeJump = 5.0;  ///< back: a clock was set, or a log begins anew [s]
-// Where one feature is ahead of all that come: so many looks on end, over so much time of theirs.
-constexpr int kLooksBehind = 10;
-constexpr double kSecondsBehind = 2.0;
+using namespace tuning::intake;
+
 /// So many words never come again by chance if their device lives: its noise sees to that.
 constexpr std::size_t kManyWords = 16;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ReadingsTuning.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 
 namespace ortung {
@@ -17,12 +18,11 @@ class UpdateTime {
   void spend(double nominalNanoseconds) { spent_ += 1e-6 * nominalNanoseconds; }
   /// Something always, so that searches end [ms].
   double left() const {
-    return std::max(kShare * config_.budgetMs - spent_, kLeastShare * config_.budgetMs);
+    return std::max(tuning::budget::kShare * config_.budgetMs - spent_,
+                    tuning::budget::kLeastShare * config_.budgetMs);
   }
 
  private:
-  static constexpr double kShare = 0.8;  ///< the rest is for what is not weighing
-  static constexpr double kLeastShare = 0.1;
   const MclConfig& config_;
   double spent_ = 0.0;  ///< [ms]
 };

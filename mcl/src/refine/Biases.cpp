@@ -7,26 +7,17 @@
 #include <utility>
 
 #include "CarriedOn.hpp"
+#include "RefineTuning.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/SensorData.hpp"
 
 namespace ortung {
 namespace {
 
+using namespace tuning::biases;
+
 using Matrix = Eigen::Matrix3d;
 using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-/// Biases are of the size of the noise, and scales of this size, as long as nothing is known.
-constexpr double kScale = 0.05;
-constexpr double kErrors = 4.0;       ///< standard errors from zero at which a bias becomes known
-constexpr double kStillErrors = 1.5;  ///< standard errors from zero at which it stays known
-constexpr int kFewest = 30;           ///< values that a bias is known by
-/// Greatest innovation of an inlier, and of places that are the same [sigma].
-constexpr double kMostErrors = 4.0;
-constexpr double kMisfits = 0.5;  ///< share of outliers above which the place is wrong
-/// Readings of a feature from places nearer to each other err alike [m].
-constexpr double kApart = 0.3;
-constexpr double kRate = 0.02;  ///< rate at which the share of outliers is averaged
 
 }  // namespace
 

@@ -9,34 +9,20 @@
 #include <utility>
 
 #include "CarriedOn.hpp"
+#include "RefineTuning.hpp"
 #include "ortung/base/Angles.hpp"
 
 namespace ortung {
 namespace {
 
+using namespace tuning::polish;
+
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-constexpr int kMostSteps = 8;
 constexpr double kSettledMetres = 2e-4;
 constexpr double kSettledRadians = 2e-5;
-/// Greatest distance of a cluster and a pose that are one place [sigma].
-constexpr double kMostSigmas = 4.0;
-// A cluster's mean is known no better than this: cells, few samples.
-constexpr double kClusterMetres = 0.03;
-constexpr double kClusterRadians = 0.02;
-/// Directions in which readings remove less than this share of the uncertainty have no innovation.
-constexpr double kTold = 0.1;
-/// Where readings are so much (1 / 50) narrower than the prediction, all of an innovation is the
-/// motion's: it says nothing about the readings.
-constexpr double kForeseen = 0.02;
-/// Estimates are consistent if squared innovations are not so many times larger than expected.
-constexpr double kKept = 2.0;
-/// Ratio of squared innovations to expected ones that may be random.
-constexpr double kChance = 1.5;
-constexpr double kMostTimes = 9.0;  ///< most that an innovation counts, in usual ones
-constexpr double kRate = 0.05;      ///< rate at which innovations are averaged; faster at first
 
 Matrix matrixOf(const std::array<double, 9>& values) {
   return Eigen::Map<const RowMajor>(values.data());

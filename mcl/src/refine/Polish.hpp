@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "News.hpp"
+#include "RefineTuning.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/Polishable.hpp"
@@ -46,9 +47,8 @@ class ORTUNG_API Polish {
   std::array<double, 9> blur_{};
   /// Ratio of squared innovations to those of consistent estimates: it grows where readings have
   /// common errors, surfaces are not where the map has them, or odometry errs more than its model.
-  double times_ = kTimesAtFirst;
+  double times_ = tuning::polish::kTimesAtFirst;
   int surprises_ = 0;
-  static constexpr double kTimesAtFirst = 10.0;
 };
 
 }  // namespace ortung

@@ -1,18 +1,15 @@
 #include "Confirmation.hpp"
 
+#include "RivalsTuning.hpp"
+
 namespace ortung {
-namespace {
-
-constexpr double kWay = 1.0;  ///< [m]: as rivals elsewhere need
-constexpr int kReadings = 3;  ///< least number of readings that confirm a place
-
-}  // namespace
 
 void Confirmation::count(bool isUsual, double way) {
   if (!isUsual) return;
   way_ += way;
   ++readings_;
-  if (way_ >= kWay && readings_ >= kReadings) isOpen_ = false;
+  if (way_ >= tuning::hypothesis::kWay && readings_ >= tuning::confirmation::kReadings)
+    isOpen_ = false;
 }
 
 }  // namespace ortung

@@ -9,17 +9,16 @@
 #include <numeric>
 #include <optional>
 
+#include "BeliefTuning.hpp"
 #include "Lead.hpp"
+#include "RivalsTuning.hpp"
 #include "ortung/base/Pose2.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr double kLate = 0.02;  ///< probability of any delay, before anything is known
-/// Rate at which another delay begins, as probable as at first [1/s].
-constexpr double kChanges = 1e-4;
-constexpr double kMetres = 0.05;    ///< errors of places beyond the model of odometry's errors [m]
-constexpr double kRadians = 0.03;   ///< errors of headings beyond that model [rad]
+using namespace tuning::delays;
+
 constexpr double kSmallest = 1e-6;  ///< variance of a belief, so that it can be inverted
 
 double prior(std::size_t delay) {
@@ -104,8 +103,9 @@ void Delays::follow(const Predicted& predicted, std::size_t inForce, const PoseE
   const double begins = 1.0 - std::exp(-kChanges * seconds);
   // It may also be that odometry was wrong: then no delay is to blame.
   for (std::size_t i = 0; i < kCount; ++i)
-    probability_[i] = ((1.0 - begins) * probability_[i] + begins * prior(i)) *
-                      (std::exp(std::min(0.0, nats[i] - best)) + std::exp(-kMostNatsOfAReading));
+    probability_[i] =
+        ((1.0 - begins) * probability_[i] + begins * prior(i)) *
+        (std::exp(std::min(0.0, nats[i] - best)) + std::exp(-tuning::lead::kMostNatsOfAReading));
   normalize(probability_);
 }
 

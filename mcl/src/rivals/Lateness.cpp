@@ -5,36 +5,20 @@
 #include <limits>
 #include <utility>
 
+#include "BeliefTuning.hpp"
 #include "CarriedOn.hpp"
 #include "Kld.hpp"
 #include "Resampling.hpp"
+#include "RivalsTuning.hpp"
 #include "ortung/base/Random.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr std::size_t kSamples = 128;
+using namespace tuning::lateness;
+
 /// Number of their noise, which no other samples have.
 constexpr std::uint64_t kFirstNumber = 1ULL << 28;
-constexpr double kEffective = 16.0;  ///< samples: fewer climb
-
-constexpr double kPiece = 1.0;      ///< least time between places that are compared [s]
-constexpr double kSurely = 10.0;    ///< times more probable: then another delay is in force
-constexpr double kLeftOut = 0.005;  ///< probability of delays that may be left out
-constexpr double kSamePlace = 0.5;  ///< [m]
-/// Greatest distance within some seconds [m]; else odometry's counter jumped.
-constexpr double kFarthest = 50.0;
-constexpr double kNegligible = 1e-6;    ///< probability that is not looked at
-constexpr double kEnoughForNone = 8.0;  ///< [nats] for a jump: to have no delay is the rule
-constexpr double kMostSharp = 20.0;     ///< most that one reading counts to tell jumps apart [nats]
-
-// Where a delay may have begun.
-constexpr double kPlacesApart = 0.3;  ///< least difference of places that shows a delay [m + rad]
-constexpr double kIndependent = 0.2;  ///< way after which a reading counts whole [m + rad]
-constexpr double kLongGap = 3.0;      ///< ratio of a long gap between readings to the usual one
-constexpr double kGapKept = 0.9;      ///< least ratio of the usual gap to the one before
-constexpr double kGapMore = 1.5;      ///< greatest ratio of the usual gap to the one before
-constexpr double kDropped = -2.0;     ///< [nats]: it has not
 
 /// Ways and turns alike.
 double apart(const Pose2& a, const Pose2& b) {
@@ -68,7 +52,7 @@ std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose
 bool Lateness::isSuspected(Timestamp stamp) const {
   // A delay of one step is hardly one.
   if (inForce_ > 1 || std::any_of(belief_.jumps.begin(), belief_.jumps.end(), [](const Jump& jump) {
-        return jump.hypothesis.lead().nats() > kMostNatsOfAReading;
+        return jump.hypothesis.lead().nats() > tuning::lead::kMostNatsOfAReading;
       }))
     return true;
   const auto places = placesAt(stamp, Pose2{});
@@ -227,7 +211,7 @@ void Lateness::goOn(const Moment& moment, const Recovery& recovery, const Eviden
     const double ratio = weigh(jump, moment, evidence);
     count(jump, ratio, apart(change, Pose2{}) / kIndependent,
           recovery.isUsual(evidence.fit(jump.hypothesis.samples())));
-    return jump.hypothesis.lead().nats() <= kDropped;
+    return jump.hypothesis.lead().nats() <= tuning::hypothesis::kDropped;
   });
 }
 

@@ -6,21 +6,12 @@
 #include <numeric>
 
 #include "Resampling.hpp"
+#include "RivalsTuning.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr std::size_t kWitnesses = 64;  ///< samples that say how well the belief fits
-/// Share of the long-term average below which one moment's fit is doubtful.
-constexpr double kDoubtfulFit = 0.75;
-constexpr double kFallenFit = 0.6;  ///< share of it below which the short-term average has fallen
-/// Share of it above which the short-term average has recovered.
-constexpr double kRecoveredFit = 0.8;
-/// Share of the long-term average of best fits that is still usual.
-constexpr double kUsualFit = 0.85;
-constexpr int kUnusualReadings = 2;  ///< number of unusual readings in a row that call for a search
-constexpr double kRateWhileFallen = 0.1;
-constexpr double kPoorFit = 0.25;  ///< fit below which the belief always explains too little
+using namespace tuning::recovery;
 
 /// Some samples, by their weights; the last one is nowhere: it gets a feature's floor.
 SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights, Workers* workers) {

@@ -6,43 +6,16 @@
 
 #include "Drift.hpp"
 #include "Kld.hpp"
+#include "MotionTuning.hpp"
 #include "News.hpp"
 #include "Resampling.hpp"
+#include "RivalsTuning.hpp"
+#include "SearchTuning.hpp"
 
 namespace ortung {
 namespace {
 
-// Around the estimate.
-constexpr double kRing = 0.5;             ///< initial radius of the ring [m]
-constexpr double kRingPerSecond = 1.5;    ///< [m/s]: as fast as wheels lie
-constexpr double kLargestRing = 3.0;      ///< [m]
-constexpr double kTurn = 0.35;            ///< initial turn to either side [rad]
-constexpr double kTurnPerSecond = 0.35;   ///< [rad/s]
-constexpr double kLargestTurn = 1.6;      ///< [rad]
-constexpr double kIndependentNear = 0.1;  ///< way after which a reading counts whole [m]
-constexpr double kSamePlace = 0.3;  ///< least distance from the belief of an alternative place [m]
-constexpr double kSameTurn = 0.2;   ///< [rad]
-/// Share of the belief that is taken; the rest stays where it was.
-constexpr double kShareTaken = 0.9;
-constexpr std::size_t kSamplesAround = 400;
-/// Samples that follow odometry, and as many that drift.
-constexpr std::size_t kSpreadAround = 1000;
-constexpr double kDroppedAround = -2.0;     ///< [nats]: then they are drawn anew
-constexpr double kCandidatesAround = 10.0;  ///< candidates for each of these samples
-
-// Elsewhere.
-constexpr double kIndependentFar = 0.3;  ///< [m]
-/// Least distance travelled over which readings are spread [m].
-constexpr double kWayElsewhere = 1.0;
-constexpr int kReadingsElsewhere = 5;  ///< least number of readings
-constexpr int kMostUnusual = 4;        ///< bad readings in a row after which it was a random hit
-constexpr std::size_t kSamplesElsewhere = 1000;
-/// Candidates for each sample, around what a search has found.
-constexpr double kCandidatesElsewhere = 4.0;
-constexpr double kEffectiveElsewhere = 100.0;  ///< samples
-constexpr double kSearchNats = 12.0;           ///< places that fit so much worse are none
-constexpr double kSearchRing = 0.25;           ///< around a place [m]
-constexpr double kSearchTurn = 0.17;           ///< [rad]
+using namespace tuning;
 
 /// Mean of samples, and by how much they are apart: metres and radians alike.
 struct Centre {
@@ -75,8 +48,8 @@ Centre centreOf(const SampleSet& set) {
 
 /// Whether a rival is where the belief is, so that it is none.
 bool isSame(const Pose2& rival, const Pose2& belief) {
-  return distance(rival, belief) < kSamePlace &&
-         std::abs(wrapAngle(rival.theta - belief.theta)) < kSameTurn;
+  return distance(rival, belief) < hypothesis::kSamePlace &&
+         std::abs(wrapAngle(rival.theta - belief.theta)) < hypothesis::kSameTurn;
 }
 
 }  // namespace
@@ -110,11 +83,12 @@ std::optional<Rivals::Takeover> Rivals::follow(const Moment& moment, const Recov
 /// The reading that they are drawn from has chosen them, so it does not count for them.
 void Rivals::drawAround(const Moment& moment, const Evidence& evidence) {
   const double seconds = toSeconds(moment.stamp - *doubtSince_);
-  const PoseSearch::Ring ring{moment.predicted,
-                              std::min(kRing + kRingPerSecond * seconds, kLargestRing),
-                              std::min(kTurn + kTurnPerSecond * seconds, kLargestTurn)};
+  const PoseSearch::Ring ring{
+      moment.predicted,
+      std::min(around::kRing + around::kRingPerSecond * seconds, around::kLargestRing),
+      std::min(around::kTurn + around::kTurnPerSecond * seconds, around::kLargestTurn)};
   SampleSet drawn = search_
-                        .draw(kSamplesAround, kCandidatesAround, evidence.weigh,
+                        .draw(around::kSamples, around::kCandidates, evidence.weigh,
                               Random(config_.seed, moment.stream).fork(0), ring)
                         .samples;
   const Centre centre = centreOf(drawn);
@@ -137,17 +111,17 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   }
   Hypothesis& rival = around_->hypothesis;
   const double ratio = weighAround(moment, evidence);
-  const double part = wayAround(moment) / kIndependentNear;
+  const double part = wayAround(moment) / trust::kIndependent;
   rival.count(ratio, part, recovery.isUsual(evidence.fit(rival.samples())));
   const bool trustsOdometry = !around_->trust.isLost();
   if (rival.lead().isEnough()) {
-    Takeover takeover{rival.samples(), kShareTaken, trustsOdometry};
+    Takeover takeover{rival.samples(), around::kShareTaken, trustsOdometry};
     around_.reset();
     return takeover;
   }
   if (isSame(centreOf(rival.samples()).pose, moment.predicted) && trustsOdometry)
     rival.forgetLead();
-  if (rival.lead().nats() < kDroppedAround || rival.unusual() >= kMostUnusual)
+  if (rival.lead().nats() < hypothesis::kDropped || rival.unusual() >= elsewhere::kMostUnusual)
     drawAround(moment, evidence);
   return std::nullopt;
 }
@@ -158,7 +132,7 @@ double Rivals::weighAround(const Moment& moment, const Evidence& evidence) {
   Around& rival = *around_;
   const double seconds = driftSeconds(rival.stamp, moment.stamp);
   Spread both = spread(config_, rival.hypothesis.samples(), rival.anchor, {}, seconds,
-                       kSpreadAround, moment.stream);
+                       around::kSpread, moment.stream);
   const std::size_t all = both.samples.size();
   rival.hypothesis.setSamples(std::move(both.samples));
   const Hypothesis::Said said = rival.hypothesis.ask(evidence);
@@ -166,7 +140,7 @@ double Rivals::weighAround(const Moment& moment, const Evidence& evidence) {
       said.logEvidenceOf(0, both.drifted) - said.logEvidenceOf(both.drifted, all - both.drifted),
       moment.way);
   rival.anchor = Annealing(evidence.weigh, nullptr)
-                     .draw(rival.hypothesis.samples(), kSamplesAround,
+                     .draw(rival.hypothesis.samples(), around::kSamples,
                            Random(config_.seed, moment.stream).fork(1))
                      .samples;
   rival.hypothesis.setSamples(rival.anchor);
@@ -182,7 +156,7 @@ double Rivals::wayAround(const Moment& moment) {
                       std::abs(wrapAngle(centre.pose.theta - rival.centre.theta)) - rival.open -
                       centre.open;
   // By the readings alone, a slow robot comes far enough in some of them.
-  if (moment.way < kStands && seen < kIndependentNear) return 0.0;
+  if (moment.way < trust::kStands && seen < trust::kIndependent) return 0.0;
   rival.centre = centre.pose;
   rival.open = centre.open;
   return std::max(moment.way, seen);
@@ -197,16 +171,17 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   }
   Hypothesis& rival = elsewhere_->hypothesis;
   const double ratio = weighElsewhere(moment, evidence);
-  rival.count(ratio, moment.way / kIndependentFar, recovery.isUsual(evidence.fit(rival.samples())));
+  rival.count(ratio, moment.way / elsewhere::kIndependent,
+              recovery.isUsual(evidence.fit(rival.samples())));
   elsewhere_->way += moment.way;
   ++elsewhere_->readings;
-  if (rival.lead().isEnough() && elsewhere_->way >= kWayElsewhere &&
-      elsewhere_->readings >= kReadingsElsewhere) {
+  if (rival.lead().isEnough() && elsewhere_->way >= hypothesis::kWay &&
+      elsewhere_->readings >= elsewhere::kReadings) {
     Takeover takeover{rival.samples(), 1.0, true};
     forget();
     return takeover;
   }
-  if (rival.lead().isHopeless() || rival.unusual() >= kMostUnusual ||
+  if (rival.lead().isHopeless() || rival.unusual() >= elsewhere::kMostUnusual ||
       (recovery.hasRecovered() && rival.lead().nats() <= 0.0) ||
       isSame(centreOf(rival.samples()).pose, moment.predicted))
     elsewhere_.reset();
@@ -218,10 +193,10 @@ double Rivals::weighElsewhere(const Moment& moment, const Evidence& evidence) {
   Hypothesis& rival = elsewhere_->hypothesis;
   const Random random = Random(config_.seed, moment.stream).fork(2);
   const auto climb = [&] {
-    return Hypothesis::Climb{rival.samples().size(), kSamplesElsewhere, random.fork(0),
+    return Hypothesis::Climb{rival.samples().size(), elsewhere::kSamples, random.fork(0),
                              random.fork(1)};
   };
-  return rival.weigh(evidence, config_, kEffectiveElsewhere, climb).logEvidence -
+  return rival.weigh(evidence, config_, elsewhere::kEffective, climb).logEvidence -
          moment.logEvidence;
 }
 
@@ -243,8 +218,8 @@ void Rivals::drawElsewhere(const Moment& moment) {
   std::vector<PoseSearch::Ring> rings;
   const auto places = searching_->job.places();
   for (const FieldSearch::Place& place : places) {
-    if (place.logProbability > places.front().logProbability - kSearchNats)
-      rings.push_back({place.pose, kSearchRing, kSearchTurn});
+    if (place.logProbability > places.front().logProbability - elsewhere::kSearchNats)
+      rings.push_back({place.pose, places::kRing, places::kTurn});
   }
   const Moment then = std::move(searching_->moment);
   searching_.reset();
@@ -260,7 +235,7 @@ SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Mo
     ortung::weigh(news, set, &workers_, out);
   };
   return search_
-      .drawFrom(rings, kSamplesElsewhere, kCandidatesElsewhere, weigh,
+      .drawFrom(rings, elsewhere::kSamples, places::kCandidates, weigh,
                 Random(config_.seed, then.stream).fork(2))
       .samples;
 }

@@ -7,21 +7,15 @@
 #include <utility>
 
 #include "Resampling.hpp"
+#include "SearchTuning.hpp"
 #include "ortung/base/Pose2.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr double kWorth = 0.5;  ///< share of the set that each rise of b leaves effective
-constexpr int kMostRises = 12;  ///< most rises of b, even if 1 is not reached
-constexpr std::size_t kMostTempered = 65536;    ///< poses that tell how far it may rise
-constexpr double kStepMetres[] = {0.15, 0.05};  ///< sigma of a Metropolis step, coarse and fine [m]
-constexpr double kStepRadians[] = {0.08, 0.02};  ///< [rad]
-// Sigmas of a sample's surroundings, at least: motion models promise more than wheels keep.
-constexpr double kLeastMetres = 0.06;   ///< [m]
-constexpr double kMostMetres = 0.15;    ///< greatest sigma of a position [m]
-constexpr double kMostRadians = 0.1;    ///< [rad]
-constexpr double kLeastRadians = 0.03;  ///< [rad]
+using namespace tuning::annealing;
+
+constexpr std::size_t kSteps = 2;  ///< of Metropolis: coarse, then fine
 
 std::vector<float> taken(const std::vector<float>& from,
                          const std::vector<std::uint32_t>& indices) {
@@ -112,7 +106,7 @@ void Annealing::Draw::endPass() {
     return;
   }
   annealing_.accept(climbing_, weighing_, fit_, exponent_, climb_);
-  if (++step_ == std::size(kStepMetres)) {
+  if (++step_ == kSteps) {
     rise();
     return;
   }
@@ -157,8 +151,8 @@ double Annealing::logPriorOf(const Climbing& some, std::size_t i, float x, float
 
 /// Where each of a set would step to.
 SampleSet Annealing::proposed(const SampleSet& set, std::size_t step, Random& random) const {
-  const double metres = std::min(kStepMetres[step], mostMetres_);
-  const double radians = std::min(kStepRadians[step], mostRadians_);
+  const double metres = std::min(step == 0 ? kCoarseMetres : kFineMetres, mostMetres_);
+  const double radians = std::min(step == 0 ? kCoarseRadians : kFineRadians, mostRadians_);
   SampleSet proposed;
   proposed.resize(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {

@@ -11,28 +11,20 @@
 
 #include "NominalTime.hpp"
 #include "Parallel.hpp"
+#include "SearchTuning.hpp"
 #include "ortung/core/BlurrableWeigher.hpp"
 
 namespace ortung {
 namespace {
 
+using namespace tuning::field;
+
 /// Bound of |ln p| of one moment's readings, whatever plugins return.
 constexpr float kMostNats = 1e4F;
 constexpr float kNowhere = -std::numeric_limits<float>::infinity();
 constexpr std::size_t kBatch = 8 * kChunk;
-/// Standard deviation of a pose that may be anywhere between its neighbours, in spacings: 0.29 if
-/// all would be alike. Less finds more where walls are near, and 0.15 to 0.3 are much the same.
-constexpr double kBlur = 0.2;
-constexpr double kFinest = 0.1;    ///< poses closer than this are not divided any more [m]
-constexpr std::size_t kCrowd = 4;  ///< times the survivors: those that they are chosen from
-constexpr double kPlaceMetres = 0.5;
-constexpr double kPlaceRadians = 0.35;
-constexpr std::size_t kSurvivorsAPlace = 12;  ///< a wide hill must not be all that is left
-constexpr std::size_t kParts = 8;             ///< parts that a pose is divided into
-constexpr std::size_t kClimbing = 4;          ///< poses that climb for each place that is wanted
-constexpr std::size_t kNeighbours = 7;        ///< a climb's choices, where it is among them
-constexpr int kClimbs = 8;
-constexpr int kClimbsAStep = 2;  ///< climbs until the step gets half as long
+constexpr std::size_t kParts = 8;       ///< parts that a pose is divided into
+constexpr std::size_t kNeighbours = 7;  ///< a climb's choices, where it is among them
 
 void require(bool holds, const char* what, double value) {
   if (!holds)

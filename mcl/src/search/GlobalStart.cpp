@@ -5,29 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "BeliefTuning.hpp"
 #include "Lead.hpp"
 #include "Resampling.hpp"
+#include "SearchTuning.hpp"
 #include "ortung/base/Random.hpp"
 
 namespace ortung {
-namespace {
-
-constexpr double kNats = 10.0;  ///< places that fit so much worse than the best are none
-constexpr double kRing = 0.25;  ///< around a place [m]
-constexpr double kTurn = 0.17;  ///< [rad]
-/// A hill that has lost less than this at the edge of its ring is wider than that [nats].
-constexpr double kEdgeNats = 3.0;
-constexpr std::size_t kSamples = 2000;      ///< number of samples of all places together ...
-constexpr std::size_t kSamplesAPlace = 50;  ///< additional samples for each place
-constexpr double kLeastShare = 1e-4;        ///< least share of the belief that is not neglected
-constexpr double kCandidates = 4.0;         ///< candidates for each sample
-/// Least number of candidates for each sample, all over the floor.
-constexpr double kFewestCandidates = 2.0;
-constexpr double kMostCandidates = 1e5;  ///< most candidates together, however large the building
-/// Of drawing, beside what readings take: random numbers, choices [ns a pose].
-constexpr double kDrawNanoseconds = 150.0;
-
-}  // namespace
 
 GlobalStart::GlobalStart(const MclConfig& config, const FieldRegion& region,
                          const PoseSearch& search, Workers& workers)
@@ -54,7 +38,7 @@ void GlobalStart::begin(Moment moment) {
   moment_ = std::move(moment);
   std::vector<std::shared_ptr<const Weigher>> readings;
   for (const News& one : moment_->news) readings.push_back(one.weigher);
-  nanoseconds_ = nanosecondsOf(moment_->news) + kDrawNanoseconds;
+  nanoseconds_ = nanosecondsOf(moment_->news) + tuning::start::kDrawNanoseconds;
   prepare();
   field_->begin(std::move(readings));
 }
@@ -99,8 +83,8 @@ PoseSearch::Weigh GlobalStart::cautiousWeigher() const {
   const std::span<const FieldSearch::Place> places = field_->places();
   for (std::size_t i = 0; i < rings_.size(); ++i) {
     const double worse = places.front().logProbability - places[i].logProbability;
-    if (worse > kMostNatsOfAReading)
-      raised.emplace_back(rings_[i], static_cast<float>(worse - kMostNatsOfAReading));
+    if (worse > tuning::lead::kMostNatsOfAReading)
+      raised.emplace_back(rings_[i], static_cast<float>(worse - tuning::lead::kMostNatsOfAReading));
   }
   return [plain = weigher(), raised = std::move(raised)](const SampleSet& set,
                                                          std::vector<float>& out) {
@@ -120,10 +104,13 @@ void GlobalStart::beginAround() {
   const bool areAll = !rings_.empty() && !areNotAll();
   const std::size_t most = areAll ? config_.maxSamples : config_.maxSamples / 2;
   const std::size_t n =
-      rings_.empty() ? 0 : std::min(most, kSamples + kSamplesAPlace * rings_.size());
+      rings_.empty()
+          ? 0
+          : std::min(most, tuning::start::kSamples + tuning::start::kSamplesAPlace * rings_.size());
   const Random random = Random(config_.seed, moment_->stream).fork(0);
   const PoseSearch::Weigh weigh = areAll ? cautiousWeigher() : weigher();
-  if (n > 0) around_.emplace(search_.drawingFrom(rings_, n, kCandidates, weigh, random));
+  if (n > 0)
+    around_.emplace(search_.drawingFrom(rings_, n, tuning::places::kCandidates, weigh, random));
   beside_ = areAll ? 0 : config_.maxSamples - n;
 }
 
@@ -143,8 +130,8 @@ SampleSet GlobalStart::take() {
   if (!beside || beside->samples.size() == 0) return std::move(around->samples);
   if (!around) return std::move(beside->samples);
   const double share = 1.0 / (1.0 + std::exp(around->logEvidence - beside->logEvidence));
-  if (share < kLeastShare) return std::move(around->samples);
-  if (share > 1.0 - kLeastShare) return std::move(beside->samples);
+  if (share < tuning::start::kLeastShare) return std::move(around->samples);
+  if (share > 1.0 - tuning::start::kLeastShare) return std::move(beside->samples);
   add(around->samples, beside->samples, share);
   return std::move(around->samples);
 }
@@ -154,21 +141,22 @@ std::vector<PoseSearch::Ring> GlobalStart::found() const {
   const std::span<const FieldSearch::Place> places = field_->places();
   std::vector<PoseSearch::Ring> rings;
   for (const FieldSearch::Place& place : places)
-    if (place.logProbability > places.front().logProbability - kNats)
-      rings.push_back({place.pose, kRing, kTurn});
+    if (place.logProbability > places.front().logProbability - tuning::start::kNats)
+      rings.push_back({place.pose, tuning::places::kRing, tuning::places::kTurn});
   return rings;
 }
 
 /// Whether there may be more places, or readings fit beyond the rings as they do within.
 bool GlobalStart::areNotAll() const {
-  constexpr std::array<Pose2, 6> kEdges = {Pose2{kRing, 0, 0}, {-kRing, 0, 0}, {0, kRing, 0},
-                                           {0, -kRing, 0},     {0, 0, kTurn},  {0, 0, -kTurn}};
+  using tuning::places::kRing, tuning::places::kTurn;
+  const std::array<Pose2, 6> edgesOfRing = {Pose2{kRing, 0, 0}, {-kRing, 0, 0}, {0, kRing, 0},
+                                            {0, -kRing, 0},     {0, 0, kTurn},  {0, 0, -kTurn}};
   const FieldSearch::Settings settings;
   if (rings_.size() >= settings.places) return true;
   SampleSet edges;
   std::vector<double> tops;
   for (std::size_t i = 0; i < rings_.size(); ++i) {
-    for (const Pose2& edge : kEdges) {
+    for (const Pose2& edge : edgesOfRing) {
       const Pose2& top = rings_[i].pose;
       const Pose2 pose{top.x + edge.x, top.y + edge.y, top.theta + edge.theta};
       const bool isOfAnother =
@@ -189,7 +177,7 @@ bool GlobalStart::areNotAll() const {
   std::vector<float> logs;
   ortung::weigh(moment_->news, edges, nullptr, logs);
   for (std::size_t i = 0; i < logs.size(); ++i)
-    if (static_cast<double>(logs[i]) > tops[i] - kEdgeNats) return true;
+    if (static_cast<double>(logs[i]) > tops[i] - tuning::start::kEdgeNats) return true;
   return false;
 }
 
@@ -197,8 +185,8 @@ bool GlobalStart::areNotAll() const {
 /// their number goes with the floor.
 double GlobalStart::candidatesFor(std::size_t samples) const {
   const double area = static_cast<double>(search_.cells()) * region_.grid.cell * region_.grid.cell;
-  const double all = std::min(config_.startCandidates * area, kMostCandidates);
-  return std::max(all / static_cast<double>(samples), kFewestCandidates);
+  const double all = std::min(config_.startCandidates * area, tuning::start::kMostCandidates);
+  return std::max(all / static_cast<double>(samples), tuning::start::kFewestCandidates);
 }
 
 }  // namespace ortung

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace ortung {
+
+/// @return the value that ORTUNG_CONSTANTS ("lead.kEnoughNats=8 trust.kStands=0.004") has for
+///   @p name, else @p value; whole numbers are rounded
+/// @throws std::invalid_argument where it has no number
+template <typename Number>
+Number swept(const char* name, Number value) {
+  const char* given = std::getenv("ORTUNG_CONSTANTS");
+  std::istringstream words(given ? given : "");
+  for (std::string word; words >> word;) {
+    const std::size_t sign = word.find('=');
+    if (sign == std::string::npos || word.substr(0, sign) != name) continue;
+    const double number = std::stod(word.substr(sign + 1));
+    if constexpr (std::is_integral_v<Number>) return static_cast<Number>(std::llround(number));
+    return static_cast<Number>(number);
+  }
+  return value;
+}
+
+}  // namespace ortung
