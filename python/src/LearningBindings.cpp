@@ -120,37 +120,27 @@ auto array(const Get& get, bool hasAgents, std::size_t last) {
   };
 }
 
-}  // namespace
+using PyBatch = py::class_<Batch>;
 
-void bindLearning(py::module_& module) {
-  py::enum_<Autoreset>(module, "Autoreset")
-      .value("NEXT_STEP", Autoreset::kNextStep)
-      .value("SAME_STEP", Autoreset::kSameStep)
-      .value("DISABLED", Autoreset::kDisabled);
-  module.def(
-      "environments",
-      [] {
-        py::list all;
-        for (const EnvironmentInfo& info : learning::environments()) all.append(describe(info));
-        return all;
-      },
-      "What there is: id, agents, observation and actions (name, unit, low, high), options.");
-  module.def("heuristic", &heuristicActions, py::arg("id"), py::arg("agent"),
-             py::arg("observations"), "What the shipped heuristic does, (N, action).");
-  module.def("blocking", &blockingActions, py::arg("observations"),
-             "What a keeper does that stands between ball and middle of its goal, (N, 2).");
-  module.def(
-      "ending_name",
-      [](int ending) {
-        if (ending < 0 || ending > 4) throw py::value_error("there is no ending of this number");
-        return std::string(learning::nameOf(static_cast<learning::Ending>(ending)));
-      },
-      py::arg("ending"), "Of a number in Batch.endings; 0: the episode goes on.");
+/// Arrays that show what is in the batch, without copies.
+void bindArrays(PyBatch& batch) {
+  batch.def_property_readonly("observations", array<float>(&Batch::observations, true, 1))
+      .def_property_readonly("final_observations", array<float>(&Batch::finalObservations, true, 1))
+      .def_property_readonly("rewards", array<double>(&Batch::rewards, true, 0))
+      .def_property_readonly("terminated", array<bool>(&Batch::terminated, false, 0))
+      .def_property_readonly("truncated", array<bool>(&Batch::truncated, false, 0))
+      .def_property_readonly("endings", array<std::uint8_t>(&Batch::endings, false, 0))
+      .def_property_readonly("seeds", array<std::uint64_t>(&Batch::seeds, false, 0))
+      .def_property_readonly("numbers", array<std::uint64_t>(&Batch::numbers, false, 0))
+      .def_property_readonly("states", array<float>(&Batch::states, false, 12));
+}
 
-  py::class_<Batch>(
-      module, "Batch",
-      "N episodes of one environment, which one call steps on all threads. Arrays are "
-      "views of what the next call changes.")
+/// N episodes of one environment, stepped together.
+void bindBatch(py::module_& module) {
+  PyBatch batch(module, "Batch",
+                "N episodes of one environment, which one call steps on all threads. Arrays are "
+                "views of what the next call changes.");
+  batch
       .def(py::init([](const std::string& id, const py::dict& options, std::size_t episodes,
                        unsigned threads, Autoreset autoreset, std::uint64_t seed) {
              const Options values = toOptions(id, options);
@@ -190,16 +180,37 @@ void bindLearning(py::module_& module) {
           "Of episodes that begin from now on.")
       .def("__len__", &Batch::size)
       .def_property_readonly("id", [](const Batch& batch) { return batch.info().id; })
-      .def_property_readonly("autoreset", &Batch::autoreset)
-      .def_property_readonly("observations", array<float>(&Batch::observations, true, 1))
-      .def_property_readonly("final_observations", array<float>(&Batch::finalObservations, true, 1))
-      .def_property_readonly("rewards", array<double>(&Batch::rewards, true, 0))
-      .def_property_readonly("terminated", array<bool>(&Batch::terminated, false, 0))
-      .def_property_readonly("truncated", array<bool>(&Batch::truncated, false, 0))
-      .def_property_readonly("endings", array<std::uint8_t>(&Batch::endings, false, 0))
-      .def_property_readonly("seeds", array<std::uint64_t>(&Batch::seeds, false, 0))
-      .def_property_readonly("numbers", array<std::uint64_t>(&Batch::numbers, false, 0))
-      .def_property_readonly("states", array<float>(&Batch::states, false, 12));
+      .def_property_readonly("autoreset", &Batch::autoreset);
+  bindArrays(batch);
+}
+}  // namespace
+
+void bindLearning(py::module_& module) {
+  py::enum_<Autoreset>(module, "Autoreset")
+      .value("NEXT_STEP", Autoreset::kNextStep)
+      .value("SAME_STEP", Autoreset::kSameStep)
+      .value("DISABLED", Autoreset::kDisabled);
+  module.def(
+      "environments",
+      [] {
+        py::list all;
+        for (const EnvironmentInfo& info : learning::environments()) all.append(describe(info));
+        return all;
+      },
+      "What there is: id, agents, observation and actions (name, unit, low, high), options.");
+  module.def("heuristic", &heuristicActions, py::arg("id"), py::arg("agent"),
+             py::arg("observations"), "What the shipped heuristic does, (N, action).");
+  module.def("blocking", &blockingActions, py::arg("observations"),
+             "What a keeper does that stands between ball and middle of its goal, (N, 2).");
+  module.def(
+      "ending_name",
+      [](int ending) {
+        if (ending < 0 || ending > 4) throw py::value_error("there is no ending of this number");
+        return std::string(learning::nameOf(static_cast<learning::Ending>(ending)));
+      },
+      py::arg("ending"), "Of a number in Batch.endings; 0: the episode goes on.");
+
+  bindBatch(module);
 }
 
 }  // namespace ortung::python

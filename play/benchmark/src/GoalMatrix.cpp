@@ -98,7 +98,7 @@ std::string withoutSight(std::string text) {
     if (at == std::string::npos) continue;
     const std::size_t end = std::min(text.find_first_of("&@", at + 1), text.size());
     const bool hasMore = mark == ':' && end < text.size() && text[end] == '&';
-    text.erase(hasMore ? at + 1 : at, hasMore ? end - at : end - at);
+    text.erase(hasMore ? at + 1 : at, end - at);
   }
   return text;
 }

@@ -131,14 +131,20 @@ void Episode::placeStriker() {
     const double turned = random.uniform(-1.0, 1.0) * (isLost ? 1.0 : 0.2);
     pose.theta = wrapAngle(std::atan2(-pose.y, kGoalLine - pose.x) + turned);
     const Pose2 ball = pose * Pose2{kBallAhead, 0.0, 0.0};
-    try {
-      simulation_.place(*striker_, pose);
-      simulation_.placeThing(0, {ball.x, ball.y, 0.0});
-      return;
-    } catch (const std::invalid_argument&) {  // there is no room
-    }
+    if (hasPlaced(pose, ball)) return;
   }
   throw std::runtime_error("found no room for striker and ball");
+}
+
+/// @return whether there was room for both
+bool Episode::hasPlaced(const Pose2& striker, const Pose2& ball) {
+  try {
+    simulation_.place(*striker_, striker);
+    simulation_.placeThing(0, {ball.x, ball.y, 0.0});
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
 }
 
 void Episode::seat(Stand::Entrant& entrant, SimRobot& robot, bool isAgent, bool isStriker) {

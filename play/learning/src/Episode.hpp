@@ -82,6 +82,7 @@ class Episode {
 
  private:
   void placeStriker();
+  bool hasPlaced(const Pose2& striker, const Pose2& ball);
   void seat(Stand::Entrant& entrant, SimRobot& robot, bool isAgent, bool isStriker);
   void sense();
   void checkPlayers() const;

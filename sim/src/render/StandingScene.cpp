@@ -143,7 +143,7 @@ Rgba rgbaOf(const std::string& colour, Rgba fallback) {
           static_cast<std::uint8_t>(*rgb), 255};
 }
 
-void addInstances(const WorldObject& object, std::size_t place_, std::vector<Instance>& instances) {
+void addInstances(const WorldObject& object, std::size_t number, std::vector<Instance>& instances) {
   const PixelClass kind = classOf(object.kind);
   const Rgba colour = rgbaOf(object.colour, usualColour(kind));
   for (const WorldPiece& piece : object.pieces) {
@@ -156,7 +156,7 @@ void addInstances(const WorldObject& object, std::size_t place_, std::vector<Ins
     one.reach = std::hypot(one.reach, 0.5 * (piece.zHigh - piece.zLow));
     one.colour = rgbaOf(piece.colour, colour);
     one.isNet = object.isNet;
-    one.thing = static_cast<std::uint32_t>(kind) | static_cast<std::uint32_t>(place_ + 1) << 8;
+    one.thing = static_cast<std::uint32_t>(kind) | static_cast<std::uint32_t>(number + 1) << 8;
     if (object.team.empty() || piece.zHigh < object.zHigh) continue;
     one.band = rgbaOf(object.team, {255, 0, 255, 255});
     const double share =

@@ -1,0 +1,72 @@
+"""The filter's constants, as the Tuning headers of its rooms declare them, and the page that shows what each one changes."""
+import glob
+import os
+import re
+import typing
+
+DECLARED = re.compile(r"((?:^///[^\n]*\n)+)ORTUNG_CONSTANT\((\w+), (\w+),\s*([^;]+)\);", re.M)
+ROW = re.compile(r"^\| `(\w+)` \| ([^|]+?) \|", re.M)
+PART = re.compile(r"^### `(\w+)`", re.M)
+
+
+class Constant(typing.NamedTuple):
+    """`part.name` with the number and the text that stand in the header."""
+    room: str
+    part: str
+    name: str
+    value: float
+    unit: str
+    what: str
+
+    @property
+    def key(self):
+        return self.part + "." + self.name
+
+    @property
+    def shown(self):
+        return ("%g" % self.value) + (" " + self.unit if self.unit and self.unit != "share" else "")
+
+    def times(self, factor):
+        """So many times the value; of a share the odds, so that it stays one; whole numbers of one at least."""
+        if self.unit == "share":
+            odds = factor * self.value / (1.0 - self.value)
+            return odds / (1.0 + odds)
+        return factor * self.value
+
+
+def declared(root):
+    """All constants, room by room in the order of their headers; raises ValueError where one says nothing of itself."""
+    found = []
+    for header in sorted(glob.glob(os.path.join(root, "mcl/src/*/*Tuning.hpp"))):
+        with open(header) as file:
+            text = file.read()
+        named = DECLARED.findall(text)
+        if len(named) != text.count("ORTUNG_CONSTANT("):
+            raise ValueError("%s: %d of %d constants have a comment with `///`" %
+                             (header, len(named), text.count("ORTUNG_CONSTANT(")))
+        for comment, part, name, value in named:
+            what = " ".join(line[3:].strip() for line in comment.strip().split("\n"))
+            unit = re.match(r"\[([^\]]+)\] ", what)
+            number = re.search(r"-?[\d'.]+(?:e-?\d+)?", value.replace("std::size_t", "")).group().replace("'", "")
+            found.append(Constant(os.path.basename(os.path.dirname(header)), part, name, float(number),
+                                  unit.group(1) if unit else "", what[unit.end():] if unit else what))
+    return found
+
+
+def shown_in(page):
+    """{part.name: value as it is shown} of a page."""
+    rows = {}
+    pieces = PART.split(page)
+    for part, text in zip(pieces[1::2], pieces[2::2]):
+        for name, value in ROW.findall(text):
+            rows[part + "." + name] = value
+    return rows
+
+
+def differences(constants, page):
+    """Sentences on what the page lacks, has too much of, or has with another value."""
+    rows = shown_in(page)
+    trouble = ["%s is not in the page" % c.key for c in constants if c.key not in rows]
+    trouble += ["%s is %s in the code and was %s when it was measured" % (c.key, c.shown, rows[c.key])
+                for c in constants if rows.get(c.key, c.shown) != c.shown]
+    return trouble + ["%s is in the page alone" % key for key in rows if key not in {c.key for c in constants}]
