@@ -20,7 +20,8 @@ namespace ortung {
 enum class Purpose : std::uint64_t { kMotion, kResampling, kStart, kRivals, kSpread, kCount };
 
 // An update looks for readings, and then has these steps for each moment: predict, weigh, lead,
-// estimate, resample. What a step gives back is what the next one takes, so there is no other order.
+// estimate, resample. What a step gives back is what the next one takes, so there is no other
+// order.
 
 /// The readings of a moment.
 struct Moment {
