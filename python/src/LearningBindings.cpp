@@ -137,10 +137,10 @@ void bindArrays(PyBatch& batch) {
 
 /// N episodes of one environment, stepped together.
 void bindBatch(py::module_& module) {
-  PyBatch batch(module, "Batch",
+  PyBatch bound(module, "Batch",
                 "N episodes of one environment, which one call steps on all threads. Arrays are "
                 "views of what the next call changes.");
-  batch
+  bound
       .def(py::init([](const std::string& id, const py::dict& options, std::size_t episodes,
                        unsigned threads, Autoreset autoreset, std::uint64_t seed) {
              const Options values = toOptions(id, options);
@@ -181,7 +181,7 @@ void bindBatch(py::module_& module) {
       .def("__len__", &Batch::size)
       .def_property_readonly("id", [](const Batch& batch) { return batch.info().id; })
       .def_property_readonly("autoreset", &Batch::autoreset);
-  bindArrays(batch);
+  bindArrays(bound);
 }
 }  // namespace
 

@@ -71,15 +71,17 @@ TEST(MclSettingsLimits, FieldsTakeTheirWholeRangeAndNothingBeyond) {
     const double most = std::string(option.key) == "min_particles" ? 20000.0 : high;
     EXPECT_EQ(complaint(most), "(nothing was thrown)") << option.key;
     if (option.kind == MclConfig::Option::Kind::kFlag) continue;
-    if (std::string(option.key) != "particles")  // there are 500 at least
+    if (std::string(option.key) != "particles") {  // there are 500 at least
       EXPECT_EQ(complaint(low), "(nothing was thrown)") << option.key;
+    }
     for (const double wrong : {beyond(option, low, -1.0), beyond(option, most, 1.0)}) {
       if (wrong < 0.0 && option.kind == MclConfig::Option::Kind::kInteger) continue;
       EXPECT_EQ(complaint(wrong).find(std::string("MclConfig: ") + option.key + " is "), 0u)
           << option.key << " = " << wrong << ": " << complaint(wrong);
     }
-    if (option.kind == MclConfig::Option::Kind::kNumber)
+    if (option.kind == MclConfig::Option::Kind::kNumber) {
       EXPECT_NE(complaint(std::nan("")), "(nothing was thrown)") << option.key;
+    }
   }
   MclConfig c;
   c.threads = 257;
@@ -111,6 +113,12 @@ TEST(MclSettingsLimits, ThePageHasEachKeyWithItsDefault) {
     const double value = row == "true" ? 1.0 : row == "false" ? 0.0 : std::stod(row);
     EXPECT_NEAR(value, option.get(MclConfig()), 0.02 * std::abs(value)) << option.key;
   }
+}
+
+TEST(MclSettingsLimits, TheFuzzersWordsHaveEachKey) {
+  const std::string words = test::readBytes(ORTUNG_SOURCE_DIR "/tests/fuzz/robot.dict");
+  for (const MclConfig::Option& option : MclConfig::options())
+    EXPECT_NE(words.find("\"" + std::string(option.key) + " = \""), words.npos) << option.key;
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(Wanderer, BacksAfterItWasStuckAndOnlyThen) {
   StuckStage stuck;
   NotedRobot noted;
   test::SeatOnStage seat(stuck, noted, 1);
-  seat.able = {0.25, 0.5, {}, "", {}};
+  seat.able = {0.25, 0.5, {}, "", {}, {}};
   player->begin(seat);
   std::vector<Timestamp> backwards;
   // Whatever it does, it does not get away from here.

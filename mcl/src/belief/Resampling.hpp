@@ -8,6 +8,8 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 
+// Weights of samples, and drawing by them with low variance: when an update resamples, and wherever
+// a set grows, shrinks or climbs (annealing, hypotheses, delays, samples that drift).
 namespace ortung {
 
 class Workers;  // those who take some: borrowed, and the result does not depend on them

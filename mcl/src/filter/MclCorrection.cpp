@@ -1,4 +1,4 @@
-// How readings weigh the hypotheses: the filter's second half (eq. 7).
+// The second half of an update: weigh (eq. 7), let the best lead, estimate, resample.
 #include <algorithm>
 #include <cmath>
 
@@ -25,8 +25,7 @@ std::vector<const Weigher*> readingsOf(const std::vector<News>& news) {
 void Mcl::Impl::correct(const std::vector<News>& news, Predicted predicted) {
   Weighed weighed = weigh(news, predicted);
   Led led = letBestLead(std::move(weighed));
-  Estimated estimated = estimateFrom(std::move(led));
-  resample(std::move(estimated));
+  resample(estimateFrom(std::move(led)));
 }
 
 /// @param news borrowed
@@ -200,7 +199,7 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
 }
 
 /// Draws as many samples as their bins need, once few of them have most of the weight.
-void Mcl::Impl::resample(Estimated estimated) {
+void Mcl::Impl::resample(const Estimated& estimated) {
   Hypothesis& belief = track->belief;
   const std::size_t had = belief.samples().size();
   const std::vector<double>& weights = estimated.weights;

@@ -122,7 +122,7 @@ struct Mcl::Impl {
   [[nodiscard]] Weighed weigh(const std::vector<News>& news, Predicted predicted);
   [[nodiscard]] Led letBestLead(Weighed weighed);
   [[nodiscard]] Estimated estimateFrom(Led led);
-  void resample(Estimated estimated);
+  void resample(const Estimated& estimated);
   std::optional<Rivals::Moment> competition(const Moment& moment, const Hypothesis::Said& said);
   std::vector<double> takeIn(const Moment& moment, const Hypothesis::Said& said);
   std::vector<double> takeInUnsure(const Moment& moment, Hypothesis::Said said,
