@@ -9,7 +9,7 @@
 
 namespace ortung {
 
-/// @return the value that ORTUNG_CONSTANTS ("lead.kEnoughNats=8 trust.kStands=0.004") has for
+/// @return the value that ORTUNG_CONSTANTS ("lead.kEnoughNats=8 trust.kStationary=0.004") has for
 ///   @p name, else @p value; whole numbers are rounded
 /// @throws std::invalid_argument where it has no number
 template <typename Number>

@@ -46,7 +46,7 @@ Weighed Mcl::Impl::weigh(const std::vector<News>& news, Predicted predicted) {
   Moment moment = momentOf(news, predicted.stamp);
   Hypothesis::Said said = track->belief.ask(moment.evidence, &tools.workers);
   if (const auto fit = fitOfBelief(moment, said.before))
-    track->recovery.follow(*fit, reached.odometry && track->way.all < tuning::trust::kStands);
+    track->recovery.follow(*fit, reached.odometry && track->way.all < tuning::trust::kStationary);
   std::optional<Rivals::Moment> compared = competition(moment, said);
   const double logEvidence = said.logEvidence;
   std::vector<double> weights = predicted.drifted > 0

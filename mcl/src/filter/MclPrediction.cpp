@@ -68,7 +68,7 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
   if (now) moveBy(*now);
   if (now && track->trust.isLost()) {
     // Odometry that says that the robot stands, though the readings say that it does not, is none.
-    track->isBlind = track->way.all < tuning::trust::kStands;
+    track->isBlind = track->way.all < tuning::trust::kStationary;
     if (track->isBlind)
       moveBlindly(stamp);
     else

@@ -48,7 +48,7 @@ ORTUNG_CONSTANT(trust, kIndependent, 0.1);
 ORTUNG_CONSTANT(trust, kRegained, 8.0);
 /// [m] Greatest way of odometry that is stationary; 1 rad counts as 1 m. By hand: what wheel
 /// encoders resolve.
-ORTUNG_CONSTANT(trust, kStands, 0.002);
+ORTUNG_CONSTANT(trust, kStationary, 0.002);
 
 }  // namespace trust
 

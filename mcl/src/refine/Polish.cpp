@@ -85,16 +85,16 @@ std::optional<Solution> agreement(const std::vector<const Polishable*>& readings
 }
 
 /// Of which directions readings by themselves tell more than a cluster of samples can.
-enum class Told { kNone, kSome, kAll };
+enum class Determined { kNothing, kPartly, kAll };
 
 /// What vaguer readings say is known to samples as well, and what they leave open better: a
 /// distance puts the robot on a circle.
-Told toldBy(const Slope& slope) {
+Determined determinedBy(const Slope& slope) {
   const Vector unit(kClusterMetres, kClusterMetres, kClusterRadians);
   const Matrix times = unit.asDiagonal() * matrixOf(slope.information) * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix> parts(times, Eigen::EigenvaluesOnly);
-  if (!(parts.eigenvalues()[2] > 1.0)) return Told::kNone;
-  return parts.eigenvalues()[0] > 1.0 ? Told::kAll : Told::kSome;
+  if (!(parts.eigenvalues()[2] > 1.0)) return Determined::kNothing;
+  return parts.eigenvalues()[0] > 1.0 ? Determined::kAll : Determined::kPartly;
 }
 
 Prior priorOf(const PoseEstimate& cluster, double metres, double radians) {
@@ -125,7 +125,7 @@ std::optional<double> surprise(const Vector& moved, const Matrix& promised,
   double count = 0.0;
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double share = parts.eigenvalues()[k];
-    if (!(share > kTold) || std::abs(share - 1.0) < kForeseen) continue;
+    if (!(share > kLeastRemoved) || std::abs(share - 1.0) < kPredicted) continue;
     squares += off[k] * off[k] / share;
     count += 1.0;
   }
@@ -149,15 +149,15 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
       readings.push_back(reading);
   const bool follows = place_ && predicted && isSame(place_->pose, *predicted);
   const Slope slope = slopeOf(readings, estimate.pose);
-  const Told told = toldBy(slope);
+  const Determined pose = determinedBy(slope);
   // A place that keeps its promises is known well enough to be normal where readings leave it open.
-  const bool isNormal = follows && times_ < kKept;
-  if (told == Told::kNone || (told == Told::kSome && !isNormal)) {
+  const bool isNormal = follows && times_ < kConsistentRatio;
+  if (pose == Determined::kNothing || (pose == Determined::kPartly && !isNormal)) {
     apply(estimate);
     return;
   }
   const Prior prior = follows
-                          ? between(*predicted, *place_, std::min(1.0, kChance / times_))
+                          ? between(*predicted, *place_, std::min(1.0, kRandomRatio / times_))
                           : priorOf(predicted.value_or(estimate), kClusterMetres, kClusterRadians);
   const auto solution = agreement(readings, prior, estimate.pose, slope);
   if (!solution || !isSame(solution->pose, estimate)) {
@@ -203,8 +203,8 @@ void Polish::apply(PoseEstimate& cluster) const {
 void Polish::put(PoseEstimate& cluster) const {
   const Vector apart = difference(place_->pose, cluster.pose);
   const Matrix samples = matrixOf(cluster.covariance) + apart * apart.transpose();
-  const Matrix covariance =
-      times_ * matrixOf(place_->covariance) + (1.0 - std::min(1.0, kChance / times_)) * samples;
+  const Matrix covariance = times_ * matrixOf(place_->covariance) +
+                            (1.0 - std::min(1.0, kRandomRatio / times_)) * samples;
   const Matrix blur = matrixOf(blur_);
   cluster.pose = place_->pose;
   Eigen::Map<RowMajor>(cluster.covariance.data()) = covariance + blur * blur.transpose();

@@ -46,15 +46,15 @@ ORTUNG_CONSTANT(polish, kClusterMetres, 0.03);
 ORTUNG_CONSTANT(polish, kClusterRadians, 0.02);
 /// [share] Directions in which readings remove less than this share of the uncertainty have no
 /// innovation. By hand.
-ORTUNG_CONSTANT(polish, kTold, 0.1);
+ORTUNG_CONSTANT(polish, kLeastRemoved, 0.1);
 /// [share] Where readings are so much narrower than the prediction, all of an innovation is the
 /// motion's: it says nothing about the readings. By hand.
-ORTUNG_CONSTANT(polish, kForeseen, 0.02);
+ORTUNG_CONSTANT(polish, kPredicted, 0.02);
 /// Estimates are consistent if squared innovations are not so many times larger than expected. By
 /// hand.
-ORTUNG_CONSTANT(polish, kKept, 2.0);
+ORTUNG_CONSTANT(polish, kConsistentRatio, 2.0);
 /// Ratio of squared innovations to expected ones that may be random. By hand.
-ORTUNG_CONSTANT(polish, kChance, 1.5);
+ORTUNG_CONSTANT(polish, kRandomRatio, 1.5);
 /// Most that an innovation counts, in usual ones: 3 sigma.
 ORTUNG_CONSTANT(polish, kMostTimes, 9.0);
 /// [share] Rate at which innovations are averaged, over twenty updates; faster at first. By hand.

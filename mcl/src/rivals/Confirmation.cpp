@@ -8,7 +8,7 @@ void Confirmation::count(bool isUsual, double way) {
   if (!isUsual) return;
   way_ += way;
   ++readings_;
-  if (way_ >= tuning::hypothesis::kWay && readings_ >= tuning::confirmation::kReadings)
+  if (way_ >= tuning::hypothesis::kDistance && readings_ >= tuning::confirmation::kReadings)
     isOpen_ = false;
 }
 

@@ -242,7 +242,7 @@ Lateness::Change Lateness::jumpTo(const Jump& jump) {
 std::optional<Lateness::Change> Lateness::decide() {
   if (const Jump* jump = leading()) return jumpTo(*jump);
   const std::size_t best = delays_.mostProbable();
-  if (probability(best) < kSurely * probability(inForce_)) return std::nullopt;
+  if (probability(best) < kStrongEvidence * probability(inForce_)) return std::nullopt;
   inForce_ = best;
   belief_.jumps.clear();
   return Change{};

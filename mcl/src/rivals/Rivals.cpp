@@ -156,7 +156,7 @@ double Rivals::wayAround(const Moment& moment) {
                       std::abs(wrapAngle(centre.pose.theta - rival.centre.theta)) - rival.open -
                       centre.open;
   // By the readings alone, a slow robot comes far enough in some of them.
-  if (moment.way < trust::kStands && seen < trust::kIndependent) return 0.0;
+  if (moment.way < trust::kStationary && seen < trust::kIndependent) return 0.0;
   rival.centre = centre.pose;
   rival.open = centre.open;
   return std::max(moment.way, seen);
@@ -175,7 +175,7 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
               recovery.isUsual(evidence.fit(rival.samples())));
   elsewhere_->way += moment.way;
   ++elsewhere_->readings;
-  if (rival.lead().isEnough() && elsewhere_->way >= hypothesis::kWay &&
+  if (rival.lead().isEnough() && elsewhere_->way >= hypothesis::kDistance &&
       elsewhere_->readings >= elsewhere::kReadings) {
     Takeover takeover{rival.samples(), 1.0, true};
     forget();

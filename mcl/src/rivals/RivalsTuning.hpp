@@ -21,7 +21,7 @@ ORTUNG_CONSTANT(hypothesis, kSamePlace, 0.3);
 ORTUNG_CONSTANT(hypothesis, kSameTurn, 0.2);
 /// [m] Least distance travelled over which readings are spread that confirm a place far away:
 /// nearer ones can err alike.
-ORTUNG_CONSTANT(hypothesis, kWay, 1.0);
+ORTUNG_CONSTANT(hypothesis, kDistance, 1.0);
 
 }  // namespace hypothesis
 
@@ -106,7 +106,7 @@ ORTUNG_CONSTANT(lateness, kEffective, 16.0);
 ORTUNG_CONSTANT(lateness, kPiece, 1.0);
 /// Times more probable than the delay in force: then another one is in force. By hand: Jeffreys'
 /// strong evidence.
-ORTUNG_CONSTANT(lateness, kSurely, 10.0);
+ORTUNG_CONSTANT(lateness, kStrongEvidence, 10.0);
 /// [share] Probability of delays that may be left out. Cost.
 ORTUNG_CONSTANT(lateness, kLeftOut, 0.005);
 /// [m] Distance of two delays' places below which they are one. By hand.
