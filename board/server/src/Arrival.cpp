@@ -9,7 +9,7 @@
 namespace ortung::server {
 namespace {
 
-constexpr double kFarewell = 2.0;  // for a browser to close after our answer [s]
+constexpr double kFarewell = 2.0;  // time for a browser to close after our answer [s]
 
 constexpr std::string_view kNoWebServer =
     "This is a message board of Ortung, no web server. Its clients speak lines of text,\n"
@@ -45,7 +45,7 @@ void Arrival::receive(const boost::system::error_code& error, std::size_t count)
   } else if (error) {
     close();
   } else if (isAnswered) {
-    read();  // and forget: closing while it still sends would throw our answer away
+    read();  // the data is dropped: closing while the peer still sends would discard our answer
   } else if (const Speech speech = speechOf(bytes_); speech == Speech::kHttp) {
     isHttp_ = true;
     receiveHead();
@@ -71,7 +71,7 @@ void Arrival::receiveHead() {
   read();
 }
 
-/// Whether whoever hosts the board takes the connection.
+/// Returns whether the board's host takes the connection.
 bool Arrival::isTaken() {
   if (!config_.http) return false;
   boost::system::error_code error;

@@ -8,10 +8,10 @@
 namespace ortung::server {
 namespace {
 
-// What a client gets done before it is another one's turn.
+// Limits of one client's turn, before the next client's begins.
 constexpr int kLinesOfTurn = 32;
 constexpr Timestamp kTimeOfTurn = 100;    // [us]
-constexpr double kTalkOfNewcomers = 0.2;  // share of a second's talk: so coming back gives nothing
+constexpr double kTalkOfNewcomers = 0.2;  // share of a second's talk: reconnecting gains none
 
 }  // namespace
 
@@ -47,11 +47,11 @@ void Conversation::takeLines() {
   }
 }
 
-/// @returns whether it ended before there was nothing more to take
+/// @returns whether the turn ended although more lines can be taken
 bool Conversation::takeTurn() {
   const Timestamp begin = wallTime();
   for (int lines = 0; mayTakeLine(); ++lines) {
-    const bool isLate = lines > 0 && wallTime() - begin >= kTimeOfTurn;  // one is always taken
+    const bool isLate = lines > 0 && wallTime() - begin >= kTimeOfTurn;  // it always takes one
     if (lines == kLinesOfTurn || isLate) return true;
     if (!takeLine()) return false;
   }
@@ -92,7 +92,7 @@ void Conversation::handleLine(std::string_view line) {
   try {
     call(command, request);
   } catch (...) {
-    if (command != nullptr && command->hasText)  // which is on its way all the same
+    if (command != nullptr && command->hasText)  // its text is sent in any case
       text_ = Text{request.tag(), {}, currentErrorText()};
     else
       refuse(request.tag(), currentErrorText());
@@ -140,7 +140,8 @@ void Conversation::onCycle() {
   if (!isOver_) client_.subscriptions.onCycle(*this);
 }
 
-/// There is room for more lines. They are taken in a turn, however many orders were executed.
+/// Continues when there is room for more lines, which are taken in a turn, however many orders were
+/// executed.
 void Conversation::goOn() {
   const bool hasLine = input_.find('\n', searched_) != std::string::npos;
   if (hasLine && !isReceiving_ && !std::exchange(isTurnOver_, true)) host_.queue(weak_from_this());

@@ -1,4 +1,4 @@
-// What takes its time: orders to the world, work on threads beside, waiting.
+// Commands that take time: orders to the world, work on other threads, waiting.
 #include <utility>
 
 #include "Conversation.hpp"
@@ -41,10 +41,10 @@ void Conversation::answer(const std::string& tag, std::function<void(Caller&)> s
   order(
       tag, [](WorldKeeper&, WorldKeeper::Done&) { return Reply(""); },
       [say = std::move(say)](Caller& its, const std::string&, const std::string&) { say(its); },
-      true);  // what comes behind it must not change what it says
+      true);  // later lines must not change the reply
 }
 
-/// Says an error in its turn.
+/// Replies with an error, in the order of the requests.
 void Conversation::refuse(const std::string& tag, const std::string& text) {
   answer(tag, [tag, text](Caller& its) { its.error(tag, text); });
 }

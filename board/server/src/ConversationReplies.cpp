@@ -1,4 +1,4 @@
-// What is said to a client, and how it ends.
+// Replies to a client, and the end of its conversation.
 #include <utility>
 
 #include "Conversation.hpp"
@@ -10,7 +10,7 @@ constexpr std::size_t kTalkOfTurn = 8u << 10;  // [bytes]
 
 }  // namespace
 
-/// Not to a client that does not read.
+/// Returns whether a reply may be sent; if the client does not read, none may.
 bool Conversation::mayReply() {
   if (isOver_) return false;
   const BoardLimits& limits = host_.config.limits;
@@ -33,7 +33,7 @@ void Conversation::reply(const std::string& tag, std::string_view text, std::str
   if (!text.starts_with("ERR")) errors_ = 0;
 }
 
-/// What follows the line is not copied.
+/// Sends a line and @p body, which is not copied.
 void Conversation::reply(const std::string& tag, std::string_view text, Output&& body) {
   if (!mayReply()) return;
   Output out;
@@ -54,7 +54,7 @@ void Conversation::put(std::string_view text) {
   flushSoon();
 }
 
-/// What is followed by more soon is not sent piece by piece.
+/// Sends the output when the received lines are done, so that replies are not sent piece by piece.
 void Conversation::flushSoon() {
   if (isReceiving_) return;
   if (pending_ == 0) {

@@ -5,9 +5,10 @@
 namespace ortung::server {
 namespace {
 
-constexpr Timestamp kMemory = 60'000'000;    // of a wrong token [us]
-constexpr std::size_t kMostPeers = 4096;     // remembered; if there are more, all have to wait
-constexpr Timestamp kLogPeriod = 1'000'000;  // so that a guesser does not fill the disk [us]
+constexpr Timestamp kMemory = 60'000'000;  // how long a wrong token is remembered [us]
+constexpr std::size_t kMostPeers = 4096;   // peers remembered; with more, all have to wait
+// Least time between two lines, so that guesses don't fill the disk [us]
+constexpr Timestamp kLogPeriod = 1'000'000;
 
 bool isRemembered(Timestamp since, Timestamp now) { return now - since < kMemory; }
 

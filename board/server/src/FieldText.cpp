@@ -25,7 +25,7 @@ std::string wallText(const FieldWall& wall) {
          keyValue("z1_m", wall.zHigh) + (wall.ofGoal ? " goal=1" : "");
 }
 
-/// One word, whatever a world file calls it.
+/// Returns a world file's name as one word.
 std::string wordOf(std::string name) {
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
@@ -57,7 +57,7 @@ std::string keyValue(const char* key, double value) {
 std::vector<std::string> fieldText(const FieldModel& field) {
   std::vector<std::string> lines;
   for (const FieldLine& line : field.lines) lines.push_back(lineText(line));
-  for (const FieldWall& wall : field.walls) {  // the longest first
+  for (const FieldWall& wall : field.walls) {  // the longest ones come first
     if (lines.size() >= field.lines.size() + kMostWalls) break;
     lines.push_back(wallText(wall));
   }

@@ -3,7 +3,7 @@
 namespace ortung::server {
 namespace {
 
-constexpr double kClientsAtOnce = 20.0;  // that may talk as much as one client may
+constexpr double kClientsAtOnce = 20.0;  // clients that may talk at once as much as one may
 
 RobotId liveRobotOf(const ServedWorld& world) {
   if (world.livePeriod() == 0) return 0;

@@ -29,12 +29,12 @@ using server::Session;
 
 constexpr int kBacklog = 128;
 constexpr std::chrono::seconds kLongestFarewell{1};
-// What is done for many clients before those are heard that have asked for something.
+// Longest time spent on many clients before requests of others are handled.
 constexpr Timestamp kTimeOfTurn = 300;  // [us]
-// Between turns of clients that have sent more than they get done in one.
+// Pauses between turns of clients that have sent more than one turn can handle.
 constexpr Timestamp kShortestPause = 50;     // [us]
 constexpr Timestamp kLongestPause = 10'000;  // [us]
-constexpr Timestamp kPausePerTurn = 2;       // times what the turn took
+constexpr Timestamp kPausePerTurn = 2;       // pause as a multiple of the turn's time
 
 void checkAddress(const BoardConfig& config) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
@@ -49,7 +49,7 @@ void checkAddress(const BoardConfig& config) {
 
 }  // namespace
 
-/// Everything of the board: who lets connections in, and the host of the conversations.
+/// The board's parts: what accepts connections, and the host of the conversations.
 struct MessageBoard::Parts final : server::Host, server::Porter {
   Parts(ServedWorld& world, const BoardConfig& boardConfig)
       : Host(world, boardConfig, keeper_),
@@ -70,7 +70,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   }
 
   void awaitTurn() {
-    turnTimer_.expires_at(nextTurn_);  // the past: at once, but in its turn
+    turnTimer_.expires_at(nextTurn_);  // if that has passed, it runs at once, but in order
     turnTimer_.async_wait([this](const boost::system::error_code& cancelled) {
       if (!cancelled && !isEnding_) giveTurn();
     });
@@ -86,7 +86,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
     nextTurn_ = end + std::clamp<std::chrono::steady_clock::duration>(
                           kPausePerTurn * (end - begin), std::chrono::microseconds(kShortestPause),
                           std::chrono::microseconds(kLongestPause));
-    if (hasOthers) awaitTurn();  // otherwise whoever came in meanwhile has asked for it
+    if (hasOthers) awaitTurn();  // otherwise clients that were queued meanwhile have called it
   }
 
   void broadcast(server::ClientId from, std::string_view text) override {
@@ -115,7 +115,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
     if (!std::exchange(isTalkPosted_, true)) post([this] { letHear(0); });
   }
 
-  /// Lets clients behind @p last hear what was said.
+  /// Lets clients behind @p last hear what others have sent.
   void letHear(server::ClientId last) {
     const Timestamp begin = server::wallTime();
     for (auto next = sessions_.upper_bound(last); next != sessions_.end(); ++next) {
@@ -129,21 +129,22 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   }
 
   void forget(server::ClientId client) override {
-    // Later: the session that says so is still at work, and maybe a loop over all of them.
+    // This happens later: the session that calls is still at work, and maybe a loop over all
+    // sessions.
     post([this, client] { sessions_.erase(client); });
   }
 
   void countSubscribers(int change) override { subscribers_ += change; }
 
-  /// On the world's thread.
+  /// Runs on the world's thread.
   void onCycle() {
     if (subscribers_ == 0 || isTickPosted_.exchange(true)) return;
     asio::post(io_, [this] { push(0); });
   }
 
-  /// Sends what is subscribed to clients behind @p last.
+  /// Sends subscribed readings to clients behind @p last.
   void push(server::ClientId last) {
-    if (last == 0) isTickPosted_ = false;  // what is published from now on needs another round
+    if (last == 0) isTickPosted_ = false;  // later readings need another round
     const Timestamp begin = server::wallTime();
     for (auto next = sessions_.upper_bound(last); next != sessions_.end(); ++next) {
       next->second->conversation().onCycle();
@@ -178,7 +179,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
         return;
       }
       log("a client could not be accepted: " + error.message());
-      // Most likely there are too many open files: give others time to leave.
+      // Most likely there are too many open files: give other clients time to leave.
       retry_.expires_after(std::chrono::milliseconds(100));
       retry_.async_wait([this](const boost::system::error_code& cancelled) {
         if (!cancelled && !isEnding_) accept();
@@ -205,7 +206,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
     arrival->start();
   }
 
-  /// Connections from a computer.
+  /// Returns how many connections come from a computer.
   std::size_t count(const std::string& peer) const {
     const auto isThere = [&](const auto& entry) { return entry.second->peer() == peer; };
     return static_cast<std::size_t>(std::count_if(sessions_.begin(), sessions_.end(), isThere) +
@@ -224,7 +225,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
     post([this, id] { arrivals_.erase(id); });  // later: a loop over all may be under way
   }
 
-  /// Looks after all connections now and then.
+  /// Checks the time limits of all connections, periodically.
   void look() {
     const BoardLimits& limits = config.limits;
     const double shortest = std::max(
@@ -244,7 +245,7 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   }
 
   void shutDown(const std::string& why) {
-    isEnding_ = true;  // a timer may have gone off already: then it can't be cancelled any more
+    isEnding_ = true;  // a timer that has expired already can't be cancelled
     boost::system::error_code ignored;
     acceptor_.close(ignored);
     timer_.cancel();

@@ -21,9 +21,10 @@ namespace {
 constexpr std::size_t kMostMarks = 10'000;
 constexpr std::size_t kMostFeatures = 1024;
 constexpr std::uint64_t kBetweenProgress = 4096;  // readings
-// Of what is in sight after a seek: scans come ten times a second, camera pictures at least once.
+// How far a seek reads back for what is in sight: scans come ten times a second, camera pictures at
+// least once.
 constexpr Timestamp kBefore = 3'000'000;  // [us]
-// Faster than robots drive: it was carried.
+// Robots do not drive faster than that: a faster one was carried.
 constexpr double kFastest = 10.0;  // [m/s]
 constexpr double kNoJump = 0.3;    // [m]
 
@@ -31,7 +32,7 @@ ServedFeature served(const SensorData& data) {
   return {data.id(), data.wordsHelp(), {}, data.format().toText()};
 }
 
-/// What is known of a feature by its name alone.
+/// Returns what is known of a feature from its name alone.
 ServedFeature featureOf(const SensorId& id) {
   if (id.type == "groundTruth") return served(PoseData(id));
   if (id == SensorId{"odometry", "odometry", "pose"}) return served(OdometryData(id));
@@ -108,8 +109,8 @@ void PlaybackRun::noteTrack(const Message& message) {
     return;
   }
   const TrackStatus now = track.reading().status;
-  if (now == status_ || now == TrackStatus::kUncertain) return;  // between them it may waver
-  // Who has just begun is not lost.
+  if (now == status_ || now == TrackStatus::kUncertain) return;  // it may waver between them
+  // A run that has just begun is not lost.
   if (now == TrackStatus::kTracking || status_) mark(message.stamp, nameOf(now));
   status_ = now;
 }
@@ -152,7 +153,7 @@ void PlaybackRun::open(Timestamp from) {
   taken_.assign(features_.size(), 0);
 }
 
-/// The newest of a feature counts.
+/// Takes a reading; of each feature only the newest one is kept.
 void PlaybackRun::take(Message&& message) {
   const std::size_t place = placeOf(message.id);
   if (taken_[place] == 0) {

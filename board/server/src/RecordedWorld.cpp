@@ -25,7 +25,7 @@ std::string text(RobotId robot, const Recordings::State& state) {
   return line + (state.text.empty() ? "" : " " + state.text);
 }
 
-/// The one that is meant; nothing: all.
+/// Returns the robot of the argument, or nothing if all are meant.
 std::optional<RobotId> takeRobot(CallArguments& arguments, RecordedWorld& world) {
   const std::optional<std::string> said = arguments.takeText("robot");
   if (said == "all") return std::nullopt;
@@ -107,7 +107,7 @@ std::vector<RobotId> RecordedWorld::robots() {
 
 void RecordedWorld::begin(RobotId robot) {
   const Robot& its = find(robot);
-  // Where a running robot is, nobody knows.
+  // The field of a running robot is unknown.
   recordings_.begin(robot, its.name, livePeriod() > 0 ? "" : describe().fingerprint);
   if (config_.takesReadings) world().want(robot, its.features);
 }

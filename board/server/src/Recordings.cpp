@@ -15,9 +15,9 @@ namespace {
 using Kind = Recordings::State::Kind;
 
 constexpr std::size_t kLongestName = 64;
-constexpr int kMostFiles = 100'000;  // of one robot's name
+constexpr int kMostFiles = 100'000;  // for the name of one robot
 
-/// Of the name what no file system, shell or client minds.
+/// Returns the name with only such characters as file systems, shells and clients accept.
 std::string safe(const std::string& name) {
   std::string text = name.substr(0, kLongestName);
   for (char& c : text) {
@@ -26,7 +26,7 @@ std::string safe(const std::string& name) {
     if (!isPlain) c = '_';
   }
   if (text.empty()) text = "robot";
-  if (text.front() == '-') text.front() = '_';  // programs take it for an option
+  if (text.front() == '-') text.front() = '_';  // programs would take it for an option
   return text;
 }
 
@@ -46,7 +46,7 @@ Recordings::Recordings(Config config) : config_(std::move(config)) {
 
 Recordings::~Recordings() { endAll(); }
 
-/// Nobody else takes a name that is there, though the file is empty.
+/// Returns the name of a new file, which is created empty so that no other program takes the name.
 std::string Recordings::newFile(const std::string& name) const {
   for (int number = 1; number <= kMostFiles; ++number) {
     std::string file = safe(name) + "-" + std::to_string(number) + ".rec";
@@ -89,7 +89,7 @@ void Recordings::begin(RobotId robot, const std::string& name,
 /// @throws std::runtime_error
 void Recordings::write(Record& record, std::span<const Message> readings) {
   for (const Message& message : readings) {
-    // No reader would take what lies behind it.
+    // Readers would refuse everything behind such a reading.
     if (record.writer->messages() > 0 && message.stamp < record.last)
       throw std::runtime_error("the time of the readings went back, from " +
                                std::to_string(record.last) + " to " +
@@ -116,7 +116,7 @@ void Recordings::write(RobotId robot, std::span<const Message> moment,
     } catch (const std::exception& error) {
       record.state.kind = Kind::kFailed;
       record.state.text = error.what();
-      record.writer.reset();  // what is whole stays
+      record.writer.reset();  // the whole readings stay in the file
       problem = "the record " + record.state.file + " has ended: " + error.what();
     }
   }

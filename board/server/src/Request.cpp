@@ -27,7 +27,7 @@ std::string_view cutWord(std::string_view& line) {
   return word;
 }
 
-/// "key=value" with a key in small letters.
+/// Returns the length of KEY in "KEY=VALUE", whose key has small letters; 0 for other words.
 std::size_t keyLength(std::string_view word) {
   const std::size_t equals = word.find('=');
   if (equals == word.npos || equals == 0) return 0;

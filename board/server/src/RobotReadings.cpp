@@ -10,8 +10,8 @@ namespace ortung::server {
 
 namespace {
 
-/// What has more goes in binary form alone: a picture as text is four times as large, and slow.
-/// Scans have 8192 words at most.
+/// Readings with more words are sent in binary form only: a picture as text is four times as large,
+/// and slow. Scans have 8192 words at most.
 constexpr std::size_t kMostWordsOfALine = 8192;
 
 }  // namespace
@@ -97,7 +97,7 @@ void RobotReadings::forget() {
     entry.isThere = false;
     entry.large.reset();
   }
-  std::fill(told_.begin(), told_.end(), char{0});  // the robots may be new ones
+  std::fill(told_.begin(), told_.end(), char{0});  // the robots may have changed
 }
 
 void RobotReadings::append(Entry& entry, bool binary, Output& out) const {
@@ -116,7 +116,7 @@ void RobotReadings::append(Entry& entry, bool binary, Output& out) const {
 
 Written RobotReadings::write(const Choice& choice, std::vector<std::uint64_t>& sent, Output& out) {
   chosen_.clear();
-  for (std::size_t i = 0; i < features_.size(); ++i)  // without the lock: it may take a while
+  for (std::size_t i = 0; i < features_.size(); ++i)  // without the lock, as it may take long
     if (choice.wants(features_[i].id)) chosen_.push_back(i);
   const std::lock_guard lock(mutex_);
   sent.resize(entries_.size(), 0);

@@ -14,7 +14,7 @@ void sendReadings(Caller& caller, const std::string& tag, const char* command, R
   }
   Output body;
   const Written written = view->readings->write(choice, view->sent, body);
-  std::string head = tag == "*" ? "" : "OK ";  // a push answers nothing
+  std::string head = tag == "*" ? "" : "OK ";  // an update is no reply
   head.append(command).append(" robot=").append(std::to_string(robot));
   head.append(" now=").append(std::to_string(caller.host().keeper.clock().at(wallTime())));
   if (choice.binary) head.append(" bytes=").append(std::to_string(body.size()));

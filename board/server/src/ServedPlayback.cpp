@@ -12,14 +12,14 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostRuns = 16;
-constexpr double kMargin = 1.0;  // around the poses, where nobody says how large the field is [m]
+constexpr double kMargin = 1.0;  // around the poses, if the field's size is unknown [m]
 const SensorId kRobots{"world", "truth", "robots"};
 
 [[noreturn]] void refuse() {
   throw ServeError("record", "what happened in a record can't be changed");
 }
 
-/// Takes no commands.
+/// Refuses all commands.
 class Mute final : public RobotCommands {
  public:
   ~Mute() override = default;
@@ -113,7 +113,7 @@ std::vector<ServedFeature> ServedPlayback::truthFeatures() const {
 
 std::span<Message> ServedPlayback::truth() {
   Message& robots = parts_->truth.front();
-  robots.stamp = 0;  // of the newest pose, so that it can be compared with others of its time
+  robots.stamp = 0;  // becomes that of the newest pose, to compare it with others of its time
   robots.words.clear();
   RobotId number = 0;
   for (const auto& run : parts_->runs) {
@@ -136,7 +136,7 @@ void ServedPlayback::step() {
 
 void ServedPlayback::seek(Timestamp stamp) {
   parts_->now = std::clamp<Timestamp>(stamp, 0, parts_->length);
-  // The readings of that very moment, too.
+  // Readings with exactly that stamp are included.
   for (const auto& run : parts_->runs) run->seek(parts_->now + 1);
 }
 

@@ -6,9 +6,9 @@
 namespace ortung {
 namespace {
 
-// A robot file names what feels and moves; of a record nothing but the data is made.
+// A robot file names sensors and motion, too; for a record only the data plugins are made.
 constexpr std::string_view kInterfaces[] = {SensorData::kInterface, MotionModel::kInterface};
-constexpr Timestamp kPause = 100'000;  // between the end of a record and its repetition [us]
+constexpr Timestamp kPause = 100'000;  // pause between the end of a record and its repetition [us]
 
 }  // namespace
 

@@ -7,10 +7,11 @@
 namespace ortung::server {
 namespace {
 
-constexpr std::size_t kPiece = 256u << 10;  // written at a time, so that progress shows [bytes]
+// Size of one write, so that progress is noticed [bytes]
+constexpr std::size_t kPiece = 256u << 10;
 
-constexpr double kFarewell = 2.0;          // for a client to close after our last words [s]
-constexpr double kLongestFarewell = 60.0;  // for it to read what it had asked for before [s]
+constexpr double kFarewell = 2.0;          // time for a client to close after our last reply [s]
+constexpr double kLongestFarewell = 60.0;  // time for it to read earlier replies [s]
 
 bool hasPassed(Timestamp since, Timestamp now, double seconds) {
   return toSeconds(now - since) > seconds;
@@ -73,7 +74,8 @@ void Session::read() {
         self->isReading_ = false;
         if (error == boost::asio::error::eof && !self->isFinishing_ && !self->isClosed_ &&
             self->conversation_->hasOpenRequests()) {
-          // Nothing more will come, but it may wait for answers: a script piped into netcat does.
+          // No more requests will come, but the client may wait for replies: a script piped into
+          // netcat does.
           self->hasEnded_ = true;
           self->heard_ = wallTime();
           return;
@@ -115,10 +117,10 @@ std::size_t Session::writeNow(std::string_view text) {
   progressed_ = wallTime();
   boost::system::error_code error;
   const std::size_t sent = socket_.write_some(boost::asio::buffer(text.data(), text.size()), error);
-  return error ? 0 : sent;  // also when there is no room; the real trouble shows in write()
+  return error ? 0 : sent;  // also if there is no room; write() reports real errors
 }
 
-/// The same of what waits, as much as there is room for now.
+/// Writes as much of the waiting output as there is room for now.
 void Session::writeNow() {
   progressed_ = wallTime();
   boost::system::error_code error;
@@ -164,8 +166,8 @@ void Session::finish() {
   if (!isClosed_) write();
 }
 
-/// All is said. Closing while the client still sends would make the kernel throw our last words
-/// away, so what it sends is read and forgotten until it closes, too.
+/// Reads and drops what the client still sends until it closes, too: closing earlier would make the
+/// kernel discard our last replies.
 void Session::listenToTheEnd() {
   finished_ = wallTime();
   boost::system::error_code ignored;
@@ -180,7 +182,7 @@ void Session::look(Timestamp now) {
   const bool owes = isWriting_;
   const bool isDawdling = isFinishing_ && hasPassed(finished_, now, kLongestFarewell);
   if (owes && (isDawdling || hasPassed(progressed_, now, limits_.stall))) {
-    close();  // told or not, it does not read
+    close();  // it does not read, so it can't be told why
     return;
   }
   if (isFinishing_) {

@@ -12,7 +12,8 @@ void Subscriptions::begin(Caller& caller, RobotId robot, const Wish& wish) {
   subscribed_[robot] = {wish};
 }
 
-/// The readings of another client's robot are not kept: that may leave the field at any time.
+/// Ends a subscription. Readings of another client's robot are dropped: it may leave the field at
+/// any time.
 void Subscriptions::end(Caller& caller, RobotId robot) {
   if (subscribed_.erase(robot) == 0) return;
   ClientRobots& robots = caller.client().robots;
@@ -28,12 +29,12 @@ void Subscriptions::got(Caller& caller, RobotId robot) {
   const auto found = subscribed_.find(robot);
   if (found == subscribed_.end() || found->second.unread == 0) return;
   --found->second.unread;
-  // A world that stands has no next cycle with which it would come.
+  // A paused world has no next cycle that would send the update.
   if (std::exchange(found->second.isOwed, false)) send(caller, robot, found->second);
 }
 
 void Subscriptions::onCycle(Caller& caller) {
-  // Sending may end all subscriptions: who does not read is dismissed.
+  // Sending may end all subscriptions: a client that does not read is dismissed.
   for (auto next = subscribed_.begin(); next != subscribed_.end();) {
     const RobotId robot = next->first;
     if (!send(caller, robot, next->second)) {
@@ -52,13 +53,13 @@ bool Subscriptions::send(Caller& caller, RobotId robot, Subscription& subscripti
   const Timestamp period = subscription.wish.period;
   const Timestamp now = caller.host().keeper.clock().at(wallTime());
   if (now < subscription.due && subscription.due - now <= period) return true;
-  // A client that is behind gets less often what is newest.
+  // A client that reads too slowly gets the newest readings less often.
   constexpr std::size_t kBehind = 64u << 10;
   const std::int64_t ahead = subscription.wish.ahead;
   subscription.isOwed = ahead > 0 && subscription.unread >= ahead;
   if (subscription.isOwed || caller.outlet().outstanding() > kBehind) return true;
   subscription.due += period;
-  // It was the first, or the world has started over.
+  // This was the first update, or the world has been reset.
   if (subscription.due < now || subscription.due - now > period) subscription.due = now + period;
   ++subscription.unread;
   sendReadings(caller, "*", "UPDATE", robot, subscription.wish.choice);

@@ -10,9 +10,9 @@ namespace ortung::server {
 namespace {
 
 constexpr Timestamp kNever = std::numeric_limits<Timestamp>::max();
-constexpr Timestamp kLongestWait = 100'000;   // to look whether to go on [us]
-constexpr Timestamp kMostBehind = 1'000'000;  // what the world tries to catch up with [us]
-// What is executed although the next cycle is due.
+constexpr Timestamp kLongestWait = 100'000;   // until it checks whether to go on [us]
+constexpr Timestamp kMostBehind = 1'000'000;  // delay that the world tries to catch up [us]
+// Limits of the orders that are executed although the next cycle is due.
 constexpr std::size_t kOrdersOfLateCycle = 256;
 constexpr Timestamp kTimeOfLateCycle = 2'000;  // [us]
 
@@ -36,7 +36,7 @@ std::string currentErrorText() {
     return "ERR argument " + printable(error.what());
   } catch (const std::exception& error) {
     return "ERR internal " + printable(error.what());
-  } catch (...) {  // commands of whoever hosts the board may throw anything
+  } catch (...) {  // commands of the board's host may throw anything
     return "ERR internal it threw no std::exception";
   }
 }
@@ -97,8 +97,8 @@ bool WorldKeeper::mayAdvance() const {
   return isPaused_ ? steps_ > 0 : isLockstepReady();
 }
 
-/// What the clock shows at most before the next cycle, however late that is: one cycle more.
-/// A live world's clock can't be held up.
+/// Returns the latest time that the clock may show before the next cycle, however late that is: one
+/// cycle more. A live world's clock can't be held up.
 Timestamp WorldKeeper::latest() const { return isLive() ? kNever : world_.now() + cycle_; }
 
 void WorldKeeper::anchor(Timestamp wall) {
@@ -109,7 +109,7 @@ void WorldKeeper::anchor(Timestamp wall) {
   clock_.set(anchorStamp_, anchorWall_, stands ? 0.0 : speed_, latest());
 }
 
-/// When the next cycle begins on the wall's clock; the past: at once.
+/// Returns when the next cycle begins, in wall time; if that has passed, it begins at once.
 Timestamp WorldKeeper::due() {
   if (!mayAdvance()) {
     if (!wasBlocked_) clock_.set(world_.now(), wallTime(), 0.0);
@@ -125,7 +125,7 @@ Timestamp WorldKeeper::due() {
   const Timestamp regular = anchorWall_ + static_cast<Timestamp>(behindAnchor);
   const bool wasBlocked = std::exchange(wasBlocked_, false);
   const Timestamp now = wallTime();
-  // What was lost while nobody was allowed to go on is not made up for, nor is more than a second.
+  // Time that was lost while the world was blocked is not caught up, nor is more than a second.
   if (now - regular > (wasBlocked ? 0 : kMostBehind)) {
     if (!wasBlocked && cycle_ > 0)
       missed_ += static_cast<std::uint64_t>(static_cast<double>(now - regular) * speed_ /
@@ -139,7 +139,7 @@ Timestamp WorldKeeper::due() {
 
 void WorldKeeper::run(const std::function<bool()>& goesOn) {
   if (isLive())
-    follow(wallTime() - livePeriod_);  // the first look is due at once
+    follow(wallTime() - livePeriod_);  // so the first look is due at once
   else
     anchor(wallTime());
   while (!isStopped_ && (!goesOn || goesOn())) {
@@ -197,7 +197,7 @@ void WorldKeeper::execute(Given& given) {
     text = currentErrorText();
   }
   meetResidents();
-  // In a world that stands, nothing else would tell that something was moved by hand.
+  // In a paused world no cycle would report that something was moved by hand.
   if (wasBlocked_ || isPaused_)
     if (publishTruth() && onCycle_) onCycle_();
   if (given.done) given.done(std::move(text));
@@ -235,7 +235,7 @@ void WorldKeeper::cycle(Timestamp due) {
   if (onCycle_) onCycle_();
 }
 
-/// @returns whether the world is not as it was told last
+/// @returns whether the world differs from what was published last
 bool WorldKeeper::publishTruth() {
   if (!truth_) return false;
   const std::span<Message> truth = world_.truth();
@@ -249,7 +249,7 @@ bool WorldKeeper::publishTruth() {
   return true;
 }
 
-/// While the world stands no cycle brings what is still worked out.
+/// Publishes readings that become ready while the world is paused, when no cycle brings them.
 void WorldKeeper::publishLate() {
   bool isNew = false;
   for (const auto& [id, robot] : robots_) {
@@ -278,7 +278,8 @@ std::string WorldKeeper::paceText() const {
 }
 
 void WorldKeeper::finishCycle() {
-  const bool isLast = world_.isAtEnd();  // who asked for more gets what there was
+  // Clients that asked for more cycles get those that there were.
+  const bool isLast = world_.isAtEnd();
   for (auto& [id, client] : clients_) {
     if (!client.isLockstep || client.cycles == 0 || (--client.cycles > 0 && !isLast)) continue;
     client.cycles = 0;
@@ -292,7 +293,7 @@ void WorldKeeper::finishCycle() {
 void WorldKeeper::fail(const std::string& why) {
   failure_ = why;
   if (config_.log) config_.log("the world can't go on: " + why);
-  // Those who wait for cycles wait in vain.
+  // Clients that wait for cycles get an error.
   const std::string text = "ERR failed " + printable(failure_);
   for (auto& [id, client] : clients_) {
     client.cycles = 0;
@@ -302,7 +303,7 @@ void WorldKeeper::fail(const std::string& why) {
   if (stepsDone_) std::exchange(stepsDone_, {})(text);
 }
 
-/// Sets the clock by that of a live world, and when to look at it again.
+/// Sets the clock to that of a live world, and the time of the next look at it.
 void WorldKeeper::follow(Timestamp looked) {
   wasBlocked_ = false;
   clock_.set(world_.now(), wallTime(), 1.0);
@@ -329,7 +330,7 @@ void WorldKeeper::setSpeed(double speed) {
 void WorldKeeper::resume() {
   refuseIfLive("paused");
   isPaused_ = false;
-  wasBlocked_ = true;  // the clock has stood still
+  wasBlocked_ = true;  // the clock was stopped
 }
 
 void WorldKeeper::step(std::uint64_t cycles, Done done) {

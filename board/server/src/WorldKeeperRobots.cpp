@@ -1,4 +1,4 @@
-// Clients, their robots, and who may command which.
+// Clients, their robots, and which client may command which robot.
 #include <algorithm>
 #include <cmath>
 
@@ -92,7 +92,7 @@ void WorldKeeper::remove(RobotId robot) {
   robots_.erase(found);
 }
 
-/// Robots that the world has let in or taken off by itself.
+/// Learns which robots the world has added or removed by itself.
 void WorldKeeper::meetResidents() {
   const std::uint64_t version = world_.residentsVersion();
   if (residentsVersion_ == version) return;
@@ -145,7 +145,8 @@ void WorldKeeper::haltCommanded() {
   commanders_.clear();
 }
 
-/// A robot on a simulated field leaves it with its client; a live one must not drive on alone.
+/// Stops a robot. A simulated one leaves the field with its client; a live one must not drive on
+/// without it.
 void WorldKeeper::halt(RobotId robot) {
   try {
     RobotCommands& commands = world_.commands(robot);

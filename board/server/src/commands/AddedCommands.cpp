@@ -1,4 +1,4 @@
-// Commands of whoever hosts the board.
+// Commands that the board's host adds.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "Rooms.hpp"
@@ -6,9 +6,9 @@
 namespace ortung::server {
 namespace {
 
-constexpr std::size_t kLongestReply = 4096;  // line
+constexpr std::size_t kLongestReply = 4096;  // longest line of a reply [bytes]
 
-/// What a command has answered, as it goes to the client.
+/// A command's reply, as it is sent to the client.
 struct Answer {
   std::string text;  ///< "OK NAME ..."
   std::string body;
@@ -27,7 +27,8 @@ Answer execute(const BoardCommand& command, const BoardCommand::Call& call) {
   return answer;
 }
 
-/// Elsewhere; the client's next lines wait, so its replies stay in order.
+/// Calls a slow command on another thread; the client's next lines wait, so its replies stay in
+/// order.
 void callSlow(Caller& caller, const std::string& tag,
               const std::shared_ptr<const BoardCommand>& command, BoardCommand::Call call) {
   auto answered = std::make_shared<Answer>();

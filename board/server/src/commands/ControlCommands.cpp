@@ -1,4 +1,4 @@
-// What operators may do with the simulation.
+// Commands by which operators control the simulation.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "RobotArguments.hpp"
@@ -7,7 +7,7 @@
 namespace ortung::server {
 namespace {
 
-constexpr double kFastest = 1000.0;  // times real time
+constexpr double kFastest = 1000.0;  // speed as a multiple of real time
 constexpr std::int64_t kMostSteps = 1'000'000;
 
 void pause(Caller& caller, Request& request) {
@@ -34,7 +34,7 @@ void step(Caller& caller, Request& request) {
       request.tag(),
       [cycles](WorldKeeper& keeper, WorldKeeper::Done& done) {
         keeper.step(cycles, done);
-        return Reply();  // when they are over
+        return Reply();  // sent when the steps are done
       },
       {}, true);
 }

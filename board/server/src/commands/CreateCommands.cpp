@@ -1,4 +1,4 @@
-// Robots of clients: how they come, and how they go.
+// Commands that add and remove robots of clients.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "RobotArguments.hpp"
@@ -53,7 +53,7 @@ void orderRobot(Caller& caller, const std::string& tag, const SharedWish& wish) 
       true);
 }
 
-/// Reading a robot file takes a while for a nasty one, so that is done elsewhere.
+/// Adds a robot. A malicious robot file takes long to read, so another thread does that.
 void create(Caller& caller, Request& request) {
   if (caller.host().liveRobot != 0)
     throw ServeError("live", "this is a running robot: no other can join it");

@@ -1,4 +1,4 @@
-// What the world, its field, its robots and players are.
+// Commands that describe the world, its field, its robots and players.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "RobotArguments.hpp"
@@ -22,7 +22,8 @@ void describeWorld(Caller& caller, const std::string& tag) {
   });
 }
 
-/// Large maps have many walls: it is put together where it is known, and sent at once.
+/// Describes the field. Large maps have many walls, so the text is made on the world's thread and
+/// sent at once.
 void describeField(Caller& caller, const std::string& tag) {
   orderBody(caller, tag, [](WorldKeeper& keeper, std::string& lines) {
     std::size_t count = 0;

@@ -1,4 +1,4 @@
-// What robots are told to do.
+// Commands that drive robots.
 #include <stdexcept>
 
 #include "Caller.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMostSpeed = 1e3;  ///< limit of commands [m/s, rad/s]; drives have their own
 
-/// Gives what a robot does not take a code of its own.
+/// Executes an order; if the robot refuses it, the error has the given code.
 template <class Order>
 void refusedAs(const char* code, const Order& order) {
   try {

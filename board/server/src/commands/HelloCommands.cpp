@@ -1,4 +1,4 @@
-// The greeting, and who may come in.
+// The greeting, and which clients are let in.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "Rooms.hpp"
@@ -35,7 +35,7 @@ void join(Caller& caller, const Greeting& greeting) {
   });
 }
 
-/// @param hasWaited whether it was held up already: then a wrong token is told at once
+/// @param hasWaited whether the client was delayed already: then a wrong token is refused at once
 void checkToken(Caller& caller, const Greeting& greeting, bool hasWaited) {
   Doorkeeper& door = caller.host().door;
   const std::string& peer = caller.outlet().peer();

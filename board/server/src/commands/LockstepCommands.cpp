@@ -1,4 +1,4 @@
-// A world that goes on only as far as clients have asked for.
+// Commands of lockstep: the world goes on only as far as clients have asked for.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "RobotArguments.hpp"
@@ -37,7 +37,7 @@ void next(Caller& caller, Request& request) {
       request.tag(),
       [id = client.id, cycles](WorldKeeper& keeper, WorldKeeper::Done& done) {
         keeper.next(id, static_cast<std::uint64_t>(cycles), done);
-        return Reply();  // when they are over
+        return Reply();  // sent when the cycles are done
       },
       [robot, choice](Caller& its, const std::string& tag, const std::string&) {
         if (robot != 0)

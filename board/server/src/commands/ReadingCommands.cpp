@@ -1,4 +1,4 @@
-// What robots sense: once, or as it comes.
+// Commands that send readings of robots: once, or whenever they come.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "RobotArguments.hpp"
@@ -12,14 +12,14 @@ constexpr double kLongestPeriod = 3600.0;  // [s]
 constexpr std::int64_t kMostAhead = 1000;
 constexpr std::size_t kMostSubscriptions = 64;
 
-/// Players play against each other; a live robot has no opponents.
+/// Refuses to show players the readings of opponents; a live robot has no opponents.
 void checkMayWatch(Caller& caller, RobotId robot) {
   const ClientState& client = caller.client();
   if (client.role == Role::kPlayer && !client.robots.owns(robot) && caller.host().liveRobot == 0)
     throw ServeError("not-yours", "players see the readings of their own robots only");
 }
 
-/// Has the world's thread look for the readings of a robot, and gives them to @p then.
+/// Has the world's thread find a robot's readings, and passes them to @p then.
 void orderReadings(
     Caller& caller, const std::string& tag, RobotId robot,
     std::function<void(Caller&, const std::string&, const std::shared_ptr<RobotReadings>&)> then) {
@@ -35,7 +35,7 @@ void orderReadings(
       });
 }
 
-/// The readings of another client's robot, which operators and viewers may see.
+/// Sends the readings of another client's robot, which operators and viewers may see.
 void foreignReadings(Caller& caller, const std::string& tag, const char* command, RobotId robot,
                      const Choice& choice) {
   checkMayWatch(caller, robot);
@@ -103,7 +103,7 @@ void unsubscribe(Caller& caller, Request& request) {
   });
 }
 
-/// The client has read an update, so that another one may be sent to it.
+/// Notes that the client has read an update, so that another one may be sent to it.
 void got(Caller& caller, Request& request) {
   const RobotId robot = takeRobot(caller, request, true);
   request.refuseRest();

@@ -1,4 +1,4 @@
-// How the game stands for who keeps its score by hand.
+// The command SCORE, for a score that is kept by hand.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "Rooms.hpp"

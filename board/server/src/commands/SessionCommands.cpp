@@ -1,4 +1,4 @@
-// What there is to say, and the end.
+// The list of commands, and the end of a session.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "Rooms.hpp"

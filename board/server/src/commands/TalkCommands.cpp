@@ -1,4 +1,4 @@
-// What clients, and robots of a team, tell each other.
+// Messages between clients, and between robots of a team.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// How the world is doing, and what there is.
+// The state of the world, and the lists of what is in it.
 #include "Caller.hpp"
 #include "Request.hpp"
 #include "Rooms.hpp"
