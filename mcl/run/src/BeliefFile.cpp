@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kWorld = "world.txt";
 constexpr const char* kStamp = "stamp_us";
-constexpr double kLatest = 9e15;  // whole numbers until there are exact [us]: 285 years
+constexpr double kLatest = 9e15;  // up to here whole numbers are exact [us]: 285 years
 
 std::vector<float> valuesOf(const TableFile& file, const char* name, std::size_t n) {
   const std::span<const float> values = file.get<float>(name, {n});
@@ -39,7 +39,7 @@ void writeBelief(const std::filesystem::path& file, const Belief& belief,
   for (const float any : samples.theta) theta.push_back(static_cast<float>(wrapAngle(any)));
   const double stamp = std::clamp(static_cast<double>(belief.stamp), -kLatest, kLatest);
   TableWriter writer(file);
-  writer.add<double>(kStamp, {1}, std::span(&stamp, 1));  // first: it tells what the file is
+  writer.add<double>(kStamp, {1}, std::span(&stamp, 1));  // the first one says what the file is
   writer.addText(kWorld, worldFingerprint);
   writer.add<float>("x", {n}, samples.x);
   writer.add<float>("y", {n}, samples.y);

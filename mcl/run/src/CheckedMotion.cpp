@@ -7,9 +7,9 @@
 namespace ortung {
 namespace {
 
-/// Without a branch a sample, so that it vectorizes.
+/// Returns whether all values are finite, without a branch per value, so that the loop vectorizes.
 bool areFinite(std::span<const float> values) {
-  constexpr std::uint32_t kExponent = 0x7F800000u;  // all ones: infinite or no number
+  constexpr std::uint32_t kExponent = 0x7F800000u;  // all ones mean infinite or NaN
   std::uint32_t bad = 0;
   for (const float value : values)
     bad |=

@@ -12,7 +12,7 @@ namespace {
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostHeadings = 3600.0;
 
-/// Open cells as poses of one heading, which are weighed in one call a feature.
+/// Open cells as poses of one heading, which are weighed in one call per feature.
 struct OpenCells {
   std::vector<std::size_t> index;
   std::vector<float> x;
@@ -92,7 +92,7 @@ std::vector<double> probabilityMap(const FieldRegion& region, const Weighers& re
                                    std::span<const double> headings,
                                    const std::function<bool(double)>& goOn) {
   std::vector<double> map = logProbabilityMap(region, readings, headings, goOn);
-  for (double& value : map) value = std::exp(value);  // not of each heading: the best stays so
+  for (double& value : map) value = std::exp(value);  // exp keeps the order, so the best stays
   return map;
 }
 

@@ -81,7 +81,7 @@ void checkSigmas(const char* of, double position, double heading) {
                               " m and " + std::to_string(heading) + " rad, expected numbers >= 0");
 }
 
-/// 1 / sum w^2: how many samples of equal weight they are worth.
+/// Returns the effective number of samples, 1 / sum w^2.
 double worthOf(const SampleSet& samples) {
   if (samples.size() == 0) return 0.0;
   const float best = *std::max_element(samples.logWeight.begin(), samples.logWeight.end());
@@ -97,7 +97,7 @@ double worthOf(const SampleSet& samples) {
 
 /// Moves each sample by normal noise.
 void widen(double sigmaPosition, double sigmaHeading, std::uint64_t seed, SampleSet& samples) {
-  constexpr std::uint64_t kStream = 0x62656c696566;  // no other stream of that seed
+  constexpr std::uint64_t kStream = 0x62656c696566;  // differs from all other streams of that seed
   Random random(seed, kStream);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples.x[i] += static_cast<float>(sigmaPosition * random.gaussian());
@@ -198,7 +198,8 @@ void Localization::checkPose(const Pose2& pose, double sigmaPosition) const {
 void Localization::setPose(const Pose2& pose, const PoseCovariance& covariance) {
   requireMcl("setPose");
   const double variance = positionVariance(covariance);
-  const bool isNumber = variance >= 0.0 && std::isfinite(variance);  // else MCL says what it is
+  // Otherwise MCL throws and says why.
+  const bool isNumber = variance >= 0.0 && std::isfinite(variance);
   checkPlace(robot_->tables.region, pose, isNumber ? std::sqrt(variance) : 0.0, "the pose set");
   mcl_->setPose(pose, covariance);
   waitsForTruth_ = false;
@@ -240,7 +241,7 @@ void Localization::publish(const PoseEstimate& estimate) {
   published_ = {estimate.status, estimate.reason};
 }
 
-/// Without a new estimate, the status alone, if it is another one by now.
+/// Publishes the status alone if it has changed without a new estimate.
 void Localization::publishChange() {
   if (!publishes_ || odometry_ == nullptr || !(published_ || mcl_->isSearching())) return;
   Timestamp now = 0;
@@ -303,8 +304,8 @@ bool Localization::advance() {
   return true;
 }
 
-/// Logs have moments that are seconds apart, in which a robot does not sleep: it asks for its pose,
-/// and searches meanwhile. What is found so is known from then on, not before.
+/// Searches on between readings: they may be seconds apart in logs, and a robot asks for its pose
+/// meanwhile. A result is known from the time of its search on, not before.
 void Localization::searchMeanwhile(Timestamp since, Timestamp until) {
   for (Timestamp now = since + kAsking; now < until && mcl_->isSearching(); now += kAsking) {
     const bool waited = !mcl_->estimate(now);
@@ -315,7 +316,7 @@ void Localization::searchMeanwhile(Timestamp since, Timestamp until) {
   }
 }
 
-/// Of an update.
+/// Notes the duration of an update.
 void Localization::count(double milliseconds) {
   newest_ = milliseconds;
   longestSince_ = std::max(longestSince_, milliseconds);

@@ -35,7 +35,7 @@ std::unique_ptr<Source> openRecord(const SourceText& text) {
   return std::make_unique<RecordSource>(text.path, part);
 }
 
-/// What sources there are, and why some libraries, which may have more, could not be loaded.
+/// The known sources, and why some libraries, which may have more, could not be loaded.
 struct Kinds {
   std::set<std::string> names = {"record"};
   std::string complaints;

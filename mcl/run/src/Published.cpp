@@ -10,7 +10,7 @@
 namespace ortung {
 namespace {
 
-/// What all are compared with; of samples that are all lost, none has any.
+/// Returns the greatest log weight, to which others are compared; 0 if all samples have weight 0.
 float heaviest(const SampleSet& samples) {
   const auto best = std::max_element(samples.logWeight.begin(), samples.logWeight.end());
   return best == samples.logWeight.end() || !std::isfinite(*best) ? 0.0F : *best;
