@@ -22,7 +22,7 @@ constexpr double kAfter = 300.0;  ///< longest time that it has to find its plac
 constexpr double kLeastBefore = 20.0;
 constexpr double kLeastAfter = 30.0;
 constexpr double kLeastTime = 20.0;  ///< least time after waking up, or a quarter of the log [s]
-constexpr double kShortest = 10.0;   ///< log [s]
+constexpr double kShortest = 10.0;   ///< shortest log [s]
 constexpr int kTries = 10000;
 
 constexpr std::uint64_t kKidnaps = 0xCA5EULL << 32;  ///< streams apart from those of MCL
@@ -31,7 +31,7 @@ constexpr std::uint64_t kTeleports = kKidnaps + 2;
 
 using Truth = Recording::Truth;
 
-/// Moments with ground truth, by time.
+/// Time steps with ground truth, found by time.
 class Moments {
  public:
   explicit Moments(const Recording& recording) : recording_(recording) {
@@ -42,7 +42,7 @@ class Moments {
     throw std::invalid_argument(recording_.name() + ": " + what);
   }
   double duration() const { return toSeconds(truth().back().stamp - truth().front().stamp); }
-  /// @param seconds since the first one
+  /// @param time since the first one
   const Truth& at(double seconds) const {
     const Timestamp stamp = truth().front().stamp + fromSeconds(seconds);
     const auto found = std::ranges::lower_bound(truth(), stamp, {}, &Truth::stamp);
@@ -52,7 +52,8 @@ class Moments {
     return at(random.uniform(from, to));
   }
   double seconds(const Truth& t) const { return toSeconds(t.stamp - truth().front().stamp); }
-  /// Index of the message behind all that come less than @p seconds after the first moment.
+  /// Returns the index of the first message that comes @p seconds or more after the first time
+  /// step.
   std::size_t endAt(double seconds) const {
     return seconds >= duration() ? recording_.messages().size() : at(seconds).message;
   }
@@ -63,7 +64,8 @@ class Moments {
            " m, expected at least 0.5 m");
   }
 
-  /// A moment that is carriedFar() from another one and has so many seconds behind it.
+  /// Returns a random time step that is carriedFar() from another one and has @p after seconds
+  /// behind it.
   const Truth* farFrom(const Truth& place, double after, Random& chance) const {
     const double least = carriedFar(recording_);
     for (int i = 0; i < kTries; ++i) {

@@ -9,21 +9,22 @@
 namespace ortung {
 namespace {
 
-constexpr double kNearest = 0.4;            ///< least distance of what is seen of them [m]
+constexpr double kNearest = 0.4;            ///< least distance of their visible side [m]
 constexpr double kFarthest = 1.5;           ///< [m]
-constexpr double kSector = 40.0 * kDegree;  ///< about as much of the scan for each of them
+constexpr double kSector = 40.0 * kDegree;  ///< sector of the scan for each of them, roughly
 constexpr double kLeastCover = 0.55;        ///< share of a sector that its person hides
 constexpr double kMostCover = 0.75;
 constexpr double kShortestPeriod = 8.0;  ///< shortest period of their coming and going [s]
 constexpr double kLongestPeriod = 25.0;
 
-/// A leg or a body, as a circle that covers the same share of its sector of the scan always, and
-/// goes to and fro in it: a function of time alone, so that scans at any rate see the same people.
+/// A leg or a body: a circle that always covers the same share of its sector of the scan, and goes
+/// to and fro in it. Its place depends on time alone, so that scans at any rate see the same
+/// people.
 struct Person {
   double middle;     ///< bearing about which they go [rad]
   double swing;      ///< largest angle from there [rad]
-  double halfWidth;  ///< half the angle that they hide [rad]
-  double near;       ///< distance of the centre when they are nearest [m]
+  double halfWidth;  ///< half the angle that the person hides [rad]
+  double near;       ///< least distance of the person's centre [m]
   double far;        ///< [m]
   double bearingPeriod;
   double bearingPhase;
@@ -45,7 +46,7 @@ Person makePerson(double sectorBegin, double sector, Random& random) {
   p.halfWidth = cover * sector / 2;
   p.middle = sectorBegin + sector / 2;
   p.swing = (1 - cover) * sector / 2;
-  // Nearest point d (1 - sin w), farthest one that is seen d cos w.
+  // The nearest point is at d (1 - sin w), the farthest visible one at d cos w.
   const double least = kNearest / (1 - std::sin(p.halfWidth));
   const double most = kFarthest / std::cos(p.halfWidth);
   const double middle = random.uniform(least, most);

@@ -13,13 +13,13 @@
 namespace ortung {
 namespace {
 
-constexpr std::uint64_t kStream = 0xFA17ULL << 32;  ///< apart from those of MCL
-/// Features of a hostile log that get disturbances of their own.
+constexpr std::uint64_t kStream = 0xFA17ULL << 32;  ///< separate from MCL's streams
+/// Most features that get disturbances of their own; a hostile log may have more.
 constexpr std::size_t kMostFeatures = 10000;
 /// Farthest stamp from 0 that FrameReader takes [us].
 constexpr Timestamp kFarthest = Timestamp{1} << 60;
 
-/// What a fault needs to know of a feature.
+/// The facts about a feature that faults need.
 struct Known {
   const SensorData* data;
   std::string format;  ///< its name
@@ -39,8 +39,8 @@ bool isOdometry(const Formats& formats, const std::string& feature) {
   return found != formats.end() && found->second.format == formats::kOdometry;
 }
 
-/// Whether a feature can have a fault of what a reading tells: beams, landmarks, rows. Where it
-/// tells one thing alone, or says nothing of the pose, its name has to be given.
+/// Returns whether a fault of values (beams, landmarks, rows) applies to a feature. If readings
+/// have a single value, or say nothing about the pose, the fault must name the feature.
 bool canHave(const Fault& fault, const Formats& formats, const std::string& feature) {
   const auto found = formats.find(feature);
   if (found == formats.end()) return false;
@@ -52,7 +52,7 @@ bool canHave(const Fault& fault, const Formats& formats, const std::string& feat
                                    format == formats::kBearing || format == formats::kPoints);
 }
 
-/// Whether a fault alters a feature of the log that is not ground truth.
+/// Returns whether a fault alters a feature of the log that is not ground truth.
 bool concerns(const Fault& fault, const Formats& formats, const std::string& feature) {
   const FaultOf of = groupOf(fault.kind);
   if (of == FaultOf::kScan && !canHave(fault, formats, feature)) return false;
@@ -117,7 +117,7 @@ class Disturbed : public Source {
   };
   struct Feature {
     std::vector<std::pair<std::size_t, std::unique_ptr<Disturbance>>> faults;
-    Timestamp newest = 0;  ///< newest stamp of readings that came in time, before it was altered
+    Timestamp newest = 0;  ///< newest stamp of readings that came in time, before the fault
   };
   struct Waiting {
     Message message;
@@ -125,8 +125,9 @@ class Disturbed : public Source {
     Timestamp original;
   };
 
-  /// Stamps only become later, so what is not behind the newest reading can't be overtaken. A
-  /// reading that comes after a newer one of its feature, as the clock is right again, never comes.
+  /// Stamps only become later, so a reading whose stamp is not behind the newest one can't be
+  /// overtaken. A reading that would come after a newer one of its feature, since the clock is
+  /// right again, is dropped.
   bool isReady() {
     while (!waiting_.empty() && (atEnd_ || waiting_.begin()->first.first <= now_)) {
       const Waiting& next = waiting_.begin()->second;

@@ -25,14 +25,14 @@ double rootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// e^T P^-1 e for the covariance P; NaN if P is not positive definite.
+/// Returns e^T P^-1 e for the covariance P; NaN if P is not positive definite.
 double squaredInSigmas(const Eigen::Vector3d& e, const PoseCovariance& p) {
   const Eigen::LDLT<Eigen::Matrix3d> decomposed(Eigen::Map<const Eigen::Matrix3d>(p.data()));
   if (decomposed.info() != Eigen::Success || !(decomposed.vectorD().minCoeff() > 0.0)) return kNan;
   return e.dot(decomposed.solve(e));
 }
 
-/// Figures of the points from a time on.
+/// Computes the figures of the points from a time on.
 void addErrors(const std::vector<EvaluationPoint>& points, Timestamp since, double lostMetres,
                EvaluationErrors& errors) {
   std::vector<double> position;
@@ -122,7 +122,8 @@ std::vector<Timestamp> Evaluation::due(Timestamp stamp, bool hasTruth) {
   if (stamp < lastDue_) throw std::invalid_argument("moments: time runs backwards");
   const Timestamp period = fromSeconds(options_.period);
   std::vector<Timestamp> times;
-  // What was due at the beginning of a gap still is; of what is within, nobody knows the truth.
+  // Times that were due at the beginning of a gap are compared; the truth within the gap is
+  // unknown.
   const bool isGap = toSeconds(stamp - lastDue_) > options_.longestGap;
   const Timestamp end = isGap ? lastDue_ + 1 : stamp;
   for (; *firstDue_ + nextDue_ * period < end; ++nextDue_)
@@ -139,7 +140,7 @@ std::vector<Timestamp> Evaluation::due(Timestamp stamp, bool hasTruth) {
   return times;
 }
 
-/// Those of estimates at whose times the truth is known.
+/// Returns the errors of estimates at whose times the truth is known.
 std::vector<EvaluationPoint> Evaluation::compare(const std::vector<PoseEstimate>& estimates) const {
   std::vector<EvaluationPoint> points;
   for (const PoseEstimate& e : estimates) {

@@ -20,7 +20,7 @@ struct Form {
   std::string_view name;
   Kind kind;
   FaultOf of;
-  std::string_view value;  ///< what to write; "": the fault takes none
+  std::string_view value;  ///< example of a value; "": the fault takes none
   double low;
   double high;
   std::string_view help;
@@ -55,7 +55,7 @@ std::string_view nameOf(FaultOf of) {
   return of == FaultOf::kScan ? "scans, and what lists several things" : "all readings";
 }
 
-/// @p form with its value as one writes it.
+/// Returns the name of @p form, with its value, as users write it.
 std::string written(const Form& form) {
   const std::string name(form.name);
   return form.value.empty() ? name : name + ":" + std::string(form.value);

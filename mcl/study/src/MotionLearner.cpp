@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kDelayStep = 0.02;  // [s]
 
-/// Whether odometry is there at @p stamp, for every delay that is tried: so all of them are judged
-/// by the same pairs.
+/// Returns whether odometry is known at @p stamp for every delay that is tried, so that all delays
+/// are compared on the same pairs.
 bool isCovered(const MotionLog& log, const MotionLearning& options, Timestamp stamp) {
   for (const double delay : {options.earliestDelay, options.latestDelay}) {
     if (!(log.odometry.gapAt(stamp - fromSeconds(delay)) <= options.longestGap)) return false;

@@ -17,16 +17,16 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kFewest = 50;
-constexpr double kBlock = 10.0;  ///< what is wrong at one time is wrong as long [s]
-constexpr double kErrors = 3.0;  ///< a term that is nearer to none is none
+constexpr double kBlock = 10.0;  ///< correlation time of errors [s]
+constexpr double kErrors = 3.0;  ///< terms of fewer standard errors are dropped
 constexpr int kRounds = 300;
 constexpr double kLeastSigma = 1e-4;  ///< [m], [rad]
 constexpr double kLeastShare = 1e-4;
 constexpr double kMostShare = 0.9;
-/// How large terms may be, so that what nothing is known of stays none: sigmas of a prior.
+/// Sigmas of a prior around zero, so that terms that the data does not determine stay zero.
 constexpr ByNoiseTerm<double> kPrior = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 constexpr int kKinds = 2;  ///< distances and angles
-/// Beside the terms: sigma, sigma per metre, outliers of each kind.
+/// All numbers of the fit: the terms, and sigma, sigma per metre and outliers of each kind.
 constexpr int kNumbers = static_cast<int>(kNoiseTerms) + 3 * kKinds;
 
 using Vector = Eigen::Matrix<double, kNumbers, 1>;
@@ -37,7 +37,7 @@ struct Shape {
   double sigma = 0.0;
   double perMetre = 0.0;
   double outliers = 0.05;
-  double width = 1.0;  ///< over which outliers are spread
+  double width = 1.0;  ///< range over which outliers are spread
   bool grows = true;   ///< whether sigma grows with range
 };
 
@@ -47,7 +47,8 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
-/// The mixture and its likelihood. Residuals are those without any term.
+/// The mixture of normal and outlier residuals, and its likelihood. Residuals are those without any
+/// term.
 class Mixture {
  public:
   Mixture(std::span<const NoiseResidual> residuals, const ByNoiseTerm<double>& already) {
@@ -57,7 +58,7 @@ class Mixture {
     for (const bool isAngle : {false, true}) begin(isAngle);
   }
 
-  /// Expectation maximization over the wanted terms.
+  /// Fits the wanted terms by expectation maximization.
   void fit(const ByNoiseTerm<bool>& wanted) {
     wanted_ = wanted;
     double before = -std::numeric_limits<double>::infinity();
@@ -70,7 +71,7 @@ class Mixture {
     }
   }
 
-  /// Covariance of all numbers, by blocks of time; those that are fixed have none.
+  /// Returns the covariance of all numbers, by blocks of time; it is zero for fixed ones.
   Matrix covariance(Matrix& asIfIndependent) {
     std::vector<int> open;
     for (int k = 0; k < kNumbers; ++k)
@@ -103,7 +104,7 @@ class Mixture {
 
   const Shape& shape(int kind) const { return shapes_[static_cast<std::size_t>(kind)]; }
   double term(std::size_t k) const { return terms_[k]; }
-  /// Residuals' ranges in the middle, at which a floor is said.
+  /// Returns the median range of residuals, at which a floor is reported.
   double usualRange() const { return usualRange_; }
 
  private:
@@ -213,7 +214,7 @@ class Mixture {
     return Eigen::Map<const Terms>(terms_.data());
   }
 
-  /// Two steps of Fisher's scoring for the sigmas; the share of outliers is a mean.
+  /// Does two steps of Fisher scoring for the sigmas; the share of outliers is a mean.
   void fitShape(int kind) {
     Shape& s = shapes_[static_cast<std::size_t>(kind)];
     if (s.values == 0) return;
@@ -241,12 +242,12 @@ class Mixture {
     if (s.perMetre + step[1] < 0.0) step = {score[0] / information(0, 0), -s.perMetre};
     if (s.sigma + step[0] < kLeastSigma && s.grows)
       step = {kLeastSigma - s.sigma, score[1] / information(1, 1)};
-    // Never by more than a half at once, so that sigmas stay above 0.
+    // Sigmas shrink by half per step at most, so that they stay above 0.
     s.perMetre = std::max(0.0, s.perMetre + step[1]);
     s.sigma = std::max({kLeastSigma, 0.5 * s.sigma, s.sigma + step[0]});
   }
 
-  /// Derivative of ln p of one value by all numbers.
+  /// Returns the derivative of one value's ln p by all numbers.
   Vector scoreOf(const NoiseResidual& v) const {
     const Point p = at(v);
     const Shape& s = shape(kindOf(v));
@@ -278,7 +279,7 @@ class Mixture {
     return which == 1 ? s.perMetre : s.outliers;
   }
 
-  /// Minus the second derivative of ln p, by differences of the first.
+  /// Returns minus the second derivative of ln p, by differences of the first.
   Matrix information() {
     Matrix result = Matrix::Zero();
     for (int k = 0; k < kNumbers; ++k) {
@@ -296,7 +297,7 @@ class Mixture {
     return 0.5 * (result + result.transpose());
   }
 
-  /// Sum over blocks of time of the squares of their scores.
+  /// Returns the sum of the squared scores of all blocks of time.
   Matrix scatter() const {
     std::map<std::pair<std::size_t, std::int64_t>, Vector> blocks;
     for (const NoiseResidual& v : values_) {
@@ -347,7 +348,8 @@ NoiseFit fitNoise(std::span<const NoiseResidual> residuals, const ByNoiseTerm<bo
   Mixture mixture(residuals, already);
   NoiseFit fit;
   ByNoiseTerm<bool> open = wanted;
-  // Biases say how far values err alike, whether they stay or not; so they are asked first.
+  // The variance of biases, kept or not, says how far errors are correlated; so it is computed
+  // first.
   while (true) {
     mixture.fit(open);
     Matrix independent;

@@ -14,15 +14,15 @@ namespace ortung {
 namespace {
 
 constexpr int kLinearizations = 3;
-/// Where the four cells around a place differ by more, there is an edge between them [m].
+/// Difference of the four cells around a place from which on there is an edge between them [m].
 constexpr double kEdge = 0.3;
 constexpr double kBesides = 0.5 * kDegree;
-// Steps of differences.
+// Step sizes of numerical differences.
 constexpr double kMetres = 0.1;
 constexpr double kRadians = 0.02;
 constexpr double kSeconds = 0.05;
 
-/// Whether values come in pairs of a range and a bearing.
+/// Returns whether values come in pairs of a range and a bearing.
 bool arePairs(const SensorData& feature, std::size_t values) {
   return values > 1 && values % 2 == 0 && !feature.isAngle(0) && feature.isAngle(1) &&
          !(values > 2 && feature.isAngle(2));
@@ -30,7 +30,7 @@ bool arePairs(const SensorData& feature, std::size_t values) {
 
 std::size_t indexOf(NoiseTerm term) { return static_cast<std::size_t>(term); }
 
-/// What a feature expects, interpolated between cells and directions.
+/// A feature's expectation, interpolated between cells and directions.
 class Expected {
  public:
   Expected(const SensorData& feature, const TableInfo& tables)
@@ -40,10 +40,12 @@ class Expected {
         step_(feature.grain() == ExpectationGrain::kCellsAndDirections ? tables.headingStep : 0.0) {
   }
 
-  /// With the SENSOR at a pose; NaN where nothing is expected or there is an edge.
+  /// Returns the expectation with the SENSOR at a pose; NaN if nothing is expected or there is an
+  /// edge.
   std::vector<double> at(const Pose2& sensor) const {
     if (feature_.grain() == ExpectationGrain::kExact) return betweenEdges(sensor);
-    // The mean over a direction's width of what is constant over it is its linear interpolation.
+    // A table is constant over a direction's width, so its mean over that width interpolates
+    // linearly.
     const std::size_t turns = step_ > 0.0 ? 4 : 1;
     std::vector<double> mean;
     for (std::size_t t = 0; t < turns; ++t) {
@@ -58,7 +60,7 @@ class Expected {
   }
 
  private:
-  /// Where beams half a degree to either side see something else, there is an edge.
+  /// Returns NaN at edges, where beams half a degree to either side hit something else.
   std::vector<double> betweenEdges(const Pose2& sensor) const {
     std::vector<double> middle = feature_.expectation(sensor * back_);
     for (const double turn : {-kBesides, kBesides}) {
@@ -110,13 +112,13 @@ class Expected {
   double step_;  ///< angle between directions of its tables [rad]; zero: they have none
 };
 
-/// Makes residuals of readings for what is already known of the device.
+/// Computes residuals of readings, given what is already known about the device.
 class Residuals {
  public:
   Residuals(const TableInfo& tables, std::span<const NoiseLog> logs, const NoiseLearning& how)
       : tables_(tables), logs_(logs), how_(how) {}
 
-  /// @param already mount and latency are taken into account; biases are not
+  /// @param already known terms, of which mount and latency are applied; biases are not
   std::vector<NoiseResidual> of(std::span<SensorData* const> features,
                                 const ByNoiseTerm<double>& already) {
     readings_ = 0;
@@ -125,7 +127,7 @@ class Residuals {
     std::size_t values = 0;
     for (const SensorData* feature : features)
       for (const NoiseLog& log : logs_) values += valuesOf(*feature, log);
-    // Of many values readings are left out first, then beams of them.
+    // If there are too many values, readings are left out first, then beams of the others.
     const auto times = static_cast<double>(values) / static_cast<double>(how_.mostValues);
     everyReading_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::sqrt(times))));
     everyValue_ = std::max<std::size_t>(
@@ -152,7 +154,7 @@ class Residuals {
     for (std::size_t i = 0; i < found->second.size(); i += everyReading_) {
       const NoiseLog::Reading& reading = found->second[i];
       feature.setData(reading.stamp, reading.words);
-      if (!feature.covariance({}).empty()) continue;  // it says itself how exact it is
+      if (!feature.covariance({}).empty()) continue;  // it reports its own covariance
       addReading(feature, expected, log);
     }
   }
@@ -172,7 +174,8 @@ class Residuals {
             wrapAngle(mount.theta + already_[indexOf(NoiseTerm::kMountTheta)])};
   }
 
-  /// Sensor poses to either side by each term but biases, and how far these are apart.
+  /// Expectations at sensor poses to either side, for each term but biases, and the poses'
+  /// difference.
   struct Sides {
     std::array<std::vector<double>, 4> before;
     std::array<std::vector<double>, 4> after;
@@ -207,7 +210,7 @@ class Residuals {
     ++readings_;
     const bool isSighting = arePairs(feature, middle.size());
     const std::size_t every = isSighting ? 1 : everyValue_;  // a pair stays together
-    // What was measured does not depend on the pose.
+    // The measured values do not depend on the pose.
     const std::vector<ReadingValue> values =
         readingValues(feature, *sensor * inverse(feature.mount()));
     for (std::size_t i = 0; i < std::min(values.size(), middle.size()); i += every) {
@@ -222,14 +225,14 @@ class Residuals {
       residual.range = residual.isAngle ? 0.0 : *values[i].measured;
       residual.by[residual.isAngle ? 1 : 0] = 1.0;
       if (isSighting) {
-        if (!std::isfinite(middle[i | 1U])) continue;  // so near that its direction is open
+        if (!std::isfinite(middle[i | 1U])) continue;  // too near to have a direction
         addBend(middle, i, residual);
       }
       if (takeSides(*sides, i, residual)) residuals_.push_back(residual);
     }
   }
 
-  /// How a sighting's range and bearing, which come in pairs, depend on range and bearing.
+  /// Adds how a sighting's range and bearing, which come in pairs, depend on range and bearing.
   static void addBend(const std::vector<double>& expected, std::size_t i, NoiseResidual& residual) {
     const double b = expected[i | 1U];
     if (residual.isAngle) {
@@ -265,7 +268,7 @@ class Residuals {
   std::vector<NoiseResidual> residuals_;
 };
 
-/// Terms that say something of the kinds of values that there are.
+/// Returns the asked terms that the existing kinds of values depend on.
 ByNoiseTerm<bool> wantedOf(const ByNoiseTerm<bool>& asked,
                            const std::vector<NoiseResidual>& residuals) {
   ByNoiseTerm<bool> wanted = asked;
@@ -277,7 +280,7 @@ ByNoiseTerm<bool> wantedOf(const ByNoiseTerm<bool>& asked,
   for (std::size_t k = indexOf(NoiseTerm::kRangePerMetre); k < kNoiseTerms; ++k)
     wanted[k] &= std::any_of(residuals.begin(), residuals.end(),
                              [k](const NoiseResidual& r) { return r.by[k] != 0.0; });
-  // All bearings are off where the sensor is turned: one of the two says it.
+  // A turned mount offsets all bearings, as their bias does, so only the bias is fitted.
   wanted[indexOf(NoiseTerm::kMountTheta)] &= !hasAngles;
   return wanted;
 }
@@ -312,7 +315,7 @@ LearnedNoise learnNoise(std::span<SensorData* const> features, const TableInfo& 
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(error.what());
     }
-    // Biases are linear as they are.
+    // Biases need no linearization.
     bool isSame = true;
     for (std::size_t k = 2; k <= indexOf(NoiseTerm::kLatency); ++k) {
       isSame = isSame && std::abs(already[k] - learned.fit.terms[k].value) < 1e-4;

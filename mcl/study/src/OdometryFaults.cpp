@@ -8,8 +8,8 @@
 namespace ortung {
 namespace {
 
-/// What odometry says of one piece of motion instead of the truth. A robot on wheels goes on an
-/// arc, so its way points in the middle between its headings: other turns bend it, too.
+/// Returns what odometry reports for one piece of motion instead of the truth. A robot on wheels
+/// drives an arc, whose chord points midway between its headings, so an altered turn bends it, too.
 Pose2 altered(const Fault& fault, const Pose2& step) {
   switch (fault.kind) {
     case Fault::Kind::kScale:
@@ -38,7 +38,7 @@ class Altered : public Disturbance {
     try {
       data.setData(message.stamp, message.words);
     } catch (const std::invalid_argument&) {
-      return true;  // whoever takes it says what is wrong
+      return true;  // the consumer reports what is wrong
     }
     OdometryData::Reading reading = data.reading();
     const Pose2 told = reading.pose;

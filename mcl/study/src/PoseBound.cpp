@@ -11,33 +11,34 @@
 namespace ortung {
 namespace {
 
-/// Steps over which odometry is compared with truth: over one, rounded words would look like noise.
+/// Number of steps over which odometry is compared with truth: over one, rounding would look like
+/// noise.
 constexpr std::size_t kStride = 10;
-/// What noise of the place must explain besides that of the heading, which moves it, too: two
-/// sigmas, of stretches that overlap.
+/// Least improvement by noise of the position beyond that of the heading, which moves it, too: two
+/// sigmas, for stretches that overlap.
 constexpr double kSignificant = 4.0 * kStride;
 constexpr double kRounded = 4.0 * 1e-6 / 12.0;  ///< variance of four words of 1 mm [m^2]
 constexpr int kDraws = 8;                       ///< number of draws of errors, per step
 
-/// Variances of ahead, aside and turn after 1 m of way and after 1 rad of turn.
+/// Variances ahead, aside and of the turn after 1 m of distance travelled and after 1 rad of turn.
 struct MotionNoise {
   Eigen::Vector3d ofWay = Eigen::Vector3d::Zero();
   Eigen::Vector3d ofTurn = Eigen::Vector3d::Zero();
 };
 
-/// Way and turn from one step to the next.
+/// Returns distance travelled and turn from one step to the next.
 Eigen::Vector2d lengthOf(const BoundStep& from, const BoundStep& to) {
   return {distance(from.truth, to.truth), std::abs(wrapAngle(to.truth.theta - from.truth.theta))};
 }
 
-/// Halfway from one step to the next, which is where its noise comes in.
+/// Returns the pose halfway from one step to the next, where the step's noise is added.
 Pose2 middleOf(const BoundStep& from, const BoundStep& to) {
   const double turn = wrapAngle(to.truth.theta - from.truth.theta);
   return {0.5 * (from.truth.x + to.truth.x), 0.5 * (from.truth.y + to.truth.y),
           wrapAngle(from.truth.theta + 0.5 * turn)};
 }
 
-/// Least squares of squared errors by N variances, none of which is below 0.
+/// Least-squares fit of squared errors by N variances, none of which is below 0.
 template <int N>
 struct VarianceFit {
   using Vector = Eigen::Matrix<double, N, 1>;
@@ -52,8 +53,8 @@ struct VarianceFit {
     squares += square * square;
     ++count;
   }
-  /// Tries which of them are 0: there are few.
-  /// @param significant what each must explain, in variances of a square
+  /// Tries all choices of variances that are 0, since there are few.
+  /// @param significant least improvement by each, in variances of a square
   Vector solve(double significant) const {
     const double least = squares - right.dot(normal.ldlt().solve(right));
     const double ofChance = significant * least / std::max(count, 1.0);
@@ -79,14 +80,15 @@ struct VarianceFit {
   }
 };
 
-/// Errors over some steps in the frame of the last one, and what they are made of.
+/// Errors over some steps in the frame of the last one, and the motion that causes them.
 struct Stretch {
   Eigen::Vector3d error;
-  Eigen::Vector2d length = Eigen::Vector2d::Zero();  ///< way and turn, which curves do not shorten
-  // Way and turn, times the squares of how far a turn there by 1 moves the end, ahead and aside ...
+  Eigen::Vector2d length = Eigen::Vector2d::Zero();  ///< sums of distance and turn along the path
+  // Distance and turn of each step times its squared lever: how far a turn by 1 there moves the
+  // end, ahead and aside ...
   Eigen::Vector2d leverAhead = Eigen::Vector2d::Zero();
   Eigen::Vector2d leverAside = Eigen::Vector2d::Zero();
-  // ... and of how far 1 m ahead and aside there do.
+  // ... and how far 1 m ahead and aside there moves it.
   Eigen::Vector4d placeAhead = Eigen::Vector4d::Zero();
   Eigen::Vector4d placeAside = Eigen::Vector4d::Zero();
 };
@@ -114,8 +116,8 @@ Stretch stretchOf(std::span<const BoundStep> steps) {
   return stretch;
 }
 
-/// Noise of the heading moves the place that it is carried to: what that explains of errors of the
-/// place is not counted as noise of its own.
+/// Fits the motion noise. Noise of the heading moves later positions: position errors that it
+/// explains are not counted as noise of the position.
 MotionNoise fitMotion(std::span<const BoundStep> steps) {
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i + kStride < steps.size(); ++i)
@@ -132,7 +134,7 @@ MotionNoise fitMotion(std::span<const BoundStep> steps) {
   return {{place[0], place[2], heading[0]}, {place[1], place[3], heading[1]}};
 }
 
-/// What is known of a place after an exact change of it: heading becomes place.
+/// Returns the covariance after an exact motion: uncertain heading becomes uncertain position.
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to) {
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   f(0, 2) = -(to.y - from.y);
@@ -140,7 +142,7 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Pose2& from, co
   return f * covariance * f.transpose();
 }
 
-/// What is known after moving from one step to the next.
+/// Returns the covariance after the motion from one step to the next.
 Eigen::Matrix3d moved(const Eigen::Matrix3d& covariance, const BoundStep& from, const BoundStep& to,
                       const MotionNoise& noise) {
   const Eigen::Vector2d length = lengthOf(from, to);

@@ -37,7 +37,7 @@ class Dropped : public Disturbance {
   Random random_;
 };
 
-/// That stamps rise nevertheless is left to whoever hands the readings on.
+/// Delays stamps. The caller that passes the readings on keeps stamps in order.
 class Late : public Disturbance {
  public:
   explicit Late(double seconds) : delay_(fromSeconds(seconds)) {}

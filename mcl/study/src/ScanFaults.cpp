@@ -6,8 +6,8 @@
 namespace ortung {
 namespace {
 
-/// A share of the entries, drawn anew in each reading, reads something else: beams of a scan,
-/// landmarks of a list, rows of a plugin's format.
+/// Replaces a share of the entries, drawn anew for each reading: beams of a scan, landmarks of a
+/// list, rows of a plugin's format.
 class BadEntries : public Disturbance {
  public:
   BadEntries(const Fault& fault, const SensorData& feature, const Random& random)

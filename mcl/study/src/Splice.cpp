@@ -18,7 +18,7 @@ namespace ortung {
 namespace {
 
 constexpr Timestamp kLongestPause = 1'000'000;  ///< longest pause between two pieces [us]
-constexpr Timestamp kUsualPause = 100'000;      ///< pause where the log has no next moment [us]
+constexpr Timestamp kUsualPause = 100'000;      ///< pause where the log has no next time step [us]
 
 using Names = std::set<std::string>;
 
@@ -29,10 +29,10 @@ Names odometryOf(const SensorContainer& robot) {
   return names;
 }
 
-/// Odometry of one feature, whose frame is another one in each piece.
+/// Odometry of one feature, whose frame differs from piece to piece.
 struct JoinedOdometry {
   std::size_t piece = 0;
-  std::optional<Pose2> told;  ///< newest pose, as it was given
+  std::optional<Pose2> told;  ///< newest pose, as reported
   Pose2 frame;                ///< odometry frame of the piece in that of the first one
 
   void join(Message& message, std::size_t now) {
@@ -40,7 +40,7 @@ struct JoinedOdometry {
     try {
       data.setData(message.stamp, message.words);
     } catch (const std::invalid_argument&) {
-      return;  // whoever takes it says what is wrong
+      return;  // the consumer reports what is wrong
     }
     OdometryData::Reading reading = data.reading();
     if (piece != now && told) frame = *told * inverse(reading.pose);

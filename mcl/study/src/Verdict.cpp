@@ -5,7 +5,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kPieceOfWay = 0.05;  ///< [m]
+constexpr double kPieceOfWay = 0.05;  ///< step of the distance travelled [m]
 
 }  // namespace
 
