@@ -60,8 +60,8 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   return child;
 }
 
-/// The environment may say where; else beside the running program, or where the library's were
-/// installed or built.
+/// Returns where helper programs may be: the environment's folder, or else the running program's
+/// and those where the library's helpers were installed or built.
 std::vector<std::filesystem::path> helperFolders() {
   if (const char* folder = std::getenv("ORTUNG_LIBEXEC"); folder && *folder) return {folder};
   std::vector<std::filesystem::path> folders;
@@ -75,7 +75,7 @@ std::vector<std::filesystem::path> helperFolders() {
   return folders;
 }
 
-/// Everything up to the end, or nothing more than maxBytes + 1.
+/// Reads everything up to the end, but no more than maxBytes + 1.
 std::string readAll(int input, std::size_t maxBytes) {
   std::string bytes;
   std::array<char, 1u << 16> block;
@@ -95,7 +95,7 @@ int waitFor(pid_t child) {
   return status;
 }
 
-/// What the program itself says of its failure.
+/// Returns what the program itself says about its failure.
 std::string lastWords(const std::string& output) {
   const std::string mark = "# error ";
   const std::size_t at = output.rfind(mark);
@@ -116,7 +116,7 @@ void check(int status, const std::string& program, const std::string& output,
     failWith(about, name + " was ended by signal " + std::to_string(number) + " (" +
                         ::strsignal(number) + "); the file is damaged or too large");
   }
-  if (WEXITSTATUS(status) != 0) {  // waitpid() tells of no other end
+  if (WEXITSTATUS(status) != 0) {  // waitpid() reports no other end
     failWith(about, name + " ended with status " + std::to_string(WEXITSTATUS(status)) +
                         lastWords(output));
   }
@@ -138,7 +138,8 @@ std::filesystem::path findHelper(const std::string& name, const std::string& abo
 std::string runHelper(const std::filesystem::path& program,
                       const std::vector<std::string>& arguments, const std::string& about,
                       std::size_t maxBytes) {
-  for (const std::string& argument : arguments) noteInput(argument);  // those that name files
+  // Only arguments that name files count.
+  for (const std::string& argument : arguments) noteInput(argument);
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     failWith(about, "no pipe: " + std::generic_category().message(errno));

@@ -18,7 +18,7 @@ struct Inputs {
   std::set<Identity> files;
 };
 
-/// Of the whole process: whoever is about to replace a file asks what anybody has read.
+/// Files that any part of the process has read: before a file is replaced, it is looked up here.
 Inputs& inputs() {
   static Inputs instance;
   return instance;
@@ -42,7 +42,7 @@ std::ifstream openInput(const std::filesystem::path& file, std::string& why) {
   int error = in ? 0 : errno;
   struct stat status{};
   const bool isThere = ::stat(file.c_str(), &status) == 0;
-  if (S_ISDIR(status.st_mode)) {  // the stream would open, and then give nothing
+  if (S_ISDIR(status.st_mode)) {  // the stream would open, and then be empty
     error = EISDIR;
     in.setstate(std::ios::failbit);
   }

@@ -36,8 +36,8 @@ int ownDescriptor(const fs::path& file) {
   return -1;
 }
 
-/// The standard output that has this very file open, or -1: a file put in its place would take
-/// away what else goes there.
+/// Returns the standard output that has this very file open, or -1: if the file was replaced, other
+/// output to it would be lost.
 int openAsOutput(const struct stat& status) {
   for (const int output : {STDOUT_FILENO, STDERR_FILENO}) {
     struct stat other{};
@@ -48,7 +48,7 @@ int openAsOutput(const struct stat& status) {
   return -1;
 }
 
-/// Whoever writes a part holds its lock, so a part that is not locked belongs to nobody any more.
+/// Removes parts whose writer is gone: a writer holds its part's lock, so an unlocked part is dead.
 void clearDeadParts(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
@@ -66,13 +66,13 @@ fs::path nextPart(const fs::path& folder) {
   return folder / (std::string(kPart) + std::to_string(::getpid()) + "-" + std::to_string(++count));
 }
 
-/// Some systems and files know no such thing.
+/// Returns whether the error only says that the system or the file does not support the call.
 bool isUnsupported(int error) { return error == EINVAL || error == EROFS || error == ENOTSUP; }
 
 }  // namespace
 
 fs::path behindLinks(const fs::path& file) {
-  constexpr int kMostLinks = 40;  // as the system itself
+  constexpr int kMostLinks = 40;  // as many as the system follows
   fs::path place = file;
   for (int i = 0; i < kMostLinks && ownDescriptor(place) < 0; ++i) {
     std::error_code error;
@@ -97,7 +97,7 @@ NewFile::~NewFile() {
   if (state_ == State::kInPlace || state_ == State::kStream) {
     try {
       emptyBuffer();
-    } catch (const std::exception&) {  // who wants to know calls commit()
+    } catch (const std::exception&) {  // callers that need the error call commit()
     }
   }
   if (state_ == State::kNamed) ::unlink(named_.c_str());
@@ -118,7 +118,7 @@ void NewFile::open() {
   int own = ownDescriptor(place_);
   if (own < 0 && exists) own = openAsOutput(status);
   if (own >= 0) {
-    if (own == STDOUT_FILENO) std::fflush(stdout);  // comes first
+    if (own == STDOUT_FILENO) std::fflush(stdout);  // earlier output comes first
     descriptor_ = ::fcntl(own, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     state_ = State::kStream;
   } else if (exists && S_ISDIR(status.st_mode)) {
@@ -128,7 +128,8 @@ void NewFile::open() {
     descriptor_ = ::open(place_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
     state_ = State::kStream;
   } else {
-    // Its folder would let us replace it, but who took away the right to write it meant that.
+    // Its folder would let us replace it, but a file without the right to write is protected on
+    // purpose.
     if (exists && ::access(place_.c_str(), W_OK) != 0) fail();
     openUnnamedOrNamed();
     if (exists) keepOwnership();
@@ -137,7 +138,7 @@ void NewFile::open() {
 }
 
 void NewFile::openUnnamedOrNamed() {
-  if (::access("/proc/self/fd", X_OK) == 0) {  // by which it can be named, see putInPlace()
+  if (::access("/proc/self/fd", X_OK) == 0) {  // putInPlace() names the file by it
     descriptor_ = ::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
       ::flock(descriptor_, LOCK_EX | LOCK_NB);
@@ -163,19 +164,20 @@ void NewFile::openNamed() {
       state_ = State::kNamed;
       return;
     }
-    ::close(std::exchange(descriptor_, -1));  // taken for dead before we had the lock
+    ::close(std::exchange(descriptor_, -1));  // it was taken for dead before it was locked
   }
   errno = EEXIST;
   fail();
 }
 
-/// The new file is for those that the old one was for.
+/// Gives the new file the owner, group and permissions of the old one.
 void NewFile::keepOwnership() {
   struct stat old{};
   struct stat own{};
   if (::stat(place_.c_str(), &old) != 0 || ::fstat(descriptor_, &own) != 0) return;
   const bool isOthers = old.st_uid != own.st_uid || old.st_gid != own.st_gid;
-  if (isOthers && ::fchown(descriptor_, old.st_uid, old.st_gid) != 0) return;  // not for us to give
+  // We may not give it to the owner.
+  if (isOthers && ::fchown(descriptor_, old.st_uid, old.st_gid) != 0) return;
   ::fchmod(descriptor_, old.st_mode & 0777);
 }
 
@@ -254,8 +256,8 @@ void NewFile::replace(const fs::path& named) {
   fail();
 }
 
-/// Writes the folder out, so that the name survives a power failure, too. Fails silently: the file
-/// is in place anyhow.
+/// Syncs the folder, so that the name survives a power failure, too. Fails silently, as the file is
+/// in place in any case.
 void NewFile::syncFolder() const {
   const int descriptor = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;

@@ -11,7 +11,7 @@ struct Parameters::Table {
   std::string where;
   std::map<std::string, Node> values;
   std::set<std::string> read;   ///< keys whose values were read
-  std::set<std::string> asked;  ///< what somebody would have read
+  std::set<std::string> asked;  ///< keys that a reader knows
   int line = 0;                 ///< line at which the table begins; 0: not known
 };
 
@@ -29,7 +29,7 @@ std::string toText(const Range& range) {
   return "in [" + toText(range.low) + ", " + toText(range.high) + "]";
 }
 
-/// "a number", and within which bounds if there are any.
+/// Returns "a number", with its bounds if there are any.
 std::string numberWithin(const Range& range) {
   const bool bounded = std::isfinite(range.low) || std::isfinite(range.high);
   return bounded ? "a number " + toText(range) : "a number";

@@ -45,7 +45,8 @@ ORTUNG_INLINE Block philox(std::uint64_t key, std::uint64_t stream, std::uint64_
   return c;
 }
 
-/// In [0, 1), 24 bits, exact in a float. (By a signed number: that conversion is an instruction.)
+/// Returns a number in [0, 1) of 24 bits, exact in a float. (It converts a signed number, which is
+/// a single instruction.)
 ORTUNG_INLINE float unit(std::uint32_t word) {
   return static_cast<float>(static_cast<std::int32_t>(word >> 8)) * 0x1p-24F;
 }
@@ -55,7 +56,7 @@ struct Pair {
   float second;
 };
 
-/// Two Gaussian numbers from two words (Box and Muller, 1958).
+/// Makes two Gaussian numbers of two words (Box and Muller, 1958).
 ORTUNG_INLINE Pair boxMuller(std::uint32_t a, std::uint32_t b) {
   const float radius = std::sqrt(-2.0F * naturalLog(unit(a) + 0x1p-25F));  // never ln 0
   const SinCos angle = sinCos(kTurnFloat * unit(b));
@@ -66,7 +67,7 @@ constexpr std::size_t kNumbersABlock = 4;
 constexpr std::size_t kBlocksAGroup = 16;  ///< vectors of every width divide it
 constexpr std::size_t kNumbersAGroup = kNumbersABlock * kBlocksAGroup;
 
-/// Whole groups of blocks from @p block on.
+/// Fills whole groups of blocks from @p block on.
 struct UniformGroups {
   ORTUNG_INLINE static void run(std::uint64_t seed, std::uint64_t stream, std::uint64_t block,
                                 std::size_t groups, float* out) {
@@ -98,8 +99,8 @@ struct GaussianGroups {
   }
 };
 
-/// Fills @p out from number @p first of the stream on: whole groups in place, its ends from a
-/// spare.
+/// Fills @p out from number @p first of the stream on: whole groups in place, its ends by way of a
+/// buffer.
 template <class Groups>
 void fill(std::uint64_t seed, std::uint64_t stream, std::uint64_t first, std::span<float> out) {
   std::array<float, kNumbersAGroup> spare;
@@ -109,7 +110,8 @@ void fill(std::uint64_t seed, std::uint64_t stream, std::uint64_t first, std::sp
     if (skipped == 0 && done > 0) {
       runWidest<Groups>(seed, stream, first / kNumbersABlock, done / kNumbersAGroup, out.data());
     } else {
-      // From the middle of a block: only up to the block's end, so that the rest goes in place.
+      // A start in the middle of a block goes only up to the block's end, so that the rest is
+      // written in place.
       done = std::min(out.size(), skipped == 0 ? kNumbersAGroup : kNumbersABlock - skipped);
       runWidest<Groups>(seed, stream, first / kNumbersABlock, 1, spare.data());
       std::copy_n(spare.begin() + static_cast<std::ptrdiff_t>(skipped), done, out.begin());

@@ -9,14 +9,14 @@ namespace ortung {
 
 Interval wilson(std::uint64_t hits, std::uint64_t n) {
   if (n == 0) return {};
-  constexpr double kZ = 1.959963984540054;  // of 95 %
+  constexpr double kZ = 1.959963984540054;  // quantile of 95 %
   const auto count = static_cast<double>(n);
   const double p = static_cast<double>(hits) / count;
   const double scale = 1.0 + kZ * kZ / count;
   const double middle = (p + kZ * kZ / (2.0 * count)) / scale;
   const double half =
       kZ / scale * std::sqrt(p * (1.0 - p) / count + kZ * kZ / (4.0 * count * count));
-  // The formula rounds where the ends are exactly 0 and 1.
+  // The formula has rounding errors where the ends are exactly 0 and 1.
   return {p, hits == 0 ? 0.0 : middle - half, hits == n ? 1.0 : middle + half};
 }
 

@@ -7,7 +7,8 @@ namespace {
 
 using Points = std::span<const PlanePoint>;
 
-/// Total least squares through the points, between the feet of the first and the last one.
+/// Fits a line to the points by total least squares, between the projections of the first and the
+/// last one.
 StraightPiece lineThrough(Points points) {
   double x = 0.0;
   double y = 0.0;

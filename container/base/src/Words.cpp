@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCentidegrees = 18000.0 / std::numbers::pi;
 
-/// A plugin that measures no number must not tell -2147 km, as which a word would come out.
+/// Refuses values that are no number: their words would be read as -2147 km.
 void refuseInfinite(double value) {
   if (!std::isfinite(value))
     throw std::invalid_argument("a measured value is " + std::to_string(value) +

@@ -61,7 +61,7 @@ std::optional<Point3> CameraView::floorAt(const Pixel& pixel, double z) const {
 CameraView readCameraView(const Parameters& camera, double z) {
   CameraPlace place;
   place.z = z;
-  // What shows the floor as a map looks straight down.
+  // Models that show the floor as a map look straight down.
   const std::string model = camera.textOr("model", "perspective");
   const double tilt = model == "isometric" || model == "table" ? 90.0 : 0.0;
   place.tilt = radians(camera.numberOr("tilt_deg", tilt, {-180.0, 180.0}));

@@ -35,7 +35,7 @@ std::optional<PlanePoint> Distortion::distort(const PlanePoint& p) const {
   return apply(p);
 }
 
-/// First along the radius alone, then in the plane for the tangential part.
+/// Inverts the radial part alone at first, then solves in the plane for the tangential part.
 std::optional<PlanePoint> Distortion::undistort(const PlanePoint& p) const {
   const double distance = std::hypot(p.x, p.y);
   const bool isTangential = p1_ != 0.0 || p2_ != 0.0;
@@ -51,7 +51,7 @@ std::optional<PlanePoint> Distortion::undistort(const PlanePoint& p) const {
   return isTangential ? polish(q, p) : q;
 }
 
-/// Newton's steps in the plane.
+/// Takes Newton's steps in the plane.
 std::optional<PlanePoint> Distortion::polish(PlanePoint q, const PlanePoint& wanted) const {
   for (int i = 0; i < 30; ++i) {
     const double r2 = q.x * q.x + q.y * q.y;

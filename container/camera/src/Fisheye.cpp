@@ -8,7 +8,8 @@
 namespace ortung {
 namespace {
 
-/// Distance from the centre [focal lengths] of an angle to the axis [rad], with its slope.
+/// Returns the distance from the centre [focal lengths] for an angle to the axis [rad], with its
+/// derivative.
 struct RadialPolynomial {
   std::vector<double> k;
 

@@ -15,8 +15,8 @@ double valueOf(const std::vector<double>& polynomial, double x) {
   return value;
 }
 
-/// Angle to the axis of what is seen at distance rho [px], with its slope; both times the
-/// polynomial's first number, so that the slope is about 1.
+/// Returns the angle to the axis of a point in sight at distance rho [px], with its derivative;
+/// both times the polynomial's first coefficient, so that the derivative is about 1.
 struct OcamAngle {
   const std::vector<double>& polynomial;
 
@@ -83,7 +83,7 @@ class OcamModel : public CameraModel {
   std::vector<double> polynomial_;
   std::vector<double> affine_;  ///< c, d, e: (u, v) = ((c, d), (e, 1)) (x, y)
   double mostRho_ = 0.0;        ///< [px]
-  double mostAngle_ = 0.0;      ///< [rad], times the polynomial's first
+  double mostAngle_ = 0.0;      ///< [rad], times the first coefficient
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace ortung {
 namespace {
 
-/// Farther from the axis than this the plane in front of the camera is not followed: 89 degrees.
+/// Greatest distance from the axis in the plane in front of the camera: 89 degrees.
 constexpr double kFarthest = 57.3;
 
 /// A lens that keeps straight lines straight, but for its distortion.

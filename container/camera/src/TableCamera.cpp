@@ -9,7 +9,7 @@
 namespace ortung {
 namespace {
 
-/// Floor points farther away than this mean: no floor is seen there [m].
+/// Floor points farther away than this mean that no floor is in sight there [m].
 constexpr double kNoFloor = 1000.0;
 
 double dot(const Point3& a, const Point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -75,7 +75,7 @@ class TableModel : public CameraModel {
     return Patch{{x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]}};
   }
 
-  /// From the nearest node by Newton's steps over the grid.
+  /// Starts at the nearest node and takes Newton's steps over the grid.
   std::optional<Pixel> toPixel(const Point3& point) const override {
     const auto nearest = std::max_element(
         rays_.begin(), rays_.end(),

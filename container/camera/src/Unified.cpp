@@ -23,7 +23,7 @@ class UnifiedModel : public CameraModel {
         distortion_(p.numbersOr("distortion", {}, -1, {-1e4, 1e4}), kFarthest) {
     if (distortion_.coefficients().size() > 4)
       p.fail("distortion", "has more than four numbers, expected k1, k2, p1, p2");
-    // Beyond this height two points of the sphere are one pixel, or the plane ends.
+    // Beyond this height two points of the sphere share a pixel, or the plane ends.
     lowest_ = xi_ > 1.0 ? -1.0 / xi_ : -xi_;
   }
 

@@ -49,7 +49,7 @@ void Extraction::connect(std::span<const std::unique_ptr<SensorData>> features) 
   order();
 }
 
-/// What a device reads of its own features, something else fills.
+/// Returns whether the step makes a feature. Features that it reads as well are filled by others.
 bool Extraction::Step::makes(const SensorData* data) const {
   return has(outputs, data) && !has(inputs, data);
 }
@@ -60,7 +60,7 @@ std::vector<const SensorData*> Extraction::inputsOf(const SensorData& made) cons
   return {};
 }
 
-/// Sorts by what reads what: first those whose inputs no other step makes.
+/// Sorts the steps by their inputs: those whose inputs no other step makes come first.
 void Extraction::order() {
   std::vector<Step> sorted;
   const auto waits = [&](const Step& step) {
@@ -88,8 +88,8 @@ bool Extraction::reads(const SensorData& data) const {
                      [&](const Step& step) { return has(step.inputs, &data); });
 }
 
-/// Whoever comes while another one is at it leaves a number behind, by which that one sees that it
-/// is not done yet.
+/// Runs the steps. A caller that comes while another thread runs them raises a number, by which
+/// that thread sees that it is not done yet.
 void Extraction::run(std::shared_mutex& lock) {
   ++asked_;
   while (true) {
@@ -100,7 +100,7 @@ void Extraction::run(std::shared_mutex& lock) {
       done = asked_;
       runAll(lock);
     }
-    // Only once it is unlocked: who failed to lock it before has raised the number before.
+    // This is read after unlocking: a thread that failed to lock has raised the number before that.
     if (asked_ == done) return;
   }
 }
@@ -125,7 +125,7 @@ void Extraction::runAll(std::shared_mutex& lock) {
   }
 }
 
-/// Whether there is something new. @param stamp of the newest input
+/// Returns whether an input is new, and takes it. @param stamp of the newest input
 bool Extraction::take(Step& step, Timestamp& stamp) {
   bool isNew = false;
   std::vector<const SensorData*> readings;
@@ -142,14 +142,14 @@ bool Extraction::take(Step& step, Timestamp& stamp) {
   return true;
 }
 
-/// Whether somebody else made it of the same inputs, and sent or recorded it: who serves a robot
-/// may know more of the field, and what was said before.
+/// Returns whether the output came by a message, made of the same inputs by another program: a
+/// robot's server may know more about the field and about earlier readings.
 bool Extraction::Step::cameByMessage(std::size_t output, Timestamp stamp) const {
   const SensorData& data = *outputs[output];
   return makes(&data) && data.sequence() != made[output] && data.stamp() == stamp;
 }
 
-/// The same of all.
+/// Returns whether all outputs came by messages.
 bool Extraction::Step::cameByMessage(Timestamp stamp) const {
   bool any = false;
   for (std::size_t i = 0; i < outputs.size(); ++i) {

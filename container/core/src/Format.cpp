@@ -32,7 +32,7 @@ void checkValue(const std::string& key, std::string_view value) {
                                 ", expected printable characters without blanks");
 }
 
-/// Its shortest text, or one of so many digits.
+/// Returns the number's shortest text, or one with @p digits digits.
 std::string numberText(double value, std::optional<int> digits = {}) {
   char text[32];
   const auto end =
@@ -49,7 +49,7 @@ std::optional<double> readNumber(std::string_view text) {
   return value;
 }
 
-/// Cuts off what stands before the next @p separator.
+/// Cuts off the part before the next @p separator.
 std::string_view cut(std::string_view& rest, char separator) {
   const std::size_t end = rest.find(separator);
   const std::string_view part = rest.substr(0, end);
@@ -85,7 +85,7 @@ Format& Format::with(const std::string& key, double value) {
 }
 
 Format& Format::withAngle(const std::string& key, double angle) {
-  // The way to degrees and back rounds twice, so of the digits of a double not all are wanted.
+  // Converting to degrees and back rounds twice, so not all digits of a double are needed.
   constexpr int kDigits = 17;
   for (int digits = 1; digits <= kDigits; ++digits) {
     const auto rounded = readNumber(numberText(degrees(angle), digits));

@@ -19,8 +19,8 @@ namespace {
 constexpr const char* kSymbol = "ortungPlugins";
 constexpr const char* kSourceKind = "ortung.Source";
 
-/// How long a library must be for what its header and its segments say of it. The loader believes
-/// them: what it maps beyond the end of a file kills the process (SIGBUS) when it is touched.
+/// Returns how long a library must be according to its header and its segments. The loader trusts
+/// them: memory that it maps beyond the end of a file kills the process (SIGBUS) when it is read.
 std::uint64_t lengthOf(std::ifstream& in, const Elf64_Ehdr& header,
                        const std::filesystem::path& file) {
   const auto end = [&](std::uint64_t offset, std::uint64_t size) {
@@ -38,7 +38,7 @@ std::uint64_t lengthOf(std::ifstream& in, const Elf64_Ehdr& header,
   for (int i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr segment{};
     in.read(reinterpret_cast<char*>(&segment), sizeof segment);
-    if (!in) break;  // the file ends before its own list of segments, which is within the length
+    if (!in) break;  // the list of segments is within the length, too, but the file ends before it
     length = std::max(length, end(segment.p_offset, segment.p_filesz));
   }
   return length;
@@ -78,7 +78,7 @@ void checkInfo(const std::filesystem::path& file, const PluginInfo& info) {
   }
 }
 
-/// Makes a plugin; what its constructor throws comes with the plugin's name.
+/// Makes a plugin; an exception of its constructor gets the plugin's name.
 void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
   const std::string who = std::string("plugin '") + entry.name + "'";
   const PluginGuard guard("the " + who);
@@ -86,13 +86,13 @@ void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
   try {
     return entry.create(parameters);
   } catch (const ConfigError&) {
-    throw;  // names file, line and key already
+    throw;  // it names file, line and key already
   } catch (const PluginError&) {
     throw;
   } catch (const std::invalid_argument&) {
-    throw;  // for the reader of the robot file, who knows its line
+    throw;  // the robot file's reader adds the line
   } catch (const std::exception& error) {
-    if (interfaceKind(entry.interface) == kSourceKind) throw;  // names the file it reads
+    if (interfaceKind(entry.interface) == kSourceKind) throw;  // it names its file
     throw PluginError(who + ": " + error.what());
   } catch (...) {
     throw PluginError(who + ": threw something that is no std::exception");
@@ -152,7 +152,7 @@ std::vector<std::filesystem::path> PluginFactory::libraries(const std::string& p
 }
 
 /// Loads libraries(part). Returns why some could not be loaded: a broken library must not hide the
-/// plugins of its neighbours.
+/// plugins of other libraries.
 std::vector<PluginFactory::Complaint> PluginFactory::loadWhere(const std::string& part) {
   std::vector<Complaint> complaints;
   for (const auto& file : libraries(part)) {
@@ -207,8 +207,8 @@ const PluginEntry* PluginFactory::findEntry(const std::string& interface,
   return nullptr;
 }
 
-/// Whether a broken library stands in for one of the same file name further on that has the plugin:
-/// that must not be passed over, while broken neighbours may.
+/// Returns whether a broken library hides one of the same file name in a later folder that has the
+/// plugin. That is an error, while other broken libraries may be ignored.
 bool PluginFactory::hides(const std::vector<Complaint>& complaints, const std::string& interface,
                           const std::string& name) const {
   return std::any_of(libraries_.begin(), libraries_.end(), [&](const Library& library) {

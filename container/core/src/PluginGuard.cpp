@@ -12,10 +12,10 @@
 namespace ortung {
 namespace {
 
-/// All guards of the process. It is one for all, since guards are made inside of plugins, too (the
-/// source `sim` has robots of its own), and it is a program that a watch ends, not a robot.
+/// All guards of the process. There is one list for all, since plugins make guards, too (the source
+/// `sim` has robots of its own), and a watch ends a program, not a robot.
 struct Guards {
-  std::mutex mutex;  ///< a guard that is looked at does not end meanwhile
+  std::mutex mutex;  ///< keeps a guard alive while it is checked
   std::set<const PluginGuard*> all;
 };
 
@@ -47,7 +47,7 @@ void PluginGuard::fail(const char* what, const std::string& why) const {
 }
 
 struct PluginWatch::Impl {
-  /// A call that was under way when we looked last.
+  /// A call that was running at the last check.
   struct Seen {
     std::uint64_t entered = 0;
     std::uint64_t left = 0;
@@ -77,7 +77,7 @@ struct PluginWatch::Impl {
       const Clock::time_point now = Clock::now();
       const double passed = std::chrono::duration<double>(now - before).count();
       before = now;
-      // Who comes much too late was not allowed to run, and neither were the plugins.
+      // If this thread wakes much too late, the process was suspended, and so were the plugins.
       const std::string late = look(std::min(passed, 2.0 * step));
       if (late.empty()) continue;
       lock.unlock();

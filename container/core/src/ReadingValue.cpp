@@ -48,7 +48,7 @@ double valueOf(ValueKind kind, std::uint32_t word) {
   return word;
 }
 
-/// Sets between what a value can be.
+/// Sets the bounds of a value.
 void bound(WordValue& value, double maxRange) {
   if (isAngle(value.kind)) {
     value.most = std::numbers::pi;
@@ -104,7 +104,7 @@ std::uint32_t wordOf(const WordValue& value) {
   if (isAngle(value.kind)) return words::fromAngle(value.value);
   if (value.kind == ValueKind::kX || value.kind == ValueKind::kY)
     return words::fromSignedMetres(value.value);
-  // Of what is no length, the number is the word.
+  // If the value is no length, its number is the word.
   return words::fromMetres(isLength(value.kind) ? value.value : value.value / 1000.0);
 }
 

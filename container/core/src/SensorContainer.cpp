@@ -91,7 +91,7 @@ std::size_t SensorContainer::set(std::span<const Message> frame) {
   return unknown;
 }
 
-/// @param isRead out: whether something is made of a feature in the frame
+/// @param isRead out: whether an extractor reads a feature of the frame
 std::size_t SensorContainer::take(std::span<const Message> frame, bool& isRead) {
   const std::unique_lock lock(mutex_);
   targets_.clear();
@@ -125,7 +125,7 @@ double SensorContainer::getProbability(const Pose2& pose) const {
   const auto y = static_cast<float>(pose.y);
   const auto theta = static_cast<float>(pose.theta);
   const SampleView one{{&x, 1}, {&y, 1}, {&theta, 1}};
-  double sum = 0.0;  // in double: many features, each by itself in float
+  double sum = 0.0;  // double, since many features in float are added up
   bool any = false;
   for (const auto& data : data_) {
     const std::shared_ptr<const Weigher> weigher = data->weigher();

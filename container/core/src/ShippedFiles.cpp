@@ -14,7 +14,7 @@ std::vector<std::filesystem::path> mapFolders() {
   const std::filesystem::path library = libraryFolder();
   if (library.empty()) return folders;
   folders.push_back((library / ORTUNG_MAPS_FROM_LIB).lexically_normal());
-  folders.push_back(library.parent_path() / "share/ortung/maps");  // where it was built
+  folders.push_back(library.parent_path() / "share/ortung/maps");  // the folder of the build
   return folders;
 }
 

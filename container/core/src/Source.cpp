@@ -6,10 +6,11 @@
 namespace ortung {
 namespace {
 
-/// More than any robot has features; a hostile file may put all of its readings at one time.
+/// Most readings of one time step, more than any robot has features; a hostile file may give all
+/// its readings the same stamp.
 constexpr std::size_t kMostReadings = 65536;
 
-/// 36,000 years: whoever plays readings adds and subtracts their times, which must not overflow.
+/// Farthest stamp from 0, 36,000 years: sums and differences of readings' times must not overflow.
 constexpr Timestamp kFarthest = Timestamp{1} << 60;
 
 }  // namespace
