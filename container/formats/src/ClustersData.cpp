@@ -9,7 +9,7 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kWords = 10;  // a place
+constexpr std::size_t kWords = 10;  // words of one place
 constexpr std::uint32_t kOne = 10'000;
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "places"}; }
@@ -19,7 +19,7 @@ std::uint32_t shareWord(double share) {
   return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kOne));
 }
 
-/// The fixes without their shares, as their own format has them.
+/// Returns the fixes without their shares, in the format of fixes.
 std::vector<std::uint32_t> fixWords(std::span<const std::uint32_t> words) {
   std::vector<std::uint32_t> fixes;
   for (std::size_t i = 0; i < words.size(); i += kWords)

@@ -31,7 +31,7 @@ class ConeWeigher final : public Weigher, public Polishable {
     }
   }
 
-  /// Nothing where a neighbour of the pose's cell sees nothing, or the reading does.
+  /// Returns no slope if nothing is in sight of a neighbour of the pose's cell, or in the reading.
   Slope slopeAt(const Pose2& robot) const override {
     Slope slope;
     if (!std::isfinite(reading_)) return slope;
@@ -62,8 +62,8 @@ class ConeWeigher final : public Weigher, public Polishable {
                               std::log(sees ? model_.outliers : model_.maxRangeMass));
   }
 
-  /// Range between the centres of cells and the directions around a pose [m]; NaN: one of them
-  /// sees nothing.
+  /// Returns the range interpolated between the cells and directions around a pose [m]; NaN if
+  /// nothing is in sight of one of them.
   double expected(const Pose2& sensor) const {
     const FieldGrid& grid = table_->grid();
     const double column = (sensor.x - grid.originX) / grid.cell - 0.5;
@@ -128,7 +128,7 @@ ConeData::~ConeData() = default;
 
 std::uint32_t ConeData::encode(Reading reading, double maxRange) {
   if (std::isnan(reading)) return 0;
-  // One millimetre above the greatest range: "nothing seen" survives any rounding.
+  // "Nothing seen" is one millimetre above the greatest range, so that it survives any rounding.
   if (reading >= maxRange) return words::fromMetres(maxRange) + 1;
   return std::max(words::fromMetres(reading), 1U);
 }

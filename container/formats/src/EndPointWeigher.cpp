@@ -15,7 +15,7 @@ constexpr std::size_t kBlurredPoints = 64;  ///< most points of a blurred readin
 
 constexpr double kStepsAnOctave = 4.0;  ///< steps of noise per doubling of it
 
-/// Cells in which points lie, as a robot at (x, y) sees them.
+/// Finds the cells of points in the frame of a robot at (x, y).
 struct EndCells {
   ORTUNG_INLINE static void run(CellLookup lookup, float x, float y, float sine, float cosine,
                                 const float* px, const float* py, std::size_t n,
@@ -38,7 +38,7 @@ void EndPointTables::complete(const SensorModel& model, double greatestRange) {
 }
 
 double EndPointTables::sigmaAt(double range) const {
-  // Half a cell's width is not the sensor's fault.
+  // Rounding to a cell adds the sigma of a uniform distribution.
   return std::hypot(model_.sigmaAt(range), 0.29 * field.grid().cell);
 }
 
@@ -135,7 +135,7 @@ void EndPointWeigher::weigh(const SampleView& poses, std::span<float> logProbabi
       logProbability[i] += floor * static_cast<float>(count);
       continue;
     }
-    // Even and odd points apart, and those again: additions need not wait for each other.
+    // Four sums, so that additions need not wait for each other.
     float sum0 = 0.0F;
     float sum1 = 0.0F;
     float sum2 = 0.0F;

@@ -56,7 +56,7 @@ std::unique_ptr<SensorData> makeLandmarks(const Described& it) {
       LandmarksData::Config{.identities = {identities.begin(), identities.end()}, .range = {}});
 }
 
-/// Of those that are made from their names alone.
+/// Makes features that need nothing but their names.
 template <class Data>
 std::unique_ptr<SensorData> make(const Described& it) {
   if constexpr (requires { Data(it.id, it.mount, {}); })
@@ -93,7 +93,7 @@ constexpr Maker kMakers[] = {
     {formats::kPlaces, make<PlacesData>},
 };
 
-/// A feature of the class that has the words of another of the same format; null if it has not.
+/// Returns a feature of the class with the words of another one; null if the format differs.
 template <class Data>
 std::unique_ptr<Data> copyOf(const SensorData& feature, const char* name) {
   try {
@@ -103,7 +103,7 @@ std::unique_ptr<Data> copyOf(const SensorData& feature, const char* name) {
     made->setData(feature.stamp(), feature.getData());
     return std::unique_ptr<Data>(static_cast<Data*>(made.release()));
   } catch (const std::invalid_argument&) {
-    return nullptr;  // it only says so
+    return nullptr;  // it only claims to have the format
   }
 }
 

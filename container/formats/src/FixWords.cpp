@@ -11,10 +11,10 @@
 namespace ortung {
 namespace {
 
-constexpr std::uint32_t kWhole = 10000;                    // of a correlation
+constexpr std::uint32_t kWhole = 10000;                    // units per correlation of 1
 constexpr double kMicro = 1e6;                             // per metre
 constexpr double kFineDegrees = 1.8e6 / std::numbers::pi;  // 1/10000 degree per radian
-constexpr double kLargest = 4e9;                           // of a sigma's word
+constexpr double kLargest = 4e9;                           // greatest word of a sigma
 
 std::uint32_t sigmaWord(double sigma, double perUnit) {
   return static_cast<std::uint32_t>(std::clamp(std::nearbyint(sigma * perUnit), 1.0, kLargest));

@@ -7,11 +7,11 @@
 namespace ortung {
 namespace {
 
-/// Farther from every landmark, a sighting is of none [m]: also of poses that are not known better
-/// than a search over the whole field knows them.
+/// Sightings farther than this from every landmark are of none [m]; it is enough for poses that are
+/// only as exact as those of a search over the whole field.
 constexpr double kReach = 3.0;
-constexpr double kCell = 0.1;         // [m]; where two landmarks are as near, either is right
-constexpr double kMostCells = 4.0e6;  // landmarks far apart have larger ones
+constexpr double kCell = 0.1;         // [m]; if two landmarks are equally near, either is right
+constexpr double kMostCells = 4.0e6;  // if landmarks are far apart, cells are larger
 constexpr double kFarthest = 1.0e6;   // [m]
 constexpr double kMostLandmarks = 65535.0;
 
@@ -32,7 +32,7 @@ void LandmarkPlaces::mark(std::size_t index, double x, double y) {
 }
 
 void LandmarkPlaces::finish() {
-  for (std::size_t i = 0; i < counts_.size(); ++i) {  // never seen: 0 / 0
+  for (std::size_t i = 0; i < counts_.size(); ++i) {  // of landmarks never seen it is 0 / 0
     x_[i] /= counts_[i];
     y_[i] /= counts_[i];
   }

@@ -76,7 +76,7 @@ class LandmarksData::Sight final : public Weigher, public Polishable, public Cor
       const double range = k.landmark->range.at(sensor.x, sensor.y);
       expects = expects || !std::isnan(range);
       if (std::isnan(range)) {
-        sum += floor;  // seen from where nobody ever saw it
+        sum += floor;  // it was never seen from there
         continue;
       }
       const double bearing = k.landmark->bearing.at(sensor.x, sensor.y) - sensor.theta;
@@ -274,10 +274,10 @@ std::vector<WordValue> LandmarksData::valuesIn(std::span<const std::uint32_t> wo
   return values;
 }
 
-/// Of an identity the value is its place in the list.
+/// Stores a value; that of an identity is its place in the list.
 void LandmarksData::store(const WordValue& value, std::span<std::uint32_t> words) const {
   if (value.kind != ValueKind::kIdentity) return SensorData::store(value, words);
-  if (!(value.value >= 0.0)) return;  // one that is not in the list stays what it is
+  if (!(value.value >= 0.0)) return;  // an identity that is not in the list stays as it is
   const auto index = static_cast<std::size_t>(value.value);
   words[value.word] = config_.identities[std::min(index, config_.identities.size() - 1)];
 }

@@ -10,7 +10,7 @@ constexpr std::size_t kOwnWords = 5;
 constexpr std::size_t kMostMotionWords = 16;
 constexpr std::size_t kLateralWords = 2;
 
-/// Whether the last two words tell the lateral velocity.
+/// Returns whether the last two words are the lateral velocity.
 bool tellsLateral(std::span<const std::uint32_t> words) {
   return words.size() >= kOwnWords + kLateralWords &&
          words[words.size() - kLateralWords] == OdometryData::kLateralFollows;
@@ -34,7 +34,7 @@ void OdometryData::encode(const Reading& reading, std::vector<std::uint32_t>& wo
                 words::fromRate(reading.rotationalVelocity)});
   words.insert(words.end(), reading.motionData.begin(), reading.motionData.end());
   const std::uint32_t lateral = words::fromSignedMetres(reading.lateralVelocity);
-  // Motion data that happens to look like it must not be taken for it.
+  // Motion data that happens to look like lateral velocity must not be taken for it.
   if (lateral != words::kOffset || tellsLateral(words))
     words.insert(words.end(), {kLateralFollows, lateral});
 }

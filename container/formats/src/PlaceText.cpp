@@ -1,4 +1,4 @@
-// How robots tell each other where something is.
+// The text by which robots send each other the place of something.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr std::size_t kNumbers = 9;
 constexpr double kFarthest = 1e5;  ///< [m]
 constexpr double kLeast = 1e-6;    ///< least sigma of a position [m] and of a heading [rad]
 
-/// The next word; empty at the end.
+/// Cuts off the next word; empty at the end.
 std::string_view nextWord(std::string_view& text) {
   const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
   const std::size_t end = std::min(text.find(' ', begin), text.size());
@@ -34,7 +34,7 @@ std::optional<double> numberIn(std::string_view word) {
   return number;
 }
 
-/// Numbers as a text has them; those of a heading that is not known are "-".
+/// Reads the text's numbers; those of an unknown heading are "-".
 std::optional<std::array<double, kNumbers>> numbersIn(std::string_view& text, bool& hasHeading) {
   std::array<double, kNumbers> numbers{};
   hasHeading = true;

@@ -104,7 +104,7 @@ std::string PointsData::learningKey() const {
          " margin_m=" + keyNumber(config_.margin) + " " + mountKey(mount());
 }
 
-/// Points within range, evenly picked if they are too many.
+/// Returns the points within range, evenly picked if there are too many.
 std::shared_ptr<const Weigher> PointsData::makeWeigher() const {
   auto weigher = std::make_shared<EndPointWeigher>(tables_, mount());
   const std::size_t count = reading_.size();

@@ -19,8 +19,8 @@ namespace {
 
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-/// The inverse of a covariance to which independent errors were added. Correlations that no
-/// covariance can have are left out.
+/// Returns the inverse of a covariance to which independent errors were added. Impossible
+/// correlations are left out.
 Matrix3 informationOf(const PoseFixData::Fix& fix, const PoseFixData::Config& config) {
   const Eigen::Vector3d added(config.addedSigma * config.addedSigma,
                               config.addedSigma * config.addedSigma,
@@ -66,7 +66,7 @@ class PoseFixWeigher final : public Weigher, public Polishable {
       fixes_.emplace_back(fix.pose, informationOf(fix, config));
   }
 
-  /// Of the fix that is nearest.
+  /// Returns the slope of the nearest fix.
   Slope slopeAt(const Pose2& pose) const override {
     const auto sigmasTo = [&](const Weighed& fix) {
       return fix.sigmas(pose.x, pose.y, pose.theta);

@@ -11,9 +11,9 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kWords = 4;  // a sample
+constexpr std::size_t kWords = 4;  // words of one sample
 constexpr std::uint32_t kHeaviest = 65'535;
-constexpr double kHundredths = 36'000.0 / kTurn;  // of a degree, per radian
+constexpr double kHundredths = 36'000.0 / kTurn;  // hundredths of a degree per radian
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "samples"}; }
 

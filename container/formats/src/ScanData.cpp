@@ -13,8 +13,8 @@ namespace ortung {
 namespace {
 
 constexpr int kMostBeams = 8192;
-/// Between positions from which surfaces are looked at [cells of theirs]: beams of many positions
-/// meet in each cell all the same.
+/// Distance between positions from which surfaces are marked [cells of the surfaces]: that is
+/// enough for beams of many positions to meet in each cell.
 constexpr double kCellsApart = 6.0;
 
 std::uint32_t wordOf(double range, double maxRange) {
@@ -23,15 +23,16 @@ std::uint32_t wordOf(double range, double maxRange) {
                            : std::max(words::fromMetres(range), 1U);
 }
 
-/// Headings whose scans together span a turn.
+/// Returns the number of headings whose scans together span a turn.
 int fewestViews(const ScanData::Config& config) {
   const double span = std::min(config.beams * config.angleStep, kTurn);
   const auto views = static_cast<int>(std::ceil(kTurn / span - 1e-9));
-  // One view more than a turn needs: beams of the views interleave, so fewer directions stay empty.
+  // With one view more than a turn needs, beams of the views interleave, so fewer directions stay
+  // empty.
   return views == 1 ? 1 : views + 1;
 }
 
-/// Whether the beams of so many evenly spaced views fall on every one of @p directions a turn.
+/// Returns whether beams of so many evenly spaced views fall on each of @p directions per turn.
 bool meetAll(const ScanData::Config& config, int views, int directions) {
   std::vector<bool> met(static_cast<std::size_t>(directions), false);
   for (int view = 0; view < views; ++view) {
@@ -45,8 +46,8 @@ bool meetAll(const ScanData::Config& config, int views, int directions) {
   return std::find(met.begin(), met.end(), false) == met.end();
 }
 
-/// Headings that learn every direction of a table, also where beams are sparser than its
-/// directions.
+/// Returns the number of headings that learn every direction of a table, even if beams are sparser
+/// than its directions.
 int viewsFor(const ScanData::Config& config, int directions) {
   int views = fewestViews(config);
   if (config.angleStep <= 1.01 * kTurn / directions) return views;  // the table fills single holes
@@ -61,7 +62,7 @@ struct ScanData::Learning {
   std::vector<std::uint8_t> levelOfWord;
   int views = 0;  ///< headings a turn; 0: not known yet
   FieldGrid grid;
-  /// Whether the scan from a cell marks surfaces, by cell of the grid.
+  /// Says for each cell of the grid whether the scan from there marks surfaces.
   std::vector<bool> showsSurfaces;
 };
 
@@ -160,15 +161,15 @@ void ScanData::startTables(const FieldRegion& region, double headingStep) {
   learning_->showsSurfaces.assign(region.grid.size(), false);
   for (const std::size_t cell : openCellsApart(region, kCellsApart * config_.endPointCell))
     learning_->showsSurfaces[cell] = true;
-  // The last word is beyond the greatest range, and stands for all that are.
+  // The last word is beyond the greatest range, and stands for all such ranges.
   learning_->levelOfWord.resize(words::fromMetres(config_.maxRange) + 2);
   for (std::uint32_t word = 0; word < learning_->levelOfWord.size(); ++word) {
     learning_->levelOfWord[word] = scale_.level(words::toMetres(word));
   }
 }
 
-/// Whether surfaces are marked from there. A ray table is learned in every cell, and what all of
-/// them see of a surface says no more of it.
+/// Returns whether surfaces are marked from there. A ray table is learned in every cell, but scans
+/// from all of them would add no information about a surface.
 bool ScanData::marksFrom(const Pose2& sensor) const {
   if (config_.perception == Perception::kEndPoints) return true;
   const std::ptrdiff_t cell = learning_->grid.cellAt(sensor.x, sensor.y);
@@ -278,7 +279,7 @@ void ScanData::store(const WordValue& value, std::span<std::uint32_t> words) con
 std::vector<double> ScanData::expectation(const Pose2& pose) const {
   const Pose2 sensor = pose * mount();
   std::vector<double> expected;
-  if (config_.perception == Perception::kEndPoints) {  // which keep no ranges, but surfaces
+  if (config_.perception == Perception::kEndPoints) {  // these keep surfaces instead of ranges
     if (surfaces_->isEmpty() || surfaces_->grid().cellAt(sensor.x, sensor.y) < 0) return {};
     for (int i = 0; i < config_.beams; ++i)
       expected.push_back(rangeAlong(

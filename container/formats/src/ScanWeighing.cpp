@@ -19,15 +19,15 @@ namespace {
 
 /// Greatest cost of one beam: the outlier floor in quantized form.
 constexpr std::uint8_t kLargestCost = 250;
-/// Samples whose rows are looked up and prefetched at a time.
+/// Number of samples whose rows are looked up and prefetched at a time.
 constexpr std::size_t kSamplesABlock = 64;
 constexpr std::size_t kCacheLine = 64;  ///< [bytes]
-/// Steps of cost are chosen from a scale of so many an octave, so that few occur in one scan.
+/// Steps of cost are chosen from a scale of so many per octave, so that few occur in one scan.
 constexpr double kStepsAnOctave = 8.0;
 constexpr double kMostEntriesALevel = 3.9;  ///< most entries of the table of costs per level
 
-/// Where samples look into the ray table, a block of them at a time: without branches and calls, so
-/// that the compiler vectorizes it.
+/// Computes where samples look into the ray table, a block of them at a time, without branches and
+/// calls, so that the compiler vectorizes it.
 struct RayPlaces {
   std::array<std::int32_t, kSamplesABlock> cell;  ///< -1: outside of the table
   std::array<std::int32_t, kSamplesABlock> direction;
@@ -38,7 +38,7 @@ struct RayPlaces {
     std::int32_t* direction = places->direction.data();
     const auto turn = static_cast<float>(directions);
     const auto perRadian = static_cast<float>(directions / kTurn);
-    constexpr float kMostTurns = 1e6F;  // beyond, single precision knows no direction
+    constexpr float kMostTurns = 1e6F;  // beyond it, single precision has no direction
     for (std::size_t i = 0; i < n; ++i) cell[i] = lookup.index(poses.x[i], poses.y[i]);
     for (std::size_t i = 0; i < n; ++i) {
       const float place = (poses.theta[i] + firstAngle) * perRadian;
@@ -77,7 +77,7 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
     levelsPerSigma_.assign(run, 0.0);
   }
 
-  /// A beam at place @p at of the run. @param range [m]; +infinity: sees nothing
+  /// Adds a beam at place @p at of the run. @param range [m]; +infinity: nothing is in sight
   void add(std::size_t at, double range, const RangeScale& scale) {
     levels_[at] = scale.level(range);
     caps_[at] = std::isinf(range) ? quantize(std::log(model_.maxRangeMass)) : kLargestCost;
@@ -89,7 +89,7 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
     beams_.push_back({at, range});
   }
 
-  /// Once all beams are there. @returns whether any of them says something
+  /// Is called when all beams are added. @returns whether any of them has information
   bool complete();
 
   std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override {
@@ -144,14 +144,13 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
   std::vector<double> levelsPerSigma_;  ///< levels per sigma, by direction; zero: no beam
 };
 
-/// One table of costs serves beams of different noise: a difference of levels of each counts so
-/// many entries of the table as it is sigmas. The table is as fine as the finest levels, unless it
-/// would end before only the floor is left, or the coarsest levels would be too many of its
-/// entries.
+/// One table of costs serves beams of different noise: each beam's difference of levels is scaled
+/// to entries of the table by its sigma. The table is as fine as the finest levels, unless it would
+/// end before only the floor is left, or the coarsest levels would span too many of its entries.
 bool RayWeigher::complete() {
   if (floorCost_ == 0) return false;
   const double reach = std::sqrt(-2.0 * std::log(model_.outliers)) + 0.5;  // [sigma]
-  double most = 0.0;                                                       // levels in a sigma
+  double most = 0.0;                                                       // levels per sigma
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t at = 0; at < run_; ++at) {
     if (caps_[at] == 0) continue;
@@ -159,11 +158,11 @@ bool RayWeigher::complete() {
     least = std::min(least, levelsPerSigma_[at]);
   }
   const double entries =
-      std::min({most, (kLevelDifferences - 2) / reach, kMostEntriesALevel * least});  // in a sigma
+      std::min({most, (kLevelDifferences - 2) / reach, kMostEntriesALevel * least});  // per sigma
   for (std::size_t d = 0; d < kLevelDifferences; ++d)
     costs_[d] = quantize(model_.logProbability(static_cast<double>(d) / entries));
   costs_.back() = kLargestCost;
-  // Where noise grows like the levels do, all of them are one entry.
+  // If noise grows as the levels do, each level is one entry.
   if (least < most || entries < most) setSteps(entries, least);
   levelsPerSigma_ = {};
   return true;
@@ -191,7 +190,7 @@ void RayWeigher::weigh(const SampleView& poses, std::span<float> logProbability)
   const std::uint8_t* levels = rays_->levels().data();
   RayPlaces places;
   const CellLookup lookup(rays_->grid());
-  // Two blocks take turns: the rows of one are on their way while the other's costs are added up.
+  // Two blocks take turns: the rows of one are fetched while the other's costs are added up.
   struct Block {
     std::array<const std::uint8_t*, kSamplesABlock> rows;
     std::array<std::uint32_t, kSamplesABlock> sampleOf;
@@ -266,7 +265,7 @@ std::shared_ptr<const Weigher> ScanData::makeEndPointWeigher() const {
   const int thin = config_.usedBeams > 0 ? std::max(1, config_.beams / config_.usedBeams) : 1;
   for (int i = 0; i < config_.beams; i += thin) {
     const float range = ranges_[static_cast<std::size_t>(i)];
-    if (!std::isfinite(range)) continue;  // a beam that sees nothing has no end
+    if (!std::isfinite(range)) continue;  // a beam without a hit has no end
     weigher->add(static_cast<double>(range), config_.firstAngle + i * config_.angleStep);
   }
   return weigher->isEmpty() ? nullptr : weigher;

@@ -7,7 +7,7 @@
 namespace ortung {
 namespace {
 
-constexpr double kLeastScale = 0.1;  ///< far from the axis the polynomial is no scale any more
+constexpr double kLeastScale = 0.1;  ///< farther from the axis the polynomial is no scale
 constexpr int kRounds = 8;           ///< terms are small, so each leaves a tenth of the error
 
 }  // namespace

@@ -9,9 +9,10 @@
 namespace ortung {
 namespace {
 
-/// Lines that beams only graze say less than their slant promises: ends lie at other heights.
+/// Least sine between a beam and a line. A grazed line is less exact than its slant predicts, since
+/// ends lie at other heights.
 constexpr double kLeastSlant = 0.15;
-/// Scatter and likeness of so many residuals are supposed beside those that are there.
+/// Number of residuals by which the model's scatter and correlation count beside the measured ones.
 constexpr double kSupposed = 10.0;
 constexpr double kMostAlike = 0.95;
 constexpr int kScatterSteps = 4;
@@ -22,11 +23,11 @@ struct Residual {
   double off;
   double variance;  ///< variance by the model [m^2]
   std::array<double, 3> expectation;
-  bool follows;  ///< it is of the beam beside that of the one before
+  bool follows;  ///< its beam is next to that of the one before
 };
 
-/// Variance of residuals that are no outliers, in variances of the model: expectation and
-/// maximization in turn, from the model's.
+/// Returns the variance of residuals that are no outliers, in variances of the model, by
+/// expectation maximization from the model's.
 double scatterOf(const std::vector<Residual>& residuals, double outliers) {
   double variance = 1.0;
   for (int k = 0; k < kScatterSteps; ++k) {

@@ -6,9 +6,9 @@
 namespace ortung {
 namespace {
 
-constexpr double kStep = 0.5;  ///< distance between places that are looked at [cells]
-/// How far the ray may be from the mean of a cell's ends where it meets their line: a cell's
-/// diagonal, since neighbours have ends of their own [cells].
+constexpr double kStep = 0.5;  ///< distance between places that are checked [cells]
+/// Greatest distance between the hit on a cell's line and the mean of the cell's ends: neighbouring
+/// cells have ends of their own [cells].
 constexpr double kReach = 1.0;
 constexpr double kGrazes = 0.05;  ///< sine; a ray along a line meets it where its ends begin
 
@@ -17,7 +17,8 @@ struct Hit {
   double off;  ///< distance of the hit from the mean of the cell's ends [m]
 };
 
-/// Where a ray meets a surface's line; of spots, and of lines along the ray, where it is nearest.
+/// Returns where a ray meets a surface's line; for spots, and lines along the ray, where it is
+/// nearest.
 Hit meet(const Surface& surface, const Pose2& ray, double c, double s) {
   const double dx = static_cast<double>(surface.x) - ray.x;
   const double dy = static_cast<double>(surface.y) - ray.y;
@@ -45,7 +46,7 @@ double rangeAlong(const SurfaceField& surfaces, const Pose2& ray, double maxRang
     const Hit hit = meet(*surface, ray, c, s);
     if (hit.range > 0.0 && hit.off < kReach * cell && std::abs(hit.range - at) < 2.0 * cell)
       return hit.range < maxRange ? hit.range : maxRange;
-    // As far as the nearest one is away, but for what a cell rounds.
+    // The ray may advance by the distance of the nearest surface, less the rounding to a cell.
     const double away = std::hypot(static_cast<double>(surface->x) - ray.x - at * c,
                                    static_cast<double>(surface->y) - ray.y - at * s);
     at += std::max(kStep * cell, away - 1.5 * cell);

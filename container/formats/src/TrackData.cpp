@@ -15,13 +15,13 @@ constexpr auto kLastReason = static_cast<std::uint32_t>(TrackReason::kLast);
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "status"}; }
 
-/// Nothing is sure of what is no number.
+/// Returns the word of a share; 0 for NaN.
 std::uint32_t shareWord(double share) {
   if (std::isnan(share)) return 0;
   return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kOne));
 }
 
-/// Of all values of an enumeration, in their order.
+/// Returns the names of all values of an enumeration, in their order.
 template <class Enumeration>
 std::vector<const char*> namesOf() {
   std::vector<const char*> names;

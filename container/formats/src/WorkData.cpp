@@ -14,7 +14,7 @@ constexpr double kMicro = 1e6;
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "work"}; }
 
-/// Rounded and clamped; 0 for what is no number.
+/// Returns the value, rounded and clamped; 0 for NaN.
 std::uint32_t wordOf(double value) {
   constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
   if (std::isnan(value)) return 0;
