@@ -12,19 +12,19 @@ namespace ortung {
 namespace {
 
 constexpr std::array<std::size_t, 5> kLengths = {1, 2, 4, 8, 16};  // pieces in a row
-constexpr std::size_t kFewest = 30;                                // pieces to learn from
-constexpr std::size_t kFewestChains = 20;                          // of a length to be looked at
+constexpr std::size_t kFewest = 30;        // least number of pieces to learn from
+constexpr std::size_t kFewestChains = 20;  // least number of chains of a length
 constexpr double kFewestOutliers = 0.01;
 constexpr double kMostOutliers = 0.3;
-constexpr double kOutlierSpread = 16.0;  // variance of outliers, times that of the others
-constexpr double kFarSigmas = 6.0;       // of an outlier: farther off is no motion
+constexpr double kOutlierSpread = 16.0;  // variance of outliers by that of the others
+constexpr double kFarSigmas = 6.0;       // outliers farther off are no motion
 constexpr int kRounds = 100;
 constexpr double kSignificant = 3.0;     // standard errors
-constexpr double kSmallestShare = 1e-4;  // of a variance, so that it never becomes 0
+constexpr double kSmallestShare = 1e-4;  // share of a variance, so that it never becomes 0
 
-using Terms = Eigen::Vector3d;  // truth's own, and two that grow
+using Terms = Eigen::Vector3d;  // the error of truth itself, and two terms that grow
 
-/// Errors over several pieces in a row, with their weight in the fit.
+/// Errors over several consecutive pieces, with their weight in the fit.
 struct Chain {
   MotionError sum;
   double weight;
@@ -57,7 +57,7 @@ double gaussian(double error, double variance) {
   return std::exp(-0.5 * error * error / variance) / std::sqrt(2.0 * std::numbers::pi * variance);
 }
 
-/// Expectation maximization over outliers and others; noise by Fisher scoring.
+/// Fits by expectation maximization over outliers and others; the noise by Fisher scoring.
 class Fit {
  public:
   explicit Fit(std::vector<Chain> chains)
@@ -89,8 +89,8 @@ class Fit {
     }
   }
 
-  /// Standard errors of the scales, from the longest chains alone: they do not overlap, and show
-  /// errors that last.
+  /// Returns the standard errors of the scales, from the longest chains alone: these do not
+  /// overlap, and have systematic errors in them.
   std::array<double, 2> standardErrors() const {
     const Eigen::Matrix2d information = normalMatrix(true);
     std::array<double, 2> errors{};
@@ -131,7 +131,7 @@ class Fit {
     return c.sum.error - scale_[0] * c.sum.causes[0] - scale_[1] * c.sum.causes[1];
   }
 
-  /// How much each error counts, and how many are outliers.
+  /// Computes the weight of each error, and the share of outliers.
   void weighErrors() {
     double outliers = 0.0;
     double all = 0.0;
@@ -180,7 +180,7 @@ class Fit {
         if (used_[at]) right[k] += w * c.sum.causes[at] * c.sum.error;
       }
     }
-    // The ridge holds what no piece says anything about at 0.
+    // The ridge keeps scales at 0 that no piece determines.
     const Eigen::Matrix2d normal = normalMatrix(false) + 1e-9 * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d solution = normal.ldlt().solve(right);
     for (int k = 0; k < 2; ++k) {
@@ -189,8 +189,8 @@ class Fit {
     }
   }
 
-  /// Squared errors regressed on what variances grow with. The maximum with no variance below 0 has
-  /// some of them at 0: all choices are tried.
+  /// Regresses squared errors on the terms with which variances grow. At the maximum with no
+  /// variance below 0 some of them are 0: all choices are tried.
   void fitVariances() {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Terms right = Terms::Zero();
@@ -211,7 +211,7 @@ class Fit {
         found = candidate;
       }
     }
-    if (best > 0.0) variances_ = 0.5 * (variances_ + found);  // half steps do not swing
+    if (best > 0.0) variances_ = 0.5 * (variances_ + found);  // half steps do not oscillate
   }
 
   Terms solve(const Eigen::Matrix3d& normal, const Terms& right, unsigned choice) const {
@@ -235,7 +235,7 @@ class Fit {
   double outliers_ = 0.05;  ///< share of errors
   std::array<bool, 2> used_{};
   std::array<double, 2> scale_{};
-  std::array<bool, 3> known_{};  ///< whether a variance's term is ever above 0
+  std::array<bool, 3> known_{};  ///< says whether a variance's term is ever above 0
   Terms variances_ = Terms::Zero();
   double smallest_ = 0.0;
 };
@@ -258,7 +258,7 @@ MotionFit fitMotion(const std::vector<std::vector<MotionError>>& drives) {
     fit.run(used);
     const std::array<double, 2> errors = fit.standardErrors();
     MotionFit result = fit.result();
-    // The least certain scale goes first; without it the other one may be certain.
+    // The least significant scale is dropped first; without it the other one may be significant.
     std::size_t worst = 2;
     double least = kSignificant;
     for (std::size_t k = 0; k < 2; ++k) {

@@ -9,9 +9,9 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostLayers = 8;
-constexpr std::size_t kWidest = 512;  // outputs of a layer
+constexpr std::size_t kWidest = 512;  // most outputs of a layer
 constexpr std::size_t kMostCommands = 64;
-constexpr double kLargest = 1e6;    // of a number
+constexpr double kLargest = 1e6;    // greatest number of the file
 constexpr double kFastest = 100.0;  // limit [m/s], [rad/s]
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -17,8 +17,8 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kBlock = 256;         ///< samples whose noise is drawn at once
-constexpr std::size_t kNumbersASample = 4;  ///< first turn, way, second turn, sideways
-constexpr float kSlip = 4.0F;               ///< times the noise of samples that slip
+constexpr std::size_t kNumbersASample = 4;  ///< first turn, distance, second turn, sideways
+constexpr float kSlip = 4.0F;               ///< factor of the noise of samples that slip
 constexpr double kMostSlip = 0.2;           ///< greatest share of slip that is learned
 constexpr double kSmallestSigma = 0.005;    ///< least sigma that is learned
 constexpr double kMostWayBias = 0.5;        ///< greatest bias, as a share of the distance travelled
@@ -26,7 +26,7 @@ constexpr double kShortestWay = 1e-3;       ///< least distance that has a direc
 
 double square(double value) { return value * value; }
 
-/// A change of pose as turn, way, turn; driving backwards is a negative way.
+/// A change of pose as turn, distance, turn; driving backwards is a negative distance.
 struct Turns {
   double first;
   double way;
@@ -71,14 +71,14 @@ struct MoveAll {
   }
 };
 
-/// Reads what may stand in [motion].
+/// Reads the keys of [motion].
 OdometryNoise readNoise(const Parameters& motion) {
   motion.textOr("plugin", "");
   OdometryCorrection::read(motion);
   return OdometryNoise::read(motion);
 }
 
-/// Enlarges the noise of every so manyth sample.
+/// Enlarges the noise of a share of the samples, evenly picked.
 void slip(double share, std::uint64_t first, std::size_t n, float* noise) {
   if (share <= 0.0) return;
   const auto period = static_cast<std::uint64_t>(std::lround(1.0 / share));
@@ -87,15 +87,15 @@ void slip(double share, std::uint64_t first, std::size_t n, float* noise) {
   }
 }
 
-/// sigma of a learned variance, or @p old if nothing was learned. A drive that was too short to
-/// show any noise does not prove that there is none.
+/// Returns the sigma of a learned variance, or @p old if nothing was learned. A drive that is too
+/// short to show any noise does not prove that there is none.
 double learnedSigma(double variance, double old) {
   return variance < 0.0 ? old : std::max(std::sqrt(variance), kSmallestSigma);
 }
 
 }  // namespace
 
-/// Errors of odometry in all drives so far; the last one may go on.
+/// Errors of odometry in all drives so far; the last drive may go on.
 struct OdometryMotion::Learning {
   std::vector<std::vector<MotionError>> turns{1};
   std::vector<std::vector<MotionError>> ways{1};
@@ -134,7 +134,7 @@ Pose2 OdometryCorrection::apply(const Pose2& change) const {
     if (way > 0.0) scale += std::clamp(more / way, -kMostWayBias, kMostWayBias);
   }
   if (turn == 0.0 && scale == 1.0) return change;
-  // The way points along half of the turn.
+  // The motion's chord points along half of the turn.
   const double c = scale * std::cos(turn / 2.0);
   const double s = scale * std::sin(turn / 2.0);
   return {c * change.x - s * change.y, s * change.x + c * change.y, wrapAngle(change.theta + turn)};
@@ -167,7 +167,7 @@ void OdometryMotion::learnMotion(const Pose2& odometryChange, const Pose2& trueC
   if (!learning_) learning_ = std::make_unique<Learning>();
   const double turn = odometryChange.theta;
   const double way = std::hypot(odometryChange.x, odometryChange.y);
-  // Along where odometry says the way went; a way that is none points along half of the turn.
+  // The direction is that of odometry's motion; if there is none, it is half of the turn.
   const double direction =
       way < kShortestWay ? turn / 2.0 : std::atan2(odometryChange.y, odometryChange.x);
   const double trueWay = trueChange.x * std::cos(direction) + trueChange.y * std::sin(direction);
@@ -222,7 +222,7 @@ void OdometryMotion::sampleMotion(const MovableSamples& samples, const Pose2& od
   const Turns turns = decompose(correction_.apply(odometryChange));
   const double turning = std::abs(turns.first) + std::abs(turns.second);
   const double turnByWay =
-      0.5 * square(noise_.turnPerMetre) * std::abs(turns.way);  // half for each turn
+      0.5 * square(noise_.turnPerMetre) * std::abs(turns.way);  // each turn gets half
   const auto sigmaFirst =
       static_cast<float>(std::sqrt(square(noise_.turnPerTurn) * std::abs(turns.first) + turnByWay));
   const auto sigmaSecond =

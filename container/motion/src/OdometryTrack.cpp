@@ -8,9 +8,10 @@ namespace {
 
 constexpr double kLongestExtrapolation = 0.3;  // [s]
 
-/// The part @p share of a change of pose, along the arc that it is the end of.
+/// Returns the part @p share of a change of pose, along the arc to its end.
 Pose2 part(const Pose2& change, double share) {
-  // The chord of an arc points along half its turn and is way * sinc(turn / 2) long.
+  // The chord of an arc points along half its turn, and its length is that of the arc times
+  // sinc(turn / 2).
   const double half = change.theta / 2.0;
   const double partHalf = share * half;
   const double sincs = std::abs(half) < 1e-6 ? share : std::sin(partHalf) / std::sin(half);
@@ -19,8 +20,8 @@ Pose2 part(const Pose2& change, double share) {
   return {c * change.x - s * change.y, s * change.x + c * change.y, share * change.theta};
 }
 
-/// Where a robot is after moving with constant velocities in its own frame [m/s], [rad/s], seen
-/// from where it was: along an arc, forwards or not.
+/// Returns the pose of a robot after moving with constant velocities in its own frame [m/s],
+/// [rad/s], relative to where it began: along an arc, in any direction.
 Pose2 arc(double v, double sideways, double w, double seconds) {
   const double half = w * seconds / 2.0;
   const double chord = seconds * (std::abs(half) < 1e-6 ? 1.0 : std::sin(half) / half);
@@ -34,7 +35,8 @@ Pose2 arc(double v, double sideways, double w, double seconds) {
 OdometryTrack::OdometryTrack(double kept) : kept_(kept) {}
 
 void OdometryTrack::add(Timestamp stamp, const Pose2& pose, double v, double w, double sideways) {
-  // A clock that was set back begins anew; of two readings of one moment the later stays.
+  // If the clock was set back, the track begins anew; of two readings with one stamp the later one
+  // stays.
   if (!readings_.empty() && stamp < readings_.back().stamp) readings_.clear();
   if (!readings_.empty() && stamp == readings_.back().stamp) readings_.pop_back();
   readings_.push_back({stamp, pose, v, w, sideways});

@@ -17,14 +17,14 @@ constexpr std::size_t kMostHead = 128;        ///< most bytes of the frame aroun
 constexpr std::uint64_t kSmallestChunk = 40;  ///< lower bound for the size of a chunk [bytes]
 constexpr std::size_t kPlaceBytes = 16;
 constexpr std::size_t kPiece = 1u << 20;
-/// What writeApart() has made differences of.
+/// Restores bytes of which writeApart() has made differences.
 void fromSteps(std::span<char> bytes, std::uint32_t stride) {
   if (stride == 0) return;
   for (std::size_t i = stride; i < bytes.size(); ++i)
     bytes[i] = static_cast<char>(bytes[i] + bytes[i - stride]);
 }
 
-/// What zstd makes of what can't be compressed at all.
+/// Returns the largest size that zstd makes of bytes that can't be compressed.
 constexpr std::uint64_t packedAtMost(std::uint64_t bytes) { return bytes + bytes / 128 + 1024; }
 
 }  // namespace
@@ -52,8 +52,8 @@ void Frames::fail(const std::string& what) const {
                            what);
 }
 
-/// @p out becomes the next @p count bytes, or as many as there are; then false. Whoever announces
-/// much does not get the memory before the bytes are there.
+/// Reads the next @p count bytes into @p out, or as many as there are; then it returns false.
+/// Memory grows with the bytes that are there, not with @p count, which may be false.
 bool Frames::read(std::uint64_t count, std::string& out) {
   out.clear();
   while (out.size() < count) {
@@ -75,7 +75,8 @@ bool Frames::tear() {
   return false;
 }
 
-/// After a power failure a file may be longer than what was written into it.
+/// Treats a rest of zeros as torn: after a power failure a file may be longer than its written
+/// bytes.
 bool Frames::tearIfNothing(std::string_view begin) {
   const auto isNothing = [](std::string_view bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](char c) { return c == 0; });

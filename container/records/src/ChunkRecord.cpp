@@ -10,7 +10,7 @@
 namespace ortung {
 namespace {
 
-/// Chunks that are compressed.
+/// Reads a record of compressed chunks.
 class ChunkRecord final : public RecordReader {
  public:
   ChunkRecord(const std::filesystem::path& file, std::ifstream in);
@@ -33,11 +33,11 @@ class ChunkRecord final : public RecordReader {
   std::filesystem::path file_;
   chunk::Frames frames_;
   std::string world_;
-  bool isOpen_ = false;    ///< whether there is a chunk that is read
-  chunk::Head head_;       ///< its head
-  std::string lines_;      ///< its lines
+  bool isOpen_ = false;    ///< whether a chunk is being read
+  chunk::Head head_;       ///< head of the open chunk
+  std::string lines_;      ///< lines of the open chunk
   std::size_t begin_ = 0;  ///< offset of the next line in lines_
-  std::size_t line_ = 0;   ///< the number of the last one
+  std::size_t line_ = 0;   ///< number of the last line
   std::uint64_t end_ = 0;  ///< end of the chunk in the file [bytes]
   std::uint32_t readings_ = 0;
   std::uint32_t apart_ = 0;
@@ -60,7 +60,7 @@ std::string ChunkRecord::where() const {
          std::to_string(frames_.chunkBegin()) + ": ";
 }
 
-/// Begins with the next chunk; false if there is none.
+/// Opens the next chunk; returns false if there is none.
 bool ChunkRecord::open() {
   const auto head = frames_.head();
   if (!head || !frames_.isWhole(*head) || !frames_.text(*head, lines_)) return false;
@@ -81,7 +81,7 @@ bool ChunkRecord::cutLine(std::string_view& line) {
   return true;
 }
 
-/// The number behind the last blank, which is cut off; nothing if there is none.
+/// Cuts off the number behind the last blank; nothing if there is none.
 template <class Number>
 std::optional<Number> cutNumber(std::string_view& text) {
   const std::size_t blank = text.rfind(' ');
@@ -94,7 +94,7 @@ std::optional<Number> cutNumber(std::string_view& text) {
   return number;
 }
 
-/// The reading of a line "# binary STAMP ID WORDS STRIDE", whose words are behind the lines.
+/// Reads the reading of a line "# binary STAMP ID WORDS STRIDE", whose words are behind the lines.
 bool ChunkRecord::readApart(std::string_view note, Message& message) {
   const auto stride = cutNumber<std::uint32_t>(note);
   const auto words = cutNumber<std::size_t>(note);
@@ -144,7 +144,7 @@ bool ChunkRecord::next(Message& message) {
   }
 }
 
-/// A chunk that begins before that time, as late as possible, or the first one.
+/// Returns the last chunk that begins before that time, or the first one.
 chunk::Place ChunkRecord::placeBefore(Timestamp from) {
   chunk::Place place{chunk::magic().size(), 0};
   if (const auto index = frames_.index()) {

@@ -12,14 +12,15 @@ std::string frame(int variant, std::string_view tag, std::string_view content) {
   return out;
 }
 
-/// Each byte less the one @p stride before it, modulo 256: pixels beside each other are alike.
+/// Subtracts from each byte the one @p stride before it, modulo 256, since neighbouring pixels are
+/// alike.
 void toSteps(std::span<char> bytes, std::uint32_t stride) {
   if (stride == 0) return;
   for (std::size_t i = bytes.size(); i-- > stride;)
     bytes[i] = static_cast<char>(bytes[i] - bytes[i - stride]);
 }
 
-/// The stride by which a piece of the middle gets smallest; 0: it stays as it is.
+/// Returns the stride that compresses a piece of the middle best; 0: without differences.
 std::uint32_t bestStride(std::string_view bytes, zstd::Packer& packer) {
   constexpr std::size_t kPiece = 16U << 10;
   const std::string_view piece =

@@ -13,9 +13,8 @@
 #include "ortung/base/InputFile.hpp"
 #include "ortung/core/ReadingLine.hpp"
 
-// The writer of lines gives a moment to the system in one piece, so what a killed one leaves is
-// torn within a moment. Its lines that are whole are left out, too: nobody can know how many are
-// missing.
+// The writer of lines writes a time step in one piece, so a killed writer leaves a torn time step.
+// Its whole lines are left out, too: it is unknown how many are missing.
 
 namespace ortung {
 namespace {
@@ -23,7 +22,7 @@ namespace {
 constexpr std::uintmax_t kSmallestChunk = 256;
 constexpr std::uintmax_t kLargestChunk = 1u << 20;
 constexpr std::uintmax_t kLongestStamp = 24;
-constexpr int kMostLines = 65536;  ///< most lines of one moment, as FrameReader takes them
+constexpr int kMostLines = 65536;  ///< most lines of one time step, as FrameReader takes them
 
 /// A file read from its end.
 class Backwards {
@@ -36,7 +35,7 @@ class Backwards {
   }
   std::uintmax_t size() const { return size_; }
 
-  /// The bytes in [begin, begin + count), as far as there are any.
+  /// Returns the bytes in [begin, begin + count), as far as there are any.
   std::string bytes(std::uintmax_t begin, std::uintmax_t count) {
     std::string text(static_cast<std::size_t>(std::min(count, size_ - std::min(begin, size_))), 0);
     in_.clear();
@@ -46,8 +45,8 @@ class Backwards {
     return text;
   }
 
-  /// Where the line begins that ends before @p end, its own end of line not counted; of a line that
-  /// is too long to be read, some place within it.
+  /// Returns where the line begins that ends before @p end, its own end of line not counted; for a
+  /// line that is too long to be read, some place within it.
   std::uintmax_t beginOfLine(std::uintmax_t end) {
     std::uintmax_t chunk = kSmallestChunk;
     const std::uintmax_t enough = end - std::min<std::uintmax_t>(end, kMaxLineBytes + 1);
@@ -67,7 +66,7 @@ class Backwards {
   std::uintmax_t size_ = 0;
 };
 
-/// The time stamp that a line begins with, with the blank behind it if that is there.
+/// Returns the time stamp at a line's begin, with the blank behind it if that is there.
 std::string stampOf(const std::string& line) {
   const std::size_t blank = line.find(' ');
   return line.substr(0, blank == std::string::npos ? blank : blank + 1);
@@ -85,7 +84,7 @@ std::optional<TornRecord> tornLine(const std::filesystem::path& path) {
   const std::uintmax_t size = file.size();
   if (size == 0 || file.bytes(size - 1, 1) == "\n") return std::nullopt;
   std::uintmax_t begin = file.beginOfLine(size);
-  if (size - begin > kMaxLineBytes) return std::nullopt;  // no line: for who reads it to refuse
+  if (size - begin > kMaxLineBytes) return std::nullopt;  // too long: the reader refuses it
   std::string stamp = stampOf(file.bytes(begin, std::min(size - begin, kLongestStamp)));
   std::uintmax_t end = begin;
   for (int i = 0; i < kMostLines && end > 0; ++i) {
@@ -94,7 +93,7 @@ std::optional<TornRecord> tornLine(const std::filesystem::path& path) {
     end = lineBegin;
     if (line.starts_with('#') && lineBegin > 0) continue;
     if (line.starts_with('#') || !line.starts_with(stamp)) break;
-    stamp = stampOf(line);  // of a stamp that was torn, the whole
+    stamp = stampOf(line);  // the whole stamp, if it was torn before
     begin = lineBegin;
   }
   return TornRecord{begin, size - begin};
@@ -119,7 +118,7 @@ std::optional<TornRecord> mendRecord(const std::filesystem::path& file) {
   // A NewFile holds this lock as long as it is open.
   int error = ::flock(record, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
   std::optional<TornRecord> torn;
-  if (error == 0) torn = tornEnd(file);  // nobody writes any more
+  if (error == 0) torn = tornEnd(file);  // there is no writer any more
   if (torn && (::ftruncate(record, static_cast<off_t>(torn->begin)) != 0 || ::fsync(record) != 0))
     error = errno;
   ::close(record);

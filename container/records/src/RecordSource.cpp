@@ -10,7 +10,7 @@
 namespace ortung {
 namespace {
 
-/// a + b, as far as there are stamps.
+/// Returns the sum, limited to the range of stamps.
 Timestamp later(Timestamp a, double seconds) {
   constexpr Timestamp kLatest = std::numeric_limits<Timestamp>::max();
   if (!(seconds < 1e12)) return kLatest;
@@ -49,7 +49,7 @@ RecordSource::RecordSource(const std::filesystem::path& file, const RecordPart& 
 
 RecordSource::~RecordSource() = default;
 
-/// Finds the part's begin, which is told from the record's first reading on.
+/// Finds the part's begin, which counts from the record's first reading.
 void RecordSource::begin() {
   hasBegun_ = true;
   Message first;

@@ -13,13 +13,13 @@
 namespace ortung {
 namespace {
 
-constexpr int kTextLevel = 3;   // of zstd
-constexpr int kApartLevel = 1;  // pictures: more would cost more than it saves
+constexpr int kTextLevel = 3;   // level of zstd
+constexpr int kApartLevel = 1;  // for pictures a higher level costs more than it saves
 constexpr std::size_t kTextOfAChunk = 256U << 10;
 constexpr std::size_t kApartOfAChunk = 4U << 20;
-constexpr std::size_t kTextOfAMoment = 32U << 20;  // what is more is cut
+constexpr std::size_t kTextOfAMoment = 32U << 20;  // the rest is cut off
 
-/// [us]; stamps may be as far apart as there are any
+/// Returns the time between two stamps [us], which may be as far apart as the type allows.
 std::uint64_t passedSince(Timestamp before, Timestamp now) {
   return static_cast<std::uint64_t>(now) - static_cast<std::uint64_t>(before);
 }
@@ -32,7 +32,7 @@ std::string notes(const std::string& worldFingerprint) {
 
 }  // namespace
 
-/// Where moments go.
+/// The output of time steps.
 struct RecordWriter::Output {
   Output(std::unique_ptr<NewFile> file, Pace pace)
       : file_(std::move(file)), isLive_(pace == Pace::kLive) {}
@@ -64,7 +64,7 @@ class RecordWriter::Lines final : public Output {
   void commit() override { file_->commit(); }
 
  private:
-  std::string lines_;  ///< lines of the moment that is not whole yet
+  std::string lines_;  ///< lines of the current time step
 };
 
 class RecordWriter::Chunks final : public Output {
@@ -80,7 +80,7 @@ class RecordWriter::Chunks final : public Output {
     if (!isLive_ || hasFailed_) return;
     try {
       flush();
-    } catch (const std::exception&) {  // who wants to know calls commit()
+    } catch (const std::exception&) {  // callers that need the error call commit()
     }
   }
 
@@ -119,7 +119,7 @@ class RecordWriter::Chunks final : public Output {
  private:
   static constexpr auto kLivePeriod = static_cast<std::uint64_t>(kLiveSeconds * 1e6);  // [us]
 
-  /// Writes the whole moments as a chunk.
+  /// Writes the whole time steps as a chunk.
   void flush() {
     if (hasFailed_) throw std::runtime_error("a record can't go on where it could not be written");
     if (wholeLines_ == 0) return;
@@ -132,7 +132,7 @@ class RecordWriter::Chunks final : public Output {
     if (head.readings > 0) index_.push_back({file_->size(), head.first});
     packed_.insert(0, begin);
     packed_.append(apart_, 0, wholeApart_);
-    hasFailed_ = true;  // so that nothing is written behind a chunk that is missing
+    hasFailed_ = true;  // so that nothing is written behind a missing chunk
     file_->write(packed_);
     if (isLive_ && head.readings > 0) file_->publish();
     hasFailed_ = false;
@@ -145,11 +145,11 @@ class RecordWriter::Chunks final : public Output {
 
   zstd::Packer packer_{kTextLevel};
   zstd::Packer apartPacker_{kApartLevel};
-  std::string lines_;  ///< lines of the chunk, and of the moment that is not whole yet
-  std::string apart_;  ///< frames with large readings of the chunk and of that moment
+  std::string lines_;  ///< lines of the chunk, and of the current time step
+  std::string apart_;  ///< frames with large readings of the chunk and of that time step
   std::string packed_;
   chunk::Head head_;
-  chunk::Head whole_;  ///< head without that moment, which the two sizes below leave out, too
+  chunk::Head whole_;  ///< head without that time step, which the two sizes below leave out, too
   std::size_t wholeLines_ = 0;
   std::size_t wholeApart_ = 0;
   bool hasFailed_ = false;

@@ -13,8 +13,8 @@
 namespace ortung {
 namespace {
 
-/// Like std::getline, but gives up on a line longer than kMaxLineBytes, so that no file can eat the
-/// memory: then the line is longer than that, and the stream stays where it is.
+/// Reads like std::getline, but gives up on a line longer than kMaxLineBytes, so that no file can
+/// exhaust the memory: then the line is longer than that, and the stream stays where it is.
 bool readLine(std::istream& in, std::string& line) {
   line.clear();
   char piece[4096];
@@ -22,7 +22,7 @@ bool readLine(std::istream& in, std::string& line) {
     in.getline(piece, sizeof piece);
     const auto count = static_cast<std::size_t>(in.gcount());
     const bool filled =
-        in.fail() && !in.eof() && !in.bad() && count > 0;  // no end of line within the piece
+        in.fail() && !in.eof() && !in.bad() && count > 0;  // the piece has no end of line
     const bool ended = !in.fail() && !in.eof();            // the end of line counts, too
     line.append(piece, ended ? count - 1 : count);
     if (!filled) return !line.empty() || ended;
@@ -31,7 +31,7 @@ bool readLine(std::istream& in, std::string& line) {
   return true;
 }
 
-/// Lines of text.
+/// Reads a record of text lines.
 class TextRecord final : public RecordReader {
  public:
   TextRecord(std::filesystem::path file, std::ifstream in);
@@ -84,7 +84,7 @@ TextRecord::TextRecord(std::filesystem::path file, std::ifstream in)
   }
 }
 
-/// The next line; false at the end of what is whole.
+/// Reads the next line; returns false at the end of the whole ones.
 bool TextRecord::readWholeLine() {
   if (torn_ && done_ >= torn_->begin) return false;
   const bool isLine = readLine(in_, line_);

@@ -60,7 +60,7 @@ std::string mayHold(std::string_view frame, std::size_t size) {
     return "is no frame of zstd that says how much it holds";
   if (announced != size)
     return "holds " + std::to_string(announced) + " bytes, expected " + std::to_string(size);
-  // Four bytes are a block, which holds 128 KiB at most: what promises more is not believed.
+  // Four bytes make a block, which holds 128 KiB at most: a frame that announces more is refused.
   constexpr std::size_t kMostOfAByte = (128U << 10) / 4;
   if (size / kMostOfAByte > frame.size())
     return "can't hold the " + std::to_string(size) + " bytes that it announces";
