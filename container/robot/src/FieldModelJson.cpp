@@ -9,17 +9,17 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMost = 100'000;  // of each kind
+constexpr std::size_t kMost = 100'000;  // most objects of each kind
 constexpr double kFarthest = 1e7;       // [m], [rad]
 
-/// The list @p key of lists.
+/// Returns the member @p key, a list of lists.
 std::vector<json> entries(const json& object, const char* key) {
   auto list = object.at(key).get<std::vector<json>>();
   if (list.size() > kMost) throw std::invalid_argument(std::string(key) + " are more than 100000");
   return list;
 }
 
-/// Entry @p at of a list as a number that is in range.
+/// Returns entry @p at of a list as a number that is in range.
 double number(const json& list, std::size_t at) {
   const auto value = list.at(at).get<double>();
   if (!(std::abs(value) <= kFarthest)) throw std::invalid_argument("a number is out of range");

@@ -8,15 +8,15 @@
 namespace ortung {
 namespace {
 
-// How the client's own half tracks the robot: nobody here reads them.
+// Sections that only the client's own half reads, to track the robot.
 constexpr std::string_view kSectionsOfTheClient[] = {"motion", "mcl"};
 
-/// Pieces of the robot's geometry, of all states together. What they may cost the physics grows
+/// Most pieces of the robot's geometry, of all states together. Their cost in the physics grows
 /// with the square of their number.
 constexpr int kMostParts = 32;
 constexpr int kPartsOfAnEllipse = 8;
 
-/// Looks at every value of a robot file for what a stranger must not say.
+/// Checks every value of a robot file for what a remote client must not set.
 class Inspection {
  public:
   Inspection(const std::string& name, std::span<const std::string> plugins)

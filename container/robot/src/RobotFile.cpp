@@ -38,7 +38,7 @@ RobotConfig readRobot(const Parameters& file) {
   const Parameters devices = file.table("devices");
   robot.deviceWait = devices.numberOr("wait_s", robot.deviceWait, {0.0, 5.0});
   devices.refuseUnread();
-  // What stands inside the sections is checked by whoever reads them; other sections are unknown.
+  // The readers of sections check their content; other sections are unknown.
   body.refuseUnread();
   static const std::vector<std::string> kSections = {"robot", "sensor", "motion",      "mcl",
                                                      "drive", "body",   "manipulator", "devices"};

@@ -8,7 +8,8 @@
 namespace ortung {
 namespace {
 
-/// Where a place of the parser is in the text. It counts letters of UTF-8, from 1.
+/// Returns where a place of the parser is in the text. The parser counts characters of UTF-8, from
+/// 1.
 std::size_t offsetOf(std::string_view text, const toml::source_position& place) {
   std::size_t at = 0;
   for (toml::source_index line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
@@ -22,7 +23,7 @@ std::size_t offsetOf(std::string_view text, const toml::source_position& place) 
   return std::min(at, text.size());
 }
 
-/// [[sensor]] of that number. @throws ConfigError
+/// Returns the [[sensor]] of that number. @throws ConfigError
 const toml::table& sensorOf(const toml::table& root, const std::string& name, std::size_t sensor) {
   const toml::array* all = root["sensor"].as_array();
   const toml::table* table =
@@ -32,7 +33,7 @@ const toml::table& sensorOf(const toml::table& root, const std::string& name, st
   return *table;
 }
 
-/// The text with one key changed. The parser sees it anew for each, so that places are right.
+/// Returns the text with one key changed. It is parsed anew for each key, so that places are right.
 std::string withKey(const std::string& text, const std::string& name, std::size_t sensor,
                     const TomlEntry& entry) {
   const toml::table root = toml::parse(text);
@@ -51,7 +52,7 @@ std::string withKey(const std::string& text, const std::string& name, std::size_
   return changed.insert(lineEnd + 1, line + "\n");
 }
 
-/// Whether a changed text says what it should, and nothing else was changed.
+/// Returns whether a changed text has the wanted value, and nothing else was changed.
 bool isAsWanted(const std::string& before, const std::string& after, const std::string& name,
                 std::size_t sensor, const TomlEntry& entry) {
   const auto plain = [](const toml::table& table) {
@@ -76,7 +77,7 @@ bool isAsWanted(const std::string& before, const std::string& after, const std::
 
 std::string withSensorKeys(std::string_view text, const std::string& name, std::size_t sensor,
                            std::span<const TomlEntry> entries) {
-  parseToml(text, name);  // says what is wrong with it
+  parseToml(text, name);  // throws if it is wrong
   std::string now(text);
   for (const TomlEntry& entry : entries) {
     std::string changed = withKey(now, name, sensor, entry);

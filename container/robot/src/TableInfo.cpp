@@ -18,7 +18,7 @@ constexpr int kDeepest = 8;
 constexpr const char* kMeta = "meta.json";
 using Json = nlohmann::json;
 
-/// The member @p key of kind T, or an error that names the file and the key.
+/// Returns the member @p key of kind T, or throws an error that names the file and the key.
 template <class T>
 T take(const TableFile& file, const Json& json, const char* key) {
   try {
@@ -29,7 +29,8 @@ T take(const TableFile& file, const Json& json, const char* key) {
   }
 }
 
-/// Brackets within each other cost a hundred times the memory that they take in the file.
+/// Parses with a limit of depth: nested brackets take a hundred times their size in the file as
+/// memory.
 Json parseMeta(const TableFile& file, const std::string& text) {
   const auto look = [&](int depth, Json::parse_event_t, const Json&) {
     if (depth <= kDeepest) return true;

@@ -14,15 +14,15 @@ namespace {
 // The parser recurses for dots and brackets: bound them before it sees the text.
 constexpr int kMostDots = 1024;  ///< most dots of keys in one statement
 constexpr int kMostOpenBrackets = 64;
-constexpr int kDeepest = 64;  ///< tables and lists within each other
+constexpr int kDeepest = 64;  ///< deepest nesting of tables and lists
 
-/// What the parser will see of a text: characters outside of comments and quoted texts. Where the
-/// two of us disagree on quotes, the parser has met an error.
+/// The text as the parser will see it: characters outside of comments and quoted texts. Where this
+/// class and the parser disagree on quotes, the parser reports an error.
 class Outside {
  public:
   explicit Outside(std::string_view text) : rest_(text) {}
 
-  /// The next character, or 0 at the end; comments and quoted texts are passed over.
+  /// Returns the next character, or 0 at the end; comments and quoted texts are skipped.
   char next() {
     while (!rest_.empty()) {
       const char c = rest_.front();
@@ -49,7 +49,7 @@ class Outside {
         longText ? std::string_view(three) : std::string_view(three).substr(2);
     rest_.remove_prefix(end.size());
     while (!rest_.empty() && !rest_.starts_with(end)) {
-      if (rest_.front() == '\n' && !longText) return;  // an error, which the parser tells
+      if (rest_.front() == '\n' && !longText) return;  // an error that the parser reports
       const bool escaped = quote == '"' && rest_.front() == '\\' && rest_.size() > 1;
       line_ += std::count(rest_.begin(), rest_.begin() + (escaped ? 2 : 1), '\n');
       rest_.remove_prefix(escaped ? 2 : 1);

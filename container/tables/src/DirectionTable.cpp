@@ -40,7 +40,7 @@ int DirectionTable::directionOf(double angle) const {
 void DirectionTable::learn(double x, double y, double angle, std::uint8_t level) {
   const std::ptrdiff_t cell = grid_.cellAt(x, y);
   if (cell < 0 || ownRowOf_[static_cast<std::size_t>(cell)] < 0) return;
-  // What directionOf() gives, and how far off it is; this is the learner's innermost loop.
+  // Computes the result of directionOf(), and its distance; this is the learner's innermost loop.
   const double steps = angle * (directions_ / kTurn);
   const double nearest = std::nearbyint(steps);
   const double offset = std::abs(steps - nearest);  // 0 to 0.5
@@ -57,7 +57,7 @@ void DirectionTable::learn(double x, double y, double angle, std::uint8_t level)
 
 namespace {
 
-/// Fills directions without an angle from a neighbour; false if a hole is too wide.
+/// Fills directions without an angle from a neighbour; returns false if a hole is too wide.
 bool fillHoles(std::span<std::uint8_t> levels, std::span<const std::uint8_t> closeness) {
   const int n = static_cast<int>(levels.size());
   const auto at = [n](int direction) { return static_cast<std::size_t>((direction + n) % n); };

@@ -7,7 +7,7 @@
 namespace ortung {
 namespace {
 
-/// Where the parabolas (x - column)^2 + height[column]^2 of columns p < q meet.
+/// Returns where the parabolas (x - column)^2 + height[column]^2 of columns p < q meet.
 double crossing(const int* height, int p, int q) {
   const double a = static_cast<double>(height[p]) * height[p] + static_cast<double>(p) * p;
   const double b = static_cast<double>(height[q]) * height[q] + static_cast<double>(q) * q;

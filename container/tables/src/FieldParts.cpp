@@ -9,7 +9,8 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kEnclosedCounts = 4;  ///< enclosed parts of this fraction of the edge's
+/// An enclosed part counts if this many times its cells are at least those of the largest part.
+constexpr std::size_t kEnclosedCounts = 4;
 
 bool isAtEdge(const FieldGrid& grid, std::size_t cell) {
   const auto columns = static_cast<std::size_t>(grid.columns);
@@ -34,7 +35,7 @@ FieldParts::FieldParts(FieldRegion region, const std::vector<std::uint8_t>& pass
   if (passable.size() != region_.grid.size() || region_.standable.size() != passable.size())
     throw std::invalid_argument("field parts: a mask of " + std::to_string(passable.size()) +
                                 " cells, expected " + std::to_string(region_.grid.size()));
-  std::vector<std::size_t> next;  // cells whose neighbours are still to be looked at
+  std::vector<std::size_t> next;  // cells whose neighbours are still to be visited
   for (std::size_t start = 0; start < passable.size(); ++start) {
     if (passable[start] == 0 || partOf_[start] != kNone) continue;
     const auto number = static_cast<std::uint32_t>(parts_.size());

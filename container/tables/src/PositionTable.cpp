@@ -13,7 +13,7 @@ namespace {
 constexpr int kDirections = 65535;  // levels 0..65534, so that CellTable::kNone stays free
 constexpr double kPerRadian = kDirections / kTurn;
 
-/// Of the cells along an edge of the grid: the one before a place, and how far behind its centre.
+/// Along one axis of the grid: the cell before a place, and the place's distance from its centre.
 struct Between {
   std::size_t before;
   double share;
@@ -24,16 +24,16 @@ struct Between {
         share(std::clamp(place - static_cast<double>(before), 0.0, cells > 1 ? 1.0 : 0.0)) {}
 };
 
-/// The shorter way from one level to another.
+/// Returns the shorter difference between two levels.
 double way(double to, double from, int turn) {
   const double levels = to - from;
   if (turn == 0) return levels;
   return levels - turn * std::nearbyint(levels / turn);
 }
 
-/// Level between the centres of the four cells around a point, in proportion to how near they are;
-/// where one of the four knows nothing, that of the point's own cell, and NaN where that knows
-/// nothing. @param turn so many levels are the same again (directions), or 0
+/// Returns the level at a point, interpolated between the centres of the four cells around it; if
+/// one of the four is empty, that of the point's own cell, and NaN if that is empty. @param turn
+/// number of levels of a full turn (directions), or 0
 double between(const CellTable& table, double x, double y, int turn) {
   const std::uint16_t own = table.at(x, y);
   if (own == CellTable::kNone) return std::numeric_limits<double>::quiet_NaN();

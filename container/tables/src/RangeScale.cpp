@@ -7,7 +7,7 @@ namespace ortung {
 namespace {
 
 constexpr double kLastLevel = 254.0;
-constexpr double kMostLevelsAUnit = 6.0;  // finer than that serves nobody
+constexpr double kMostLevelsAUnit = 6.0;  // finer levels bring nothing
 
 }  // namespace
 
@@ -16,7 +16,7 @@ RangeScale::RangeScale(double maxRange, const RangeResolution& resolution)
   levelsPerUnit_ = std::min(kLastLevel / place(maxRange), kMostLevelsAUnit);
 }
 
-/// Range in units of the resolution: the integral of dr / resolution(r).
+/// Returns the range in units of the resolution: the integral of dr / resolution(r).
 double RangeScale::place(double range) const {
   if (resolution_.perMetre == 0.0) return range / resolution_.metres;
   return std::log1p(resolution_.perMetre * range / resolution_.metres) / resolution_.perMetre;

@@ -11,7 +11,7 @@
 namespace ortung {
 namespace {
 
-/// Readings up to the last that counts: what is behind need not be fetched.
+/// Returns the number of readings up to the last that counts: the rest need not be fetched.
 std::size_t usedLength(const ScanReading& reading) {
   std::size_t n = reading.caps.size();
   while (n > 0 && reading.caps[n - 1] == 0) --n;
@@ -37,13 +37,13 @@ void addOneByOne(const ScanReading& reading, const std::uint8_t* row, std::size_
   }
 }
 
-/// Costs by signed difference of levels, for each cap and step that occurs together: one lookup a
+/// Costs by signed difference of levels, for each pair of cap and step that occurs: one lookup per
 /// reading, and no branch. Readings have two or three caps, and few steps.
 class CostTables {
  public:
   explicit CostTables(const ScanReading& reading) : reading_(reading) {}
 
-  /// Costs by expected level for reading @p j, or nullptr if there are too many kinds.
+  /// Returns the costs by expected level for reading @p j, or nullptr if there are too many kinds.
   const std::uint8_t* byLevel(std::size_t j) {
     const Kind kind{reading_.caps[j], stepOf(reading_, j)};
     std::size_t i = 0;
@@ -191,7 +191,7 @@ ORTUNG_AVX512 void avx512(const ScanReading& reading, std::span<const std::uint8
                             _mm512_sad_epu8(_mm512_min_epu8(cost, cap), _mm512_setzero_si512()));
   };
   const std::size_t whole = n / 64 * 64;
-  const __mmask64 rest = (1ULL << (n - whole)) - 1;  // bytes behind are not fetched
+  const __mmask64 rest = (1ULL << (n - whole)) - 1;  // later bytes are not fetched
   for (std::size_t i = 0; i < rows.size(); ++i) {
     __m512i sum = _mm512_setzero_si512();
     for (std::size_t j = 0; j < whole; j += 64) sum = add(sum, _mm512_loadu_si512(rows[i] + j), j);
@@ -201,7 +201,7 @@ ORTUNG_AVX512 void avx512(const ScanReading& reading, std::span<const std::uint8
 }
 #pragma GCC diagnostic pop
 
-/// The one of two kernels that a reading needs.
+/// Calls the one of two kernels that a reading needs.
 template <ScanCostKernel kWhole, ScanCostKernel kStepped>
 void eitherOf(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
               std::uint32_t* costs) {

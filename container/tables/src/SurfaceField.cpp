@@ -11,13 +11,13 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostCells = 1U << 27;
-constexpr int kWidest = 2;  ///< cells beside one that take part in its surface
-/// A surface is thinner than this [cells]; the stairs that a slanting wall is in a grid are 0.3.
+constexpr int kWidest = 2;  ///< cells to either side that take part in a cell's surface
+/// Greatest thickness of a surface [cells]; the stairs of a slanting wall in a grid have 0.3.
 constexpr double kThickest = 0.35;
 /// Share of the fullest neighbour's ends; cells with fewer count less.
 constexpr double kFewEnds = 0.2;
-constexpr double kLineRatio = 0.45;  ///< a line is so much thinner than it is long, at least
-/// Nothing is known better, with ends in whole millimetres [m].
+constexpr double kLineRatio = 0.45;  ///< greatest ratio of a line's thickness to its length
+/// Least thickness, since ends are in whole millimetres [m].
 constexpr double kThinnest = 0.0005;
 /// Greatest distance of a file's means from their cell's centre [cells].
 constexpr float kMostCellsOff = 1.0F;
@@ -106,8 +106,9 @@ void SurfaceField::makeSurfaces() {
   spreadNumbers();
 }
 
-/// Of as many neighbours as lie on one line with the cell's ends. Cells count alike, but those with
-/// few ends, which beams have met between others: through gaps, at corners that they graze.
+/// Returns the surface of as many neighbours as lie on one line with the cell's ends. Cells count
+/// alike, except those with few ends, which beams hit between others: through gaps, at corners that
+/// they graze.
 Surface SurfaceField::surfaceOf(std::size_t number) const {
   const std::int32_t cell = cells_[number];
   const int column = cell % grid_.columns;
@@ -154,7 +155,7 @@ Surface SurfaceField::surfaceOf(std::size_t number) const {
     const double apart = std::hypot(0.5 * (sxx - syy), sxy);
     const double across = std::sqrt(std::max(0.0, middle - apart));
     const double along = std::sqrt(std::max(0.0, middle + apart));
-    // The direction in which they are spread least.
+    // This is the direction of their least spread.
     const double angle = 0.5 * std::atan2(2.0 * sxy, sxx - syy) + 0.25 * kTurn;
     surface.x = static_cast<float>(grid_.originX + (column + 0.5 + x) * grid_.cell);
     surface.y = static_cast<float>(grid_.originY + (row + 0.5 + y) * grid_.cell);
@@ -169,7 +170,7 @@ Surface SurfaceField::surfaceOf(std::size_t number) const {
   return surface;
 }
 
-/// Tells the cells around surfaces which is the nearest.
+/// Writes the number of the nearest surface into the cells around surfaces.
 void SurfaceField::spreadNumbers() {
   struct Offset {
     int column;
@@ -183,7 +184,7 @@ void SurfaceField::spreadNumbers() {
   const auto squared = [](const Offset& o) { return o.column * o.column + o.row * o.row; };
   std::stable_sort(offsets.begin(), offsets.end(),
                    [&](const Offset& a, const Offset& b) { return squared(a) < squared(b); });
-  for (const Offset& offset : offsets) {  // nearer ones first
+  for (const Offset& offset : offsets) {  // nearer ones come first
     for (std::size_t number = 0; number < cells_.size(); ++number) {
       const int column = cells_[number] % grid_.columns + offset.column;
       const int row = cells_[number] / grid_.columns + offset.row;

@@ -27,7 +27,7 @@ struct Kind {
 constexpr std::array<Kind, 5> kKinds = {
     {{"|u1", 1}, {"<u2", 2}, {"<i4", 4}, {"<f4", 4}, {"<f8", 8}}};
 
-/// Moves @p rest behind @p expected, or says that it does not begin with it.
+/// Moves @p rest behind @p expected; returns false if it does not begin with it.
 bool skip(std::string_view& rest, std::string_view expected) {
   if (!rest.starts_with(expected)) return false;
   rest.remove_prefix(expected.size());
@@ -48,7 +48,7 @@ std::optional<std::vector<std::size_t>> parseShape(std::string_view& rest) {
   return shape;
 }
 
-/// Number of bytes of an array, or nothing if that overflows.
+/// Returns the number of bytes of an array, or nothing if that overflows.
 std::optional<std::size_t> bytesOf(const std::vector<std::size_t>& shape, std::size_t size) {
   for (const std::size_t extent : shape) {
     if (__builtin_mul_overflow(size, extent, &size)) return std::nullopt;
@@ -108,7 +108,7 @@ struct TableFile::Impl {
     struct stat status{};
     if (file >= 0 && ::fstat(file, &status) != 0) error = errno;
     if (error == 0 && S_ISDIR(status.st_mode)) error = EISDIR;
-    if (error == 0 && !S_ISREG(status.st_mode)) error = ENODEV;  // what can't be mapped
+    if (error == 0 && !S_ISREG(status.st_mode)) error = ENODEV;  // it can't be mapped
     const bool fine = error == 0;
     void* address = MAP_FAILED;
     if (fine && status.st_size > 0) {

@@ -14,7 +14,7 @@ const char* descriptorOf(ElementType type) {
   return kNames[static_cast<std::size_t>(type)];
 }
 
-/// Header of the .npy format, version 1.0, a multiple of 64 bytes long.
+/// Returns a header of the .npy format, version 1.0, a multiple of 64 bytes long.
 std::string npyHeader(const TableArray& array) {
   std::string shape;
   for (const std::size_t extent : array.shape) shape += std::to_string(extent) + ", ";
@@ -31,7 +31,7 @@ std::string npyHeader(const TableArray& array) {
   return out + '\n';
 }
 
-/// What goes wrong with the file is an error of tables, too.
+/// Calls an action; an error of the file becomes one of tables.
 template <class Action>
 auto forTables(Action action) {
   try {

@@ -65,7 +65,7 @@ std::optional<std::string> takeName(std::span<const std::byte> bytes, std::size_
   return name;
 }
 
-/// @param free in: where the member before ends; out: where this one does
+/// @param free in: end of the member before; out: end of this one
 std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& entry,
                        std::size_t& next, std::size_t& free) {
   if (at > file.size() || file.size() - at < kDirectorySize ||
