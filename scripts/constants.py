@@ -6,6 +6,7 @@ import typing
 
 DECLARED = re.compile(r"((?:^///[^\n]*\n)+)ORTUNG_CONSTANT\((\w+), (\w+),\s*([^;]+)\);", re.M)
 ROW = re.compile(r"^\| `(\w+)` \| ([^|]+?) \|", re.M)
+FITTED = re.compile(r"<!-- confidence was fitted with: (.*?) -->", re.S)
 PART = re.compile(r"^### `(\w+)`", re.M)
 
 
@@ -61,6 +62,20 @@ def shown_in(page):
         for name, value in ROW.findall(text):
             rows[part + "." + name] = value
     return rows
+
+
+def with_fit(page, constants):
+    """The page that says with which constants, beside its own, confidence was fitted."""
+    values = " ".join("%s=%g" % (c.key, c.value) for c in constants if c.part != "confidence")
+    return FITTED.sub("<!-- confidence was fitted with: %s -->" % values, page)
+
+
+def older_than_fit(constants, page):
+    """Keys of constants that confidence was fitted with other values of."""
+    mark = FITTED.search(page)
+    fitted = dict(word.split("=") for word in mark.group(1).split()) if mark else {}
+    now = {c.key: "%g" % c.value for c in constants if c.part != "confidence"}
+    return sorted(key for key in now.keys() | fitted.keys() if now.get(key) != fitted.get(key))
 
 
 def differences(constants, page):

@@ -39,10 +39,16 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   for (double& c : wide) c *= kInflation;
   const double within = probabilityWithin(wide, kRight);
   const double belief = std::clamp(within * estimate.share, 1e-3, 1.0 - 1e-3);
-  const double odds = kConstant + kOfBelief * std::log(belief / (1.0 - belief)) +
-                      kOfFit * std::clamp(signs.fit, 0.0, 1.0) +
-                      kOfFitLately * std::clamp(signs.fitLately, 0.0, 1.0) +
-                      kOfLead * std::clamp(signs.lead, 0.0, kMostLead);
+  const double oddsOfBelief = std::log(belief / (1.0 - belief));
+  const double fit = std::clamp(signs.fit, 0.0, 1.0);
+  const double fitLately = std::clamp(signs.fitLately, 0.0, 1.0);
+  const double lead = std::clamp(signs.lead, 0.0, kMostLead);
+#ifdef ORTUNG_SWEEP
+  noteSigns({static_cast<double>(estimate.stamp), estimate.pose.x, estimate.pose.y, oddsOfBelief,
+             fit, fitLately, lead});
+#endif
+  const double odds = kConstant + kOfBelief * oddsOfBelief + kOfFit * fit +
+                      kOfFitLately * fitLately + kOfLead * lead;
   estimate.quality = 1.0 / (1.0 + std::exp(-odds));
   const bool isSilent = !signs.silence || *signs.silence > kLongSilence;
   if (signs.isFrozen) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <initializer_list>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -24,6 +26,17 @@ Number swept(const char* name, Number value) {
     return static_cast<Number>(number);
   }
   return value;
+}
+
+/// Adds a line to the file that ORTUNG_SIGNS names, if it does: what an estimate's quality is made
+/// of, for scripts/fit-confidence.py.
+inline void noteSigns(std::initializer_list<double> numbers) {
+  static const char* file = std::getenv("ORTUNG_SIGNS");
+  if (file == nullptr) return;
+  static std::ofstream out(file);
+  out.precision(17);
+  for (const double number : numbers) out << number << ' ';
+  out << '\n';
 }
 
 }  // namespace ortung
