@@ -29,8 +29,9 @@ namespace ortung {
 ///   probable one is in force; the uncertainty of the delay is part of every estimate.
 /// - When the delay changes, the pose at the readings changes with it: the belief's samples, moved
 ///   by odometry from the old delay's time to the new one's, are tracked as hypotheses beside the
-///   belief. Readings are taken in order, so a delay that has grown leaves a gap between them. Not
-///   thread-safe.
+///   belief. Readings are taken in order, so a delay that has grown leaves a gap between them.
+///
+/// Not thread-safe.
 class ORTUNG_API Lateness {
  public:
   /// A time step's readings, and how they fit the belief.

@@ -120,8 +120,8 @@ ORTUNG_CONSTANT(lateness, kSamePlace, 0.5);
 ORTUNG_CONSTANT(lateness, kFarthest, 50.0);
 /// [share] Probability of a delay below which it is ignored. Cost.
 ORTUNG_CONSTANT(lateness, kNegligible, 1e-6);
-/// [nats] Lead that is enough for the change to no delay: half of lead::kEnoughNats, since no delay
-/// is the rule.
+/// [nats] Lead that is enough for a change to no delay: half of lead::kEnoughNats, since having
+/// none is the rule.
 ORTUNG_CONSTANT(lateness, kEnoughForNone, 8.0);
 /// [nats] Most that one reading counts to distinguish changes to different delays. Chosen by hand.
 ORTUNG_CONSTANT(lateness, kMostSharp, 20.0);
