@@ -17,7 +17,7 @@ namespace {
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr std::size_t kMostSamples = 5'000'000;
-constexpr double kFarthest = 1e6;   // [m]
+constexpr double kFarthest = 1e6;   // farthest position that is permitted [m]
 constexpr double kRounding = 1e-5;  // tolerance of correlations, for numbers with six digits
 constexpr std::array<const char*, 3> kNames = {"x", "y", "theta"};
 

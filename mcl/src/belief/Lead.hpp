@@ -11,7 +11,7 @@ namespace ortung {
 /// not decide, either: each is weighted by the distance travelled since the one before.
 class ORTUNG_API Lead {
  public:
-  /// @param ratio log-likelihood ratio of one moment's readings [nats]
+  /// @param ratio log-likelihood ratio of one time step's readings [nats]
   /// @param part distance travelled as a share of that after which readings are independent; above
   ///   1 it counts as 1
   void count(double ratio, double part);

@@ -9,7 +9,7 @@
 
 namespace ortung {
 
-inline constexpr std::size_t kChunk = 2048;  ///< samples; even, so that random numbers stay aligned
+inline constexpr std::size_t kChunk = 2048;  ///< samples per chunk; even, to align random numbers
 
 /// Calls work(first, count) for all chunks of [0, n). Any thread may do any chunk, so @p work must
 /// depend on its chunk alone. An exception that it throws is rethrown once all chunks have ended.

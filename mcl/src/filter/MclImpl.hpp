@@ -61,7 +61,7 @@ struct Mcl::Impl {
   /// The time and odometry up to which the samples were moved.
   struct Reached {
     std::optional<Pose2> odometry;   ///< odometry's pose up to which they were moved
-    std::optional<Timestamp> stamp;  ///< stamp of the weighing that they were moved to
+    std::optional<Timestamp> stamp;  ///< stamp of the readings up to which they were moved
   };
 
   Tools tools;

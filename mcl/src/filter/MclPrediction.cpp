@@ -91,7 +91,7 @@ void Mcl::Impl::followIntervals(Timestamp stamp) {
 void Mcl::Impl::moveBlindly(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0) return;
-  // distance that it may have travelled
+  // distance that the robot may have travelled [m]
   const double come = tools.config.driftMetres * std::sqrt(seconds);
   track->way.metres += come;
   track->way.all += come;

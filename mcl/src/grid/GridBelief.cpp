@@ -10,11 +10,11 @@ namespace ortung {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr float kLittle = 1e-9F;  ///< share of the whole that counts as nothing
+constexpr float kLittle = 1e-9F;  ///< share below which a cell counts as empty
 /// Variance of one step to neighbours, in squares of their distance: with a third the fourth moment
 /// is that of a normal distribution, too.
 constexpr double kMostVariance = 1.0 / 3.0;
-constexpr int kMostSteps = 300;  ///< most steps of a blur: ten cells, or as many headings
+constexpr int kMostSteps = 300;  ///< greatest number of steps of a blur: ten cells or headings
 
 int countOf(double length, double cell) {
   return std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9)));

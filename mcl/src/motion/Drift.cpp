@@ -10,7 +10,7 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kBlock = 256;  ///< samples whose noise is drawn at once
+constexpr std::size_t kBlock = 256;  ///< number of samples whose noise is drawn at once
 /// Number of the first random number: far from those that a motion model takes from the same
 /// stream.
 constexpr std::uint64_t kFirstNumber = std::uint64_t{1} << 40;

@@ -23,7 +23,7 @@ class ORTUNG_API Intake {
  public:
   /// The new readings of a container.
   struct Look {
-    NewsByTime news;  ///< news by time; those of one moment are weighed together
+    NewsByTime news;  ///< new readings by time; those of one time step are weighed together
     /// Time to which the stamps have jumped back: a clock was set, or a log began anew.
     std::optional<Timestamp> clockSetTo;
   };

@@ -9,7 +9,7 @@
 namespace ortung {
 namespace {
 
-constexpr float kMostNats = 1e4F;  ///< bound of one moment's |ln p|; ln 0 counts as -kMostNats
+constexpr float kMostNats = 1e4F;  ///< bound of one time step's |ln p|; ln 0 counts as -kMostNats
 
 }  // namespace
 

@@ -26,12 +26,12 @@ struct News {
 
 using NewsByTime = std::map<Timestamp, std::vector<News>>;
 
-/// Returns the coarsest resolution to which the readings of one moment round poses.
+/// Returns the coarsest resolution to which the readings of one time step round poses.
 PoseResolution coarsestOf(const std::vector<News>& news);
 /// Returns the approximate time to weigh one pose by all of them [ns].
 double nanosecondsOf(const std::vector<News>& news);
 
-/// Computes ln p of the readings of one moment at each sample. It is finite whatever plugins
+/// Computes ln p of the readings of one time step at each sample. It is finite whatever plugins
 /// return.
 /// @param out ln p of each sample; resized to the size of @p set
 void weigh(const std::vector<News>& news, const SampleSet& set, Workers* workers,

@@ -19,7 +19,7 @@ namespace {
 
 using namespace tuning::field;
 
-/// Bound of |ln p| of one moment's readings, whatever plugins return.
+/// Bound of |ln p| of one time step's readings, whatever plugins return.
 constexpr float kMostNats = 1e4F;
 constexpr float kNowhere = -std::numeric_limits<float>::infinity();
 constexpr std::size_t kBatch = 8 * kChunk;
