@@ -2,55 +2,60 @@
 
 #include "Constant.hpp"
 
-/// Constants of the room belief: how far an estimate can be trusted, and what counts as evidence
-/// for another place. What each one is, its unit, and where its value comes from; docs/constants.md
-/// has what half of it and twice as much change on recordings.
+/// Constants of the folder belief: how far an estimate can be trusted, and what counts as evidence
+/// for another place. Each comment says what the constant is, its unit, and where its value comes
+/// from; docs/constants.md shows what changes on recordings if it is halved or doubled.
 namespace ortung::tuning {
 
 /// Confidence: how far an estimate can be trusted.
 namespace confidence {
 
-/// [m] Error of a position that counts as right. By hand: the size of a robot of the field.
+/// [m] Greatest position error that counts as right. Chosen by hand: the size of a typical robot.
 ORTUNG_CONSTANT(confidence, kRight, 0.5);
-/// The covariance counts so many times, since the reference, the map and the readings' models err,
-/// too. Fitted: confidence.
+/// Factor by which the covariance is inflated, since the reference, the map and the sensor models
+/// have errors, too. Fitted: confidence.
 ORTUNG_CONSTANT(confidence, kInflation, 2.0);
-/// [nats] Odds of a right position before anything is known. Fitted: confidence.
+/// [nats] Constant term of the log-odds that the position is right. Fitted: confidence.
 ORTUNG_CONSTANT(confidence, kConstant, -8.0);
-/// What the odds by share and covariance alone count. Fitted: confidence.
+/// Coefficient of the log-odds that follow from share and covariance alone. Fitted: confidence.
 ORTUNG_CONSTANT(confidence, kOfBelief, 0.65);
-/// [nats] What the fit of the readings of the moment counts. Fitted: confidence.
+/// [nats] Coefficient of the fit of the newest readings. Fitted: confidence.
 ORTUNG_CONSTANT(confidence, kOfFit, 5.5);
-/// [nats] What the fit of the readings lately counts. Fitted: confidence.
+/// [nats] Coefficient of the short-term average of the fit. Fitted: confidence.
 ORTUNG_CONSTANT(confidence, kOfFitLately, 4.4);
-/// What each nat by which another place leads counts. Fitted: confidence.
+/// Coefficient of the lead of another place over the belief, per nat. Fitted: confidence.
 ORTUNG_CONSTANT(confidence, kOfLead, -0.12);
-/// [nats] Greatest lead that counts, since at kEnoughNats the other place is taken.
+/// [nats] Greatest lead that counts, since at lead::kEnoughNats the other place takes over.
 ORTUNG_CONSTANT(confidence, kMostLead, 16.0);
-/// [share] Least quality of an estimate that may be relied on. By hand: one in ten may be wrong.
+/// [share] Least quality of an estimate that may be relied on. Chosen by hand: one in ten may be
+/// wrong.
 ORTUNG_CONSTANT(confidence, kTracking, 0.9);
-/// [share] Quality below which an estimate is lost: wrong is more probable than right.
+/// [share] Quality below which the status is "lost": the estimate is more probably wrong than
+/// right.
 ORTUNG_CONSTANT(confidence, kLost, 0.5);
-/// [nats] Lead of another place that makes the belief uncertain: as much as one reading can count.
+/// [nats] Lead of another place that makes the belief uncertain: the most that one reading can
+/// count.
 ORTUNG_CONSTANT(confidence, kRivalNats, 4.0);
-/// [share] Share of the belief at one place below which the place is ambiguous. By hand.
+/// [share] If the heaviest place has less than this share of the belief, the pose is ambiguous.
+/// Chosen by hand.
 ORTUNG_CONSTANT(confidence, kOfOnePlace, 0.8);
-/// Ratio of a silence that is reported to the usual time between readings. By hand.
+/// A silence is reported if it is this many times longer than the usual time between readings.
+/// Chosen by hand.
 ORTUNG_CONSTANT(confidence, kLongSilence, 3.0);
 
 }  // namespace confidence
 
-/// Lead: what readings say for another place, as a sequential test.
+/// Lead: a sequential test of whether readings support another place than the belief's.
 namespace lead {
 
-/// [nats] Lead that is enough to leave a place: by Wald's sequential test one wrong change in e^16
-/// tests, if readings were independent, which they are not quite.
+/// [nats] Lead at which another place takes over: by Wald's sequential test one wrong decision in
+/// e^16 tests, if readings were independent, which they are not quite.
 ORTUNG_CONSTANT(lead, kEnoughNats, 16.0);
-/// [nats] Lead below which no other place is left to be found. By hand: three quarters of what is
-/// enough.
+/// [nats] Lead below which another place is given up. Chosen by hand: three quarters of what is
+/// enough to take over.
 ORTUNG_CONSTANT(lead, kHopelessNats, -12.0);
-/// [nats] Most that one reading counts, so that no single reading moves the belief: four have to
-/// agree.
+/// [nats] Most that one reading counts, so that no single reading moves the belief: at least four
+/// have to agree.
 ORTUNG_CONSTANT(lead, kMostNatsOfAReading, 4.0);
 
 }  // namespace lead

@@ -20,8 +20,9 @@ double probabilityWithin(const PoseCovariance& covariance, double metres) {
   const double off = std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1]);
   const double wide = std::sqrt(std::max(middle + off, 1e-12));
   const double narrow = std::sqrt(std::max(middle - off, 1e-12));
-  // Over the long axis in polar steps, so that narrow Gaussians are met, too:
-  // P = E[erf(half chord / (narrow sqrt 2))], by quadrature over the wide one's quantiles.
+  // The integral across the long axis has a closed form, so that narrow Gaussians are integrated
+  // accurately, too: P = E[erf(half chord / (narrow sqrt 2))], by the midpoint rule along the long
+  // axis.
   constexpr int kSteps = 64;
   const double reach = std::min(metres, 6.0 * wide);
   const double step = 2.0 * reach / kSteps;
@@ -66,7 +67,7 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   } else if (!signs.isConfirmed) {
     estimate.reason = TrackReason::kUnconfirmed;
   } else if (!signs.trustsOdometry) {
-    estimate.reason = TrackReason::kOdometry;  // or the readings' stamps are wrong
+    estimate.reason = TrackReason::kOdometry;  // the stamps of the readings may be wrong instead
   } else if (estimate.quality < kTracking) {
     estimate.reason = TrackReason::kSpread;
   } else {

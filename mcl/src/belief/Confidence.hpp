@@ -8,7 +8,7 @@
 
 namespace ortung {
 
-/// What tells how far an estimate can be trusted.
+/// The evidence from which the confidence in an estimate is computed.
 struct Signs {
   double fit = 1.0;        ///< best fit of the newest readings, as a share of the usual one
   double fitLately = 1.0;  ///< short-term average of the fit
@@ -16,17 +16,20 @@ struct Signs {
   double lead = 0.0;       ///< lead of an alternative place over the belief [nats]
   bool isFrozen = false;   ///< whether a device repeats its reading though the robot moves
   bool trustsOdometry = true;
-  /// Whether readings since have confirmed the place that a global start has found.
+  /// Whether later readings have confirmed the place that a global start found; true without a
+  /// global start.
   bool isConfirmed = true;
-  /// Time since the last reading that was weighed, in usual intervals; none: no reading.
+  /// Time since the last reading that was weighed, in units of the usual interval between readings;
+  /// nothing: there was no reading.
   std::optional<double> silence = 0.0;
-  bool isLate = false;  ///< whether stamps of readings are late
+  bool isLate = false;  ///< whether stamps of readings seem delayed
 };
 
-/// Probability that a position is within @p metres of the mean of a Gaussian with this covariance.
+/// Returns the probability that the position of a pose drawn from a Gaussian with this covariance
+/// is within @p metres of its mean.
 ORTUNG_API double probabilityWithin(const PoseCovariance& covariance, double metres);
 
-/// Fills in quality, status and reason of an estimate whose share and covariance are known.
+/// Fills in quality, status and reason of an estimate whose share and covariance are already set.
 ORTUNG_API void judge(const Signs& signs, PoseEstimate& estimate);
 
 }  // namespace ortung

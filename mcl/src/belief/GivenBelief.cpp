@@ -17,8 +17,8 @@ namespace {
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr std::size_t kMostSamples = 5'000'000;
-constexpr double kFarthest = 1e6;   // [m]
-constexpr double kRounding = 1e-5;  // of correlations: numbers that were printed with six digits
+constexpr double kFarthest = 1e6;   // farthest position that is permitted [m]
+constexpr double kRounding = 1e-5;  // tolerance of correlations, for numbers with six digits
 constexpr std::array<const char*, 3> kNames = {"x", "y", "theta"};
 
 std::string nameOf(Eigen::Index row, Eigen::Index column) {
@@ -33,8 +33,8 @@ template <class... Parts>
   throw std::invalid_argument(text.str());
 }
 
-/// A matrix R with R R^T = covariance. Metres and radians are not compared: it is taken from the
-/// correlations.
+/// Returns a matrix R with R R^T = covariance. It is computed from the correlations, so that metres
+/// and radians are not compared with each other.
 Matrix3 rootOf(const PoseCovariance& given) {
   const Matrix3 covariance = Eigen::Map<const Matrix3>(given.data());
   for (Eigen::Index i = 0; i < 3; ++i)

@@ -10,14 +10,14 @@
 
 namespace ortung {
 
-/// Samples of a normal distribution that somebody else knows the pose by.
-/// @param covariance what six digits of it leave is enough
-/// @throws std::invalid_argument saying what is wrong: a number that is not finite, a variance
-///   below zero, no symmetry, or errors that depend on each other more than can be
+/// Draws samples of a pose that the caller gives as a normal distribution.
+/// @param covariance it may be singular, and rounded to six digits
+/// @throws std::invalid_argument saying what is wrong: a number that is not finite, a negative
+///   variance, a matrix that is not symmetric, or correlations that no distribution can have
 ORTUNG_API SampleSet normalSamples(const Pose2& pose, const PoseCovariance& covariance,
                                    std::size_t n, Random random);
 
-/// Moves all samples alike, each in its own frame.
+/// Applies the same change of pose to all samples, each in its own frame.
 ORTUNG_API void shift(SampleSet& samples, const Pose2& change);
 
 }  // namespace ortung

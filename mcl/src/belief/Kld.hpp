@@ -14,21 +14,23 @@ namespace ortung {
 
 class Workers;
 
-/// Samples sorted into bins of (x, y, heading), in the order in which bins first occur, so the
-/// result depends on the samples alone.
+/// Sorts samples into bins of (x, y, heading). Bins are numbered in the order in which they first
+/// occur, so the result depends on the samples alone.
 class ORTUNG_API PoseBins {
  public:
   /// @param workers borrowed, may be null; the result does not depend on them
   PoseBins(const MclConfig& config, const SampleView& samples, Workers* workers = nullptr);
 
   std::size_t count() const { return bins_.size(); }
-  /// Whether headings are within a quarter of a turn, so that their mean is that of numbers.
+  /// Returns whether all headings are within a quarter of a turn, so that their mean is the mean of
+  /// the numbers.
   bool isNarrow() const;
-  /// Bin of each sample.
+  /// Returns the number of the bin of each sample.
   std::span<const std::uint32_t> binOf() const { return binOf_; }
-  /// How many bins some of the samples fill.
+  /// Returns how many bins the samples with these indices occupy.
   std::size_t countOf(std::span<const std::uint32_t> samples) const;
-  /// For each bin the number of its cluster: bins that touch (also at corners) hang together.
+  /// Returns the number of the cluster of each bin: bins that touch, at corners, too, are in the
+  /// same cluster.
   std::vector<std::uint32_t> clusters() const;
 
  private:
@@ -51,31 +53,34 @@ class ORTUNG_API PoseBins {
 
   Bin binOfPlace(std::uint32_t place) const;
 
-  int turns_;  ///< bins a turn
+  int turns_;  ///< number of heading bins per turn
   float perMetre_;
   float perRadian_;
-  /// Sets that lie together have a table of all bins between the outermost; others are hashed.
+  /// Lowest bin. Compact sets use a dense table of all bins in their bounding box; others use a
+  /// hash table.
   Bin low_{};
-  std::size_t columns_ = 0;  ///< number of the table's columns; zero: hashed
+  std::size_t columns_ = 0;  ///< number of columns of the dense table; zero: the table is hashed
   std::size_t rows_ = 0;
   std::vector<Bin> bins_;
   std::vector<std::uint32_t> binOf_;
-  std::vector<std::uint32_t> table_;  ///< bin + 1, or 0; open addressing if hashed
+  /// Number of the bin + 1, or 0 if empty; open addressing if hashed.
+  std::vector<std::uint32_t> table_;
 };
 
-/// Samples needed so that the sampled distribution is closer than `kldError` to the true one with
-/// probability `kldQuantile`, when it fills @p bins bins (Fox, "Adapting the sample size in
-/// particle filters through KLD-sampling", 2003, eq. 7); within [minSamples, maxSamples].
+/// Returns the number of samples with which the KL divergence of the sampled distribution from the
+/// true one stays below `kldError` with the probability of the quantile `kldQuantile`, if it
+/// occupies @p bins bins (Fox, "Adapting the sample size in particle filters through KLD-sampling",
+/// 2003, eq. 7); within [minSamples, maxSamples].
 ORTUNG_API std::size_t kldSamples(const MclConfig& config, std::size_t bins);
 
-/// Mean and covariance of each cluster whose share of the belief is @p least at least, and of the
-/// heaviest one in any case; heaviest first.
-/// @param bins of the samples
+/// Returns mean and covariance of each cluster whose share of the belief is at least @p least, and
+/// of the heaviest one in any case; heaviest first.
+/// @param bins bins of @p samples
 ORTUNG_API std::vector<PoseEstimate> clustersOf(const PoseBins& bins, const SampleView& samples,
                                                 std::span<const double> weights, double least,
                                                 Workers* workers = nullptr);
 
-/// The heaviest cluster's mean and covariance.
+/// Returns the mean and covariance of the heaviest cluster.
 ORTUNG_API PoseEstimate estimateOf(const PoseBins& bins, const SampleView& samples,
                                    std::span<const double> weights, Workers* workers = nullptr);
 ORTUNG_API PoseEstimate estimateOf(const MclConfig& config, const SampleView& samples,

@@ -11,9 +11,9 @@
 
 namespace ortung {
 
-/// @return the value that ORTUNG_CONSTANTS ("lead.kEnoughNats=8 trust.kStationary=0.004") has for
-///   @p name, else @p value; whole numbers are rounded
-/// @throws std::invalid_argument where it has no number
+/// @return the value that the environment variable ORTUNG_CONSTANTS gives for @p name, e.g.
+///   "lead.kEnoughNats=8 trust.kStationary=0.004", else @p value; integers are rounded
+/// @throws std::invalid_argument if what is given is not a number
 template <typename Number>
 Number swept(const char* name, Number value) {
   const char* given = std::getenv("ORTUNG_CONSTANTS");

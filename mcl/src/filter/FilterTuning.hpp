@@ -5,19 +5,19 @@
 #include "Constant.hpp"
 #include "ortung/base/Time.hpp"
 
-/// Constants of the room filter: the update itself.
-/// What each one is, its unit, and where its value comes from; docs/constants.md has what half of
-/// it and twice as much change on recordings.
+/// Constants of the folder filter: the update itself. Each comment says what the constant is, its
+/// unit, and where its value comes from; docs/constants.md shows what changes on recordings if it
+/// is halved or doubled.
 namespace ortung::tuning {
 
-/// Mcl: what is asked of the filter.
+/// Mcl: the public functions of the filter.
 namespace present {
 
-/// [s] Least time that counts as usual between two readings: status does not flicker with fast
-/// devices.
+/// [s] Least time that counts as usual between two readings, so that the status does not flicker
+/// with fast devices.
 ORTUNG_CONSTANT(present, kLeastSilence, 0.5);
-/// [us] What was read so shortly ago is of the present place. By hand: a robot of the field goes a
-/// metre in it.
+/// [us] Age up to which readings are of the present place. Chosen by hand: a typical robot travels
+/// a metre in this time.
 ORTUNG_CONSTANT(present, kPresent, Timestamp{500'000});
 
 }  // namespace present
@@ -25,11 +25,11 @@ ORTUNG_CONSTANT(present, kPresent, Timestamp{500'000});
 /// MclCorrection: weighing.
 namespace correction {
 
-/// That a sample is weighed until annealed readings are in, about: a quarter of them climbs eight
-/// times in two steps. Cost.
+/// Approximate number of times that annealing weighs each initial sample: once, and then a quarter
+/// of them in two steps at each of eight exponents. Cost.
 ORTUNG_CONSTANT(correction, kTimesWeighed, 5.0);
-/// Effective samples below which readings are far sharper than the belief, and are annealed. By
-/// hand.
+/// Effective sample size below which readings are far sharper than the belief, and are annealed.
+/// Chosen by hand.
 ORTUNG_CONSTANT(correction, kFewLeft, 25.0);
 
 }  // namespace correction
@@ -37,10 +37,10 @@ ORTUNG_CONSTANT(correction, kFewLeft, 25.0);
 /// MclPrediction: motion.
 namespace prediction {
 
-/// [share] Share of the average interval between updates that is kept: over ten updates.
+/// [share] Share of the usual interval between updates that is kept in each update: it falls over
+/// ten updates.
 ORTUNG_CONSTANT(prediction, kIntervalKept, 0.9);
-/// Least number of samples where nobody knows how the robot moved, if the set may be so large.
-/// Cost.
+/// Least number of samples that are moved without odometry, if maxSamples permits it. Cost.
 ORTUNG_CONSTANT(prediction, kSpreadSamples, std::size_t{4000});
 
 }  // namespace prediction

@@ -1,4 +1,5 @@
-// The second half of an update: weigh (eq. 7), let the best lead, estimate, resample.
+// The second half of an update: weigh the samples (eq. 7), let the best hypothesis lead, estimate,
+// resample.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +22,7 @@ std::vector<const Weigher*> readingsOf(const std::vector<News>& news) {
 
 }  // namespace
 
-/// One moment's readings (paper, section 5.2).
+/// Corrects the belief by one time step's readings (paper, section 5.2).
 void Mcl::Impl::correct(const std::vector<News>& news, Predicted predicted) {
   Weighed weighed = weigh(news, predicted);
   Led led = letBestLead(std::move(weighed));
@@ -41,7 +42,7 @@ Moment Mcl::Impl::momentOf(const std::vector<News>& news, Timestamp stamp) {
   return {stamp, &news, {weighAll, fit}};
 }
 
-/// Weighs the belief, and says how well the readings fit it.
+/// Weighs the belief, and follows how well the readings fit it.
 Weighed Mcl::Impl::weigh(const std::vector<News>& news, Predicted predicted) {
   Moment moment = momentOf(news, predicted.stamp);
   Hypothesis::Said said = track->belief.ask(moment.evidence, &tools.workers);
@@ -62,7 +63,8 @@ std::optional<double> Mcl::Impl::fitOfBelief(const Moment& moment,
   return fitOf(readingsOf(*moment.news), track->belief.samples(), weights, &tools.workers);
 }
 
-/// What others are compared with, if readings fit the belief badly or somebody competes already.
+/// Returns what alternatives are compared with, if readings fit the belief badly or there are
+/// alternatives already.
 std::optional<Rivals::Moment> Mcl::Impl::competition(const Moment& moment,
                                                      const Hypothesis::Said& said) {
   if (!track->recovery.isDoubtful() && !track->recovery.callsForSearch() && track->rivals.isIdle())
@@ -79,17 +81,17 @@ std::optional<Rivals::Moment> Mcl::Impl::competition(const Moment& moment,
   return compared;
 }
 
-/// @returns weights of the belief's samples
+/// Weighs the belief's samples. @returns their weights
 std::vector<double> Mcl::Impl::takeIn(const Moment& moment, const Hypothesis::Said& said) {
   return track->belief.takeIn(
       said, moment.evidence, tools.config, tools.config.resampleBelow > 0.0 ? kFewLeft : 0.0,
       [&] { return climbFor(*moment.news, said.before.size()); }, &tools.workers);
 }
 
-/// While odometry is not trusted: whether it leads to where the readings are, or drifting about
-/// does as well. Samples that drifted count only if the readings fit there as they use to: in a
-/// crowd nothing fits, and wherever one goes a little less unlike it is no better a place.
-/// @param drifted samples from this one on have
+/// Weighs the samples while odometry is not trusted, and compares those that it moved with those
+/// that process noise moved. The latter count only if the readings fit there as well as usual: in a
+/// crowd nothing fits, and a place that fits a little less badly is no better.
+/// @param drifted samples from this one on were moved by process noise
 std::vector<double> Mcl::Impl::takeInUnsure(const Moment& moment, Hypothesis::Said said,
                                             std::size_t drifted) {
   Hypothesis& belief = track->belief;
@@ -109,12 +111,12 @@ std::vector<double> Mcl::Impl::takeInUnsure(const Moment& moment, Hypothesis::Sa
   return belief.weights(&tools.workers);
 }
 
-/// Where readings are far sharper than the belief, hardly any sample is left, and none of them at
-/// the top of the hill: then the readings come in by degrees.
-/// @param had samples before the readings were weighed
+/// Says how readings are annealed that are far sharper than the belief. Otherwise hardly any sample
+/// would be left, and none of them at the peak of the likelihood.
+/// @param had number of samples before they were weighed
 Hypothesis::Climb Mcl::Impl::climbFor(const std::vector<News>& news, std::size_t had) {
   const MclConfig& config = tools.config;
-  // After a way on which nothing was seen, they are to be found in many places.
+  // After a long distance without readings the samples may have to cover many places.
   const std::size_t wanted =
       std::max(had, kldSamples(config, PoseBins(config, track->belief.samples().view()).count()));
   const double affordable = 1e6 * tools.time.left() / (kTimesWeighed * nanosecondsOf(news));
@@ -126,7 +128,8 @@ Hypothesis::Climb Mcl::Impl::climbFor(const std::vector<News>& news, std::size_t
   return {n, std::max(config.minSamples, n / 4), climb.fork(1), climb, !track->isBlind};
 }
 
-/// Lets a rival or a delay have the belief, or a part of it, if it has explained readings better.
+/// Lets the hypothesis of another place or delay replace the belief, or a part of it, if it has
+/// explained readings far better.
 Led Mcl::Impl::letBestLead(Weighed weighed) {
   if (letRivalLead(weighed)) weighed.weights = track->belief.weights(&tools.workers);
   Led led = ledBy(weighed.moment, std::move(weighed.weights));
@@ -141,7 +144,7 @@ Led Mcl::Impl::ledBy(Moment moment, std::vector<double> weights) {
   return {std::move(moment), std::move(weights), std::move(bins), its};
 }
 
-/// @returns whether another place has the belief, or a part of it
+/// @returns whether another place has replaced the belief, or a part of it
 bool Mcl::Impl::letRivalLead(const Weighed& weighed) {
   if (!weighed.compared) {
     track->rivals.forget();
@@ -154,13 +157,13 @@ bool Mcl::Impl::letRivalLead(const Weighed& weighed) {
   } else {
     track->belief.setSamples(std::move(takeover->samples));
     track->recovery.beginAnew();
-    track->confirmation.forget();  // it was compared on a way of its own
+    track->confirmation.forget();  // the takeover itself was a confirmation
   }
   takeover->trustsOdometry ? track->trust.forget() : track->trust.lose();
   return true;
 }
 
-/// @returns whether another delay of the readings is in force
+/// @returns whether another delay of the readings is in force now
 bool Mcl::Impl::letDelayLead(const Led& led, const Weighed& weighed) {
   const Timestamp stamp = weighed.moment.stamp;
   const Lateness::Moment moment{stamp, weighed.logEvidence,
@@ -178,7 +181,7 @@ bool Mcl::Impl::letDelayLead(const Led& led, const Weighed& weighed) {
   return true;
 }
 
-/// The heaviest place of the belief, finer than its samples, and how far it can be trusted.
+/// Computes the estimate of the heaviest cluster, refines it, and judges how far it can be trusted.
 Estimated Mcl::Impl::estimateFrom(Led led) {
   const Timestamp stamp = led.moment.stamp;
   const std::vector<News>& news = *led.moment.news;
@@ -198,7 +201,7 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
   return {std::move(led.weights), std::move(led.bins)};
 }
 
-/// Draws as many samples as their bins need, once few of them have most of the weight.
+/// Resamples, with KLD-adaptive size, if the effective sample size is low.
 void Mcl::Impl::resample(const Estimated& estimated) {
   Hypothesis& belief = track->belief;
   const std::size_t had = belief.samples().size();

@@ -16,51 +16,52 @@
 
 namespace ortung {
 
-/// Streams of random numbers: one a purpose and step.
+/// Streams of random numbers: one per purpose and step.
 enum class Purpose : std::uint64_t { kMotion, kResampling, kStart, kRivals, kSpread, kCount };
 
-// An update looks for readings, and then has these steps for each moment: predict, weigh, lead,
-// estimate, resample. What a step gives back is what the next one takes, so there is no other
-// order.
+// An update looks for new readings, and then does these steps for each time at which there are any:
+// predict, weigh, lead, estimate, resample. Each step takes what the step before returns, so they
+// can't be called in another order.
 
-/// The readings of a moment.
+/// The readings of one time step.
 struct Moment {
   Timestamp stamp;
   const std::vector<News>* news;  ///< borrowed
-  Evidence evidence;              ///< what they say
+  Evidence evidence;              ///< likelihood of the readings
 };
-/// All hypotheses were moved to a moment.
+/// The result of predict(): all hypotheses are moved to the time of the readings.
 struct Predicted {
   Timestamp stamp;
-  std::size_t drifted = 0;  ///< first sample of the belief that drifted; zero: none
+  std::size_t drifted = 0;  ///< first sample that was moved by process noise; zero: none
 };
-/// The moment's readings have weighed the belief, and give what alternatives are compared with.
+/// The result of weigh(): the readings have weighed the belief, whose likelihood the alternatives
+/// are compared with.
 struct Weighed {
   Moment moment;
   std::vector<double> weights;
-  std::optional<Rivals::Moment> compared;  ///< none: the belief fits, so there are no alternatives
+  std::optional<Rivals::Moment> compared;  ///< nothing: the belief fits, there are no alternatives
   double logEvidence;                      ///< ln p(readings | belief)
 };
-/// The belief is the hypothesis that leads.
+/// The result of letBestLead(): the belief is the hypothesis that leads.
 struct Led {
   Moment moment;
   std::vector<double> weights;
   PoseBins bins;
   PoseEstimate estimate;  ///< estimate of the samples alone
 };
-/// The estimate is made.
+/// The result of estimateFrom(): the estimate is computed.
 struct Estimated {
   std::vector<double> weights;
   PoseBins bins;
 };
 
-/// The filter in three parts: what is asked of it (Mcl.cpp), how the samples move
-/// (MclPrediction.cpp), and how readings weigh them (MclCorrection.cpp).
+/// The filter in three parts: its public functions (Mcl.cpp), the prediction of samples
+/// (MclPrediction.cpp), and their correction by readings (MclCorrection.cpp).
 struct Mcl::Impl {
-  /// Up to where the samples were moved.
+  /// The time and odometry up to which the samples were moved.
   struct Reached {
     std::optional<Pose2> odometry;   ///< odometry's pose up to which they were moved
-    std::optional<Timestamp> stamp;  ///< stamp of the weighing that they were moved to
+    std::optional<Timestamp> stamp;  ///< stamp of the readings up to which they were moved
   };
 
   Tools tools;
@@ -68,7 +69,7 @@ struct Mcl::Impl {
   LastingParts parts;
   Intake intake;
   Reached reached;
-  double usualInterval = 0.0;  ///< longest recent time between weighings [s]
+  double usualInterval = 0.0;  ///< usual time between weighings: the longest recent one [s]
   PoseEstimate estimate;       ///< estimate of the newest weighing
   std::uint64_t step = 0;
 
@@ -86,7 +87,7 @@ struct Mcl::Impl {
   }
   Random random(Purpose purpose) const { return Random(tools.config.seed, stream(purpose)); }
 
-  // What is asked of it.
+  // Public functions and their helpers.
   void forgetTimes();
   void forgetReadings();
   void begin(SampleSet samples, bool waits = false);

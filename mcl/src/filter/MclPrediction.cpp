@@ -1,4 +1,4 @@
-// How the samples move: the filter's first half (eq. 8).
+// The first half of an update: the samples are moved (eq. 8).
 #include <algorithm>
 #include <cmath>
 
@@ -14,27 +14,28 @@ namespace {
 
 using namespace tuning::prediction;
 
-// The noise of rivals is not that of the belief's samples.
+// Number of the first random number of each alternative hypothesis, so that its noise is not that
+// of the belief's samples.
 constexpr std::size_t kNumberOfRivals = 1U << 24;
 
 }  // namespace
 
-/// Time in which nobody told how the robot moved [s].
+/// Returns the time over which process noise acts [s].
 double Mcl::Impl::secondsSinceWeighing(Timestamp stamp) const {
   return reached.stamp ? driftSeconds(*reached.stamp, stamp) : 0.0;
 }
 
-/// Moves the samples, though there is nothing to weigh, once the robot has come some way.
+/// Moves the samples without readings, once the robot has moved by a piece (isPiece()).
 void Mcl::Impl::followMotion(const Pose2& odometry) {
   if (!reached.odometry && !track->waitsForStart)
-    reached.odometry = odometry;  // where the known start was
+    reached.odometry = odometry;  // odometry's pose at the start
   if (!reached.odometry) return;
   if (!isPiece(inverse(*reached.odometry) * odometry)) return;
   ++step;
   moveBy(odometry);
 }
 
-/// Moves all hypotheses that are where the belief is in time.
+/// Moves all hypotheses that are for the time of the belief.
 template <class MoveSome>
 void Mcl::Impl::move(const MoveSome& moveSome) {
   if (track->waitsForStart) return;
@@ -59,7 +60,7 @@ void Mcl::Impl::moveBy(const Pose2& odometry) {
   });
 }
 
-/// Moves the samples to where the robot may be when a reading was taken.
+/// Predicts the samples to the time when a reading was taken.
 Predicted Mcl::Impl::predict(Timestamp stamp) {
   Predicted predicted{stamp};
   const std::optional<Pose2> now = parts.lateness.odometryAt(stamp);
@@ -67,7 +68,7 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
   if (track->isBlind) moveBlindly(stamp);
   if (now) moveBy(*now);
   if (now && track->trust.isLost()) {
-    // Odometry that says that the robot stands, though the readings say that it does not, is none.
+    // Untrusted odometry that says that the robot is stationary counts as no odometry.
     track->isBlind = track->way.all < tuning::trust::kStationary;
     if (track->isBlind)
       moveBlindly(stamp);
@@ -79,18 +80,19 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
   return predicted;
 }
 
-/// Rises at once and falls slowly: what was usual a while ago is so still.
+/// The usual interval rises at once and falls slowly: what was usual a while ago is still usual.
 void Mcl::Impl::followIntervals(Timestamp stamp) {
   if (reached.stamp)
     usualInterval = std::max(toSeconds(stamp - *reached.stamp), kIntervalKept * usualInterval);
 }
 
-/// While there is no odometry, it is not trusted and stands, or for the time before its first
-/// reading.
+/// Moves the samples by process noise: without odometry, before its first reading, or if it is not
+/// trusted and says that the robot is stationary.
 void Mcl::Impl::moveBlindly(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0) return;
-  const double come = tools.config.driftMetres * std::sqrt(seconds);  // it may have
+  // distance that the robot may have travelled [m]
+  const double come = tools.config.driftMetres * std::sqrt(seconds);
   track->way.metres += come;
   track->way.all += come;
   parts.polish.forget();
@@ -102,9 +104,8 @@ void Mcl::Impl::moveBlindly(Timestamp stamp) {
   });
 }
 
-/// While odometry is not trusted: one half of the samples is moved by it nevertheless, the other
-/// one goes anywhere near.
-/// @returns from which sample on they drifted; 0: none
+/// Moves half of the samples by process noise instead of odometry, while odometry is not trusted.
+/// @returns first sample that was moved by process noise; 0: none
 std::size_t Mcl::Impl::spread(Timestamp stamp) {
   const double seconds = secondsSinceWeighing(stamp);
   if (seconds == 0.0 || track->waitsForStart) return 0;
@@ -118,7 +119,8 @@ std::size_t Mcl::Impl::spread(Timestamp stamp) {
   return both.drifted;
 }
 
-/// Samples drawn evenly, so many that they can go where a robot may go of which nothing is known.
+/// Enlarges the set by resampling, so that it can cover all places where a robot without odometry
+/// may be.
 void Mcl::Impl::enlarge() {
   Hypothesis& belief = track->belief;
   const std::size_t n = std::min(tools.config.maxSamples, kSpreadSamples);

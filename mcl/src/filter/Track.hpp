@@ -26,7 +26,7 @@
 
 namespace ortung {
 
-/// What the parts of a filter work with as long as it lives; they borrow it.
+/// What the parts of a filter share during its lifetime; they borrow it.
 struct Tools {
   Tools(const MclConfig& c, FieldRegion r, std::unique_ptr<MotionModel> m)
       : config((c.check(), c)),
@@ -65,14 +65,14 @@ struct Track {
   bool isKnown() const { return !waitsForStart && belief.samples().size() > 0; }
 
   Hypothesis belief;
-  /// Of the samples as they are now; made when it is asked for.
+  /// Estimate of the present samples; computed when it is needed.
   mutable std::optional<PoseEstimate> present;
-  PoseResolution coarsest;  ///< coarsest resolution of the tables that weighed it last
+  PoseResolution coarsest;  ///< coarsest resolution of the tables that weighed the belief last
   bool waitsForStart;       ///< a global start waits for the first reading, or searches
   bool hasStarted = false;  ///< whether update() has yet to report an estimate
   Way way;
-  bool isBlind = true;  ///< whether there is no odometry up to this reading
-  Momentum momentum;    ///< motion that is assumed while it is blind
+  bool isBlind = true;  ///< whether there is no trusted odometry up to this reading
+  Momentum momentum;    ///< motion that is assumed without odometry
   OdometryTrust trust;
   SampleSet anchor;  ///< the belief when it was weighed last, while odometry is not trusted
   Recovery recovery;
@@ -81,14 +81,15 @@ struct Track {
 };
 
 /// Parts that keep something when another belief begins, since it belongs to devices, sensors and
-/// the map: delays, how consistent readings are, which devices there are, a cover of the floor.
+/// the map: delays, how consistent readings are, which devices there are, the coarse grid of the
+/// floor.
 struct LastingParts {
   Lateness lateness;
   Polish polish;
   Biases biases;
   GlobalStart globalStart;
 
-  /// Each part forgets what it knows of the belief. With one part more, this does not compile until
+  /// Each part forgets what it knows of the belief. If a part is added, this does not compile until
   /// it is named here.
   void forget() {
     const auto forgetAll = [](auto&... each) { (each.forget(), ...); };

@@ -10,11 +10,11 @@ namespace ortung {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr float kLittle = 1e-9F;  ///< share of the whole that counts as nothing
+constexpr float kLittle = 1e-9F;  ///< share below which a cell counts as empty
 /// Variance of one step to neighbours, in squares of their distance: with a third the fourth moment
 /// is that of a normal distribution, too.
 constexpr double kMostVariance = 1.0 / 3.0;
-constexpr int kMostSteps = 300;  ///< most steps of a blur: ten cells, or as many headings
+constexpr int kMostSteps = 300;  ///< greatest number of steps of a blur: ten cells or headings
 
 int countOf(double length, double cell) {
   return std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9)));
@@ -114,14 +114,15 @@ void GridBelief::weigh(
   normalize();
 }
 
-/// Scales shares to sum 1, without what is little, and finds the box and the layers of the rest.
+/// Scales the shares to sum 1, sets very small ones to zero, and finds the bounding box and the
+/// filled layers of the rest.
 void GridBelief::normalize() {
   double sum = 0.0;
   forEachRow(*this, [&sum](int, int, std::span<const float> shares) {
     for (const float share : shares) sum += static_cast<double>(share);
   });
   const float factor = sum > 0.0 ? static_cast<float>(1.0 / sum) : 0.0F;
-  Box found{rows_, 0, columns_, 0};  // with ends in place of lengths
+  Box found{rows_, 0, columns_, 0};  // its numbers of rows and columns are ends at first
   std::vector<std::uint8_t> filled(isFilled_.size());
   forEachRow(*this, [&](int turn, int row, std::span<float> shares) {
     int column = box_.firstColumn;
@@ -143,9 +144,9 @@ void GridBelief::normalize() {
           std::max(0, found.columns - found.firstColumn)};
 }
 
-/// What an operation has put into the buffer becomes the shares; the buffer is empty again.
-/// @param grownBy by how many cells it may have spread
-/// @param filled layers that have anything now
+/// Makes the result of an operation in the buffer the new shares; the buffer is zero again.
+/// @param grownBy number of cells by which the shares may have spread
+/// @param filled whether each layer has any share now
 void GridBelief::take(int grownBy, std::vector<std::uint8_t> filled) {
   forEachRow(*this, [](int, int, std::span<float> shares) {
     std::fill(shares.begin(), shares.end(), 0.0F);
@@ -184,7 +185,7 @@ void GridBelief::move(const Pose2& change) {
   firstLayer_ = (firstLayer_ + first) % turns_;
 }
 
-/// Adds a layer moved by so many cells, shared out between those that it covers.
+/// Adds a layer, shifted by a number of cells; bilinear interpolation distributes each share.
 void GridBelief::addShifted(const float* from, double right, double up, float share,
                             float* to) const {
   const int left = static_cast<int>(std::floor(right));
@@ -209,9 +210,11 @@ void GridBelief::addShifted(const float* from, double right, double up, float sh
   }
 }
 
-/// Shares go to the headings on either side. Where noise of the turn goes with one of the place,
-/// they are moved by what that turn stands for.
-/// @param aside of a turn to the left by one step, in the frame of the robot before @p turn [m]
+/// Spreads shares to the headings on either side. As noise in heading may be correlated with noise
+/// in position, they are also shifted in position.
+/// @param share share that goes to each side
+/// @param aside shift that goes with a turn to the left by one step, in the frame of the robot
+///   before @p turn [m]
 void GridBelief::turnAbout(float share, const Offset& aside, double turn) {
   std::vector<std::uint8_t> filled(isFilled_.size());
   for (int from = 0; from < turns_; ++from) {
@@ -230,7 +233,7 @@ void GridBelief::turnAbout(float share, const Offset& aside, double turn) {
   take(static_cast<int>(std::hypot(aside.x, aside.y) / cell_) + 2, std::move(filled));
 }
 
-/// Shares go to the neighbours on either side in one direction.
+/// Spreads shares to the neighbours on either side in one direction.
 void GridBelief::spread(int right, int up, const std::vector<float>& shareOfLayer) {
   for (int turn = 0; turn < turns_; ++turn) {
     if (isFilled_[static_cast<std::size_t>(turn)] == 0) continue;
@@ -242,9 +245,10 @@ void GridBelief::spread(int right, int up, const std::vector<float>& shareOfLaye
   take(1, isFilled_);
 }
 
-/// In steps, each no larger than neighbours are. Noise of a place is what the turn leaves open of
-/// it (the conditional covariance), split into steps along x, y and a diagonal that have it; where
-/// it is longer and more slanting than these can have, what is too narrow is widened.
+/// The noise is added in steps no larger than the distance of neighbours. The noise in position
+/// given the heading (its conditional covariance) is split into steps along x, y and a diagonal. If
+/// its ellipse is longer and more slanted than these steps can represent, it is widened along its
+/// short axis.
 void GridBelief::blur(const PoseCovariance& covariance, double turn) {
   const double ofTurn = headingVariance(covariance);
   const double place = std::max(positionVariance(covariance), 0.0);

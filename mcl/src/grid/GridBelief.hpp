@@ -13,32 +13,38 @@
 
 namespace ortung {
 
-/// A belief as shares of cells of (x, y, heading). The cells of a heading are a layer; layers lie
-/// where odometry has carried them, to a fraction of a cell, so that motion alone blurs nothing:
-/// what motion leaves open does, by steps to neighbours that have its mean and covariance.
-/// Not thread-safe.
+/// A belief as probabilities (shares) of the cells of a grid of (x, y, heading). The cells of one
+/// heading are a layer. Each layer has an offset of a fraction of a cell, so that motion without
+/// noise does not blur the belief. Motion noise does, by steps to neighbouring cells that have its
+/// mean and covariance. Not thread-safe.
 class ORTUNG_API GridBelief {
  public:
-  /// @param area [m] @param turns headings, at least 4
+  /// @param area area that the grid covers
+  /// @param cell edge of a cell [m]
+  /// @param turns number of headings per turn, at least 4
   GridBelief(const FieldGrid& area, double cell, int turns);
 
   static std::size_t cellsOf(const FieldGrid& area, double cell, int turns);
   int columns() const { return columns_; }
   int rows() const { return rows_; }
 
-  /// The share of each cell by its centre, up to a common factor. False: none has any.
+  /// Sets the share of each cell by its centre, up to a common factor. @returns false if all shares
+  /// are zero
   bool fill(const std::function<double(const Pose2&)>& shareAt);
-  /// Moves all by a change of pose in the robot's frame. What leaves the area is lost.
+  /// Moves the belief by a change of pose in the robot's frame. Shares that leave the area are
+  /// lost.
   void move(const Pose2& change);
   /// Adds noise of mean zero in the frame of the robot as it was before @p turn [rad].
   /// @param covariance row-major, of (x [m], y [m], theta [rad])
   void blur(const PoseCovariance& covariance, double turn);
-  /// Multiplies each share by e^v, of values in the order of samples(), and forgets what is little.
+  /// Multiplies each share by e^v and normalizes; very small shares become zero. @param logOf
+  /// computes v of each cell, in the order of samples()
   void weigh(const std::function<void(const SampleSet& cells, std::vector<float>& out)>& logOf);
-  /// Centres of all cells that have a share; ln of it as weight. They sum to 1.
+  /// Returns the centres of all cells with a share above zero; their log weights are ln of the
+  /// shares, which sum to 1.
   SampleSet samples() const;
 
-  /// Visits all such cells. @param visit (centre, share)
+  /// Visits all cells with a share above zero. @param visit (centre, share)
   void forEach(const std::function<void(const Pose2&, double)>& visit) const;
   double cell() const { return cell_; }
   double headingStep() const { return step_; }
@@ -47,7 +53,7 @@ class ORTUNG_API GridBelief {
   struct Box {
     int firstRow, rows, firstColumn, columns;
   };
-  /// Where a layer lies besides its cells' places, at most half a cell [m].
+  /// Offset of a layer from its cells' nominal positions, at most half a cell [m].
   struct Offset {
     double x = 0.0;
     double y = 0.0;
@@ -59,7 +65,8 @@ class ORTUNG_API GridBelief {
            static_cast<std::size_t>(column);
   }
   float* layer(std::vector<float>& of, int turn) const { return of.data() + placeOf(turn, 0, 0); }
-  /// Rows of the box in layers that have any. @param visit (turn, row, shares)
+  /// Visits the rows of the bounding box in layers with shares above zero. @param visit (turn, row,
+  /// shares)
   template <class Grid, class Visit>
   static void forEachRow(Grid& grid, const Visit& visit);
   std::size_t layerSize() const {
@@ -80,7 +87,8 @@ class ORTUNG_API GridBelief {
   int rows_;
   double turnOffset_ = 0.0;  ///< common offset of all headings, at most half a step [rad]
   std::vector<Offset> offsets_;
-  int firstLayer_ = 0;                  ///< layer of heading 0; turns change it and move no memory
+  /// Layer of heading 0; turning changes it without moving memory.
+  int firstLayer_ = 0;
   std::vector<float> shares_;           ///< shares by (layer, row, column)
   std::vector<float> buffer_;           ///< scratch memory in the same order; zeros
   std::vector<std::uint8_t> isFilled_;  ///< whether a layer has any share

@@ -24,10 +24,10 @@ namespace ortung {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kLeast = 1e-9;  ///< probability of a bin that the belief leaves out
-/// Of a change of pose: its mean is off by a sixtieth of the noise's sigma.
+constexpr double kLeast = 1e-9;  ///< probability of a bin in which the belief has no share
+/// Number of samples for a change of pose: its mean is off by a sixtieth of the noise's sigma.
 constexpr std::size_t kDraws = 4096;
-/// Of a cell while it is weighed: shares twice, pose, logarithms, weight, bin.
+/// Memory of a cell while it is weighed: shares twice, pose, logarithms, weight, bin.
 constexpr std::size_t kBytesACell = 64;
 
 int turnsOf(const GridConfig& grid) {
@@ -47,7 +47,7 @@ void checkMemory(const GridConfig& grid, const FieldRegion& region) {
 
 double square(double value) { return value * value; }
 
-/// Shares of samples, and of the grid's cells, of the bins that samples are in.
+/// Shares of samples and of the grid's cells in the bins that samples are in.
 class PlaceBins {
  public:
   explicit PlaceBins(const MclConfig& config)
@@ -60,7 +60,7 @@ class PlaceBins {
       bin[k] = static_cast<int>(std::floor(static_cast<double>(pose[k]) / edges_[k]));
     bins_[within(bin)].ofSamples += share;
   }
-  /// A cell's share goes to the bins that it overlaps, by how much.
+  /// Distributes a cell's share over the bins that it overlaps, in proportion to the overlap.
   void addCell(const Pose2& centre, double cell, double step, double share) {
     const std::array<double, 3> middle = {centre.x, centre.y, centre.theta};
     const std::array<double, 3> halves = {0.5 * cell, 0.5 * cell, 0.5 * step};
@@ -182,7 +182,7 @@ struct GridFilter::Impl {
   }
   PoseEstimate estimateNow() const {
     const SampleSet cells = belief.samples();
-    if (cells.size() == 0) {  // all of it has left the area
+    if (cells.size() == 0) {  // the whole belief has left the area
       PoseEstimate gone = estimate;
       gone.share = 0.0;
       gone.samples = 0;
@@ -190,7 +190,7 @@ struct GridFilter::Impl {
       return gone;
     }
     PoseEstimate now = estimateOf(config, cells.view(), normalized(cells.logWeight));
-    // What is within a cell.
+    // The variance of a uniform distribution within a cell.
     addVariances(now.covariance, square(belief.cell()) / 12.0, square(belief.headingStep()) / 12.0);
     now.samples = cells.size();
     judge(Signs{}, now);

@@ -11,7 +11,8 @@ namespace {
 
 using namespace tuning::carried;
 
-/// Adds noise of the robot's frame at heading @p theta, turned into the field's.
+/// Adds noise that is given in the robot's frame, rotated by the heading @p theta into the field
+/// frame.
 void add(const PoseCovariance& noise, double theta, PoseCovariance& covariance) {
   const double c = std::cos(theta);
   const double s = std::sin(theta);
@@ -31,7 +32,7 @@ MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, st
   for (std::vector<float>& axis : drawn) axis.assign(samples, 0.0F);
   motion.sampleMotion({drawn[0], drawn[1], drawn[2]}, odometryChange, seed, stream, 0);
   const auto n = static_cast<double>(samples);
-  // Turns are looked at from odometry's, so that they are not taken apart at half a turn.
+  // Turns are taken relative to odometry's, so that angles near half a turn do not wrap.
   std::array<std::vector<double>, 3> off;
   for (std::vector<double>& axis : off) axis.resize(samples);
   std::array<double, 3> mean{};
@@ -53,7 +54,7 @@ MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, st
 }
 
 PoseEstimate moved(PoseEstimate e, const Pose2& change) {
-  // With the way turned into the field, (dx, dy), a heading that is off by h shifts the new place
+  // With the displacement in the field frame, (dx, dy), a heading error h shifts the new position
   // by h (-dy, dx): the covariance is F P F^T with F = [1 0 -dy; 0 1 dx; 0 0 1].
   const Pose2 old = e.pose;
   e.pose = old * change;

@@ -10,25 +10,27 @@
 
 namespace ortung {
 
-/// Mean and covariance of a change of pose, in the robot's old frame.
+/// Mean and covariance of a change of pose, in the robot's frame before it.
 struct MotionChange {
   Pose2 mean;
   PoseCovariance covariance{};
 };
 
-/// What a motion model makes of odometry's change, of so many samples.
+/// Returns the change of pose that a motion model predicts from odometry's change, estimated from
+/// this many samples.
 MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, std::size_t samples,
                       std::uint64_t seed, std::uint64_t stream);
 
-/// What is known of a robot after moving on: its pose by the mean of what the motion model makes of
-/// odometry's change, its covariance by that of the heading before and the model's noise.
-/// @param odometryChange since the estimate, in the robot's old frame
-/// @param seed, stream random numbers depend on these alone
+/// Predicts an estimate by odometry, as an extended Kalman filter does: the pose changes by the
+/// mean of the motion model, and the covariance is propagated (the uncertain heading makes the
+/// position uncertain) and grows by the model's noise.
+/// @param odometryChange odometry's change since the estimate, in the robot's frame at the estimate
+/// @param seed, stream the random numbers depend on these alone
 ORTUNG_API PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionModel& motion,
                                   const Pose2& odometryChange, std::uint64_t seed,
                                   std::uint64_t stream);
 
-/// What is known of a pose after an exact change of it in its own frame.
+/// Returns the estimate after a change of pose without noise, in the robot's own frame.
 ORTUNG_API PoseEstimate moved(PoseEstimate estimate, const Pose2& change);
 
 }  // namespace ortung

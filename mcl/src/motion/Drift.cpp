@@ -10,10 +10,12 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kBlock = 256;  ///< samples whose noise is drawn at once
-/// Where its random numbers begin: far from those that a motion model takes of the same stream.
+constexpr std::size_t kBlock = 256;  ///< number of samples whose noise is drawn at once
+/// Number of the first random number: far from those that a motion model takes from the same
+/// stream.
 constexpr std::uint64_t kFirstNumber = std::uint64_t{1} << 40;
-constexpr std::size_t kNumbersASample = 4;  ///< x, y, theta, none (fillGaussian starts evenly)
+/// Per sample: x, y, theta, unused (fillGaussian starts at even numbers).
+constexpr std::size_t kNumbersASample = 4;
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace {
 
 using namespace tuning::momentum;
 
-/// What counts of a change that was seen.
+/// Returns the gain: the share of a measured change that counts.
 double known(double drifted, double open) {
   return drifted > 0.0 ? drifted / (drifted + open) : 0.0;
 }
@@ -30,7 +30,7 @@ void Momentum::follow(const PoseEstimate& seen, Timestamp stamp) {
   if (std::hypot(change.x, change.y) > kFastest * config_.driftMetres * seconds ||
       std::abs(change.theta) > kFastest * config_.driftRadians * seconds)
     return;
-  // As the robot sees it half way through the turn.
+  // The displacement in the robot's frame halfway through the turn.
   const Pose2 half = Pose2{0.0, 0.0, -change.theta / 2.0} * Pose2{change.x, change.y, 0.0};
   const double way =
       known(config_.driftMetres * config_.driftMetres * seconds, before->open + now.open);

@@ -10,21 +10,23 @@
 
 namespace ortung {
 
-/// How a robot goes on of which nobody tells how it moves: as it did from one reading to the next.
-/// With readings one second apart, a robot at walking pace would be a metre from where it was seen
-/// last, were it taken to stand. It keeps that motion for as long again, and stands then.
+/// Predicts the motion of a robot without odometry: a constant-velocity model from one reading to
+/// the next. With readings one second apart, a robot at walking pace would be a metre from where it
+/// was seen last if it were assumed to be stationary. It is assumed to keep its velocity for as
+/// long as the last two readings were apart, and then to be stationary.
 ///
-/// What two readings tell of a motion counts by how well they know it (the mean of the posterior of
-/// two normal distributions): as much as it may have drifted is its variance before, and both
-/// covariances that of what was seen. So vague readings make nothing move. Not thread-safe.
+/// The velocity is the posterior mean of a normal prior and a normal measurement: the prior has
+/// mean zero and the variance of the process noise, and the difference of the two estimates has the
+/// sum of their variances. So vague readings do not make the robot seem to move. Not thread-safe.
 class ORTUNG_API Momentum {
  public:
-  /// @param config borrowed; of its drift
+  /// @param config borrowed; its process noise is used
   explicit Momentum(const MclConfig& config) : config_(config) {}
 
-  /// Takes where readings have put the robot. Not later than the one before: begins anew.
+  /// Takes the estimate after readings were weighed. It begins anew if @p stamp is not later than
+  /// the one before.
   void follow(const PoseEstimate& seen, Timestamp stamp);
-  /// Change of the pose, in the robot's frame at the last reading, up to this time.
+  /// Returns the expected change of pose since the last reading, in the robot's frame then.
   Pose2 changeAt(Timestamp stamp) const;
 
  private:
@@ -36,8 +38,8 @@ class ORTUNG_API Momentum {
   };
   const MclConfig& config_;
   std::optional<Seen> last_;
-  Pose2 perSecond_;     ///< ahead, to the left, turn [m/s, rad/s]
-  double lasts_ = 0.0;  ///< [s]
+  Pose2 perSecond_;     ///< velocities ahead and to the left [m/s], turn rate [rad/s]
+  double lasts_ = 0.0;  ///< time for which the velocities are kept [s]
 };
 
 }  // namespace ortung

@@ -7,8 +7,9 @@
 
 namespace ortung {
 
-/// Motion without readings is followed in pieces of this size: the noise of a long way that leads
-/// back to where it began is not that of no way at all.
+/// Returns whether a change of pose is large enough to move the samples by it. Motion without
+/// readings is followed in pieces of this size, since the noise of a long path that leads back to
+/// its beginning is not that of no motion at all.
 inline bool isPiece(const Pose2& change) {
   return std::hypot(change.x, change.y) >= tuning::pieces::kMetres ||
          std::abs(change.theta) >= tuning::pieces::kRadians;

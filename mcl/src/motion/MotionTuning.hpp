@@ -4,50 +4,52 @@
 
 #include "Constant.hpp"
 
-/// Constants of the room motion: ways without readings, and whether odometry is believed.
-/// What each one is, its unit, and where its value comes from; docs/constants.md has what half of
-/// it and twice as much change on recordings.
+/// Constants of the folder motion: motion without readings, and whether odometry is trusted. Each
+/// comment says what the constant is, its unit, and where its value comes from; docs/constants.md
+/// shows what changes on recordings if it is halved or doubled.
 namespace ortung::tuning {
 
 /// CarriedOn: an estimate between two updates.
 namespace carried {
 
-/// Copies of the pose that are moved. Cost: the mean is off by a tenth of the noise's sigma, and
-/// asking takes microseconds.
+/// Number of samples of the motion model that give its mean and covariance. Cost: the mean is off
+/// by a tenth of the noise's sigma, and a prediction takes microseconds.
 ORTUNG_CONSTANT(carried, kCopies, std::size_t{128});
 
 }  // namespace carried
 
-/// Momentum: without odometry.
+/// Momentum: prediction without odometry.
 namespace momentum {
 
-/// [sigma] Greatest velocity, in what the process noise of 1 s allows; more is another place. The
-/// tail of a normal distribution beyond it is 6e-5.
+/// [sigma] Greatest velocity, in standard deviations of the process noise of 1 s; a faster change
+/// means that the estimate jumped to another place. The tail of a normal distribution beyond it is
+/// 6e-5.
 ORTUNG_CONSTANT(momentum, kFastest, 4.0);
 
 }  // namespace momentum
 
-/// MotionPieces: long ways.
+/// MotionPieces: long paths without readings.
 namespace pieces {
 
-/// [m] Size of a piece in which motion without readings is followed. By hand: short enough that
-/// curves stay curves.
+/// [m] Size of the pieces in which motion without readings is followed. Chosen by hand: short
+/// enough that curves stay curves.
 ORTUNG_CONSTANT(pieces, kMetres, 0.1);
 /// [rad] The same for turns.
 ORTUNG_CONSTANT(pieces, kRadians, 0.1);
 
 }  // namespace pieces
 
-/// OdometryTrust: whether odometry is believed.
+/// OdometryTrust: whether odometry is trusted.
 namespace trust {
 
-/// [m] Distance travelled after which a reading counts whole, since nearer ones err alike. By hand.
+/// [m] Distance travelled after which a reading counts fully, since the errors of nearer ones are
+/// correlated. Chosen by hand.
 ORTUNG_CONSTANT(trust, kIndependent, 0.1);
-/// [nats] Lead over motion without odometry at which it is believed again. What is long past counts
-/// no more than that against it, either.
+/// [nats] Lead over motion without odometry at which odometry is trusted again. Earlier readings
+/// count no more than that against it, either.
 ORTUNG_CONSTANT(trust, kRegained, 8.0);
-/// [m] Greatest way of odometry that is stationary; 1 rad counts as 1 m. By hand: what wheel
-/// encoders resolve.
+/// [m] Greatest distance travelled by odometry at which the robot still counts as stationary; 1 rad
+/// counts as 1 m. Chosen by hand: what wheel encoders resolve.
 ORTUNG_CONSTANT(trust, kStationary, 0.002);
 
 }  // namespace trust

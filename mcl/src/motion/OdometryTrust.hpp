@@ -5,17 +5,19 @@
 
 namespace ortung {
 
-/// Whether odometry is believed. It is until readings have put the robot where odometry does not
-/// lead (Rivals, around the estimate): wheels slip, are held, count backwards, or the robot is
-/// pushed. From then on half of the samples go anywhere near, and both halves are compared: nobody
-/// who drifts about meets the readings as well as a motion that is known. Odometry that says that
-/// the robot stands has told nothing, and regains nothing. Not thread-safe.
+/// Whether odometry is trusted. It is, until readings have put the robot where odometry does not
+/// lead (Rivals, around the estimate), because wheels slip, are blocked or count backwards, or the
+/// robot is pushed. From then on half of the samples follow odometry and half spread by process
+/// noise, and the likelihoods of both halves are compared: correct odometry predicts the readings
+/// better than process noise does, and is trusted again. Odometry that says that the robot is
+/// stationary is no evidence, and regains no trust. Not thread-safe.
 class ORTUNG_API OdometryTrust {
  public:
   bool isLost() const { return lost_; }
   void lose();
-  /// @param ratio ln p(readings | moved by odometry) - ln p(readings | drifted) [nats]
-  /// @param way that odometry has come meanwhile [m]; a turn of 1 rad counts as 1 m
+  /// @param ratio ln p(readings | moved by odometry) - ln p(readings | moved by process noise)
+  ///   [nats]
+  /// @param way distance travelled by odometry meanwhile [m]; a turn of 1 rad counts as 1 m
   void compare(double ratio, double way);
   void forget() { lost_ = false; }
 

@@ -15,7 +15,8 @@ namespace {
 
 using namespace tuning::intake;
 
-/// So many words never come again by chance if their device lives: its noise sees to that.
+/// A reading of at least this many words never repeats itself at random while its device works,
+/// because of its noise.
 constexpr std::size_t kManyWords = 16;
 
 /// FNV-1a (Fowler, Noll, Vo), a word at a time.
@@ -42,7 +43,7 @@ Intake::Look Intake::look(const SensorContainer& container, Timestamp ofBelief, 
   for (const auto& data : container.all()) {
     if (isFrozen(*data)) frozen_ = data.get();
     if (frozen_ == data.get() || !isNews(*data, ofBelief, trustsOdometry, delay))
-      continue;  // so no weigher is made
+      continue;  // without making a weigher
     if (std::shared_ptr<const Weigher> weigher = data->weigher())
       look.news[data->stamp()].push_back({data.get(), data->sequence(), std::move(weigher)});
   }
@@ -73,11 +74,11 @@ void Intake::countAgain(Timestamp since) {
   std::erase_if(uses_, [&](const auto& use) { return use.second.stamp >= since; });
 }
 
-/// Readings older than the belief are late and don't count. But if all are older by far, time
-/// itself went back: then the belief stays, and what is known of times is forgotten. So it does if
-/// all that come for some time are: one stamp of the future must not blind the filter until then.
-/// What others made of the belief is as old as that, so only odometry and what weighs tells the
-/// time.
+/// Readings older than the belief are late and do not count. But if all readings are much older,
+/// the clock itself was set back: then the belief stays, and what is known of times is forgotten.
+/// The same holds if all that come for some time are much older: a single stamp in the future must
+/// not blind the filter until then. Features derived from the belief are as old as the belief, so
+/// only odometry and features that localize are considered here.
 std::optional<Timestamp> Intake::clockSetBack(const SensorContainer& container,
                                               Timestamp ofBelief) {
   std::optional<Timestamp> newest;
@@ -98,27 +99,29 @@ std::optional<Timestamp> Intake::clockSetBack(const SensorContainer& container,
   }
   if (looksBehind_++ == 0) behindSince_ = *newestToCome;
   const double seconds = toSeconds(*newestToCome - behindSince_);
-  // Back once more: counted from there.
+  // If the clock was set back once more, the time is counted from there.
   if (seconds < 0.0) behindSince_ = *newestToCome;
   if (looksBehind_ < kLooksBehind || seconds < kSecondsBehind) return std::nullopt;
   return newestToCome;
 }
 
-/// Readings beyond @p stamp are not of this time, so they are no news.
+/// Marks readings later than @p stamp as used, since their stamps are from before the clock was set
+/// back.
 void Intake::passOver(const SensorContainer& container, Timestamp stamp) {
   for (const auto& data : container.all())
     if (data->sequence() > 0 && data->stamp() > stamp)
       uses_[data.get()] = {data->sequence(), 0, {}};
 }
 
-/// Formats do not change, and asking for one makes a text: each feature is asked once.
+/// The result is cached, since the format of a feature does not change and looking it up makes a
+/// string.
 bool Intake::isOdometry(const SensorData& data) {
   const auto known = isOdometry_.find(&data);
   if (known != isOdometry_.end()) return known->second;
   return isOdometry_.emplace(&data, isOf(data, formats::kOdometry)).first->second;
 }
 
-/// The first feature that is odometry tells how the robot moves.
+/// Gives the motion model the readings of the first feature that is odometry.
 void Intake::takeOdometry(const SensorContainer& container) {
   newestOdometry_.reset();
   for (const auto& data : container.all()) {
@@ -152,12 +155,12 @@ bool Intake::isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdome
          toSeconds(data.stamp() - last.stamp) >= config_.maxInterval;
 }
 
-/// Whether a reading's words came again and again while the robot moved. Where it stands, readings
-/// without noise may well repeat themselves.
+/// Returns whether a reading's words came again and again while the robot moved. Readings of a
+/// stationary robot may well repeat themselves if they have no noise.
 bool Intake::isFrozen(const SensorData& data) {
   const std::span<const std::uint32_t> words = data.getData();
   if (!data.localizes() || data.sequence() == 0 || words.size() < kManyWords) return false;
-  // Where nothing is seen, nothing changes.
+  // All words are equal if nothing is in sight, and then do not change.
   if (std::adjacent_find(words.begin(), words.end(), std::not_equal_to<>()) == words.end())
     return false;
   Words& known = words_[&data];

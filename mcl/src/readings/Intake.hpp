@@ -15,36 +15,40 @@
 namespace ortung {
 
 /// Takes out of a container what the filter has not seen yet: odometry for the motion model, and
-/// readings that are news. A robot that stands and stares does not grow more certain with every
-/// repetition; readings older than the belief are late; and a scan that comes again word for word
-/// though the robot moved is that of a device that hangs. Not thread-safe.
+/// new readings. Not new are readings from the same place too soon after the last one, since a
+/// stationary robot must not grow more certain with every repetition; readings older than the
+/// belief, which are late; and a scan that is repeated word for word though the robot moved, since
+/// its device hangs. Not thread-safe.
 class ORTUNG_API Intake {
  public:
-  /// What is new in a container.
+  /// The new readings of a container.
   struct Look {
-    NewsByTime news;  ///< news by time; those of one moment are weighed together
-    /// Time itself went back, to this: a clock was set, or a log begins anew.
+    NewsByTime news;  ///< new readings by time; those of one time step are weighed together
+    /// Time to which the stamps have jumped back: a clock was set, or a log began anew.
     std::optional<Timestamp> clockSetTo;
   };
 
-  /// @param motion borrowed; follows odometry
+  /// @param motion borrowed; it is given the odometry
   Intake(const MclConfig& config, MotionModel& motion) : config_(config), motion_(motion) {}
 
-  /// Holds the container's lock meanwhile.
-  /// @param delay by which stamps of readings are late
-  /// @param trustsOdometry it says whether the robot stands; else every reading is news
+  /// Takes odometry and returns new readings. It holds the container's read lock meanwhile.
+  /// @param ofBelief time of the newest reading that was weighed
+  /// @param delay delay in force of the readings' stamps
+  /// @param trustsOdometry whether odometry says that the robot is stationary; if not trusted,
+  ///   every reading is new
   Look look(const SensorContainer& container, Timestamp ofBelief, bool trustsOdometry,
             Timestamp delay = 0);
   void followOdometry(const SensorContainer& container);
-  /// Notes that news were weighed. @param odometry at that time, if it is known
+  /// Records that readings were weighed. @param odometry odometry's pose at that time, if it is
+  /// known
   void used(const std::vector<News>& news, Timestamp stamp, const std::optional<Pose2>& odometry);
   void forget();
-  /// Readings that were weighed since then are news once more; odometry and clock stay.
+  /// Makes readings that were weighed since then count as new once more; odometry and clock stay.
   void countAgain(Timestamp since);
 
-  /// Time of odometry's newest reading, if the robot has any.
+  /// Returns the time of the newest odometry, if the robot has any.
   const std::optional<Timestamp>& newestOdometry() const { return newestOdometry_; }
-  /// A feature whose readings repeat themselves though the robot moves; null: none.
+  /// Returns a feature whose readings repeat themselves though the robot moves; null: none.
   const SensorData* frozen() const { return frozen_; }
 
  private:
@@ -54,7 +58,7 @@ class ORTUNG_API Intake {
     Timestamp stamp = 0;
     Pose2 odometry;
   };
-  /// A reading's words, and where the robot was when they first came.
+  /// The words of a reading, and where the robot was when they first came.
   struct Words {
     std::uint64_t sequence = 0;
     std::uint64_t hash = 0;
@@ -76,7 +80,8 @@ class ORTUNG_API Intake {
   std::map<const SensorData*, Words> words_;
   std::map<const SensorData*, std::uint64_t> seen_;  ///< sequence numbers at the look before
   std::map<const SensorData*, bool> isOdometry_;  ///< whether a feature is odometry, by its format
-  int looksBehind_ = 0;        ///< looks in a row at which all news was much older than the belief
+  /// Calls of look() in a row at which all new readings were much older than the belief.
+  int looksBehind_ = 0;
   Timestamp behindSince_ = 0;  ///< newest stamp at the first of those looks
   std::optional<Timestamp> newestOdometry_;
   std::uint64_t odometrySequence_ = 0;  ///< sequence number of the newest odometry that motion took

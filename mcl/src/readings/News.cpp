@@ -9,7 +9,7 @@
 namespace ortung {
 namespace {
 
-constexpr float kMostNats = 1e4F;  ///< bound of one moment's |ln p|; ln 0 counts as -kMostNats
+constexpr float kMostNats = 1e4F;  ///< bound of one time step's |ln p|; ln 0 counts as -kMostNats
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void weigh(const std::vector<News>& news, const SampleSet& set, Workers* workers
     const SampleView part = set.view().part(first, count);
     const std::span<float> values = std::span(out).subspan(first, count);
     for (const News& one : news) one.weigher->getProbability(part, values);
-    // A plugin that answers ln 0 or nonsense must not blind the filter for what comes after it.
+    // A plugin that returns ln 0 or NaN must not blind the filter for later readings.
     for (float& v : values)
       v = std::isfinite(v) ? std::clamp(v, -kMostNats, kMostNats) : -kMostNats;
   });

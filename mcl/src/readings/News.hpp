@@ -14,25 +14,26 @@ namespace ortung {
 class SensorData;
 class Workers;
 
-/// A reading that is to be weighed: all that is needed of it once the container's lock is given
-/// back.
+/// A new reading that is to be weighed: all that is needed of it once the container's lock is
+/// released.
 struct News {
-  const SensorData* feature;  ///< identity of the feature, which is not read any more
+  const SensorData* feature;  ///< identity of the feature; its data is not read any more
   std::uint64_t sequence;
   std::shared_ptr<const Weigher> weigher;
-  /// Weigher without the correction; null: nothing was corrected.
+  /// Weigher of the reading without bias correction; null: nothing was corrected.
   std::shared_ptr<const Weigher> asRead = {};
 };
 
 using NewsByTime = std::map<Timestamp, std::vector<News>>;
 
-/// What the readings of one moment round poses to, at most.
+/// Returns the coarsest resolution to which the readings of one time step round poses.
 PoseResolution coarsestOf(const std::vector<News>& news);
-/// What it takes to ask all of them for a pose, about [ns].
+/// Returns the approximate time to weigh one pose by all of them [ns].
 double nanosecondsOf(const std::vector<News>& news);
 
-/// ln p of the readings of one moment at each sample, finite whatever plugins answer.
-/// @param out as many as samples
+/// Computes ln p of the readings of one time step at each sample. It is finite whatever plugins
+/// return.
+/// @param out ln p of each sample; resized to the size of @p set
 void weigh(const std::vector<News>& news, const SampleSet& set, Workers* workers,
            std::vector<float>& out);
 

@@ -5,7 +5,8 @@
 
 namespace ortung {
 
-/// What it takes to ask a reading for a pose, about [ns]: a constant of its own.
+/// Returns the approximate time to weigh one pose by a reading [ns]: a constant that its weigher
+/// reports, not a measurement.
 ORTUNG_API double nominalNanoseconds(const Weigher& reading);
 
 }  // namespace ortung

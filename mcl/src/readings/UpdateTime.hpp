@@ -7,8 +7,8 @@
 
 namespace ortung {
 
-/// What is left of an update's time (MclConfig::budgetMs) for searches, by the nominal times of the
-/// weighers: no clock is asked, so replays do the same in each update.
+/// How much of an update's time (MclConfig::budgetMs) is left for searches, by the nominal times of
+/// the weighers. No clock is read, so replays do the same in each update.
 class UpdateTime {
  public:
   /// @param config borrowed
@@ -16,7 +16,8 @@ class UpdateTime {
 
   void begin() { spent_ = 0.0; }
   void spend(double nominalNanoseconds) { spent_ += 1e-6 * nominalNanoseconds; }
-  /// Something always, so that searches end [ms].
+  /// Returns the time left nominal time spent since begin() [ms]; it is always above zero, so that
+  /// searches end.
   double left() const {
     return std::max(tuning::budget::kShare * config_.budgetMs - spent_,
                     tuning::budget::kLeastShare * config_.budgetMs);

@@ -103,7 +103,8 @@ void Biases::follow(const std::vector<News>& news, const PoseEstimate& estimate)
   decide();
 }
 
-/// The samples know where the robot is, as far as biases leave it: those may have moved them.
+/// Starts the filter from the samples' estimate. Its covariance is widened, since unknown biases
+/// may have shifted the samples.
 void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidual>& residuals) {
   isRunning_ = true;
   misfit_ = 0.0;
@@ -143,7 +144,9 @@ void Biases::open(std::size_t device, const std::vector<ReadingResidual>& residu
   }
 }
 
-/// @param at where the residual is of @returns whether it fits
+/// Updates the filter by one residual.
+/// @param at pose for which the residual was computed
+/// @returns whether it is an inlier
 bool Biases::learn(std::size_t device, const ReadingResidual& r, const Pose2& at) {
   const Eigen::Index n = mean_.size();
   Eigen::VectorXd by = Eigen::VectorXd::Zero(n);
@@ -184,7 +187,7 @@ void Biases::decide() {
       if (device.values < kFewest) return false;
       return square > errors * errors;
     };
-    // Together: what one of them says too much the other one says too little.
+    // Offset and scale are tested together, since their errors are correlated.
     if (device.hasDistances) {
       const Eigen::Vector2d both = mean_.segment<2>(at);
       const Eigen::Matrix2d spread = covariance_.block<2, 2>(at, at);

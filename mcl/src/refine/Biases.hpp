@@ -14,25 +14,27 @@
 
 namespace ortung {
 
-/// What devices get wrong always in the same way, learned while the robot drives: a Kalman filter
-/// of the pose and each device's bias together (a state augmented by biases: Friedland, IEEE Trans.
-/// Automatic Control 14, 1969) goes beside the samples, from where they know the robot. With the
-/// pose in it, what it can't tell apart stays open: one beacon from one place says nothing of a
-/// bias. A bias that is known is taken off the readings before samples are weighed; one that is
-/// nearer to none than four standard errors, or was seen from few places, is none. Not thread-safe.
+/// Learns the systematic errors (biases) of devices while the robot drives. An extended Kalman
+/// filter of the pose and all biases together (a state augmented by biases: Friedland, IEEE Trans.
+/// Automatic Control 14, 1969) runs beside the samples, starting from their estimate. Since the
+/// pose is part of its state, what cannot be observed stays uncertain: one beacon from one place
+/// says nothing about a bias. A known bias is subtracted from the readings before they weigh
+/// samples. A bias that is less than four standard errors from zero, or was learned from few
+/// values, is not applied. Not thread-safe.
 class ORTUNG_API Biases {
  public:
-  /// Another belief, or one that nobody knows to be the same: all is forgotten.
+  /// Forgets all biases, as the belief is another one, or may be.
   void forget();
-  /// By odometry. @param change in the robot's old frame
+  /// Moves the pose by odometry. @param change change of pose in the robot's frame before it
   void move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
             std::uint64_t stream);
-  /// Takes known biases off what is to be weighed. Features are looked at: the container is locked,
-  /// or nobody else has it.
+  /// Corrects new readings by the known biases. It reads features, so the caller holds the
+  /// container's lock, or no other thread uses the container.
   void correct(NewsByTime& news);
-  /// Learns from readings as they came. @param estimate what samples make of them
+  /// Learns from readings without correction. @param estimate estimate of the samples after they
+  /// were weighed
   void follow(const std::vector<News>& news, const PoseEstimate& estimate);
-  /// What is known, by "model/type".
+  /// Returns the known biases, by "model/type".
   std::map<std::string, DeviceBias> known() const;
 
  private:
@@ -40,7 +42,7 @@ class ORTUNG_API Biases {
   static constexpr Eigen::Index kTerms = 3;  ///< number of terms of DeviceBias, in its order
   struct Device {
     std::string name;
-    int values = 0;             ///< number of values it was learned from
+    int values = 0;             ///< number of values that the bias was learned from
     bool hasDistances = false;  ///< whether there are readings of distances
     bool hasBearings = false;
     bool knowsDistances = false;  ///< whether distances are known to be biased
@@ -63,13 +65,13 @@ class ORTUNG_API Biases {
   }
 
   std::map<const SensorData*, Feature> features_;
-  double way_ = 0.0;  ///< distance travelled while running [m]; a turn of 1 rad counts as 1 m
+  double way_ = 0.0;  ///< distance travelled since begin() [m]; a turn of 1 rad counts as 1 m
   std::vector<Device> devices_;
   bool isRunning_ = false;
   Pose2 pose_;
   Eigen::VectorXd mean_;  ///< mean of all biases; its first three are the pose's error, always zero
   Eigen::MatrixXd covariance_;
-  double misfit_ = 0.0;  ///< recent share of values that don't fit
+  double misfit_ = 0.0;  ///< short-term share of outliers
 };
 
 }  // namespace ortung

@@ -38,14 +38,14 @@ Matrix widened(const PoseCovariance& covariance, double metres, double radians) 
   return wider;
 }
 
-/// Whether two poses are one place, as far as a cluster of samples can tell.
+/// Returns whether a pose is at the place of a cluster, as far as a cluster of samples can tell.
 bool isSame(const Pose2& pose, const PoseEstimate& cluster) {
   const Matrix covariance = widened(cluster.covariance, kClusterMetres, kClusterRadians);
   const Vector off = difference(pose, cluster.pose);
   return off.dot(covariance.ldlt().solve(off)) < kMostSigmas * kMostSigmas;
 }
 
-/// What was known before readings: a normal distribution.
+/// The normal distribution of the pose before the readings.
 struct Prior {
   Pose2 mean;
   Matrix precision;
@@ -54,7 +54,7 @@ struct Prior {
 struct Solution {
   Pose2 pose;
   Matrix covariance;
-  Slope slope;  ///< sum of the readings' slopes there
+  Slope slope;  ///< sum of the readings' derivatives there
 };
 
 Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose) {
@@ -63,8 +63,8 @@ Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose)
   return slope;
 }
 
-/// The pose where the readings and the prior agree best, from @p start on.
-/// @param slope of the readings there
+/// Returns the maximum a posteriori of the readings and the prior, by iteration from @p start.
+/// @param slope derivative of the readings at @p start
 std::optional<Solution> agreement(const std::vector<const Polishable*>& readings,
                                   const Prior& prior, const Pose2& start, const Slope& slope) {
   Solution found{start, {}, slope};
@@ -84,11 +84,11 @@ std::optional<Solution> agreement(const std::vector<const Polishable*>& readings
   return found;
 }
 
-/// Of which directions readings by themselves tell more than a cluster of samples can.
+/// In which directions the readings alone determine the pose better than a cluster of samples can.
 enum class Determined { kNothing, kPartly, kAll };
 
-/// What vaguer readings say is known to samples as well, and what they leave open better: a
-/// distance puts the robot on a circle.
+/// For vaguer readings the samples are as good, and represent better what the readings leave open:
+/// a distance, for instance, puts the robot on a circle.
 Determined determinedBy(const Slope& slope) {
   const Vector unit(kClusterMetres, kClusterMetres, kClusterRadians);
   const Matrix times = unit.asDiagonal() * matrixOf(slope.information) * unit.asDiagonal();
@@ -101,7 +101,7 @@ Prior priorOf(const PoseEstimate& cluster, double metres, double radians) {
   return {cluster.pose, widened(cluster.covariance, metres, radians).inverse()};
 }
 
-/// A place and a cluster that are the same: from the cluster (0) to the place (1).
+/// Interpolates between a cluster (0) and a refined pose (1) at the same place.
 Prior between(const PoseEstimate& cluster, const PoseEstimate& place, double towards) {
   const Vector off = towards * difference(place.pose, cluster.pose);
   return {
@@ -110,9 +110,10 @@ Prior between(const PoseEstimate& cluster, const PoseEstimate& place, double tow
           .inverse()};
 }
 
-/// Square of how far readings have moved the pose, in what they were promised to: 1 in the mean if
-/// promises are kept. Nothing if they told nothing.
-/// @param moved from what was predicted @param promised covariance of that
+/// Returns the normalized innovation squared per direction (NIS): 1 in the mean if the estimate is
+/// consistent. Nothing if the readings gave no innovation.
+/// @param moved change of the predicted pose by the readings
+/// @param promised covariance of the predicted pose
 std::optional<double> surprise(const Vector& moved, const Matrix& promised,
                                const Solution& solution) {
   const Matrix seen = matrixOf(solution.slope.information);
@@ -150,7 +151,8 @@ void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
   const bool follows = place_ && predicted && isSame(place_->pose, *predicted);
   const Slope slope = slopeOf(readings, estimate.pose);
   const Determined pose = determinedBy(slope);
-  // A place that keeps its promises is known well enough to be normal where readings leave it open.
+  // A consistent refined pose is known well enough to be normal in the directions that the readings
+  // leave open.
   const bool isNormal = follows && times_ < kConsistentRatio;
   if (pose == Determined::kNothing || (pose == Determined::kPartly && !isNormal)) {
     apply(estimate);
@@ -192,14 +194,15 @@ void Polish::learnTimes(double observed) {
   times_ = std::max(1.0, times_);
 }
 
-/// Samples know what the other readings have said, too: where that is more, they are the estimate.
+/// The samples were also weighed by readings without derivatives. If the samples are more certain
+/// for that, they stay the estimate.
 void Polish::apply(PoseEstimate& cluster) const {
   if (!place_ || !isSame(place_->pose, cluster)) return;
   const auto spread = [](const PoseEstimate& e) { return positionVariance(e.covariance); };
   if (times_ * spread(*place_) < spread(cluster)) put(cluster);
 }
 
-/// What promises are not kept leaves open, the samples show.
+/// Where the refined pose is not consistent, the covariance of the samples is added.
 void Polish::put(PoseEstimate& cluster) const {
   const Vector apart = difference(place_->pose, cluster.pose);
   const Matrix samples = matrixOf(cluster.covariance) + apart * apart.transpose();

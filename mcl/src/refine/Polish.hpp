@@ -15,35 +15,39 @@
 
 namespace ortung {
 
-/// The heaviest place, finer than samples are apart and tables round: the pose where the readings
-/// and what was known before them agree best, by Gauss and Newton (an iterated extended Kalman
-/// filter; Bell, Cathey, IEEE Trans. Automatic Control 38, 1993), of the readings whose weighers
-/// tell a slope. It rides on the samples, which stay as they are: a place that is not theirs is
-/// forgotten. Not thread-safe.
+/// Refines the estimate of the heaviest cluster beyond the spacing of samples and the resolution of
+/// tables: it is the maximum a posteriori of the prior and of all readings whose weighers have a
+/// derivative (Polishable), by Gauss-Newton (an iterated extended Kalman filter; Bell, Cathey, IEEE
+/// Trans. Automatic Control 38, 1993). The samples are not changed, and a refined pose away
+/// from their heaviest cluster is dropped. Not thread-safe.
 class ORTUNG_API Polish {
  public:
   void forget() {
     place_.reset();
     cluster_.reset();
   }
-  /// By odometry. @param change in the robot's old frame
+  /// Moves the refined pose by odometry. @param change change of pose in the robot's frame before
+  /// it
   void move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
             std::uint64_t stream);
-  /// Takes readings in. @param estimate heaviest cluster after they were weighed: polished, if they
-  /// can do it
+  /// Refines the estimate by readings.
+  /// @param estimate in: the heaviest cluster after the readings were weighed; out: refined, if
+  ///   they permit it
   void follow(const std::vector<News>& news, PoseEstimate& estimate);
-  /// Puts the place in for a cluster of samples that is at the same place.
+  /// Replaces the estimate of a cluster by the refined one, if both are at the same place and the
+  /// refined one is more certain.
   void apply(PoseEstimate& cluster) const;
 
  private:
   void put(PoseEstimate& cluster) const;
   void learnTimes(double observed);
 
-  /// Refined place; its covariance is that of readings and motion.
+  /// Refined estimate; its covariance is that of readings and motion alone.
   std::optional<PoseEstimate> place_;
   std::optional<PoseEstimate> cluster_;  ///< cluster of samples as the last readings left it
-  /// Of the place, row-major: what its readings were compared with is off by this, times something
-  /// of variance 1 that is the same for all of them, so that it is mixed, but never averaged out.
+  /// Error of the refined pose by systematic errors of the map or the tables, row-major: this times
+  /// a random vector of unit variance. As the same vector holds for all readings, the error is
+  /// mixed from update to update, but never averaged out.
   std::array<double, 9> blur_{};
   /// Ratio of squared innovations to those of consistent estimates: it grows where readings have
   /// common errors, surfaces are not where the map has them, or odometry errs more than its model.

@@ -2,65 +2,67 @@
 
 #include "Constant.hpp"
 
-/// Constants of the room refine: biases of devices, and the place that leads.
-/// What each one is, its unit, and where its value comes from; docs/constants.md has what half of
-/// it and twice as much change on recordings.
+/// Constants of the folder refine: biases of devices, and the refinement of the estimate. Each
+/// comment says what the constant is, its unit, and where its value comes from; docs/constants.md
+/// shows what changes on recordings if it is halved or doubled.
 namespace ortung::tuning {
 
-/// Biases: what devices get wrong always in the same way.
+/// Biases: systematic errors of devices.
 namespace biases {
 
-/// [share] Biases of scale that are expected while nothing is known: radios of the field err by up
+/// [share] Prior sigma of the error in scale of distances: radio ranging devices have errors of up
 /// to 7 %.
 ORTUNG_CONSTANT(biases, kScale, 0.05);
 /// [sigma] Standard errors from zero at which a bias becomes known. The tail of a normal
 /// distribution beyond it is 6e-5.
 ORTUNG_CONSTANT(biases, kErrors, 4.0);
 /// [sigma] Standard errors from zero at which a bias stays known, so that it does not come and go.
-/// By hand.
+/// Chosen by hand.
 ORTUNG_CONSTANT(biases, kStillErrors, 1.5);
-/// Values that a bias is known by. The usual rule for means of unknown distributions.
+/// Least number of values from which a bias becomes known. The usual rule for means of unknown
+/// distributions.
 ORTUNG_CONSTANT(biases, kFewest, 30);
-/// [sigma] Greatest innovation of an inlier, and of places that are the same.
+/// [sigma] Greatest innovation of an inlier.
 ORTUNG_CONSTANT(biases, kMostErrors, 4.0);
-/// [share] Share of outliers above which the place is wrong, not the readings.
+/// [share] Share of outliers above which the pose must be wrong, rather than the readings.
 ORTUNG_CONSTANT(biases, kMisfits, 0.5);
-/// [m] Readings of a feature from places nearer to each other than this err alike. By hand, as
-/// elsewhere::kIndependent.
+/// [m] Distance travelled between readings of a feature that are used, since the errors of nearer
+/// ones are correlated. Chosen by hand, as elsewhere::kIndependent.
 ORTUNG_CONSTANT(biases, kApart, 0.3);
-/// [share] Rate at which the share of outliers is averaged: over fifty readings. By hand.
+/// [share] Rate at which the share of outliers is averaged: over fifty readings. Chosen by hand.
 ORTUNG_CONSTANT(biases, kRate, 0.02);
 
 }  // namespace biases
 
-/// Polish: the place that leads, finer than samples and tables.
+/// Polish: refines the estimate beyond the resolution of samples and tables.
 namespace polish {
 
-/// Most steps of Gauss-Newton. Cost.
+/// Greatest number of Gauss-Newton steps. Cost.
 ORTUNG_CONSTANT(polish, kMostSteps, 8);
-/// [sigma] Greatest distance of a cluster and a pose that are one place.
+/// [sigma] Greatest Mahalanobis distance between a cluster and a pose that count as one place.
 ORTUNG_CONSTANT(polish, kMostSigmas, 4.0);
-/// [m] Least sigma of a cluster's position for that: its mean is no better known.
+/// [m] Accuracy in position to which a cluster's mean is known; it is added to its covariance.
 ORTUNG_CONSTANT(polish, kClusterMetres, 0.03);
-/// [rad] Least sigma of a cluster's heading for that.
+/// [rad] Accuracy in heading to which a cluster's mean is known; it is added to its covariance.
 ORTUNG_CONSTANT(polish, kClusterRadians, 0.02);
-/// [share] Directions in which readings remove less than this share of the uncertainty have no
-/// innovation. By hand.
+/// [share] Directions in which readings remove less than this share of the variance give no
+/// innovation. Chosen by hand.
 ORTUNG_CONSTANT(polish, kLeastRemoved, 0.1);
-/// [share] Where readings are so much narrower than the prediction, all of an innovation is the
-/// motion's: it says nothing about the readings. By hand.
+/// [share] If readings leave less than this share of the predicted variance in a direction, the
+/// innovation there is due to the motion alone and says nothing about the readings. Chosen by hand.
 ORTUNG_CONSTANT(polish, kPredicted, 0.02);
-/// Estimates are consistent if squared innovations are not so many times larger than expected. By
+/// Ratio of squared innovations to expected ones below which estimates are consistent. Chosen by
 /// hand.
 ORTUNG_CONSTANT(polish, kConsistentRatio, 2.0);
-/// Ratio of squared innovations to expected ones that may be random. By hand.
+/// Ratio of squared innovations to expected ones that may still be random. Chosen by hand.
 ORTUNG_CONSTANT(polish, kRandomRatio, 1.5);
-/// Most that an innovation counts, in usual ones: 3 sigma.
+/// Greatest ratio of a squared innovation to the usual one that counts: 3 sigma.
 ORTUNG_CONSTANT(polish, kMostTimes, 9.0);
-/// [share] Rate at which innovations are averaged, over twenty updates; faster at first. By hand.
+/// [share] Rate at which squared innovations are averaged, over twenty updates; faster at first.
+/// Chosen by hand.
 ORTUNG_CONSTANT(polish, kRate, 0.05);
-/// How many times larger than expected squared innovations count before there are any: cautious. By
-/// hand.
+/// Initial ratio of squared innovations to expected ones, before there are any: a cautious value.
+/// Chosen by hand.
 ORTUNG_CONSTANT(polish, kTimesAtFirst, 10.0);
 
 }  // namespace polish

@@ -4,19 +4,23 @@
 
 namespace ortung {
 
-/// Whether a place that one moment's readings have chosen out of the whole field has been confirmed
-/// since: by some readings on some way that fit there as they use to. What fits once by chance, or
-/// since the map lacks something, does not go on to fit. Not thread-safe.
+/// Whether a place that one time step's readings have chosen out of the whole field has been
+/// confirmed since: by several readings that fit there as well as usual, over some distance
+/// travelled. A place that fits only at random, or because the map is incomplete, does not keep
+/// fitting. Not thread-safe.
 class ORTUNG_API Confirmation {
  public:
-  /// A place was chosen.
+  /// Begins to confirm a place that was chosen.
   void begin() {
     isOpen_ = true;
     way_ = 0.0;
     readings_ = 0;
   }
   void forget() { isOpen_ = false; }
-  /// @param way since the readings before [m]; a turn on the spot shows the same surroundings
+  /// Counts one time step's readings.
+  /// @param isUsual whether they fit as well as usual
+  /// @param way distance travelled since the readings before [m]; turns do not count, since a robot
+  ///   that turns on the spot sees the same surroundings
   void count(bool isUsual, double way);
   bool isOpen() const { return isOpen_; }
 

@@ -19,7 +19,7 @@ namespace {
 
 using namespace tuning::delays;
 
-constexpr double kSmallest = 1e-6;  ///< variance of a belief, so that it can be inverted
+constexpr double kSmallest = 1e-6;  ///< variance added to a belief, so that it can be inverted
 
 double prior(std::size_t delay) {
   return delay == 0 ? 1.0 - kLate : kLate / static_cast<double>(Delays::kCount - 1);
@@ -38,7 +38,7 @@ Eigen::Matrix3d informationOf(const PoseEstimate& e, const Eigen::Vector3d& more
   return covariance.inverse();
 }
 
-/// A normal distribution, seen from where the belief is now.
+/// A normal distribution of the pose relative to the present estimate.
 struct Normal {
   Eigen::Vector3d mean;
   Eigen::Matrix3d information;
@@ -49,10 +49,10 @@ Normal normalOf(const PoseEstimate& predicted, const Pose2& seen) {
           informationOf(predicted, {kMetres * kMetres, kMetres * kMetres, kRadians * kRadians})};
 }
 
-/// ln p(readings | other) - ln p(readings | present). The belief is proportional to
-/// p(readings | pose) p(pose | present), so it is the mean of p(pose | other) / p(pose | present)
-/// over the belief. What the readings leave open says nothing: there the belief is where the
-/// present motion has put it.
+/// ln p(readings | other) - ln p(readings | present). The belief is proportional to p(readings |
+/// pose) p(pose | present), so it is the mean of p(pose | other) / p(pose | present) over the
+/// belief. Directions that the readings leave open do not contribute, since the belief there is
+/// what the present motion has predicted.
 std::optional<double> ratio(const Normal& other, const Normal& present,
                             const Eigen::Matrix3d& belief) {
   const Eigen::LLT<Eigen::Matrix3d> all(belief + other.information - present.information);
@@ -87,7 +87,8 @@ void Delays::follow(const Predicted& predicted, std::size_t inForce, const PoseE
                     double seconds) {
   const Eigen::Matrix3d belief = informationOf(seen, {kSmallest, kSmallest, kSmallest});
   const Normal present = normalOf(predicted[inForce], seen.pose);
-  // Readings take nothing away from what was known: if so, the motion was less sure than was said.
+  // Readings can only add information. If the belief has less than the prediction, the motion was
+  // less certain than its model says.
   const Eigen::LLT<Eigen::Matrix3d> read(belief - present.information);
   if (read.info() != Eigen::Success) return;
   std::array<double, kCount> nats{};
@@ -101,7 +102,7 @@ void Delays::follow(const Predicted& predicted, std::size_t inForce, const PoseE
     best = std::max(best, *met);
   }
   const double begins = 1.0 - std::exp(-kChanges * seconds);
-  // It may also be that odometry was wrong: then no delay is to blame.
+  // The last term is for wrong odometry, which says nothing about any delay.
   for (std::size_t i = 0; i < kCount; ++i)
     probability_[i] =
         ((1.0 - begins) * probability_[i] + begins * prior(i)) *

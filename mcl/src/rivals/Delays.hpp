@@ -9,18 +9,18 @@
 
 namespace ortung {
 
-/// How probable each delay of the readings' stamps is, 0 to 3 s: a Bayes filter over them.
+/// The probability of each delay of the readings' stamps, 0 to 3 s: a discrete Bayes filter.
 ///
-/// From one second to the next odometry tells another motion for each delay where the robot turns,
-/// starts or stops. The place where readings have put the robot says which of them it was. Nothing
-/// else counts, so on a straight way at constant speed nothing changes. Whatever odometry gets
-/// wrong, one second counts 4 nats at most, and no delay is ever impossible, since it may begin at
-/// any time. Not thread-safe.
+/// Where the robot turns, starts or stops, odometry over one second gives a different motion for
+/// each delay. The estimate after the readings shows which of them it was. Nothing else counts, so
+/// on a straight path at constant speed nothing changes. Since odometry may be wrong, one second
+/// counts 4 nats at most, and no delay ever becomes impossible, since the delay may change at any
+/// time. Not thread-safe.
 class ORTUNG_API Delays {
  public:
   static constexpr double kStep = 0.25;      ///< step between delays that are distinguished [s]
   static constexpr std::size_t kCount = 13;  ///< number of delays: zero to 3 s
-  /// Where the robot is, field frame, if it moved as odometry tells for each delay.
+  /// The predicted estimate for each delay, by odometry with that delay; field frame.
   using Predicted = std::array<PoseEstimate, kCount>;
 
   Delays() { forget(); }
@@ -28,14 +28,15 @@ class ORTUNG_API Delays {
   void forget();
   double probability(std::size_t delay) const { return probability_[delay]; }
   std::size_t mostProbable() const;
-  /// Takes what a second or more of readings have told.
-  /// @param predicted from where the robot was before them, without them
-  /// @param inForce the delay by whose motion the belief was moved meanwhile
-  /// @param seen the belief after them
-  /// @param seconds meanwhile
+  /// Updates the probabilities by readings over a second or more.
+  /// @param predicted estimates predicted from the one before these readings, without them
+  /// @param inForce the delay with which the belief was moved meanwhile
+  /// @param seen estimate of the belief after the readings
+  /// @param seconds time between both estimates [s]
   void follow(const Predicted& predicted, std::size_t inForce, const PoseEstimate& seen,
               double seconds);
-  /// Another delay has begun, as something else has shown. @param nats for each
+  /// Sets the probabilities after a change of the delay that was detected otherwise.
+  /// @param nats log-likelihood of each delay [nats]
   void change(std::span<const double, kCount> nats);
 
  private:

@@ -19,74 +19,84 @@ namespace ortung {
 
 class Workers;
 
-/// What one moment's readings say, for whoever asks.
+/// The likelihood of one time step's readings, for any hypothesis.
 struct Evidence {
-  Annealing::Weigh weigh;                       ///< ln p(readings | sample)
-  std::function<double(const SampleSet&)> fit;  ///< how well samples explain them: as fitOf() says
+  Annealing::Weigh weigh;  ///< ln p(readings | sample)
+  /// How well samples explain the readings, as fitOf() returns.
+  std::function<double(const SampleSet&)> fit;
 };
 
-/// One account of where the robot is, as weighted samples. The belief is one; others are followed
-/// beside it: around the estimate and elsewhere while readings fit badly (Rivals), and one for each
-/// delay that may have begun (Lateness). They differ in what moves them, and in how long they must
-/// lead before they take over; readings weigh them all alike. Not thread-safe.
+/// One hypothesis of where the robot is, as weighted samples. The belief is one; alternatives are
+/// tracked beside it: around the estimate and elsewhere while readings fit badly (Rivals), and one
+/// for each delay that may have begun (Lateness). They differ in how they are moved, and in how
+/// long they must lead before they take over; readings weigh all of them in the same way. Not
+/// thread-safe.
 class ORTUNG_API Hypothesis {
  public:
-  /// What a moment's readings say of each sample, before it is taken in.
+  /// Likelihoods of one time step's readings, before the samples are weighed by them.
   struct Said {
     std::vector<double> before;  ///< weights so far, sum 1
     std::vector<float> logs;     ///< ln p(readings | sample)
     double logEvidence = 0.0;    ///< ln p(readings | hypothesis)
-    /// The same of a part of the samples alone.
+    /// Returns ln p(readings) for a part of the samples alone.
     double logEvidenceOf(std::size_t first, std::size_t count) const;
   };
-  /// How readings come in that are far sharper than the hypothesis: by degrees, while its samples
-  /// climb.
+  /// How readings that are far sharper than the hypothesis are annealed: they weigh gradually more,
+  /// while the samples climb by Metropolis steps.
   struct Climb {
-    std::size_t from;        ///< samples that begin, drawn by their weights so far
-    std::size_t to;          ///< samples that arrive
-    Random offset;           ///< random numbers that draw those that begin
-    Random random;           ///< random numbers of the climb
-    bool isOfBelief = true;  ///< each stays within its own surroundings; else it may go anywhere
+    std::size_t from;  ///< initial number of samples, drawn by their weights so far
+    std::size_t to;    ///< final number of samples
+    Random offset;     ///< random numbers by which the initial samples are drawn
+    Random random;     ///< random numbers of the Metropolis steps
+    /// Whether the belief is the prior of the steps; otherwise it is uniform.
+    bool isOfBelief = true;
   };
 
   explicit Hypothesis(SampleSet samples = {}) : samples_(std::move(samples)) {}
 
   const SampleSet& samples() const { return samples_; }
-  /// Other samples for the same hypothesis: its lead stays.
+  /// Replaces the samples of the same hypothesis: its lead stays.
   void setSamples(SampleSet samples) { samples_ = std::move(samples); }
-  /// Adds samples that have @p share of all weight from then on. @pre 0 < share < 1
+  /// Adds samples, which then have @p share of the total weight. @pre 0 < share < 1
   void add(const SampleSet& fresh, double share);
-  /// Keeps the first @p n. @pre n <= size()
+  /// Keeps the first @p n samples. @pre n <= size()
   void keepFirst(std::size_t n) { samples_.resize(n); }
-  /// Weights matter up to a common factor only: makes the largest 1, so that numbers stay small.
+  /// Scales the weights so that the largest is 1, to keep the numbers small; only their ratios
+  /// matter.
   void scaleWeights();
-  /// Weights, sum 1. @param workers borrowed, may be null, here and below
+  /// Returns the weights, with sum 1. @param workers borrowed, may be null, here and below
   std::vector<double> weights(Workers* workers = nullptr) const;
 
-  /// Moves all samples (eq. 8). @param number of the noise of the first one
-  /// @param moveSome as MotionModel::sampleMotion: some samples, and the number of their first
+  /// Moves all samples (eq. 8).
+  /// @param number number of the first sample's random numbers in their stream
+  /// @param moveSome moves some samples, as MotionModel::sampleMotion: (samples, number of their
+  ///   first)
   template <class MoveSome>
   void move(std::size_t number, const MoveSome& moveSome, Workers* workers = nullptr);
 
   Said ask(const Evidence& evidence, Workers* workers = nullptr) const;
-  /// Takes in what the readings have said (eq. 7). @param below effective samples: if fewer are
-  /// left, none is at the top of the hill, and they climb @param climb how; asked only then
+  /// Weighs the samples by the readings (eq. 7).
+  /// @param below effective sample size: if fewer are left, hardly any sample is near the peak of
+  ///   the likelihood, and the readings are annealed
+  /// @param climb returns how to anneal; called only then
   /// @returns the weights, sum 1
   std::vector<double> takeIn(const Said& said, const Evidence& evidence, const MclConfig& config,
                              double below, const std::function<Climb()>& climb,
                              Workers* workers = nullptr);
-  /// Both. @returns what was said
+  /// Calls ask() and takeIn(). @returns the likelihoods of ask()
   Said weigh(const Evidence& evidence, const MclConfig& config, double below,
              const std::function<Climb()>& climb, Workers* workers = nullptr);
 
-  /// Counts what readings say for it against the belief. They speak for it only where they fit as
-  /// they use to; against it always.
-  /// @param ratio of ln p(readings) here to that of the belief [nats]
-  /// @param part of the way at which readings are independent @returns whether it counted
+  /// Counts the evidence of readings for the hypothesis against the belief. They count in its
+  /// favour only if they fit as well as usual, and always against it.
+  /// @param ratio ln p(readings | hypothesis) - ln p(readings | belief) [nats]
+  /// @param part distance travelled as a share of that after which readings are independent
+  /// @param isUsual whether the readings fit as well as usual
+  /// @returns whether they counted
   bool count(double ratio, double part, bool isUsual);
   const Lead& lead() const { return lead_; }
   void forgetLead() { lead_ = {}; }
-  /// Readings on end that did not fit as they use to.
+  /// Returns the number of readings in a row that fitted worse than usual.
   int unusual() const { return unusual_; }
 
  private:

@@ -17,10 +17,10 @@ namespace {
 
 using namespace tuning::lateness;
 
-/// Number of their noise, which no other samples have.
+/// Number of their first random number; no other samples use these numbers.
 constexpr std::uint64_t kFirstNumber = 1ULL << 28;
 
-/// Ways and turns alike.
+/// Returns distance [m] plus turn [rad].
 double apart(const Pose2& a, const Pose2& b) {
   return distance(a, b) + std::abs(wrapAngle(a.theta - b.theta));
 }
@@ -33,14 +33,14 @@ Lateness::Odometry Lateness::odometryByDelay(Timestamp stamp) const {
   return odometry;
 }
 
-/// Where the robot is by each delay if it is at @p inForce by the one in force.
+/// Returns the pose by each delay if it is @p inForce by the delay in force.
 std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose2& inForce) const {
   std::array<Pose2, Delays::kCount> places;
   places.fill(inForce);
   const std::optional<Pose2> now = motion_.odometryAt(stamp);
   const std::optional<Pose2>& then = belief_.odometry[inForce_];
   if (!now || !belief_.before || !then) return places;
-  // From the place of the last reading on, the way is longer or shorter.
+  // With another delay the displacement since the last reading is longer or shorter.
   for (std::size_t i = 0; i < Delays::kCount; ++i)
     if (i != inForce_ && belief_.odometry[i] && probability(i) >= kNegligible) {
       const Pose2 place = inForce * inverse(*now) * *then * inverse(*belief_.odometry[i]) * *now;
@@ -50,7 +50,7 @@ std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose
 }
 
 bool Lateness::isSuspected(Timestamp stamp) const {
-  // A delay of one step is hardly one.
+  // A delay of one step is too small to be reported.
   if (inForce_ > 1 || std::any_of(belief_.jumps.begin(), belief_.jumps.end(), [](const Jump& jump) {
         return jump.hypothesis.lead().nats() > tuning::lead::kMostNatsOfAReading;
       }))
@@ -68,7 +68,7 @@ PoseEstimate Lateness::widened(const PoseEstimate& e, Timestamp stamp) const {
   const auto offOf = [](const Pose2& a, const Pose2& b) {
     return std::array{a.x - b.x, a.y - b.y, wrapAngle(a.theta - b.theta)};
   };
-  // While none is in force, stamps are taken at their word.
+  // While no delay is in force, the stamps are taken as they are, and the pose is not shifted.
   for (std::size_t i = 0; i < Delays::kCount && inForce_ > 0; ++i) {
     const auto off = offOf(places[i], e.pose);
     wide.pose.x += probability(i) * off[0];
@@ -83,7 +83,7 @@ PoseEstimate Lateness::widened(const PoseEstimate& e, Timestamp stamp) const {
   };
   for (std::size_t i = 0; i < Delays::kCount; ++i) {
     add(probability(i), offOf(places[i], wide.pose));
-    // A delay is anywhere within its step.
+    // The delay may be anywhere within its step.
     if (i > 0) add(0.25 * probability(i), offOf(places[i], places[i - 1]));
   }
   return wide;
@@ -108,7 +108,8 @@ std::optional<Pose2> Lateness::odometryAt(Timestamp stamp, std::size_t delay) co
 
 void Lateness::keep(const SampleSet& belief, std::span<const double> weights,
                     const PoseEstimate& estimate, Timestamp stamp) {
-  // Rises soon, not at once: a silence is not usual. Falls slowly.
+  // The usual gap rises quickly, but not at once, since one long silence is not usual; it falls
+  // slowly.
   const double gap = toSeconds(stamp - belief_.before.value_or(stamp));
   belief_.usualGap = belief_.usualGap > 0.0
                          ? std::clamp(gap, kGapKept * belief_.usualGap, kGapMore * belief_.usualGap)
@@ -122,7 +123,7 @@ void Lateness::keep(const SampleSet& belief, std::span<const double> weights,
       Anchor{stamp, estimate, taken(belief, lowVariance(weights, kSamples, 0.5)), belief_.odometry};
 }
 
-/// With the same noise for each delay, so that only what odometry says makes a difference.
+/// All delays have the same noise, so that they differ only by odometry.
 void Lateness::move(Hypothesis& hypothesis, const Pose2& change, const Moment& moment) const {
   hypothesis.move(kFirstNumber, [&](const MovableSamples& some, std::size_t first) {
     motion_.sampleMotion(some, change, config_.seed, moment.stream, first);
@@ -140,10 +141,10 @@ std::optional<Lateness::Change> Lateness::follow(const Moment& moment, const Rec
   return decide();
 }
 
-/// Which delay leads from the last place to this one.
+/// Updates the probabilities by which delay explains the motion from the last estimate to this one.
 void Lateness::compare(const Moment& moment) {
   const double seconds = toSeconds(moment.stamp - belief_.anchor->stamp);
-  // What odometry would have said before its first reading is not known.
+  // Odometry before its first reading is not known.
   const Timestamp longest = fromSeconds(Delays::secondsOf(Delays::kCount - 1));
   if (seconds < kPiece || !odometrySince_ || belief_.anchor->stamp - longest < *odometrySince_)
     return;
@@ -160,8 +161,8 @@ void Lateness::compare(const Moment& moment) {
   delays_.follow(predicted, inForce_, moment.estimate, seconds);
 }
 
-/// After it was moved to this reading.
-/// @returns what the reading says for it against the belief [nats]
+/// Weighs a hypothesis that was already moved to these readings.
+/// @returns the log-likelihood ratio of the readings against the belief [nats]
 double Lateness::weigh(Jump& jump, const Moment& moment, const Evidence& evidence) const {
   const auto climb = [&] {
     Random random = Random(config_.seed, moment.stream).fork(3 + jump.delay);
@@ -176,7 +177,7 @@ void Lateness::count(Jump& jump, double ratio, double part, bool isUsual) {
     jump.sharp += part * std::clamp(ratio, -kMostSharp, kMostSharp);
 }
 
-/// Where the robot is if another delay has begun since the last reading.
+/// Creates the hypotheses that another delay has begun since the last reading.
 void Lateness::begin(const Moment& moment, double gap, const Evidence& evidence) {
   const std::optional<Pose2> present = odometryAt(moment.stamp, inForce_);
   const std::optional<Pose2>& then = belief_.anchor->odometry[inForce_];
@@ -188,13 +189,14 @@ void Lateness::begin(const Moment& moment, double gap, const Evidence& evidence)
     if (apart(change, inverse(*then) * *present) < kPlacesApart) continue;
     Jump jump{i, Hypothesis(belief_.anchor->samples), *now};
     move(jump.hypothesis, change, moment);
-    // Where readings fit as they use to is asked once it has begun.
+    // Whether readings fit as well as usual is checked only from the next reading on.
     count(jump, weigh(jump, moment, evidence), 1.0, true);
     if (jump.hypothesis.lead().nats() > 0.0) belief_.jumps.push_back(std::move(jump));
   }
 }
 
-/// A delay that grows leaves a gap as long; after a longer silence odometry alone is to blame.
+/// Returns whether a delay may begin. A delay that grows leaves a gap of its growth; after a longer
+/// silence the errors of odometry explain the misfit.
 bool Lateness::mayBegin(std::size_t delay, double gap) const {
   const double grown = Delays::secondsOf(delay) - Delays::secondsOf(inForce_);
   return delay != inForce_ && grown <= gap &&
@@ -215,7 +217,7 @@ void Lateness::goOn(const Moment& moment, const Recovery& recovery, const Eviden
   });
 }
 
-/// Of those that lead by enough, the one that sharper readings speak for; null: none does.
+/// Returns, of those that lead by enough, the one with the greatest `sharp`; null: there is none.
 const Lateness::Jump* Lateness::leading() const {
   const Jump* leading = nullptr;
   for (const Jump& one : belief_.jumps) {
@@ -226,7 +228,7 @@ const Lateness::Jump* Lateness::leading() const {
   return leading;
 }
 
-/// The place changes with the delay.
+/// Puts the delay of a hypothesis in force, and returns its samples.
 Lateness::Change Lateness::jumpTo(const Jump& jump) {
   std::array<double, Delays::kCount> nats;
   nats.fill(-std::numeric_limits<double>::infinity());

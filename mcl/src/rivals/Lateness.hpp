@@ -20,68 +20,73 @@
 
 namespace ortung {
 
-/// By how much the stamps of all readings are late against odometry's: clocks that are apart, a
-/// driver that stamps what it has kept for long. A reading that is late by d is one of d before its
-/// stamp, so the belief that it weighs is of then, and odometry carries it on to now.
+/// Estimates the delay of all readings' stamps against odometry's. Its cause is clocks that are not
+/// synchronized, or a driver that stamps readings only after buffering them. A reading with delay d
+/// was taken d before its stamp, so it weighs the belief of that time, and odometry predicts the
+/// present estimate from there.
 ///
-/// - How probable each delay is comes from the motion between readings (Delays). The most probable
-///   one is in force; what is open is part of every estimate.
-/// - At a moment when the delay changes, the place changes with it: the belief's samples moved by
-///   the way between the old delay's time and the new one's are followed beside the belief, as
-///   rivals are. Readings are taken one after the other, so a delay that has grown leaves a gap.
+/// - The probability of each delay follows from the motion between readings (Delays). The most
+///   probable one is in force; the uncertainty of the delay is part of every estimate.
+/// - When the delay changes, the pose at the readings changes with it: the belief's samples, moved
+///   by odometry from the old delay's time to the new one's, are tracked as hypotheses beside the
+///   belief. Readings are taken in order, so a delay that has grown leaves a gap between them.
+///
 /// Not thread-safe.
 class ORTUNG_API Lateness {
  public:
-  /// A reading's moment, as the belief met it.
+  /// A time step's readings, and how they fit the belief.
   struct Moment {
     Timestamp stamp = 0;
     double logEvidence = 0.0;  ///< ln p(readings | belief)
-    bool isDoubtful = false;   ///< the belief did not fit
-    PoseEstimate estimate;     ///< now that they have weighed it
+    bool isDoubtful = false;   ///< whether the belief does not fit them
+    PoseEstimate estimate;     ///< estimate after they were weighed
     std::uint64_t stream = 0;  ///< stream of random numbers
   };
-  /// Another delay is in force from now on.
+  /// A change of the delay in force.
   struct Change {
-    /// Take the belief's place. Nothing: it stays, though it is of another time.
+    /// Samples that replace the belief. Nothing: the belief stays, though it is for another time.
     std::optional<SampleSet> samples;
   };
 
-  /// All borrowed.
+  /// All arguments are borrowed.
   Lateness(const MclConfig& config, const MotionModel& motion) : config_(config), motion_(motion) {}
 
-  /// The delay in force [s].
+  /// Returns the delay in force [s].
   double seconds() const { return Delays::secondsOf(inForce_); }
   double probability(std::size_t delay) const { return delays_.probability(delay); }
-  /// Whether a delay of more than a step is in force, one may have just begun, or the place at @p
-  /// stamp would be another one for delays that can't be left out.
+  /// Returns whether a delay of more than one step is in force, a change of the delay is probable,
+  /// or the pose at @p stamp would be another one for delays that are too probable to be left out.
   bool isSuspected(Timestamp stamp) const;
-  /// Adds what is open of the delay to an estimate for @p stamp, made with the one in force.
+  /// Adds the uncertainty of the delay to an estimate for @p stamp that was made with the one in
+  /// force.
   PoseEstimate widened(const PoseEstimate& e, Timestamp stamp) const;
-  /// What stands in odometry for where the robot was at a reading with this stamp.
+  /// Returns odometry's pose at the time when a reading with this stamp was taken.
   std::optional<Pose2> odometryAt(Timestamp stamp) const { return odometryAt(stamp, inForce_); }
-  /// There is odometry of this time.
+  /// Records that there is odometry of this time.
   void hear(Timestamp odometry);
-  /// Time begins anew.
+  /// Forgets everything, as the clock was set or the log began anew.
   void forgetAll();
-  /// Of another belief: the delay stays, for that is of the devices.
+  /// Forgets what belongs to the belief. The delay stays, since it belongs to the devices.
   void forget();
-  /// Takes the belief that a reading has weighed. @param weights sum 1
-  /// @param estimate of it
+  /// Takes the belief after it was weighed. @param weights weights with sum 1
+  /// @param estimate estimate of the belief
   void keep(const SampleSet& belief, std::span<const double> weights, const PoseEstimate& estimate,
             Timestamp stamp);
-  /// @param recovery, evidence of the moment's readings
+  /// Follows the delay by one time step's readings. @returns the change of the delay in force, if
+  ///   any
+  /// @param recovery, evidence of the same readings
   std::optional<Change> follow(const Moment& moment, const Recovery& recovery,
                                const Evidence& evidence);
 
  private:
-  /// Another delay, followed since it may have begun.
+  /// The hypothesis that another delay has begun.
   struct Jump {
     std::size_t delay;
     Hypothesis hypothesis;
     Pose2 odometry;
-    double sharp = 0.0;  ///< its lead as a reading counts that is sharper [nats]
+    double sharp = 0.0;  ///< its lead with a higher bound per reading [nats]
   };
-  /// Odometry by delay.
+  /// Odometry's pose for each delay.
   using Odometry = std::array<std::optional<Pose2>, Delays::kCount>;
   struct Anchor {
     Timestamp stamp;
@@ -89,7 +94,7 @@ class ORTUNG_API Lateness {
     SampleSet samples;
     Odometry odometry;
   };
-  /// What belongs to a belief, and is made anew with it.
+  /// What belongs to one belief, and is reset for another one.
   struct OfBelief {
     std::optional<Timestamp> before;  ///< stamp of the last reading
     Odometry odometry;                ///< odometry at that time

@@ -13,7 +13,8 @@ namespace {
 
 using namespace tuning::recovery;
 
-/// Some samples, by their weights; the last one is nowhere: it gets a feature's floor.
+/// Draws some samples by their weights. The last one is NaN, a pose outside of the map, whose
+/// likelihood is the floor of the sensor model.
 SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights, Workers* workers) {
   SampleSet witnesses;
   witnesses.resize(kWitnesses + 1);
@@ -59,7 +60,7 @@ void Recovery::follow(double fit, bool stands) {
   known_ = true;
   now_ = fit;
   fast_ += rateFast_ * (fit - fast_);
-  // What is usual changes slowly, and a bad time is not soon taken for it.
+  // The long-term average changes slowly, and even more slowly while the fit is low.
   const double rate = fit < kFallenFit * slow_ ? kRateWhileFallen * rateSlow_ : rateSlow_;
   slow_ += rate * (fit - slow_);
 }
@@ -77,8 +78,8 @@ void Recovery::followBest(double fit) {
   last_ = fit;
   lately_ += rateFast_ * (fit - lately_);
   unusual_ = isUsual(fit) ? 0 : unusual_ + 1;
-  // A crowd that stays with the robot must not become what is usual: then places would do that look
-  // a little like it.
+  // The fit in a crowd that stays around the robot must not become usual, since then places that
+  // fit only a little would be accepted.
   *best_ += (fit < *best_ ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
 }
 

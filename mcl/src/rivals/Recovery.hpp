@@ -12,45 +12,49 @@ namespace ortung {
 
 class Workers;
 
-/// How well a belief explains readings: 1 perfectly, 0 no better than nowhere; nothing if none of
-/// them tells any pose from nowhere. Every reading has one voice: a scan of many beams must not
-/// drown the landmarks that contradict it.
-/// @param weights of the samples, sum 1
+/// Returns how well a belief explains readings: 1 perfectly, 0 no better than a pose outside of the
+/// map; nothing if no reading can distinguish a pose from that. Every reading has the same weight:
+/// a scan of many beams must not outvote the landmarks that contradict it.
+/// @param weights weights of the samples, with sum 1
 ORTUNG_API std::optional<double> fitOf(std::span<const Weigher* const> readings,
                                        const SampleSet& samples, std::span<const double> weights,
                                        Workers* workers = nullptr);
 
-/// Says how well the belief fares, from how well it explains readings: as the fit falls behind its
-/// own past (as Thrun, Burgard, Fox, table 8.3, with a fit in place of a likelihood, which has no
-/// scale), or is poor in itself. Not thread-safe.
+/// Detects localization failures from how well the belief explains readings: if the short-term
+/// average of the fit falls below the long-term one (as Thrun, Burgard, Fox, table 8.3, but with a
+/// fit in [0, 1] in place of the likelihood, which has no scale), or if the fit is poor in itself.
+/// Not thread-safe.
 class ORTUNG_API Recovery {
  public:
   explicit Recovery(const MclConfig& config);
-  /// @param fit of one moment's readings where they are expected, in [0, 1]
-  /// @param stands odometry has said so since the readings before
+  /// Takes the fit of one time step's readings.
+  /// @param fit fit of the readings with the predicted belief, in [0, 1]
+  /// @param stands whether the robot has been stationary by odometry since the readings before
   void follow(double fit, bool stands = false);
-  /// Of another belief: how well readings fit where they fit best stays known, for that is of the
-  /// sensors and the map.
+  /// Forgets the averages, for another belief. The usual best fit stays known, since it belongs to
+  /// the sensors and the map.
   void beginAnew() {
     known_ = false;
     unusual_ = 0;
   }
-  /// Whether the newest readings fit worse than usual: the robot may have left the track.
-  /// Where odometry that stands has long been wrong, what is expected is always poor; then it
-  /// counts that they fit nowhere in the belief.
+  /// Returns whether the newest readings fit worse than usual, so the robot may not be where the
+  /// belief is. If odometry has said for long that a moving robot is stationary, the predicted
+  /// belief always fits badly; then it counts whether the readings fit anywhere in the belief.
   bool isDoubtful() const;
-  /// Whether the fit has fallen for some time: it may be anywhere.
+  /// Returns whether the fit has been low for some time, so the robot may be anywhere.
   bool callsForSearch() const;
   bool hasRecovered() const;
-  /// The newest best fit, and the average of the last ones, as shares of what is usual.
+  /// Return the newest best fit, and the short-term average of best fits, as shares of the usual
+  /// one.
   double fitOfUsual() const { return best_ ? last_ / *best_ : 1.0; }
   double fitOfUsualLately() const { return best_ ? lately_ / *best_ : 1.0; }
-  /// Number of readings in a row that fitted worse than usual.
+  /// Returns the number of readings in a row that fitted worse than usual.
   int unusual() const { return unusual_; }
-  /// @param fit of the same moment's readings where they fit the belief best: with the weights that
-  ///   they have given it. How wide a belief has become on a long way does not matter then.
+  /// Takes the best fit of the same readings.
+  /// @param fit fit with the posterior belief, i.e. with the weights that the readings have given
+  ///   it. So it does not matter how wide the belief has become over a long distance.
   void followBest(double fit);
-  /// Whether readings that fit so well where they fit best fit as they use to.
+  /// Returns whether a best fit is about as good as usual.
   bool isUsual(double best) const;
 
  private:
@@ -61,10 +65,11 @@ class ORTUNG_API Recovery {
   bool stands_ = false;
   double fast_ = 0.0;
   double slow_ = 0.0;
-  int unusual_ = 0;             ///< number of readings in a row that fitted worse than usual
-  double last_ = 0.0;           ///< newest best fit
-  double lately_ = 0.0;         ///< its short-term average
-  std::optional<double> best_;  ///< usual best fit: most are no better
+  int unusual_ = 0;      ///< number of readings in a row that fitted worse than usual
+  double last_ = 0.0;    ///< newest best fit
+  double lately_ = 0.0;  ///< its short-term average
+  /// Usual best fit: a slow average that falls more slowly than it rises.
+  std::optional<double> best_;
   bool known_ = false;
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 using namespace tuning;
 
-/// Mean of samples, and by how much they are apart: metres and radians alike.
+/// Mean of samples, and their standard deviation in metres and radians together.
 struct Centre {
   Pose2 pose;
   double open = 0.0;
@@ -46,7 +46,7 @@ Centre centreOf(const SampleSet& set) {
   return centre;
 }
 
-/// Whether a rival is where the belief is, so that it is none.
+/// Returns whether a hypothesis is at the same place as the belief, so that it is no alternative.
 bool isSame(const Pose2& rival, const Pose2& belief) {
   return distance(rival, belief) < hypothesis::kSamePlace &&
          std::abs(wrapAngle(rival.theta - belief.theta)) < hypothesis::kSameTurn;
@@ -80,7 +80,8 @@ std::optional<Rivals::Takeover> Rivals::follow(const Moment& moment, const Recov
   return lookElsewhere(moment, recovery, evidence);
 }
 
-/// The reading that they are drawn from has chosen them, so it does not count for them.
+/// Draws a hypothesis around the estimate. The readings by which it is drawn do not count as
+/// evidence for it.
 void Rivals::drawAround(const Moment& moment, const Evidence& evidence) {
   const double seconds = toSeconds(moment.stamp - *doubtSince_);
   const PoseSearch::Ring ring{
@@ -103,7 +104,7 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
     around_.reset();
     return std::nullopt;
   }
-  // Since now, too, if the clock was set back meanwhile.
+  // The minimum is for clocks that were set back meanwhile.
   doubtSince_ = std::min(doubtSince_.value_or(moment.stamp), moment.stamp);
   if (!around_) {
     drawAround(moment, evidence);
@@ -126,7 +127,7 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   return std::nullopt;
 }
 
-/// Half of them follow odometry and half go anywhere near; then both climb.
+/// Half of the samples follow odometry and half spread by process noise; then both are annealed.
 /// @returns what the readings say for them against the belief [nats]
 double Rivals::weighAround(const Moment& moment, const Evidence& evidence) {
   Around& rival = *around_;
@@ -148,14 +149,15 @@ double Rivals::weighAround(const Moment& moment, const Evidence& evidence) {
   return said.logEvidenceOf(0, all) - moment.logEvidence;
 }
 
-/// The way is what odometry says of it, or the readings beyond what they leave open.
+/// Returns the distance travelled: by odometry, or by the readings beyond their uncertainty.
 double Rivals::wayAround(const Moment& moment) {
   Around& rival = *around_;
   const Centre centre = centreOf(rival.anchor);
   const double seen = distance(rival.centre, centre.pose) +
                       std::abs(wrapAngle(centre.pose.theta - rival.centre.theta)) - rival.open -
                       centre.open;
-  // By the readings alone, a slow robot comes far enough in some of them.
+  // By readings alone, a slow robot needs several of them to travel far enough, so the centre is
+  // kept.
   if (moment.way < trust::kStationary && seen < trust::kIndependent) return 0.0;
   rival.centre = centre.pose;
   rival.open = centre.open;
@@ -200,7 +202,7 @@ double Rivals::weighElsewhere(const Moment& moment, const Evidence& evidence) {
          moment.logEvidence;
 }
 
-/// Begins to search the field, if readings call for that, and goes on.
+/// Begins a search of the field, if the fit of the readings calls for it, and continues it.
 void Rivals::search(const Moment& moment, const Recovery& recovery) {
   if (!searching_ && recovery.callsForSearch()) {
     FieldSearch::Settings settings;
@@ -213,7 +215,8 @@ void Rivals::search(const Moment& moment, const Recovery& recovery) {
   if (searching_->job.isDone()) drawElsewhere(moment);
 }
 
-/// The reading that was searched for has chosen its places, so it does not count for them.
+/// Draws a hypothesis around the places found. The readings of the search do not count as evidence
+/// for it.
 void Rivals::drawElsewhere(const Moment& moment) {
   std::vector<PoseSearch::Ring> rings;
   const auto places = searching_->job.places();
@@ -240,7 +243,7 @@ SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Mo
       .samples;
 }
 
-/// From the moment that was searched for to now.
+/// Moves a hypothesis from the time of the search's readings to the present one.
 void Rivals::carryOn(Hypothesis& found, const Moment& then, const Moment& now) const {
   found.move(0, [&](const MovableSamples& some, std::size_t first) {
     if (then.odometry && now.odometry)

@@ -22,22 +22,24 @@
 
 namespace ortung {
 
-/// Places that compete with the belief while readings fit it badly. They are followed beside it,
-/// and take its place only when they explain several readings on some way better by far: the peaks
-/// of one reading's likelihood would compete as if the past said nothing, and carry a robot away
-/// that tracks well (people before the scanner, furniture that the map lacks).
+/// Alternative hypotheses of the place, tracked beside the belief while readings fit it badly. They
+/// take over only once they explain several readings over some distance travelled far better than
+/// the belief. To add samples at the peaks of a single reading's likelihood, as sensor resetting
+/// does, would ignore the past and lose a robot that is tracked well (people in front of the
+/// scanner, furniture that is not in the map).
 ///
-/// - Around the estimate, drawn from a ring that grows with time: wheels that slip or lie, pushes.
-///   Half of them follow odometry, the other half goes anywhere near.
-/// - Elsewhere: where a search of the whole field finds that one reading fits, moved by odometry.
-///   The search may take several updates.
+/// - Around the estimate, drawn from a ring that grows with time: for wheels that slip, wrong
+///   odometry, and pushes. Half of the samples follow odometry, the other half spreads by process
+///   noise.
+/// - Elsewhere, drawn around the places where a search of the whole field finds that one time
+///   step's readings fit, and moved by odometry. The search may take several updates.
 ///
-/// Both are drawn from one reading, and weighed by all later ones, as the belief is. A reading
-/// speaks for them only where it fits as readings use to fit: in a crowd it fits nowhere.
-/// Not thread-safe.
+/// Both are drawn by one time step's readings, and weighed by all later ones, as the belief is. A
+/// reading counts in their favour only if it fits as well as usual: in a crowd it fits nowhere. Not
+/// thread-safe.
 class ORTUNG_API Rivals {
  public:
-  /// A reading's moment.
+  /// A time step's readings, and what the belief predicts.
   struct Moment {
     Timestamp stamp = 0;
     Pose2 predicted;           ///< pose at which the belief expects the robot
@@ -48,14 +50,14 @@ class ORTUNG_API Rivals {
     std::optional<Pose2> odometry = {};
     std::vector<std::shared_ptr<const Weigher>> readings = {};
   };
-  /// Samples that take this share of the belief from now on.
+  /// Samples that take this share of the belief.
   struct Takeover {
     SampleSet samples;
     double share;
     bool trustsOdometry;
   };
 
-  /// All borrowed.
+  /// All arguments are borrowed.
   Rivals(const MclConfig& config, const FieldRegion& region, const PoseSearch& search,
          const MotionModel& motion, const UpdateTime& time, Workers& workers)
       : config_(config),
@@ -67,23 +69,25 @@ class ORTUNG_API Rivals {
 
   void forget();
   bool isIdle() const { return !doubtSince_ && !elsewhere_ && !searching_; }
-  /// Of the one that is ahead of the belief, or 0 [nats].
+  /// Returns the greatest lead of a hypothesis over the belief, at least 0 [nats].
   double lead() const;
-  /// Those to be moved as the belief is, at most two; null: not there.
+  /// Returns the hypotheses that are to be moved as the belief is, at most two; null: there is
+  /// none.
   std::array<Hypothesis*, 2> hypotheses();
   bool isSearching() const { return searching_ && !searching_->job.isDone(); }
-  /// Goes on with a search, though there is no reading.
+  /// Continues a search without new readings.
   void searchOn();
-  /// Weighs them. @param recovery, evidence of the same moment @returns the one that leads by far
+  /// Weighs the hypotheses. @param recovery, evidence of the same readings @returns the one that
+  /// takes over, if any
   std::optional<Takeover> follow(const Moment& moment, const Recovery& recovery,
                                  const Evidence& evidence);
 
  private:
   struct Around {
-    Hypothesis hypothesis;  ///< moved by odometry since the last reading
+    Hypothesis hypothesis;  ///< samples, moved by odometry since the last reading
     SampleSet anchor;       ///< its samples as they were then
     Pose2 centre;
-    double open = 0.0;  ///< standard deviation, of metres and radians together
+    double open = 0.0;  ///< standard deviation of metres and radians together
     Timestamp stamp = 0;
     OdometryTrust trust = {};
   };
@@ -92,7 +96,7 @@ class ORTUNG_API Rivals {
     double way = 0.0;
     int readings = 0;
   };
-  /// A search of the field, as of the moment of its readings.
+  /// A search of the field, for the time of its readings.
   struct Searching {
     FieldSearch job;
     Moment moment;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace tuning::annealing;
 
-constexpr std::size_t kSteps = 2;  ///< of Metropolis: coarse, then fine
+constexpr std::size_t kSteps = 2;  ///< Metropolis steps at each exponent: coarse, then fine
 
 std::vector<float> taken(const std::vector<float>& from,
                          const std::vector<std::uint32_t>& indices) {
@@ -31,7 +31,7 @@ std::vector<float> scaled(const std::vector<float>& values, double factor) {
   return products;
 }
 
-/// temperFor(), by every so manieth of very many.
+/// Returns what temperFor() does, from a regular subset if there are very many weights.
 double temperOf(const std::vector<float>& logWeights, double least) {
   const std::size_t stride = (logWeights.size() + kMostTempered - 1) / kMostTempered;
   if (stride <= 1) return temperFor(logWeights, least);
@@ -51,7 +51,8 @@ Annealing::Annealing(Weigh weigh, const PoseCovariance& covariance, std::size_t 
   const double h =
       std::pow(4.0 / (5.0 * static_cast<double>(std::max<std::size_t>(samples, 1))), 1.0 / 7.0);
   const Eigen::Map<const Eigen::Matrix3d> whole(covariance.data());
-  // A wide belief is no Gaussian, but bent around what was seen: its parts are smaller than it.
+  // A wide belief is not Gaussian, but often bent (around a landmark, for instance), so its kernels
+  // must be smaller than Silverman's rule says.
   const double shrunk =
       std::min({1.0, kMostMetres / (h * std::sqrt(std::max(whole(0, 0), whole(1, 1)))),
                 kMostRadians / (h * std::sqrt(whole(2, 2)))});
@@ -87,7 +88,7 @@ std::size_t Annealing::Draw::work(std::size_t most) {
   const std::size_t first = fit_.size();
   const std::size_t count = std::min(weighing_.size() - first, most);
   const bool isWhole = count == weighing_.size();
-  std::vector<float> some;  // where a plugin throws, nothing has happened
+  std::vector<float> some;  // a local copy: if a plugin throws, nothing has changed
   annealing_.weigh_(isWhole ? weighing_ : weighing_.part(first, count), some);
   if (isWhole)
     fit_ = std::move(some);
@@ -97,7 +98,8 @@ std::size_t Annealing::Draw::work(std::size_t most) {
   return count;
 }
 
-/// Once all of a pass are weighed: the first one's poses are drawn from, later ones are steps.
+/// Continues once all poses of a pass are weighed: the first pass weighs the initial samples, each
+/// later one the proposals of a Metropolis step.
 void Annealing::Draw::endPass() {
   if (rises_ == 0) {
     climbing_ = {std::move(weighing_), {}, std::move(fit_)};
@@ -149,7 +151,7 @@ double Annealing::logPriorOf(const Climbing& some, std::size_t i, float x, float
   return -0.5 * off.dot(Eigen::Map<const Eigen::Matrix3d>(precision_.data()) * off);
 }
 
-/// Where each of a set would step to.
+/// Returns the proposals of a Metropolis step for a set of samples.
 SampleSet Annealing::proposed(const SampleSet& set, std::size_t step, Random& random) const {
   const double metres = std::min(step == 0 ? kCoarseMetres : kFineMetres, mostMetres_);
   const double radians = std::min(step == 0 ? kCoarseRadians : kFineRadians, mostRadians_);
@@ -163,7 +165,7 @@ SampleSet Annealing::proposed(const SampleSet& set, std::size_t step, Random& ra
   return proposed;
 }
 
-/// Metropolis: the invariant distribution is p^exponent times what is known before.
+/// The acceptance of Metropolis: the invariant distribution is p^exponent times the prior.
 void Annealing::accept(Climbing& some, const SampleSet& proposed,
                        std::span<const float> proposedFit, double exponent, Random& random) const {
   SampleSet& set = some.set;

@@ -15,35 +15,39 @@
 namespace ortung {
 
 /// Annealed importance sampling (Neal 2001; Del Moral, Doucet, Jasra 2006): poses are weighed by
-/// p^b with a small b, then b rises to 1 while Metropolis steps let every pose climb to the top of
-/// its hill. So a sharp reading is found with few candidates, and the mean of p over all that was
-/// drawn from is estimated on the way. Not thread-safe.
+/// p^b with a small exponent b, which then rises to 1 while Metropolis steps move each pose towards
+/// the nearest peak of the likelihood. So the peak of a sharp likelihood is found with few
+/// candidates, and the mean of p over the initial distribution (the evidence) is estimated as well.
+/// Not thread-safe.
 class ORTUNG_API Annealing {
  public:
-  /// ln p(s|l) of all samples of a set.
+  /// Computes ln p(s|l) of all samples of a set.
   using Weigh = std::function<void(const SampleSet&, std::vector<float>&)>;
-  /// Whether a climbing pose may go there.
+  /// Returns whether a Metropolis step may lead to this pose.
   using Within = std::function<bool(float x, float y, float theta)>;
   struct Drawn {
-    SampleSet samples;   ///< poses; the rest of ln p beyond the last b is their `logWeight`
-    double logEvidence;  ///< ln of the mean of p over all poses that were drawn from
+    SampleSet samples;   ///< poses; `logWeight` is the part of ln p beyond the last b
+    double logEvidence;  ///< ln of the mean of p over the initial distribution
   };
 
-  /// Of poses that are spread evenly. @param within null: everywhere
+  /// Anneals from a uniform distribution of poses. @param within null: all poses are permitted
   Annealing(Weigh weigh, Within within);
-  /// Of a belief: each of its samples stands for its surroundings (Silverman 1986), a Gaussian with
-  /// the covariance of the whole, made smaller. So climbing does not forget what was known.
-  /// @param covariance of the belief's heaviest cluster
+  /// Anneals from a belief: each of its samples represents a kernel (Silverman 1986), a Gaussian
+  /// whose covariance is that of the whole belief, scaled down. It is the prior of the Metropolis
+  /// steps, so they do not forget what was known.
+  /// @param covariance covariance of the belief's heaviest cluster, row-major, [m] and [rad]
+  /// @param samples number of samples of the belief
   Annealing(Weigh weigh, const PoseCovariance& covariance, std::size_t samples);
 
   class Draw;
-  /// @p n poses by what @p from stands for times p(s|l). @param from its weights are not looked at
+  /// Draws @p n poses from the initial distribution times p(s|l).
+  /// @param from samples of the initial distribution; their weights are not used
   Drawn draw(SampleSet from, std::size_t n, const Random& random) const;
 
  private:
   struct Climbing {
     SampleSet set;
-    SampleSet origins;  ///< poses where the samples of a belief began
+    SampleSet origins;  ///< poses from which the samples of a belief began
     std::vector<float> fit;
   };
   double logPriorOf(const Climbing& some, std::size_t i, float x, float y, float theta) const;
@@ -54,18 +58,20 @@ class ORTUNG_API Annealing {
   Weigh weigh_;
   Within within_;
   bool isOfBelief_ = false;
-  std::array<double, 9> precision_{};  ///< inverse covariance of a sample's surroundings, row-major
-  double mostMetres_ = 1.0;            ///< greatest sigma of a step [m]
+  std::array<double, 9> precision_{};  ///< inverse covariance of a sample's kernel, row-major
+  double mostMetres_ = 1.0;            ///< greatest sigma of a Metropolis step [m]
   double mostRadians_ = 1.0;
 };
 
-/// A drawing that may be spread over time: what is drawn does not depend on how much is done at a
-/// time. Not thread-safe.
+/// Annealing that may be spread over several calls. The result does not depend on how much is done
+/// in each call. Not thread-safe.
 class ORTUNG_API Annealing::Draw {
  public:
   Draw(Annealing annealing, SampleSet from, std::size_t n, const Random& random);
 
-  /// Weighs the next poses. @param most at least 1 @returns how many it were; 0: it is done
+  /// Weighs the next poses.
+  /// @param most greatest number of poses to weigh, at least 1
+  /// @returns how many were weighed; 0: the annealing is done
   std::size_t work(std::size_t most);
   bool isDone() const { return isDone_; }
   /// @pre isDone()
@@ -80,11 +86,11 @@ class ORTUNG_API Annealing::Draw {
   std::size_t n_;
   Random random_;
   Random offsets_;
-  Random climb_;  ///< random numbers of the present rise
+  Random climb_;  ///< random numbers of the Metropolis steps at the present exponent
   Climbing climbing_;
-  SampleSet weighing_;      ///< poses that are drawn from at first, later those that are proposed
+  SampleSet weighing_;      ///< at first the initial samples, later the proposed poses
   std::vector<float> fit_;  ///< ln p of the first poses of weighing_
-  std::size_t step_ = 0;    ///< number of the present climb's step
+  std::size_t step_ = 0;    ///< number of the Metropolis step at the present exponent
   int rises_ = 0;
   double exponent_ = 0.0;
   double logEvidence_ = 0.0;

@@ -19,12 +19,13 @@ namespace {
 
 using namespace tuning::field;
 
-/// Bound of |ln p| of one moment's readings, whatever plugins return.
+/// Bound of |ln p| of one time step's readings, whatever plugins return.
 constexpr float kMostNats = 1e4F;
 constexpr float kNowhere = -std::numeric_limits<float>::infinity();
 constexpr std::size_t kBatch = 8 * kChunk;
-constexpr std::size_t kParts = 8;       ///< parts that a pose is divided into
-constexpr std::size_t kNeighbours = 7;  ///< a climb's choices, where it is among them
+constexpr std::size_t kParts = 8;  ///< parts that a pose is divided into
+/// Candidates of a climbing step: the pose and 6 neighbours.
+constexpr std::size_t kNeighbours = 7;
 
 void require(bool holds, const char* what, double value) {
   if (!holds)
@@ -49,8 +50,8 @@ FieldSearch::FieldSearch(const FieldRegion& region, const Settings& settings)
   makeCover();
 }
 
-/// Square blocks of cells, each with that of its standable cells which is nearest to its centre: so
-/// narrow places are covered, too.
+/// Divides the floor into square blocks of cells, and takes from each the standable cell nearest to
+/// its centre, so that narrow places are covered, too.
 void FieldSearch::makeCover() {
   const FieldGrid& grid = region_.grid;
   const int edge = std::max(1, static_cast<int>(std::lround(settings_.spacing / grid.cell)));
@@ -117,7 +118,7 @@ std::size_t FieldSearch::posesInStage() const {
 }
 
 Pose2 FieldSearch::poseAt(std::size_t number) const {
-  if (stage_ == Stage::kCover) {  // headings of one cell follow each other: it is in the cache then
+  if (stage_ == Stage::kCover) {  // all headings of a cell in a row, while it is cached
     const auto headings = static_cast<std::size_t>(settings_.headings);
     const std::uint32_t cell = cover_[number / headings];
     return {region_.grid.centreX(cell), region_.grid.centreY(cell),
@@ -129,7 +130,7 @@ Pose2 FieldSearch::poseAt(std::size_t number) const {
     const std::size_t part = number % kParts;
     pose.x += (part & 1U) != 0 ? 0.5 * spacing_ : -0.5 * spacing_;
     pose.y += (part & 2U) != 0 ? 0.5 * spacing_ : -0.5 * spacing_;
-    if (!isStandable(pose)) pose = parent;  // in narrow places headings are divided nevertheless
+    if (!isStandable(pose)) pose = parent;  // headings are divided in narrow places, too
     pose.theta += (part & 4U) != 0 ? 0.5 * turn_ : -0.5 * turn_;
     return pose;
   }
@@ -147,7 +148,7 @@ bool FieldSearch::isStandable(const Pose2& pose) const {
   return cell >= 0 && region_.standable[static_cast<std::size_t>(cell)] != 0;
 }
 
-/// The next poses of this stage.
+/// Weighs the next poses of this stage.
 void FieldSearch::weigh(std::size_t count) {
   batch_.resize(count);
   std::fill(batch_.logWeight.begin(), batch_.logWeight.end(), 0.0F);
@@ -200,7 +201,7 @@ void FieldSearch::keep(const Candidate& weighed) {
 
 std::size_t FieldSearch::crowd() const { return kCrowd * settings_.survivors; }
 
-/// Which poses are the best does not depend on when this is done.
+/// Removes the worst candidates. The result does not depend on when this is done.
 void FieldSearch::prune() {
   if (kept_.size() <= crowd()) return;
   const auto worst = kept_.begin() + static_cast<std::ptrdiff_t>(crowd()) - 1;
@@ -224,7 +225,7 @@ void FieldSearch::endStage() {
     beginClimb();
 }
 
-/// The best of those kept, best first, and of each place no more than some.
+/// Returns the best of those kept, best first, but only a limited number from each place.
 std::vector<FieldSearch::Candidate> FieldSearch::survivors() {
   std::sort(kept_.begin(), kept_.end(),
             [](const Candidate& a, const Candidate& b) { return a.isBetterThan(b); });
@@ -275,7 +276,8 @@ void FieldSearch::climbOn() {
   kept_.assign(parents_.size(), {{}, kNowhere, 0});
 }
 
-/// The best of those kept, none of which has a better one within both distances; best first.
+/// Returns the best of those kept, best first, without those that have a better one within both
+/// distances.
 std::vector<FieldSearch::Candidate> FieldSearch::apart(std::size_t most, double metres,
                                                        double radians) {
   std::sort(kept_.begin(), kept_.end(),
@@ -300,7 +302,7 @@ void FieldSearch::finish() {
     places_.push_back({{found.pose.x, found.pose.y, wrapAngle(found.pose.theta)},
                        static_cast<double>(found.logProbability)});
   stage_ = Stage::kDone;
-  sharp_.weighers.clear();  // tables may be large, and nobody needs them any more
+  sharp_.weighers.clear();  // tables may be large, and are not needed any more
   present_.weighers.clear();
 }
 

@@ -15,56 +15,61 @@ namespace ortung {
 
 class Workers;
 
-/// The best poses of one moment's readings out of all where the robot can stand, in all headings. A
-/// cover of the floor is weighed by blurred readings (BlurrableWeigher); the best of it are divided
-/// again and again, until the readings themselves tell their parts from each other; and the best of
-/// those, each of another place, climb to the top of their hills. No random numbers.
+/// Finds the most probable poses of one time step's readings among all positions where the robot
+/// can stand, in all headings. A coarse grid of poses is weighed by blurred readings
+/// (BlurrableWeigher); the best ones are divided repeatedly, until the readings themselves can
+/// distinguish their parts; and the best of those, from distinct places, climb to their local
+/// maxima. It uses no random numbers.
 ///
-/// A job that may be spread over time: begin(), then work() until it is done. What is found does
-/// not depend on how much is done at a time. It has a share in the readings' weighers, so it speaks
-/// of their moment, however long ago that is once it is done. Not thread-safe.
+/// It may be spread over several updates: begin(), then work() until it is done. The result does
+/// not depend on how much is done in each call. It shares ownership of the readings' weighers, so
+/// the result is for the time of those readings, however long ago that is once the search is done.
+/// Not thread-safe.
 class ORTUNG_API FieldSearch {
  public:
   struct Settings {
-    double spacing = 0.3;          ///< spacing of the cover's positions [m]; rounded to cells
-    int headings = 32;             ///< headings of the cover per turn, at least 1
+    double spacing = 0.3;          ///< spacing of the coarse grid's positions [m]; rounded to cells
+    int headings = 32;             ///< headings of the coarse grid per turn, at least 1
     std::size_t survivors = 2000;  ///< most poses that are divided, at least 1
-    std::size_t places = 50;       ///< most that are found, at least 1
+    std::size_t places = 50;       ///< greatest number of places that are found, at least 1
     double apartMetres = 0.5;      ///< least distance between two places [m]
-    double apartRadians = 0.35;    ///< least difference of headings [rad]: either is enough
-    Workers* workers = nullptr;    ///< borrowed; what is found does not depend on them
-    /// @throws std::invalid_argument for what makes no sense
+    double apartRadians = 0.35;    ///< least difference of headings [rad]: either makes two places
+    Workers* workers = nullptr;    ///< borrowed; the result does not depend on them
+    /// Checks the settings. @throws std::invalid_argument for values that make no sense
     void check() const;
   };
   struct Place {
     Pose2 pose;
-    double logProbability;  ///< ln p(s|l) of the readings as they are, in [-10,000, 10,000]
+    double logProbability;  ///< ln p(s|l) of the readings, not blurred, in [-10,000, 10,000]
   };
 
-  /// @param region borrowed; it may have nowhere to stand, then nothing is found
+  /// @param region borrowed; if the robot can stand nowhere in it, nothing is found
   FieldSearch(const FieldRegion& region, const Settings& settings);
 
-  /// Begins anew, and forgets what was found.
-  /// @param readings of one moment; without any, it is done and has found nothing
+  /// Begins a new search, and forgets the results of the last one.
+  /// @param readings readings of one time step; without any, the search is done and has found
+  ///   nothing
   void begin(std::vector<std::shared_ptr<const Weigher>> readings);
-  /// Weighs poses until they have taken so long by the weighers' nominal times; one at least. No
-  /// clock is asked: a replay does the same in each call. @returns isDone()
+  /// Weighs poses until they have taken this long [ms] by the weighers' nominal times; at least one
+  /// pose. No clock is read, so a replay does the same in each call. @returns isDone()
   bool work(double nominalMilliseconds);
   bool isDone() const { return stage_ == Stage::kDone; }
-  /// What whole searches take by these readings, at most [ms]; 0 before the first begin().
+  /// Returns the greatest nominal time of a whole search by these readings [ms]; 0 before the first
+  /// begin().
   double nominalMilliseconds() const;
-  /// What was done of it since begin(), by nominal times [ms].
+  /// Returns the nominal time of the work done since begin() [ms].
   double workedMilliseconds() const { return 1e-6 * worked_; }
-  /// Once it is done: best first, no two nearer than the settings say. A hill that is wider than
-  /// that is several places, so with a vague reading they may all be of one.
+  /// Returns the places found, once the search is done: best first, no two nearer than the settings
+  /// say. A peak that is wider than that gives several places, so with a vague reading all may be
+  /// of one peak.
   std::span<const Place> places() const { return places_; }
 
  private:
   enum class Stage : std::uint8_t { kCover, kDivide, kClimb, kDone };
-  /// Readings as a stage weighs them.
+  /// The readings, blurred for one stage of the search.
   struct Readings {
     std::vector<std::shared_ptr<const Weigher>> weighers;
-    double nanoseconds = 0.0;  ///< a pose
+    double nanoseconds = 0.0;  ///< time per pose [ns]
   };
   struct Candidate {
     Pose2 pose;
@@ -96,20 +101,20 @@ class ORTUNG_API FieldSearch {
   const FieldRegion& region_;
   Settings settings_;
   double spacingOfCover_ = 0.0;       ///< [m]
-  std::vector<std::uint32_t> cover_;  ///< cells
+  std::vector<std::uint32_t> cover_;  ///< cells of the coarse grid
   Readings sharp_;
   Stage stage_ = Stage::kDone;
   Readings present_;                 ///< readings as the present stage weighs them
-  double spacing_ = 0.0;             ///< spacing of the stage's poses [m]
+  double spacing_ = 0.0;             ///< spacing of the stage's positions [m]
   double turn_ = 0.0;                ///< [rad]
-  double nanosecondsOfCover_ = 0.0;  ///< a pose
-  double worked_ = 0.0;              ///< [ns]
+  double nanosecondsOfCover_ = 0.0;  ///< time per pose [ns]
+  double worked_ = 0.0;              ///< nominal time worked [ns]
   int climbs_ = 0;
-  std::vector<Candidate> parents_;  ///< parents of the stage's poses; none while it is the cover
-  std::size_t next_ = 0;            ///< number of the pose that comes next
-  SampleSet batch_;                 ///< weighed last; `logWeight` is ln p
-  std::vector<Candidate> kept_;     ///< the best of this stage so far, unordered, and some more
-  bool isPruned_ = false;  ///< whether kept_ was pruned: its last one is then the worst that counts
+  std::vector<Candidate> parents_;  ///< parents of the stage's poses; none in the first stage
+  std::size_t next_ = 0;            ///< number of the pose to weigh next
+  SampleSet batch_;                 ///< poses weighed last; `logWeight` is ln p
+  std::vector<Candidate> kept_;     ///< the best of this stage so far, and some more; unordered
+  bool isPruned_ = false;  ///< whether kept_ was pruned: then its last one is the worst to be kept
   std::vector<Place> places_;
 };
 

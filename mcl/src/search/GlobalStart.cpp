@@ -59,7 +59,9 @@ bool GlobalStart::work(double nominalMilliseconds) {
   return drawOn(*others_, left);
 }
 
-/// @param left of the time; what is used is taken off @returns whether it is done
+/// Continues a drawing.
+/// @param left nominal time that is left [ms]; the time used is subtracted
+/// @returns whether the drawing is done
 bool GlobalStart::drawOn(PoseSearch::Drawing& drawing, double& left) const {
   while (!drawing.draw.isDone()) {
     if (left <= 0.0) return false;
@@ -76,8 +78,8 @@ PoseSearch::Weigh GlobalStart::weigher() const {
   };
 }
 
-/// Places that fit worse than the best count as if by 4 nats at most: one reading does not decide,
-/// however sure its model is, since what is wrong with it is wrong with all of its parts.
+/// Returns a weigher by which a place is at most 4 nats worse than the best one. One reading must
+/// not decide, however certain its sensor model is, since errors within one reading are correlated.
 PoseSearch::Weigh GlobalStart::cautiousWeigher() const {
   std::vector<std::pair<PoseSearch::Ring, float>> raised;
   const std::span<const FieldSearch::Place> places = field_->places();
@@ -120,7 +122,7 @@ void GlobalStart::beginBeside() {
                                         Random(config_.seed, moment_->stream).fork(1)));
 }
 
-/// Of both, by what the readings say of all poses there.
+/// Mixes both sets by their evidence.
 SampleSet GlobalStart::take() {
   std::optional<PoseSearch::Drawn> around;
   std::optional<PoseSearch::Drawn> beside;
@@ -136,7 +138,7 @@ SampleSet GlobalStart::take() {
   return std::move(around->samples);
 }
 
-/// Around the places that fit.
+/// Returns a ring around each place that fits well enough.
 std::vector<PoseSearch::Ring> GlobalStart::found() const {
   const std::span<const FieldSearch::Place> places = field_->places();
   std::vector<PoseSearch::Ring> rings;
@@ -146,7 +148,8 @@ std::vector<PoseSearch::Ring> GlobalStart::found() const {
   return rings;
 }
 
-/// Whether there may be more places, or readings fit beyond the rings as they do within.
+/// Returns whether there may be more places, or whether the readings fit outside of the rings about
+/// as well as within.
 bool GlobalStart::areNotAll() const {
   using tuning::places::kRing, tuning::places::kTurn;
   const std::array<Pose2, 6> edgesOfRing = {Pose2{kRing, 0, 0}, {-kRing, 0, 0}, {0, kRing, 0},
@@ -181,8 +184,8 @@ bool GlobalStart::areNotAll() const {
   return false;
 }
 
-/// For each sample, all over the floor: the hill around the true pose must be met a few times, so
-/// their number goes with the floor.
+/// Returns the number of candidates per sample all over the floor. The peak around the true pose
+/// must be hit a few times, so their total number is proportional to the area.
 double GlobalStart::candidatesFor(std::size_t samples) const {
   const double area = static_cast<double>(search_.cells()) * region_.grid.cell * region_.grid.cell;
   const double all = std::min(config_.startCandidates * area, tuning::start::kMostCandidates);

@@ -18,16 +18,16 @@
 
 namespace ortung {
 
-/// A start of which nothing is known: samples by what one moment's readings say, out of all poses
-/// where the robot can stand. First the field is searched, and samples are drawn from around the
-/// places that were found. Vague readings (one landmark, a range) fit in more places than those, or
-/// in wider ones: then samples are drawn from candidates all over the floor, too.
+/// Global localization: draws samples from the posterior of one time step's readings under a
+/// uniform prior over all poses where the robot can stand. First the field is searched, and samples
+/// are drawn around the places found. Vague readings (one landmark, a range) fit in more places
+/// than those, or in wider ones: then samples are also drawn from candidates all over the floor.
 ///
-/// A job that may be spread over updates: what is drawn does not depend on how much is done at a
-/// time, nor on the number of threads. It speaks of the readings' moment. Not thread-safe.
+/// It may be spread over several updates: the samples do not depend on how much is done in each,
+/// nor on the number of threads. They are for the time of the readings. Not thread-safe.
 class ORTUNG_API GlobalStart {
  public:
-  /// Of the readings.
+  /// The readings of one time step, and what is needed to draw by them.
   struct Moment {
     Timestamp stamp = 0;
     std::optional<Pose2> odometry = {};
@@ -35,23 +35,23 @@ class ORTUNG_API GlobalStart {
     std::vector<News> news = {};
   };
 
-  /// All borrowed.
+  /// All arguments are borrowed.
   GlobalStart(const MclConfig& config, const FieldRegion& region, const PoseSearch& search,
               Workers& workers);
   GlobalStart(const GlobalStart&) = delete;
   GlobalStart& operator=(const GlobalStart&) = delete;
 
-  /// Makes what no reading is needed for; else begin() does.
+  /// Does the preparations for which no reading is needed; otherwise begin() does them.
   void prepare();
   void forget();
   bool isBegun() const { return moment_.has_value(); }
-  /// @param moment with one reading at least
+  /// Begins a new start. @param moment it has at least one reading
   void begin(Moment moment);
-  /// Goes on for so long by the weighers' nominal times. No clock is asked.
+  /// Continues for this long [ms] by the weighers' nominal times. No clock is read.
   /// @returns whether it is done @pre isBegun()
   bool work(double nominalMilliseconds);
   const Moment& moment() const { return *moment_; }
-  /// Once it is done, with what they weigh; then it is forgotten.
+  /// Returns the weighted samples, and forgets the start. @pre work() has returned true
   SampleSet take();
 
  private:
@@ -68,13 +68,14 @@ class ORTUNG_API GlobalStart {
   const FieldRegion& region_;
   const PoseSearch& search_;
   Workers& workers_;
-  std::optional<FieldSearch> field_;  ///< its cover is made once
+  std::optional<FieldSearch> field_;  ///< its coarse grid of the field is made only once
   std::optional<Moment> moment_;
   double nanoseconds_ = 0.0;                   ///< time that drawing takes per pose [ns]
-  bool isFound_ = false;                       ///< the places, by the search of the field
-  std::vector<PoseSearch::Ring> rings_;        ///< around the places that were found
+  bool isFound_ = false;                       ///< whether the search of the field is done
+  std::vector<PoseSearch::Ring> rings_;        ///< neighbourhoods of the places that were found
   std::optional<PoseSearch::Drawing> around_;  ///< drawing of the samples in these rings
-  std::size_t beside_ = 0;                     ///< samples of all other poses, if they may matter
+  /// Number of samples of all other poses; 0: they do not matter.
+  std::size_t beside_ = 0;
   std::optional<PoseSearch::Drawing> others_;  ///< drawing of the samples of all other poses
 };
 

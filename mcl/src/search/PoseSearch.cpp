@@ -86,7 +86,7 @@ Annealing::Within PoseSearch::within(std::span<const Ring> rings) {
   };
 }
 
-/// Poses on standable cells for which that holds, too.
+/// Returns whether a pose is on a standable cell and @p also holds.
 Annealing::Within PoseSearch::standable(Within also) const {
   return [this, also = std::move(also)](float x, float y, float theta) {
     const std::ptrdiff_t cell = region_.grid.cellAt(x, y);
@@ -132,7 +132,7 @@ PoseSearch::Drawing PoseSearch::drawingFrom(std::span<const Ring> rings, std::si
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const Ring& ring = rings[i];
     const std::size_t before = set.size();
-    // Streams beyond those of the annealing.
+    // These streams of random numbers are beyond those of the annealing.
     append(set, around(ring, each, random.fork(1000 + i)), inRings);
     if (set.size() == before)
       append(set, static_cast<float>(ring.pose.x), static_cast<float>(ring.pose.y),

@@ -14,7 +14,7 @@
 
 namespace ortung {
 
-/// The inverse use of p(s|l): draws poses that the present readings speak for, out of all poses
+/// Sensor resetting: draws poses in proportion to p(s|l) of the present readings, out of all poses
 /// where the robot can stand. Not thread-safe.
 class ORTUNG_API PoseSearch {
  public:
@@ -24,46 +24,45 @@ class ORTUNG_API PoseSearch {
   /// @param region borrowed
   explicit PoseSearch(const FieldRegion& region);
 
-  /// How many cells the robot can stand on.
+  /// Returns the number of cells on which the robot can stand.
   std::size_t cells() const { return standable_.size(); }
 
-  /// @p n poses spread evenly over all poses where the robot can stand; their weights are 0.
+  /// Draws @p n poses uniformly from all where the robot can stand; their log weights are 0.
   SampleSet anywhere(std::size_t n, Random random) const;
 
-  /// Poses around one.
+  /// The neighbourhood of a pose.
   struct Ring {
     Pose2 pose;
     double radius;  ///< [m]
-    double turn;    ///< greatest turn to either side [rad]
+    double turn;    ///< greatest difference of headings to either side [rad]
   };
   static bool isWithin(const Ring& ring, float x, float y, float theta);
-  /// @p n poses spread evenly over a ring, whether or not the map says that a robot can stand
-  /// there.
+  /// Draws @p n poses uniformly from a ring, whether or not the map says that a robot can stand
+  ///   there.
   static SampleSet around(const Ring& ring, std::size_t n, Random random);
 
-  /// @p n poses by p(s|l).
-  /// @param candidates how many are tried for each of them at the beginning, at least 1
-  /// @param ring to draw from; none: all poses where the robot can stand
+  /// Draws @p n poses in proportion to p(s|l).
+  /// @param candidates initial number of candidates for each of them, at least 1
+  /// @param ring ring to draw from; nothing: all poses where the robot can stand
   Drawn draw(std::size_t n, double candidates, const Weigh& weigh, const Random& random,
              const std::optional<Ring>& ring = std::nullopt) const;
-  /// The same, of the places that a search of the field has found (FieldSearch), and evenly from
-  /// where the robot can stand in rings of one size around each: all that p(s|l) has if elsewhere
-  /// it is nothing. So few poses do where an even spread needs many. `logEvidence` is that of the
-  /// whole floor.
-  /// @param rings one at least, none of which meet
+  /// Draws in proportion to p(s|l) in rings around the places that a search of the field has found
+  /// (FieldSearch), assuming that p(s|l) is zero elsewhere. So far fewer candidates are needed than
+  /// for the whole floor. `logEvidence` is that of the whole floor.
+  /// @param rings at least one, all of the same size; they must not overlap
   Drawn drawFrom(std::span<const Ring> rings, std::size_t n, double candidates, const Weigh& weigh,
                  const Random& random) const;
 
-  /// The same, to be spread over time.
+  /// A draw that may be spread over several updates.
   struct Drawing {
     Annealing::Draw draw;
-    double logShare;  ///< ln of the share of the floor that is drawn from
+    double logShare;  ///< ln of the share of the floor that the candidates are from
     /// @pre draw.isDone()
     Drawn take();
   };
   Drawing drawingFrom(std::span<const Ring> rings, std::size_t n, double candidates,
                       const Weigh& weigh, const Random& random) const;
-  /// Of all poses outside the rings.
+  /// Returns a drawing from all poses outside of the rings.
   Drawing drawingBeside(std::span<const Ring> rings, std::size_t n, double candidates,
                         const Weigh& weigh, const Random& random) const;
 

@@ -20,13 +20,17 @@
 namespace ortung {
 
 /// Monte Carlo localization (paper, section 5.2) on the container's interface alone: it knows
-/// neither sensors nor where their readings come from. Not thread-safe, const functions neither.
-/// The container may be filled by other threads meanwhile: update() holds its read lock only while
-/// it takes what is new, not while it computes.
+/// neither sensors nor where their readings come from. Not thread-safe, not even its const
+/// functions. Other threads may fill the container meanwhile: update() holds its read lock only
+/// while it takes new readings, not while it computes.
 class ORTUNG_API Mcl {
  public:
+  /// @param config settings, which are checked
   /// @param region where the robot can stand
-  /// @throws std::invalid_argument if that is nowhere, or for a configuration that makes no sense
+  /// @param motion motion model of the robot
+  /// @throws std::invalid_argument if the robot can stand nowhere, or for a configuration that
+  /// makes
+  ///   no sense
   Mcl(const MclConfig& config, FieldRegion region, std::unique_ptr<MotionModel> motion);
   ~Mcl();
   Mcl(const Mcl&) = delete;
@@ -35,18 +39,19 @@ class ORTUNG_API Mcl {
   /// Starts without a known pose: searches the whole region for poses that fit the first readings.
   /// That may take some updates (MclConfig::budgetMs); until then there is no estimate.
   void startGlobal();
-  /// Starts at a known pose with standard deviations [m], [rad]. It is not checked whether the
-  /// robot can stand there.
+  /// Starts at a known pose in the field frame with standard deviations [m], [rad]. It is not
+  /// checked whether the robot can stand there.
   void startAt(const Pose2& pose, double sigmaPosition, double sigmaHeading);
 
-  // While it runs: unlike a start, these keep what is known of time and odometry. What was weighed
-  // within the last half second counts again.
+  // The next functions are for a running filter: unlike a start, they keep what is known of time
+  // and odometry. Readings that were weighed within the last half second count again.
 
   /// Sets the belief to a pose that the caller knows, at the time of the newest odometry that was
   /// taken.
-  /// @param covariance may be singular
-  /// @throws std::invalid_argument saying what is wrong, if the pose is not finite or that is no
-  ///   covariance; the belief stays then
+  /// @param pose pose in the field frame
+  /// @param covariance covariance of the pose in the field frame; it may be singular
+  /// @throws std::invalid_argument saying what is wrong, if the pose is not finite or @p covariance
+  ///   is no covariance; the belief stays then
   void setPose(const Pose2& pose, const PoseCovariance& covariance);
   /// Forgets the place: the next readings find it anew, as after startGlobal().
   void relocalize();
@@ -54,7 +59,7 @@ class ORTUNG_API Mcl {
   /// first reading, or searches.
   std::optional<Belief> belief() const;
   /// Restores the belief of an earlier run. Odometry may have begun anew since; the robot is
-  /// assumed to have stayed where it was.
+  /// assumed not to have moved since then.
   /// @throws std::invalid_argument as Belief::check(); the present belief stays then
   void restore(const Belief& belief);
 
@@ -74,19 +79,19 @@ class ORTUNG_API Mcl {
   void followOdometry(const SensorContainer& container);
 
   /// Returns the estimate at the newest reading that was weighed; its `stamp` may be long ago. All
-  /// is zero before the first one. While a global start waits or searches, its reason is
+  /// numbers are zero before the first one. While a global start waits or searches, its reason is
   /// kSearching.
   const PoseEstimate& estimate() const;
-  /// Returns the estimate at @p stamp: the belief carried on by the odometry of the newest update()
+  /// Returns the estimate at @p stamp: the belief predicted by the odometry of the newest update()
   /// or followOdometry(). Beyond that, the robot is assumed to keep its velocities for 0.3 s and
   /// then to be stationary. It may be called at any time, is cheap while the robot is stationary,
   /// and does not change the filter.
   /// @returns nothing while a global start waits for its first reading, or searches
   std::optional<PoseEstimate> estimate(Timestamp stamp) const;
-  /// Returns the places that the belief is spread over, by the present samples, heaviest first:
-  /// clusters with a share of at least @p least, each with its covariance. Status and quality are
-  /// those of the whole belief. Empty while a global start waits for its first reading, or
-  /// searches.
+  /// Returns the places over which the belief is spread, by the present samples, heaviest first:
+  /// clusters with a share of at least @p least, in [0, 1], each with its covariance. Status and
+  /// quality are those of the whole belief. It is empty while a global start waits for its first
+  /// reading, or searches.
   std::vector<PoseEstimate> places(double least = 0.01) const;
   /// Returns whether there is odometry; without it, process noise moves samples
   /// (MclConfig::driftMetres).

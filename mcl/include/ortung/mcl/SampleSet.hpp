@@ -14,7 +14,9 @@ struct SampleSet {
   std::vector<float> theta;      ///< heading [rad], not wrapped
   std::vector<float> logWeight;  ///< ln of the weight, up to a common constant
 
+  /// Returns the number of samples.
   std::size_t size() const { return x.size(); }
+  /// Sets the number of samples; new ones are all zero.
   void resize(std::size_t n) {
     x.resize(n);
     y.resize(n);
@@ -32,6 +34,7 @@ struct SampleSet {
   }
   /// Returns all samples from @p first on. @pre first <= size()
   SampleSet from(std::size_t first) const { return part(first, size() - first); }
+  /// Returns a view of the poses, valid until the set changes.
   SampleView view() const { return {x, y, theta}; }
 };
 

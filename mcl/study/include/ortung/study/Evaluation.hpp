@@ -24,23 +24,23 @@ struct EvaluationStep {
 
 /// An estimate with the truth at its time.
 struct EvaluationPoint {
-  Timestamp stamp = 0;
-  Pose2 truth;
-  Pose2 estimate;
-  double positionError = 0.0;  ///< distance from the truth [m]
-  double headingError = 0.0;   ///< difference of headings [rad], in [0, pi]
-  std::size_t samples = 0;
-  PoseCovariance covariance{};  ///< covariance that the filter claims, as of PoseEstimate
+  Timestamp stamp = 0;          ///< time of both poses [us]
+  Pose2 truth;                  ///< true pose, field frame
+  Pose2 estimate;               ///< estimated pose, field frame
+  double positionError = 0.0;   ///< distance from the truth [m]
+  double headingError = 0.0;    ///< difference of headings [rad], in [0, pi]
+  std::size_t samples = 0;      ///< number of samples
+  PoseCovariance covariance{};  ///< covariance of the filter's PoseEstimate
   /// Whether there is a gap longer than Options::longestGap since the point before: a drawn line
   /// breaks here. False at the first point.
   bool followsGap = false;
-  double quality = 0.0;  ///< quality that the filter claims, as of PoseEstimate
+  double quality = 0.0;  ///< quality of the filter's PoseEstimate
   TrackStatus status = TrackStatus::kLost;
 };
 
 /// Errors of some estimates; NaN where there are none.
 struct EvaluationErrors {
-  std::size_t compared = 0;  ///< number of estimates with a known truth, before convergence, too
+  std::size_t compared = 0;  ///< number of estimates with a known truth, also before convergence
   double positionRmse = std::numeric_limits<double>::quiet_NaN();    ///< [m]
   double positionMedian = std::numeric_limits<double>::quiet_NaN();  ///< [m]
   double positionP95 = std::numeric_limits<double>::quiet_NaN();     ///< [m]
@@ -59,36 +59,37 @@ struct EvaluationErrors {
 /// The figures of one run. Errors are those after convergence.
 struct EvaluationResult {
   std::string source;
-  std::size_t steps = 0;  ///< updates
-  double duration = 0.0;  ///< duration of the run [s]
-  double particlesMean = 0.0;
+  std::size_t steps = 0;                 ///< updates
+  double duration = 0.0;                 ///< duration of the run [s]
+  double particlesMean = 0.0;            ///< mean number of samples
   std::optional<double> convergedAfter;  ///< time from the first reading until convergence [s]
   double convergedWay =
       std::numeric_limits<double>::quiet_NaN();  ///< distance travelled until convergence [m]
-  /// Errors over time: at even moments, whether or not the filter had weighed a reading then. These
-  /// are the errors that a program sees which asks for the pose.
+  /// Errors over time: at regular intervals, whether or not the filter had weighed a reading then.
+  /// These are the errors of a program that uses the pose at any time.
   EvaluationErrors overTime;
   /// Errors at the times of updates only, when the filter has just weighed readings. They are
-  /// smaller, as all times without readings are left out.
+  /// smaller, as they leave out all times without readings.
   EvaluationErrors atCorrections;
-  double period = 0.1;  ///< time between the moments of overTime [s]
-  /// Share of moments with the status "tracking", before convergence, too; NaN if nothing was
-  /// compared.
+  double period = 0.1;  ///< interval of overTime [s]
+  /// Share of estimates over time with the status "tracking", also before convergence; NaN if
+  /// nothing was compared.
   double trackingShare = std::numeric_limits<double>::quiet_NaN();
-  /// Share of moments with the status "tracking" but an error above 1 m, which must not happen.
+  /// Share of estimates over time with the status "tracking" but an error above 1 m, which should
+  /// not happen.
   double wrongWhileTrackingShare = std::numeric_limits<double>::quiet_NaN();
-  double updateMsP50 = 0.0;
-  double updateMsP99 = 0.0;
-  double updateMsMax = 0.0;
+  double updateMsP50 = 0.0;             ///< median computing time of an update [ms]
+  double updateMsP99 = 0.0;             ///< 99 % quantile of that time [ms]
+  double updateMsMax = 0.0;             ///< longest of these times [ms]
   double realtimeFactor = 0.0;          ///< duration / time spent in updates
   std::vector<EvaluationPoint> points;  ///< all points over time that were compared
 };
 
 /// Compares estimates with ground truth, which is interpolated between its samples.
 ///
-/// The caller asks due() before the filter weighs the next moment of a log, and adds the estimates
-/// at those times by addMoment(), so that errors are over time. Results of updates are added by
-/// addStep(). Not thread-safe.
+/// The caller calls due() before the filter weighs the next time step of a log, and adds the
+/// estimates at the times that it returns by addMoment(), so that errors are over time. Results of
+/// updates are added by addStep(). Not thread-safe.
 class ORTUNG_API Evaluation {
  public:
   struct Options {
@@ -104,22 +105,25 @@ class ORTUNG_API Evaluation {
   explicit Evaluation(const Options& options);
   ~Evaluation();
 
-  /// Returns the times at which the filter's estimate is wanted before it takes the moment @p
+  /// Returns the times at which the filter's estimate is wanted before it takes the time step @p
   /// stamp: multiples of the period since the first one. There are none within gaps of the log in
-  /// which the truth can't be known. Stamps must not fall.
-  /// @param hasTruth whether the moment has ground truth: if it is the first one after a gap, the
-  ///   moment's own time is due next time, too, so that logs with rare truth are compared where
-  ///   they can be
+  /// which the truth can't be known. Stamps must not decrease.
+  /// @param hasTruth whether the time step has ground truth: if it is the first one after a gap,
+  /// its
+  ///   own time is due in the next call, too, so that logs with rare truth are compared where
+  ///   possible
   std::vector<Timestamp> due(Timestamp stamp, bool hasTruth = false);
 
-  void addTruth(Timestamp stamp, const Pose2& pose);  ///< stamps must not fall
-  void addStep(const EvaluationStep& step);           ///< an update; stamps must not fall
-  /// Estimate at a time that was due; stamps must not fall.
+  void addTruth(Timestamp stamp,
+                const Pose2& pose);          ///< adds a true pose; stamps must not decrease
+  void addStep(const EvaluationStep& step);  ///< adds an update; stamps must not decrease
+  /// Adds an estimate at a time that was due; stamps must not decrease.
   void addMoment(const PoseEstimate& estimate);
-  void addTime(Timestamp stamp);  ///< any reading: the run's duration
+  void addTime(Timestamp stamp);  ///< adds the time of any reading, for the run's duration
 
-  /// Returns the moments so far with the truth, as far as it is known so far.
+  /// Returns the estimates over time so far with the truth, as far as it is known so far.
   std::vector<EvaluationPoint> points() const { return compare(moments_); }
+  /// Returns the figures of the run. @param source name of the source, for the result
   EvaluationResult result(const std::string& source) const;
 
  private:

@@ -13,16 +13,16 @@ namespace ortung {
 
 /// The data of one log about motion: odometry, and the robot's true poses.
 struct MotionLog {
-  OdometryTrack odometry;
+  OdometryTrack odometry;                          ///< odometry's poses by time
   std::vector<std::pair<Timestamp, Pose2>> truth;  ///< true poses in the field frame; stamps rise
 };
 
-/// Changes of pose over the same time, each in the robot's old frame.
+/// Changes of pose over the same time, each in the robot's frame at its begin.
 struct MotionPair {
-  Timestamp begin = 0;
-  Timestamp end = 0;
-  Pose2 odometry;  ///< change by odometry
-  Pose2 truth;     ///< true change
+  Timestamp begin = 0;  ///< beginning of the time [us]
+  Timestamp end = 0;    ///< end of the time [us]
+  Pose2 odometry;       ///< change by odometry
+  Pose2 truth;          ///< true change
 };
 
 /// Options of learning motion.
@@ -34,7 +34,7 @@ struct MotionLearning {
 };
 
 /// Returns the pairs of one log by drive: the end of each pair is the beginning of the next.
-/// @param delay odometry is this far ahead of the truth [s]
+/// @param delay odometry at the time t - delay is compared with the truth at t [s]
 ORTUNG_API std::vector<std::vector<MotionPair>> motionPairs(const MotionLog& log,
                                                             const MotionLearning& options,
                                                             double delay);
@@ -42,15 +42,15 @@ ORTUNG_API std::vector<std::vector<MotionPair>> motionPairs(const MotionLog& log
 /// The result of learning motion.
 struct LearnedMotion {
   double delay = 0.0;          ///< most likely delay of odometry [s]
-  double logLikelihood = 0.0;  ///< mean ln p of a pair, as of MotionModel::endLearning()
-  double undelayed = 0.0;      ///< logLikelihood at a delay of 0 (or what is nearest)
-  std::size_t pairs = 0;
-  double metres = 0.0;   ///< true distance travelled [m]
-  double radians = 0.0;  ///< true sum of turns [rad]
+  double logLikelihood = 0.0;  ///< mean ln p of a pair, as MotionModel::endLearning() returns it
+  double undelayed = 0.0;      ///< logLikelihood at the delay that is nearest to 0
+  std::size_t pairs = 0;       ///< number of pairs
+  double metres = 0.0;         ///< true distance travelled [m]
+  double radians = 0.0;        ///< true sum of turns [rad]
 };
 
-/// Fits a model to logs. The delay of odometry, on which all else depends, is the one with which
-/// the model explains the pairs best: all delays are tried in steps of 20 ms.
+/// Fits a motion model to logs. The delay of odometry, on which all parameters depend, is the one
+/// with which the model explains the pairs best: all delays are tried in steps of 20 ms.
 /// @param make returns a new model
 /// @param best gets the best model
 /// @param goOn called from time to time with the share done; false: stops with an empty @p best

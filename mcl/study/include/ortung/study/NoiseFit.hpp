@@ -19,13 +19,12 @@ enum class NoiseTerm : std::uint8_t {
   kMountY,       ///< y of the mount beyond the robot file's [m]
   kMountTheta,   ///< heading of the mount beyond the robot file's [rad]
   kLatency,      ///< age of readings at their stamps [s]
-  // Of sightings at range r and bearing b, see SightingBias; ranges are too long by
-  kRangePerMetre,      ///< r times this
-  kRangePerMetreRad,   ///< r b times this [1/rad]
-  kRangePerMetreRad2,  ///< r b^2 times this [1/rad^2]
-  // and bearings too large by
-  kBearingPerRad,  ///< b times this
-  kBearingPerRad2  ///< b^2 times this [1/rad]
+  // Terms of sightings at range r [m] and bearing b [rad], see SightingBias:
+  kRangePerMetre,      ///< ranges are too long by r times this [m/m]
+  kRangePerMetreRad,   ///< ranges are too long by r b times this [1/rad]
+  kRangePerMetreRad2,  ///< ranges are too long by r b^2 times this [1/rad^2]
+  kBearingPerRad,      ///< bearings are too large by b times this [rad/rad]
+  kBearingPerRad2      ///< bearings are too large by b^2 times this [1/rad]
 };
 inline constexpr std::size_t kNoiseTerms = 11;
 template <class T>
@@ -44,7 +43,8 @@ struct NoiseResidual {
 
 /// A number with its standard error.
 struct Learned {
-  double value = 0.0;
+  double value = 0.0;  ///< in the unit of the term
+  /// Standard error, in the same unit; NaN if it is not known.
   double error = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -53,7 +53,7 @@ struct NoiseShape {
   std::size_t values = 0;  ///< number of values that it was learned from; zero: not known
   Learned sigma;           ///< standard deviation at range 0 [m] or [rad]
   Learned sigmaPerMetre;   ///< growth of sigma with range, for distances [m/m]
-  Learned outliers;        ///< share of values that lie anywhere, in [0, 1]
+  Learned outliers;        ///< share of outliers, which are distributed uniformly, in [0, 1]
   /// p of an outlier, relative to that of a perfect reading: SensorModel::outliers.
   double floor = 0.0;
   /// Number of independent values that one value counts for, in (0, 1], since errors of 10 s are
@@ -69,7 +69,7 @@ struct NoiseFit {
   NoiseShape angles;            ///< noise of angles [rad]
 };
 
-/// Fits the mixture of the sensor model, a Gaussian and values anywhere, to residuals by
+/// Fits the mixture of the sensor model, a Gaussian and uniform outliers, to residuals by
 /// expectation maximization, with the terms that residuals have in common. A term less than three
 /// standard errors from zero is left out. Standard errors are clustered by blocks of 10 s (the
 /// sandwich of Huber 1967), since errors of consecutive readings are correlated.

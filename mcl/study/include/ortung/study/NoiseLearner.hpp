@@ -20,8 +20,8 @@ namespace ortung {
 /// Readings of a robot with its true poses.
 struct NoiseLog {
   struct Reading {
-    Timestamp stamp = 0;
-    std::vector<std::uint32_t> words;
+    Timestamp stamp = 0;               ///< stamp of the reading [us]
+    std::vector<std::uint32_t> words;  ///< data of the reading, in the feature's format
   };
   std::vector<std::pair<Timestamp, Pose2>> reference;  ///< true poses, field frame; stamps rise
   /// Readings in order of time, keyed by "model/type/feature".
@@ -40,6 +40,7 @@ class ORTUNG_API NoiseLogger {
 
 /// Options of learning noise.
 struct NoiseLearning {
+  /// Terms of the systematic error that are learned.
   ByNoiseTerm<bool> wanted = {true, true, true, true, true, true, true, true, true, true, true};
   double longestGap = 1.0;  ///< longest gap over which the reference is interpolated [s]
   /// Most values; longer logs are thinned to some readings and beams.

@@ -12,23 +12,23 @@
 
 namespace ortung {
 
-/// One moment of a run whose truth is exact.
+/// One time step of a run whose truth is exact.
 struct BoundStep {
-  Timestamp stamp = 0;
-  Pose2 truth;     ///< true pose, field frame
-  Pose2 odometry;  ///< odometry's pose, odometry frame
-  /// Fisher information of the moment's readings about x, y [1/m^2] and theta, field frame,
+  Timestamp stamp = 0;  ///< time of the readings [us]
+  Pose2 truth;          ///< true pose, field frame
+  Pose2 odometry;       ///< odometry's pose, odometry frame
+  /// Fisher information of the readings about x, y [1/m^2] and theta, field frame,
   /// row-major; nothing: zeros.
   std::array<double, 9> information{};
 };
 
-/// The best covariance that estimates can have at a time.
+/// The least covariance that estimates can have at a time.
 struct PoseBound {
-  Timestamp stamp = 0;
+  Timestamp stamp = 0;          ///< time of the estimate [us]
   PoseCovariance covariance{};  ///< least covariance of an unbiased estimate, field frame
 };
 
-/// Figures of a bound, as of EvaluationErrors.
+/// Figures of a bound, to be compared with those of EvaluationErrors.
 struct BoundFigures {
   double positionMedian = std::numeric_limits<double>::quiet_NaN();  ///< median error [m]
   double positionRmse = std::numeric_limits<double>::quiet_NaN();    ///< [m]

@@ -12,15 +12,15 @@
 
 namespace ortung {
 
-/// A piece of a recording: its messages [begin, end), in whole moments.
+/// A piece of a recording: its messages [begin, end). Messages with equal stamps stay together.
 struct Piece {
-  std::size_t begin = 0;
-  std::size_t end = 0;
+  std::size_t begin = 0;  ///< index of the first message
+  std::size_t end = 0;    ///< index after the last message
 };
 
-/// Pieces of one recording, joined: time goes on, and odometry does not notice, as if the robot was
-/// carried from the end of one to the beginning of the next. It is immutable, so any number of
-/// threads may use it.
+/// Pieces of one recording, joined: time and odometry go on without a jump, as if the robot was
+/// carried from the end of one piece to the beginning of the next. It is immutable, so any number
+/// of threads may use it.
 class ORTUNG_API Splice {
  public:
   /// @throws std::invalid_argument if there is no piece, or one is empty or outside of the
@@ -28,11 +28,11 @@ class ORTUNG_API Splice {
   Splice(std::shared_ptr<const Recording> recording, std::vector<Piece> pieces);
   ~Splice();
 
-  /// Returns the first stamps of all pieces but the first one, when the robot suddenly is
-  /// elsewhere.
+  /// Returns the first stamps of all pieces but the first one, at which the robot is suddenly
+  /// elsewhere [us].
   const std::vector<Timestamp>& joins() const { return joins_; }
-  Timestamp first() const;  ///< stamp of the first message
-  /// Returns the number of moments in [from, to) with other readings than odometry and ground
+  Timestamp first() const;  ///< returns the stamp of the first message [us]
+  /// Returns the number of time steps in [from, to) with other readings than odometry and ground
   /// truth.
   std::size_t readings(const SensorContainer& robot, Timestamp from, Timestamp to) const;
   const Recording& recording() const { return *recording_; }
