@@ -133,7 +133,12 @@ int runCalibrateNoise(const CalibrateNoiseArguments& arguments) {
       ++learnt;
       fmt::print("{}", noiseText(features, noise));
       const SensorConfig& config = robot->config.sensors[sensor];
-      text = withSensorKeys(text, arguments.robot.string(), sensor, noiseEntries(config, noise));
+      const std::vector<TomlEntry> keys = noiseEntries(config, noise);
+      if (keys.empty() && !arguments.out.empty())
+        warn(fmt::format(
+            "{}: it is not known which keys of the plugin '{}' say this; write them by hand", name,
+            printable(config.plugin)));
+      text = withSensorKeys(text, arguments.robot.string(), sensor, keys);
     } catch (const ConfigError&) {
       throw;
     } catch (const std::runtime_error& error) {

@@ -23,11 +23,13 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 class BagMaker {
  public:
   template <class M>
-  BagMaker& add(const std::string& topic, const M& message, const std::string& encoding = "cdr") {
+  BagMaker& add(const std::string& topic, const M& message, const std::string& encoding = "cdr",
+                const std::map<std::string, std::string>& metadata = {}) {
     auto channel = channels_.find(topic);
     if (channel == channels_.end()) {
       const auto schema = writer_.addSchema(M::kType, "ros2msg", schemaText(M::kType));
-      channel = channels_.emplace(topic, writer_.addChannel(schema, topic, encoding, {})).first;
+      channel =
+          channels_.emplace(topic, writer_.addChannel(schema, topic, encoding, metadata)).first;
     }
     writer_.write(channel->second, ++time_, toCdr(message));
     return *this;
@@ -212,6 +214,26 @@ TEST_F(BagSource, MapsBecomeWorlds) {
   BagMaker torn;
   torn.add("/map", map);
   EXPECT_NE(errorOf(write(torn)).find("a map of 3 x 2 cells of 0.05"), std::string::npos);
+}
+
+// Of a plugin's own format ROS sees ranges; its words are in a channel beside them.
+TEST_F(BagSource, WhatAPluginsOwnFormatReadComesBackAsItsWordsAlone) {
+  ros2::Range range;
+  range.header = {kSecond, "radar"};
+  range.fieldOfView = 0.5F;
+  range.maxRange = 8.0F;
+  range.range = 2.0F;
+  Words words;
+  words.data = {2000, 7};
+  BagMaker maker;
+  maker.add("/odom", odometryAt(kSecond, 0.0, 0.0))
+      .add("/range/acme/echo", range, "cdr",
+           {{"ortung_feature", "acme/radar/echo"}, {"format", "radar row=range_mm,other"}})
+      .add("/ortung/acme/radar/echo", words, "cdr", {{"ortung_feature", "acme/radar/echo"}});
+  const auto messages = readAll(write(maker));
+  const auto radar = only(messages, "acme/radar/echo");
+  ASSERT_EQ(radar.size(), 1u);
+  EXPECT_EQ(radar.front().words, words.data);
 }
 
 TEST_F(BagSource, MessagesOfRos1AreRefused) {

@@ -134,6 +134,8 @@ TEST_F(RobotTopicsTest, APluginsOwnFormatGoesOutAsPoints) {
   const std::array<double, 10> expected = {0.0, 2.0, 0.0, 2.0, kPi / 2, 1.0, 0.0, 0.0, 1.0, 0.0};
   for (std::size_t i = 0; i < values.size(); ++i)
     EXPECT_NEAR(static_cast<double>(values.at(i)), expected.at(i), 1e-6) << i;
+  // Its words go out, too, so that they come back from a file.
+  EXPECT_EQ(read<Words>(found["/ortung/acme/radar/echoes"]).data, words);
   EXPECT_EQ(schemaText(PointCloud::kType).find("std_msgs/Header header"), 0u);
   EXPECT_THROW(told(topics, {{0, id, {1}}}), std::invalid_argument);
 }

@@ -8,6 +8,7 @@
 
 #include "ortung/base/InputFile.hpp"
 #include "ortung/camera/ImageData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/ros2/RobotTopics.hpp"
@@ -55,6 +56,13 @@ bool isWanted(const std::optional<std::vector<std::string>>& list, const std::st
 std::string featureOf(const McapChannel& channel) {
   const auto found = channel.metadata.find("ortung_feature");
   return found == channel.metadata.end() ? "" : found->second;
+}
+
+/// Whether a range was made of a format of a plugin's own, whose words are in a channel beside it.
+bool isOfWords(const McapChannel& channel) {
+  const auto format = channel.metadata.find("format");
+  if (featureOf(channel).empty() || format == channel.metadata.end()) return false;
+  return format->second.substr(0, format->second.find(' ')) != formats::kCone;
 }
 
 template <class List>
@@ -112,7 +120,7 @@ void Bag::take(const McapMessage& message, const std::string& type) {
   if (type == LaserScan::kType) {
     if (isWanted(choice_.scans, topic)) takeScan(message);
   } else if (type == Range::kType) {
-    if (isWanted(choice_.ranges, topic)) takeRange(message);
+    if (isWanted(choice_.ranges, topic) && !isOfWords(*message.channel)) takeRange(message);
   } else if (type == Image::kType) {
     if (choice_.images ? isWanted(choice_.images, topic) : isOurs) takeImage(message);
   } else if (type == Odometry::kType) {

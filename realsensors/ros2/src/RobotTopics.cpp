@@ -109,6 +109,13 @@ std::pair<std::string, std::string_view> kindOf(const SensorData& data) {
   return {};
 }
 
+/// Whether ROS shows it, but its words can't be read from that message.
+bool isShownOnly(const Format& format) {
+  return format.name() != formats::kOdometry && format.name() != formats::kScan &&
+         format.name() != formats::kCone && format.name() != formats::kImage &&
+         format.name() != formats::kFix;
+}
+
 }  // namespace
 
 void RobotTopics::Parts::addFeatures() {
@@ -129,6 +136,7 @@ void RobotTopics::Parts::addFeatures() {
     const bool isShort = isFirstOdometry || (count[name] == 1 && name != "/range");
     const std::size_t topic =
         addTopic(topicStart + (isShort ? name : name + "/" + own), type, false, feature);
+    if (isShownOnly(data->format())) addWords(id);
     routes[feature] = {data.get(), topic,
                        frameStart + cleaned(id.model) + "_" + cleaned(id.feature), data->format()};
   }
@@ -219,6 +227,7 @@ void RobotTopics::Parts::take(const Message& message, const Sink& sink) {
   if (found == routes.end()) return sendWords(message, sink);
   const Route& route = found->second;
   route.data->checkData(message.words);
+  if (isShownOnly(route.format)) sendWords(message, sink);
   const Header here{stamp, route.frame};
   const auto send = [&](const auto& out) { sink(route.topic, message.stamp, toCdr(out)); };
   const Format& format = route.format;
