@@ -68,6 +68,7 @@ class RadarData : public SensorData {
   void decode(std::span<const std::uint32_t>) override {}
   void startTables(const FieldRegion&, double) override { x_ = y_ = seen_ = 0.0; }
   void learn(const Pose2& robotInField) override {
+    if (getData().empty()) return;  // it saw nothing from there
     const Pose2 sensor = robotInField * mount();
     const double range = words::toMetres(getData()[0]);
     const double angle = sensor.theta + words::toAngle(getData()[1]);

@@ -113,6 +113,21 @@ describe("a plugin's own format", () => {
     return { dots: points(rays.dots), lines: points(rays.lines) };
   }
 
+  it("shows what is expected, too, and lists words whose meaning nobody knows", () => {
+    const kind = kinded("mine row=other,bearing_cdeg,range_mm");
+    expect(valuesOf(kind, new Uint32Array([7, 9000, 1500])).map(({ name, value, unit }) => [name, value, unit])).toEqual([
+      ["1 distance", 1.5, "m"], ["1 bearing", -90, "°"], ["1 word 0", 7, ""],
+    ]);
+    const robot = new Robot(1);
+    robot.describe(["a/b/c of my own", "format a/b/c mine row=other,bearing_cdeg,range_mm", "mount a/b/c x_m=0 y_m=0 theta_rad=0"]);
+    robot.setTruth({ x: 0, y: 0, theta: 0 }, 0);
+    robot.readings.set("a/b/c", { stamp: 0, words: new Uint32Array() });
+    const rays = new Rays();
+    const layers = Object.fromEntries(kLayerNames.map((name) => [name, name === "expected"])) as unknown as Layers;
+    rays.add(robot, layers, new Map([["a/b/c", new Map([[0, Math.PI / 2], [1, 2]])]]));
+    expect(rays.dots.slice(0, 2).map((n) => Number(n.toFixed(6)))).toEqual([0, 2]);
+  });
+
   // The sensor is one metre before the robot, which looks along y.
   it("is sightings if it has ranges and bearings", () => {
     const two = drawn("identity,other,bearing_cdeg,range_mm", [7, 0, 18000, 2000, 8, 0, 27000, 500]);
@@ -144,9 +159,9 @@ describe("a plugin's own format", () => {
   it("is numbers in metres and degrees", () => {
     const kind = kinded("mine row=identity,range_mm,bearing_cdeg,radius_mm,colour,other");
     const words = new Uint32Array([12, 2500, 9000, 110, 0xffa500, 77, 13, 1000, 18000, 0, 2 ** 24, 0]);
-    expect(valuesOf(kind, words).slice(0, 4)).toEqual([
+    expect(valuesOf(kind, words).slice(0, 5)).toEqual([
       { name: "12 distance", value: 2.5, unit: "m" }, { name: "12 radius", value: 0.11, unit: "m" },
-      { name: "12 bearing", value: -90, unit: "°" }, { name: "13 distance", value: 1, unit: "m" },
+      { name: "12 bearing", value: -90, unit: "°" }, { name: "12 word 0", value: 77, unit: "" }, { name: "13 distance", value: 1, unit: "m" },
     ]);
     expect(valuesOf(kind, words, 2)).toHaveLength(2);
     expect(summary(kind, words)).toBe("12: 2.50 m -90°, 13: 1.00 m 0°");

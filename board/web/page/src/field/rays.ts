@@ -4,7 +4,7 @@ import { compose, place, polar, type Point, type Pose } from "../model/geometry"
 import type { Rows } from "../model/kinds";
 import type { Expected } from "../model/maps";
 import type { Held, Robot } from "../model/Robot";
-import { rowsOf, type Row } from "../model/rows";
+import { expectedSightings, rowsOf, type Row } from "../model/rows";
 import type { Layers } from "../ui/layers";
 
 type Rgba = readonly [number, number, number, number];
@@ -137,10 +137,8 @@ export class Rays {
         this.line(sensor, polar(sensor, kRayLength, value), kExpected, [kExpected[0], kExpected[1], kExpected[2], 0]);
       }
     }
-    if (kind.name !== "rows" || kind.of !== "landmarks") return;
-    for (let index = 0; values.has(index) && values.has(index + 1); index += 2) {
-      this.dot(polar(sensor, values.get(index)!, values.get(index + 1)!), kExpected);
-    }
+    if (kind.name !== "rows") return;
+    for (const { range, bearing } of expectedSightings(kind, values)) this.dot(polar(sensor, range, bearing), kExpected);
   }
 }
 

@@ -12,6 +12,8 @@ export interface Row {
   radius?: number;
   /** "#rrggbb"; not there if the sensor saw none. */
   colour?: string;
+  /** Words whose meaning nobody but the sensor knows. */
+  others?: number[];
 }
 
 const kNoColour = 2 ** 24;
@@ -43,8 +45,24 @@ function take(row: Row, meaning: Meaning, word: number): void {
       if (word < kNoColour) row.colour ??= `#${word.toString(16).padStart(6, "0")}`;
       break;
     case "other":
+      (row.others ??= []).push(word);
       break;
   }
+}
+
+/** What of a row is a length or an angle, so that it is weighed: in the order in which WHY lists it. */
+const kWeighed: readonly Meaning[] = ["range_mm", "bearing_cdeg", "x_mm", "y_mm", "heading_cdeg", "radius_mm"];
+
+/** Sightings that are expected, by the values that WHY lists; none if rows are no sightings alone. */
+export function expectedSightings({ row: meanings }: Rows, values: Map<number, number>): { range: number; bearing: number }[] {
+  const weighed = meanings.filter((meaning) => kWeighed.includes(meaning));
+  const [range, bearing] = [weighed.indexOf("range_mm"), weighed.indexOf("bearing_cdeg")];
+  const found = [];
+  if (weighed.length !== 2 || range < 0 || bearing < 0) return [];
+  for (let at = 0; values.has(at) && values.has(at + 1); at += 2) {
+    found.push({ range: values.get(at + range)!, bearing: values.get(at + bearing)! });
+  }
+  return found;
 }
 
 /** The rows of a reading, at most @p most of them; of a row that is not complete nothing. */

@@ -87,6 +87,7 @@ function rowValues(kind: Rows, words: Uint32Array, most: number): Value[] {
   rowsOf(kind, words, most).forEach((row, i) => {
     const label = labelOf(kind, row, i);
     for (const { name, value, unit } of partsOf(row)) values.push({ name: `${label} ${name}`.trim(), value, unit });
+    row.others?.forEach((value, k) => values.push({ name: `${label} word ${k}`.trim(), value, unit: "" }));
   });
   return values.slice(0, most);
 }
