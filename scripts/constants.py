@@ -64,24 +64,30 @@ def shown_in(page):
     return rows
 
 
+def unmeasured(constants, page):
+    rows = shown_in(page)
+    return [c.key for c in constants if c.key not in rows]
+
+
 def with_fit(page, constants):
     """The page that says with which constants, beside its own, confidence was fitted."""
     values = " ".join("%s=%g" % (c.key, c.value) for c in constants if c.part != "confidence")
     return FITTED.sub("<!-- confidence was fitted with: %s -->" % values, page)
 
 
-def older_than_fit(constants, page):
-    """Keys of constants that confidence was fitted with other values of."""
-    mark = FITTED.search(page)
-    fitted = dict(word.split("=") for word in mark.group(1).split()) if mark else {}
+def since_the_fit(constants, page):
+    """A sentence on what has changed since confidence was fitted; "" if nothing has."""
+    fitted = dict(word.split("=") for word in FITTED.search(page).group(1).split() if "=" in word)
+    if not fitted:
+        return "confidence was fitted before its constants were noted: scripts/fit-confidence.py"
     now = {c.key: "%g" % c.value for c in constants if c.part != "confidence"}
-    return sorted(key for key in now.keys() | fitted.keys() if now.get(key) != fitted.get(key))
+    changed = sorted(key for key in now.keys() | fitted.keys() if now.get(key) != fitted.get(key))
+    return changed and "confidence was fitted with other values of %s: scripts/fit-confidence.py" % ", ".join(changed) or ""
 
 
 def differences(constants, page):
-    """Sentences on what the page lacks, has too much of, or has with another value."""
+    """Sentences on what the page has with another value, or has too much of. What was never measured is told by unmeasured()."""
     rows = shown_in(page)
-    trouble = ["%s is not in the page" % c.key for c in constants if c.key not in rows]
-    trouble += ["%s is %s in the code and was %s when it was measured" % (c.key, c.shown, rows[c.key])
+    trouble = ["%s is %s in the code and was %s when it was measured" % (c.key, c.shown, rows[c.key])
                 for c in constants if rows.get(c.key, c.shown) != c.shown]
     return trouble + ["%s is in the page alone" % key for key in rows if key not in {c.key for c in constants}]

@@ -37,8 +37,11 @@ def strays(root):
 
 def main():
     page = (ROOT / "docs/constants.md").read_text()
-    trouble = list(strays(ROOT)) + constants.differences(constants.declared(ROOT), page)
-    print("\n".join(trouble) or "constants: %d, as they were measured" % len(constants.declared(ROOT)))
+    declared = constants.declared(ROOT)
+    trouble = list(strays(ROOT)) + constants.differences(declared, page)
+    missing = len(constants.unmeasured(declared, page))
+    print("constants: %d, of which %d were not measured yet (scripts/sweep.py)" % (len(declared), missing))
+    print("\n".join([*trouble, constants.since_the_fit(declared, page)]).strip())
     return 1 if trouble else 0
 
 

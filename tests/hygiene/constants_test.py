@@ -45,10 +45,20 @@ class Constants(unittest.TestCase):
 
     def test_are_compared_with_the_page(self):
         declared = self.declared(HEADER)
-        self.assertEqual(constants.differences(declared, PAGE), ["lead.kSamples is not in the page"])
+        self.assertEqual(constants.differences(declared, PAGE), [])
+        self.assertEqual(constants.unmeasured(declared, PAGE), ["lead.kSamples"])
         self.assertEqual(constants.differences(declared[:1], PAGE.replace("0.9", "0.8")),
                          ["lead.kEnough is 0.9 in the code and was 0.8 when it was measured"])
         self.assertEqual(constants.differences([], PAGE), ["lead.kEnough is in the page alone"])
+
+
+    def test_that_changed_since_the_fit_are_named(self):
+        declared = self.declared(HEADER)
+        page = "<!-- confidence was fitted with: nothing known -->"
+        self.assertIn("before its constants were noted", constants.since_the_fit(declared, page))
+        page = constants.with_fit(page, declared)
+        self.assertEqual(constants.since_the_fit(declared, page), "")
+        self.assertIn("other values of lead.kEnough:", constants.since_the_fit(declared, page.replace("kEnough=0.9", "kEnough=0.8")))
 
 
 class Changes(unittest.TestCase):
