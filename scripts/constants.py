@@ -5,7 +5,7 @@ import re
 import typing
 
 DECLARED = re.compile(r"((?:^///[^\n]*\n)+)ORTUNG_CONSTANT\((\w+), (\w+),\s*([^;]+)\);", re.M)
-ROW = re.compile(r"^\| `(\w+)` \| ([^|]+?) \|", re.M)
+ROW = re.compile(r"^(\| `(\w+)` \| ([^|]+?) \|.*)$", re.M)
 FITTED = re.compile(r"<!-- confidence was fitted with: (.*?) -->", re.S)
 PART = re.compile(r"^### `(\w+)`", re.M)
 
@@ -28,7 +28,7 @@ class Constant(typing.NamedTuple):
         return ("%g" % self.value) + (" " + self.unit if self.unit and self.unit != "share" else "")
 
     def times(self, factor):
-        """So many times the value; of a share the odds, so that it stays one; whole numbers of one at least."""
+        """So many times the value; of a share the odds, so that it stays one."""
         if self.unit == "share":
             odds = factor * self.value / (1.0 - self.value)
             return odds / (1.0 + odds)
@@ -54,18 +54,18 @@ def declared(root):
     return found
 
 
-def shown_in(page):
-    """{part.name: value as it is shown} of a page."""
+def rows_of(page):
+    """{part.name: (line, value as it is shown)} of a page."""
     rows = {}
     pieces = PART.split(page)
     for part, text in zip(pieces[1::2], pieces[2::2]):
-        for name, value in ROW.findall(text):
-            rows[part + "." + name] = value
+        for line, name, value in ROW.findall(text):
+            rows[part + "." + name] = line, value
     return rows
 
 
 def unmeasured(constants, page):
-    rows = shown_in(page)
+    rows = rows_of(page)
     return [c.key for c in constants if c.key not in rows]
 
 
@@ -82,12 +82,14 @@ def since_the_fit(constants, page):
         return "confidence was fitted before its constants were noted: scripts/fit-confidence.py"
     now = {c.key: "%g" % c.value for c in constants if c.part != "confidence"}
     changed = sorted(key for key in now.keys() | fitted.keys() if now.get(key) != fitted.get(key))
-    return changed and "confidence was fitted with other values of %s: scripts/fit-confidence.py" % ", ".join(changed) or ""
+    if not changed:
+        return ""
+    return "confidence was fitted with other values of %s: scripts/fit-confidence.py" % ", ".join(changed)
 
 
 def differences(constants, page):
     """Sentences on what the page has with another value, or has too much of. What was never measured is told by unmeasured()."""
-    rows = shown_in(page)
-    trouble = ["%s is %s in the code and was %s when it was measured" % (c.key, c.shown, rows[c.key])
-                for c in constants if rows.get(c.key, c.shown) != c.shown]
-    return trouble + ["%s is in the page alone" % key for key in rows if key not in {c.key for c in constants}]
+    shown = {key: value for key, (_, value) in rows_of(page).items()}
+    trouble = ["%s is %s in the code and was %s when it was measured" % (c.key, c.shown, shown[c.key])
+               for c in constants if shown.get(c.key, c.shown) != c.shown]
+    return trouble + ["%s is in the page alone" % key for key in shown if key not in {c.key for c in constants}]

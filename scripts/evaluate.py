@@ -75,6 +75,12 @@ MRCLAM_LEARNED = (("ds6", "?from_s=440", "ds6", "?to_s=440", "mount"), ("ds6", "
                   ("ds1", "", "ds6", "", "mount"), ("ds2", "", "ds6", "", "mount"), ("ds3", "", "ds6", "", "mount"))
 
 
+def import_mrclam(ortung, data, base, name, robot):
+    """Record, world and robot file of one robot of a run; their names begin with `base`."""
+    run([ortung, "import", "mrclam", os.path.join(data, "utias_mrclam", name), "--robot", str(robot), "--out", base + ".rec",
+         "--world", base + ".toml", "--robot-file", base + "-robot.toml", "--force"])
+
+
 def mrclam(ortung, data, out, seeds):
     print("\n## Landmarks: MRCLAM\n\n| run, robot " + HEAD + "\n" + RULE, flush=True)
     missing = set()
@@ -87,8 +93,7 @@ def mrclam(ortung, data, out, seeds):
                 missing.add((name, robot))
                 continue
             base = os.path.join(out, "%s-%d" % (name, robot))
-            run([ortung, "import", "mrclam", folder, "--robot", str(robot), "--out", base + ".rec",
-                 "--world", base + ".toml", "--robot-file", base + "-robot.toml", "--force"])
+            import_mrclam(ortung, data, base, name, robot)
             if robot == 1:
                 run([ortung, "learn", "--world", base + ".toml", "--robot", base + "-robot.toml", "--out", tables,
                      "--cell", "0.05"])

@@ -11,7 +11,6 @@ the page says with which constants this was done. It takes some minutes.
 import argparse
 import concurrent.futures
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -19,6 +18,7 @@ import numpy
 
 import constants
 import evaluate
+import results_page
 import sweep
 
 NAMES = ("kConstant", "kOfBelief", "kOfFit", "kOfFitLately", "kOfLead")
@@ -49,24 +49,18 @@ def errors(signs, stamps, places):
     return signs[known], numpy.linalg.norm(signs[known, 1:3] - between[known], axis=1)
 
 
-def moments(bench, name, options):
-    """Signs and outcomes of a run: columns 1, belief, fit, fit lately, lead; and whether the position was right."""
-    base = os.path.join(bench.out, name)
+def moments(bench, name, options, reach):
+    """Signs and outcomes of a run: columns 1, belief, fit, fit lately, lead; and whether the position was less than `reach` off."""
     with tempfile.TemporaryDirectory() as folder:
         noted, record = os.path.join(folder, "signs"), os.path.join(folder, "run.txt")
-        words = [bench.ortung, "eval", "--source", "record:%s.rec" % base, "--robot", base + "-robot.toml", "--tables",
-                 base + ".ortung", "--threads", "1", "--record", record, *options]
-        done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "ORTUNG_SIGNS": noted})
-        if done.returncode != 0:
-            raise RuntimeError("%s: %s" % (" ".join(words), done.stderr.strip()[-300:]))
+        bench.evaluate(name, ["--record", record, *options], {"ORTUNG_SIGNS": noted})
         signs = numpy.loadtxt(noted, ndmin=2)
         with open(record) as file:
             truth = truth_of(file)
     # Of several estimates of a moment the last one counts.
     signs = signs[numpy.unique(signs[::-1, 0], return_index=True)[1] * -1 + len(signs) - 1]
     signs, off = errors(signs, *truth)
-    right = next(c.value for c in constants.declared(sweep.ROOT) if c.key == "confidence.kRight")
-    return numpy.column_stack([numpy.ones(len(signs)), signs[:, 3:7]]), off < right
+    return numpy.column_stack([numpy.ones(len(signs)), signs[:, 3:7]]), off < reach
 
 
 def fit(rows, right, weights):
@@ -125,14 +119,16 @@ def main():
     parser.add_argument("--out", default="out/sweep", help="folder for records and tables")
     parser.add_argument("--write", metavar="FILE", help="say in this page with which constants it was done")
     arguments = parser.parse_args()
+    declared = constants.declared(sweep.ROOT)
+    confidence = {c.name: c.value for c in declared if c.part == "confidence"}
     os.makedirs(arguments.out, exist_ok=True)
     bench = sweep.Bench(arguments.ortung, arguments.data, arguments.out, RECORDINGS)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        asked = {name: [pool.submit(moments, bench, name, options) for options in
+        asked = {name: [pool.submit(moments, bench, name, options, confidence["kRight"]) for options in
                         DISTURBANCES + (LASER_ONLY if name in evaluate.LASER else ())] for name in RECORDINGS}
         runs = {name: [f.result() for f in futures] for name, futures in asked.items()}
     everything = [run for some in runs.values() for run in some]
-    now = numpy.array([next(c.value for c in constants.declared(sweep.ROOT) if c.key == "confidence." + n) for n in NAMES])
+    now = numpy.array([confidence[name] for name in NAMES])
     best = fit(*stack(everything))
     describe("in the code", now, everything)
     describe("fitted", best, everything)
@@ -142,10 +138,7 @@ def main():
         left_out = area(rows @ fit(*stack(others)), right)
         print("  %-14s right %.2f of the time%s" % (name, right.mean(), "" if left_out is None else ", area %.3f" % left_out))
     if arguments.write:
-        with open(arguments.write) as file:
-            page = file.read()
-        with open(arguments.write, "w") as file:
-            file.write(constants.with_fit(page, constants.declared(sweep.ROOT)))
+        results_page.rewrite(arguments.write, lambda page: constants.with_fit(page, declared))
 
 
 if __name__ == "__main__":

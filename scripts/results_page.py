@@ -52,6 +52,15 @@ def put(page, tables):
     return "\n".join(lines), missing
 
 
+def rewrite(file, change):
+    """Puts change(text) in place of a page's text: whole, or not at all."""
+    with open(file) as page:
+        text = change(page.read())
+    with open(file + ".new", "w") as page:
+        page.write(text)
+    os.replace(file + ".new", file)
+
+
 @contextlib.contextmanager
 def written(file):
     """Puts the tables that are printed meanwhile into the page, if there is one."""
@@ -61,11 +70,14 @@ def written(file):
     tee = Tee()
     with contextlib.redirect_stdout(tee):
         yield
-    with open(file) as page:
-        text, missing = put(page.read(), tables_of(tee.getvalue()))
-    with open(file + ".new", "w") as page:
-        page.write(text)
-    os.replace(file + ".new", file)
+    missing = []
+
+    def with_tables(page):
+        text, lacking = put(page, tables_of(tee.getvalue()))
+        missing.extend(lacking)
+        return text
+
+    rewrite(file, with_tables)
     for mark in missing:
         print("%s has no line %s, so its table is not there" % (file, mark), file=sys.stderr)
 

@@ -11,7 +11,6 @@ import argparse
 import concurrent.futures
 import json
 import os
-import re
 import subprocess
 import sys
 import tempfile
@@ -19,6 +18,7 @@ import typing
 
 import constants
 import evaluate
+import results_page
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FACTORS = (0.5, 2.0)
@@ -70,26 +70,29 @@ class Bench:
 
     def import_landmarks(self, data, name):
         base = os.path.join(self.out, name)
-        evaluate.run([self.ortung, "import", "mrclam", os.path.join(data, "utias_mrclam", name), "--robot", "3", "--out",
-                      base + ".rec", "--world", base + ".toml", "--robot-file", base + "-robot.toml", "--force"])
+        evaluate.import_mrclam(self.ortung, data, base, name, 3)
         evaluate.run([self.ortung, "learn", "--world", base + ".toml", "--robot", base + "-robot.toml", "--out",
                       base + ".ortung", "--cell", "0.05", "--force"])
 
     def figures(self, values):
         """Of all cases, with other values of constants: {part.name: value}."""
-        environment = {**os.environ, "ORTUNG_CONSTANTS": " ".join("%s=%.17g" % item for item in values.items())}
-        return [self.case(name, options, environment) for name, options in CASES]
+        variables = {"ORTUNG_CONSTANTS": " ".join("%s=%.17g" % item for item in values.items())}
+        return [self.case(name, options, variables) for name, options in CASES]
 
-    def case(self, name, options, environment):
-        base = os.path.join(self.out, name)
+    def case(self, name, options, variables):
         with tempfile.NamedTemporaryFile(suffix=".json") as out:
-            words = [self.ortung, "eval", "--source", "record:%s.rec" % base, "--robot", base + "-robot.toml", "--tables",
-                     base + ".ortung", "--threads", "1", "--json", out.name, *options]
-            done = subprocess.run(words, capture_output=True, text=True, env=environment)
-            if done.returncode != 0:
-                raise RuntimeError("%s: %s" % (" ".join(words), done.stderr.strip()[-300:]))
+            self.evaluate(name, ["--json", out.name, *options], variables)
             with open(out.name) as file:
                 return figures_of(json.load(file))
+
+    def evaluate(self, name, options, variables):
+        """`ortung eval` of a recording, with more variables of the environment; raises RuntimeError with what it said."""
+        base = os.path.join(self.out, name)
+        words = [self.ortung, "eval", "--source", "record:%s.rec" % base, "--robot", base + "-robot.toml", "--tables",
+                 base + ".ortung", "--threads", "1", *options]
+        done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, **variables})
+        if done.returncode != 0:
+            raise RuntimeError("%s: %s" % (" ".join(words), done.stderr.strip()[-300:]))
 
 
 def change(before, after):
@@ -115,11 +118,7 @@ def change(before, after):
 def put(page, rows):
     """The page with what was measured now: {Constant: (half, twice)}, in the order of the headers."""
     head, mark, old = page.partition("<!-- constants -->\n")
-    kept = {}
-    pieces = constants.PART.split(old)
-    for part, text in zip(pieces[1::2], pieces[2::2]):
-        for line in re.findall(r"^\| `.*$", text, re.M):
-            kept[part + "." + line.split("`")[1]] = line
+    kept = {key: line for key, (line, _) in constants.rows_of(old).items()}
     lines, before = [], (None, None)
     for c in constants.declared(ROOT):
         if c.room != before[0]:
@@ -161,10 +160,7 @@ def main():
             rows[c] = tuple(outcome(before, future) for future in futures)
             print("%s = %s | %s | %s" % (c.key, c.shown, *rows[c]), flush=True)
             if arguments.write:
-                with open(arguments.write) as file:
-                    page = file.read()
-                with open(arguments.write, "w") as file:
-                    file.write(put(page, rows))
+                results_page.rewrite(arguments.write, lambda page: put(page, rows))
 
 
 def outcome(before, future):
