@@ -15,7 +15,9 @@ namespace {
 
 using namespace tuning::annealing;
 
-constexpr std::size_t kSteps = 2;  ///< Metropolis steps at each exponent: coarse, then fine
+// The Metropolis steps at each exponent: coarse, then fine.
+const double kStepMetres[] = {kCoarseMetres, kFineMetres};
+const double kStepRadians[] = {kCoarseRadians, kFineRadians};
 
 std::vector<float> taken(const std::vector<float>& from,
                          const std::vector<std::uint32_t>& indices) {
@@ -108,7 +110,7 @@ void Annealing::Draw::endPass() {
     return;
   }
   annealing_.accept(climbing_, weighing_, fit_, exponent_, climb_);
-  if (++step_ == kSteps) {
+  if (++step_ == std::size(kStepMetres)) {
     rise();
     return;
   }
@@ -153,8 +155,8 @@ double Annealing::logPriorOf(const Climbing& some, std::size_t i, float x, float
 
 /// Returns the proposals of a Metropolis step for a set of samples.
 SampleSet Annealing::proposed(const SampleSet& set, std::size_t step, Random& random) const {
-  const double metres = std::min(step == 0 ? kCoarseMetres : kFineMetres, mostMetres_);
-  const double radians = std::min(step == 0 ? kCoarseRadians : kFineRadians, mostRadians_);
+  const double metres = std::min(kStepMetres[step], mostMetres_);
+  const double radians = std::min(kStepRadians[step], mostRadians_);
   SampleSet proposed;
   proposed.resize(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {

@@ -46,6 +46,7 @@ struct RobotTopics::Parts {
     std::size_t topic = 0;
     std::string frame;  ///< of the sensor
     Format format{formats::kOdometry};
+    bool keepsWords = true;  ///< whether the words can be read from its message
   };
   const SensorContainer& container;
   MapFrame mapFrame = MapFrame::kBest;
@@ -88,8 +89,14 @@ bool isOwn(const SensorId& id) {
   return id.type == "groundTruth" || id == kEstimate || id == kSamples;
 }
 
-/// What a topic of a feature begins with, by its format; empty if ROS has no message for it.
-std::pair<std::string, std::string_view> kindOf(const SensorData& data) {
+/// What ROS has for a feature.
+struct Kind {
+  std::string topic;  ///< what its name begins with; empty if ROS has no message for the format
+  std::string_view type;
+  bool keepsWords = true;  ///< whether the words can be read from the message
+};
+
+Kind kindOf(const SensorData& data) {
   const Format whole = data.format();
   const std::string& format = whole.name();
   if (format == formats::kOdometry) return {"/odom", Odometry::kType};
@@ -100,29 +107,22 @@ std::pair<std::string, std::string_view> kindOf(const SensorData& data) {
   if (format == formats::kFix) return {"/pose_fix", PoseWithCovarianceStamped::kType};
   switch (rowKindOf(whole)) {
     case RowKind::kPlaces:
-      return {"/points", PointCloud::kType};
+      return {"/points", PointCloud::kType, false};
     case RowKind::kRanges:
-      return {"/range", Range::kType};
+      return {"/range", Range::kType, false};
     case RowKind::kOther:
       break;
   }
   return {};
 }
 
-/// Whether ROS shows it, but its words can't be read from that message.
-bool isShownOnly(const Format& format) {
-  return format.name() != formats::kOdometry && format.name() != formats::kScan &&
-         format.name() != formats::kCone && format.name() != formats::kImage &&
-         format.name() != formats::kFix;
-}
-
 }  // namespace
 
 void RobotTopics::Parts::addFeatures() {
   std::map<std::string, int> count;
-  for (const auto& data : container.all()) ++count[kindOf(*data).first];
+  for (const auto& data : container.all()) ++count[kindOf(*data).topic];
   for (const auto& data : container.all()) {
-    const auto [name, type] = kindOf(*data);
+    const auto [name, type, keepsWords] = kindOf(*data);
     const SensorId& id = data->id();
     if (name.empty()) {
       if (!isOwn(id)) addWords(id);
@@ -136,9 +136,10 @@ void RobotTopics::Parts::addFeatures() {
     const bool isShort = isFirstOdometry || (count[name] == 1 && name != "/range");
     const std::size_t topic =
         addTopic(topicStart + (isShort ? name : name + "/" + own), type, false, feature);
-    if (isShownOnly(data->format())) addWords(id);
+    if (!keepsWords) addWords(id);
     routes[feature] = {data.get(), topic,
-                       frameStart + cleaned(id.model) + "_" + cleaned(id.feature), data->format()};
+                       frameStart + cleaned(id.model) + "_" + cleaned(id.feature), data->format(),
+                       keepsWords};
   }
 }
 
@@ -227,7 +228,7 @@ void RobotTopics::Parts::take(const Message& message, const Sink& sink) {
   if (found == routes.end()) return sendWords(message, sink);
   const Route& route = found->second;
   route.data->checkData(message.words);
-  if (isShownOnly(route.format)) sendWords(message, sink);
+  if (!route.keepsWords) sendWords(message, sink);
   const Header here{stamp, route.frame};
   const auto send = [&](const auto& out) { sink(route.topic, message.stamp, toCdr(out)); };
   const Format& format = route.format;

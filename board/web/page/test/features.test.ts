@@ -101,13 +101,13 @@ describe("a plugin's own format", () => {
   const layers = Object.fromEntries(kLayerNames.map((name) => [name, true])) as unknown as Layers;
 
   /** What is drawn of it: places of dots, beginnings and ends of lines. */
-  function drawn(row: string, words: number[]) {
+  function drawn(row: string, words: number[], expected: number[] = []) {
     const robot = new Robot(1);
     robot.describe(["a/b/c of my own", `format a/b/c mine row=${row}`, `mount a/b/c x_m=${mount.x} y_m=0 theta_rad=0`]);
     robot.setTruth(base, 0);
     robot.readings.set("a/b/c", { stamp: 0, words: new Uint32Array(words) });
     const rays = new Rays();
-    rays.add(robot, layers, null);
+    rays.add(robot, layers, new Map([["a/b/c", new Map(expected.entries())]]));
     const points = (numbers: number[]) =>
       Array.from({ length: numbers.length / 6 }, (_, i) => [numbers[6 * i]!, numbers[6 * i + 1]!].map((n) => Number(n.toFixed(6))));
     return { dots: points(rays.dots), lines: points(rays.lines) };
@@ -118,14 +118,7 @@ describe("a plugin's own format", () => {
     expect(valuesOf(kind, new Uint32Array([7, 9000, 1500])).map(({ name, value, unit }) => [name, value, unit])).toEqual([
       ["1 distance", 1.5, "m"], ["1 bearing", -90, "°"], ["1 word 0", 7, ""],
     ]);
-    const robot = new Robot(1);
-    robot.describe(["a/b/c of my own", "format a/b/c mine row=other,bearing_cdeg,range_mm", "mount a/b/c x_m=0 y_m=0 theta_rad=0"]);
-    robot.setTruth({ x: 0, y: 0, theta: 0 }, 0);
-    robot.readings.set("a/b/c", { stamp: 0, words: new Uint32Array() });
-    const rays = new Rays();
-    const layers = Object.fromEntries(kLayerNames.map((name) => [name, name === "expected"])) as unknown as Layers;
-    rays.add(robot, layers, new Map([["a/b/c", new Map([[0, Math.PI / 2], [1, 2]])]]));
-    expect(rays.dots.slice(0, 2).map((n) => Number(n.toFixed(6)))).toEqual([0, 2]);
+    expect(drawn("other,bearing_cdeg,range_mm", [], [Math.PI / 2, 2]).dots).toEqual([[8, 6]]);
   });
 
   // The sensor is one metre before the robot, which looks along y.
