@@ -25,10 +25,11 @@ def tables(file, head):
         sys.exit(f"{file}: no table of keys")
 
     def moved(link):
-        target = posixpath.normpath(posixpath.join(posixpath.dirname(file), link[1]))
-        return "](" + posixpath.relpath(target, "docs") + ")"
+        page, place = link.groups("")
+        target = posixpath.normpath(posixpath.join(posixpath.dirname(file), page)) if page else file
+        return "](" + posixpath.relpath(target, "docs") + place + ")"
 
-    return re.sub(r"\]\((?!http|#)([^)#]+)\)", moved, "\n\n".join(found))
+    return re.sub(r"\]\((?!http)([^)#]*)(#[^)]*)?\)", moved, "\n\n".join(found))
 
 
 def main():
