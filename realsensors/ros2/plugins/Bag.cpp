@@ -174,23 +174,23 @@ void Bag::keep(std::size_t bytes) {
 
 void Bag::takeScan(const McapMessage& message) {
   const auto scan = *decode<LaserScan>(message);
-  Scans& scans_ = ofTopic(scans, *message.channel, file_);
+  Scans& series = ofTopic(scans, *message.channel, file_);
   try {
-    if (!scans_.shape) scans_.shape.emplace(scan);
+    if (!series.shape) series.shape.emplace(scan);
   } catch (const std::invalid_argument& error) {
     refuse(message, error.what());
   }
-  std::vector<float> fitted = scans_.shape->fit(scan);
+  std::vector<float> fitted = series.shape->fit(scan);
   if (fitted.empty()) {
     ++unfit_[message.channel->topic +
              " reach beyond the angles of its first one, and were left out"];
     return;
   }
   keep(fitted.size() * sizeof(float));
-  if (!scans_.shape->isSame(scan))
+  if (!series.shape->isSame(scan))
     ++unfit_[message.channel->topic +
              " have other beams than its first one, and were fitted to it"];
-  scans_.list.push_back({stampOf(scan.header, message), std::move(fitted)});
+  series.list.push_back({stampOf(scan.header, message), std::move(fitted)});
 }
 
 void Bag::takeRange(const McapMessage& message) {
