@@ -33,6 +33,12 @@ async function checkAccess(page, what) {
   }
 }
 
+/** Nothing in the panel is wider than it is. */
+async function checkWidth(page) {
+  const tooWide = await page.locator("#panel").evaluate((panel) => panel.scrollWidth - panel.clientWidth);
+  assert.ok(tooWide <= 0, `the panel's contents are ${tooWide} px wider than the panel`);
+}
+
 /** Each feature of the robot is of a format that the page knows, and its scan and its localization read what they do. */
 async function checkReadings(page, what) {
   await tab(page, "Sensors").click();
@@ -50,6 +56,7 @@ async function checkPanels(page, what) {
   for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
     await tab(page, panel).click();
     await page.waitForFunction(() => document.querySelector("#panel .block"));
+    await checkWidth(page);
     await checkAccess(page, `${what}-${panel}`);
   }
 }
@@ -224,6 +231,7 @@ describe("the page of a match", () => {
   it("is steered by two fingers, by a gamepad, and turns a robot", async () => {
     await client.ask("PAUSE");
     await client.ask("PLACE robot=3 x_m=-4 y_m=3.5 theta_deg=0");
+    await client.ask("PLACE robot=4 x_m=1 y_m=-2 theta_deg=0");
     await client.ask("STEP");
     const page = await openPage(browser, `${program.url}&robot=3`, { hasTouch: true });
     await until("the robot is shown at its place", async () => /at -4.0, 3.5/.test(await robot(page, "blue3").getAttribute("aria-label")));
@@ -240,8 +248,9 @@ describe("the page of a match", () => {
     const before = await scale();
     const debug = await page.context().newCDPSession(page);
     const { x, y } = await onScreen(page, 1, -2);
+    // One of the fingers is on another robot, which is neither selected nor moved by that.
     const touch = (type, apart) => {
-      const touchPoints = apart ? [{ x: x - apart, y, id: 0 }, { x: x + apart, y, id: 1 }] : [];
+      const touchPoints = apart ? [{ x, y, id: 0 }, { x: x + 2 * apart, y, id: 1 }] : [];
       return debug.send("Input.dispatchTouchEvent", { type, touchPoints });
     };
     await touch("touchStart", 40);
@@ -384,6 +393,7 @@ describe("the page of a robot that is localized", () => {
     await page.getByRole("heading", { name: /^Why / }).waitFor();
     await page.getByRole("button", { name: /180DegreeScan/ }).click();
     await page.getByRole("columnheader", { name: "expected" }).waitFor();
+    await checkWidth(page);
     await checkAccess(page, "map");
     assert.deepEqual(page.problems, []);
     client.close();

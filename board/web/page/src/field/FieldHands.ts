@@ -18,6 +18,8 @@ export class FieldHands {
   private grip: Grip | null = null;
   private start: Point = { x: 0, y: 0 };
   private hasMoved = false;
+  /** A robot that was touched: selected when it is let go or carried, not when a second finger comes to zoom. */
+  private touched = 0;
   private isSending = false;
   private toSend: { what: string; pose: Pose; turns: boolean } | null = null;
 
@@ -51,6 +53,7 @@ export class FieldHands {
     this.pointers.set(event.pointerId, at);
     if (this.pointers.size > 1) {
       this.grip = null;
+      this.touched = 0;
       return;
     }
     this.start = at;
@@ -60,15 +63,16 @@ export class FieldHands {
 
   private take(event: PointerEvent, at: Point): Grip {
     const { painter, board } = this;
-    const { ui, session } = painter.context;
+    const { ui } = painter.context;
     const field = painter.view.toField(at);
+    this.touched = 0;
     const over = (event.target as Element).closest<SVGGElement>(".robot, .object");
     const number = Number(over?.dataset.robot ?? 0);
     if (ui.tool === "measure") return { kind: "measure", from: field };
     if (event.shiftKey && board.robot && board.isOperator && board.can("LOCALIZE")) {
       return { kind: "about", at: field, theta: board.robot.pose?.theta ?? 0 };
     }
-    if (number) session.select(number);
+    this.touched = number;
     if (over && board.isOperator) {
       const what = number ? `robot=${number}` : `object=${over.dataset.object}`;
       const pose = number ? board.robots.get(number)?.pose : board.objects.find(({ name }) => name === over.dataset.object);
@@ -90,6 +94,7 @@ export class FieldHands {
     if (this.pointers.size === 2) return this.pinch(event.pointerId, before, at);
     if (Math.hypot(at.x - this.start.x, at.y - this.start.y) > kClick) this.hasMoved = true;
     if (!this.hasMoved || !this.grip) return;
+    this.selectTouched();
     this.drag(this.grip, at);
     painter.dirty();
   }
@@ -147,6 +152,11 @@ export class FieldHands {
     if (!this.grip) this.letGo();
   }
 
+  private selectTouched(): void {
+    if (this.touched) this.painter.context.session.select(this.touched);
+    this.touched = 0;
+  }
+
   private letGo(): void {
     this.painter.held.clear();
     this.painter.dirty();
@@ -157,6 +167,7 @@ export class FieldHands {
     if (!this.pointers.delete(event.pointerId)) return;
     this.grip = null;
     if (!grip) return;
+    this.selectTouched();
     const { session, ui } = painter.context;
     if (grip.kind === "carry") {
       if (!this.isSending) this.letGo();

@@ -180,7 +180,7 @@ function MapSection() {
       </div>
       {insight.wantsMap && (
         <>
-          <div class="row">
+          <div class="row wrap">
             <label>
               <span class="key">heading</span>
               <select value={headings} onChange={(event) => setHeadings(event.currentTarget.value as typeof headings)}>
