@@ -5,7 +5,8 @@ import { join } from "node:path";
 import { openPage, root, runProgram, startBrowser, startClient, startProgram, until } from "./program.mjs";
 
 const folder = process.argv[2] ?? join(root, "docs", "pictures");
-const kLocalized = ["maps/fields/f2000.toml", "--robot", "maps/robots/pioneer.toml", "--localize", "all"];
+const kField = "maps/fields/f2000.toml";
+const kRobot = ["--robot", "maps/robots/pioneer.toml"];
 const browser = await startBrowser();
 
 const seconds = async (page) => {
@@ -15,11 +16,7 @@ const seconds = async (page) => {
 const atTime = (page, time) => until(`the clock shows ${time} s`, async () => (await seconds(page)) >= time, 120);
 
 /** A page of @p program with @p keys behind its #. */
-async function pageOf(program, keys, colorScheme) {
-  const url = new URL(program.url);
-  url.hash += `&${keys}`;
-  return openPage(browser, url, { colorScheme });
-}
+const pageOf = (program, keys, colorScheme) => openPage(browser, `${program.url}&${keys}`, { colorScheme });
 
 async function save(page, name) {
   await page.mouse.move(0, 700);
@@ -28,7 +25,7 @@ async function save(page, name) {
   await page.close();
 }
 
-async function matches() {
+async function ofMatch() {
   const program = await startProgram(["sim", "maps/scenes/f2000_match.toml"]);
   const light = await pageOf(program, "robot=4&panel=game", "light");
   const dark = await pageOf(program, "robot=3&panel=game", "dark");
@@ -41,8 +38,8 @@ async function matches() {
   await program.stop();
 }
 
-async function localization() {
-  const program = await startProgram(["sim", ...kLocalized]);
+async function ofLocalization() {
+  const program = await startProgram(["sim", kField, ...kRobot, "--localize", "all"]);
   const client = await startClient(program);
   const open = () => pageOf(program, "robot=1&panel=localization", "light");
   const curves = await open();
@@ -55,7 +52,6 @@ async function localization() {
   await atTime(curves, 18);
   await client.ask("PAUSE");
   for (const page of [curves, maps]) await page.locator("#panel canvas").nth(3).waitFor();
-  await curves.getByText("Over time").scrollIntoViewIfNeeded();
   await curves.getByText("Over time").evaluate((title) => title.scrollIntoView());
   await save(curves, "viewer-localization.png");
   await maps.getByText("Map of p(s given l)").evaluate((title) => title.scrollIntoView());
@@ -64,18 +60,20 @@ async function localization() {
   await program.stop();
 }
 
-async function records() {
+async function ofRecords() {
   const own = mkdtempSync(join(tmpdir(), "ortung-pictures-"));
   const tables = join(own, "f2000.ortung");
-  const world = ["--world", "maps/fields/f2000.toml", "--robot", "maps/robots/pioneer.toml"];
-  const check = ({ status, stderr }) => {
+  const run = (words) => {
+    const { status, stderr } = runProgram(words);
     if (status !== 0) throw new Error(stderr);
   };
-  check(runProgram(["learn", ...world, "--out", tables]));
-  const runs = [1, 2].map((seed) => join(own, `run${seed}.rec`));
-  runs.forEach((run, index) => check(runProgram(["sim", "maps/fields/f2000.toml", "--robot", "maps/robots/pioneer.toml",
-    "--seed", `${index + 1}`, "--duration", "30", "--free-run", "--record", run])));
-  const program = await startProgram(["view", ...runs, ...world, "--tables", tables]);
+  run(["learn", "--world", kField, ...kRobot, "--out", tables]);
+  const records = ["1", "2"].map((seed) => {
+    const record = join(own, `run${seed}.rec`);
+    run(["sim", kField, ...kRobot, "--seed", seed, "--duration", "30", "--free-run", "--record", record]);
+    return record;
+  });
+  const program = await startProgram(["view", ...records, "--world", kField, ...kRobot, "--tables", tables]);
   const page = await pageOf(program, "robot=1&panel=localization", "dark");
   await page.getByRole("slider", { name: "Time of the record" }).waitFor();
   await atTime(page, 11);
@@ -84,7 +82,7 @@ async function records() {
   rmSync(own, { recursive: true });
 }
 
-await matches();
-await localization();
-await records();
+await ofMatch();
+await ofLocalization();
+await ofRecords();
 await browser.close();

@@ -5,11 +5,12 @@ import type { HandledField } from "./HandledField";
 const kClick = 4;
 const kKeyStep = 60;
 
+/** What is done with what a pointer touched. A `robot` is selected when it is let go or carried: if a second finger comes, to zoom, not at all. */
 type Grip =
-  | { kind: "pan"; last: Point }
+  | { kind: "pan"; last: Point; robot: number }
   | { kind: "measure"; from: Point }
   | { kind: "about"; at: Point; theta: number }
-  | { kind: "carry"; what: string; offset: Point; theta: number | null; turns: boolean };
+  | { kind: "carry"; robot: number; what: string; offset: Point; theta: number | null; turns: boolean };
 
 /** Mouse, fingers and keys on the field. */
 export class FieldHands {
@@ -18,8 +19,6 @@ export class FieldHands {
   private grip: Grip | null = null;
   private start: Point = { x: 0, y: 0 };
   private hasMoved = false;
-  /** A robot that was touched: selected when it is let go or carried, not when a second finger comes to zoom. */
-  private touched = 0;
   private isSending = false;
   private toSend: { what: string; pose: Pose; turns: boolean } | null = null;
 
@@ -53,7 +52,6 @@ export class FieldHands {
     this.pointers.set(event.pointerId, at);
     if (this.pointers.size > 1) {
       this.grip = null;
-      this.touched = 0;
       return;
     }
     this.start = at;
@@ -65,23 +63,21 @@ export class FieldHands {
     const { painter, board } = this;
     const { ui } = painter.context;
     const field = painter.view.toField(at);
-    this.touched = 0;
     const over = (event.target as Element).closest<SVGGElement>(".robot, .object");
-    const number = Number(over?.dataset.robot ?? 0);
+    const robot = Number(over?.dataset.robot ?? 0);
     if (ui.tool === "measure") return { kind: "measure", from: field };
     if (event.shiftKey && board.robot && board.isOperator && board.can("LOCALIZE")) {
       return { kind: "about", at: field, theta: board.robot.pose?.theta ?? 0 };
     }
-    this.touched = number;
     if (over && board.isOperator) {
-      const what = number ? `robot=${number}` : `object=${over.dataset.object}`;
-      const pose = number ? board.robots.get(number)?.pose : board.objects.find(({ name }) => name === over.dataset.object);
+      const what = robot ? `robot=${robot}` : `object=${over.dataset.object}`;
+      const pose = robot ? board.robots.get(robot)?.pose : board.objects.find(({ name }) => name === over.dataset.object);
       if (pose) {
         const offset = { x: pose.x - field.x, y: pose.y - field.y };
-        return { kind: "carry", what, offset, theta: number ? pose.theta : null, turns: event.altKey };
+        return { kind: "carry", robot, what, offset, theta: robot ? pose.theta : null, turns: event.altKey };
       }
     }
-    return { kind: "pan", last: at };
+    return { kind: "pan", last: at, robot };
   }
 
   private move(event: PointerEvent): void {
@@ -92,9 +88,11 @@ export class FieldHands {
     if (!before) return;
     this.pointers.set(event.pointerId, at);
     if (this.pointers.size === 2) return this.pinch(event.pointerId, before, at);
-    if (Math.hypot(at.x - this.start.x, at.y - this.start.y) > kClick) this.hasMoved = true;
+    if (!this.hasMoved && Math.hypot(at.x - this.start.x, at.y - this.start.y) > kClick) {
+      this.hasMoved = true;
+      this.selectTouched(this.grip);
+    }
     if (!this.hasMoved || !this.grip) return;
-    this.selectTouched();
     this.drag(this.grip, at);
     painter.dirty();
   }
@@ -152,9 +150,8 @@ export class FieldHands {
     if (!this.grip) this.letGo();
   }
 
-  private selectTouched(): void {
-    if (this.touched) this.painter.context.session.select(this.touched);
-    this.touched = 0;
+  private selectTouched(grip: Grip | null): void {
+    if (grip && "robot" in grip && grip.robot) this.painter.context.session.select(grip.robot);
   }
 
   private letGo(): void {
@@ -167,7 +164,7 @@ export class FieldHands {
     if (!this.pointers.delete(event.pointerId)) return;
     this.grip = null;
     if (!grip) return;
-    this.selectTouched();
+    if (!this.hasMoved) this.selectTouched(grip);
     const { session, ui } = painter.context;
     if (grip.kind === "carry") {
       if (!this.isSending) this.letGo();
