@@ -67,6 +67,16 @@ void makeRobot(const Source& source, const Workshop& workshop, const std::string
   readRobot(workshop.file());
 }
 
+/// Returns the formats of the robot's features, for the record's notes; none without a robot file.
+std::vector<std::pair<SensorId, Format>> formatsIn(const fs::path& robotFile,
+                                                   PluginFactory& factory) {
+  if (robotFile.empty()) return {};
+  const RobotConfig robot = readRobot(robotFile);
+  SensorContainer container;
+  fillContainer(container, robot, factory);
+  return formatsOf(container);
+}
+
 /// What was written, for the summary.
 struct Written {
   std::map<std::string, std::size_t> readings;  ///< number of readings of each feature
@@ -156,7 +166,9 @@ int runImport(const ImportArguments& arguments) {
     robot.emplace("--robot-file", arguments.robotFile);
     makeRobot(*source, *robot, text.kind + ":" + text.path, arguments);
   }
-  RecordWriter record(outputs.ready(arguments.out), fingerprint, paceOf(*source));
+  const fs::path robotFile = robot ? robot->file() : arguments.withRobot;
+  RecordWriter record(outputs.ready(arguments.out),
+                      RecordNotes{fingerprint, formatsIn(robotFile, factory)}, paceOf(*source));
   const Written written = copyMessages(*source, record, arguments);
   warnOf(*source);
   if (record.messages() == 0) {

@@ -103,9 +103,12 @@ RunResult runOne(const EvalSettings& settings, const EvalJob& job, const Outputs
   EvalExtras extras;
   extras.progress = [&](double share) { progress.update(share); };
   if (!settings.arguments.record.empty()) {
-    extras.record = [&](const Source& source) {
-      return std::make_unique<RecordWriter>(outputs.ready(settings.arguments.record),
-                                            source.worldFingerprint(), paceOf(source));
+    extras.record = [&](Localization& localization) {
+      const Source& source = localization.source();
+      return std::make_unique<RecordWriter>(
+          outputs.ready(settings.arguments.record),
+          RecordNotes{source.worldFingerprint(), formatsOf(localization.container())},
+          paceOf(source));
     };
   }
   return runJob(settings, job, extras);

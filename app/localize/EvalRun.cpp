@@ -206,7 +206,7 @@ RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExt
         return withFaults(std::move(source), settings.faults, robot, job.seed);
       });
   std::unique_ptr<RecordWriter> record;
-  if (extras.record) record = extras.record(localization->source());
+  if (extras.record) record = extras.record(*localization);
   if (record) localization->feeder().recordInto(*record);
 
   Run run(settings, arguments, *localization);

@@ -10,6 +10,7 @@
 #include "Eval.hpp"
 #include "RunResult.hpp"
 #include "ortung/records/RecordWriter.hpp"
+#include "ortung/run/Localization.hpp"
 #include "ortung/study/Evaluation.hpp"
 #include "ortung/study/Fault.hpp"
 #include "ortung/study/Recording.hpp"
@@ -51,7 +52,7 @@ struct EvalSettings {
 /// Functions of a single run.
 struct EvalExtras {
   std::function<void(double)> progress;  ///< gets the share that is done
-  std::function<std::unique_ptr<RecordWriter>(const Source&)> record;  ///< opens a record
+  std::function<std::unique_ptr<RecordWriter>(Localization&)> record;  ///< opens a record
 };
 
 /// Runs MCL over the source, or until the result of a case is known.

@@ -40,7 +40,8 @@ class LocalizedRecord {
  public:
   LocalizedRecord(const LocalizationArguments& arguments, const std::filesystem::path& file)
       : arguments_(arguments), localization_(openLocalization(arguments)) {
-    RecordWriter record(file, localization_->source().worldFingerprint());
+    RecordWriter record(file, RecordNotes{localization_->source().worldFingerprint(),
+                                          formatsOf(localization_->container())});
     localization_->wantSamples(true);
     localization_->feeder().recordInto(record);
     Progress progress("localizing " + arguments.source, arguments.progress);

@@ -423,5 +423,38 @@ TEST(Record, EveryTruncationOfAFileIsToldAndGivesWholeMomentsOnly) {
   }
 }
 
+TEST(Record, TellsTheFormatsOfItsFeatures) {
+  const TemporaryFolder folder;
+  const SensorId scan{"LMS200", "LRF", "scan"};
+  const SensorId radar{"acme", "radar", "echoes"};
+  const std::string scanText = "scan beams=2 first_deg=0 step_deg=1 max_m=8";
+  const std::string radarText = "radar row=range_mm,bearing_cdeg";
+  for (const char* name : {"a.txt", "a.rec"}) {
+    RecordWriter writer(
+        folder / name,
+        RecordNotes{"abc", {{scan, parseFormat(scanText)}, {radar, parseFormat(radarText)}}});
+    writer.write({1, scan, {7, 8}});
+    writer.commit();
+    RecordSource source(folder / name);
+    EXPECT_EQ(source.worldFingerprint(), "abc");
+    EXPECT_EQ(source.formats(), (std::map<std::string, std::string>{{toText(scan), scanText},
+                                                                    {toText(radar), radarText}}));
+    Message message;
+    ASSERT_TRUE(source.next(message));
+    EXPECT_EQ(message.words, (std::vector<std::uint32_t>{7, 8}));
+  }
+}
+
+TEST(Record, NotesThatAreNoFormatsArePassedOver) {
+  const TemporaryFolder folder;
+  writeBytes(folder / "a.txt",
+             "# ortung record 1\n# format\n# format a/b/c\n# format a/b scan\n"
+             "# format a/b/c SCAN\n# format a/b/d pose\n1 a/b/d 0\n");
+  RecordSource source(folder / "a.txt");
+  EXPECT_EQ(source.formats(), (std::map<std::string, std::string>{{"a/b/d", "pose"}}));
+  Message message;
+  EXPECT_TRUE(source.next(message));
+}
+
 }  // namespace
 }  // namespace ortung

@@ -75,12 +75,16 @@ std::size_t PlaybackRun::placeOf(const SensorId& id) {
   const auto known = std::find_if(run_.features.begin(), run_.features.end(),
                                   [&](const ServedFeature& one) { return one.id == id; });
   features_.push_back(known == run_.features.end() ? featureOf(id) : *known);
+  // What was recorded counts, whatever a robot file says today.
+  if (const auto told = formats_.find(toText(id)); told != formats_.end())
+    features_.back().format = told->second;
   return features_.size() - 1;
 }
 
 void PlaybackRun::scan(const std::function<bool(double)>& progress) {
   RecordSource source(run_.record);
   fingerprint_ = source.worldFingerprint();
+  formats_ = source.formats();
   Message message;
   for (std::uint64_t count = 0; source.next(message); ++count) {
     if (count == 0) first_ = message.stamp;

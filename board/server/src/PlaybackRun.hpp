@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -62,6 +63,7 @@ class PlaybackRun {
   Timestamp truthStamp_ = 0;
 
   // while it is scanned
+  std::map<std::string, std::string> formats_;  ///< that the record's notes tell, by feature
   std::optional<TrackStatus> status_;
   std::optional<std::pair<Timestamp, Pose2>> lastTruth_;
 };

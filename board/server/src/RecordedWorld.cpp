@@ -18,6 +18,13 @@ std::vector<SensorId> idsOf(std::span<const ServedFeature> features) {
   return ids;
 }
 
+std::vector<std::pair<SensorId, Format>> formatsOf(std::span<const ServedFeature> features) {
+  std::vector<std::pair<SensorId, Format>> formats;
+  for (const ServedFeature& feature : features)
+    if (!feature.format.empty()) formats.emplace_back(feature.id, parseFormat(feature.format));
+  return formats;
+}
+
 std::string text(RobotId robot, const Recordings::State& state) {
   std::string line = "robot=" + std::to_string(robot) + " state=" + nameOf(state.kind);
   if (!state.file.empty())
@@ -85,7 +92,8 @@ void RecordedWorld::meetResidents() {
     return hasLeft;
   });
   for (const Resident& resident : residents)
-    robots_.try_emplace(resident.robot, Robot{resident.name, idsOf(resident.features), true});
+    robots_.try_emplace(resident.robot, Robot{resident.name, idsOf(resident.features),
+                                              formatsOf(resident.features), true});
 }
 
 RecordedWorld::Robot& RecordedWorld::find(RobotId robot) {
@@ -108,7 +116,7 @@ std::vector<RobotId> RecordedWorld::robots() {
 void RecordedWorld::begin(RobotId robot) {
   const Robot& its = find(robot);
   // The field of a running robot is unknown.
-  recordings_.begin(robot, its.name, livePeriod() > 0 ? "" : describe().fingerprint);
+  recordings_.begin(robot, its.name, livePeriod() > 0 ? "" : describe().fingerprint, its.formats);
   if (config_.takesReadings) world().want(robot, its.features);
 }
 
@@ -134,7 +142,7 @@ void RecordedWorld::step() {
 ServedRobot RecordedWorld::addRobot(RobotId robot, RobotWish wish) {
   std::string name = wish.name;
   ServedRobot served = world().addRobot(robot, std::move(wish));
-  robots_[robot] = {std::move(name), idsOf(served.features)};
+  robots_[robot] = {std::move(name), idsOf(served.features), formatsOf(served.features)};
   return served;
 }
 

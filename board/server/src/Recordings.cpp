@@ -62,8 +62,8 @@ std::string Recordings::newFile(const std::string& name) const {
                                 safe(name) + "' in the server's folder");
 }
 
-void Recordings::begin(RobotId robot, const std::string& name,
-                       const std::string& worldFingerprint) {
+void Recordings::begin(RobotId robot, const std::string& name, const std::string& worldFingerprint,
+                       std::vector<std::pair<SensorId, Format>> formats) {
   if (config_.folder.empty())
     throw ServeError("state",
                      "the server has no folder for records; start it with --record-into FOLDER");
@@ -76,7 +76,8 @@ void Recordings::begin(RobotId robot, const std::string& name,
                      "at most " + std::to_string(config_.most) + " robots are recorded at a time");
   const std::string file = newFile(name);
   try {
-    auto writer = std::make_unique<RecordWriter>(config_.folder / file, worldFingerprint,
+    auto writer = std::make_unique<RecordWriter>(config_.folder / file,
+                                                 RecordNotes{worldFingerprint, std::move(formats)},
                                                  RecordWriter::Pace::kLive);
     records_[robot] = {std::move(writer), {Kind::kOn, file}, 0};
   } catch (const std::exception& error) {

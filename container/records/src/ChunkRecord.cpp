@@ -19,7 +19,6 @@ class ChunkRecord final : public RecordReader {
   double progress() const override;
   bool isFile() const override { return frames_.isFile(); }
   std::string remark() const override;
-  std::string world() const override { return world_; }
 
  private:
   bool open();
@@ -32,7 +31,6 @@ class ChunkRecord final : public RecordReader {
 
   std::filesystem::path file_;
   chunk::Frames frames_;
-  std::string world_;
   bool isOpen_ = false;    ///< whether a chunk is being read
   chunk::Head head_;       ///< head of the open chunk
   std::string lines_;      ///< lines of the open chunk
@@ -51,7 +49,7 @@ ChunkRecord::ChunkRecord(const std::filesystem::path& file, std::ifstream in)
   for (std::string_view line; isOpen_ && lines.substr(begin_).starts_with('#') &&
                               !lines.substr(begin_).starts_with(chunk::kApartNote);) {
     cutLine(line);
-    if (line.starts_with(kWorldNote)) world_ = line.substr(kWorldNote.size());
+    takeNote(line);
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "ortung/core/Message.hpp"
 
@@ -20,10 +22,21 @@ class RecordReader {
   virtual double progress() const = 0;
   virtual bool isFile() const = 0;
   virtual std::string remark() const = 0;
-  virtual std::string world() const = 0;
+  const std::string& world() const { return world_; }
+  /// Texts of formats by the names of features; what is none is left out.
+  const std::map<std::string, std::string>& formats() const { return formats_; }
+
+ protected:
+  /// Takes what a line before the first reading says.
+  void takeNote(std::string_view line);
+
+ private:
+  std::string world_;
+  std::map<std::string, std::string> formats_;
 };
 
 inline constexpr std::string_view kWorldNote = "# world ";
+inline constexpr std::string_view kFormatNote = "# format ";
 
 /// What who reads a torn record is told.
 std::string tornRemark(const std::filesystem::path& file, std::uintmax_t bytes);

@@ -10,6 +10,8 @@
 namespace ortung {
 namespace {
 
+constexpr std::size_t kMostFormats = 4096;  ///< as many features as a robot has at most
+
 /// Returns the sum, limited to the range of stamps.
 Timestamp later(Timestamp a, double seconds) {
   constexpr Timestamp kLatest = std::numeric_limits<Timestamp>::max();
@@ -18,9 +20,29 @@ Timestamp later(Timestamp a, double seconds) {
   return __builtin_add_overflow(a, fromSeconds(seconds), &sum) ? kLatest : sum;
 }
 
+/// Returns a feature and the text of its format; none of a note of a later version, or a damaged
+/// one: readings are what counts.
+std::optional<std::pair<std::string, std::string>> formatIn(std::string_view note) {
+  const std::size_t blank = note.find(' ');
+  if (blank == note.npos) return std::nullopt;
+  try {
+    return std::pair(toText(parseSensorId(note.substr(0, blank))),
+                     parseFormat(note.substr(blank + 1)).toText());
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 RecordReader::~RecordReader() = default;
+
+void RecordReader::takeNote(std::string_view line) {
+  if (line.starts_with(kWorldNote)) world_ = line.substr(kWorldNote.size());
+  if (!line.starts_with(kFormatNote) || formats_.size() == kMostFormats) return;
+  line.remove_prefix(kFormatNote.size());
+  if (auto format = formatIn(line)) formats_.insert(std::move(*format));
+}
 
 std::string tornRemark(const std::filesystem::path& file, std::uintmax_t bytes) {
   return file.string() + " is torn: its last " + std::to_string(bytes) +
@@ -86,5 +108,9 @@ bool RecordSource::isLive() const { return !reader_->isFile(); }
 std::string RecordSource::remark() const { return reader_->remark(); }
 
 std::string RecordSource::worldFingerprint() const { return reader_->world(); }
+
+const std::map<std::string, std::string>& RecordSource::formats() const {
+  return reader_->formats();
+}
 
 }  // namespace ortung

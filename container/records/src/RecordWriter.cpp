@@ -24,9 +24,11 @@ std::uint64_t passedSince(Timestamp before, Timestamp now) {
   return static_cast<std::uint64_t>(now) - static_cast<std::uint64_t>(before);
 }
 
-std::string notes(const std::string& worldFingerprint) {
+std::string textOf(const RecordNotes& notes) {
   std::string text = std::string(kRecordMagic) + "\n";
-  if (!worldFingerprint.empty()) text += std::string(kWorldNote) + worldFingerprint + "\n";
+  if (!notes.world.empty()) text += std::string(kWorldNote) + notes.world + "\n";
+  for (const auto& [id, format] : notes.formats)
+    text += std::string(kFormatNote) + toText(id) + " " + format.toText() + "\n";
   return text;
 }
 
@@ -48,9 +50,9 @@ struct RecordWriter::Output {
 
 class RecordWriter::Lines final : public Output {
  public:
-  Lines(std::unique_ptr<NewFile> file, const std::string& worldFingerprint, Pace pace)
+  Lines(std::unique_ptr<NewFile> file, const RecordNotes& notes, Pace pace)
       : Output(std::move(file), pace) {
-    file_->write(notes(worldFingerprint));
+    file_->write(textOf(notes));
   }
   void write(const Message& message) override {
     writeLine(message, lines_);
@@ -69,10 +71,10 @@ class RecordWriter::Lines final : public Output {
 
 class RecordWriter::Chunks final : public Output {
  public:
-  Chunks(std::unique_ptr<NewFile> file, const std::string& worldFingerprint, Pace pace)
+  Chunks(std::unique_ptr<NewFile> file, const RecordNotes& notes, Pace pace)
       : Output(std::move(file), pace) {
     file_->write(chunk::magic());
-    lines_ = notes(worldFingerprint);
+    lines_ = textOf(notes);
     wholeLines_ = lines_.size();
     flush();
   }
@@ -157,15 +159,25 @@ class RecordWriter::Chunks final : public Output {
   std::vector<chunk::Place> index_;
 };
 
+std::vector<std::pair<SensorId, Format>> formatsOf(const SensorContainer& container) {
+  std::vector<std::pair<SensorId, Format>> formats;
+  for (const auto& data : container.all()) formats.emplace_back(data->id(), data->format());
+  return formats;
+}
+
 RecordWriter::RecordWriter(const std::filesystem::path& file, const std::string& worldFingerprint,
-                           Pace pace, Form form) {
+                           Pace pace, Form form)
+    : RecordWriter(file, RecordNotes{worldFingerprint}, pace, form) {}
+
+RecordWriter::RecordWriter(const std::filesystem::path& file, const RecordNotes& notes, Pace pace,
+                           Form form) {
   auto out = std::make_unique<NewFile>(file);
   if (form == Form::kByName)
     form = file.extension() == ".txt" || out->isStream() ? Form::kText : Form::kCompressed;
   if (form == Form::kText) {
-    output_ = std::make_unique<Lines>(std::move(out), worldFingerprint, pace);
+    output_ = std::make_unique<Lines>(std::move(out), notes, pace);
   } else {
-    output_ = std::make_unique<Chunks>(std::move(out), worldFingerprint, pace);
+    output_ = std::make_unique<Chunks>(std::move(out), notes, pace);
   }
 }
 

@@ -40,7 +40,6 @@ class TextRecord final : public RecordReader {
   double progress() const override;
   bool isFile() const override { return isFile_; }
   std::string remark() const override;
-  std::string world() const override { return world_; }
 
  private:
   bool readWholeLine();
@@ -52,7 +51,6 @@ class TextRecord final : public RecordReader {
   std::filesystem::path file_;
   std::ifstream in_;
   std::string line_;
-  std::string world_;
   std::size_t lineNumber_ = 0;
   bool isFile_ = false;
   std::uintmax_t size_ = 0;  ///< size of a file when it was opened [bytes]
@@ -79,9 +77,7 @@ TextRecord::TextRecord(std::filesystem::path file, std::ifstream in)
                              std::string(kRecordMagic) + "' or a compressed record");
   lineNumber_ = 1;
   done_ = magic.size();
-  while (in_.peek() == '#' && readWholeLine()) {
-    if (line_.starts_with(kWorldNote)) world_ = line_.substr(kWorldNote.size());
-  }
+  while (in_.peek() == '#' && readWholeLine()) takeNote(line_);
 }
 
 /// Reads the next line; returns false at the end of the whole ones.

@@ -6,14 +6,28 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/core/Format.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/core/SensorContainer.hpp"
 
 namespace ortung {
 
 /// The first line of a record that is lines of text.
 inline constexpr std::string_view kRecordMagic = "# ortung record 1";
+
+/// What a record says of itself before its readings.
+struct RecordNotes {
+  std::string world;  ///< fingerprint of the world where it was made; "": not known
+  /// Formats of its features, as far as the writer knows them.
+  std::vector<std::pair<SensorId, Format>> formats = {};
+};
+
+/// @returns formats of all features of a container, for the notes
+ORTUNG_API std::vector<std::pair<SensorId, Format>> formatsOf(const SensorContainer& container);
 
 /// Writes a record file: notes ("# world ..."), then readings (docs/files.md).
 ///
@@ -36,6 +50,8 @@ class ORTUNG_API RecordWriter {
 
   explicit RecordWriter(const std::filesystem::path& file, const std::string& worldFingerprint = "",
                         Pace pace = Pace::kWhole, Form form = Form::kByName);
+  RecordWriter(const std::filesystem::path& file, const RecordNotes& notes,
+               Pace pace = Pace::kWhole, Form form = Form::kByName);
   ~RecordWriter();  ///< keeps the whole moments of a live record; removes others without commit()
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
