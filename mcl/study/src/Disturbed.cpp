@@ -26,7 +26,7 @@ struct Known {
 };
 using Formats = std::map<std::string, Known>;  ///< formats of all features but ground truth
 
-Formats formatsOf(const SensorContainer& robot) {
+Formats knownOf(const SensorContainer& robot) {
   Formats formats;
   for (const auto& data : robot.all())
     if (data->id().type != kGroundTruth)
@@ -81,7 +81,7 @@ class Disturbed : public Source {
  public:
   Disturbed(std::unique_ptr<Source> source, const std::vector<Fault>& faults,
             const SensorContainer& robot, std::uint64_t seed)
-      : source_(std::move(source)), formats_(formatsOf(robot)), seed_(seed) {
+      : source_(std::move(source)), formats_(knownOf(robot)), seed_(seed) {
     for (const Fault& fault : faults) {
       check(fault, formats_);
       faults_.push_back({fault, false});
