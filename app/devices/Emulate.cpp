@@ -43,7 +43,7 @@ std::string kindOf(const std::string& plugin) {
 ScanData scanIn(const Wanted& wanted) {
   for (const SensorData* data : wanted.features)
     if (isOf(*data, formats::kScan))
-      return ScanData(data->id(), data->mount(), scanOf(data->format()));
+      return ScanData(data->id(), data->mount(), ScanData::configOf(data->format()));
   throw std::runtime_error("the robot file has no scan that a " + wanted.kind +
                            " could measure (a [[sensor]] with plugin = \"lrf\")");
 }

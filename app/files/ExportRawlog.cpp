@@ -41,7 +41,7 @@ std::string declarationOf(const SensorData& data) {
   const Format format = data.format();
   if (format.name() == formats::kOdometry) return "# odometry " + name + "\n";
   if (format.name() == formats::kScan) {
-    const ScanData::Config config = scanOf(format);
+    const ScanData::Config config = ScanData::configOf(format);
     return line("scan", config.firstAngle, config.angleStep, config.maxRange);
   }
   // A rawlog holds limits of sight, which words can be understood without.

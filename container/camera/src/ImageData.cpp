@@ -65,7 +65,7 @@ std::vector<std::uint32_t> ImageData::encode(const ImageView& image) {
 }
 
 Format ImageData::format() const {
-  Format format(formats::kImage);
+  Format format(kFormat);
   if (camera_)
     format.with("width", camera_->model().size().width)
         .with("height", camera_->model().size().height);

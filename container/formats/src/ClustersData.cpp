@@ -1,23 +1,16 @@
 #include "ortung/formats/ClustersData.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
-#include "ortung/formats/FormatNames.hpp"
+#include "FormatTools.hpp"
+#include "ShareWords.hpp"
 
 namespace ortung {
 namespace {
 
 constexpr std::size_t kWords = 10;  // words of one place
-constexpr std::uint32_t kOne = 10'000;
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "places"}; }
-
-std::uint32_t shareWord(double share) {
-  if (std::isnan(share)) return 0;
-  return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kOne));
-}
 
 /// Returns the fixes without their shares, in the format of fixes.
 std::vector<std::uint32_t> fixWords(std::span<const std::uint32_t> words) {
@@ -47,7 +40,7 @@ Message ClustersData::message(Timestamp stamp, std::span<const Cluster> places) 
   return {stamp, ownId(), encode(places)};
 }
 
-Format ClustersData::format() const { return Format(formats::kClusters); }
+Format ClustersData::format() const { return Format(kFormat); }
 
 std::string ClustersData::wordsHelp() const {
   return "[share of the belief 1/10000, then the nine words of mcl/LOCALIZATION/pose] a place "
@@ -55,14 +48,9 @@ std::string ClustersData::wordsHelp() const {
 }
 
 void ClustersData::check(std::span<const std::uint32_t> words) const {
-  if (words.size() % kWords != 0 || words.size() > kWords * kMostClusters)
-    throw std::invalid_argument("found " + std::to_string(words.size()) +
-                                " words, expected ten a place and at most " +
-                                std::to_string(kMostClusters) + " places");
+  checkEntries(words, kWords, kMostClusters, "ten a place and at most 64 places");
   for (std::size_t i = 0; i < words.size(); i += kWords)
-    if (words[i] > kOne)
-      throw std::invalid_argument("found the share " + std::to_string(words[i]) +
-                                  ", expected 0 to 10000");
+    checkAtMost("share", words[i], kWholeShare);
   fixes_.checkData(fixWords(words));
 }
 
@@ -70,7 +58,7 @@ void ClustersData::decode(std::span<const std::uint32_t> words) {
   fixes_.setData(0, fixWords(words));
   reading_.clear();
   for (std::size_t i = 0; i < fixes_.reading().size(); ++i)
-    reading_.push_back({static_cast<double>(words[i * kWords]) / kOne, fixes_.reading()[i]});
+    reading_.push_back({shareOf(words[i * kWords]), fixes_.reading()[i]});
 }
 
 }  // namespace ortung

@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "CellLookup.hpp"
+#include "Expectations.hpp"
 #include "FormatTools.hpp"
 #include "TableSlope.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Polishable.hpp"
-#include "ortung/formats/FormatNames.hpp"
+#include "ortung/tables/DirectionTable.hpp"
 
 namespace ortung {
 
@@ -116,15 +117,79 @@ class ConeWeigher final : public Weigher, public Polishable {
   std::array<float, 256> logByLevel_{};  ///< ln p of the reading by expected level
 };
 
+class ConeRanges final : public Expectations {
+ public:
+  ConeRanges(const ConeData& cone, const ConeData::Config& config)
+      : cone_(cone),
+        scale_(config.maxRange, config.resolution),
+        table_(std::make_shared<DirectionTable>()) {}
+
+  std::string key() const override {
+    const ConeData::Config& config = cone_.config();
+    return "cone opening_rad=" + keyNumber(config.openingAngle) +
+           " max_range_m=" + keyNumber(config.maxRange) +
+           " scale=" + keyNumber(config.resolution.metres) + "," +
+           keyNumber(config.resolution.perMetre) + " " + mountKey(cone_.mount());
+  }
+  double headingSpacing() const override { return headingStep_; }
+  ExpectationGrain grain() const override { return ExpectationGrain::kCellsAndDirections; }
+
+  void start(const FieldRegion& region, double headingStep) override {
+    const int directions = std::max(1, static_cast<int>(std::lround(kTurn / headingStep)));
+    headingStep_ = kTurn / directions;
+    table_ = std::make_shared<DirectionTable>();
+    table_->start(region, directions, 1);
+  }
+  void learn(const Pose2& sensor) override {
+    const double range = cone_.reading();
+    if (!std::isnan(range)) table_->learn(sensor.x, sensor.y, sensor.theta, scale_.level(range));
+  }
+  void finish() override { table_->finish(); }
+
+  void save(TableWriter& file, const std::string& prefix) const override {
+    table_->save(file, prefix);
+  }
+  void load(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
+            const FieldGrid& grid) override {
+    auto table = std::make_shared<DirectionTable>();
+    table->load(file, prefix, grid, [](int) { return 1; });
+    table_ = std::move(table);
+    headingStep_ = table_->step();
+  }
+
+  std::vector<double> at(const Pose2& sensor) const override {
+    const std::uint8_t* row = table_->row(sensor.x, sensor.y);
+    if (row == nullptr) return {};
+    return {scale_.range(row[table_->directionOf(sensor.theta)])};
+  }
+  std::shared_ptr<const Weigher> weigher() const override {
+    const double range = cone_.reading();
+    if (std::isnan(range)) return nullptr;
+    return std::make_shared<ConeWeigher>(table_, cone_.mount(), scale_, cone_.config().model,
+                                         range);
+  }
+
+ private:
+  const ConeData& cone_;
+  RangeScale scale_;
+  std::shared_ptr<DirectionTable> table_;
+  double headingStep_ = 0.1;  ///< [rad]
+};
+
 }  // namespace
 
 ConeData::ConeData(SensorId id, const Pose2& mount, const Config& config)
-    : SensorData(std::move(id), mount),
-      config_(config),
-      scale_(config.maxRange, config.resolution),
-      table_(std::make_shared<DirectionTable>()) {}
+    : LearnedData(std::move(id), mount, std::make_unique<ConeRanges>(*this, config)),
+      config_(config) {}
 
 ConeData::~ConeData() = default;
+
+ConeData::Config ConeData::configOf(const Format& format, std::span<const std::uint32_t>) {
+  Config config;
+  config.openingAngle = format.angle("opening_deg");
+  config.maxRange = format.number("max_m");
+  return config;
+}
 
 std::uint32_t ConeData::encode(Reading reading, double maxRange) {
   if (std::isnan(reading)) return 0;
@@ -144,7 +209,7 @@ ConeData::Reading ConeData::rangeOf(std::uint32_t word) const {
 }
 
 Format ConeData::format() const {
-  return Format(formats::kCone)
+  return Format(kFormat)
       .withAngle("opening_deg", config_.openingAngle)
       .with("max_m", config_.maxRange);
 }
@@ -153,21 +218,6 @@ std::string ConeData::wordsHelp() const {
   return "[distance mm]; 0: not valid; from " + keyNumber(config_.maxRange * 1000) +
          " on: nothing seen, within " + keyNumber(degrees(config_.openingAngle)) + " deg";
 }
-
-void ConeData::startTables(const FieldRegion& region, double headingStep) {
-  const int directions = std::max(1, static_cast<int>(std::lround(kTurn / headingStep)));
-  headingStep_ = kTurn / directions;
-  table_ = std::make_shared<DirectionTable>();
-  table_->start(region, directions, 1);
-}
-
-void ConeData::learn(const Pose2& robotInField) {
-  const Pose2 sensor = robotInField * mount();
-  if (!std::isnan(reading_))
-    table_->learn(sensor.x, sensor.y, sensor.theta, scale_.level(reading_));
-}
-
-void ConeData::finishTables() { table_->finish(); }
 
 std::vector<double> ConeData::measured(const Pose2&) const {
   if (sequence() == 0) return {};
@@ -180,37 +230,6 @@ std::vector<WordValue> ConeData::valuesIn(std::span<const std::uint32_t> words) 
 
 void ConeData::store(const WordValue& value, std::span<std::uint32_t> words) const {
   words[value.word] = encode(value.value, config_.maxRange);
-}
-
-std::vector<double> ConeData::expectation(const Pose2& pose) const {
-  const Pose2 sensor = pose * mount();
-  const std::uint8_t* row = table_->row(sensor.x, sensor.y);
-  if (row == nullptr) return {};
-  return {scale_.range(row[table_->directionOf(sensor.theta)])};
-}
-
-std::shared_ptr<const Weigher> ConeData::makeWeigher() const {
-  if (std::isnan(reading_)) return nullptr;
-  return std::make_shared<ConeWeigher>(table_, mount(), scale_, config_.model, reading_);
-}
-
-std::string ConeData::learningKey() const {
-  return "cone opening_rad=" + keyNumber(config_.openingAngle) +
-         " max_range_m=" + keyNumber(config_.maxRange) +
-         " scale=" + keyNumber(config_.resolution.metres) + "," +
-         keyNumber(config_.resolution.perMetre) + " " + mountKey(mount());
-}
-
-void ConeData::saveTables(TableWriter& file, const std::string& prefix) const {
-  table_->save(file, prefix);
-}
-
-void ConeData::useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
-                         const FieldGrid& grid) {
-  auto table = std::make_shared<DirectionTable>();
-  table->load(file, prefix, grid, [](int) { return 1; });
-  table_ = std::move(table);
-  headingStep_ = table_->step();
 }
 
 }  // namespace ortung

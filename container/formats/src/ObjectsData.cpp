@@ -1,7 +1,6 @@
 #include "ortung/formats/ObjectsData.hpp"
 
 #include "FormatTools.hpp"
-#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -48,7 +47,7 @@ void ObjectsData::decode(std::span<const std::uint32_t> words) {
                         words::toAngle(words[i + 3]), words::toMetres(words[i + 4])});
 }
 
-Format ObjectsData::format() const { return Format(formats::kObjects); }
+Format ObjectsData::format() const { return Format(kFormat); }
 
 std::string ObjectsData::wordsHelp() const {
   return "[identity or 0, colour 0xRRGGBB or 2^24, distance mm, bearing 1/100 degree + 18000, "

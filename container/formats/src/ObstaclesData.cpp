@@ -1,7 +1,6 @@
 #include "ortung/formats/ObstaclesData.hpp"
 
 #include "FormatTools.hpp"
-#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -54,7 +53,7 @@ void ObstaclesData::decode(std::span<const std::uint32_t> words) {
   }
 }
 
-Format ObstaclesData::format() const { return Format(formats::kObstacles); }
+Format ObstaclesData::format() const { return Format(kFormat); }
 
 std::string ObstaclesData::wordsHelp() const {
   return "[0, x mm + 2^31, y mm + 2^31, radius mm, 0] a circle, [1, x, y, x, y of both ends mm + "

@@ -1,7 +1,6 @@
 #include "ortung/formats/OdometryData.hpp"
 
 #include "FormatTools.hpp"
-#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -60,7 +59,7 @@ void OdometryData::decode(std::span<const std::uint32_t> words) {
       words.end() - static_cast<std::ptrdiff_t>(lateral ? kLateralWords : 0));
 }
 
-Format OdometryData::format() const { return Format(formats::kOdometry); }
+Format OdometryData::format() const { return Format(kFormat); }
 
 std::string OdometryData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000, translational velocity mm/s + "

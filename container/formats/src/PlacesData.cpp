@@ -8,7 +8,6 @@
 #include "FixWords.hpp"
 #include "FormatTools.hpp"
 #include "TextWords.hpp"
-#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/TalkData.hpp"
 
 namespace ortung {
@@ -73,7 +72,7 @@ std::vector<std::uint32_t> PlacesData::encode(const Reading& reading) {
 void PlacesData::check(std::span<const std::uint32_t> words) const { readPlaces(words); }
 void PlacesData::decode(std::span<const std::uint32_t> words) { reading_ = readPlaces(words); }
 
-Format PlacesData::format() const { return Format(formats::kPlaces); }
+Format PlacesData::format() const { return Format(kFormat); }
 
 std::string PlacesData::wordsHelp() const {
   return "[0 robot or 1 ball, name, who said it, us ago, nine words of a fix] a place; a text is "

@@ -1,7 +1,6 @@
 #include "ortung/formats/PoseData.hpp"
 
 #include "FormatTools.hpp"
-#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -29,7 +28,7 @@ void PoseData::decode(std::span<const std::uint32_t> words) {
               words::toAngle(words[2])};
 }
 
-Format PoseData::format() const { return Format(formats::kPose); }
+Format PoseData::format() const { return Format(kFormat); }
 
 std::string PoseData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000] in the field frame";

@@ -12,7 +12,6 @@
 #include "FormatTools.hpp"
 #include "TableSlope.hpp"
 #include "ortung/core/Polishable.hpp"
-#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -138,7 +137,7 @@ void PoseFixData::decode(std::span<const std::uint32_t> words) {
   }
 }
 
-Format PoseFixData::format() const { return Format(formats::kFix); }
+Format PoseFixData::format() const { return Format(kFormat); }
 
 std::string PoseFixData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree + 18000, sigma x um, sigma y um, sigma "

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "ortung/base/Angles.hpp"
-#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/Words.hpp"
 
 namespace ortung {
@@ -56,7 +55,7 @@ SamplesData::Reading SamplesData::reading() const {
   return reading;
 }
 
-Format SamplesData::format() const { return Format(formats::kSamples); }
+Format SamplesData::format() const { return Format(kFormat); }
 
 std::string SamplesData::wordsHelp() const {
   return "[x mm + 2^31, y mm + 2^31, heading 1/100 degree, weight of the heaviest's 1/65535] a "

@@ -7,7 +7,6 @@
 
 #include "FormatTools.hpp"
 #include "TextWords.hpp"
-#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -58,7 +57,7 @@ std::vector<std::uint32_t> TalkData::encode(const Reading& reading) {
 void TalkData::check(std::span<const std::uint32_t> words) const { readTalk(words); }
 void TalkData::decode(std::span<const std::uint32_t> words) { reading_ = readTalk(words); }
 
-Format TalkData::format() const { return Format(formats::kTalk); }
+Format TalkData::format() const { return Format(kFormat); }
 
 std::string TalkData::wordsHelp() const {
   return "the listener's name, then [us ago, who, what] a message; a text is its number of bytes "

@@ -1,25 +1,15 @@
 #include "ortung/formats/TrackData.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
-#include "ortung/formats/FormatNames.hpp"
+#include "FormatTools.hpp"
+#include "ShareWords.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr std::uint32_t kOne = 10'000;
 constexpr auto kLastStatus = static_cast<std::uint32_t>(TrackStatus::kLast);
 constexpr auto kLastReason = static_cast<std::uint32_t>(TrackReason::kLast);
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "status"}; }
-
-/// Returns the word of a share; 0 for NaN.
-std::uint32_t shareWord(double share) {
-  if (std::isnan(share)) return 0;
-  return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kOne));
-}
 
 /// Returns the names of all values of an enumeration, in their order.
 template <class Enumeration>
@@ -28,12 +18,6 @@ std::vector<const char*> namesOf() {
   for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Enumeration::kLast); ++i)
     names.push_back(nameOf(static_cast<Enumeration>(i)));
   return names;
-}
-
-void checkBelow(const char* what, std::uint32_t word, std::uint32_t most) {
-  if (word <= most) return;
-  throw std::invalid_argument("found the " + std::string(what) + " " + std::to_string(word) +
-                              ", expected 0 to " + std::to_string(most));
 }
 
 }  // namespace
@@ -51,7 +35,7 @@ Message TrackData::message(Timestamp stamp, const Reading& reading) {
 }
 
 Format TrackData::format() const {
-  return Format(formats::kTrack)
+  return Format(kFormat)
       .with("status", namesOf<TrackStatus>())
       .with("reason", namesOf<TrackReason>());
 }
@@ -69,17 +53,16 @@ std::string TrackData::wordsHelp() const {
 }
 
 void TrackData::check(std::span<const std::uint32_t> words) const {
-  if (words.size() != 4)
-    throw std::invalid_argument("found " + std::to_string(words.size()) + " words, expected 4");
-  checkBelow("status", words[0], kLastStatus);
-  checkBelow("reason", words[1], kLastReason);
-  checkBelow("quality", words[2], kOne);
-  checkBelow("share", words[3], kOne);
+  checkWordCount(words, 4);
+  checkAtMost("status", words[0], kLastStatus);
+  checkAtMost("reason", words[1], kLastReason);
+  checkAtMost("quality", words[2], kWholeShare);
+  checkAtMost("share", words[3], kWholeShare);
 }
 
 void TrackData::decode(std::span<const std::uint32_t> words) {
   reading_ = {static_cast<TrackStatus>(words[0]), static_cast<TrackReason>(words[1]),
-              static_cast<double>(words[2]) / kOne, static_cast<double>(words[3]) / kOne};
+              shareOf(words[2]), shareOf(words[3])};
 }
 
 }  // namespace ortung

@@ -5,7 +5,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 namespace {
@@ -35,7 +34,7 @@ Message WorkData::message(Timestamp stamp, const Reading& reading) {
   return {stamp, ownId(), encode(reading)};
 }
 
-Format WorkData::format() const { return Format(formats::kWork); }
+Format WorkData::format() const { return Format(kFormat); }
 
 std::string WorkData::wordsHelp() const {
   return "[samples, their worth in equal samples, duration of the newest update us, estimates so "

@@ -191,7 +191,7 @@ class Disturbed : public Source {
         return makeOdometryFault(fault);
       case FaultOf::kScan:
         if (fault.kind == Fault::Kind::kCrowd)
-          return makeCrowd(scanOf(formats_.at(feature).data->format()), random);
+          return makeCrowd(ScanData::configOf(formats_.at(feature).data->format()), random);
         return makeEntriesFault(fault, *formats_.at(feature).data, random);
       default:
         return makeReadingFault(fault, random);

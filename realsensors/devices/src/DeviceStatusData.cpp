@@ -45,7 +45,7 @@ Format DeviceStatusData::format() const {
   std::vector<const char*> states;
   for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(DeviceState::kFailed); ++i)
     states.push_back(toText(static_cast<DeviceState>(i)));
-  return Format(formats::kDevice).with("status", states);
+  return Format(kFormat).with("status", states);
 }
 
 std::string DeviceStatusData::wordsHelp() const {

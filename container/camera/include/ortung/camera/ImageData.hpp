@@ -10,6 +10,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/camera/CameraView.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -39,6 +40,7 @@ struct ImageView {
 /// SensorData.
 class ORTUNG_API ImageData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kImage;
   static constexpr std::size_t kHeaderWords = 3;
   static constexpr int kMostSide = 4096;  ///< greatest width and height [px]
   using Reading = ImageView;

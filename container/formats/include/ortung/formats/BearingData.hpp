@@ -1,24 +1,23 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/core/SensorData.hpp"
-#include "ortung/tables/FieldRegion.hpp"
-#include "ortung/tables/PositionTable.hpp"
+#include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/LearnedData.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
 
 /// One bearing [rad] in the sensor's frame, e.g. post3Bearing. Words: [angle], or none.
 /// Learns a bearing table. Not thread-safe, see SensorData.
-class ORTUNG_API BearingData : public SensorData {
+class ORTUNG_API BearingData : public LearnedData {
  public:
+  static constexpr const char* kFormat = formats::kBearing;
   struct Config {
     double fieldOfView = 0.0;  ///< the sensor's whole field of view [rad]; 0 or 2 pi: all around
     SensorModel model{.sigma = 0.02};  ///< noise of the bearing [rad]
@@ -30,34 +29,20 @@ class ORTUNG_API BearingData : public SensorData {
   ~BearingData() override;
 
   Reading reading() const { return reading_; }
+  const Config& config() const { return config_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
 
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<BearingData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
-  bool localizes() const override { return true; }
-  double headingSpacing() const override;
-  std::vector<double> expectation(const Pose2& pose) const override;
   bool isAngle(std::size_t) const override { return true; }
   std::vector<double> measured(const Pose2& pose) const override;
   std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
-  std::string learningKey() const override;
-  void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  void startTables(const FieldRegion& region, double headingStep) override;
-  void learn(const Pose2& robotInField) override;
-  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
-                 const FieldGrid& grid) override;
-  std::shared_ptr<const Weigher> makeWeigher() const override;
 
   Config config_;
-  std::shared_ptr<const GaussianTable> gaussian_;
-  std::shared_ptr<BearingTable> table_;
   Reading reading_;
 };
 

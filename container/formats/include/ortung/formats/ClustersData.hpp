@@ -8,6 +8,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 
 namespace ortung {
@@ -18,6 +19,7 @@ namespace ortung {
 /// only reports, so it weighs no samples. Not thread-safe, see SensorData.
 class ORTUNG_API ClustersData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kClusters;
   struct Cluster {
     double share = 0.0;    ///< share of the belief, in [0, 1]
     PoseFixData::Fix fix;  ///< mean and covariance of the place

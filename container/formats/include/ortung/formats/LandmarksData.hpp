@@ -2,15 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/LearnedData.hpp"
 #include "ortung/formats/SightingBias.hpp"
-#include "ortung/tables/FieldRegion.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
@@ -20,9 +19,11 @@ namespace ortung {
 /// Learns a position and a bearing table for each landmark of its list or, if they can't be told
 /// apart, the position of each: the readings that it learns from have identities, all others need
 /// none. A sighting then belongs to the landmark that fits best (UnidentifiedSight.hpp).
+/// expectation() is range [m] and bearing [rad] of each landmark of the list, in its order.
 /// Not thread-safe, see SensorData.
-class ORTUNG_API LandmarksData : public SensorData {
+class ORTUNG_API LandmarksData : public LearnedData {
  public:
+  static constexpr const char* kFormat = formats::kLandmarks;
   /// Identity of a sighting whose identity is not known.
   static constexpr std::uint32_t kUnknown = 0xFFFFFFFF;
   struct Config {
@@ -44,6 +45,8 @@ class ORTUNG_API LandmarksData : public SensorData {
 
   LandmarksData(SensorId id, const Pose2& mount, Config config);
   ~LandmarksData() override;
+  /// Returns the settings of a feature with the identities in words of a typical reading.
+  static Config configOf(const Format& format, std::span<const std::uint32_t> words);
 
   const Reading& reading() const { return reading_; }
   /// Returns the words of a reading. @throws std::invalid_argument for numbers that are not finite
@@ -52,43 +55,24 @@ class ORTUNG_API LandmarksData : public SensorData {
   const Config& config() const { return config_; }
   /// Returns a sighting without the sensor's systematic error.
   Sighting corrected(const Sighting& sighting) const;
+  /// Returns the index of an identity in the list; -1: it is not there.
+  std::ptrdiff_t indexOf(std::uint32_t identity) const;
   /// Returns the index in the list of identities of a landmark that is sighted from @p pose: by its
   /// identity or, without one, the landmark nearest to the sighting; -1: none.
   std::ptrdiff_t indexOf(const Sighting& sighting, const Pose2& pose) const;
 
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<LandmarksData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
-  bool localizes() const override { return true; }
-  double headingSpacing() const override;
-  /// Returns range [m] and bearing [rad] of each landmark of the list, in its order.
-  std::vector<double> expectation(const Pose2& pose) const override;
   bool isAngle(std::size_t index) const override { return index % 2 == 1; }
   std::vector<double> measured(const Pose2& pose) const override;
   std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
   void store(const WordValue& value, std::span<std::uint32_t> words) const override;
-  std::string learningKey() const override;
-  void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
-  struct Model;   ///< likelihood of residuals, the same for all readings
-  struct Tables;  ///< expectations by landmark, or the places of all landmarks
-  class Sight;    ///< the weigher
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  void startTables(const FieldRegion& region, double headingStep) override;
-  void learn(const Pose2& robotInField) override;
-  void finishTables() override;
-  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
-                 const FieldGrid& grid) override;
-  std::shared_ptr<const Weigher> makeWeigher() const override;
-  std::ptrdiff_t indexOf(std::uint32_t identity) const;
 
   Config config_;
-  std::shared_ptr<const Model> model_;
-  std::shared_ptr<Tables> tables_;
   Reading reading_;
 };
 

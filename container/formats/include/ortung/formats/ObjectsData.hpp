@@ -7,6 +7,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -17,6 +18,7 @@ namespace ortung {
 /// Not thread-safe, see SensorData.
 class ORTUNG_API ObjectsData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kObjects;
   static constexpr std::uint32_t kNoColour = 1u << 24;
   static constexpr std::size_t kMostObjects = 1024;
   struct Object {
@@ -34,9 +36,6 @@ class ORTUNG_API ObjectsData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(std::span<const Object> objects);
   static void encode(std::span<const Object> objects, std::vector<std::uint32_t>& words);
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<ObjectsData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

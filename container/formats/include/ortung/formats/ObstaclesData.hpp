@@ -7,6 +7,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -17,6 +18,7 @@ namespace ortung {
 /// Not thread-safe, see SensorData.
 class ORTUNG_API ObstaclesData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kObstacles;
   static constexpr std::size_t kMostObstacles = 1024;
   enum class Shape : std::uint32_t { kCircle = 0, kSegment = 1 };
   struct Obstacle {
@@ -34,9 +36,6 @@ class ORTUNG_API ObstaclesData : public SensorData {
 
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(std::span<const Obstacle> obstacles);
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<ObstaclesData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

@@ -7,6 +7,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -18,6 +19,7 @@ namespace ortung {
 /// Not thread-safe, see SensorData.
 class ORTUNG_API OdometryData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kOdometry;
   /// Word that stands before the lateral velocity. As a velocity it would be 2147 km/s.
   static constexpr std::uint32_t kLateralFollows = 4294967295U;
   struct Reading {
@@ -32,9 +34,6 @@ class ORTUNG_API OdometryData : public SensorData {
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Reading& reading);
   static void encode(const Reading& reading, std::vector<std::uint32_t>& words);
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<OdometryData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

@@ -9,6 +9,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 
 namespace ortung {
@@ -31,6 +32,7 @@ struct Place {
 /// it is [us], and the nine words of a fix (see PoseFixData). Not thread-safe, see SensorData.
 class ORTUNG_API PlacesData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kPlaces;
   static constexpr std::size_t kMostPlaces = 256;
   /// A place that was reported.
   struct Told {
@@ -46,9 +48,6 @@ class ORTUNG_API PlacesData : public SensorData {
   const Reading& reading() const { return reading_; }
   /// @throws std::invalid_argument for more places than a reading can hold, and for bad names
   static std::vector<std::uint32_t> encode(const Reading& reading);
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<PlacesData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

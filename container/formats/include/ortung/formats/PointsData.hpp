@@ -1,25 +1,26 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/LearnedData.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
-
-struct EndPointTables;
 
 /// Points that can't be told apart, e.g. where scan lines of an image cross the field's lines, or
 /// goals that look alike. Words: two a point: [mm] along the floor, [angle]; none: looked and saw
 /// nothing.
 /// Learns an end-point field: a point is probable where one was seen from anywhere. A point that is
-/// not seen says nothing: it may be hidden. Not thread-safe, see SensorData.
-class ORTUNG_API PointsData : public SensorData {
+/// not seen says nothing: it may be hidden. expectation() is the distance [m] to the nearest
+/// learned point for each point of the reading, as if it were seen from there.
+/// Not thread-safe, see SensorData.
+class ORTUNG_API PointsData : public LearnedData {
  public:
+  static constexpr const char* kFormat = formats::kPoints;
   struct Config {
     double maxRange = 6.0;     ///< points beyond it neither learn nor weigh [m]
     double fieldOfView = 0.0;  ///< the sensor's whole field of view [rad]; 0 or 2 pi: all around
@@ -43,35 +44,18 @@ class ORTUNG_API PointsData : public SensorData {
   static std::vector<std::uint32_t> encode(std::span<const Point> points);
   static void encode(std::span<const Point> points, std::vector<std::uint32_t>& words);
 
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<PointsData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
-  bool localizes() const override { return true; }
-  double headingSpacing() const override;
-  /// Returns the distance [m] to the nearest learned point for each point of the reading, as if it
-  /// were seen from @p pose.
-  std::vector<double> expectation(const Pose2& pose) const override;
   /// Returns nothing: the distance of each point from a learned one should be 0.
   std::vector<double> measured(const Pose2&) const override { return {}; }
   bool isAngle(std::size_t) const override { return false; }
   std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
-  std::string learningKey() const override;
-  void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  void startTables(const FieldRegion& region, double headingStep) override;
-  void learn(const Pose2& robotInField) override;
-  void finishTables() override;
-  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
-                 const FieldGrid& grid) override;
-  std::shared_ptr<const Weigher> makeWeigher() const override;
 
   Config config_;
-  std::shared_ptr<EndPointTables> tables_;
   Reading reading_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -14,15 +15,13 @@ namespace ortung {
 /// [angle]. Not thread-safe, see SensorData.
 class ORTUNG_API PoseData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kPose;
   using Reading = Pose2;
   explicit PoseData(SensorId id);
   ~PoseData() override;
   const Reading& reading() const { return reading_; }
   static std::vector<std::uint32_t> encode(const Pose2& pose);
   static void encode(const Pose2& pose, std::vector<std::uint32_t>& words);
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<PoseData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

@@ -8,6 +8,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/PoseCovariance.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
@@ -20,6 +21,7 @@ namespace ortung {
 /// Weighs a pose by its best fix. There is nothing to learn. Not thread-safe, see SensorData.
 class ORTUNG_API PoseFixData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kFix;
   struct Config {
     /// Standard deviation of positions that is added to the fix's own [m].
     double addedSigma = 0.05;
@@ -41,9 +43,6 @@ class ORTUNG_API PoseFixData : public SensorData {
   /// Returns the words of fixes. Sigmas are raised to at least 1 um and 1/10000 degree.
   static std::vector<std::uint32_t> encode(std::span<const Fix> fixes);
 
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<PoseFixData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return true; }

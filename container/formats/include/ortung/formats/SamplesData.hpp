@@ -9,6 +9,7 @@
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -19,6 +20,7 @@ namespace ortung {
 /// reports, so it weighs no samples. Not thread-safe, see SensorData.
 class ORTUNG_API SamplesData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kSamples;
   struct Sample {
     Pose2 pose;           ///< pose in the field frame
     double weight = 0.0;  ///< weight relative to the heaviest sample's, in [0, 1]

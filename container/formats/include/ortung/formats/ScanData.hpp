@@ -1,27 +1,26 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/core/SensorData.hpp"
-#include "ortung/tables/DirectionTable.hpp"
-#include "ortung/tables/FieldRegion.hpp"
+#include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/LearnedData.hpp"
+#include "ortung/tables/RangeScale.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
 namespace ortung {
 
-struct EndPointTables;
-class SurfaceField;
-
 /// Ranges at evenly spaced bearings, counter-clockwise. Words: one [mm] a beam; 0: no valid
 /// measurement; at or above the greatest range: nothing seen.
-/// Learns a ray table or an end-point field. Not thread-safe, see SensorData.
-class ORTUNG_API ScanData : public SensorData {
+/// Learns a ray table, which expects the range of each beam [m], or an end-point field, which
+/// expects those that its surfaces show; the greatest range where nothing is in sight.
+/// Not thread-safe, see SensorData.
+class ORTUNG_API ScanData : public LearnedData {
  public:
+  static constexpr const char* kFormat = formats::kScan;
   /// Which table expectations come from: ranges of rays, or places of their end points.
   enum class Perception { kRays, kEndPoints };
   struct Config {
@@ -48,56 +47,34 @@ class ORTUNG_API ScanData : public SensorData {
 
   ScanData(SensorId id, const Pose2& mount, const Config& config);
   ~ScanData() override;
+  /// Returns the settings that a format tells; all others, such as noise, have their defaults.
+  /// @throws std::invalid_argument for parameters that are missing or that no such feature has
+  static Config configOf(const Format& format, std::span<const std::uint32_t> words = {});
 
   Reading reading() const;
+  /// Returns the ranges of reading().
+  std::span<const float> ranges() const { return ranges_; }
   const Config& config() const { return config_; }
   /// Writes the words of a scan: NaN becomes 0, anything at or beyond @p maxRange (and infinity)
   /// one word above it.
   static void encode(std::span<const float> ranges, double maxRange,
                      std::vector<std::uint32_t>& words);
 
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<ScanData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
   bool localizes() const override { return config_.localizes; }
-  double headingSpacing() const override;
-  double positionSpacing() const override;
-  /// Returns the range of each beam [m]; the greatest range where nothing is expected in sight. It
-  /// is empty with an end-point field, which does not store ranges.
-  std::vector<double> expectation(const Pose2& pose) const override;
   bool isAngle(std::size_t) const override { return false; }
   std::vector<double> measured(const Pose2& pose) const override;
   std::vector<WordValue> valuesIn(std::span<const std::uint32_t> words) const override;
   void store(const WordValue& value, std::span<std::uint32_t> words) const override;
-  ExpectationGrain grain() const override;
-  std::string learningKey() const override;
-  void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  private:
-  struct Learning;  ///< data that only a sweep needs
   void check(std::span<const std::uint32_t> words) const override;
   void decode(std::span<const std::uint32_t> words) override;
-  void startTables(const FieldRegion& region, double headingStep) override;
-  void learn(const Pose2& robotInField) override;
-  void finishTables() override;
-  void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
-                 const FieldGrid& grid) override;
-  std::shared_ptr<const Weigher> makeWeigher() const override;
-  std::shared_ptr<const Weigher> makeRayWeigher() const;
-  std::shared_ptr<const Weigher> makeEndPointWeigher() const;
   double rangeOf(std::uint32_t word) const;
-  bool marksFrom(const Pose2& sensor) const;
-  int runLength(int directions) const;
 
   Config config_;
-  RangeScale scale_;
-  std::shared_ptr<DirectionTable> rays_;
-  std::shared_ptr<EndPointTables> endPoints_;
-  std::shared_ptr<SurfaceField> surfaces_;  ///< surfaces that refine a ray table
   std::vector<float> ranges_;
-  std::unique_ptr<Learning> learning_;
 };
 
 }  // namespace ortung

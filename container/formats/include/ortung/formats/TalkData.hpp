@@ -7,6 +7,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -18,6 +19,7 @@ namespace ortung {
 /// Not thread-safe, see SensorData.
 class ORTUNG_API TalkData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kTalk;
   static constexpr std::size_t kMostMessages = 1000;
   static constexpr std::size_t kLongestName = 64;   ///< most characters of a name
   static constexpr std::size_t kLongestText = 400;  ///< most characters of a message
@@ -38,9 +40,6 @@ class ORTUNG_API TalkData : public SensorData {
   /// @throws std::invalid_argument for more or longer messages than a reading can hold, and for
   ///   characters that can't be printed
   static std::vector<std::uint32_t> encode(const Reading& reading);
-  /// Makes a feature of this class with the words and parameters of another one that has this
-  /// format, whatever its class; null if its format is another one (readingAs()).
-  static std::unique_ptr<TalkData> like(const SensorData& feature);
   Format format() const override;
   std::string wordsHelp() const override;
 

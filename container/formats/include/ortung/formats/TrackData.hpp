@@ -8,6 +8,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/TrackStatus.hpp"
 
 namespace ortung {
@@ -19,6 +20,7 @@ namespace ortung {
 /// Not thread-safe, see SensorData.
 class ORTUNG_API TrackData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kTrack;
   struct Reading {
     TrackStatus status = TrackStatus::kLost;
     TrackReason reason = TrackReason::kNoReading;

@@ -8,6 +8,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
@@ -17,6 +18,7 @@ namespace ortung {
 /// SensorData.
 class ORTUNG_API WorkData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kWork;
   struct Reading {
     std::size_t samples = 0;  ///< size of the sample set
     /// Samples that are worth as much: 1 / sum w^2 of the weights, rounded.

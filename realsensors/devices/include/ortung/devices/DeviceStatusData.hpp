@@ -3,6 +3,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/devices/DeviceHealth.hpp"
 
 namespace ortung {
@@ -12,6 +13,7 @@ namespace ortung {
 /// jumps]; an age of 4294967295: there was no reading. Not thread-safe, see SensorData.
 class ORTUNG_API DeviceStatusData : public SensorData {
  public:
+  static constexpr const char* kFormat = formats::kDevice;
   /// @param number the device's place in the robot file, from 0
   /// @param plugin name of the driver's plugin
   DeviceStatusData(std::size_t number, const std::string& plugin);

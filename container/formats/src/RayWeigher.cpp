@@ -1,18 +1,13 @@
-/// ScanData's perceptual model: how probable a scan is at a pose.
+#include "RayWeigher.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "CellLookup.hpp"
-#include "EndPointWeigher.hpp"
-#include "FormatTools.hpp"
-#include "ScanCost.hpp"
-#include "SurfaceFit.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Widest.hpp"
-#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 namespace {
@@ -56,93 +51,55 @@ struct RayPlaces {
   }
 };
 
-/// A scan in the terms of a ray table: for each direction of the run the nearest beam.
-class RayWeigher final : public BlurrableWeigher, public Polishable {
- public:
-  RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& mount, double firstAngle,
-             const SensorModel& model, std::size_t run, SurfaceFit fit,
-             const PoseResolution& spread = {})
-      : rays_(std::move(rays)),
-        mount_(mount),
-        firstAngle_(static_cast<float>(firstAngle)),
-        model_(model),
-        spread_(spread),
-        run_(run),
-        unit_(-std::log(model.outliers) / kLargestCost),
-        nats_(static_cast<float>(-unit_ * model.exponent)),
-        fit_(std::move(fit)) {
-    const std::size_t padded = (run + kScanBlock - 1) / kScanBlock * kScanBlock;
-    levels_.assign(padded, 0);
-    caps_.assign(padded, 0);
-    levelsPerSigma_.assign(run, 0.0);
-  }
+}  // namespace
 
-  /// Adds a beam at place @p at of the run. @param range [m]; +infinity: nothing is in sight
-  void add(std::size_t at, double range, const RangeScale& scale) {
-    levels_[at] = scale.level(range);
-    caps_[at] = std::isinf(range) ? quantize(std::log(model_.maxRangeMass)) : kLargestCost;
-    floorCost_ += caps_[at];
-    const double known = std::min(range, scale.maxRange());
-    const double sigma = std::hypot(model_.sigmaAt(known), spread_.metres, spread_.radians * known);
-    levelsPerSigma_[at] = scale.levelsPerSigma(known, sigma);
-    scale_ = scale;
-    beams_.push_back({at, range});
-  }
+RayWeigher::RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& mount,
+                       double firstAngle, const SensorModel& model, std::size_t run, SurfaceFit fit,
+                       const PoseResolution& spread)
+    : rays_(std::move(rays)),
+      mount_(mount),
+      firstAngle_(static_cast<float>(firstAngle)),
+      model_(model),
+      spread_(spread),
+      run_(run),
+      unit_(-std::log(model.outliers) / kLargestCost),
+      nats_(static_cast<float>(-unit_ * model.exponent)),
+      fit_(std::move(fit)) {
+  const std::size_t padded = (run + kScanBlock - 1) / kScanBlock * kScanBlock;
+  levels_.assign(padded, 0);
+  caps_.assign(padded, 0);
+  levelsPerSigma_.assign(run, 0.0);
+}
 
-  /// Is called when all beams are added. @returns whether any of them has information
-  bool complete();
+void RayWeigher::add(std::size_t at, double range, const RangeScale& scale) {
+  levels_[at] = scale.level(range);
+  caps_[at] = std::isinf(range) ? quantize(std::log(model_.maxRangeMass)) : kLargestCost;
+  floorCost_ += caps_[at];
+  const double known = std::min(range, scale.maxRange());
+  const double sigma = std::hypot(model_.sigmaAt(known), spread_.metres, spread_.radians * known);
+  levelsPerSigma_[at] = scale.levelsPerSigma(known, sigma);
+  scale_ = scale;
+  beams_.push_back({at, range});
+}
 
-  std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override {
-    auto other = std::make_shared<RayWeigher>(rays_, mount_, static_cast<double>(firstAngle_),
-                                              model_, run_, fit_, spread);
-    for (const Beam& beam : beams_) other->add(beam.at, beam.range, scale_);
-    other->complete();
-    return other;
-  }
-  double nominalNanoseconds() const override { return 10.0 + 0.12 * static_cast<double>(run_); }
-  Slope slopeAt(const Pose2& pose) const override { return fit_.slopeAt(pose); }
+std::uint8_t RayWeigher::quantize(double logProbability) const {
+  return static_cast<std::uint8_t>(
+      std::clamp(std::nearbyint(-logProbability / unit_), 0.0, double{kLargestCost}));
+}
 
- private:
-  struct Beam {
-    std::size_t at;  ///< place in the run
-    double range;    ///< [m]
-  };
-  void setSteps(double entries, double least);
-  std::uint8_t quantize(double logProbability) const {
-    return static_cast<std::uint8_t>(
-        std::clamp(std::nearbyint(-logProbability / unit_), 0.0, double{kLargestCost}));
-  }
-  void weigh(const SampleView& poses, std::span<float> logProbability) const override;
-  double logProbabilityAt(const Pose2& pose) const override {
-    const Pose2 sensor = pose * mount_;
-    const bool expects = rays_->row(sensor.x, sensor.y) != nullptr;
-    return expects ? Weigher::logProbabilityAt(pose) : std::numeric_limits<double>::quiet_NaN();
-  }
+std::shared_ptr<const BlurrableWeigher> RayWeigher::blurred(const PoseResolution& spread) const {
+  auto other = std::make_shared<RayWeigher>(rays_, mount_, static_cast<double>(firstAngle_), model_,
+                                            run_, fit_, spread);
+  for (const Beam& beam : beams_) other->add(beam.at, beam.range, scale_);
+  other->complete();
+  return other;
+}
 
-  PoseResolution resolution() const override {
-    return {.metres = rays_->grid().cell, .radians = rays_->step()};
-  }
-
-  std::shared_ptr<const DirectionTable> rays_;
-  Pose2 mount_;
-  float firstAngle_;
-  SensorModel model_;
-  PoseResolution spread_;  ///< standard deviations of the poses
-  RangeScale scale_;
-  std::vector<Beam> beams_;
-  std::size_t run_;  ///< directions that the scan spans
-  double unit_;      ///< nats of a cost of 1
-  float nats_;       ///< ln p of a cost of 1, exponent included (negative)
-  /// Levels of the reading, by direction from the first beam on, padded.
-  std::vector<std::uint8_t> levels_;
-  std::vector<std::uint8_t> caps_;
-  std::vector<std::uint8_t> steps_;  ///< none: all of 1
-  int shift_ = 0;
-  std::array<std::uint8_t, kLevelDifferences> costs_{};
-  SurfaceFit fit_;
-  std::uint32_t floorCost_ = 0;         ///< cost of a sample without expectation
-  std::vector<double> levelsPerSigma_;  ///< levels per sigma, by direction; zero: no beam
-};
+double RayWeigher::logProbabilityAt(const Pose2& pose) const {
+  const Pose2 sensor = pose * mount_;
+  const bool expects = rays_->row(sensor.x, sensor.y) != nullptr;
+  return expects ? Weigher::logProbabilityAt(pose) : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// One table of costs serves beams of different noise: each beam's difference of levels is scaled
 /// to entries of the table by its sigma. The table is as fine as the finest levels, unless it would
@@ -229,46 +186,6 @@ void RayWeigher::weigh(const SampleView& poses, std::span<float> logProbability)
         blocks[current].size = 0;
       });
   add(blocks[1 - current]);
-}
-
-}  // namespace
-
-std::shared_ptr<const Weigher> ScanData::makeWeigher() const {
-  return config_.perception == Perception::kRays ? makeRayWeigher() : makeEndPointWeigher();
-}
-
-std::shared_ptr<const Weigher> ScanData::makeRayWeigher() const {
-  const int run = runLength(rays_->directions());
-  SurfaceFit fit(surfaces_, mount(), config_.model);
-  for (int i = 0; i < config_.beams; ++i) {
-    const float range = ranges_[static_cast<std::size_t>(i)];
-    if (std::isfinite(range))
-      fit.add(static_cast<double>(range), config_.firstAngle + i * config_.angleStep);
-  }
-  auto weigher = std::make_shared<RayWeigher>(rays_, mount(), config_.firstAngle, config_.model,
-                                              static_cast<std::size_t>(run), std::move(fit));
-  const int thin = config_.usedBeams > 0 ? std::max(1, run / config_.usedBeams) : 1;
-  for (int j = 0; j < run; j += thin) {
-    const double place = j * rays_->step() / config_.angleStep;
-    const auto beam = std::min<long>(std::lround(place), config_.beams - 1);
-    if (std::abs(place - static_cast<double>(beam)) * config_.angleStep > 0.51 * rays_->step())
-      continue;
-    const float range = ranges_[static_cast<std::size_t>(beam)];
-    if (!std::isnan(range))
-      weigher->add(static_cast<std::size_t>(j), static_cast<double>(range), scale_);
-  }
-  return weigher->complete() ? weigher : nullptr;
-}
-
-std::shared_ptr<const Weigher> ScanData::makeEndPointWeigher() const {
-  auto weigher = std::make_shared<EndPointWeigher>(endPoints_, mount());
-  const int thin = config_.usedBeams > 0 ? std::max(1, config_.beams / config_.usedBeams) : 1;
-  for (int i = 0; i < config_.beams; i += thin) {
-    const float range = ranges_[static_cast<std::size_t>(i)];
-    if (!std::isfinite(range)) continue;  // a beam without a hit has no end
-    weigher->add(static_cast<double>(range), config_.firstAngle + i * config_.angleStep);
-  }
-  return weigher->isEmpty() ? nullptr : weigher;
 }
 
 }  // namespace ortung
