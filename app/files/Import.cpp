@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -67,14 +68,21 @@ void makeRobot(const Source& source, const Workshop& workshop, const std::string
   readRobot(workshop.file());
 }
 
-/// Returns the formats of the robot's features, for the record's notes; none without a robot file.
-std::vector<std::pair<SensorId, Format>> formatsIn(const fs::path& robotFile,
-                                                   PluginFactory& factory) {
-  if (robotFile.empty()) return {};
+/// Returns the formats for the record's notes: those that the source knows and, of other features,
+/// those of the robot file, if there is one.
+FeatureFormats formatsIn(const Source& source, const fs::path& robotFile, PluginFactory& factory) {
+  FeatureFormats formats = source.formats();
+  if (robotFile.empty()) return formats;
   const RobotConfig robot = readRobot(robotFile);
   SensorContainer container;
   fillContainer(container, robot, factory);
-  return formatsOf(container);
+  const auto isNoted = [&, count = formats.size()](const SensorId& id) {
+    return std::any_of(formats.begin(), formats.begin() + static_cast<std::ptrdiff_t>(count),
+                       [&](const auto& noted) { return noted.first == id; });
+  };
+  for (auto& one : formatsOf(container))
+    if (!isNoted(one.first)) formats.push_back(std::move(one));
+  return formats;
 }
 
 /// What was written, for the summary.
@@ -168,7 +176,8 @@ int runImport(const ImportArguments& arguments) {
   }
   const fs::path robotFile = robot ? robot->file() : arguments.withRobot;
   RecordWriter record(outputs.ready(arguments.out),
-                      RecordNotes{fingerprint, formatsIn(robotFile, factory)}, paceOf(*source));
+                      RecordNotes{fingerprint, formatsIn(*source, robotFile, factory)},
+                      paceOf(*source));
   const Written written = copyMessages(*source, record, arguments);
   warnOf(*source);
   if (record.messages() == 0) {

@@ -207,7 +207,7 @@ TEST_F(Localization, ReadingThatIsNoNumberIsRefused) {
 
 TEST_F(Localization, ReadingOfAnotherShapeIsRefusedWithTimeAndFeature) {
   std::string text = read("run.rec");
-  const std::size_t scan = text.find("LMS200/LRF/180DegreeScan");
+  const std::size_t scan = text.find(" LMS200/LRF/180DegreeScan ", text.rfind("\n# ")) + 1;
   const std::size_t end = text.find('\n', scan);
   write("run.rec", text.replace(scan, end - scan, "LMS200/LRF/180DegreeScan 2 1000 1000"));
   expectRefused(run("eval"), 1,

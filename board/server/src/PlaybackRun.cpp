@@ -76,15 +76,16 @@ std::size_t PlaybackRun::placeOf(const SensorId& id) {
                                   [&](const ServedFeature& one) { return one.id == id; });
   features_.push_back(known == run_.features.end() ? featureOf(id) : *known);
   // What was recorded counts, whatever a robot file says today.
-  if (const auto told = formats_.find(toText(id)); told != formats_.end())
-    features_.back().format = told->second;
+  if (const auto noted = formats_.find(toText(id)); noted != formats_.end())
+    features_.back().format = noted->second;
   return features_.size() - 1;
 }
 
 void PlaybackRun::scan(const std::function<bool(double)>& progress) {
   RecordSource source(run_.record);
   fingerprint_ = source.worldFingerprint();
-  formats_ = source.formats();
+  for (const auto& [id, format] : source.formats())
+    formats_.try_emplace(toText(id), format.toText());
   Message message;
   for (std::uint64_t count = 0; source.next(message); ++count) {
     if (count == 0) first_ = message.stamp;

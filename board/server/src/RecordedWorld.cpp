@@ -18,8 +18,8 @@ std::vector<SensorId> idsOf(std::span<const ServedFeature> features) {
   return ids;
 }
 
-std::vector<std::pair<SensorId, Format>> formatsOf(std::span<const ServedFeature> features) {
-  std::vector<std::pair<SensorId, Format>> formats;
+FeatureFormats formatsOf(std::span<const ServedFeature> features) {
+  FeatureFormats formats;
   for (const ServedFeature& feature : features)
     if (!feature.format.empty()) formats.emplace_back(feature.id, parseFormat(feature.format));
   return formats;

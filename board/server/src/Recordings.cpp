@@ -63,7 +63,7 @@ std::string Recordings::newFile(const std::string& name) const {
 }
 
 void Recordings::begin(RobotId robot, const std::string& name, const std::string& worldFingerprint,
-                       std::vector<std::pair<SensorId, Format>> formats) {
+                       FeatureFormats formats) {
   if (config_.folder.empty())
     throw ServeError("state",
                      "the server has no folder for records; start it with --record-into FOLDER");

@@ -12,10 +12,10 @@ namespace ortung {
 class EndPointExpectations : public Expectations {
  public:
   struct Config {
-    double cell = 0.05;      ///< edge of the field's cells [m]
-    double margin = 0.1;     ///< greatest distance of points beyond the region's bounds [m]
-    double maxRange = 1.0;   ///< greatest range of points [m]
-    SensorModel model;       ///< noise of points
+    double cell = 0.05;     ///< edge of the field's cells [m]
+    double margin = 0.1;    ///< greatest distance of points beyond the region's bounds [m]
+    double maxRange = 1.0;  ///< greatest range of points [m]
+    SensorModel model;      ///< noise of points
   };
   explicit EndPointExpectations(const Config& config)
       : config_(config), tables_(std::make_shared<EndPointTables>()) {}

@@ -38,10 +38,10 @@ constexpr Maker of() {
           }};
 }
 
-constexpr Maker kMakers[] = {of<ScalarData>(),   of<BearingData>(),   of<ConeData>(),
-                             of<ScanData>(),     of<LandmarksData>(), of<PointsData>(),
-                             of<PoseFixData>(),  of<PoseData>(),      of<OdometryData>(),
-                             of<ObjectsData>(),  of<ObstaclesData>(), of<TalkData>(),
+constexpr Maker kMakers[] = {of<ScalarData>(),  of<BearingData>(),   of<ConeData>(),
+                             of<ScanData>(),    of<LandmarksData>(), of<PointsData>(),
+                             of<PoseFixData>(), of<PoseData>(),      of<OdometryData>(),
+                             of<ObjectsData>(), of<ObstaclesData>(), of<TalkData>(),
                              of<PlacesData>()};
 
 }  // namespace

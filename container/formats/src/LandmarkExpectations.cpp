@@ -15,8 +15,7 @@ LandmarkExpectations::Model::Model(const LandmarksData::Config& config)
       bearing(config.bearing),
       ranges(config.range),
       bearings(config.bearing),
-      unidentified(
-          std::make_shared<UnidentifiedSight::Model>(config.range, config.bearing)) {}
+      unidentified(std::make_shared<UnidentifiedSight::Model>(config.range, config.bearing)) {}
 
 LandmarkExpectations::Tables::Tables(const LandmarksData::Config& config) {
   if (!config.identified) return;

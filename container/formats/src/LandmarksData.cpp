@@ -28,8 +28,7 @@ LandmarksData::LandmarksData(SensorId id, const Pose2& mount, Config config)
 
 LandmarksData::~LandmarksData() = default;
 
-LandmarksData::Config LandmarksData::configOf(const Format&,
-                                              std::span<const std::uint32_t> words) {
+LandmarksData::Config LandmarksData::configOf(const Format&, std::span<const std::uint32_t> words) {
   std::set<std::uint32_t> identities;
   for (std::size_t i = 0; i < words.size(); i += kWordsASighting) identities.insert(words[i]);
   if (identities.empty()) identities.insert(0);
@@ -84,14 +83,13 @@ std::ptrdiff_t LandmarksData::indexOf(std::uint32_t identity) const {
 
 std::ptrdiff_t LandmarksData::indexOf(const Sighting& sighting, const Pose2& pose) const {
   if (config_.identified || sighting.identity != kUnknown) return indexOf(sighting.identity);
-  const LandmarkPlaces& places =
-      static_cast<const LandmarkExpectations&>(expectations()).places();
+  const LandmarkPlaces& places = static_cast<const LandmarkExpectations&>(expectations()).places();
   if (places.isEmpty()) return -1;
   const Pose2 sensor = pose * mount();
   const Sighting truly = corrected(sighting);
   const double angle = sensor.theta + truly.bearing;
   const std::uint16_t which = places.nearestTo(sensor.x + truly.range * std::cos(angle),
-                                                         sensor.y + truly.range * std::sin(angle));
+                                               sensor.y + truly.range * std::sin(angle));
   return which == LandmarkPlaces::kNone ? -1 : which;
 }
 

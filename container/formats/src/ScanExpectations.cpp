@@ -7,8 +7,7 @@
 
 namespace ortung {
 
-std::unique_ptr<Expectations> expectationsOf(const ScanData& scan,
-                                             const ScanData::Config& config) {
+std::unique_ptr<Expectations> expectationsOf(const ScanData& scan, const ScanData::Config& config) {
   return config.perception == ScanData::Perception::kRays ? expectedRays(scan, config)
                                                           : expectedEndPoints(scan, config);
 }

@@ -43,8 +43,8 @@ class ScanRays final : public Expectations {
 
   std::string key() const override {
     const RangeResolution& resolution = scan_.config().resolution;
-    return scanKey(scan_, "rays scale=" + keyNumber(resolution.metres) + "," +
-                              keyNumber(resolution.perMetre));
+    return scanKey(
+        scan_, "rays scale=" + keyNumber(resolution.metres) + "," + keyNumber(resolution.perMetre));
   }
   double headingSpacing() const override {
     return kTurn / (views_ > 0 ? views_ : fewestViews(scan_.config()));

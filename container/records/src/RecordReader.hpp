@@ -2,12 +2,12 @@
 
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "ortung/core/Message.hpp"
+#include "ortung/core/Source.hpp"
 
 namespace ortung {
 
@@ -23,8 +23,8 @@ class RecordReader {
   virtual bool isFile() const = 0;
   virtual std::string remark() const = 0;
   const std::string& world() const { return world_; }
-  /// Texts of formats by the names of features; what is none is left out.
-  const std::map<std::string, std::string>& formats() const { return formats_; }
+  /// Returns the formats that its notes say; what is none is left out.
+  const FeatureFormats& formats() const { return formats_; }
 
  protected:
   /// Takes what a line before the first reading says.
@@ -32,7 +32,7 @@ class RecordReader {
 
  private:
   std::string world_;
-  std::map<std::string, std::string> formats_;
+  FeatureFormats formats_;
 };
 
 inline constexpr std::string_view kWorldNote = "# world ";

@@ -20,14 +20,13 @@ Timestamp later(Timestamp a, double seconds) {
   return __builtin_add_overflow(a, fromSeconds(seconds), &sum) ? kLatest : sum;
 }
 
-/// Returns a feature and the text of its format; none of a note of a later version, or a damaged
+/// Returns a feature and its format; none of a note of a later version, or a damaged
 /// one: readings are what counts.
-std::optional<std::pair<std::string, std::string>> formatIn(std::string_view note) {
+std::optional<std::pair<SensorId, Format>> formatIn(std::string_view note) {
   const std::size_t blank = note.find(' ');
   if (blank == note.npos) return std::nullopt;
   try {
-    return std::pair(toText(parseSensorId(note.substr(0, blank))),
-                     parseFormat(note.substr(blank + 1)).toText());
+    return std::pair(parseSensorId(note.substr(0, blank)), parseFormat(note.substr(blank + 1)));
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
@@ -41,7 +40,7 @@ void RecordReader::takeNote(std::string_view line) {
   if (line.starts_with(kWorldNote)) world_ = line.substr(kWorldNote.size());
   if (!line.starts_with(kFormatNote) || formats_.size() == kMostFormats) return;
   line.remove_prefix(kFormatNote.size());
-  if (auto format = formatIn(line)) formats_.insert(std::move(*format));
+  if (auto format = formatIn(line)) formats_.push_back(std::move(*format));
 }
 
 std::string tornRemark(const std::filesystem::path& file, std::uintmax_t bytes) {
@@ -109,8 +108,6 @@ std::string RecordSource::remark() const { return reader_->remark(); }
 
 std::string RecordSource::worldFingerprint() const { return reader_->world(); }
 
-const std::map<std::string, std::string>& RecordSource::formats() const {
-  return reader_->formats();
-}
+FeatureFormats RecordSource::formats() const { return reader_->formats(); }
 
 }  // namespace ortung

@@ -159,8 +159,8 @@ class RecordWriter::Chunks final : public Output {
   std::vector<chunk::Place> index_;
 };
 
-std::vector<std::pair<SensorId, Format>> formatsOf(const SensorContainer& container) {
-  std::vector<std::pair<SensorId, Format>> formats;
+FeatureFormats formatsOf(const SensorContainer& container) {
+  FeatureFormats formats;
   for (const auto& data : container.all()) formats.emplace_back(data->id(), data->format());
   return formats;
 }

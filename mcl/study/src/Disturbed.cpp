@@ -99,6 +99,7 @@ class Disturbed : public Source {
   double progress() const override { return source_->progress(); }
   bool isLive() const override { return source_->isLive(); }
   std::string worldFingerprint() const override { return source_->worldFingerprint(); }
+  FeatureFormats formats() const override { return source_->formats(); }
   std::string robotToml() const override { return source_->robotToml(); }
   void writeWorld(const std::filesystem::path& file) const override { source_->writeWorld(file); }
   std::string remark() const override {

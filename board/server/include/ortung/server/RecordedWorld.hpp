@@ -57,7 +57,7 @@ class ORTUNG_API RecordedWorld final : public ForwardedWorld {
   struct Robot {
     std::string name;
     std::vector<SensorId> features;
-    std::vector<std::pair<SensorId, Format>> formats;  ///< as far as they are known
+    FeatureFormats formats;  ///< as far as they are known
     bool isResident = false;
     std::vector<SensorId> wanted = {};  ///< features that clients ask for
   };

@@ -50,7 +50,7 @@ class ORTUNG_API Recordings {
   /// @param worldFingerprint "": of no known world
   /// @throws ServeError without a folder, for too many records, or if no file can be made
   void begin(RobotId robot, const std::string& name, const std::string& worldFingerprint,
-             std::vector<std::pair<SensorId, Format>> formats = {});
+             FeatureFormats formats = {});
   /// One moment of a robot; of one that is not recorded, and without readings, nothing is done.
   /// @param more what else belongs to the moment
   void write(RobotId robot, std::span<const Message> moment, std::span<const Message> more = {});

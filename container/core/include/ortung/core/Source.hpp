@@ -5,15 +5,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/container/Abi.hpp"
+#include "ortung/core/Format.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorContainer.hpp"
 
 namespace ortung {
+
+/// Formats of features, in the order in which they were told.
+using FeatureFormats = std::vector<std::pair<SensorId, Format>>;
 
 /// Anything that fills a container: simulator, record, foreign log, network, devices.
 /// It gives readings in the order of their time stamps. Not thread-safe.
@@ -41,6 +46,9 @@ class ORTUNG_API Source {
 
   /// Returns the fingerprint of the world the readings come from, or "" if it is not known.
   virtual std::string worldFingerprint() const { return ""; }
+
+  /// Returns the formats that features had when the readings were made, as far as the source knows.
+  virtual FeatureFormats formats() const { return {}; }
 
   /// Returns the robot file (TOML text) that fits the readings, or "" if the source can't know it.
   virtual std::string robotToml() const { return ""; }

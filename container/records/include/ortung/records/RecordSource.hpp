@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,9 +43,8 @@ class ORTUNG_API RecordSource : public Source {
   bool isLive() const override;
   std::string remark() const override;
   std::string worldFingerprint() const override;
-  /// Formats of features as its notes say them: Format::toText() by "model/type/feature". Records
-  /// of earlier versions have none.
-  const std::map<std::string, std::string>& formats() const;
+  /// Returns the formats that its notes say. Records of earlier versions have none.
+  FeatureFormats formats() const override;
   /// Returns whether it is compressed; else it is lines of text.
   bool isCompressed() const { return isCompressed_; }
 

@@ -6,13 +6,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "ortung/base/Export.hpp"
-#include "ortung/core/Format.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorContainer.hpp"
+#include "ortung/core/Source.hpp"
 
 namespace ortung {
 
@@ -23,11 +21,11 @@ inline constexpr std::string_view kRecordMagic = "# ortung record 1";
 struct RecordNotes {
   std::string world;  ///< fingerprint of the world where it was made; "": not known
   /// Formats of its features, as far as the writer knows them.
-  std::vector<std::pair<SensorId, Format>> formats = {};
+  FeatureFormats formats = {};
 };
 
 /// @returns formats of all features of a container, for the notes
-ORTUNG_API std::vector<std::pair<SensorId, Format>> formatsOf(const SensorContainer& container);
+ORTUNG_API FeatureFormats formatsOf(const SensorContainer& container);
 
 /// Writes a record file: notes ("# world ..."), then readings (docs/files.md).
 ///

@@ -3,8 +3,8 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorData.hpp"
-#include "ortung/formats/FormatNames.hpp"
 #include "ortung/devices/DeviceHealth.hpp"
+#include "ortung/formats/FormatNames.hpp"
 
 namespace ortung {
 
