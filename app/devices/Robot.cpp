@@ -29,6 +29,7 @@
 #include "ServingArguments.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/NewFile.hpp"
+#include "ortung/core/RobotCommands.hpp"
 #include "ortung/devices/DeviceStatusData.hpp"
 #include "ortung/devices/DevicesSource.hpp"
 #include "ortung/mcl_served/LocalizationCommands.hpp"
@@ -247,7 +248,9 @@ void serveRobot(RunningRobot& robot, const ServingArguments& arguments,
   config.fingerprint = robot.fingerprint();
   config.period = 0.02;
   RobotCommands* const commands = robot.devices().commands();
-  if (commands != nullptr) config.abilities = {"drive v,w"};
+  if (commands != nullptr)
+    config.abilities = {"drive [forwards m/s, turning left rad/s]",
+                        "motion kind=" + std::string(motion::kVelocities) + " numbers=2"};
   std::vector<BoardCommand> added;
   if (LocalizedRobot* const localized = robot.localized()) {
     added = localizationCommands(*localized);

@@ -13,6 +13,7 @@
 #include "Progress.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/records/RecordWriter.hpp"
+#include "ortung/robot/RobotFile.hpp"
 #include "ortung/run/Localization.hpp"
 #include "ortung/server/FieldText.hpp"
 #include "ortung/sim/SimWorld.hpp"
@@ -81,7 +82,7 @@ std::filesystem::path recordOf(const SourceText& text, const ViewArguments& argu
   if (text.kind == "record" && text.options.empty()) return text.path;
   PluginFactory factory(PluginFactory::standardFolders());
   const auto source = openSourceArgument(text, arguments.localization.robot, factory);
-  RecordWriter record(file, source->worldFingerprint());
+  RecordWriter record(file, RecordNotes{source->worldFingerprint(), source->formats()});
   FrameReader reader(*source);
   std::vector<Message> frame;
   while (unlessInterrupted(*source, [&] { return reader.next(frame); })) {
@@ -90,6 +91,15 @@ std::filesystem::path recordOf(const SourceText& text, const ViewArguments& argu
   }
   record.commit();
   return file;
+}
+
+/// Returns what a robot file says of its features; nothing without one.
+std::vector<ServedFeature> featuresOf(const std::filesystem::path& robotFile) {
+  if (robotFile.empty()) return {};
+  SensorContainer container;
+  PluginFactory factory(PluginFactory::standardFolders());
+  fillContainer(container, readRobot(robotFile), factory);
+  return servedFeatures(container);
 }
 
 /// Parses a source, which may be the path of a record.
@@ -137,8 +147,8 @@ void describeField(const ViewArguments& arguments, ServedPlayback::Config& confi
 }  // namespace
 
 ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const ScratchFolder& scratch) {
-  if (arguments.localization.tables.empty() != arguments.localization.robot.empty())
-    throw UsageError("--robot and --tables belong together: give both to localize, or none");
+  if (arguments.localization.robot.empty() && !arguments.localization.tables.empty())
+    throw UsageError("--tables needs --robot: give both to localize");
   ServedPlayback::Config config;
   describeField(arguments, config);
   for (std::size_t i = 0; i < arguments.sources.size(); ++i) {
@@ -149,6 +159,7 @@ ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const Scratch
     config.name += (i == 0 ? "" : ", ") + std::filesystem::path(source.path).filename().string();
     if (arguments.localization.tables.empty()) {
       run.record = recordOf(source, arguments, file);
+      run.features = featuresOf(arguments.localization.robot);
     } else {
       LocalizationArguments localization = arguments.localization;
       localization.source = textOf(source);

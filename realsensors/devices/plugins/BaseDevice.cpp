@@ -34,9 +34,16 @@ class BaseVoice : public RobotCommands {
     velocity_.rotational = checked(radiansPerSecond, 20.0);
     isTold_ = true;
   }
-  void setMotion(std::span<const double>) override {
-    throw std::invalid_argument(
-        "the base takes translational and rotational velocity, no command vector");
+  /// Takes a command vector of the kind motion::kVelocities.
+  void setMotion(std::span<const double> command) override {
+    if (command.size() != 2)
+      throw std::invalid_argument("found " + std::to_string(command.size()) +
+                                  " numbers, expected the base's translational and rotational "
+                                  "velocity");
+    const base_lines::Velocity velocity{checked(command[0], 10.0), checked(command[1], 20.0)};
+    const std::lock_guard lock(mutex_);
+    velocity_ = velocity;
+    isTold_ = true;
   }
   void setManipulator(std::string_view, std::string_view) override {
     throw std::invalid_argument("the base has no manipulator");

@@ -7,6 +7,14 @@
 
 namespace ortung {
 
+/// Kinds of command vectors that come with Ortung: what the numbers of setMotion() are.
+namespace motion {
+inline constexpr const char* kDifferential = "differential";  ///< left, right wheel [m/s]
+inline constexpr const char* kOmni3 =
+    "omni3";  ///< three wheels at the rim, counter-clockwise [m/s]
+inline constexpr const char* kVelocities = "velocities";  ///< forwards [m/s], turning left [rad/s]
+}  // namespace motion
+
 /// The commands that a robot takes (paper, section 3): a simulated one, one on the field of a
 /// server, or a real one. A command holds until the next one; the robot keeps to its own limits.
 ///

@@ -9,18 +9,11 @@
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/core/RobotCommands.hpp"
 #include "ortung/sim_api/Abi.hpp"
 #include "ortung/sim_api/Twist.hpp"
 
 namespace ortung {
-
-/// Kinds of drives that come with Ortung: what the numbers of their command vectors are.
-namespace motion {
-inline constexpr const char* kDifferential = "differential";  ///< left, right wheel [m/s]
-inline constexpr const char* kOmni3 =
-    "omni3";  ///< three wheels at the rim, counter-clockwise [m/s]
-inline constexpr const char* kVelocities = "velocities";  ///< forwards [m/s], turning left [rad/s]
-}  // namespace motion
 
 /// The limits of a drive, with which drivers and players plan.
 struct DriveLimits {
