@@ -32,7 +32,7 @@ LONGEST_GAP, FASTEST = 2.5, 3.0  # [s], [m/s]: the truth between two moments is 
 
 def truth_of(lines):
     """Stamps [us] and positions of the ground truth in a record's lines."""
-    rows = [line.split() for line in lines if " reference/groundTruth/pose " in line]
+    rows = [line.split() for line in lines if " reference/groundTruth/pose " in line and not line.startswith("#")]
     stamps = numpy.array([int(r[0]) for r in rows], dtype=float)
     places = numpy.array([[(int(w) - 2 ** 31) / 1000.0 for w in r[3:5]] for r in rows])
     return stamps, places

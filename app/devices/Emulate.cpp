@@ -21,6 +21,7 @@
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung::app {
 namespace {

@@ -16,7 +16,6 @@
 #include "ortung/base/HelperProgram.hpp"
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/ConeData.hpp"
-#include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/OdometryData.hpp"

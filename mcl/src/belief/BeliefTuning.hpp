@@ -7,6 +7,28 @@
 /// from; docs/constants.md shows what changes on recordings if it is halved or doubled.
 namespace ortung::tuning {
 
+/// What several folders ask of deviations, times and places.
+namespace common {
+
+/// [sigma] Deviation beyond which a value is no noise: the tail of a normal distribution beyond it
+/// is 6e-5.
+ORTUNG_CONSTANT(common, kOutlier, 4.0);
+/// Ratio to the usual time between readings above which a gap is long. Chosen by hand.
+ORTUNG_CONSTANT(common, kLongGap, 3.0);
+/// [share] Least ratio of a usual time to its last value, so that it falls over ten updates. Chosen
+/// by hand.
+ORTUNG_CONSTANT(common, kUsualKept, 0.9);
+/// [m] Extent of one place: what is farther apart is at two. Chosen by hand: the width of a wide
+/// peak of a laser's likelihood.
+ORTUNG_CONSTANT(common, kPlaceMetres, 0.5);
+/// [rad] Extent of one place in heading. Chosen by hand.
+ORTUNG_CONSTANT(common, kPlaceRadians, 0.35);
+/// [m] Distance travelled after which a reading counts fully where little is known of the place or
+/// the device, since the errors of nearer ones are correlated. Chosen by hand.
+ORTUNG_CONSTANT(common, kIndependent, 0.3);
+
+}  // namespace common
+
 /// Confidence: how far an estimate can be trusted.
 namespace confidence {
 
@@ -25,23 +47,15 @@ ORTUNG_CONSTANT(confidence, kOfFit, 5.5);
 ORTUNG_CONSTANT(confidence, kOfFitLately, 4.4);
 /// Coefficient of the lead of another place over the belief, per nat. Fitted: confidence.
 ORTUNG_CONSTANT(confidence, kOfLead, -0.12);
-/// [nats] Greatest lead that counts, since at lead::kEnoughNats the other place takes over.
-ORTUNG_CONSTANT(confidence, kMostLead, 16.0);
 /// [share] Least quality of an estimate that may be relied on. Chosen by hand: one in ten may be
 /// wrong.
 ORTUNG_CONSTANT(confidence, kTracking, 0.9);
 /// [share] Quality below which the status is "lost": the estimate is more probably wrong than
 /// right.
 ORTUNG_CONSTANT(confidence, kLost, 0.5);
-/// [nats] Lead of another place that makes the belief uncertain: the most that one reading can
-/// count.
-ORTUNG_CONSTANT(confidence, kRivalNats, 4.0);
 /// [share] If the heaviest place has less than this share of the belief, the pose is ambiguous.
 /// Chosen by hand.
 ORTUNG_CONSTANT(confidence, kOfOnePlace, 0.8);
-/// A silence is reported if it is this many times longer than the usual time between readings.
-/// Chosen by hand.
-ORTUNG_CONSTANT(confidence, kLongSilence, 3.0);
 
 }  // namespace confidence
 

@@ -43,7 +43,7 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   const double oddsOfBelief = std::log(belief / (1.0 - belief));
   const double fit = std::clamp(signs.fit, 0.0, 1.0);
   const double fitLately = std::clamp(signs.fitLately, 0.0, 1.0);
-  const double lead = std::clamp(signs.lead, 0.0, kMostLead);
+  const double lead = std::clamp(signs.lead, 0.0, tuning::lead::kEnoughNats);
 #ifdef ORTUNG_SWEEP
   noteSigns({static_cast<double>(estimate.stamp), estimate.pose.x, estimate.pose.y, oddsOfBelief,
              fit, fitLately, lead});
@@ -51,14 +51,14 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   const double odds = kConstant + kOfBelief * oddsOfBelief + kOfFit * fit +
                       kOfFitLately * fitLately + kOfLead * lead;
   estimate.quality = 1.0 / (1.0 + std::exp(-odds));
-  const bool isSilent = !signs.silence || *signs.silence > kLongSilence;
+  const bool isSilent = !signs.silence || *signs.silence > tuning::common::kLongGap;
   if (signs.isFrozen) {
     estimate.reason = TrackReason::kFrozen;
   } else if (isSilent) {
     estimate.reason = TrackReason::kNoReading;
   } else if (signs.isLate) {
     estimate.reason = TrackReason::kLate;
-  } else if (signs.lead >= kRivalNats) {
+  } else if (signs.lead >= tuning::lead::kMostNatsOfAReading) {
     estimate.reason = TrackReason::kRival;
   } else if (signs.unusual > 0) {
     estimate.reason = TrackReason::kPoorFit;

@@ -37,9 +37,6 @@ ORTUNG_CONSTANT(correction, kFewLeft, 25.0);
 /// MclPrediction: motion.
 namespace prediction {
 
-/// [share] Share of the usual interval between updates that is kept in each update: it falls over
-/// ten updates.
-ORTUNG_CONSTANT(prediction, kIntervalKept, 0.9);
 /// Least number of samples that are moved without odometry, if maxSamples permits it. Cost.
 ORTUNG_CONSTANT(prediction, kSpreadSamples, std::size_t{4000});
 

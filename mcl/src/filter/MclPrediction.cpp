@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "BeliefTuning.hpp"
 #include "Drift.hpp"
 #include "FilterTuning.hpp"
 #include "MclImpl.hpp"
@@ -13,6 +14,7 @@ namespace ortung {
 namespace {
 
 using namespace tuning::prediction;
+using tuning::common::kUsualKept;
 
 // Number of the first random number of each alternative hypothesis, so that its noise is not that
 // of the belief's samples.
@@ -83,7 +85,7 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
 /// The usual interval rises at once and falls slowly: what was usual a while ago is still usual.
 void Mcl::Impl::followIntervals(Timestamp stamp) {
   if (reached.stamp)
-    usualInterval = std::max(toSeconds(stamp - *reached.stamp), kIntervalKept * usualInterval);
+    usualInterval = std::max(toSeconds(stamp - *reached.stamp), kUsualKept * usualInterval);
 }
 
 /// Moves the samples by process noise: without odometry, before its first reading, or if it is not

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "MotionTuning.hpp"
+#include "BeliefTuning.hpp"
 
 namespace ortung {
 namespace {
 
-using namespace tuning::momentum;
+using tuning::common::kOutlier;
 
 /// Returns the gain: the share of a measured change that counts.
 double known(double drifted, double open) {
@@ -27,8 +27,8 @@ void Momentum::follow(const PoseEstimate& seen, Timestamp stamp) {
   lasts_ = 0.0;
   if (seconds <= 0.0) return;
   const Pose2 change = inverse(before->pose) * now.pose;
-  if (std::hypot(change.x, change.y) > kFastest * config_.driftMetres * seconds ||
-      std::abs(change.theta) > kFastest * config_.driftRadians * seconds)
+  if (std::hypot(change.x, change.y) > kOutlier * config_.driftMetres * seconds ||
+      std::abs(change.theta) > kOutlier * config_.driftRadians * seconds)
     return;
   // The displacement in the robot's frame halfway through the turn.
   const Pose2 half = Pose2{0.0, 0.0, -change.theta / 2.0} * Pose2{change.x, change.y, 0.0};

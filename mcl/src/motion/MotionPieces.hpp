@@ -11,8 +11,8 @@ namespace ortung {
 /// readings is followed in pieces of this size, since the noise of a long path that leads back to
 /// its beginning is not that of no motion at all.
 inline bool isPiece(const Pose2& change) {
-  return std::hypot(change.x, change.y) >= tuning::pieces::kMetres ||
-         std::abs(change.theta) >= tuning::pieces::kRadians;
+  return std::hypot(change.x, change.y) >= tuning::pieces::kSize ||
+         std::abs(change.theta) >= tuning::pieces::kSize;
 }
 
 }  // namespace ortung

@@ -18,24 +18,12 @@ ORTUNG_CONSTANT(carried, kCopies, std::size_t{128});
 
 }  // namespace carried
 
-/// Momentum: prediction without odometry.
-namespace momentum {
-
-/// [sigma] Greatest velocity, in standard deviations of the process noise of 1 s; a faster change
-/// means that the estimate jumped to another place. The tail of a normal distribution beyond it is
-/// 6e-5.
-ORTUNG_CONSTANT(momentum, kFastest, 4.0);
-
-}  // namespace momentum
-
 /// MotionPieces: long paths without readings.
 namespace pieces {
 
-/// [m] Size of the pieces in which motion without readings is followed. Chosen by hand: short
-/// enough that curves stay curves.
-ORTUNG_CONSTANT(pieces, kMetres, 0.1);
-/// [rad] The same for turns.
-ORTUNG_CONSTANT(pieces, kRadians, 0.1);
+/// [m or rad] Size of the pieces in which motion without readings is followed. Chosen by hand:
+/// short enough that curves stay curves.
+ORTUNG_CONSTANT(pieces, kSize, 0.1);
 
 }  // namespace pieces
 
@@ -45,9 +33,6 @@ namespace trust {
 /// [m] Distance travelled after which a reading counts fully, since the errors of nearer ones are
 /// correlated. Chosen by hand.
 ORTUNG_CONSTANT(trust, kIndependent, 0.1);
-/// [nats] Lead over motion without odometry at which odometry is trusted again. Earlier readings
-/// count no more than that against it, either.
-ORTUNG_CONSTANT(trust, kRegained, 8.0);
 /// [m] Greatest distance travelled by odometry at which the robot still counts as stationary; 1 rad
 /// counts as 1 m. Chosen by hand: what wheel encoders resolve.
 ORTUNG_CONSTANT(trust, kStationary, 0.002);

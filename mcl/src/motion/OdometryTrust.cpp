@@ -1,5 +1,6 @@
 #include "OdometryTrust.hpp"
 
+#include "BeliefTuning.hpp"
 #include "MotionTuning.hpp"
 
 namespace ortung {
@@ -11,8 +12,8 @@ void OdometryTrust::lose() {
 
 void OdometryTrust::compare(double ratio, double way) {
   lead_.count(ratio, way / tuning::trust::kIndependent);
-  lead_.atLeast(-tuning::trust::kRegained);
-  if (lead_.nats() >= tuning::trust::kRegained) lost_ = false;
+  lead_.atLeast(-tuning::lead::kEnoughNats / 2);
+  if (lead_.nats() >= tuning::lead::kEnoughNats / 2) lost_ = false;
 }
 
 }  // namespace ortung

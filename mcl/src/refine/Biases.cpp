@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "BeliefTuning.hpp"
 #include "CarriedOn.hpp"
 #include "RefineTuning.hpp"
 #include "ortung/base/Angles.hpp"
@@ -15,6 +16,7 @@ namespace ortung {
 namespace {
 
 using namespace tuning::biases;
+using tuning::common::kIndependent, tuning::common::kOutlier;
 
 using Matrix = Eigen::Matrix3d;
 using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -81,7 +83,7 @@ void Biases::follow(const std::vector<News>& news, const PoseEstimate& estimate)
     const auto found = features_.find(one.feature);
     if (!reading || found == features_.end()) continue;
     Feature& feature = found->second;
-    if (isRunning_ && feature.learnedAt >= 0.0 && way_ - feature.learnedAt < kApart) continue;
+    if (isRunning_ && feature.learnedAt >= 0.0 && way_ - feature.learnedAt < kIndependent) continue;
     residuals.clear();
     const Pose2 at = isRunning_ ? pose_ : estimate.pose;
     reading->residualsAt(at, residuals);
@@ -165,7 +167,7 @@ bool Biases::learn(std::size_t device, const ReadingResidual& r, const Pose2& at
   const Eigen::VectorXd cross = covariance_ * by;
   const double known = by.dot(cross);
   const double variance = known + r.sigma * r.sigma;
-  if (!(off * off < kMostErrors * kMostErrors * variance)) return false;
+  if (!(off * off < kOutlier * kOutlier * variance)) return false;
   const double inlier = (1.0 - r.outliers) * std::exp(-0.5 * off * off / variance);
   const double noise = r.sigma * r.sigma * (inlier + r.outliers) / inlier;
   const Eigen::VectorXd gain = cross / (known + noise);
@@ -183,7 +185,7 @@ void Biases::decide() {
     Device& device = devices_[d];
     const Eigen::Index at = placeOf(d);
     const auto isOther = [&](bool isKnown, double square) {
-      const double errors = isKnown ? kStillErrors : kErrors;
+      const double errors = isKnown ? kStillErrors : kOutlier;
       if (device.values < kFewest) return false;
       return square > errors * errors;
     };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "BeliefTuning.hpp"
 #include "CarriedOn.hpp"
 #include "RefineTuning.hpp"
 #include "ortung/base/Angles.hpp"
@@ -16,6 +17,7 @@ namespace ortung {
 namespace {
 
 using namespace tuning::polish;
+using tuning::common::kOutlier;
 
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
@@ -42,7 +44,7 @@ Matrix widened(const PoseCovariance& covariance, double metres, double radians) 
 bool isSame(const Pose2& pose, const PoseEstimate& cluster) {
   const Matrix covariance = widened(cluster.covariance, kClusterMetres, kClusterRadians);
   const Vector off = difference(pose, cluster.pose);
-  return off.dot(covariance.ldlt().solve(off)) < kMostSigmas * kMostSigmas;
+  return off.dot(covariance.ldlt().solve(off)) < kOutlier * kOutlier;
 }
 
 /// The normal distribution of the pose before the readings.

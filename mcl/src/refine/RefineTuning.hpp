@@ -13,22 +13,14 @@ namespace biases {
 /// [share] Prior sigma of the error in scale of distances: radio ranging devices have errors of up
 /// to 7 %.
 ORTUNG_CONSTANT(biases, kScale, 0.05);
-/// [sigma] Standard errors from zero at which a bias becomes known. The tail of a normal
-/// distribution beyond it is 6e-5.
-ORTUNG_CONSTANT(biases, kErrors, 4.0);
 /// [sigma] Standard errors from zero at which a bias stays known, so that it does not come and go.
 /// Chosen by hand.
 ORTUNG_CONSTANT(biases, kStillErrors, 1.5);
 /// Least number of values from which a bias becomes known. The usual rule for means of unknown
 /// distributions.
 ORTUNG_CONSTANT(biases, kFewest, 30);
-/// [sigma] Greatest innovation of an inlier.
-ORTUNG_CONSTANT(biases, kMostErrors, 4.0);
 /// [share] Share of outliers above which the pose must be wrong, rather than the readings.
 ORTUNG_CONSTANT(biases, kMisfits, 0.5);
-/// [m] Distance travelled between readings of a feature that are used, since the errors of nearer
-/// ones are correlated. Chosen by hand, as elsewhere::kIndependent.
-ORTUNG_CONSTANT(biases, kApart, 0.3);
 /// [share] Rate at which the share of outliers is averaged: over fifty readings. Chosen by hand.
 ORTUNG_CONSTANT(biases, kRate, 0.02);
 
@@ -39,8 +31,6 @@ namespace polish {
 
 /// Greatest number of Gauss-Newton steps. Cost.
 ORTUNG_CONSTANT(polish, kMostSteps, 8);
-/// [sigma] Greatest Mahalanobis distance between a cluster and a pose that count as one place.
-ORTUNG_CONSTANT(polish, kMostSigmas, 4.0);
 /// [m] Accuracy in position to which a cluster's mean is known; it is added to its covariance.
 ORTUNG_CONSTANT(polish, kClusterMetres, 0.03);
 /// [rad] Accuracy in heading to which a cluster's mean is known; it is added to its covariance.

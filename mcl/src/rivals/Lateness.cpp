@@ -16,6 +16,7 @@ namespace ortung {
 namespace {
 
 using namespace tuning::lateness;
+using tuning::common::kLongGap, tuning::common::kPlaceMetres, tuning::common::kUsualKept;
 
 /// Number of their first random number; no other samples use these numbers.
 constexpr std::uint64_t kFirstNumber = 1ULL << 28;
@@ -58,7 +59,7 @@ bool Lateness::isSuspected(Timestamp stamp) const {
   const auto places = placesAt(stamp, Pose2{});
   double elsewhere = 0.0;
   for (std::size_t i = 0; i < Delays::kCount; ++i)
-    if (distance(places[i], Pose2{}) > kSamePlace) elsewhere += probability(i);
+    if (distance(places[i], Pose2{}) > kPlaceMetres) elsewhere += probability(i);
   return elsewhere > kLeftOut;
 }
 
@@ -111,9 +112,9 @@ void Lateness::keep(const SampleSet& belief, std::span<const double> weights,
   // The usual gap rises quickly, but not at once, since one long silence is not usual; it falls
   // slowly.
   const double gap = toSeconds(stamp - belief_.before.value_or(stamp));
-  belief_.usualGap = belief_.usualGap > 0.0
-                         ? std::clamp(gap, kGapKept * belief_.usualGap, kGapMore * belief_.usualGap)
-                         : gap;
+  belief_.usualGap = belief_.usualGap > 0.0 ? std::clamp(gap, kUsualKept * belief_.usualGap,
+                                                         kGapMore * belief_.usualGap)
+                                            : gap;
   belief_.before = stamp;
   belief_.odometry = odometryByDelay(stamp);
   if (belief_.anchor && stamp >= belief_.anchor->stamp &&
@@ -222,7 +223,8 @@ const Lateness::Jump* Lateness::leading() const {
   const Jump* leading = nullptr;
   for (const Jump& one : belief_.jumps) {
     const Lead& lead = one.hypothesis.lead();
-    const bool isEnough = one.delay == 0 ? lead.nats() >= kEnoughForNone : lead.isEnough();
+    const bool isEnough =
+        one.delay == 0 ? lead.nats() >= tuning::lead::kEnoughNats / 2 : lead.isEnough();
     if (isEnough && (leading == nullptr || one.sharp > leading->sharp)) leading = &one;
   }
   return leading;

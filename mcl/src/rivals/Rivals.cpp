@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "BeliefTuning.hpp"
 #include "Drift.hpp"
 #include "Kld.hpp"
 #include "MotionTuning.hpp"
@@ -86,8 +87,8 @@ void Rivals::drawAround(const Moment& moment, const Evidence& evidence) {
   const double seconds = toSeconds(moment.stamp - *doubtSince_);
   const PoseSearch::Ring ring{
       moment.predicted,
-      std::min(around::kRing + around::kRingPerSecond * seconds, around::kLargestRing),
-      std::min(around::kTurn + around::kTurnPerSecond * seconds, around::kLargestTurn)};
+      std::min(common::kPlaceMetres + around::kRingPerSecond * seconds, around::kLargestRing),
+      std::min(common::kPlaceRadians + around::kTurnPerSecond * seconds, around::kLargestTurn)};
   SampleSet drawn = search_
                         .draw(around::kSamples, around::kCandidates, evidence.weigh,
                               Random(config_.seed, moment.stream).fork(0), ring)
@@ -173,7 +174,7 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   }
   Hypothesis& rival = elsewhere_->hypothesis;
   const double ratio = weighElsewhere(moment, evidence);
-  rival.count(ratio, moment.way / elsewhere::kIndependent,
+  rival.count(ratio, moment.way / common::kIndependent,
               recovery.isUsual(evidence.fit(rival.samples())));
   elsewhere_->way += moment.way;
   ++elsewhere_->readings;
@@ -221,8 +222,8 @@ void Rivals::drawElsewhere(const Moment& moment) {
   std::vector<PoseSearch::Ring> rings;
   const auto places = searching_->job.places();
   for (const FieldSearch::Place& place : places) {
-    if (place.logProbability > places.front().logProbability - elsewhere::kSearchNats)
-      rings.push_back({place.pose, places::kRing, places::kTurn});
+    if (place.logProbability > places.front().logProbability + lead::kHopelessNats)
+      rings.push_back({place.pose, common::kPlaceMetres / 2, places::kTurn});
   }
   const Moment then = std::move(searching_->moment);
   searching_.reset();
@@ -238,7 +239,7 @@ SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Mo
     ortung::weigh(news, set, &workers_, out);
   };
   return search_
-      .drawFrom(rings, elsewhere::kSamples, places::kCandidates, weigh,
+      .drawFrom(rings, elsewhere::kSamples, static_cast<double>(field::kCandidates), weigh,
                 Random(config_.seed, then.stream).fork(2))
       .samples;
 }

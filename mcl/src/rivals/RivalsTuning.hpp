@@ -29,14 +29,10 @@ ORTUNG_CONSTANT(hypothesis, kDistance, 1.0);
 /// Hypotheses around the estimate: wheels slipped, or odometry is wrong.
 namespace around {
 
-/// [m] Initial radius of the ring. Chosen by hand: the belief itself follows smaller errors.
-ORTUNG_CONSTANT(around, kRing, 0.5);
 /// [m/s] Rate at which the radius grows: as fast as wheels slip. Chosen by hand.
 ORTUNG_CONSTANT(around, kRingPerSecond, 1.5);
 /// [m] Largest radius: the search of the whole field finds places farther away.
 ORTUNG_CONSTANT(around, kLargestRing, 3.0);
-/// [rad] Initial range of headings to either side. Chosen by hand.
-ORTUNG_CONSTANT(around, kTurn, 0.35);
 /// [rad/s] Rate at which the range of headings grows. Chosen by hand.
 ORTUNG_CONSTANT(around, kTurnPerSecond, 0.35);
 /// [rad] Largest range of headings: a quarter of a full turn to either side.
@@ -56,9 +52,6 @@ ORTUNG_CONSTANT(around, kCandidates, 10.0);
 /// Hypotheses elsewhere: the robot was kidnapped, or the belief was wrong.
 namespace elsewhere {
 
-/// [m] Distance travelled after which a reading counts fully: longer than around a known place,
-/// since walls look alike over some distance.
-ORTUNG_CONSTANT(elsewhere, kIndependent, 0.3);
 /// Least number of readings before a takeover. Chosen by hand: with lead::kMostNatsOfAReading four
 /// would be enough.
 ORTUNG_CONSTANT(elsewhere, kReadings, 5);
@@ -69,9 +62,6 @@ ORTUNG_CONSTANT(elsewhere, kMostUnusual, 4);
 ORTUNG_CONSTANT(elsewhere, kSamples, std::size_t{1000});
 /// Effective sample size below which the hypothesis is annealed. Chosen by hand: a tenth.
 ORTUNG_CONSTANT(elsewhere, kEffective, 100.0);
-/// [nats] Places that fit this much worse than the best one are dropped. Chosen by hand, as
-/// lead::kHopelessNats.
-ORTUNG_CONSTANT(elsewhere, kSearchNats, 12.0);
 
 }  // namespace elsewhere
 
@@ -112,17 +102,11 @@ ORTUNG_CONSTANT(lateness, kPiece, 1.0);
 ORTUNG_CONSTANT(lateness, kStrongEvidence, 10.0);
 /// [share] Total probability of delays that may be left out. Cost.
 ORTUNG_CONSTANT(lateness, kLeftOut, 0.005);
-/// [m] Distance between the poses of two delays below which both are the same place. Chosen by
-/// hand.
-ORTUNG_CONSTANT(lateness, kSamePlace, 0.5);
 /// [m] Greatest distance travelled within some seconds; beyond it odometry's counter jumped. More
 /// than 10 m/s.
 ORTUNG_CONSTANT(lateness, kFarthest, 50.0);
 /// [share] Probability of a delay below which it is ignored. Cost.
 ORTUNG_CONSTANT(lateness, kNegligible, 1e-6);
-/// [nats] Lead that is enough for a change to no delay: half of lead::kEnoughNats, since having
-/// none is the rule.
-ORTUNG_CONSTANT(lateness, kEnoughForNone, 8.0);
 /// [nats] Most that one reading counts to distinguish changes to different delays. Chosen by hand.
 ORTUNG_CONSTANT(lateness, kMostSharp, 20.0);
 /// [m + rad] Least difference of poses by which delays are distinguished. Chosen by hand: more than
@@ -131,10 +115,6 @@ ORTUNG_CONSTANT(lateness, kPlacesApart, 0.3);
 /// [m + rad] Motion after which a reading counts fully. Chosen by hand: trust::kIndependent, for
 /// distance and turn together.
 ORTUNG_CONSTANT(lateness, kIndependent, 0.2);
-/// Ratio to the usual gap between readings above which a gap is long. Chosen by hand.
-ORTUNG_CONSTANT(lateness, kLongGap, 3.0);
-/// [share] Least ratio of the usual gap to its last value: it falls slowly. Chosen by hand.
-ORTUNG_CONSTANT(lateness, kGapKept, 0.9);
 /// Greatest ratio of the usual gap to its last value. Chosen by hand.
 ORTUNG_CONSTANT(lateness, kGapMore, 1.5);
 

@@ -56,7 +56,7 @@ Annealing::Annealing(Weigh weigh, const PoseCovariance& covariance, std::size_t 
   // A wide belief is not Gaussian, but often bent (around a landmark, for instance), so its kernels
   // must be smaller than Silverman's rule says.
   const double shrunk =
-      std::min({1.0, kMostMetres / (h * std::sqrt(std::max(whole(0, 0), whole(1, 1)))),
+      std::min({1.0, kCoarseMetres / (h * std::sqrt(std::max(whole(0, 0), whole(1, 1)))),
                 kMostRadians / (h * std::sqrt(whole(2, 2)))});
   const Eigen::Matrix3d surroundings =
       h * h * shrunk * shrunk * whole + Eigen::Vector3d(kLeastMetres * kLeastMetres,

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "BeliefTuning.hpp"
 #include "NominalTime.hpp"
 #include "Parallel.hpp"
 #include "SearchTuning.hpp"
@@ -18,6 +19,7 @@ namespace ortung {
 namespace {
 
 using namespace tuning::field;
+using tuning::common::kPlaceMetres, tuning::common::kPlaceRadians;
 
 /// Bound of |ln p| of one time step's readings, whatever plugins return.
 constexpr float kMostNats = 1e4F;
@@ -199,7 +201,7 @@ void FieldSearch::keep(const Candidate& weighed) {
   if (kept_.size() >= 2 * crowd()) prune();
 }
 
-std::size_t FieldSearch::crowd() const { return kCrowd * settings_.survivors; }
+std::size_t FieldSearch::crowd() const { return kCandidates * settings_.survivors; }
 
 /// Removes the worst candidates. The result does not depend on when this is done.
 void FieldSearch::prune() {
@@ -254,7 +256,7 @@ void FieldSearch::beginClimb() {
   stage_ = Stage::kClimb;
   present_ = sharp_;
   climbs_ = 0;
-  parents_ = apart(kClimbing * settings_.places, 0.5 * settings_.apartMetres,
+  parents_ = apart(kCandidates * settings_.places, 0.5 * settings_.apartMetres,
                    0.5 * settings_.apartRadians);
   spacing_ *= 0.5;
   turn_ *= 0.5;
@@ -315,7 +317,7 @@ double FieldSearch::nominalMilliseconds() const {
       all(cover_.size(), static_cast<std::size_t>(settings_.headings), nanosecondsOfCover_);
   for (double spacing = spacingOfCover_; spacing > kFinest; spacing *= 0.5)
     sum += all(settings_.survivors, kParts, sharp_.nanoseconds);
-  sum += all(kClimbing * settings_.places, kNeighbours * kClimbs, sharp_.nanoseconds);
+  sum += all(kCandidates * settings_.places, kNeighbours * kClimbs, sharp_.nanoseconds);
   return 1e-6 * sum;
 }
 

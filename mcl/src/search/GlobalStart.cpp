@@ -112,7 +112,8 @@ void GlobalStart::beginAround() {
   const Random random = Random(config_.seed, moment_->stream).fork(0);
   const PoseSearch::Weigh weigh = areAll ? cautiousWeigher() : weigher();
   if (n > 0)
-    around_.emplace(search_.drawingFrom(rings_, n, tuning::places::kCandidates, weigh, random));
+    around_.emplace(search_.drawingFrom(rings_, n, static_cast<double>(tuning::field::kCandidates),
+                                        weigh, random));
   beside_ = areAll ? 0 : config_.maxSamples - n;
 }
 
@@ -144,16 +145,17 @@ std::vector<PoseSearch::Ring> GlobalStart::found() const {
   std::vector<PoseSearch::Ring> rings;
   for (const FieldSearch::Place& place : places)
     if (place.logProbability > places.front().logProbability - tuning::start::kNats)
-      rings.push_back({place.pose, tuning::places::kRing, tuning::places::kTurn});
+      rings.push_back({place.pose, tuning::common::kPlaceMetres / 2, tuning::places::kTurn});
   return rings;
 }
 
 /// Returns whether there may be more places, or whether the readings fit outside of the rings about
 /// as well as within.
 bool GlobalStart::areNotAll() const {
-  using tuning::places::kRing, tuning::places::kTurn;
-  const std::array<Pose2, 6> edgesOfRing = {Pose2{kRing, 0, 0}, {-kRing, 0, 0}, {0, kRing, 0},
-                                            {0, -kRing, 0},     {0, 0, kTurn},  {0, 0, -kTurn}};
+  using tuning::places::kTurn;
+  const double ring = tuning::common::kPlaceMetres / 2;
+  const std::array<Pose2, 6> edgesOfRing = {Pose2{ring, 0, 0}, {-ring, 0, 0}, {0, ring, 0},
+                                            {0, -ring, 0},     {0, 0, kTurn}, {0, 0, -kTurn}};
   const FieldSearch::Settings settings;
   if (rings_.size() >= settings.places) return true;
   SampleSet edges;

@@ -20,7 +20,7 @@ ORTUNG_CONSTANT(annealing, kMostRises, 12);
 /// Greatest number of poses from which the rise of the exponent is computed. Cost.
 ORTUNG_CONSTANT(annealing, kMostTempered, std::size_t{65536});
 /// [m] Sigma of the first Metropolis step in position: as wide as a peak of a laser's likelihood at
-/// its base.
+/// its base. Greatest sigma of a sample's kernel, too.
 ORTUNG_CONSTANT(annealing, kCoarseMetres, 0.15);
 /// [m] Sigma of the second step in position: as wide as that peak at its top.
 ORTUNG_CONSTANT(annealing, kFineMetres, 0.05);
@@ -30,8 +30,6 @@ ORTUNG_CONSTANT(annealing, kCoarseRadians, 0.08);
 ORTUNG_CONSTANT(annealing, kFineRadians, 0.02);
 /// [m] Least sigma of a sample's kernel in position. Chosen by hand.
 ORTUNG_CONSTANT(annealing, kLeastMetres, 0.06);
-/// [m] Greatest sigma of the kernel in position. Chosen by hand.
-ORTUNG_CONSTANT(annealing, kMostMetres, 0.15);
 /// [rad] Least sigma of the kernel in heading. Chosen by hand.
 ORTUNG_CONSTANT(annealing, kLeastRadians, 0.03);
 /// [rad] Greatest sigma of the kernel in heading. Chosen by hand.
@@ -48,17 +46,11 @@ namespace field {
 ORTUNG_CONSTANT(field, kBlur, 0.2);
 /// [m] Spacing below which poses are not divided any more: the rest is left to annealing.
 ORTUNG_CONSTANT(field, kFinest, 0.1);
-/// Number of candidates from which each survivor is chosen. Cost.
-ORTUNG_CONSTANT(field, kCrowd, std::size_t{4});
-/// [m] Size of the bins in position that count as one place when survivors are chosen. Chosen by
-/// hand: the width of a wide peak.
-ORTUNG_CONSTANT(field, kPlaceMetres, 0.5);
-/// [rad] Size of these bins in heading. Chosen by hand.
-ORTUNG_CONSTANT(field, kPlaceRadians, 0.35);
+/// Number of candidates from which each one that is wanted is chosen: survivors, places, samples.
+/// Cost.
+ORTUNG_CONSTANT(field, kCandidates, std::size_t{4});
 /// Greatest number of survivors per place, so that not all are from one wide peak. Cost.
 ORTUNG_CONSTANT(field, kSurvivorsAPlace, std::size_t{12});
-/// Number of poses that climb for each place that is wanted. Cost.
-ORTUNG_CONSTANT(field, kClimbing, std::size_t{4});
 /// Number of steps of a climb. Cost.
 ORTUNG_CONSTANT(field, kClimbs, 8);
 /// Number of steps after which the step size is halved. Chosen by hand.
@@ -69,14 +61,9 @@ ORTUNG_CONSTANT(field, kClimbsAStep, 2);
 /// Places that a search has found, in GlobalStart and Rivals.
 namespace places {
 
-/// [m] Radius around a place in which samples are drawn. Chosen by hand: half of
-/// field::kPlaceMetres.
-ORTUNG_CONSTANT(places, kRing, 0.25);
 /// [rad] Greatest difference in heading to either side of a place. Chosen by hand: half of
-/// field::kPlaceRadians.
+/// common::kPlaceRadians.
 ORTUNG_CONSTANT(places, kTurn, 0.17);
-/// Number of candidates for each sample. Cost.
-ORTUNG_CONSTANT(places, kCandidates, 4.0);
 
 }  // namespace places
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "Disturbance.hpp"
-#include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/run/Feeder.hpp"
 
 namespace ortung {

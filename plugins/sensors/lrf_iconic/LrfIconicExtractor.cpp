@@ -6,7 +6,7 @@
 
 #include "ScanForecast.hpp"
 #include "WallMatcher.hpp"
-#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 
@@ -24,7 +24,7 @@ void LrfIconicExtractor::take(std::span<const SensorData* const> inputs) {
   if (!scan) throw std::invalid_argument(toText(inputs[0]->id()) + " is not a scan, expected one");
   scan_ = *std::move(scan);
   mount_ = inputs[0]->mount();
-  maxRange_ = scanOf(inputs[0]->format()).maxRange;
+  maxRange_ = ScanData::configOf(inputs[0]->format()).maxRange;
 }
 
 void LrfIconicExtractor::extract(const FieldModel& field, std::span<std::optional<Words>> words) {

@@ -11,6 +11,7 @@
 #include "ortung/devices/Port.hpp"
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung {
 namespace {
@@ -32,7 +33,7 @@ void MrptScanner::serve(std::span<const SensorData* const> features) {
   if (features.size() != 1 || !isOf(*features.front(), formats::kScan))
     throw std::invalid_argument("a scanner fills one scan and nothing else");
   id_ = features.front()->id();
-  scan_ = scanOf(features.front()->format());
+  scan_ = ScanData::configOf(features.front()->format());
 }
 
 void MrptScanner::open() {

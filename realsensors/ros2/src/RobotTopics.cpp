@@ -8,11 +8,11 @@
 
 #include "ReadingMessages.hpp"
 #include "ortung/camera/ImageData.hpp"
-#include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/ScanData.hpp"
 
 namespace ortung::ros2 {
 namespace {
@@ -238,7 +238,7 @@ void RobotTopics::Parts::take(const Message& message, const Sink& sink) {
     send(moved);
     if (hasMotionData(message)) sendWords(message, sink);
   } else if (format.name() == formats::kScan) {
-    send(scanMessage(message, scanOf(format), here));
+    send(scanMessage(message, ScanData::configOf(format), here));
   } else if (format.name() == formats::kCone) {
     send(rangeMessage(message, format, here));
   } else if (format.name() == formats::kImage) {
