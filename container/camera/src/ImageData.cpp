@@ -4,8 +4,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "ortung/formats/FormatNames.hpp"
-
 namespace ortung {
 namespace {
 
@@ -14,14 +12,6 @@ static_assert(std::endian::native == std::endian::little,
 
 std::size_t wordsOf(const ImageView& image) {
   return ImageData::kHeaderWords + (image.bytes() + 3) / 4;
-}
-
-ImageView viewOf(std::span<const std::uint32_t> words) {
-  ImageView view;
-  view.size = {static_cast<int>(words[0]), static_cast<int>(words[1])};
-  view.format = static_cast<PixelFormat>(words[2]);
-  view.pixels = reinterpret_cast<const std::uint8_t*>(words.data() + ImageData::kHeaderWords);
-  return view;
 }
 
 std::string toText(ImageSize size) {
@@ -38,6 +28,14 @@ ImageData::~ImageData() = default;
 ImageView ImageData::reading() const {
   if (sequence() == 0) return {};
   return viewOf(getData());
+}
+
+ImageView ImageData::viewOf(std::span<const std::uint32_t> words) {
+  ImageView view;
+  view.size = {static_cast<int>(words[0]), static_cast<int>(words[1])};
+  view.format = static_cast<PixelFormat>(words[2]);
+  view.pixels = reinterpret_cast<const std::uint8_t*>(words.data() + ImageData::kHeaderWords);
+  return view;
 }
 
 void ImageData::start(ImageSize size, PixelFormat format, std::vector<std::uint32_t>& words) {

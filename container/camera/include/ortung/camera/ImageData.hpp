@@ -52,6 +52,8 @@ class ORTUNG_API ImageData : public SensorData {
 
   /// Returns the newest picture; its pixels live as long as the words of that reading.
   ImageView reading() const;
+  /// Returns the picture in words that a feature of this format has taken; its pixels are theirs.
+  static ImageView viewOf(std::span<const std::uint32_t> words);
   const std::optional<CameraView>& camera() const { return camera_; }
 
   /// Sets @p words to a picture without content; the caller writes its pixels into pixelsOf().

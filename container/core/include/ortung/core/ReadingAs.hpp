@@ -54,8 +54,13 @@ template <class Data>
 std::optional<typename Data::Reading> readingAs(const SensorData& feature) {
   if (feature.sequence() == 0) return std::nullopt;
   if (const auto* own = dynamic_cast<const Data*>(&feature)) return own->reading();
-  if (const std::unique_ptr<const Data> same = like<Data>(feature)) return same->reading();
-  return std::nullopt;
+  const std::unique_ptr<const Data> same = like<Data>(feature);
+  if (!same) return std::nullopt;
+  // A reading that points into words has to point into those of the feature.
+  if constexpr (requires { Data::viewOf(feature.getData()); })
+    return Data::viewOf(feature.getData());
+  else
+    return same->reading();
 }
 
 }  // namespace ortung
