@@ -46,7 +46,7 @@ RightRule ruleOf(const EvalSettings& settings, RunKind kind) {
   if (kind == RunKind::kTeleports) return kTeleportRule;
   RightRule rule{settings.options.convergedMetres, settings.options.convergedRadians,
                  settings.options.convergedSeconds};
-  if (kind == RunKind::kWakeUp) rule.mostWay = kWakeUpWay;
+  if (kind == RunKind::kWakeUp) rule.mostTravelled = kWakeUpWay;
   return rule;
 }
 
@@ -75,7 +75,7 @@ std::vector<CaseEvent> eventsOf(const EvalSettings& settings, const EvalJob& job
     }
     event.isRight = verdict.state == Verdict::State::kRight;
     event.after = verdict.seconds;
-    event.way = verdict.way;
+    event.travelled = verdict.travelled;
     if (event.isRight) event.readings = splice.readings(robot, beginnings[i], verdict.stamp + 1);
     events.push_back(event);
   }

@@ -46,9 +46,9 @@ struct Summary {
   double trackingShare = kNan;
   double wrongWhileTrackingShare = kNan;
   double neesMean = kNan;
-  Spread after;     ///< time until converged, or right again [s]
-  Spread way;       ///< distance travelled until then [m]
-  Spread readings;  ///< number of times with readings from events until then
+  Spread after;      ///< time until converged, or right again [s]
+  Spread travelled;  ///< distance travelled until then [m]
+  Spread readings;   ///< number of times with readings from events until then
   Spread updateMs;
 };
 
@@ -90,14 +90,14 @@ class Adding {
     wrongWhileTracking_.add(figures.wrongWhileTrackingShare, figures.overTime.compared);
     if (run.kind == RunKind::kWhole && hasConverged) {
       after_.push_back(*figures.convergedAfter);
-      way_.push_back(figures.convergedWay);
+      travelled_.push_back(figures.convergedDistance);
     }
     for (const CaseEvent& event : run.events) {
       ++summary_.right.of;
       if (!event.isRight) continue;
       ++summary_.right.count;
       after_.push_back(event.after);
-      way_.push_back(event.way);
+      travelled_.push_back(event.travelled);
       readings_.push_back(static_cast<double>(event.readings));
     }
   }
@@ -110,7 +110,7 @@ class Adding {
     s.trackingShare = tracking_.mean();
     s.wrongWhileTrackingShare = wrongWhileTracking_.mean();
     s.after = spreadOf(after_);
-    s.way = spreadOf(way_);
+    s.travelled = spreadOf(travelled_);
     s.readings = spreadOf(readings_);
     s.updateMs = spreadOf(updateMs_);
     return s;
@@ -121,7 +121,7 @@ class Adding {
   std::vector<double> errors_;
   std::vector<double> updateMs_;
   std::vector<double> after_;
-  std::vector<double> way_;
+  std::vector<double> travelled_;
   std::vector<double> readings_;
   TimeMean lost_;
   TimeMean nees_;
@@ -170,7 +170,7 @@ Json jsonOf(const Summary& s) {
     json["right"] = jsonOf(s.right);
   }
   json["after_s"] = jsonOf(s.after);
-  json["after_m"] = jsonOf(s.way);
+  json["after_m"] = jsonOf(s.travelled);
   if (s.kind != RunKind::kWhole) json["after_readings"] = jsonOf(s.readings);
   json["position_m"] = jsonOf(s.position);
   json["lost_share"] = jsonNumber(s.lostShare);
@@ -210,7 +210,7 @@ std::string listOfCases(const std::vector<RunResult>& runs, const Summary& s) {
     for (const CaseEvent& event : run.events) {
       const std::string result = event.isRight
                                      ? fmt::format("right after {:.1f} s, {:.1f} m, {} readings",
-                                                   event.after, event.way, event.readings)
+                                                   event.after, event.travelled, event.readings)
                                      : "never right";
       text += fmt::format("    {} {} (seed {}), at {:.1f} s in ({:.2f}, {:.2f}) m: {}\n",
                           nameOf(run.kind), run.number, run.seed, event.at, event.place.x,
@@ -230,7 +230,7 @@ std::string show(const std::vector<RunResult>& runs, const Summary& s) {
                         line("Converged and never lost", show(s.kept))
                   : line("Right", show(s.right));
   text += line("After (p50, p95, p99, most)", show(s.after, 1, " s"));
-  text += line("", show(s.way, 2, " m"));
+  text += line("", show(s.travelled, 2, " m"));
   if (!isWhole) text += line("", show(s.readings, 0, " readings"));
   text += line("Position error", show(s.position, 3, " m"));
   text += line("Share of time lost", show(100.0 * s.lostShare, 2, " %"));

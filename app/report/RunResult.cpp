@@ -42,7 +42,7 @@ nlohmann::ordered_json caseOf(const RunResult& run) {
                       {"heading_deg", degrees(event.place.theta)},
                       {"right", event.isRight},
                       {"after_s", ifRight(event.after)},
-                      {"after_m", ifRight(event.way)},
+                      {"after_m", ifRight(event.travelled)},
                       {"after_readings", ifRight(event.readings)}});
   }
   return {{"kind", nameOf(run.kind)}, {"number", run.number}, {"events", std::move(events)}};
@@ -129,7 +129,7 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
       {"position_max_m", jsonNumber(overTime.positionMax)},
       {"heading_rmse_deg", jsonNumber(degrees(overTime.headingRmse))},
       {"converged_after_s", jsonNumber(figures.convergedAfter.value_or(kNever))},
-      {"converged_after_m", jsonNumber(figures.convergedWay)},
+      {"converged_after_m", jsonNumber(figures.convergedDistance)},
       {"lost_share", jsonNumber(overTime.lostShare)},
       {"tracking_share", jsonNumber(figures.trackingShare)},
       {"wrong_while_tracking_share", jsonNumber(figures.wrongWhileTrackingShare)},

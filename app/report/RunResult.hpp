@@ -30,7 +30,7 @@ struct CaseEvent {
   Pose2 place;               ///< the robot's true pose at that time
   bool isRight = false;      ///< whether the estimate became right
   double after = 0.0;        ///< time until the estimate was right [s]
-  double way = 0.0;          ///< distance travelled until then [m]
+  double travelled = 0.0;    ///< distance travelled until then [m]
   std::size_t readings = 0;  ///< number of times with readings until then
 };
 

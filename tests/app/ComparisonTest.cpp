@@ -136,7 +136,8 @@ TEST_F(RunFiles, AreReadAsTheyWereWritten) {
   run.kind = RunKind::kKidnap;
   run.number = 4;
   run.faults = {"odometry=none"};
-  run.events = {{.place = {}, .isRight = true, .after = 2.5, .way = 1, .readings = 7}, CaseEvent()};
+  run.events = {{.place = {}, .isRight = true, .after = 2.5, .travelled = 1, .readings = 7},
+                CaseEvent()};
   test::writeBytes(folder / "one.json", toJson(run));
   test::writeBytes(folder / "many.json", toJson(std::vector<RunResult>{run, run}));
   EXPECT_EQ(readRuns(folder / "many.json").size(), 2u);

@@ -24,7 +24,7 @@ RunResult numberedRun() {
   run.figures.atCorrections.compared = 602;
   run.figures.overTime.compared = 5999;
   run.figures.duration = 60.25;
-  run.figures.convergedWay = 1.75;
+  run.figures.convergedDistance = 1.75;
   run.figures.particlesMean = 1234.5;
   run.figures.overTime.positionRmse = 0.125;
   run.figures.overTime.positionMedian = 0.0625;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Cameras.hpp"
+#include "StrangerData.hpp"
 #include "ortung/camera/ImageData.hpp"
 
 namespace ortung {
@@ -22,6 +23,19 @@ TEST(ImageData, KeepsPicturesAsTheyLieInMemory) {
   EXPECT_EQ(view.bytes(), pixels.size());
   EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), view.pixels));
   EXPECT_FALSE(data.canWeigh());
+}
+
+TEST(ImageData, APictureOfAnotherClassIsReadInTheWordsOfThatFeature) {
+  const std::vector<std::uint8_t> pixels = {1, 2, 3, 4, 5, 6};
+  test::StrangerData stranger("image width=3 height=2");
+  stranger.setData(7, ImageData::encode({{3, 2}, PixelFormat::kGrey, pixels.data()}));
+  const auto view = readingAs<ImageData>(stranger);
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->size, (ImageSize{3, 2}));
+  EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), view->pixels));
+  EXPECT_EQ(static_cast<const void*>(view->pixels), &stranger.getData()[ImageData::kHeaderWords]);
+  stranger.setData(8, std::vector<std::uint32_t>{3, 2, 1, 0});  // a word too few
+  EXPECT_FALSE(readingAs<ImageData>(stranger));
 }
 
 TEST(ImageData, RefusesWordsThatAreNoPicture) {

@@ -16,7 +16,7 @@ FIXED = {
     "belief/GivenBelief.cpp": {"kFarthest", "kRounding"},
     "belief/Resampling.cpp": {"kLeastWeight"},
     "filter/MclConfig.cpp": {"kMostSamples", "kRounding"},
-    "readings/News.cpp": {"kMostNats"},
+    "readings/NewReadings.cpp": {"kMostNats"},
     "refine/Polish.cpp": {"kSettledMetres", "kSettledRadians"},
     "rivals/Delays.cpp": {"kSmallest"},
     "search/FieldSearch.cpp": {"kMostNats", "kNowhere"},

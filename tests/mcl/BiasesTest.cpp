@@ -58,7 +58,7 @@ class Drive {
  public:
   explicit Drive(const DeviceBias& bias, std::uint64_t seed) : bias_(bias), random_(seed) {}
 
-  std::vector<News> read(std::size_t landmarks = 4) {
+  std::vector<NewReading> read(std::size_t landmarks = 4) {
     constexpr std::array<std::array<double, 2>, 4> kPlaces = {{{6, 5}, {-5, 6}, {-6, -4}, {4, -7}}};
     std::vector<Seen> seen;
     for (std::size_t k = 0; k < landmarks; ++k) {
@@ -73,7 +73,7 @@ class Drive {
   }
 
   void step(std::size_t landmarks = 4) {
-    NewsByTime news;
+    ReadingsByTime news;
     news[1] = read(landmarks);
     biases.correct(news);
     last = news[1].front();
@@ -94,7 +94,7 @@ class Drive {
   }
 
   Biases biases;
-  News last;  ///< as it would be weighed
+  NewReading last;  ///< as it would be weighed
   bool stands = false;
 
  private:
@@ -171,8 +171,8 @@ TEST(Biases, AreForgottenWithTheBelief) {
 TEST(Biases, AreNotLearnedWhereTheRobotIsNotTracked) {
   Drive drive({0.3, 0.0, 0.0}, 4);
   for (int i = 0; i < 100; ++i) {
-    const std::vector<News> news = drive.read();
-    NewsByTime byTime{{1, news}};
+    const std::vector<NewReading> news = drive.read();
+    ReadingsByTime byTime{{1, news}};
     drive.biases.correct(byTime);
     PoseEstimate unsure = drive.estimate();
     unsure.status = TrackStatus::kUncertain;

@@ -39,7 +39,7 @@ class OtherReading final : public Weigher {
   void weigh(const SampleView&, std::span<float>) const override {}
 };
 
-std::vector<News> reading(const Pose2& read, double sigma, double blur = 0.0) {
+std::vector<NewReading> reading(const Pose2& read, double sigma, double blur = 0.0) {
   return {{nullptr, 1, std::make_shared<PoseReading>(read, sigma, blur)}};
 }
 
@@ -152,7 +152,7 @@ TEST(Polish, ForgetsAPlaceThatIsNotThatOfTheSamples) {
 TEST(Polish, LeavesTheEstimateToSamplesThatKnowMore) {
   Polish polish;
   PoseEstimate estimate = cluster({0, 0, 0}, 0.002);
-  std::vector<News> both = reading({0.02, 0, 0}, 0.1);
+  std::vector<NewReading> both = reading({0.02, 0, 0}, 0.1);
   both.push_back({nullptr, 1, std::make_shared<OtherReading>()});
   polish.follow(both, estimate);
   EXPECT_EQ(estimate.pose.x, 0.0);

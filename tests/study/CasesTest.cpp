@@ -71,7 +71,7 @@ class Log : public testing::Test {
 
 TEST_F(Log, RecordingKnowsTheTruthAndTheWay) {
   ASSERT_EQ(recording->truth().size(), 4001u);
-  EXPECT_NEAR(recording->truth().back().way, 200.0, 0.2);
+  EXPECT_NEAR(recording->truth().back().travelled, 200.0, 0.2);
   EXPECT_EQ(recording->truth()[10].stamp, kBegin + kSecond);
   EXPECT_EQ(recording->messages()[recording->truth()[10].message].id, kOdometryId);
   EXPECT_EQ(carriedFar(*recording), 8.0);
@@ -99,7 +99,7 @@ TEST_F(Log, PiecesFollowEachOtherAsTheLogWentOn) {
   }
   const auto made = recordingOf(messages);
   EXPECT_EQ(made->truth().size(), 4u) << "one a moment";
-  EXPECT_EQ(made->truth().back().way, 0.0) << "the first one";
+  EXPECT_EQ(made->truth().back().travelled, 0.0) << "the first one";
   const auto joins = [&](const std::vector<Piece>& pieces) { return Splice(made, pieces).joins(); };
   EXPECT_EQ(joins({{0, 4}, {12, 16}}), std::vector<Timestamp>{300'000}) << "as long as it took";
   EXPECT_EQ(joins({{0, 8}, {0, 4}}), std::vector<Timestamp>{1'300'000}) << "1 s at most";

@@ -129,9 +129,9 @@ TEST(Evaluation, TellsTheWayUntilItConvergedAndTheLongestUpdate) {
   }
   const auto result = evaluation.result("x");
   EXPECT_EQ(result.convergedAfter, 12.0);
-  EXPECT_NEAR(result.convergedWay, 6.0, 1e-9);
+  EXPECT_NEAR(result.convergedDistance, 6.0, 1e-9);
   EXPECT_EQ(result.updateMsMax, 30.0);
-  EXPECT_TRUE(std::isnan(resultOf([](int) { return Pose2{3, 0, 0}; }).convergedWay));
+  EXPECT_TRUE(std::isnan(resultOf([](int) { return Pose2{3, 0, 0}; }).convergedDistance));
 }
 
 TEST(Evaluation, QuantilesLieBetweenOrderStatistics) {

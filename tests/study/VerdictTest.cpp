@@ -37,7 +37,7 @@ TEST(Verdict, IsRightFromTheFirstPointOnThatStaysSoForLongEnough) {
   EXPECT_EQ(verdict.state, State::kRight);
   EXPECT_EQ(verdict.stamp, 60 * kTenth);
   EXPECT_DOUBLE_EQ(verdict.seconds, 6.0);
-  EXPECT_NEAR(verdict.way, 6.0, 1e-9);
+  EXPECT_NEAR(verdict.travelled, 6.0, 1e-9);
   const std::vector<EvaluationPoint> some(points.begin(), points.end() - 1);
   EXPECT_EQ(judge(some, 0, kEnd, {}).state, State::kOpen);
 }
@@ -47,7 +47,7 @@ TEST(Verdict, LooksAtWhatLiesBetweenItsTimesAlone) {
   const Verdict after = judge(points, 70 * kTenth, kEnd, {});
   EXPECT_EQ(after.state, State::kRight);
   EXPECT_DOUBLE_EQ(after.seconds, 1.0);
-  EXPECT_NEAR(after.way, 1.0, 1e-9);
+  EXPECT_NEAR(after.travelled, 1.0, 1e-9);
   EXPECT_EQ(judge(points, 70 * kTenth, 130 * kTenth, {}).state, State::kOpen);
   EXPECT_EQ(judge({}, 0, kEnd, {}).state, State::kOpen);
 }
@@ -60,7 +60,7 @@ TEST(Verdict, HeadingCountsAsPositionDoes) {
 }
 
 TEST(Verdict, IsWrongOnceTheWayIsUsedUp) {
-  const RightRule rule{.mostWay = 2.0};
+  const RightRule rule{.mostTravelled = 2.0};
   EXPECT_EQ(judge(pointsWith(errors({{2.0, 20}})), 0, kEnd, rule).state, State::kOpen);
   EXPECT_EQ(judge(pointsWith(errors({{2.0, 25}, {0.1, 100}})), 0, kEnd, rule).state, State::kWrong);
   // What was right within the way may show that later.
@@ -71,8 +71,8 @@ TEST(Verdict, IsWrongOnceTheWayIsUsedUp) {
 }
 
 // Truth trembles by a centimetre or two; a robot that stands goes no way.
-TEST(WayMeter, DoesNotCountTrembling) {
-  WayMeter meter;
+TEST(DistanceMeter, DoesNotCountTrembling) {
+  DistanceMeter meter;
   double way = 0.0;
   for (int i = 0; i < 1000; ++i) way = meter.add({1.0 + (i % 2 == 0 ? 0.02 : -0.02), 0, 0});
   EXPECT_EQ(way, 0.0);

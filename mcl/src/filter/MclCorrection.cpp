@@ -14,23 +14,23 @@ namespace {
 
 using namespace tuning::correction;
 
-std::vector<const Weigher*> readingsOf(const std::vector<News>& news) {
+std::vector<const Weigher*> readingsOf(const std::vector<NewReading>& news) {
   std::vector<const Weigher*> readings;
-  for (const News& one : news) readings.push_back(one.weigher.get());
+  for (const NewReading& one : news) readings.push_back(one.weigher.get());
   return readings;
 }
 
 }  // namespace
 
 /// Corrects the belief by one time step's readings (paper, section 5.2).
-void Mcl::Impl::correct(const std::vector<News>& news, Predicted predicted) {
+void Mcl::Impl::correct(const std::vector<NewReading>& news, Predicted predicted) {
   Weighed weighed = weigh(news, predicted);
   Led led = letBestLead(std::move(weighed));
   resample(estimateFrom(std::move(led)));
 }
 
 /// @param news borrowed
-Moment Mcl::Impl::momentOf(const std::vector<News>& news, Timestamp stamp) {
+Moment Mcl::Impl::momentOf(const std::vector<NewReading>& news, Timestamp stamp) {
   const auto weighAll = [this, &news, each = nanosecondsOf(news)](const SampleSet& set,
                                                                   std::vector<float>& out) {
     tools.time.spend(each * static_cast<double>(set.size()));
@@ -43,18 +43,19 @@ Moment Mcl::Impl::momentOf(const std::vector<News>& news, Timestamp stamp) {
 }
 
 /// Weighs the belief, and follows how well the readings fit it.
-Weighed Mcl::Impl::weigh(const std::vector<News>& news, Predicted predicted) {
+Weighed Mcl::Impl::weigh(const std::vector<NewReading>& news, Predicted predicted) {
   Moment moment = momentOf(news, predicted.stamp);
   Hypothesis::Said said = track->belief.ask(moment.evidence, &tools.workers);
   if (const auto fit = fitOfBelief(moment, said.before))
-    track->recovery.follow(*fit, reached.odometry && track->way.all < tuning::trust::kStationary);
+    track->recovery.follow(*fit,
+                           reached.odometry && track->travelled.all < tuning::trust::kStationary);
   std::optional<Rivals::Moment> compared = competition(moment, said);
   const double logEvidence = said.logEvidence;
   std::vector<double> weights = predicted.drifted > 0
                                     ? takeInUnsure(moment, std::move(said), predicted.drifted)
                                     : takeIn(moment, said);
   track->recovery.followBest(fitOfBelief(moment, weights).value_or(0.0));
-  track->confirmation.count(track->recovery.unusual() == 0, track->way.metres);
+  track->confirmation.count(track->recovery.unusual() == 0, track->travelled.metres);
   return {std::move(moment), std::move(weights), std::move(compared), logEvidence};
 }
 
@@ -73,11 +74,11 @@ std::optional<Rivals::Moment> Mcl::Impl::competition(const Moment& moment,
       moment.stamp,
       estimateOf(tools.config, track->belief.samples().view(), said.before).pose,
       said.logEvidence,
-      track->way.all,
+      track->travelled.all,
       stream(Purpose::kRivals),
       reached.odometry,
       {}};
-  for (const News& one : *moment.news) compared.readings.push_back(one.weigher);
+  for (const NewReading& one : *moment.news) compared.readings.push_back(one.weigher);
   return compared;
 }
 
@@ -97,7 +98,7 @@ std::vector<double> Mcl::Impl::takeInUnsure(const Moment& moment, Hypothesis::Sa
   Hypothesis& belief = track->belief;
   const double ratio = said.logEvidenceOf(drifted, belief.samples().size() - drifted) -
                        said.logEvidenceOf(0, drifted);
-  track->trust.compare(-ratio, track->way.all);
+  track->trust.compare(-ratio, track->travelled.all);
   const SampleSet near =
       Annealing(moment.evidence.weigh, nullptr)
           .draw(belief.samples().from(drifted), tools.config.minSamples, random(Purpose::kSpread))
@@ -114,7 +115,7 @@ std::vector<double> Mcl::Impl::takeInUnsure(const Moment& moment, Hypothesis::Sa
 /// Says how readings are annealed that are far sharper than the belief. Otherwise hardly any sample
 /// would be left, and none of them at the peak of the likelihood.
 /// @param had number of samples before they were weighed
-Hypothesis::Climb Mcl::Impl::climbFor(const std::vector<News>& news, std::size_t had) {
+Hypothesis::Climb Mcl::Impl::climbFor(const std::vector<NewReading>& news, std::size_t had) {
   const MclConfig& config = tools.config;
   // After a long distance without readings the samples may have to cover many places.
   const std::size_t wanted =
@@ -184,8 +185,8 @@ bool Mcl::Impl::letDelayLead(const Led& led, const Weighed& weighed) {
 /// Computes the estimate of the heaviest cluster, refines it, and judges how far it can be trusted.
 Estimated Mcl::Impl::estimateFrom(Led led) {
   const Timestamp stamp = led.moment.stamp;
-  const std::vector<News>& news = *led.moment.news;
-  track->way = {};
+  const std::vector<NewReading>& news = *led.moment.news;
+  track->travelled = {};
   estimate = led.estimate;
   estimate.stamp = stamp;
   track->coarsest = coarsestOf(news);

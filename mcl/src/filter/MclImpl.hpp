@@ -26,8 +26,8 @@ enum class Purpose : std::uint64_t { kMotion, kResampling, kStart, kRivals, kSpr
 /// The readings of one time step.
 struct Moment {
   Timestamp stamp;
-  const std::vector<News>* news;  ///< borrowed
-  Evidence evidence;              ///< likelihood of the readings
+  const std::vector<NewReading>* news;  ///< borrowed
+  Evidence evidence;                    ///< likelihood of the readings
 };
 /// The result of predict(): all hypotheses are moved to the time of the readings.
 struct Predicted {
@@ -100,8 +100,8 @@ struct Mcl::Impl {
   bool drifts() const;
   void addDrift(PoseEstimate& e, Timestamp stamp) const;
   Signs signsAt(Timestamp stamp) const;
-  NewsByTime look(const SensorContainer& container);
-  void start(NewsByTime& news);
+  ReadingsByTime look(const SensorContainer& container);
+  void start(ReadingsByTime& news);
   void goOnStarting();
   void goOnWithoutNews();
 
@@ -118,9 +118,9 @@ struct Mcl::Impl {
   void followIntervals(Timestamp stamp);
 
   // Correct.
-  void correct(const std::vector<News>& news, Predicted predicted);
-  Moment momentOf(const std::vector<News>& news, Timestamp stamp);
-  [[nodiscard]] Weighed weigh(const std::vector<News>& news, Predicted predicted);
+  void correct(const std::vector<NewReading>& news, Predicted predicted);
+  Moment momentOf(const std::vector<NewReading>& news, Timestamp stamp);
+  [[nodiscard]] Weighed weigh(const std::vector<NewReading>& news, Predicted predicted);
   [[nodiscard]] Led letBestLead(Weighed weighed);
   [[nodiscard]] Estimated estimateFrom(Led led);
   void resample(const Estimated& estimated);
@@ -128,7 +128,7 @@ struct Mcl::Impl {
   std::vector<double> takeIn(const Moment& moment, const Hypothesis::Said& said);
   std::vector<double> takeInUnsure(const Moment& moment, Hypothesis::Said said,
                                    std::size_t drifted);
-  Hypothesis::Climb climbFor(const std::vector<News>& news, std::size_t had);
+  Hypothesis::Climb climbFor(const std::vector<NewReading>& news, std::size_t had);
   bool letRivalLead(const Weighed& weighed);
   bool letDelayLead(const Led& led, const Weighed& weighed);
   Led ledBy(Moment moment, std::vector<double> weights);

@@ -52,8 +52,8 @@ void Mcl::Impl::moveBy(const Pose2& odometry) {
   const Pose2 change = reached.odometry ? inverse(*reached.odometry) * odometry : Pose2{};
   reached.odometry = odometry;
   const double come = std::hypot(change.x, change.y);
-  track->way.metres += come;
-  track->way.all += come + std::abs(change.theta);
+  track->travelled.metres += come;
+  track->travelled.all += come + std::abs(change.theta);
   const std::uint64_t seed = tools.config.seed;
   parts.polish.move(*tools.motion, change, seed, stream(Purpose::kMotion));
   parts.biases.move(*tools.motion, change, seed, stream(Purpose::kMotion));
@@ -71,7 +71,7 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
   if (now) moveBy(*now);
   if (now && track->trust.isLost()) {
     // Untrusted odometry that says that the robot is stationary counts as no odometry.
-    track->isBlind = track->way.all < tuning::trust::kStationary;
+    track->isBlind = track->travelled.all < tuning::trust::kStationary;
     if (track->isBlind)
       moveBlindly(stamp);
     else
@@ -95,8 +95,8 @@ void Mcl::Impl::moveBlindly(Timestamp stamp) {
   if (seconds == 0.0) return;
   // distance that the robot may have travelled [m]
   const double come = tools.config.driftMetres * std::sqrt(seconds);
-  track->way.metres += come;
-  track->way.all += come;
+  track->travelled.metres += come;
+  track->travelled.all += come;
   parts.polish.forget();
   parts.biases.forget();
   if (!track->waitsForStart) enlarge();

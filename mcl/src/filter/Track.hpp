@@ -45,7 +45,7 @@ struct Tools {
 };
 
 /// The distance travelled since the last weighing.
-struct Way {
+struct Travelled {
   double all = 0.0;     ///< distance and turns [m]; a turn of 1 rad counts as 1 m
   double metres = 0.0;  ///< distance travelled, without turns [m]
 };
@@ -70,7 +70,7 @@ struct Track {
   PoseResolution coarsest;  ///< coarsest resolution of the tables that weighed the belief last
   bool waitsForStart;       ///< a global start waits for the first reading, or searches
   bool hasStarted = false;  ///< whether update() has yet to report an estimate
-  Way way;
+  Travelled travelled;
   bool isBlind = true;  ///< whether there is no trusted odometry up to this reading
   Momentum momentum;    ///< motion that is assumed without odometry
   OdometryTrust trust;

@@ -167,7 +167,7 @@ struct GridFilter::Impl {
                  square(config.driftRadians) * seconds);
     belief.blur(noise, 0.0);
   }
-  void correct(const std::vector<News>& news, Timestamp stamp) {
+  void correct(const std::vector<NewReading>& news, Timestamp stamp) {
     const std::optional<Pose2> odometry = motion->odometryAt(stamp);
     odometry ? predict(*odometry) : drift(stamp);
     belief.weigh([&](const SampleSet& cells, std::vector<float>& out) {

@@ -10,8 +10,8 @@ void OdometryTrust::lose() {
   lead_ = {};
 }
 
-void OdometryTrust::compare(double ratio, double way) {
-  lead_.count(ratio, way / tuning::trust::kIndependent);
+void OdometryTrust::compare(double ratio, double travelled) {
+  lead_.count(ratio, travelled / tuning::trust::kIndependent);
   lead_.atLeast(-tuning::lead::kEnoughNats / 2);
   if (lead_.nats() >= tuning::lead::kEnoughNats / 2) lost_ = false;
 }

@@ -17,8 +17,8 @@ class ORTUNG_API OdometryTrust {
   void lose();
   /// @param ratio ln p(readings | moved by odometry) - ln p(readings | moved by process noise)
   ///   [nats]
-  /// @param way distance travelled by odometry meanwhile [m]; a turn of 1 rad counts as 1 m
-  void compare(double ratio, double way);
+  /// @param travelled distance travelled by odometry meanwhile [m]; a turn of 1 rad counts as 1 m
+  void compare(double ratio, double travelled);
   void forget() { lost_ = false; }
 
  private:

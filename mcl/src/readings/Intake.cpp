@@ -55,9 +55,9 @@ void Intake::followOdometry(const SensorContainer& container) {
   takeOdometry(container);
 }
 
-void Intake::used(const std::vector<News>& news, Timestamp stamp,
+void Intake::used(const std::vector<NewReading>& news, Timestamp stamp,
                   const std::optional<Pose2>& odometry) {
-  for (const News& one : news)
+  for (const NewReading& one : news)
     uses_[one.feature] = {one.sequence, stamp, odometry.value_or(Pose2{})};
 }
 

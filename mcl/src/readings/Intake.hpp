@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "News.hpp"
+#include "NewReadings.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
@@ -23,7 +23,7 @@ class ORTUNG_API Intake {
  public:
   /// The new readings of a container.
   struct Look {
-    NewsByTime news;  ///< new readings by time; those of one time step are weighed together
+    ReadingsByTime news;  ///< new readings by time; those of one time step are weighed together
     /// Time to which the stamps have jumped back: a clock was set, or a log began anew.
     std::optional<Timestamp> clockSetTo;
   };
@@ -41,7 +41,8 @@ class ORTUNG_API Intake {
   void followOdometry(const SensorContainer& container);
   /// Records that readings were weighed. @param odometry odometry's pose at that time, if it is
   /// known
-  void used(const std::vector<News>& news, Timestamp stamp, const std::optional<Pose2>& odometry);
+  void used(const std::vector<NewReading>& news, Timestamp stamp,
+            const std::optional<Pose2>& odometry);
   void forget();
   /// Makes readings that were weighed since then count as new once more; odometry and clock stay.
   void countAgain(Timestamp since);

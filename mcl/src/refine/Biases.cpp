@@ -25,7 +25,7 @@ using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 void Biases::forget() {
   isRunning_ = false;
-  way_ = 0.0;
+  travelled_ = 0.0;
   for (auto& [data, feature] : features_) feature.learnedAt = -1.0;
   for (Device& device : devices_) device = {std::move(device.name)};
 }
@@ -45,11 +45,11 @@ void Biases::move(const MotionModel& motion, const Pose2& change, std::uint64_t 
   covariance_.topRightCorner(kPose, rest) = forward * covariance_.topRightCorner(kPose, rest);
   covariance_.bottomLeftCorner(rest, kPose) = covariance_.topRightCorner(kPose, rest).transpose();
   covariance_.topLeftCorner<3, 3>() = Eigen::Map<const RowMajor>(after.covariance.data());
-  way_ += std::hypot(change.x, change.y) + std::abs(change.theta);
+  travelled_ += std::hypot(change.x, change.y) + std::abs(change.theta);
   pose_ = after.pose;
 }
 
-Biases::Feature& Biases::featureOf(const News& news) {
+Biases::Feature& Biases::featureOf(const NewReading& news) {
   const auto [at, isNew] = features_.try_emplace(news.feature);
   if (isNew) {
     const SensorId& id = news.feature->id();
@@ -62,9 +62,9 @@ Biases::Feature& Biases::featureOf(const News& news) {
   return at->second;
 }
 
-void Biases::correct(NewsByTime& newsByTime) {
+void Biases::correct(ReadingsByTime& newsByTime) {
   for (auto& [stamp, news] : newsByTime) {
-    for (News& one : news) {
+    for (NewReading& one : news) {
       const auto* reading = dynamic_cast<const Correctable*>(one.weigher.get());
       if (!reading) continue;
       const DeviceBias bias = biasOf(featureOf(one).device);
@@ -75,15 +75,16 @@ void Biases::correct(NewsByTime& newsByTime) {
   }
 }
 
-void Biases::follow(const std::vector<News>& news, const PoseEstimate& estimate) {
+void Biases::follow(const std::vector<NewReading>& news, const PoseEstimate& estimate) {
   std::vector<ReadingResidual> residuals;
-  for (const News& one : news) {
+  for (const NewReading& one : news) {
     const Weigher* weigher = (one.asRead ? one.asRead : one.weigher).get();
     const auto* reading = dynamic_cast<const Correctable*>(weigher);
     const auto found = features_.find(one.feature);
     if (!reading || found == features_.end()) continue;
     Feature& feature = found->second;
-    if (isRunning_ && feature.learnedAt >= 0.0 && way_ - feature.learnedAt < kIndependent) continue;
+    if (isRunning_ && feature.learnedAt >= 0.0 && travelled_ - feature.learnedAt < kIndependent)
+      continue;
     residuals.clear();
     const Pose2 at = isRunning_ ? pose_ : estimate.pose;
     reading->residualsAt(at, residuals);
@@ -92,7 +93,7 @@ void Biases::follow(const std::vector<News>& news, const PoseEstimate& estimate)
       if (estimate.status != TrackStatus::kTracking) return;
       begin(estimate, residuals);
     }
-    feature.learnedAt = way_;
+    feature.learnedAt = travelled_;
     open(feature.device, residuals);
     for (const ReadingResidual& residual : residuals)
       misfit_ += kRate * ((learn(feature.device, residual, at) ? 0.0 : 1.0) - misfit_);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "News.hpp"
+#include "NewReadings.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Correctable.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
@@ -30,10 +30,10 @@ class ORTUNG_API Biases {
             std::uint64_t stream);
   /// Corrects new readings by the known biases. It reads features, so the caller holds the
   /// container's lock, or no other thread uses the container.
-  void correct(NewsByTime& news);
+  void correct(ReadingsByTime& news);
   /// Learns from readings without correction. @param estimate estimate of the samples after they
   /// were weighed
-  void follow(const std::vector<News>& news, const PoseEstimate& estimate);
+  void follow(const std::vector<NewReading>& news, const PoseEstimate& estimate);
   /// Returns the known biases, by "model/type".
   std::map<std::string, DeviceBias> known() const;
 
@@ -51,10 +51,10 @@ class ORTUNG_API Biases {
 
   struct Feature {
     std::size_t device = 0;
-    double learnedAt = -1.0;  ///< value of way_ when it learned last [m]; negative: never
+    double learnedAt = -1.0;  ///< value of travelled_ when it learned last [m]; negative: never
   };
 
-  Feature& featureOf(const News& news);
+  Feature& featureOf(const NewReading& news);
   void begin(const PoseEstimate& estimate, const std::vector<ReadingResidual>& residuals);
   void open(std::size_t device, const std::vector<ReadingResidual>& residuals);
   bool learn(std::size_t device, const ReadingResidual& residual, const Pose2& at);
@@ -65,7 +65,7 @@ class ORTUNG_API Biases {
   }
 
   std::map<const SensorData*, Feature> features_;
-  double way_ = 0.0;  ///< distance travelled since begin() [m]; a turn of 1 rad counts as 1 m
+  double travelled_ = 0.0;  ///< distance travelled since begin() [m]; a turn of 1 rad counts as 1 m
   std::vector<Device> devices_;
   bool isRunning_ = false;
   Pose2 pose_;

@@ -144,10 +144,10 @@ void Polish::move(const MotionModel& motion, const Pose2& change, std::uint64_t 
   if (cluster_) cluster_ = carriedOn(*cluster_, motion, change, seed, stream);
 }
 
-void Polish::follow(const std::vector<News>& news, PoseEstimate& estimate) {
+void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate) {
   const std::optional<PoseEstimate> predicted = std::exchange(cluster_, estimate);
   std::vector<const Polishable*> readings;
-  for (const News& one : news)
+  for (const NewReading& one : news)
     if (const auto* reading = dynamic_cast<const Polishable*>(one.weigher.get()))
       readings.push_back(reading);
   const bool follows = place_ && predicted && isSame(place_->pose, *predicted);

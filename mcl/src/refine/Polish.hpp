@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "News.hpp"
+#include "NewReadings.hpp"
 #include "RefineTuning.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
@@ -33,7 +33,7 @@ class ORTUNG_API Polish {
   /// Refines the estimate by readings.
   /// @param estimate in: the heaviest cluster after the readings were weighed; out: refined, if
   ///   they permit it
-  void follow(const std::vector<News>& news, PoseEstimate& estimate);
+  void follow(const std::vector<NewReading>& news, PoseEstimate& estimate);
   /// Replaces the estimate of a cluster by the refined one, if both are at the same place and the
   /// refined one is more certain.
   void apply(PoseEstimate& cluster) const;

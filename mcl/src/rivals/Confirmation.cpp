@@ -4,11 +4,11 @@
 
 namespace ortung {
 
-void Confirmation::count(bool isUsual, double way) {
+void Confirmation::count(bool isUsual, double travelled) {
   if (!isUsual) return;
-  way_ += way;
+  travelled_ += travelled;
   ++readings_;
-  if (way_ >= tuning::hypothesis::kDistance && readings_ >= tuning::confirmation::kReadings)
+  if (travelled_ >= tuning::hypothesis::kDistance && readings_ >= tuning::confirmation::kReadings)
     isOpen_ = false;
 }
 

@@ -13,20 +13,21 @@ class ORTUNG_API Confirmation {
   /// Begins to confirm a place that was chosen.
   void begin() {
     isOpen_ = true;
-    way_ = 0.0;
+    travelled_ = 0.0;
     readings_ = 0;
   }
   void forget() { isOpen_ = false; }
   /// Counts one time step's readings.
   /// @param isUsual whether they fit as well as usual
-  /// @param way distance travelled since the readings before [m]; turns do not count, since a robot
+  /// @param travelled distance travelled since the readings before [m]; turns do not count, since a
+  /// robot
   ///   that turns on the spot sees the same surroundings
-  void count(bool isUsual, double way);
+  void count(bool isUsual, double travelled);
   bool isOpen() const { return isOpen_; }
 
  private:
   bool isOpen_ = false;
-  double way_ = 0.0;
+  double travelled_ = 0.0;
   int readings_ = 0;
 };
 

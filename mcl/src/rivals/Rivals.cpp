@@ -8,7 +8,7 @@
 #include "Drift.hpp"
 #include "Kld.hpp"
 #include "MotionTuning.hpp"
-#include "News.hpp"
+#include "NewReadings.hpp"
 #include "Resampling.hpp"
 #include "RivalsTuning.hpp"
 #include "SearchTuning.hpp"
@@ -113,7 +113,7 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   }
   Hypothesis& rival = around_->hypothesis;
   const double ratio = weighAround(moment, evidence);
-  const double part = wayAround(moment) / trust::kIndependent;
+  const double part = travelledAround(moment) / trust::kIndependent;
   rival.count(ratio, part, recovery.isUsual(evidence.fit(rival.samples())));
   const bool trustsOdometry = !around_->trust.isLost();
   if (rival.lead().isEnough()) {
@@ -140,7 +140,7 @@ double Rivals::weighAround(const Moment& moment, const Evidence& evidence) {
   const Hypothesis::Said said = rival.hypothesis.ask(evidence);
   rival.trust.compare(
       said.logEvidenceOf(0, both.drifted) - said.logEvidenceOf(both.drifted, all - both.drifted),
-      moment.way);
+      moment.travelled);
   rival.anchor = Annealing(evidence.weigh, nullptr)
                      .draw(rival.hypothesis.samples(), around::kSamples,
                            Random(config_.seed, moment.stream).fork(1))
@@ -151,7 +151,7 @@ double Rivals::weighAround(const Moment& moment, const Evidence& evidence) {
 }
 
 /// Returns the distance travelled: by odometry, or by the readings beyond their uncertainty.
-double Rivals::wayAround(const Moment& moment) {
+double Rivals::travelledAround(const Moment& moment) {
   Around& rival = *around_;
   const Centre centre = centreOf(rival.anchor);
   const double seen = distance(rival.centre, centre.pose) +
@@ -159,10 +159,10 @@ double Rivals::wayAround(const Moment& moment) {
                       centre.open;
   // By readings alone, a slow robot needs several of them to travel far enough, so the centre is
   // kept.
-  if (moment.way < trust::kStationary && seen < trust::kIndependent) return 0.0;
+  if (moment.travelled < trust::kStationary && seen < trust::kIndependent) return 0.0;
   rival.centre = centre.pose;
   rival.open = centre.open;
-  return std::max(moment.way, seen);
+  return std::max(moment.travelled, seen);
 }
 
 std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
@@ -174,11 +174,11 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   }
   Hypothesis& rival = elsewhere_->hypothesis;
   const double ratio = weighElsewhere(moment, evidence);
-  rival.count(ratio, moment.way / common::kIndependent,
+  rival.count(ratio, moment.travelled / common::kIndependent,
               recovery.isUsual(evidence.fit(rival.samples())));
-  elsewhere_->way += moment.way;
+  elsewhere_->travelled += moment.travelled;
   ++elsewhere_->readings;
-  if (rival.lead().isEnough() && elsewhere_->way >= hypothesis::kDistance &&
+  if (rival.lead().isEnough() && elsewhere_->travelled >= hypothesis::kDistance &&
       elsewhere_->readings >= elsewhere::kReadings) {
     Takeover takeover{rival.samples(), 1.0, true};
     forget();
@@ -233,7 +233,7 @@ void Rivals::drawElsewhere(const Moment& moment) {
 }
 
 SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Moment& then) const {
-  std::vector<News> news;
+  std::vector<NewReading> news;
   for (const auto& reading : then.readings) news.push_back({nullptr, 0, reading});
   const auto weigh = [&](const SampleSet& set, std::vector<float>& out) {
     ortung::weigh(news, set, &workers_, out);

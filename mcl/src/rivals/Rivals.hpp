@@ -45,7 +45,7 @@ class ORTUNG_API Rivals {
     Pose2 predicted;           ///< pose at which the belief expects the robot
     double logEvidence = 0.0;  ///< ln p(readings | belief)
     /// Distance travelled since the readings before [m]; a turn of 1 rad counts as 1 m.
-    double way = 0.0;
+    double travelled = 0.0;
     std::uint64_t stream = 0;  ///< stream of random numbers
     std::optional<Pose2> odometry = {};
     std::vector<std::shared_ptr<const Weigher>> readings = {};
@@ -93,7 +93,7 @@ class ORTUNG_API Rivals {
   };
   struct Elsewhere {
     Hypothesis hypothesis;
-    double way = 0.0;
+    double travelled = 0.0;
     int readings = 0;
   };
   /// A search of the field, for the time of its readings.
@@ -105,7 +105,7 @@ class ORTUNG_API Rivals {
                                      const Evidence& evidence);
   void drawAround(const Moment& moment, const Evidence& evidence);
   double weighAround(const Moment& moment, const Evidence& evidence);
-  double wayAround(const Moment& moment);
+  double travelledAround(const Moment& moment);
   std::optional<Takeover> lookElsewhere(const Moment& moment, const Recovery& recovery,
                                         const Evidence& evidence);
   double weighElsewhere(const Moment& moment, const Evidence& evidence);

@@ -37,7 +37,7 @@ void GlobalStart::begin(Moment moment) {
   forget();
   moment_ = std::move(moment);
   std::vector<std::shared_ptr<const Weigher>> readings;
-  for (const News& one : moment_->news) readings.push_back(one.weigher);
+  for (const NewReading& one : moment_->news) readings.push_back(one.weigher);
   nanoseconds_ = nanosecondsOf(moment_->news) + tuning::start::kDrawNanoseconds;
   prepare();
   field_->begin(std::move(readings));
@@ -153,9 +153,9 @@ std::vector<PoseSearch::Ring> GlobalStart::found() const {
 /// as well as within.
 bool GlobalStart::areNotAll() const {
   using tuning::places::kTurn;
-  const double ring = tuning::common::kPlaceMetres / 2;
-  const std::array<Pose2, 6> edgesOfRing = {Pose2{ring, 0, 0}, {-ring, 0, 0}, {0, ring, 0},
-                                            {0, -ring, 0},     {0, 0, kTurn}, {0, 0, -kTurn}};
+  const double radius = tuning::common::kPlaceMetres / 2;
+  const std::array<Pose2, 6> edgesOfRing = {Pose2{radius, 0, 0}, {-radius, 0, 0}, {0, radius, 0},
+                                            {0, -radius, 0},     {0, 0, kTurn},   {0, 0, -kTurn}};
   const FieldSearch::Settings settings;
   if (rings_.size() >= settings.places) return true;
   SampleSet edges;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "FieldSearch.hpp"
-#include "News.hpp"
+#include "NewReadings.hpp"
 #include "PoseSearch.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
@@ -32,7 +32,7 @@ class ORTUNG_API GlobalStart {
     Timestamp stamp = 0;
     std::optional<Pose2> odometry = {};
     std::uint64_t stream = 0;  ///< stream of random numbers
-    std::vector<News> news = {};
+    std::vector<NewReading> news = {};
   };
 
   /// All arguments are borrowed.

@@ -117,19 +117,19 @@ std::shared_ptr<const Splice> kidnapped(const std::shared_ptr<const Recording>& 
 }
 
 std::shared_ptr<const Splice> wokenUp(const std::shared_ptr<const Recording>& recording,
-                                      std::uint64_t seed, double way) {
+                                      std::uint64_t seed, double travelled) {
   const Moments moments(*recording);
   Random chance(seed, kWakeUps);
   const double leastTime = std::min(kLeastTime, moments.duration() / 4);
-  const double all = moments.truth().back().way;
+  const double all = moments.truth().back().travelled;
   const double latest = moments.duration() - leastTime;
-  const double mostWay = all - way;
-  if (mostWay < 0.0)
+  const double mostTravelled = all - travelled;
+  if (mostTravelled < 0.0)
     moments.fail("its ground truth has " + std::to_string(all) + " m of way, expected at least " +
-                 std::to_string(way) + " m");
+                 std::to_string(travelled) + " m");
   for (int i = 0; i < kTries; ++i) {
     const Truth& begin = moments.random(0.0, latest, chance);
-    if (begin.way > mostWay) continue;
+    if (begin.travelled > mostTravelled) continue;
     return std::make_shared<Splice>(
         recording, std::vector<Piece>{{begin.message, recording->messages().size()}});
   }
@@ -147,8 +147,9 @@ std::shared_ptr<const Splice> teleported(std::shared_ptr<const Recording> record
   const Truth* begin = &moments.truth().front();
   const double rest = std::min(kLeastAfter, moments.duration() / 4);
   while (begin != nullptr) {
-    const double way = begin->way - std::log(1.0 - chance.uniform()) / rate;
-    const auto reached = std::ranges::lower_bound(moments.truth(), way, {}, &Truth::way);
+    const double travelled = begin->travelled - std::log(1.0 - chance.uniform()) / rate;
+    const auto reached =
+        std::ranges::lower_bound(moments.truth(), travelled, {}, &Truth::travelled);
     const double end = reached == moments.truth().end()
                            ? moments.duration()
                            : std::max(moments.seconds(*reached), moments.seconds(*begin) + rest);

@@ -197,7 +197,7 @@ EvaluationResult Evaluation::result(const std::string& source) const {
   if (converged.state != Verdict::State::kRight) return r;
   const Timestamp since = converged.stamp;
   r.convergedAfter = toSeconds(since - first_.value_or(begin));
-  r.convergedWay = converged.way;
+  r.convergedDistance = converged.travelled;
   addErrors(r.points, since, options_.lostMetres, r.overTime);
   addErrors(atCorrections, since, options_.lostMetres, r.atCorrections);
   return r;

@@ -21,7 +21,7 @@ Recording::Recording(std::string name, Source& source)
   FrameReader reader(source);
   std::vector<Message> frame;
   std::optional<SensorId> truthId;
-  WayMeter meter;
+  DistanceMeter meter;
   std::size_t bytes = 0;
   while (reader.next(frame)) {
     bool hasTruth = false;

@@ -23,11 +23,11 @@ ORTUNG_API double carriedFar(const Recording& recording);
 ORTUNG_API std::shared_ptr<const Splice> kidnapped(
     const std::shared_ptr<const Recording>& recording, std::uint64_t seed);
 
-/// Returns the log from a random time on, from which at least @p way [m] of distance travelled and
-/// 20 s (a quarter of a shorter log) are left.
+/// Returns the log from a random time on, from which at least @p travelled [m] of distance
+/// travelled and 20 s (a quarter of a shorter log) are left.
 /// @throws std::invalid_argument if the recording has no such time
 ORTUNG_API std::shared_ptr<const Splice> wokenUp(const std::shared_ptr<const Recording>& recording,
-                                                 std::uint64_t seed, double way = 5.0);
+                                                 std::uint64_t seed, double travelled = 5.0);
 
 /// Returns the log from its beginning, with kidnaps at random places (Fox, Burgard, Thrun: "Markov
 /// Localization for Mobile Robots in Dynamic Environments", JAIR 11, 1999). Between two kidnaps at

@@ -63,7 +63,7 @@ struct EvaluationResult {
   double duration = 0.0;                 ///< duration of the run [s]
   double particlesMean = 0.0;            ///< mean number of samples
   std::optional<double> convergedAfter;  ///< time from the first reading until convergence [s]
-  double convergedWay =
+  double convergedDistance =
       std::numeric_limits<double>::quiet_NaN();  ///< distance travelled until convergence [m]
   /// Errors over time: at regular intervals, whether or not the filter had weighed a reading then.
   /// These are the errors of a program that uses the pose at any time.

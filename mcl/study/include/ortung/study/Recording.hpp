@@ -19,7 +19,7 @@ class ORTUNG_API Recording {
   struct Truth {
     Timestamp stamp = 0;      ///< time of the pose [us]
     Pose2 pose;               ///< true pose, field frame
-    double way = 0.0;         ///< distance travelled since the first truth [m]
+    double travelled = 0.0;   ///< distance travelled since the first truth [m]
     std::size_t message = 0;  ///< index of the first message with this stamp
   };
   static constexpr std::size_t kMostBytes = std::size_t{4}

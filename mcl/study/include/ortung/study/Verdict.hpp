@@ -17,7 +17,7 @@ struct RightRule {
   double radians = 0.2617993877991494;  ///< greatest error in heading [rad], 15 degrees
   double seconds = 5.0;                 ///< least time for which both errors stay below [s]
   /// Longest distance travelled before that [m].
-  double mostWay = std::numeric_limits<double>::infinity();
+  double mostTravelled = std::numeric_limits<double>::infinity();
 };
 
 /// Whether and when an estimate became right.
@@ -25,12 +25,12 @@ struct Verdict {
   enum class State : std::uint8_t {
     kOpen,   ///< it may still become right
     kRight,  ///< it is right since `stamp`
-    kWrong   ///< it did not become right within RightRule::mostWay
+    kWrong   ///< it did not become right within RightRule::mostTravelled
   };
   State state = State::kOpen;
-  Timestamp stamp = 0;   ///< time of the first point that was right [us]
-  double seconds = 0.0;  ///< time until then since the beginning of the judged interval [s]
-  double way = 0.0;      ///< distance travelled until then [m]
+  Timestamp stamp = 0;     ///< time of the first point that was right [us]
+  double seconds = 0.0;    ///< time until then since the beginning of the judged interval [s]
+  double travelled = 0.0;  ///< distance travelled until then [m]
 };
 
 /// Judges the points with stamps in [since, until), in the order of time.
@@ -38,7 +38,7 @@ ORTUNG_API Verdict judge(std::span<const EvaluationPoint> points, Timestamp sinc
                          const RightRule& rule);
 
 /// Measures how far a robot went, in pieces of 5 cm, so that noise of the poses does not count.
-class ORTUNG_API WayMeter {
+class ORTUNG_API DistanceMeter {
  public:
   /// Adds the next pose. @returns the distance travelled so far [m]
   double add(const Pose2& pose);
@@ -46,7 +46,7 @@ class ORTUNG_API WayMeter {
  private:
   bool isBegun_ = false;
   Pose2 anchor_;
-  double way_ = 0.0;
+  double travelled_ = 0.0;
 };
 
 }  // namespace ortung

@@ -16,7 +16,7 @@ class Workers;
 
 /// A new reading that is to be weighed: all that is needed of it once the container's lock is
 /// released.
-struct News {
+struct NewReading {
   const SensorData* feature;  ///< identity of the feature; its data is not read any more
   std::uint64_t sequence;
   std::shared_ptr<const Weigher> weigher;
@@ -24,17 +24,17 @@ struct News {
   std::shared_ptr<const Weigher> asRead = {};
 };
 
-using NewsByTime = std::map<Timestamp, std::vector<News>>;
+using ReadingsByTime = std::map<Timestamp, std::vector<NewReading>>;
 
 /// Returns the coarsest resolution to which the readings of one time step round poses.
-PoseResolution coarsestOf(const std::vector<News>& news);
+PoseResolution coarsestOf(const std::vector<NewReading>& news);
 /// Returns the approximate time to weigh one pose by all of them [ns].
-double nanosecondsOf(const std::vector<News>& news);
+double nanosecondsOf(const std::vector<NewReading>& news);
 
 /// Computes ln p of the readings of one time step at each sample. It is finite whatever plugins
 /// return.
 /// @param out ln p of each sample; resized to the size of @p set
-void weigh(const std::vector<News>& news, const SampleSet& set, Workers* workers,
+void weigh(const std::vector<NewReading>& news, const SampleSet& set, Workers* workers,
            std::vector<float>& out);
 
 }  // namespace ortung
