@@ -19,24 +19,24 @@ class ORTUNG_API LearnedData : public SensorData {
  public:
   ~LearnedData() override;
   bool localizes() const override { return true; }
-  double headingSpacing() const final;
-  double positionSpacing() const final;
-  std::vector<double> expectation(const Pose2& pose) const final;
-  ExpectationGrain grain() const final;
-  std::string learningKey() const final;
-  void saveTables(TableWriter& file, const std::string& prefix) const final;
+  double headingSpacing() const override;
+  double positionSpacing() const override;
+  std::vector<double> expectation(const Pose2& pose) const override;
+  ExpectationGrain grain() const override;
+  std::string learningKey() const override;
+  void saveTables(TableWriter& file, const std::string& prefix) const override;
 
  protected:
   LearnedData(SensorId id, const Pose2& mount, std::unique_ptr<Expectations> expectations);
   const Expectations& expectations() const { return *expectations_; }
 
  private:
-  void startTables(const FieldRegion& region, double headingStep) final;
-  void learn(const Pose2& robotInField) final;
-  void finishTables() final;
+  void startTables(const FieldRegion& region, double headingStep) override;
+  void learn(const Pose2& robotInField) override;
+  void finishTables() override;
   void useTables(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
-                 const FieldGrid& grid) final;
-  std::shared_ptr<const Weigher> makeWeigher() const final;
+                 const FieldGrid& grid) override;
+  std::shared_ptr<const Weigher> makeWeigher() const override;
 
   std::unique_ptr<Expectations> expectations_;
 };
