@@ -143,10 +143,7 @@ endfunction()
 function(ortung_write_copyright)
   file(READ LICENSE licence)
   file(READ board/web/built/licences.md page)
-  set(charts "")
-  if(EXISTS /usr/share/doc/libjs-dygraphs/copyright)
-    file(READ /usr/share/doc/libjs-dygraphs/copyright charts)
-  endif()
+  file(READ app/report/uplot/LICENSE charts)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/packages/copyright @ONLY CONTENT
 "Ortung was written by the Ortung developers.
 
@@ -156,7 +153,7 @@ The page of the viewer (in ortung-sim) contains what follows.
 
 @page@
 
-Reports contain the charts of dygraphs, as packaged by Debian (libjs-dygraphs):
+Reports, which the program writes, contain the charts of uPlot:
 
 @charts@")
 endfunction()

@@ -15,8 +15,8 @@ demo=(
   libzstd-dev zstd
   # simulator: rays, rigid bodies, maps
   libembree-dev libbox2d-dev libyaml-cpp-dev libpng-dev libboost-dev libboost-iostreams-dev
-  # the program: command line, messages, charts of the report
-  libcli11-dev libspdlog-dev libfmt-dev libstb-dev libjs-dygraphs
+  # the program: command line, messages, texts in pictures
+  libcli11-dev libspdlog-dev libfmt-dev libstb-dev
   # MCAP files of ROS 2
   liblz4-dev
 )

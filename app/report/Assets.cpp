@@ -6,9 +6,9 @@
 #define ORTUNG_ASSET(name)                        \
   extern "C" const char _binary_##name##_start[]; \
   extern "C" const char _binary_##name##_end[]
-ORTUNG_ASSET(dygraph_min_js);
-ORTUNG_ASSET(dygraph_min_css);
-ORTUNG_ASSET(synchronizer_js);
+ORTUNG_ASSET(uPlot_iife_min_js);
+ORTUNG_ASSET(uPlot_min_css);
+ORTUNG_ASSET(LICENSE);
 ORTUNG_ASSET(report_css);
 ORTUNG_ASSET(report_js);
 #undef ORTUNG_ASSET
@@ -22,15 +22,13 @@ std::string_view between(const char* begin, const char* end) {
 
 }  // namespace
 
-std::string_view dygraphsScript() {
-  return between(_binary_dygraph_min_js_start, _binary_dygraph_min_js_end);
+std::string_view uPlotScript() {
+  return between(_binary_uPlot_iife_min_js_start, _binary_uPlot_iife_min_js_end);
 }
-std::string_view dygraphsStyle() {
-  return between(_binary_dygraph_min_css_start, _binary_dygraph_min_css_end);
+std::string_view uPlotStyle() {
+  return between(_binary_uPlot_min_css_start, _binary_uPlot_min_css_end);
 }
-std::string_view synchronizerScript() {
-  return between(_binary_synchronizer_js_start, _binary_synchronizer_js_end);
-}
+std::string_view uPlotLicence() { return between(_binary_LICENSE_start, _binary_LICENSE_end); }
 std::string_view reportStyle() { return between(_binary_report_css_start, _binary_report_css_end); }
 std::string_view reportScript() { return between(_binary_report_js_start, _binary_report_js_end); }
 

@@ -172,7 +172,7 @@ std::string charts(const RunResult& run) {
                 figure("Time with status tracking"));
   html += chart("samples", "Samples", "logarithmic", figure("Samples, mean"));
   return html +
-         R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Lines are broken where there are no data. Drag to zoom, double-click to zoom out; the map shows the robot at the time under the pointer.</p></section>)";
+         R"(<p class="note">Time is in seconds since the first reading. Before convergence (grey) errors may lie above the chart. Lines are broken where there are no data. Above a chart are its values at the time under the pointer, and the map shows the robot then. Drag to zoom, with Shift to move along; double-click to zoom out.</p></section>)";
 }
 
 std::string settings(const RunResult& run) {
@@ -192,7 +192,7 @@ std::string head(const std::string& title) {
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
       "img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">"
       "<title>{}</title>\n<style>{}\n{}</style></head>\n",
-      escapeHtml(title), assets::dygraphsStyle(), assets::reportStyle());
+      escapeHtml(title), assets::uPlotStyle(), assets::reportStyle());
 }
 
 std::string body(const RunResult& run) {
@@ -214,10 +214,10 @@ std::string body(const RunResult& run) {
       "<section class=\"tables\"><div><h2>Figures</h2><table>{}</table>"
       "<p class=\"note\">Errors are over the time after convergence.</p></div>"
       "<div><h2>Run</h2><table>{}</table><h2>Command line</h2><pre>{}</pre></div></section>\n"
-      "<footer>Made by ortung. {}</footer>\n",
+      "<footer>Made by ortung. Charts: <a href=\"https://github.com/leeoniya/uPlot\">uPlot</a>, "
+      "MIT licence.</footer>\n",
       escapeHtml(run.figures.source), cards, mapSvg(run), legend(hasTruth, run.tableInfo.field),
-      charts(run), rows, settings(run), escapeHtml(run.commandLine),
-      escapeHtml(assets::kDygraphsNotice));
+      charts(run), rows, settings(run), escapeHtml(run.commandLine));
 }
 
 }  // namespace
@@ -253,10 +253,9 @@ std::string toHtml(const RunResult& run) {
   std::string html = head("ortung: " + run.figures.source) + body(run);
   // The data are numbers only, so they can't end their element early.
   html += "<script type=\"application/json\" id=\"data\">" + chartData(run) + "</script>\n";
-  for (const std::string_view script :
-       {assets::dygraphsScript(), assets::synchronizerScript(), assets::reportScript()}) {
-    html.append("<script>").append(script).append("</script>\n");
-  }
+  html.append("<script>/*\n").append(assets::uPlotLicence()).append("\n*/\n");
+  html.append(assets::uPlotScript()).append("</script>\n");
+  html.append("<script>").append(assets::reportScript()).append("</script>\n");
   return html + "</body></html>\n";
 }
 

@@ -14,7 +14,7 @@ package_of() {
     spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;; zstd) echo libzstd-dev ;; zstdcat) echo zstd ;;
     iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; GL/osmesa.h) echo libosmesa6-dev ;; EGL/egl.h) echo libegl-dev ;; lz4frame.h) echo liblz4-dev ;; ccache) echo ccache ;;
     clang-19 | clang-format-19 | python3 | cmake | pkg-config) echo "$1" ;; clang++-19) echo clang-19 ;;
-    Ninja | ninja) echo ninja-build ;; readelf) echo binutils ;; javascript/dygraphs) echo libjs-dygraphs ;;
+    Ninja | ninja) echo ninja-build ;; readelf) echo binutils ;;
     PIL) echo python3-pil ;; numpy) echo python3-numpy ;; dpkg-architecture | dpkg-shlibdeps) echo dpkg-dev ;; debootstrap | lintian) echo "$1" ;;
     Threads | ortung | dpkg-deb) echo - ;; *) echo "?" ;;
   esac
@@ -24,7 +24,7 @@ cmake_files=$(find . -name build -prune -o \( -name CMakeLists.txt -o -name '*.c
 names=$({
   # shellcheck disable=SC2086  # no blanks in our own names
   sed -nE 's/^ *find_package\(([A-Za-z0-9_-]+).*/\1/p; s/^ *find_program\([A-Z_]+ ([a-z0-9.-]+).*/\1/p;
-           s/^ *find_path\([A-Z_]+ ([^ )]+).*/\1/p; s/.*COMPONENTS (iostreams).*/\1/p; s|.*/usr/share/(javascript/dygraphs).*|\1|p' \
+           s/^ *find_path\([A-Z_]+ ([^ )]+).*/\1/p; s/.*COMPONENTS (iostreams).*/\1/p' \
     $cmake_files
   # shellcheck disable=SC2086
   sed -nE 's/^ *find_package\(OrtungOpenCV .*COMPONENTS ([a-z0-9 ]+)\).*/\1/p' $cmake_files | tr ' ' '\n' | sed 's/^/opencv_/'
