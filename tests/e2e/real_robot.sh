@@ -31,5 +31,6 @@ grep -q 'sick_lms /dev/ttyUSB1: absent' told || fail "nobody told that the scann
 grep -q '1 clock jumps' told || fail "nobody told that the base's clock was set"
 grep -q "^[0-9]* device/status/base0 9 2 " told || fail "clients do not see how the devices are"
 grep -q "^[0-9]* mcl/LOCALIZATION/pose 9 " told || fail "clients do not see the pose"
+grep -q "^motion kind=velocities numbers=2$" told || fail "clients do not see what MOTION takes"
 grep -q "^OK LOCALIZE robot=1 state=running progress=1 " told || fail "clients do not see that it localizes"
 grep -q "^value [^ ]*/LRF/[^ ]* 0 unit=m .*expected=" told || fail "clients do not see why"

@@ -262,6 +262,16 @@ TEST_F(DeskTest, TheRobotIsDrivenThroughItsBase) {
   while (told.speed == 0.0 || told.turn == 0.0) desk.read(kWheels, 1);
   EXPECT_DOUBLE_EQ(told.speed, 0.25);
   EXPECT_NEAR(told.turn, -0.5, 1e-4);  // 1/100 degree
+  // As a command vector, both at once; what is refused changes neither.
+  voice->setMotion(std::vector{-0.125, 0.75});
+  while (told.speed == 0.25 || told.turn < 0.0) desk.read(kWheels, 1);
+  EXPECT_DOUBLE_EQ(told.speed, -0.125);
+  EXPECT_NEAR(told.turn, 0.75, 1e-4);
+  EXPECT_THROW(voice->setMotion(std::vector{0.1, 1e9}), std::invalid_argument);
+  EXPECT_THROW(voice->setMotion(std::vector{0.1}), std::invalid_argument);
+  EXPECT_THROW(voice->setMotion(std::vector{0.1, 0.2, 0.3}), std::invalid_argument);
+  desk.read(kWheels, 5);
+  EXPECT_DOUBLE_EQ(told.speed, -0.125);
   EXPECT_THROW(voice->setTranslationalVelocity(1e9), std::invalid_argument);
   EXPECT_THROW(voice->setManipulator("kicker", "out"), std::invalid_argument);
 }
