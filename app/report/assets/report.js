@@ -127,6 +127,47 @@
     document.addEventListener('mouseup', function () { document.removeEventListener('mousemove', follow); }, { once: true });
   }
 
+  // Returns how a line is drawn and how its values are written above the chart.
+  function seriesOf(line) {
+    const paint = function () { return colour(line.colour); };
+    return Object.assign({
+      label: line.label, width: 1.5, stroke: paint,
+      points: { show: false, filter: isolatedPoints, size: 4, fill: paint },
+      value: function (chart, value, index, i) { return value === null ? '\u2013' : line.write(value, chart.data[0][i]); }
+    }, line.options);
+  }
+
+  // Returns what the pointer does: zoom along one axis at a time, move, and show everything; all charts have its time.
+  function cursorOptions(showAll) {
+    return {
+      y: false, drag: { x: true, y: true, uni: Infinity, dist: 5 },
+      sync: { key: 'time', scales: ['x', null], filters: { pub: function (type) { return type === 'mousemove'; } } },
+      bind: {
+        mousedown: function (chart, target, handle) {
+          return function (event) {
+            if (event.button === 0) event.shiftKey ? move(chart, event) : handle(event);
+          };
+        },
+        dblclick: function (chart) { return function () { showAll(chart); }; }
+      }
+    };
+  }
+
+  function showRobot(chart) {
+    if (!chart.cursor.event) return; // the pointer is over another chart
+    const i = chart.cursor.idx;
+    if (i === null) hideMoment(); else showMoment(chart.data[0][i]);
+  }
+
+  // Has all charts show the times that one shows.
+  function zoomOthers(chart, key) {
+    if (key !== 'x') return;
+    const { min, max } = chart.scales.x;
+    for (const other of charts) {
+      if (other.scales.x.min !== min || other.scales.x.max !== max) other.setScale('x', { min: min, max: max });
+    }
+  }
+
   // Draws a chart of rows of a time and a value for each of the lines: label, colour, how its values are written, and
   // options of uPlot. The values' axis has the name and the range; what is drawn below all lines is the last argument.
   function drawChart(id, rows, lines, name, scale, valueAxis, drawBelow) {
@@ -134,20 +175,17 @@
     if (!element || all.length === 0) return;
     let legend = null;
     let hasOwnRange = false; // whether the reader has chosen a range of values
-    const size = function () {
-      return { width: Math.max(element.clientWidth, 160), height: element.clientHeight - legend.offsetHeight };
+    const showAll = function (chart) {
+      hasOwnRange = false;
+      chart.setScale('x', { min: range[0], max: range[1] });
     };
-    const series = lines.map(function (line) {
-      return Object.assign({
-        label: line.label, width: 1.5, stroke: function () { return colour(line.colour); },
-        points: { show: false, filter: isolatedPoints, size: 4, fill: function () { return colour(line.colour); } },
-        value: function (chart, value, index, i) { return value === null ? '\u2013' : line.write(value, chart.data[0][i]); }
-      }, line.options);
-    });
+    const noteRange = function (chart) {
+      if (chart.select.height < chart.over.clientHeight - 1) hasOwnRange = true;
+    };
     const time = { label: 'time', value: function (chart, t) { return t === null ? '\u2013' : t.toFixed(2) + ' s'; } };
     const columns = [time].concat(lines).map(function (column, i) { return rows.map(function (row) { return row[i]; }); });
     const chart = new uPlot({
-      width: 160, height: 100, padding: [6, 12, 0, 0], series: [time].concat(series),
+      width: 160, height: 100, padding: [6, 12, 0, 0], series: [time].concat(lines.map(seriesOf)),
       scales: {
         x: { time: false, min: range[0], max: range[1] },
         y: Object.assign({ auto: function () { return !hasOwnRange; } }, scale)
@@ -160,44 +198,13 @@
         },
         markers: { width: 0, fill: function (chart, i) { return 'var(--' + lines[i - 1].colour + ')'; } }
       },
-      cursor: {
-        y: false, drag: { x: true, y: true, uni: Infinity, dist: 5 }, // along one axis at a time
-        sync: { key: 'time', scales: ['x', null], filters: { pub: function (type) { return type === 'mousemove'; } } },
-        bind: {
-          mousedown: function (chart, target, handle) {
-            return function (event) {
-              if (event.button === 0) event.shiftKey ? move(chart, event) : handle(event);
-            };
-          },
-          dblclick: function (chart) {
-            return function () {
-              hasOwnRange = false;
-              chart.setScale('x', { min: range[0], max: range[1] });
-            };
-          }
-        }
-      },
-      hooks: {
-        drawClear: [drawBelow],
-        setCursor: [function (chart) {
-          if (!chart.cursor.event) return; // the pointer is over another chart
-          const i = chart.cursor.idx;
-          if (i === null) hideMoment(); else showMoment(chart.data[0][i]);
-        }],
-        setSelect: [function (chart) {
-          if (chart.select.height < chart.over.clientHeight - 1) hasOwnRange = true;
-        }],
-        setScale: [function (chart, key) {
-          if (key !== 'x') return;
-          const { min, max } = chart.scales.x;
-          for (const other of charts) {
-            if (other.scales.x.min !== min || other.scales.x.max !== max) other.setScale('x', { min: min, max: max });
-          }
-        }]
-      }
+      cursor: cursorOptions(showAll),
+      hooks: { drawClear: [drawBelow], setCursor: [showRobot], setSelect: [noteRange], setScale: [zoomOthers] }
     }, columns, element);
     charts.push(chart);
-    new ResizeObserver(function () { chart.setSize(size()); }).observe(element);
+    new ResizeObserver(function () {
+      chart.setSize({ width: Math.max(element.clientWidth, 160), height: element.clientHeight - legend.offsetHeight });
+    }).observe(element);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', function () { chart.redraw(false); });
   }
 
