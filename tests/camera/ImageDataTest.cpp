@@ -3,6 +3,7 @@
 #include "Cameras.hpp"
 #include "StrangerData.hpp"
 #include "ortung/camera/ImageData.hpp"
+#include "ortung/core/ReadingAs.hpp"
 
 namespace ortung {
 namespace {
