@@ -21,8 +21,8 @@ void EndPointExpectations::finish() {
 }
 
 void EndPointExpectations::save(TableWriter& file, const std::string& prefix) const {
-  tables_->surfaces->save(file, prefix);
   tables_->field.save(file, prefix);
+  tables_->surfaces->save(file, prefix);
 }
 
 void EndPointExpectations::load(const std::shared_ptr<const TableFile>& file,

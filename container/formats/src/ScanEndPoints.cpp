@@ -36,6 +36,12 @@ class ScanEndPoints final : public EndPointExpectations {
     }
   }
 
+  /// Writes surfaces first, as files of scans have them with either perception.
+  void save(TableWriter& file, const std::string& prefix) const override {
+    tables()->surfaces->save(file, prefix);
+    tables()->field.save(file, prefix);
+  }
+
   std::vector<double> at(const Pose2& sensor) const override {
     const ScanData::Config& config = scan_.config();
     const SurfaceField& surfaces = *tables()->surfaces;
