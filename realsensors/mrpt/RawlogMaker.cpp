@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/Words.hpp"
 
 namespace ortung {
 namespace {
@@ -75,8 +75,7 @@ CObservation::Ptr landmarksOf(const Pose2& mount, const double (&numbers)[3], co
     CObservationBearingRange::TMeasurement one;
     one.landmarkID = static_cast<std::int32_t>(words[i]);
     one.range = static_cast<float>(metres(words[i + 1]));
-    one.yaw = static_cast<float>(
-        std::remainder(words[i + 2] * std::numbers::pi / 18000.0, 2 * std::numbers::pi));
+    one.yaw = static_cast<float>(words::toAngle(words[i + 2]));
     one.pitch = 0;
     made->sensedData.push_back(one);
   }
