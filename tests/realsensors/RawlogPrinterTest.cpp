@@ -3,7 +3,10 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -26,18 +29,24 @@ using Objects = std::vector<std::shared_ptr<mrpt::serialization::CSerializable>>
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 
-/// What is printed of @p objects.
-std::string printed(const Objects& objects) {
+/// What a stream has written into memory.
+struct Memory {
+  ~Memory() { std::free(text); }
   char* text = nullptr;
   std::size_t size = 0;
-  std::FILE* out = ::open_memstream(&text, &size);
-  RawlogPrinter printer(out);
-  for (const auto& object : objects) printer.print(*object);
-  printer.finish();
-  std::fclose(out);
-  std::string all(text, size);
-  std::free(text);
-  return all;
+};
+
+/// What is printed of @p objects.
+std::string printed(const Objects& objects) {
+  Memory memory;
+  {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(
+        ::open_memstream(&memory.text, &memory.size), std::fclose);
+    RawlogPrinter printer(out.get());
+    for (const auto& object : objects) printer.print(*object);
+    printer.finish();
+  }
+  return {memory.text, memory.size};
 }
 
 std::shared_ptr<mrpt::obs::CObservation2DRangeScan> scanOf(const std::vector<float>& ranges,
@@ -155,6 +164,82 @@ TEST(RawlogPrinter, FramesOfACoarseClockAreToldApartAndAClockThatWasSetIsNotHidd
   EXPECT_EQ(stampsOfFrames({10, 9.25, 12}), (Texts{"10000000", "10000001", "12000000"}));
   EXPECT_EQ(stampsOfFrames({10, 9}), (Texts{"10000000", "9000000"}));
   EXPECT_EQ(stampsOfFrames({10, 3, 4}), (Texts{"10000000", "3000000", "4000000"}));
+}
+
+/// A frame of one scan at @p seconds; without a stamp if that is below 0.
+std::shared_ptr<mrpt::obs::CSensoryFrame> frameOf(double seconds) {
+  auto frame = std::make_shared<mrpt::obs::CSensoryFrame>();
+  const auto scan = scanOf({1.0F, 2.0F}, std::max(seconds, 0.0));
+  if (seconds < 0.0) scan->timestamp = INVALID_TIMESTAMP;
+  frame->insert(scan);
+  return frame;
+}
+
+/// A movement by the wheels' increments.
+std::shared_ptr<mrpt::obs::CActionCollection> moved(double x, double y, double phi) {
+  mrpt::obs::CActionRobotMovement2D movement;
+  movement.estimationMethod = mrpt::obs::CActionRobotMovement2D::emOdometry;
+  movement.rawOdometryIncrementReading = mrpt::poses::CPose2D(x, y, phi);
+  auto actions = std::make_shared<mrpt::obs::CActionCollection>();
+  actions->insert(movement);
+  return actions;
+}
+
+// 1 m ahead and a quarter to the left, then 0.5 m ahead: at (1, 0.5), looking along y.
+TEST(RawlogPrinter, IncrementsOfOdometryAreAddedUpInTheRobotsFrame) {
+  const std::string text =
+      printed({moved(1, 0, M_PI / 2), frameOf(1), moved(0.5, 0, 0), frameOf(2)});
+  EXPECT_EQ(text,
+            "# scanner 0 0 0 -1 2 8 2\n1000000 laser/LRF/scan 2 1000 2000\n"
+            "1000000 odometry/odometry/pose 5 2147484648 2147483648 27000 2147483648 2147483648\n"
+            "2000000 laser/LRF/scan 2 1000 2000\n"
+            "2000000 odometry/odometry/pose 5 2147484648 2147484148 27000 2147484148 2147483648\n"
+            "# end 4\n");
+}
+
+// A frame with odometry of its own does not get that of the increments, too.
+TEST(RawlogPrinter, OdometryOfAFrameGoesBeforeIncrements) {
+  auto odometry = std::make_shared<mrpt::obs::CObservationOdometry>();
+  odometry->timestamp = mrpt::Clock::fromDouble(1.0);
+  odometry->odometry = mrpt::poses::CPose2D(-1.5, 0.25, -M_PI / 2);
+  const auto frame = frameOf(1);
+  frame->insert(odometry);
+  EXPECT_EQ(printed({moved(1, 0, 0), frame}),
+            "# scanner 0 0 0 -1 2 8 2\n1000000 laser/LRF/scan 2 1000 2000\n"
+            "1000000 odometry/odometry/pose 5 2147482148 2147483898 9000 2147483648 2147483648\n"
+            "# end 2\n");
+}
+
+TEST(RawlogPrinter, MovementsInSpaceAreSkipped) {
+  auto actions = std::make_shared<mrpt::obs::CActionCollection>();
+  actions->insert(mrpt::obs::CActionRobotMovement3D());
+  EXPECT_EQ(printed({actions}), "# skipped 1 actions other than movements in the plane\n# end 0\n");
+}
+
+// Simulated logs have no stamps: their frames are a second apart.
+TEST(RawlogPrinter, FramesWithoutStampsAreASecondApart) {
+  const std::string scan = " laser/LRF/scan 2 1000 2000\n";
+  const std::string pose =
+      " odometry/odometry/pose 5 2147483648 2147483648 18000 2147483648 2147483648\n";
+  EXPECT_EQ(printed({frameOf(-1), frameOf(-1)}), "# scanner 0 0 0 -1 2 8 2\n1000000" + scan +
+                                                     "1000000" + pose + "2000000" + scan +
+                                                     "2000000" + pose + "# end 4\n");
+}
+
+TEST(RawlogPrinter, StampsAreWithinReason) {
+  for (const double seconds : {1.1e10, 2e10})
+    EXPECT_EQ(errorOf([&] { printed({scanOf({1.0F}, seconds)}); }),
+              "found an impossible time stamp");
+}
+
+TEST(RawlogPrinter, NumbersThatAreNoneAreRefusedByName) {
+  const auto scan = scanOf({1.0F}, 1.0);
+  scan->maxRange = kNan;
+  EXPECT_EQ(errorOf([&] { printed({scan}); }), "found a number that is not finite");
+  auto odometry = std::make_shared<mrpt::obs::CObservationOdometry>();
+  odometry->timestamp = mrpt::Clock::fromDouble(1.0);
+  odometry->odometry = mrpt::poses::CPose2D(static_cast<double>(kEndless), 0, 0);
+  EXPECT_EQ(errorOf([&] { printed({odometry}); }), "found odometry that is not finite");
 }
 
 // The whole output, of classes of all libraries of MRPT that the program knows.
