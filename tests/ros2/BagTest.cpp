@@ -4,10 +4,9 @@
 #include <limits>
 #include <random>
 
+#include "BagMaker.hpp"
 #include "LogTesting.hpp"
 #include "ortung/formats/OdometryData.hpp"
-#include "ortung/ros2/McapWriter.hpp"
-#include "ortung/ros2/Messages.hpp"
 
 namespace ortung {
 namespace {
@@ -16,62 +15,7 @@ using namespace ortung::testing;
 using namespace ros2;
 using Texts = std::vector<std::string>;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// Writes a bag topic by topic.
-class BagMaker {
- public:
-  template <class M>
-  BagMaker& add(const std::string& topic, const M& message, const std::string& encoding = "cdr",
-                const std::map<std::string, std::string>& metadata = {}) {
-    auto channel = channels_.find(topic);
-    if (channel == channels_.end()) {
-      const auto schema = writer_.addSchema(M::kType, "ros2msg", schemaText(M::kType));
-      channel =
-          channels_.emplace(topic, writer_.addChannel(schema, topic, encoding, metadata)).first;
-    }
-    writer_.write(channel->second, ++time_, toCdr(message));
-    return *this;
-  }
-  std::string bytes() {
-    writer_.finish();
-    return bytes_;
-  }
-
- private:
-  std::string bytes_;
-  // Without chunks there are no checksums before the messages themselves.
-  McapWriter writer_{[this](std::string_view piece) { bytes_ += piece; }, {.isChunked = false}};
-  std::map<std::string, std::uint16_t> channels_;
-  std::uint64_t time_ = 0;
-};
-
-LaserScan scanOf(std::int64_t stamp, const std::string& frame, std::vector<float> ranges) {
-  LaserScan scan;
-  scan.header = {stamp, frame};
-  scan.angleMin = -0.5F;
-  scan.angleIncrement = 0.5F;
-  scan.angleMax = 0.5F;
-  scan.rangeMin = 0.1F;
-  scan.rangeMax = 8.1F;
-  scan.ranges = std::move(ranges);
-  return scan;
-}
-
-TfMessage frameAt(const std::string& parent, const std::string& child, ros2::Pose pose,
-                  std::int64_t stamp = 0) {
-  return {{{{stamp, parent}, child, pose}}};
-}
-
-ros2::Odometry odometryAt(std::int64_t stamp, double x, double speed) {
-  ros2::Odometry odometry;
-  odometry.header = {stamp, "odom"};
-  odometry.childFrame = "base_footprint";
-  odometry.pose.position.x = x;
-  odometry.linear.x = speed;
-  return odometry;
-}
 
 class BagSource : public ::testing::Test {
  protected:
