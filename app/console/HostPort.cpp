@@ -5,7 +5,8 @@
 namespace ortung::app {
 
 std::optional<HostPort> parseHostPort(const std::string& text) {
-  const std::size_t colon = text.rfind(':');  // also in [::1]:7777
+  const bool isOnlyBracketed = text.starts_with('[') && text.ends_with(']');  // [::1]
+  const std::size_t colon = isOnlyBracketed ? text.npos : text.rfind(':');    // or [::1]:7777
   HostPort found{text.substr(0, colon), std::nullopt};
   if (colon != text.npos) {
     const char* end = text.data() + text.size();

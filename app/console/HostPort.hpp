@@ -6,13 +6,14 @@
 
 namespace ortung::app {
 
-/// The address of a server: "127.0.0.1:7777", "[::1]:7777".
+/// The address of a server: "127.0.0.1:7777", "[::1]:7777", "[::1]".
 struct HostPort {
   std::string host;                   ///< host without brackets
   std::optional<std::uint16_t> port;  ///< port; nothing: the text has none
 };
 
-/// Parses "HOST[:PORT]"; nothing if the text behind the last colon is not a number in [0, 65535].
+/// Parses "HOST[:PORT]"; nothing if the text behind the last colon, outside of brackets, is not a
+/// number in [0, 65535].
 std::optional<HostPort> parseHostPort(const std::string& text);
 
 }  // namespace ortung::app

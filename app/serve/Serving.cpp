@@ -27,7 +27,7 @@ namespace {
 void readListen(const std::string& text, BoardConfig& config) {
   const bool hasAddress = text.find(':') != text.npos;
   const auto found = parseHostPort(hasAddress ? text : ":" + text);
-  if (!found)
+  if (!found || !found->port)
     throw UsageError(
         fmt::format("--listen is '{}', expected [ADDRESS:]PORT with a port from 0 to "
                     "65535, e.g. 7777",
