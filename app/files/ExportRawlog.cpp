@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <stdexcept>
 
 #include "Console.hpp"
+#include "EstimatesText.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
@@ -62,8 +61,8 @@ void addTruth(const Message& message, std::string& text) {
   PoseData data(message.id);
   data.setData(message.stamp, message.words);
   const Pose2 pose = data.reading();
-  text += fmt::format("{}.{:06} {:.4f} {:.4f} {:.6f}\n", message.stamp / 1'000'000,
-                      std::abs(message.stamp % 1'000'000), pose.x, pose.y, pose.theta);
+  text += fmt::format("{} {:.4f} {:.4f} {:.6f}\n", secondsText(message.stamp), pose.x, pose.y,
+                      pose.theta);
 }
 
 /// Writes the lines that the writer reads.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -44,11 +45,15 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
   text += line.dump() + "\n";
 }
 
-void appendTum(Timestamp stamp, const Pose2& pose, std::string& text) {
+std::string secondsText(Timestamp stamp) {
   constexpr Timestamp kSecond = 1'000'000;
-  const Timestamp whole = stamp / kSecond - (stamp % kSecond < 0 ? 1 : 0);
-  fmt::format_to(std::back_inserter(text), "{}.{:06} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", whole,
-                 stamp - whole * kSecond, pose.x, pose.y, std::sin(pose.theta / 2),
+  return fmt::format("{}{}.{:06}", stamp < 0 ? "-" : "", std::abs(stamp / kSecond),
+                     std::abs(stamp % kSecond));
+}
+
+void appendTum(Timestamp stamp, const Pose2& pose, std::string& text) {
+  fmt::format_to(std::back_inserter(text), "{} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n",
+                 secondsText(stamp), pose.x, pose.y, std::sin(pose.theta / 2),
                  std::cos(pose.theta / 2));
 }
 
