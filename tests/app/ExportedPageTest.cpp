@@ -1,0 +1,67 @@
+// Records on one page: their names, and what is refused.
+#include <nlohmann/json.hpp>
+
+#include "Workspace.hpp"
+
+namespace ortung::test {
+namespace {
+
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+class ExportedPage : public Workspace {
+ protected:
+  ExportedPage() {
+    for (const char* name : {"run.rec", "my <log>!.rec"})
+      write(name,
+            "# ortung record 1\n1000000 reference/groundTruth/pose 3 100 200 18000\n3500000 "
+            "reference/groundTruth/pose 3 150 200 18000\n");
+  }
+  Outcome exportPage(const Words& records, const Words& more = {}) const {
+    Words command = {"export", "html"};
+    command.insert(command.end(), records.begin(), records.end());
+    command.insert(command.end(), {"--out", path("page.html")});
+    command.insert(command.end(), more.begin(), more.end());
+    return ortung(command);
+  }
+  Json told() const {
+    const std::string page = read("page.html");
+    const std::string begin = "<script id=\"run\" type=\"application/json\">";
+    const std::size_t from = page.find(begin) + begin.size();
+    return Json::parse(page.substr(from, page.find("</script>", from) - from));
+  }
+};
+
+TEST_F(ExportedPage, RobotsAreCalledLikeTheirFilesAsTheProtocolAllows) {
+  const Outcome outcome =
+      exportPage({path("run.rec"), path("my <log>!.rec"), "record:" + path("run.rec")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const Json page = told();
+  ASSERT_EQ(page["robots"].size(), 3u);
+  EXPECT_EQ(page["robots"][0]["name"], "run");
+  EXPECT_EQ(page["robots"][1]["name"], "my__log__-2");
+  EXPECT_EQ(page["robots"][2]["name"], "run-3");
+  EXPECT_EQ(page["end_us"], 2'500'000) << "times begin at zero";
+  EXPECT_NE(read("page.html").find("<title>run.rec, my _log_!.rec, run.rec</title>"),
+            std::string::npos);
+  EXPECT_TRUE(outcome.out.starts_with(path("page.html") + ": 2.5 s of run.rec, my <log>!.rec"))
+      << outcome.out;
+}
+
+TEST_F(ExportedPage, OfASourceOnlyThePartThatIsAskedForIsThere) {
+  const Outcome outcome =
+      exportPage({"record:" + path("run.rec") + "?to_s=1"}, {"--world", path("hall.toml")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_EQ(told()["end_us"], 0);
+  EXPECT_FALSE(told()["field"].empty());
+}
+
+TEST_F(ExportedPage, WhatCanNotBeShownIsNamedAndNothingWritten) {
+  expectRefused(exportPage({path("none.rec")}), 2,
+                "ortung export html: " + path("none.rec") + ": is neither a file nor a source", {});
+  EXPECT_EQ(exportPage({path("hall.toml")}).exitCode, 1);
+  EXPECT_FALSE(std::filesystem::exists(path("page.html")));
+}
+
+}  // namespace
+}  // namespace ortung::test
