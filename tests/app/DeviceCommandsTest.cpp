@@ -1,0 +1,119 @@
+// Commands of real robots: options that need each other, no device where one should be, and what
+// can't be emulated.
+#include <regex>
+
+#include "Workspace.hpp"
+
+namespace ortung::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+class DeviceCommands : public Workspace {
+ protected:
+  /// Expects wrong usage, which is said before anything is written.
+  void expectWrong(const Words& command, const std::string& more) const {
+    const Words before = files();
+    const std::string name =
+        "ortung " + command[0] + (command[0] == "calibrate" ? " " + command[1] : "");
+    expectRefused(ortung(command), 2, name + ": ", {more});
+    EXPECT_EQ(files(), before);
+  }
+  void writeRobot(const std::string& sensors) const {
+    write("robot.toml", "[robot]\nname = \"scout\"\nradius_m = 0.2\n" + sensors);
+  }
+  Words emulate(const Words& more) const {
+    Words command = {"emulate", "--robot", path("robot.toml")};
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  }
+  Words emulateInHall(const Words& more) const {
+    Words command = emulate({"--world", path("hall.toml")});
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  }
+};
+
+constexpr const char* kScanner =
+    "[[sensor]]\nplugin = \"lrf\"\nbeams = 181\nfov_deg = 180\n"
+    "device = { plugin = \"sick_lms\", port = \"/dev/scanner\" }\n";
+constexpr const char* kOdometry = "[[sensor]]\nplugin = \"odometry\"\n";
+
+TEST_F(DeviceCommands, ARobotNeedsClientsOrTablesForSomeOptions) {
+  expectWrong({"robot", path("robot.toml"), "--allow-control", "all"},
+              "--allow-control and --token-file are for --listen and --view");
+  expectWrong({"robot", path("robot.toml"), "--token-file", path("tokens")},
+              "--allow-control and --token-file are for --listen and --view");
+  expectWrong({"robot", path("robot.toml"), "--out", path("poses.txt")}, "--out needs --tables");
+}
+
+TEST_F(DeviceCommands, AnEmulatorNeedsOneSourceAndSomeOptionsOneDevice) {
+  expectWrong(emulate({}), "expected one of --world and --source");
+  expectWrong(emulate({"--world", path("hall.toml"), "--source", "record:x"}),
+              "expected one of --world and --source");
+  expectWrong(emulate({"--source", "run.rec"}), "expected KIND:PATH");
+  writeRobot(
+      std::string(kScanner) +
+      "[[sensor]]\nplugin = \"odometry\"\ndevice = { plugin = \"base\", port = \"/dev/base\" "
+      "}\n");
+  for (const Words& one :
+       {Words{"--link", path("x")}, Words{"--tcp", "0"}, Words{"--baud", "9600"}})
+    expectWrong(emulateInHall(one), "--link, --tcp and --baud are for a single device");
+}
+
+TEST_F(DeviceCommands, ABoardHasTwoNumbers) {
+  for (const char* board : {"9", "9x", "x6", "9x6x2", "2x6", "9x2", "101x6", "9X6", "9x6 ", "a"})
+    expectWrong(
+        {"calibrate", "camera", path("none.png"), "--board", board},
+        std::string("--board is '") + board + "', expected two numbers of 3 to 100, as 9x6");
+}
+
+TEST_F(DeviceCommands, ADeviceThatIsNotThereStandsInTheTableWithoutReadings) {
+  writeRobot(std::string(kScanner) + kOdometry);
+  std::filesystem::create_directory(path("dev"));
+  const Outcome outcome = ortung({"robot", path("robot.toml"), "--dev", path("dev"), "--duration",
+                                  "0.3", "--record", path("run.rec")});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("ortung robot: sick_lms /dev/scanner: "), std::string::npos)
+      << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("device ")) << outcome.out;
+  EXPECT_TRUE(std::regex_search(outcome.out,
+                                std::regex("\nsick_lms /dev/scanner +[a-z]+ +0\\.0 +- +0 +- ")))
+      << outcome.out;
+  EXPECT_TRUE(outcome.out.ends_with(path("run.rec") + ": 0 readings\n")) << outcome.out;
+  EXPECT_EQ(outcome.out.find("updates of the pose"), std::string::npos);
+}
+
+TEST_F(DeviceCommands, ARobotFileWithoutDevicesIsRefused) {
+  writeRobot(kOdometry);
+  const Outcome outcome = ortung({"robot", path("robot.toml"), "--duration", "0.1"});
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.out;
+  EXPECT_NE(outcome.err.find("device"), std::string::npos) << outcome.err;
+}
+
+TEST_F(DeviceCommands, WhatCanNotBeEmulatedIsSaid) {
+  writeRobot(kOdometry);
+  expectRefused(
+      ortung(emulateInHall({})), 1,
+      "ortung emulate: " + path("robot.toml") + ": names no device that could be emulated", {});
+  expectRefused(ortung(emulateInHall({"sick"})), 1,
+                "ortung emulate: the robot file has no scan that a sick", {"plugin = \"lrf\""});
+  expectRefused(ortung(emulateInHall({"hokuyo"})), 1,
+                "ortung emulate: the robot file has no scan that a hokuyo", {});
+  writeRobot(kScanner);
+  expectRefused(
+      ortung(emulateInHall({"base"})), 1,
+      "ortung emulate: " + path("robot.toml") + ": names no device that could be emulated", {});
+}
+
+TEST_F(DeviceCommands, WrongFaultsAreWrongUsageButOnlyThoseOfTheDevice) {
+  writeRobot(kScanner);
+  const Outcome outcome =
+      ortung(emulateInHall({"--fault", "base=nonsense", "--fault", "sick=nonsense"}));
+  EXPECT_EQ(outcome.exitCode, 2) << outcome.out;
+  EXPECT_TRUE(outcome.err.starts_with("ortung emulate: --fault: ")) << outcome.err;
+  EXPECT_NE(outcome.err.find("nonsense"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace ortung::test

@@ -1,0 +1,95 @@
+// `ortung calibrate` on pictures of a field that the simulator draws.
+
+#include "Workspace.hpp"
+
+namespace ortung::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PictureCalibration : public Workspace {
+ protected:
+  PictureCalibration() {
+    write("eyes.toml", R"([robot]
+name = "eyes"
+[[sensor]]
+plugin = "camera"
+model = "front"
+pose = { x_m = 0.1, z_m = 0.6 }
+[sensor.camera]
+size_px = [160, 120]
+focal_px = [105.0, 105.0]
+tilt_deg = 15
+[[sensor]]
+plugin = "camera"
+model = "small"
+pose = { z_m = 0.75 }
+[sensor.camera]
+size_px = [80, 60]
+focal_px = [50.0, 50.0]
+tilt_deg = 30
+)");
+    const Outcome outcome =
+        ortung({"export", "images",
+                "sim:" ORTUNG_SOURCE_DIR "/maps/fields/msl.toml?speed=0&duration=0.1&start=2,1,-15",
+                "--robot", path("eyes.toml"), "--out", path("set"), "--count", "2"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  }
+  std::string picture(int number) const {
+    return path("set/images/00000" + std::to_string(number) + ".png");
+  }
+};
+
+TEST_F(PictureCalibration, ColoursArePrintedOrWrittenAndPicturesDrawn) {
+  const Outcome printed = ortung({"calibrate", "colours", picture(0), picture(1)});
+  ASSERT_EQ(printed.exitCode, 0) << printed.err;
+  EXPECT_TRUE(printed.out.starts_with("[sensor.colours]\n")) << printed.out;
+  const Outcome written = ortung({"calibrate", "colours", picture(0), picture(1), "--out",
+                                  path("colours.toml"), "--draw", path("drawn/deep")});
+  ASSERT_EQ(written.exitCode, 0) << written.err;
+  EXPECT_EQ(written.out, "");
+  EXPECT_EQ(read("colours.toml"), printed.out);
+  for (const char* name : {"drawn/deep/000000.png", "drawn/deep/000001.png"})
+    EXPECT_TRUE(read(name).starts_with("\x89PNG")) << name;
+  expectRefused(ortung({"calibrate", "colours", picture(0), "--out", path("colours.toml")}), 1,
+                "ortung calibrate colours: " + path("colours.toml"), {"--force"});
+}
+
+TEST_F(PictureCalibration, PicturesAreNeverDrawnOver) {
+  const std::string before = read("set/images/000000.png");
+  expectRefused(
+      ortung({"calibrate", "colours", picture(0), "--draw", path("set/images"), "--force"}), 2,
+      "ortung calibrate colours: " + picture(0) + ": is read by this run", {"--draw"});
+  EXPECT_TRUE(read("set/images/000000.png") == before);
+}
+
+TEST_F(PictureCalibration, PicturesOfAnotherSizeAreOfAnotherCamera) {
+  const std::string reason =
+      picture(1) + ": has another size than " + picture(0) + ", so it is of another camera";
+  expectRefused(ortung({"calibrate", "lines", picture(0), picture(1), "--world",
+                        ORTUNG_SOURCE_DIR "/maps/fields/msl.toml"}),
+                1, "ortung calibrate lines: " + reason, {});
+  const Outcome camera = ortung({"calibrate", "camera", picture(0), picture(1)});
+  EXPECT_EQ(camera.exitCode, 1);
+  EXPECT_NE(camera.err.find("ortung calibrate camera: " + reason), std::string::npos) << camera.err;
+}
+
+TEST_F(PictureCalibration, PicturesWithoutABoardAreNamedAndThenThereIsNone) {
+  const Outcome outcome =
+      ortung({"calibrate", "camera", picture(0), "--board", "5x4", "--out", path("camera.toml")});
+  EXPECT_EQ(outcome.exitCode, 1);
+  EXPECT_TRUE(outcome.err.starts_with("ortung calibrate camera: warning: " + picture(0) +
+                                      ": does not show a whole board of 5 x 4 inner corners; left "
+                                      "out\n"))
+      << outcome.err;
+  EXPECT_FALSE(fs::exists(path("camera.toml")));
+}
+
+TEST_F(PictureCalibration, WhatIsNoPictureIsNamed) {
+  for (const char* command : {"camera", "colours"})
+    expectRefused(ortung({"calibrate", command, path("hall.toml")}), 1,
+                  std::string("ortung calibrate ") + command + ": " + path("hall.toml"), {});
+}
+
+}  // namespace
+}  // namespace ortung::test
