@@ -77,7 +77,9 @@ Parsed parse(std::vector<std::string> words) {
   std::fflush(stdout);
   result.out = testing::internal::GetCapturedStdout();
   result.err = testing::internal::GetCapturedStderr();
-  if (parsed.run) EXPECT_EQ(parsed.name, "check");
+  if (parsed.run) {
+    EXPECT_EQ(parsed.name, "check");
+  }
   return result;
 }
 

@@ -73,7 +73,7 @@ TEST_F(BaseDriver, CountsTheBasesClockOn) {
   std::vector<Timestamp> times;
   std::string lines;
   for (const std::uint32_t time : {4294967290U, 5U, 3U, 1000U})
-    lines += encode(base_lines::Odometry{.time = time});
+    lines += encode(base_lines::Odometry{.time = time, .motionData = {}});
   for (const DeviceReading& reading : take(lines, 4)) times.push_back(*reading.deviceTime);
   const Timestamp first = 4294967290LL * 1000;
   EXPECT_EQ(times,
