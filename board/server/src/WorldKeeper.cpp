@@ -318,6 +318,7 @@ void WorldKeeper::refuseIfLive(const char* what) const {
 void WorldKeeper::pause() {
   refuseIfLive("paused");
   isPaused_ = true;
+  clock_.set(world_.now(), wallTime(), 0.0);  // it stands before the reply says so
 }
 
 void WorldKeeper::setSpeed(double speed) {
