@@ -249,7 +249,7 @@ void serveRobot(RunningRobot& robot, const ServingArguments& arguments,
   config.period = 0.02;
   RobotCommands* const commands = robot.devices().commands();
   if (commands != nullptr)
-    config.abilities = {"drive [forwards m/s, turning left rad/s]",
+    config.abilities = {"drive [translational velocity m/s, rotational velocity rad/s]",
                         "motion kind=" + std::string(motion::kVelocities) + " numbers=2"};
   std::vector<BoardCommand> added;
   if (LocalizedRobot* const localized = robot.localized()) {

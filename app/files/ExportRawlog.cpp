@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "Console.hpp"
-#include "EstimatesText.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
+#include "SecondsText.hpp"
 #include "SourceArguments.hpp"
 #include "Workshop.hpp"
 #include "ortung/base/HelperProgram.hpp"

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -68,21 +67,17 @@ void makeRobot(const Source& source, const Workshop& workshop, const std::string
   readRobot(workshop.file());
 }
 
-/// Returns the formats for the record's notes: those that the source knows and, of other features,
-/// those of the robot file, if there is one.
-FeatureFormats formatsIn(const Source& source, const fs::path& robotFile, PluginFactory& factory) {
-  FeatureFormats formats = source.formats();
-  if (robotFile.empty()) return formats;
-  const RobotConfig robot = readRobot(robotFile);
-  SensorContainer container;
-  fillContainer(container, robot, factory);
-  const auto isNoted = [&, count = formats.size()](const SensorId& id) {
-    return std::any_of(formats.begin(), formats.begin() + static_cast<std::ptrdiff_t>(count),
-                       [&](const auto& noted) { return noted.first == id; });
-  };
-  for (auto& one : formatsOf(container))
-    if (!isNoted(one.first)) formats.push_back(std::move(one));
-  return formats;
+/// Returns the notes of the record: what the source knows, and the formats of the robot file, if
+/// there is one and its plugins are on this machine.
+RecordNotes notesFor(const Source& source, const fs::path& robotFile, PluginFactory& factory) {
+  SensorContainer robot;
+  try {
+    if (!robotFile.empty()) fillContainer(robot, readRobot(robotFile), factory);
+  } catch (const PluginError& error) {
+    warn(fmt::format("{}: the record does not say its formats: {}", robotFile.string(),
+                     error.what()));
+  }
+  return notesOf(source, robot);
 }
 
 /// What was written, for the summary.
@@ -175,9 +170,9 @@ int runImport(const ImportArguments& arguments) {
     makeRobot(*source, *robot, text.kind + ":" + text.path, arguments);
   }
   const fs::path robotFile = robot ? robot->file() : arguments.withRobot;
-  RecordWriter record(outputs.ready(arguments.out),
-                      RecordNotes{fingerprint, formatsIn(*source, robotFile, factory)},
-                      paceOf(*source));
+  RecordNotes notes = notesFor(*source, robotFile, factory);
+  notes.world = fingerprint;
+  RecordWriter record(outputs.ready(arguments.out), notes, paceOf(*source));
   const Written written = copyMessages(*source, record, arguments);
   warnOf(*source);
   if (record.messages() == 0) {

@@ -105,10 +105,9 @@ RunResult runOne(const EvalSettings& settings, const EvalJob& job, const Outputs
   if (!settings.arguments.record.empty()) {
     extras.record = [&](Localization& localization) {
       const Source& source = localization.source();
-      return std::make_unique<RecordWriter>(
-          outputs.ready(settings.arguments.record),
-          RecordNotes{source.worldFingerprint(), formatsOf(localization.container())},
-          paceOf(source));
+      return std::make_unique<RecordWriter>(outputs.ready(settings.arguments.record),
+                                            notesOf(source, localization.container()),
+                                            paceOf(source));
     };
   }
   return runJob(settings, job, extras);

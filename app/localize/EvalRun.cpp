@@ -20,7 +20,7 @@ namespace ortung::app {
 namespace {
 
 constexpr Timestamp kEnd = std::numeric_limits<Timestamp>::max();
-constexpr double kWakeUpWay = 5.0;  ///< distance travelled in which a wake-up must succeed [m]
+constexpr double kWakeUpDistance = 5.0;  ///< distance travelled in which a wake-up must succeed [m]
 constexpr Timestamp kBetweenVerdicts = 2'000'000;  ///< time between two verdicts [us]
 constexpr RightRule kTeleportRule{.metres = 0.45, .radians = 4.0, .seconds = 10.0};
 
@@ -30,7 +30,7 @@ std::shared_ptr<const Splice> spliceOf(const EvalSettings& settings, const EvalJ
       case RunKind::kKidnap:
         return kidnapped(job.recording->get(), job.seed);
       case RunKind::kWakeUp:
-        return wokenUp(job.recording->get(), job.seed, kWakeUpWay);
+        return wokenUp(job.recording->get(), job.seed, kWakeUpDistance);
       case RunKind::kTeleports:
         return teleported(job.recording->get(), job.seed, *settings.arguments.teleport);
       case RunKind::kWhole:
@@ -46,7 +46,7 @@ RightRule ruleOf(const EvalSettings& settings, RunKind kind) {
   if (kind == RunKind::kTeleports) return kTeleportRule;
   RightRule rule{settings.options.convergedMetres, settings.options.convergedRadians,
                  settings.options.convergedSeconds};
-  if (kind == RunKind::kWakeUp) rule.mostTravelled = kWakeUpWay;
+  if (kind == RunKind::kWakeUp) rule.mostTravelled = kWakeUpDistance;
   return rule;
 }
 

@@ -4,10 +4,11 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "SecondsText.hpp"
 
 namespace ortung::app {
 
@@ -43,12 +44,6 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
   line["reason"] = nameOf(estimate.reason);
   line["age_s"] = age ? nlohmann::ordered_json(*age) : nlohmann::ordered_json();
   text += line.dump() + "\n";
-}
-
-std::string secondsText(Timestamp stamp) {
-  constexpr Timestamp kSecond = 1'000'000;
-  return fmt::format("{}{}.{:06}", stamp < 0 ? "-" : "", std::abs(stamp / kSecond),
-                     std::abs(stamp % kSecond));
 }
 
 void appendTum(Timestamp stamp, const Pose2& pose, std::string& text) {

@@ -26,9 +26,6 @@ void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std
 /// Appends the same as a JSON object and a line feed; the covariance row by row; no age is null.
 void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age, std::string& text);
 
-/// Returns a time in seconds with all its microseconds, e.g. "-1.500000".
-std::string secondsText(Timestamp stamp);
-
 /// The first line of such a file, a comment.
 inline constexpr std::string_view kTumHeader = "# timestamp tx ty tz qx qy qz qw\n";
 

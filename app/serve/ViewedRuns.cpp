@@ -41,8 +41,7 @@ class LocalizedRecord {
  public:
   LocalizedRecord(const LocalizationArguments& arguments, const std::filesystem::path& file)
       : arguments_(arguments), localization_(openLocalization(arguments)) {
-    RecordWriter record(file, RecordNotes{localization_->source().worldFingerprint(),
-                                          formatsOf(localization_->container())});
+    RecordWriter record(file, notesOf(localization_->source(), localization_->container()));
     localization_->wantSamples(true);
     localization_->feeder().recordInto(record);
     Progress progress("localizing " + arguments.source, arguments.progress);
@@ -82,7 +81,7 @@ std::filesystem::path recordOf(const SourceText& text, const ViewArguments& argu
   if (text.kind == "record" && text.options.empty()) return text.path;
   PluginFactory factory(PluginFactory::standardFolders());
   const auto source = openSourceArgument(text, arguments.localization.robot, factory);
-  RecordWriter record(file, RecordNotes{source->worldFingerprint(), source->formats()});
+  RecordWriter record(file, notesOf(*source));
   FrameReader reader(*source);
   std::vector<Message> frame;
   while (unlessInterrupted(*source, [&] { return reader.next(frame); })) {
@@ -151,15 +150,18 @@ ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const Scratch
     throw UsageError("--tables needs --robot: give both to localize");
   ServedPlayback::Config config;
   describeField(arguments, config);
+  const bool localizes = !arguments.localization.tables.empty();
+  const std::vector<ServedFeature> described =
+      localizes ? std::vector<ServedFeature>() : featuresOf(arguments.localization.robot);
   for (std::size_t i = 0; i < arguments.sources.size(); ++i) {
     const SourceText source = sourceTextOf(arguments.sources[i]);
     const std::filesystem::path file = scratch.path() / fmt::format("run{}.rec", i);
     ServedPlayback::Run run;
     run.name = nameOf(source.path, i);
     config.name += (i == 0 ? "" : ", ") + std::filesystem::path(source.path).filename().string();
-    if (arguments.localization.tables.empty()) {
+    if (!localizes) {
       run.record = recordOf(source, arguments, file);
-      run.features = featuresOf(arguments.localization.robot);
+      run.features = described;
     } else {
       LocalizationArguments localization = arguments.localization;
       localization.source = textOf(source);

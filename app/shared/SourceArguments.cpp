@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "Console.hpp"
 #include "Interrupt.hpp"
 #include "ortung/run/OpenSource.hpp"
@@ -44,6 +46,17 @@ bool unlessInterrupted(const Source& source, const std::function<bool()>& next) 
     if (isEnd()) return false;
     throw;
   }
+}
+
+RecordNotes notesOf(const Source& source, const SensorContainer& robot) {
+  RecordNotes notes{source.worldFingerprint(), source.formats()};
+  const FeatureFormats known = notes.formats;
+  for (auto& one : formatsOf(robot)) {
+    const bool isKnown = std::any_of(known.begin(), known.end(),
+                                     [&](const auto& its) { return its.first == one.first; });
+    if (!isKnown) notes.formats.push_back(std::move(one));
+  }
+  return notes;
 }
 
 void warnOf(const Source& source) {

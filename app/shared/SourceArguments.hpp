@@ -30,6 +30,10 @@ inline RecordWriter::Pace paceOf(const Source& source) {
   return source.isLive() ? RecordWriter::Pace::kLive : RecordWriter::Pace::kWhole;
 }
 
+/// Returns the notes of a record of a source: the formats that it knows and, of other features,
+/// those of the robot whose container is given.
+RecordNotes notesOf(const Source& source, const SensorContainer& robot = {});
+
 /// Prints the remark of a source after its end on stderr.
 void warnOf(const Source& source);
 /// Prints that, and the features of the source @p name that are not in the robot file.

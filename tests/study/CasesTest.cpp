@@ -208,7 +208,7 @@ TEST_F(Log, WhatCanNotBeMadeIsSaid) {
   EXPECT_NE(refused({}, wakeUp).find("less than 10 s"), std::string::npos);
   std::vector<Message> standing = only(recording->messages(), kTruthId);
   for (Message& message : standing) message.words = standing.front().words;
-  EXPECT_NE(refused(standing, wakeUp).find("0.000000 m of way"), std::string::npos);
+  EXPECT_NE(refused(standing, wakeUp).find("0.000000 m travelled"), std::string::npos);
   EXPECT_NE(refused(standing, kidnap).find("could be carried 0.000000 m"), std::string::npos);
   EXPECT_THROW(teleported(recording, 1, 0.0), std::invalid_argument);
   MadeSource endless({});

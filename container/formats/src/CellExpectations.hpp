@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "CellWeigher.hpp"
 #include "Expectations.hpp"

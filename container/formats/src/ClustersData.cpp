@@ -48,6 +48,7 @@ std::string ClustersData::wordsHelp() const {
 }
 
 void ClustersData::check(std::span<const std::uint32_t> words) const {
+  static_assert(kMostClusters == 64);
   checkEntries(words, kWords, kMostClusters, "ten a place and at most 64 places");
   for (std::size_t i = 0; i < words.size(); i += kWords)
     checkAtMost("share", words[i], kWholeShare);

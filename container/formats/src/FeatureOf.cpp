@@ -1,6 +1,7 @@
 #include "ortung/formats/FeatureOf.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "ortung/core/ReadingAs.hpp"
 #include "ortung/formats/BearingData.hpp"

@@ -1,5 +1,7 @@
 #include "ortung/formats/LearnedData.hpp"
 
+#include <utility>
+
 #include "Expectations.hpp"
 
 namespace ortung {

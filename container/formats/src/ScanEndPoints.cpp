@@ -1,5 +1,6 @@
 /// A scan against the places where its beams should end.
 
+#include <algorithm>
 #include <cmath>
 
 #include "EndPointExpectations.hpp"

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "Expectations.hpp"
-#include "ortung/base/Angles.hpp"
 #include "ortung/formats/ScanData.hpp"
 
 namespace ortung {

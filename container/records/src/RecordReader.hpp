@@ -23,7 +23,7 @@ class RecordReader {
   virtual bool isFile() const = 0;
   virtual std::string remark() const = 0;
   const std::string& world() const { return world_; }
-  /// Returns the formats that its notes say; what is none is left out.
+  /// Returns the formats that its notes say, without those that can't be read.
   const FeatureFormats& formats() const { return formats_; }
 
  protected:

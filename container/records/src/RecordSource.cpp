@@ -20,8 +20,8 @@ Timestamp later(Timestamp a, double seconds) {
   return __builtin_add_overflow(a, fromSeconds(seconds), &sum) ? kLatest : sum;
 }
 
-/// Returns a feature and its format; none of a note of a later version, or a damaged
-/// one: readings are what counts.
+/// Returns a feature and its format; nothing for a note of a later version or a damaged one, since
+/// readings are what counts.
 std::optional<std::pair<SensorId, Format>> formatIn(std::string_view note) {
   const std::size_t blank = note.find(' ');
   if (blank == note.npos) return std::nullopt;

@@ -21,6 +21,8 @@ ORTUNG_CONSTANT(common, kUsualKept, 0.9);
 /// [m] Extent of one place: what is farther apart is at two. Chosen by hand: the width of a wide
 /// peak of a laser's likelihood.
 ORTUNG_CONSTANT(common, kPlaceMetres, 0.5);
+/// [m] Radius around a place that a search has found in which samples are drawn.
+inline const double kPlaceRadius = kPlaceMetres / 2;
 /// [rad] Extent of one place in heading. Chosen by hand.
 ORTUNG_CONSTANT(common, kPlaceRadians, 0.35);
 /// [m] Distance travelled after which a reading counts fully where little is known of the place or
@@ -65,6 +67,9 @@ namespace lead {
 /// [nats] Lead at which another place takes over: by Wald's sequential test one wrong decision in
 /// e^16 tests, if readings were independent, which they are not quite.
 ORTUNG_CONSTANT(lead, kEnoughNats, 16.0);
+/// [nats] Lead that is enough to return to what is the rule: odometry that is right, stamps without
+/// delay.
+inline const double kEnoughForRule = kEnoughNats / 2;
 /// [nats] Lead below which another place is given up. Chosen by hand: three quarters of what is
 /// enough to take over.
 ORTUNG_CONSTANT(lead, kHopelessNats, -12.0);

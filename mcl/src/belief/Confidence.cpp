@@ -43,6 +43,7 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   const double oddsOfBelief = std::log(belief / (1.0 - belief));
   const double fit = std::clamp(signs.fit, 0.0, 1.0);
   const double fitLately = std::clamp(signs.fitLately, 0.0, 1.0);
+  // With more the other place takes over.
   const double lead = std::clamp(signs.lead, 0.0, tuning::lead::kEnoughNats);
 #ifdef ORTUNG_SWEEP
   noteSigns({static_cast<double>(estimate.stamp), estimate.pose.x, estimate.pose.y, oddsOfBelief,
@@ -58,7 +59,7 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
     estimate.reason = TrackReason::kNoReading;
   } else if (signs.isLate) {
     estimate.reason = TrackReason::kLate;
-  } else if (signs.lead >= tuning::lead::kMostNatsOfAReading) {
+  } else if (signs.lead >= tuning::lead::kMostNatsOfAReading) {  // so at least two readings agree
     estimate.reason = TrackReason::kRival;
   } else if (signs.unusual > 0) {
     estimate.reason = TrackReason::kPoorFit;

@@ -12,8 +12,8 @@ void OdometryTrust::lose() {
 
 void OdometryTrust::compare(double ratio, double travelled) {
   lead_.count(ratio, travelled / tuning::trust::kIndependent);
-  lead_.atLeast(-tuning::lead::kEnoughNats / 2);
-  if (lead_.nats() >= tuning::lead::kEnoughNats / 2) lost_ = false;
+  lead_.atLeast(-tuning::lead::kEnoughForRule);
+  if (lead_.nats() >= tuning::lead::kEnoughForRule) lost_ = false;
 }
 
 }  // namespace ortung

@@ -20,8 +20,7 @@ class ORTUNG_API Confirmation {
   /// Counts one time step's readings.
   /// @param isUsual whether they fit as well as usual
   /// @param travelled distance travelled since the readings before [m]; turns do not count, since a
-  /// robot
-  ///   that turns on the spot sees the same surroundings
+  ///   robot that turns on the spot sees the same surroundings
   void count(bool isUsual, double travelled);
   bool isOpen() const { return isOpen_; }
 

@@ -224,7 +224,7 @@ const Lateness::Jump* Lateness::leading() const {
   for (const Jump& one : belief_.jumps) {
     const Lead& lead = one.hypothesis.lead();
     const bool isEnough =
-        one.delay == 0 ? lead.nats() >= tuning::lead::kEnoughNats / 2 : lead.isEnough();
+        one.delay == 0 ? lead.nats() >= tuning::lead::kEnoughForRule : lead.isEnough();
     if (isEnough && (leading == nullptr || one.sharp > leading->sharp)) leading = &one;
   }
   return leading;

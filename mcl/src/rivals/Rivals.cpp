@@ -223,7 +223,7 @@ void Rivals::drawElsewhere(const Moment& moment) {
   const auto places = searching_->job.places();
   for (const FieldSearch::Place& place : places) {
     if (place.logProbability > places.front().logProbability + lead::kHopelessNats)
-      rings.push_back({place.pose, common::kPlaceMetres / 2, places::kTurn});
+      rings.push_back({place.pose, common::kPlaceRadius, places::kTurn});
   }
   const Moment then = std::move(searching_->moment);
   searching_.reset();

@@ -145,7 +145,7 @@ std::vector<PoseSearch::Ring> GlobalStart::found() const {
   std::vector<PoseSearch::Ring> rings;
   for (const FieldSearch::Place& place : places)
     if (place.logProbability > places.front().logProbability - tuning::start::kNats)
-      rings.push_back({place.pose, tuning::common::kPlaceMetres / 2, tuning::places::kTurn});
+      rings.push_back({place.pose, tuning::common::kPlaceRadius, tuning::places::kTurn});
   return rings;
 }
 
@@ -153,7 +153,7 @@ std::vector<PoseSearch::Ring> GlobalStart::found() const {
 /// as well as within.
 bool GlobalStart::areNotAll() const {
   using tuning::places::kTurn;
-  const double radius = tuning::common::kPlaceMetres / 2;
+  const double radius = tuning::common::kPlaceRadius;
   const std::array<Pose2, 6> edgesOfRing = {Pose2{radius, 0, 0}, {-radius, 0, 0}, {0, radius, 0},
                                             {0, -radius, 0},     {0, 0, kTurn},   {0, 0, -kTurn}};
   const FieldSearch::Settings settings;

@@ -125,8 +125,8 @@ std::shared_ptr<const Splice> wokenUp(const std::shared_ptr<const Recording>& re
   const double latest = moments.duration() - leastTime;
   const double mostTravelled = all - travelled;
   if (mostTravelled < 0.0)
-    moments.fail("its ground truth has " + std::to_string(all) + " m of way, expected at least " +
-                 std::to_string(travelled) + " m");
+    moments.fail("its ground truth has " + std::to_string(all) +
+                 " m travelled, expected at least " + std::to_string(travelled) + " m");
   for (int i = 0; i < kTries; ++i) {
     const Truth& begin = moments.random(0.0, latest, chance);
     if (begin.travelled > mostTravelled) continue;

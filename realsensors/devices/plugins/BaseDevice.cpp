@@ -20,18 +20,20 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kAnswering{300};
 constexpr std::chrono::milliseconds kBetweenCommands{200};
 constexpr int kQuestions = 10;
+constexpr double kFastest = 10.0;      ///< greatest velocity that is taken [m/s]
+constexpr double kFastestTurn = 20.0;  ///< greatest turn rate that is taken [rad/s]
 
 /// What the robot is told, from whatever thread, until the base hears of it.
 class BaseVoice : public RobotCommands {
  public:
   void setTranslationalVelocity(double metresPerSecond) override {
     const std::lock_guard lock(mutex_);
-    velocity_.translational = checked(metresPerSecond, 10.0);
+    velocity_.translational = checked(metresPerSecond, kFastest);
     isTold_ = true;
   }
   void setRotationalVelocity(double radiansPerSecond) override {
     const std::lock_guard lock(mutex_);
-    velocity_.rotational = checked(radiansPerSecond, 20.0);
+    velocity_.rotational = checked(radiansPerSecond, kFastestTurn);
     isTold_ = true;
   }
   /// Takes a command vector of the kind motion::kVelocities.
@@ -40,7 +42,8 @@ class BaseVoice : public RobotCommands {
       throw std::invalid_argument("found " + std::to_string(command.size()) +
                                   " numbers, expected the base's translational and rotational "
                                   "velocity");
-    const base_lines::Velocity velocity{checked(command[0], 10.0), checked(command[1], 20.0)};
+    const base_lines::Velocity velocity{checked(command[0], kFastest),
+                                        checked(command[1], kFastestTurn)};
     const std::lock_guard lock(mutex_);
     velocity_ = velocity;
     isTold_ = true;
