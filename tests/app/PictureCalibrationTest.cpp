@@ -7,6 +7,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kField = std::string(ORTUNG_SOURCE_DIR) + "/maps/fields/msl.toml";
+
 class PictureCalibration : public Workspace {
  protected:
   PictureCalibration() {
@@ -30,8 +32,7 @@ focal_px = [50.0, 50.0]
 tilt_deg = 30
 )");
     const Outcome outcome =
-        ortung({"export", "images",
-                "sim:" ORTUNG_SOURCE_DIR "/maps/fields/msl.toml?speed=0&duration=0.1&start=2,1,-15",
+        ortung({"export", "images", "sim:" + kField + "?speed=0&duration=0.1&start=2,1,-15",
                 "--robot", path("eyes.toml"), "--out", path("set"), "--count", "2"});
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
   }
@@ -66,9 +67,8 @@ TEST_F(PictureCalibration, PicturesAreNeverDrawnOver) {
 TEST_F(PictureCalibration, PicturesOfAnotherSizeAreOfAnotherCamera) {
   const std::string reason =
       picture(1) + ": has another size than " + picture(0) + ", so it is of another camera";
-  expectRefused(ortung({"calibrate", "lines", picture(0), picture(1), "--world",
-                        ORTUNG_SOURCE_DIR "/maps/fields/msl.toml"}),
-                1, "ortung calibrate lines: " + reason, {});
+  expectRefused(ortung({"calibrate", "lines", picture(0), picture(1), "--world", kField}), 1,
+                "ortung calibrate lines: " + reason, {});
   const Outcome camera = ortung({"calibrate", "camera", picture(0), picture(1)});
   EXPECT_EQ(camera.exitCode, 1);
   EXPECT_NE(camera.err.find("ortung calibrate camera: " + reason), std::string::npos) << camera.err;
