@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "ToldTopics.hpp"
 #include "ortung/camera/ImageData.hpp"
 #include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/OdometryData.hpp"
@@ -36,21 +37,6 @@ class ReadingMessages : public ::testing::Test {
     config.minRange = 0.25;
     config.maxRange = 8.0;
     container_.add(std::make_unique<ScanData>(id, mount, config));
-  }
-  /// The messages of some readings, by topic.
-  std::map<std::string, std::string> told(RobotTopics& topics, const std::vector<Message>& frame) {
-    std::map<std::string, std::string> found;
-    topics.take(frame, [&](std::size_t topic, Timestamp, std::string_view cdr) {
-      found[topics.topics()[topic].name] = cdr;
-    });
-    return found;
-  }
-  template <class M>
-  static M read(const std::string& cdr) {
-    std::string why;
-    const auto message = fromCdr<M>(cdr, why);
-    EXPECT_TRUE(message) << why;
-    return message.value_or(M());
   }
   static std::vector<std::string> namesOf(const RobotTopics& topics) {
     std::vector<std::string> names;

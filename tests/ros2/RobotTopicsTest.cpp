@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "../support/Radar.hpp"
+#include "ToldTopics.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -24,21 +25,6 @@ class RobotTopicsTest : public ::testing::Test {
  protected:
   RobotTopicsTest() { container_.add(std::make_unique<OdometryData>(kOdometryId)); }
 
-  /// What a moment's readings become, by topic.
-  std::map<std::string, std::string> told(RobotTopics& topics, const std::vector<Message>& frame) {
-    std::map<std::string, std::string> found;
-    topics.take(frame, [&](std::size_t topic, Timestamp, std::string_view cdr) {
-      found[topics.topics()[topic].name] = cdr;
-    });
-    return found;
-  }
-  template <class M>
-  static M read(const std::string& cdr) {
-    std::string why;
-    const auto message = fromCdr<M>(cdr, why);
-    EXPECT_TRUE(message) << why;
-    return message.value_or(M());
-  }
   static Message odometry(double x, double y, double theta) {
     OdometryData::Reading state;
     state.pose = {x, y, theta};
