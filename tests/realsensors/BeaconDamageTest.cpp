@@ -26,12 +26,7 @@ class BeaconDamage : public ::testing::Test {
   /// The error of a log whose file @p name holds @p bytes, without the folder before it.
   std::string errorWith(const std::string& name, const std::string& bytes,
                         const std::string& source) const {
-    const bool isNew = !std::filesystem::exists(path(name));
-    const std::string before = isNew ? "" : readBytes(path(name));
-    folder_.write(name, bytes);
-    std::string error = errorOf(source);
-    isNew ? static_cast<void>(std::filesystem::remove(path(name)))
-          : static_cast<void>(folder_.write(name, before));
+    const std::string error = testing::errorWith(folder_, name, bytes, source);
     const std::string start = path() + (path().ends_with('/') ? "" : "/");
     EXPECT_TRUE(error.empty() || error.starts_with(start)) << error;
     return error.empty() ? "" : error.substr(start.size());

@@ -111,6 +111,20 @@ std::string errorOf(const std::string& source) {
   return errorOf([&] { readAll(source); });
 }
 
+std::string errorWith(const TemporaryFolder& folder, const std::string& name,
+                      const std::string& bytes, const std::string& source) {
+  const std::filesystem::path file = folder.path() / name;
+  const bool isNew = !std::filesystem::exists(file);
+  const std::string before = isNew ? "" : readBytes(file.string());
+  folder.write(name, bytes);
+  std::string error = errorOf(source);
+  if (isNew)
+    std::filesystem::remove(file);
+  else
+    folder.write(name, before);
+  return error;
+}
+
 std::string mutated(const std::string& bytes, std::mt19937& random) {
   const std::string kTypical = "0 9.-+e\n\t#:nainf\xff";
   std::string result = bytes;

@@ -49,6 +49,10 @@ std::vector<std::string> asText(const std::vector<Message>& messages);
 /// What an action throws, or "" if it does not.
 std::string errorOf(const std::function<void()>& action);
 std::string errorOf(const std::string& source);
+/// What opening and reading the source throws while a file of the folder holds these bytes; then
+/// the file is as it was, or gone. Returns "" if nothing is thrown.
+std::string errorWith(const TemporaryFolder& folder, const std::string& name,
+                      const std::string& bytes, const std::string& source);
 
 /// A few bytes changed, taken out or put in, or the end cut off.
 std::string mutated(const std::string& bytes, std::mt19937& random);

@@ -21,8 +21,7 @@ class MrclamDamage : public ::testing::Test {
     return "mrclam:" + folder_.path().string() + options;
   }
   std::string errorWith(const std::string& name, const std::string& bytes) const {
-    folder_.write(name, bytes);
-    const std::string error = errorOf(log());
+    const std::string error = testing::errorWith(folder_, name, bytes, log());
     const std::string start = (folder_.path() / name).string();
     EXPECT_TRUE(error.starts_with(start + ":")) << error;
     return error.substr(std::min(error.size(), start.size() + 1));

@@ -103,10 +103,8 @@ TEST_F(ScanlogParts, ReflectorsAndTheirPlacesBelongTogether) {
       "or none";
   EXPECT_EQ(errorOf(text("?reflector_map=places.txt")), folder_.path().string() + both);
   const auto complaint = [&](const std::string& name, const std::string& line) {
-    const std::string before = readBytes(path(name));
-    folder_.write(name, line + "\n");
-    const std::string error = errorOf(text("?reflectors=refl.txt&reflector_map=places.txt"));
-    folder_.write(name, before);
+    const std::string error = errorWith(folder_, name, line + "\n",
+                                        text("?reflectors=refl.txt&reflector_map=places.txt"));
     EXPECT_TRUE(error.empty() || error.starts_with(path(name) + ":1: found ")) << error;
     return error.substr(std::min(error.size(), path(name).size() + 10));
   };
