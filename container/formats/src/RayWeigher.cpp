@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "CellLookup.hpp"
+#include "DirectionCorners.hpp"
+#include "LevelDifference.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Widest.hpp"
 
@@ -19,6 +21,8 @@ constexpr std::size_t kSamplesABlock = 64;
 constexpr std::size_t kCacheLine = 64;  ///< [bytes]
 /// Steps of cost are chosen from a scale of so many per octave, so that few occur in one scan.
 constexpr double kStepsAnOctave = 8.0;
+/// Standard deviation of what the table has rounded to levels [levels].
+constexpr double kRounding = 0.29;
 constexpr double kMostEntriesALevel = 3.9;  ///< most entries of the table of costs per level
 
 /// Computes where samples look into the ray table, a block of them at a time, without branches and
@@ -51,6 +55,38 @@ struct RayPlaces {
   }
 };
 
+/// What is around the poses of a block, whose rows are on their way from memory.
+struct BlockAround {
+  std::array<LevelsAround, kSamplesABlock> levels;
+  std::array<std::uint32_t, kSamplesABlock> sampleOf;
+  std::array<bool, kSamplesABlock> isLast;  ///< whether it begins with the table's last direction
+  std::size_t size = 0;
+};
+
+/// Rows of a table end before the direction next to a run that begins with the last direction:
+/// copies of such rows have it.
+class WrappedRows {
+ public:
+  WrappedRows(std::size_t run, int directions)
+      : run_(run), directions_(static_cast<std::size_t>(directions)) {}
+
+  void wrap(LevelsAround& levels) {
+    const std::size_t stride = run_ + 1 + LevelDifferences::kBlock;
+    copies_.resize(LevelsAround::kCells * stride);
+    for (std::size_t c = 0; c < LevelsAround::kCells; ++c) {
+      std::uint8_t* copy = copies_.data() + c * stride;
+      std::copy_n(levels.rows[c], run_, copy);
+      copy[run_] = *(levels.rows[c] + run_ - directions_);
+      levels.rows[c] = copy;
+    }
+  }
+
+ private:
+  std::size_t run_;
+  std::size_t directions_;
+  std::vector<std::uint8_t> copies_;
+};
+
 }  // namespace
 
 RayWeigher::RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& mount,
@@ -67,17 +103,22 @@ RayWeigher::RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& 
       fit_(std::move(fit)) {
   const std::size_t padded = (run + kScanBlock - 1) / kScanBlock * kScanBlock;
   levels_.assign(padded, 0);
+  if (!isSpread()) parts_.assign(padded, 0);
   caps_.assign(padded, 0);
   levelsPerSigma_.assign(run, 0.0);
 }
 
 void RayWeigher::add(std::size_t at, double range, const RangeScale& scale) {
-  levels_[at] = scale.level(range);
+  if (isSpread())
+    levels_[at] = scale.level(range);
+  else
+    parts_[at] = partsOf(scale, range);
   caps_[at] = std::isinf(range) ? quantize(std::log(model_.maxRangeMass)) : kLargestCost;
   floorCost_ += caps_[at];
   const double known = std::min(range, scale.maxRange());
   const double sigma = std::hypot(model_.sigmaAt(known), spread_.metres, spread_.radians * known);
-  levelsPerSigma_[at] = scale.levelsPerSigma(known, sigma);
+  const double levels = scale.levelsPerSigma(known, sigma);
+  levelsPerSigma_[at] = isSpread() ? levels : kPartsALevel * std::hypot(levels, kRounding);
   scale_ = scale;
   beams_.push_back({at, range});
 }
@@ -93,6 +134,11 @@ std::shared_ptr<const BlurrableWeigher> RayWeigher::blurred(const PoseResolution
   for (const Beam& beam : beams_) other->add(beam.at, beam.range, scale_);
   other->complete();
   return other;
+}
+
+double RayWeigher::nominalNanoseconds() const {
+  const auto run = static_cast<double>(run_);
+  return isSpread() ? 10.0 + 0.12 * run : 30.0 + 0.5 * run;
 }
 
 double RayWeigher::logProbabilityAt(const Pose2& pose) const {
@@ -139,7 +185,7 @@ void RayWeigher::setSteps(double entries, double least) {
   }
 }
 
-void RayWeigher::weigh(const SampleView& poses, std::span<float> logProbability) const {
+void RayWeigher::weighByCells(const SampleView& poses, std::span<float> logProbability) const {
   const ScanReading reading{levels_, caps_, steps_, shift_, costs_};
   const ScanCostKernel kernel = scanCostKernel();
   const float floor = nats_ * static_cast<float>(floorCost_);
@@ -186,6 +232,66 @@ void RayWeigher::weigh(const SampleView& poses, std::span<float> logProbability)
         blocks[current].size = 0;
       });
   add(blocks[1 - current]);
+}
+
+void RayWeigher::weighBetweenCells(const SampleView& poses, std::span<float> logProbability) const {
+  static_assert(kSamplesABlock == DirectionCorners::kBlock);
+  static_assert(kScanBlock % LevelDifferences::kBlock == 0);
+  static_assert(kScanBlock <= DirectionTable::kSlack);  // what padding reads behind a row
+  const ScanReading reading{levels_, caps_, steps_, shift_, costs_};
+  const ScanCostKernel kernel = scanCostKernel();
+  const float floor = nats_ * static_cast<float>(floorCost_);
+  const std::int32_t last = rays_->directions() - 1;
+  DirectionCorners corners(*rays_, firstAngle_);
+  WrappedRows wrapped(run_, rays_->directions());
+  const std::size_t padded = levels_.size();
+  const std::size_t whole =
+      (run_ + LevelDifferences::kBlock - 1) / LevelDifferences::kBlock * LevelDifferences::kBlock;
+  std::vector<std::uint8_t> differences(kSamplesABlock * padded, 0);
+  std::array<const std::uint8_t*, kSamplesABlock> rows;
+  for (std::size_t k = 0; k < kSamplesABlock; ++k) rows[k] = differences.data() + k * padded;
+  const auto add = [&](BlockAround& block) {
+    for (std::size_t k = 0; k < block.size; ++k) {
+      if (block.isLast[k]) wrapped.wrap(block.levels[k]);
+      runWidest<LevelDifferences>(std::as_const(block.levels).data() + k, parts_.data(), whole,
+                                  differences.data() + k * padded);
+    }
+    std::array<std::uint32_t, kSamplesABlock> costs;
+    kernel(reading, {rows.data(), block.size}, costs.data());
+    for (std::size_t k = 0; k < block.size; ++k)
+      logProbability[block.sampleOf[k]] += nats_ * static_cast<float>(costs[k]);
+    block.size = 0;
+  };
+  // Two blocks take turns here, too.
+  std::array<BlockAround, 2> blocks;
+  std::size_t current = 0;
+  forEachPoseBlock<kSamplesABlock>(
+      poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+        corners.start(sensor, n);
+        BlockAround& block = blocks[current];
+        for (std::size_t k = 0; k < n; ++k) {
+          LevelsAround& levels = block.levels[block.size];
+          if (!corners.around(k, levels)) {
+            logProbability[first + k] += floor;
+            continue;
+          }
+          for (const std::uint8_t* row : levels.rows)
+            for (std::size_t line = 0; line <= run_; line += kCacheLine)
+              __builtin_prefetch(row + line);
+          block.isLast[block.size] = corners.direction(k) == last;
+          block.sampleOf[block.size++] = static_cast<std::uint32_t>(first + k);
+        }
+        current = 1 - current;
+        add(blocks[current]);
+      });
+  add(blocks[1 - current]);
+}
+
+void RayWeigher::weigh(const SampleView& poses, std::span<float> logProbability) const {
+  if (isSpread())
+    weighByCells(poses, logProbability);
+  else
+    weighBetweenCells(poses, logProbability);
 }
 
 }  // namespace ortung

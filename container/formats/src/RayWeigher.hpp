@@ -17,10 +17,12 @@
 
 namespace ortung {
 
-/// A scan in the terms of a ray table: for each direction of the run the nearest beam.
+/// A scan in the terms of a ray table: for each direction of the run the nearest beam. Expectations
+/// are interpolated between the table's cells and directions, unless the poses are spread anyway.
 class RayWeigher final : public BlurrableWeigher, public Polishable {
  public:
   /// @param run number of the table's directions that the scan spans
+  /// @param spread standard deviations of the poses that each sample stands for
   RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& mount, double firstAngle,
              const SensorModel& model, std::size_t run, SurfaceFit fit,
              const PoseResolution& spread = {});
@@ -31,7 +33,7 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
   bool complete();
 
   std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override;
-  double nominalNanoseconds() const override { return 10.0 + 0.12 * static_cast<double>(run_); }
+  double nominalNanoseconds() const override;
   Slope slopeAt(const Pose2& pose) const override { return fit_.slopeAt(pose); }
 
  private:
@@ -39,9 +41,12 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
     std::size_t at;  ///< place in the run
     double range;    ///< [m]
   };
+  bool isSpread() const { return spread_.metres > 0.0 || spread_.radians > 0.0; }
   void setSteps(double entries, double least);
   std::uint8_t quantize(double logProbability) const;
   void weigh(const SampleView& poses, std::span<float> logProbability) const override;
+  void weighByCells(const SampleView& poses, std::span<float> logProbability) const;
+  void weighBetweenCells(const SampleView& poses, std::span<float> logProbability) const;
   double logProbabilityAt(const Pose2& pose) const override;
   PoseResolution resolution() const override {
     return {.metres = rays_->grid().cell, .radians = rays_->step()};
@@ -57,15 +62,18 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
   std::size_t run_;  ///< directions that the scan spans
   double unit_;      ///< nats of a cost of 1
   float nats_;       ///< ln p of a cost of 1, exponent included (negative)
-  /// Levels of the reading, by direction from the first beam on, padded.
+  /// Levels of the reading, by direction from the first beam on, padded. Between cells they are
+  /// zero, as rows hold differences from the reading then.
   std::vector<std::uint8_t> levels_;
+  std::vector<std::int16_t> parts_;  ///< the reading [parts of a level], for use between cells
   std::vector<std::uint8_t> caps_;
   std::vector<std::uint8_t> steps_;  ///< none: all of 1
   int shift_ = 0;
   std::array<std::uint8_t, kLevelDifferences> costs_{};
   SurfaceFit fit_;
   std::uint32_t floorCost_ = 0;         ///< cost of a sample without expectation
-  std::vector<double> levelsPerSigma_;  ///< levels per sigma, by direction; zero: no beam
+  /// Levels, or parts of a level, per sigma, by direction; zero: no beam.
+  std::vector<double> levelsPerSigma_;
 };
 
 }  // namespace ortung

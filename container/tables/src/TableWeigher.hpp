@@ -1,12 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
-#include "CellLookup.hpp"
+#include "CellCorners.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/tables/PositionTable.hpp"
 #include "ortung/tables/SensorModel.hpp"
@@ -18,36 +17,16 @@ namespace ortung {
 
 class TableWeigher {
  public:
-  static constexpr std::size_t kBlock = 64;
+  static constexpr std::size_t kBlock = CellCorners::kBlock;
 
   /// @param grid of all tables that are asked for
-  explicit TableWeigher(const FieldGrid& grid)
-      : lookup_(grid),
-        originX_(static_cast<float>(grid.originX + 0.5 * grid.cell)),
-        originY_(static_cast<float>(grid.originY + 0.5 * grid.cell)),
-        perMetre_(static_cast<float>(1.0 / grid.cell)),
-        columns_(grid.columns),
-        right_(grid.columns > 1 ? 1 : 0),
-        up_(grid.rows > 1 ? grid.columns : 0),
-        mostColumns_(static_cast<float>(std::max(0, grid.columns - 1))),
-        mostRows_(static_cast<float>(std::max(0, grid.rows - 1))),
-        lastColumn_(static_cast<float>(std::max(0, grid.columns - 2))),
-        lastRow_(static_cast<float>(std::max(0, grid.rows - 2))) {}
+  explicit TableWeigher(const FieldGrid& grid) : corners_(grid) {}
 
   /// @param poses at most kBlock, alive until the next call
   void start(const SensorPoses& poses, std::size_t n) {
     poses_ = poses;
     n_ = n;
-    for (std::size_t k = 0; k < n; ++k) cells_[k] = lookup_.index(poses.x[k], poses.y[k]);
-    for (std::size_t k = 0; k < n; ++k) {  // vectorizes
-      const float column = bounded((poses.x[k] - originX_) * perMetre_, mostColumns_);
-      const float row = bounded((poses.y[k] - originY_) * perMetre_, mostRows_);
-      const auto left = static_cast<std::int32_t>(column < lastColumn_ ? column : lastColumn_);
-      const auto below = static_cast<std::int32_t>(row < lastRow_ ? row : lastRow_);
-      corners_[k] = below * columns_ + left;
-      shareX_[k] = column - static_cast<float>(left);
-      shareY_[k] = row - static_cast<float>(below);
-    }
+    corners_.start(poses, n);
   }
 
   /// Adds ln p of a distance to out[0 .. n). @param perSigma of the reading [1/m]
@@ -87,10 +66,6 @@ class TableWeigher {
   }
 
  private:
-  static float bounded(float place, float most) {
-    const float least = place > 0.0F ? place : 0.0F;  // also for NaN
-    return least < most ? least : most;
-  }
   /// Levels from one direction to another, by the shorter way.
   static std::int32_t shorter(std::int32_t way) {
     constexpr auto kDirections =
@@ -107,12 +82,12 @@ class TableWeigher {
       return;
     }
     for (std::size_t k = 0; k < n_; ++k) {
-      const std::uint16_t* corner = levels + corners_[k];
+      const std::uint16_t* corner = levels + corners_.lowest(k);
       levels_[k] = corner[0];
-      right1_[k] = corner[right_];
-      up1_[k] = corner[up_];
-      both1_[k] = corner[up_ + right_];
-      own_[k] = cells_[k] < 0 ? CellTable::kNone : levels[cells_[k]];
+      right1_[k] = corner[corners_.right()];
+      up1_[k] = corner[corners_.up()];
+      both1_[k] = corner[corners_.up() + corners_.right()];
+      own_[k] = corners_.own(k) < 0 ? CellTable::kNone : levels[corners_.own(k)];
     }
     for (std::size_t k = 0; k < n_; ++k) {  // vectorizes
       const int none = isNone(levels_[k]) | isNone(right1_[k]) | isNone(up1_[k]) |
@@ -125,9 +100,9 @@ class TableWeigher {
   }
   static int isNone(std::int32_t level) { return static_cast<int>(level == CellTable::kNone); }
   float between(std::size_t k, float right, float up, float both) const {
-    const float lower = shareX_[k] * right;
-    const float upper = up + shareX_[k] * (both - up);
-    return static_cast<float>(levels_[k]) + lower + shareY_[k] * (upper - lower);
+    const float lower = corners_.shareX(k) * right;
+    const float upper = up + corners_.shareX(k) * (both - up);
+    return static_cast<float>(levels_[k]) + lower + corners_.shareY(k) * (upper - lower);
   }
   /// Nothing expected is as bad as the worst residual.
   void setPlace(std::size_t k, float sigmas) {
@@ -138,23 +113,9 @@ class TableWeigher {
     for (std::size_t k = 0; k < n_; ++k) out[k] += gaussian.atPlace(places_[k]);
   }
 
-  CellLookup lookup_;
-  float originX_;  ///< centre of the first cell [m]
-  float originY_;
-  float perMetre_;
-  std::int32_t columns_;
-  std::int32_t right_;  ///< offset to the cell at the right; 0: the grid has one column
-  std::int32_t up_;
-  float mostColumns_;  ///< place of the last column
-  float mostRows_;
-  float lastColumn_;  ///< the last one that has a neighbour at its right
-  float lastRow_;
+  CellCorners corners_;
   SensorPoses poses_{};
   std::size_t n_ = 0;
-  std::array<std::int32_t, kBlock> cells_;    ///< cells that hold the samples; -1: outside
-  std::array<std::int32_t, kBlock> corners_;  ///< the lower left one of the four around
-  std::array<float, kBlock> shareX_;
-  std::array<float, kBlock> shareY_;
   /// Levels of the lower left cells, or of the sample's own cell (then in all four).
   std::array<std::int32_t, kBlock> levels_;
   std::array<std::int32_t, kBlock> right1_;

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "DirectionCorners.hpp"
+#include "ortung/base/InstructionSet.hpp"
+#include "ortung/tables/RangeScale.hpp"
+
+/// How far a range is from what the levels around a pose expect. Rounding both to levels would cost
+/// more than most sensors' noise does, so the difference is counted in parts of a level.
+namespace ortung {
+
+inline constexpr std::int16_t kPartsALevel = 4;
+/// Levels further apart are those of different surfaces, of which either may be in sight. A wall
+/// that is seen at 15 degrees recedes by four widths of a cell from one cell to the next.
+inline constexpr std::int16_t kMostOnOneSurface = 24;
+/// How far a surface's own levels differ from cell to cell, where it ends.
+inline constexpr std::int16_t kAlongOneSurface = 8;
+
+/// Returns where a range lies on a scale [parts of a level]; beyond the greatest range: what
+/// RangeScale::kNothing has.
+inline std::int16_t partsOf(const RangeScale& scale, double range) {
+  const auto parts = [](double levels) {
+    return static_cast<std::int16_t>(std::lround(levels * kPartsALevel));
+  };
+  const std::uint8_t level = scale.level(range);
+  if (level == RangeScale::kNothing) return parts(level);
+  const double at = scale.range(level);
+  const int beside = level + (range > at ? 1 : -1);
+  if (beside < 0 || beside >= RangeScale::kNothing) return parts(level);
+  const double width = std::abs(scale.range(static_cast<std::uint8_t>(beside)) - at);
+  return parts(level + (range - at) / width);
+}
+
+/// The levels around a pose, taken one by one. (An array of them would keep loops over beams from
+/// being vectorized.)
+class LevelMix {
+ public:
+  ORTUNG_INLINE void add(std::int16_t level, std::int16_t weight) {
+    sum_ = static_cast<std::int16_t>(sum_ + static_cast<std::int16_t>(level * weight));
+    low_ = level < low_ ? level : low_;
+    high_ = level > high_ ? level : high_;
+  }
+  /// Returns how far a reading is from them: from their mean if they are of one surface; if not,
+  /// from the nearer one of the two. Both are in parts of a level.
+  ORTUNG_INLINE std::int16_t differenceTo(std::int16_t reading) const {
+    const auto off = static_cast<std::int16_t>(reading - mean());
+    const auto ofOne = static_cast<std::int16_t>(off < 0 ? -off : off);
+    const auto overLow = static_cast<std::int16_t>(reading - low_ * kPartsALevel);
+    const auto underHigh = static_cast<std::int16_t>(high_ * kPartsALevel - reading);
+    const std::int16_t within = overLow < underHigh ? overLow : underHigh;
+    const auto beyond = static_cast<std::int16_t>(within - kAlongOneSurface * kPartsALevel);
+    const std::int16_t between = beyond > 0 ? beyond : std::int16_t{0};
+    const auto ofTwo = within < 0 ? static_cast<std::int16_t>(-within) : between;
+    return isEdge() ? ofTwo : ofOne;
+  }
+  /// Their mean [parts of a level].
+  ORTUNG_INLINE std::int16_t mean() const {
+    constexpr std::int16_t kDivisor = LevelsAround::kWhole / kPartsALevel;
+    return static_cast<std::int16_t>((sum_ + kDivisor / 2) / kDivisor);
+  }
+  /// Whether they are of different surfaces.
+  ORTUNG_INLINE bool isEdge() const { return high_ - low_ > kMostOnOneSurface; }
+  std::int16_t low() const { return low_; }
+  std::int16_t high() const { return high_; }
+
+ private:
+  std::int16_t sum_ = 0;
+  std::int16_t low_ = RangeScale::kNothing;
+  std::int16_t high_ = 0;
+};
+
+/// Differences of the beams of a scan from what is expected around a pose.
+struct LevelDifferences {
+  static constexpr std::size_t kBlock = 32;  ///< n is a multiple of it
+  /// @param reading, differences one a beam [parts of a level], 255 at most
+  /// @pre rows can be read for n + 1 entries
+  ORTUNG_INLINE static void run(const LevelsAround* around, const std::int16_t* reading,
+                                std::size_t n, std::uint8_t* differences) {
+    const auto [a, b, c, d] = around->rows;
+    const auto [a0, a1, b0, b1, c0, c1, d0, d1] = around->weights;
+    for (std::size_t first = 0; first < n; first += kBlock) {
+      std::array<std::uint8_t, kBlock> block;  // shares no memory with what is read
+      for (std::size_t k = 0; k < kBlock; ++k) {
+        const std::size_t j = first + k;
+        LevelMix mix;
+        mix.add(a[j], a0);
+        mix.add(a[j + 1], a1);
+        mix.add(b[j], b0);
+        mix.add(b[j + 1], b1);
+        mix.add(c[j], c0);
+        mix.add(c[j + 1], c1);
+        mix.add(d[j], d0);
+        mix.add(d[j + 1], d1);
+        const std::int16_t difference = mix.differenceTo(reading[j]);
+        block[k] = static_cast<std::uint8_t>(difference < 255 ? difference : 255);
+      }
+      std::copy(block.begin(), block.end(), differences + first);
+    }
+  }
+};
+
+}  // namespace ortung
