@@ -128,21 +128,64 @@ TEST_F(Learned, ConeKnowsAllFourCases) {
   EXPECT_EQ(probability(NAN, seesWall), kNoExpectation) << "an invalid reading says nothing";
 }
 
-/// The scan's formula in double precision, with ranges in levels as the table keeps them.
-double scanProbability(const Room& room, const Pose2& sensor, const ScanData::Config& c,
-                       const std::vector<float>& ranges) {
+/// Where a range lies among the levels of a scale, not rounded.
+double placeOf(const RangeScale& scale, double range) {
+  if (range >= scale.maxRange()) return RangeScale::kNothing;
+  const auto at = [&](int level) { return scale.range(static_cast<std::uint8_t>(level)); };
+  int level = 0;
+  while (level < 254 && at(level + 1) <= range) ++level;
+  return level < 254 ? level + (range - at(level)) / (at(level + 1) - at(level)) : level;
+}
+
+/// The scan's formula in double precision: how many levels a range is off what is between cells and
+/// directions. If the levels around differ much, either end may be seen, or 8 levels on from it.
+double levelsOff(const Room& room, const FieldGrid& grid, const RangeScale& scale,
+                 const Pose2& beam, double step, double range) {
+  const auto split = [](double place, double& share) {
+    share = place - std::floor(place);
+    return std::floor(place);
+  };
+  double shareX = 0.0;
+  double shareY = 0.0;
+  double shareTurn = 0.0;
+  const double column = split((beam.x - grid.originX) / grid.cell - 0.5, shareX);
+  const double row = split((beam.y - grid.originY) / grid.cell - 0.5, shareY);
+  const double direction = split(beam.theta / step, shareTurn);
+  double mean = 0.0;
+  double least = 255.0;
+  double most = 0.0;
+  for (const int right : {0, 1})
+    for (const int up : {0, 1})
+      for (const int turn : {0, 1}) {
+        const double level = scale.level(
+            room.range(grid.originX + (column + right + 0.5) * grid.cell,
+                       grid.originY + (row + up + 0.5) * grid.cell, (direction + turn) * step));
+        mean += level * (right != 0 ? shareX : 1 - shareX) * (up != 0 ? shareY : 1 - shareY) *
+                (turn != 0 ? shareTurn : 1 - shareTurn);
+        least = std::min(least, level);
+        most = std::max(most, level);
+      }
+  const double seen = placeOf(scale, range);
+  if (most - least <= 24.0) return std::abs(seen - mean);
+  const double within = std::min(seen - least, most - seen);
+  return within < 0.0 ? -within : std::max(0.0, within - 8.0);
+}
+
+double scanProbability(const Room& room, const FieldGrid& grid, const Pose2& sensor,
+                       const ScanData::Config& c, const std::vector<float>& ranges) {
   const RangeScale scale(c.maxRange, c.resolution);
   double sum = 0.0;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     if (std::isnan(ranges[i])) continue;
+    const auto range = static_cast<double>(ranges[i]);
     const double angle = sensor.theta + c.firstAngle + static_cast<double>(i) * c.angleStep;
-    const int expected = scale.level(room.range(sensor.x, sensor.y, angle));
-    const int seen = scale.level(static_cast<double>(ranges[i]));
-    const double known = std::min(static_cast<double>(ranges[i]), c.maxRange);
-    const double sigmas =
-        std::abs(expected - seen) / scale.levelsPerSigma(known, c.model.sigmaAt(known));
-    const double p = modelled(sigmas, 1.0, c.model.outliers);
-    sum += std::log(seen == RangeScale::kNothing ? std::max(p, c.model.maxRangeMass) : p);
+    const double off =
+        levelsOff(room, grid, scale, {sensor.x, sensor.y, angle}, c.angleStep, range);
+    const double known = std::min(range, c.maxRange);
+    // What the table rounds to levels is as good as noise of that size.
+    const double sigma = std::hypot(scale.levelsPerSigma(known, c.model.sigmaAt(known)), 0.29);
+    const double p = modelled(off / sigma, 1.0, c.model.outliers);
+    sum += std::log(std::isinf(range) ? std::max(p, c.model.maxRangeMass) : p);
   }
   return std::exp(c.model.exponent * sum);
 }
@@ -172,10 +215,9 @@ TEST_F(Learned, RaysMultiplyTheBeamsOfAScan) {
                     [&](const Pose2& s) { return test::scanWords(room_, s, config); });
     Random random(3);
     for (int i = 0; i < 200; ++i) {
-      const std::size_t cell = random.below(region_.grid.size());
-      // Headings of whole degrees, so that beams fall on the table's directions.
-      const Pose2 sensor{region_.grid.centreX(cell), region_.grid.centreY(cell),
-                         static_cast<double>(random.below(360)) * kPi / 180};
+      const Pose2 sensor{room_.width * (random.uniform() - 0.5),
+                         room_.height * (random.uniform() - 0.5), 7.0 * random.uniform()};
+      if (!room_.contains(sensor.x, sensor.y, 0.06)) continue;  // between centres of cells
       const Pose2 seenFrom{sensor.x + 2.0 * sigma * random.gaussian(), sensor.y,
                            sensor.theta + 0.02 * random.gaussian()};
       if (!room_.contains(seenFrom.x, seenFrom.y)) continue;
@@ -183,9 +225,10 @@ TEST_F(Learned, RaysMultiplyTheBeamsOfAScan) {
       for (std::uint32_t& word : words)
         word = random.below(10) == 0 ? 0 : random.below(10) == 0 ? 9999 : word;
       data.setData(1, words);
-      const double expected = scanProbability(room_, sensor, config, data.reading().ranges);
-      // A beam's cost is rounded to 1/250 of the floor's: ln 10 / 250 nats, by half; and
-      // millimetres may fall on another level. Where one table of costs serves beams of different
+      const double expected =
+          scanProbability(room_, region_.grid, sensor, config, data.reading().ranges);
+      // A beam's cost is rounded to 1/250 of the floor's: ln 10 / 250 nats, by half; and a level's
+      // part or a weight to its neighbour. Where one table of costs serves beams of different
       // sigmas, differences are rounded to its entries and steps to an eighth of an octave, which
       // is less than 0.08 nats a beam, even where a level is wider than a sigma.
       const double stepping = isLikeTheTable ? 0.0 : 181 * 0.08;

@@ -233,7 +233,7 @@ TEST(SettingsEffect, OfTheSonar) {
            {"min_range_m", "1.5"},       {"max_range_m", "1.2"},
            {"sigma_m", "0.2"},           {"sigma_per_m", "0.2"},
            {"resolution_m", "0.2"},      {"resolution_per_m", "0.2"},
-           {"outliers", "0.3"},          {"max_range_mass", "0.6", {{"max_range_m", "1.0"}}},
+           {"outliers", "0.3"},          {"max_range_mass", "0.6", {{"missed_share", "0.4"}}},
            {"exponent", "0.5"},          {"noise_sigma_m", "0.2"},
            {"noise_sigma_per_m", "0.2"}, {"missed_share", "0.4"},
            {"false_share", "0.4"},       {"pose.z_m", "1.4"}}));

@@ -3,10 +3,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "CellLookup.hpp"
+#include "DirectionCorners.hpp"
 #include "Expectations.hpp"
 #include "FormatTools.hpp"
+#include "LevelDifference.hpp"
 #include "TableSlope.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Polishable.hpp"
@@ -25,11 +28,16 @@ class ConeWeigher final : public Weigher, public Polishable {
         scale_(scale),
         model_(model),
         reading_(reading),
+        parts_(partsOf(scale, reading)),
         floor_(static_cast<float>(model.logFloor())) {
-    for (int level = 0; level < 256; ++level) {
-      logByLevel_[static_cast<std::size_t>(level)] =
-          logProbabilityOf(static_cast<std::uint8_t>(level));
+    const double known = std::min(reading, scale.maxRange());
+    const double levels = scale.levelsPerSigma(known, model.sigmaAt(known));
+    const double partsPerSigma = kPartsALevel * std::hypot(levels, kRoundingOfLevels);
+    for (std::size_t parts = 0; parts < logByParts_.size(); ++parts) {
+      const double sigmas = static_cast<double>(parts) / partsPerSigma;
+      logByParts_[parts] = static_cast<float>(model.exponent * model.logProbability(sigmas));
     }
+    logUnseen_ = static_cast<float>(model.exponent * std::log(model.maxRangeMass));
   }
 
   /// Returns no slope if nothing is in sight of a neighbour of the pose's cell, or in the reading.
@@ -51,16 +59,11 @@ class ConeWeigher final : public Weigher, public Polishable {
   }
 
  private:
-  float logProbabilityOf(std::uint8_t level) const {
-    const bool sees = std::isfinite(reading_);
-    const bool shouldSee = level != RangeScale::kNothing;
-    if (sees && shouldSee) {
-      const double sigmas = (reading_ - scale_.range(level)) / model_.sigmaAt(reading_);
-      return static_cast<float>(model_.exponent * model_.logProbability(sigmas));
-    }
-    if (sees == shouldSee) return 0.0F;
-    return static_cast<float>(model_.exponent *
-                              std::log(sees ? model_.outliers : model_.maxRangeMass));
+  float logProbabilityOf(const LevelMix& mix) const {
+    if (std::isinf(reading_)) return mix.high() == RangeScale::kNothing ? 0.0F : logUnseen_;
+    if (mix.low() == RangeScale::kNothing) return floor_;
+    return logByParts_[static_cast<std::size_t>(
+        std::min<int>(mix.differenceTo(parts_), static_cast<int>(logByParts_.size()) - 1))];
   }
 
   /// Returns the range interpolated between the cells and directions around a pose [m]; NaN if
@@ -90,18 +93,22 @@ class ConeWeigher final : public Weigher, public Polishable {
 
   double logProbabilityAt(const Pose2& pose) const override {
     const Pose2 sensor = pose * mount_;
-    const std::uint8_t* row = table_->row(sensor.x, sensor.y);
-    if (row == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    return logByLevel_[row[table_->directionOf(sensor.theta)]];
+    const bool expects = table_->row(sensor.x, sensor.y) != nullptr;
+    return expects ? Weigher::logProbabilityAt(pose) : std::numeric_limits<double>::quiet_NaN();
   }
 
   void weigh(const SampleView& poses, std::span<float> logProbability) const override {
-    const CellLookup lookup(table_->grid());
-    forEachSensorPose(poses, mount_, [&](std::size_t i, float x, float y, float theta) {
-      const std::ptrdiff_t cell = lookup(x, y);
-      const std::uint8_t* row = cell < 0 ? nullptr : table_->rowOfCell(cell);
-      logProbability[i] += row == nullptr ? floor_ : logByLevel_[row[table_->directionOf(theta)]];
-    });
+    DirectionCorners corners(*table_, 0.0F);
+    forEachPoseBlock<DirectionCorners::kBlock>(
+        poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
+          corners.start(sensor, n);
+          LevelsAround levels;
+          for (std::size_t k = 0; k < n; ++k) {
+            logProbability[first + k] +=
+                corners.around(k, levels) ? logProbabilityOf(mixAround(*table_, corners, k, levels))
+                                          : floor_;
+          }
+        });
   }
 
   PoseResolution resolution() const override {
@@ -112,9 +119,11 @@ class ConeWeigher final : public Weigher, public Polishable {
   Pose2 mount_;
   RangeScale scale_;
   SensorModel model_;
-  double reading_;  ///< [m]
+  double reading_;      ///< [m]
+  std::int16_t parts_;  ///< the reading [parts of a level]
   float floor_;
-  std::array<float, 256> logByLevel_{};  ///< ln p of the reading by expected level
+  float logUnseen_;                      ///< ln p of seeing nothing of a surface in sight
+  std::array<float, 512> logByParts_{};  ///< ln p by difference [parts of a level]
 };
 
 class ConeRanges final : public Expectations {
@@ -158,9 +167,9 @@ class ConeRanges final : public Expectations {
   }
 
   std::vector<double> at(const Pose2& sensor) const override {
-    const std::uint8_t* row = table_->row(sensor.x, sensor.y);
-    if (row == nullptr) return {};
-    return {scale_.range(row[table_->directionOf(sensor.theta)])};
+    const std::optional<double> range = rangeBetween(*table_, scale_, sensor);
+    if (!range) return {};
+    return {*range};
   }
   std::shared_ptr<const Weigher> weigher() const override {
     const double range = cone_.reading();

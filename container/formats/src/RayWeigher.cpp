@@ -21,8 +21,6 @@ constexpr std::size_t kSamplesABlock = 64;
 constexpr std::size_t kCacheLine = 64;  ///< [bytes]
 /// Steps of cost are chosen from a scale of so many per octave, so that few occur in one scan.
 constexpr double kStepsAnOctave = 8.0;
-/// Standard deviation of what the table has rounded to levels [levels].
-constexpr double kRounding = 0.29;
 constexpr double kMostEntriesALevel = 3.9;  ///< most entries of the table of costs per level
 
 /// Computes where samples look into the ray table, a block of them at a time, without branches and
@@ -118,7 +116,7 @@ void RayWeigher::add(std::size_t at, double range, const RangeScale& scale) {
   const double known = std::min(range, scale.maxRange());
   const double sigma = std::hypot(model_.sigmaAt(known), spread_.metres, spread_.radians * known);
   const double levels = scale.levelsPerSigma(known, sigma);
-  levelsPerSigma_[at] = isSpread() ? levels : kPartsALevel * std::hypot(levels, kRounding);
+  levelsPerSigma_[at] = isSpread() ? levels : kPartsALevel * std::hypot(levels, kRoundingOfLevels);
   scale_ = scale;
   beams_.push_back({at, range});
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "FormatTools.hpp"
+#include "LevelDifference.hpp"
 #include "RayWeigher.hpp"
 #include "ScanExpectations.hpp"
 #include "ortung/tables/SurfaceField.hpp"
@@ -147,12 +148,12 @@ void ScanRays::load(const std::shared_ptr<const TableFile>& file, const std::str
 
 std::vector<double> ScanRays::at(const Pose2& sensor) const {
   const ScanData::Config& config = scan_.config();
-  const std::uint8_t* row = rays_->row(sensor.x, sensor.y);
-  if (row == nullptr) return {};
   std::vector<double> expected;
   for (int i = 0; i < config.beams; ++i) {
-    expected.push_back(scale_.range(
-        row[rays_->directionOf(sensor.theta + config.firstAngle + i * config.angleStep)]));
+    const double bearing = config.firstAngle + i * config.angleStep;
+    const auto range = rangeBetween(*rays_, scale_, {sensor.x, sensor.y, sensor.theta + bearing});
+    if (!range) return {};
+    expected.push_back(*range);
   }
   return expected;
 }

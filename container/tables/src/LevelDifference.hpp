@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "DirectionCorners.hpp"
 #include "ortung/base/InstructionSet.hpp"
+#include "ortung/base/Pose2.hpp"
 #include "ortung/tables/RangeScale.hpp"
 
 /// How far a range is from what the levels around a pose expect. Rounding both to levels would cost
@@ -15,6 +17,8 @@
 namespace ortung {
 
 inline constexpr std::int16_t kPartsALevel = 4;
+/// Standard deviation of what a table has rounded to levels [levels].
+inline constexpr double kRoundingOfLevels = 0.29;
 /// Levels further apart are those of different surfaces, of which either may be in sight. A wall
 /// that is seen at 15 degrees recedes by four widths of a cell from one cell to the next.
 inline constexpr std::int16_t kMostOnOneSurface = 24;
@@ -34,6 +38,15 @@ inline std::int16_t partsOf(const RangeScale& scale, double range) {
   if (beside < 0 || beside >= RangeScale::kNothing) return parts(level);
   const double width = std::abs(scale.range(static_cast<std::uint8_t>(beside)) - at);
   return parts(level + (range - at) / width);
+}
+
+/// Returns the range at a place of a scale; its greatest range where that has no level.
+inline double rangeOfParts(const RangeScale& scale, std::int16_t parts) {
+  const int level = parts / kPartsALevel;
+  if (level >= RangeScale::kNothing - 1) return scale.range(static_cast<std::uint8_t>(level));
+  const double share = static_cast<double>(parts % kPartsALevel) / kPartsALevel;
+  return (1.0 - share) * scale.range(static_cast<std::uint8_t>(level)) +
+         share * scale.range(static_cast<std::uint8_t>(level + 1));
 }
 
 /// The levels around a pose, taken one by one. (An array of them would keep loops over beams from
@@ -73,6 +86,35 @@ class LevelMix {
   std::int16_t low_ = RangeScale::kNothing;
   std::int16_t high_ = 0;
 };
+
+/// Returns what a table knows of one direction around pose @p k of a block.
+inline LevelMix mixAround(const DirectionTable& table, const DirectionCorners& corners,
+                          std::size_t k, const LevelsAround& levels) {
+  const int next = corners.direction(k) + 1 < table.directions() ? 1 : 1 - table.directions();
+  LevelMix mix;
+  for (std::size_t c = 0; c < LevelsAround::kCells; ++c) {
+    mix.add(levels.rows[c][0], levels.weights[2 * c]);
+    mix.add(levels.rows[c][next], levels.weights[2 * c + 1]);
+  }
+  return mix;
+}
+
+/// Returns what a direction at a pose is expected to read [m]; empty: nothing is known there.
+inline std::optional<double> rangeBetween(const DirectionTable& table, const RangeScale& scale,
+                                          const Pose2& sensor) {
+  const std::uint8_t* own = table.row(sensor.x, sensor.y);
+  if (own == nullptr) return std::nullopt;
+  const auto x = static_cast<float>(sensor.x);
+  const auto y = static_cast<float>(sensor.y);
+  const auto theta = static_cast<float>(sensor.theta);
+  DirectionCorners corners(table, 0.0F);
+  corners.start({&x, &y, &theta}, 1);
+  LevelsAround levels;
+  if (!corners.around(0, levels)) return std::nullopt;
+  const LevelMix mix = mixAround(table, corners, 0, levels);
+  if (mix.isEdge()) return scale.range(own[table.directionOf(sensor.theta)]);
+  return rangeOfParts(scale, mix.mean());
+}
 
 /// Differences of the beams of a scan from what is expected around a pose.
 struct LevelDifferences {
