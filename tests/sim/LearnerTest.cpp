@@ -66,16 +66,15 @@ TEST(Learner, LearnsWhatAScanSeesFromEveryCell) {
   const SensorData& scan = learned.find("180DegreeScan");
   ASSERT_TRUE(scan.isLearned());
   for (const Pose2& sensor :
-       {Pose2{0.05, 0.05, 0.0}, Pose2{-2.35, 1.25, 2.0}, Pose2{2.85, -1.9, -1.3}}) {
+       {Pose2{0.05, 0.05, 0.0}, Pose2{-2.35, 1.25, 2.0}, Pose2{1.85, -1.9, -1.3}}) {
     const std::vector<double> expected = scan.expectation(robotFor(sensor, scan));
     ASSERT_EQ(expected.size(), 180u);
     for (std::size_t i = 0; i < 180; ++i) {
       const double angle =
           sensor.theta + (-90.0 + static_cast<double>(i) * 180.0 / 179.0) * kDegree;
       // The table has one direction in 2 degrees, so what it says lies between the ranges there,
-      // also between its cells (the last pose is);
-      // half a level of ranges is 1.6 cm (8 m in 254 levels), and corners are cut by some
-      // millimetres.
+      // also between its cells (the last pose is). Half a level is 1.6 cm (8 m in 254 levels), and
+      // the corners of a room are cut by as much.
       constexpr double kOff = 0.03;
       double low = 1e9;
       double high = 0.0;
