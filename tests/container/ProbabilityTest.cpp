@@ -138,7 +138,8 @@ double placeOf(const RangeScale& scale, double range) {
 }
 
 /// The scan's formula in double precision: how many levels a range is off what is between cells and
-/// directions. If the levels around differ much, either end may be seen, or 8 levels on from it.
+/// directions. If the levels around differ much, either end may be seen, too, or 8 levels on from
+/// it.
 double levelsOff(const Room& room, const FieldGrid& grid, const RangeScale& scale,
                  const Pose2& beam, double step, double range) {
   const auto split = [](double place, double& share) {
@@ -166,9 +167,10 @@ double levelsOff(const Room& room, const FieldGrid& grid, const RangeScale& scal
         most = std::max(most, level);
       }
   const double seen = placeOf(scale, range);
-  if (most - least <= 24.0) return std::abs(seen - mean);
+  const double off = std::abs(seen - mean);
+  if (most - least <= 24.0) return off;
   const double within = std::min(seen - least, most - seen);
-  return within < 0.0 ? -within : std::max(0.0, within - 8.0);
+  return std::min(off, within < 0.0 ? -within : std::max(0.0, within - 8.0));
 }
 
 double scanProbability(const Room& room, const FieldGrid& grid, const Pose2& sensor,

@@ -19,7 +19,7 @@ namespace ortung {
 inline constexpr std::int16_t kPartsALevel = 4;
 /// Standard deviation of what a table has rounded to levels [levels].
 inline constexpr double kRoundingOfLevels = 0.29;
-/// Levels further apart are those of different surfaces, of which either may be in sight. A wall
+/// Levels further apart may be those of different surfaces, of which either may be in sight. A wall
 /// that is seen at 15 degrees recedes by four widths of a cell from one cell to the next.
 inline constexpr std::int16_t kMostOnOneSurface = 24;
 /// How far a surface's own levels differ from cell to cell, where it ends.
@@ -58,8 +58,8 @@ class LevelMix {
     low_ = level < low_ ? level : low_;
     high_ = level > high_ ? level : high_;
   }
-  /// Returns how far a reading is from them: from their mean if they are of one surface; if not,
-  /// from the nearer one of the two. Both are in parts of a level.
+  /// Returns how far a reading is from them: from their mean, or from the nearer one of two
+  /// surfaces. Both are in parts of a level.
   ORTUNG_INLINE std::int16_t differenceTo(std::int16_t reading) const {
     const auto off = static_cast<std::int16_t>(reading - mean());
     const auto ofOne = static_cast<std::int16_t>(off < 0 ? -off : off);
@@ -69,7 +69,7 @@ class LevelMix {
     const auto beyond = static_cast<std::int16_t>(within - kAlongOneSurface * kPartsALevel);
     const std::int16_t between = beyond > 0 ? beyond : std::int16_t{0};
     const auto ofTwo = within < 0 ? static_cast<std::int16_t>(-within) : between;
-    return isEdge() ? ofTwo : ofOne;
+    return isEdge() && ofTwo < ofOne ? ofTwo : ofOne;
   }
   /// Their mean [parts of a level].
   ORTUNG_INLINE std::int16_t mean() const {
