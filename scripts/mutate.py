@@ -30,7 +30,7 @@ def say(text):
 def main():
     root = Path(__file__).resolve().parent.parent
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--mutants", type=int, default=300, help="how many, the same number in each room")
+    parser.add_argument("--mutants", type=int, default=300, help="how many, the same number in each top-level folder")
     parser.add_argument("--seed", default="1", help="another seed draws other places")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--folder", type=Path, default=root / "build/mutants")
@@ -62,7 +62,7 @@ def main():
         chosen = [Site(**s) if s else None for s in json.loads(copy.list.read_text())]
     else:
         found = tree.find(root, options.build.resolve(), say)
-        chosen = tree.choose(found, options.mutants // len(tree.ROOMS), options.seed)
+        chosen = tree.choose(found, options.mutants // len(tree.rooms(root)), options.seed)
         say(f"{len(chosen)} mutants, of {len(found)} places")
     copy.write(chosen)
     chosen = copy.compile(chosen, options.jobs, say)

@@ -1,5 +1,8 @@
 """What a run found, as Markdown: how many were noticed in each room, and each survivor with its reason if there is one."""
 
+import subprocess
+from pathlib import Path
+
 from . import tree
 
 BEGIN, END = "<!-- mutants: begin -->", "<!-- mutants: end -->"
@@ -27,10 +30,16 @@ def reasons(file):
     return known
 
 
+def commit():
+    """What was tried, and when it was written: `1234567 (2026-01-31)`."""
+    show = ["git", "-C", str(Path(__file__).parent), "show", "-s", "--format=%h (%cs)", "HEAD"]
+    return subprocess.run(show, check=True, capture_output=True, text=True).stdout.strip()
+
+
 def text(chosen, results, reasons_file, options):
     known = reasons(reasons_file)
     rows, survivors, total = [], [], [0, 0, 0]
-    for room in tree.ROOMS:
+    for room in sorted({tree.room_of(s.file) for s in chosen if s is not None}):
         here = [(n, s) for n, s in enumerate(chosen) if s is not None and tree.room_of(s.file) == room and n in results]
         noticed = sum(results[n] is not None for n, _ in here)
         alike = [s for n, s in here if results[n] is None and s.key() in known]
@@ -45,7 +54,7 @@ def text(chosen, results, reasons_file, options):
         share = f"{100 * noticed / others:.0f} %" if others else "-"
         lines.append(f"| {room} | {count} | {noticed} | {alike} | {share} |")
     again = ", those that no test had noticed tried again after tests were added" if options.again else ""
-    lines += ["", f"Seed {options.seed}{again}. Not noticed:", ""]
+    lines += ["", f"Seed {options.seed}, of commit {commit()}{again}. Not noticed:", ""]
     for site in survivors:
         why = known.get(site.key())
         lines.append(f"- `{site.file}:{site.line}` {site.function}: {site.change} in `{site.original[:90]}`" +

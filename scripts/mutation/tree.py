@@ -10,36 +10,37 @@ from pathlib import Path
 
 from . import sites as finding
 
-ROOMS = {
-    "container": ("container/",),
-    "mcl": ("mcl/",),
-    "sim": ("sim/src/", "sim/api/", "sim/include/"),
-    "plugins": ("plugins/",),
-    "server": ("board/server/", "board/worlds/served/", "board/client/"),
-    "importers": ("realsensors/",),
-}
+# What is none of the program.
+ASIDE = ("build", "docs", "examples", "scripts", "tests")
+
+
+def rooms(root):
+    """The top-level folders that hold sources of the program: none of them can be left out."""
+    files = subprocess.run(["git", "ls-files", "-z", "*.cpp"], cwd=root, check=True, capture_output=True).stdout.decode()
+    return sorted({f.split("/")[0] for f in files.split("\0") if "/" in f} - set(ASIDE))
 
 
 def room_of(file):
-    return next((room for room, folders in ROOMS.items() if file.startswith(folders)), None)
+    return file.split("/")[0]
 
 
 def find(root, build, say):
     """All sites of all rooms, found in the translation units of a configured build."""
     finder = finding.Finder(root)
+    known = rooms(root)
     units = [(s, a) for s, a in finding.compile_commands(build)
-             if room_of(str(Path(s)).removeprefix(str(root) + "/")) is not None]
+             if room_of(str(Path(s)).removeprefix(str(root) + "/")) in known]
     found = []
     for count, (source, arguments) in enumerate(units, 1):
-        found += finder.sites(source, arguments, lambda file: room_of(file) is not None)
+        found += finder.sites(source, arguments, lambda file: room_of(file) in known)
         say(f"{count}/{len(units)} sources, {len(found)} places")
     return found
 
 
-def choose(found, a_room, seed):
-    """`a_room` sites of each room, drawn at random: first a kind of change, then a place, so that no kind prevails."""
+def choose(found, each, seed):
+    """`each` sites of each room, drawn at random: first a kind of change, then a place, so that no kind prevails."""
     chosen = []
-    for room in ROOMS:
+    for room in sorted({room_of(site.file) for site in found}):
         random_numbers = random.Random(f"{seed} {room}")
         kinds = {}
         for site in found:
@@ -49,7 +50,7 @@ def choose(found, a_room, seed):
             sites.sort(key=lambda s: (s.file, s.line, s.change, s.edits))
             random_numbers.shuffle(sites)
         taken = []
-        while len(taken) < a_room and any(kinds.values()):
+        while len(taken) < each and any(kinds.values()):
             kind = random_numbers.choice(sorted(k for k in kinds if kinds[k]))
             site = kinds[kind].pop()
             if not any(finding.overlapping(site, other) for other in taken):
