@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Runs a server among clients that come and go, and a simulation by itself, and looks whether they grow.
 
-soak.py [ORTUNG] [--minutes 30] [--clients 20] [--hours 10]
+soak.py [ORTUNG] [--minutes 30] [--clients 20] [--viewers 0] [--hours 10]
 
 The server simulates maps/fields/f2000.toml in real time for --minutes. Each client has a robot that wanders, reads all of
 its readings ten times a second, talks now and then, and goes after a while, without a word every other time; then it
-comes again. Beside, ten robots are simulated for --hours of their time as fast as possible, with record and trace.
+comes again. --viewers of Chromium look at the page, and are opened anew every other minute. Beside, ten robots are simulated for --hours of their time as fast as possible, with record and trace.
 Prints memory, threads and open files of both. Fails if one of them ends early, or if there are more of these in the last
 quarter than in the second one, beyond 5 % and 4 MiB. Cycles that begin late are counted, too: on a busy machine there are some.
 """
@@ -14,9 +14,11 @@ import argparse
 import os
 import random
 import selectors
+import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -62,6 +64,37 @@ class Client:
             self.begin()
 
 
+class Viewer:
+    """Chromium without a window, which looks at the page and is opened anew now and then."""
+
+    def __init__(self, url):
+        self.url, self.lives, self.process, self.folder = url, 0, None, None
+        self.begin()
+
+    def begin(self):
+        self.end()
+        self.lives += 1
+        self.folder = tempfile.TemporaryDirectory(prefix="ortung_viewer.", ignore_cleanup_errors=True)
+        self.process = subprocess.Popen(
+            [os.environ.get("CHROMIUM", "/usr/bin/chromium"), "--headless=new", "--no-sandbox", "--use-gl=angle",
+             "--use-angle=swiftshader", f"--user-data-dir={self.folder.name}", "--remote-debugging-port=0", self.url],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        self.ends = time.monotonic() + 120
+
+    def live(self, now):
+        if self.process.poll() is not None:
+            sys.exit(f"soak: Chromium ended by itself with {self.process.returncode}")
+        if now > self.ends:
+            self.begin()
+
+    def end(self):
+        if self.process is None:
+            return
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+        self.folder.cleanup()
+
+
 def sizes(process):
     """Resident memory [MiB], threads, open files."""
     status = Path(f"/proc/{process.pid}/status").read_text()
@@ -72,6 +105,8 @@ def sizes(process):
 def judge(name, samples):
     """Whether the last quarter is larger than the second one."""
     quarter = len(samples) // 4
+    if quarter == 0:
+        sys.exit(f"soak: too short: the {name} was looked at {len(samples)} times, expected at least 4")
     fine = True
     for which, what, slack in ((0, "MiB", 4), (1, "threads", 0), (2, "open files", 0)):
         early = max(s[which] for s in samples[quarter:2 * quarter])
@@ -87,10 +122,11 @@ def main():
     parser.add_argument("ortung", nargs="?", default=ROOT / "build/release/bin/ortung")
     parser.add_argument("--minutes", type=float, default=30)
     parser.add_argument("--clients", type=int, default=20)
+    parser.add_argument("--viewers", type=int, default=0, help="windows of Chromium that show the page")
     parser.add_argument("--hours", type=float, default=10)
     options = parser.parse_args()
 
-    server = subprocess.Popen([options.ortung, "sim", FIELD, "--listen", "0"], stdout=subprocess.PIPE,
+    server = subprocess.Popen([options.ortung, "sim", FIELD, "--listen", "0"] + ["--view"] * (options.viewers > 0), stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True)
     port = int(server.stdout.readline().split()[-1])
     alone = subprocess.Popen([options.ortung, "sim", FIELD, "--free-run", "--duration", str(3600 * options.hours),
@@ -99,6 +135,7 @@ def main():
     selector = selectors.DefaultSelector()
     chance = random.Random(1)
     clients = [Client(port, n, selector, chance) for n in range(options.clients)]
+    viewers = [Viewer(f"http://127.0.0.1:{port}/") for _ in range(options.viewers)]
     samples = {"server": [], "simulation": []}
     start = time.monotonic()
     period = options.minutes * 60 / 120
@@ -107,8 +144,8 @@ def main():
         for key, _ in selector.select(timeout=0.05):
             key.data.read()
         now = time.monotonic()
-        for client in clients:
-            client.live(now)
+        for visitor in clients + viewers:
+            visitor.live(now)
         if server.poll() is not None:
             sys.exit(f"soak: the server ended: {server.stderr.read()}")
         if now > due:
@@ -118,7 +155,10 @@ def main():
                 samples["simulation"].append(sizes(alone))
             if sys.stderr.isatty():
                 print(f"\r{(now - start) / 60:.1f} min, server {samples['server'][-1]}", end="", file=sys.stderr)
-    print(f"{sum(c.lives for c in clients)} lives of {options.clients} clients read {sum(c.bytes for c in clients) / 1e6:.0f} MB")
+    print(f"{sum(c.lives for c in clients)} lives of {options.clients} clients read {sum(c.bytes for c in clients) / 1e6:.0f} MB, "
+          f"the page was opened {sum(v.lives for v in viewers)} times")
+    for viewer in viewers:
+        viewer.end()
     while alone.poll() is None:
         samples["simulation"].append(sizes(alone))
         time.sleep(1)
