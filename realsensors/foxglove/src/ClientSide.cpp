@@ -1,6 +1,7 @@
 // The part of a session that deals with the client.
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "SessionParts.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::int64_t kSecond = 1'000'000'000;  // [ns]
+constexpr std::size_t kMostTold = 8;             // about one message
 
 std::string textOf(const json& value) {
   return value.dump(-1, ' ', true, json::error_handler_t::replace);
@@ -41,7 +43,20 @@ const json& listIn(const json& message, const char* key) {
 }  // namespace
 
 void FoxgloveSession::Parts::tell(Level level, const std::string& text) {
+  if (++faultsTold > kMostTold) {
+    ++faultsUntold;
+    return;
+  }
   sendText(textOf({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", text}}));
+}
+
+/// Ends what is told about a message.
+void FoxgloveSession::Parts::tellRest() {
+  const std::size_t rest = std::exchange(faultsUntold, 0);
+  faultsTold = 0;
+  if (rest > 0)
+    tell(Level::kError, "the same message has " + std::to_string(rest) + " more such faults");
+  faultsTold = 0;
 }
 
 void FoxgloveSession::Parts::sendInfo(const std::string& world) {

@@ -14,11 +14,14 @@ FoxgloveSession::~FoxgloveSession() = default;
 void FoxgloveSession::fromClient(std::string_view message, bool isBinary) {
   if (isOver) return;
   isBinary ? parts_->takeBinary(message) : parts_->takeText(message);
+  parts_->tellRest();
 }
 
 void FoxgloveSession::fromBoard(std::string_view bytes) {
   if (isOver) return;
-  if (parts_->board.take(bytes)) return;
+  const bool isUnderstood = parts_->board.take(bytes);
+  parts_->tellRest();
+  if (isUnderstood) return;
   parts_->tell(Level::kError, "the board has violated its protocol");
   isOver = true;
 }

@@ -50,7 +50,9 @@ struct FoxgloveSession::Parts {
   std::uint32_t nextChannel = 1;
   bool isTruthAsked = false;  ///< whether the world's truth is subscribed in each cycle
   bool hasWorldTruth = true;
-  bool isCrowded = false;  ///< whether there may be several robots: topics have their names
+  std::size_t faultsTold = 0;    ///< faults of the message that is taken of which it was told
+  std::size_t faultsUntold = 0;  ///< and of which it was not
+  bool isCrowded = false;        ///< whether there may be several robots: topics have their names
 
   explicit Parts(FoxgloveSession& owner);
 
@@ -80,7 +82,10 @@ struct FoxgloveSession::Parts {
   void unsubscribe(std::uint32_t subscription);
   void control(const foxglove::PlaybackRequest& request);
   void tellPlayback(const BoardReply& status, bool hasSought, const std::string& request);
+  /// Tells it what is wrong with its message, and of that little: so an answer is not much longer
+  /// than what it answers, whatever comes.
   void tell(Level level, const std::string& text);
+  void tellRest();
   void sendText(std::string text) { session.toClient.push_back({std::move(text), false}); }
   void sendBinary(std::string bytes) { session.toClient.push_back({std::move(bytes), true}); }
   void sendInfo(const std::string& world);
