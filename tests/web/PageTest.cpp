@@ -22,8 +22,8 @@ TEST(Page, HasTheFilesOfItsFolderAndNothingElse) {
   write(folder.path() / "page/assets/view.js", "1;");
   const Page page(folder.path() / "page", 1000);
   ASSERT_TRUE(page.isThere());
-  EXPECT_EQ(page.find("/")->bytes, "<p>here");
-  EXPECT_EQ(page.find("/?robot=2")->bytes, "<p>here");
+  EXPECT_EQ(*page.find("/")->bytes, "<p>here");
+  EXPECT_EQ(*page.find("/?robot=2")->bytes, "<p>here");
   EXPECT_EQ(page.find("/assets/view.js")->type, "text/javascript; charset=utf-8");
   for (const char* target : {"", "/../secret", "/assets/../../secret", "/assets", "//index.html",
                              "/%2e%2e/secret", "index.html", "/assets/view.js/"})
@@ -33,7 +33,7 @@ TEST(Page, HasTheFilesOfItsFolderAndNothingElse) {
 TEST(Page, SaysHowItIsMadeWhereItWasNotBuilt) {
   const Page page("/nowhere/at/all", 1000);
   EXPECT_FALSE(page.isThere());
-  EXPECT_NE(page.find("/")->bytes.find("npm run build"), std::string::npos);
+  EXPECT_NE(page.find("/")->bytes->find("npm run build"), std::string::npos);
 }
 
 TEST(Page, ThatIsTooLargeIsRefused) {

@@ -35,17 +35,24 @@ Response make(const Request& request, http::status status, std::string_view type
 
 Response refusal(const Request& request, http::status status, std::string_view why) {
   Response response = make(request, status, "text/plain; charset=utf-8");
-  response.body() = std::string(why) + "\n";
+  response.body() = std::make_shared<const std::string>(std::string(why) + "\n");
   response.prepare_payload();
   return response;
 }
 
-Response answer(const Request& request, const Page& page, const WebConfig& config) {
+Response farewell(http::status status, std::string_view why) {
+  Response response = refusal(Request(), status, why);
+  response.keep_alive(false);
+  return response;
+}
+
+namespace {
+
+Response answerWithBody(const Request& request, const Page& page, const WebConfig& config) {
   if (!isOwnHost(view(request[http::field::host]), config.hosts))
     return refusal(request, http::status::misdirected_request,
                    "This computer is not known by that name: use its address, or localhost.");
-  const bool isHead = request.method() == http::verb::head;
-  if (!isHead && request.method() != http::verb::get) {
+  if (request.method() != http::verb::head && request.method() != http::verb::get) {
     Response response =
         refusal(request, http::status::method_not_allowed, "Only GET and HEAD are known here.");
     response.set(http::field::allow, "GET, HEAD");
@@ -57,7 +64,14 @@ Response answer(const Request& request, const Page& page, const WebConfig& confi
   Response response = make(request, http::status::ok, file->type);
   response.body() = file->bytes;
   response.prepare_payload();
-  if (isHead) response.body().clear();  // its length stays
+  return response;
+}
+
+}  // namespace
+
+Response answer(const Request& request, const Page& page, const WebConfig& config) {
+  Response response = answerWithBody(request, page, config);
+  if (request.method() == http::verb::head) response.body() = nullptr;  // its length stays
   return response;
 }
 

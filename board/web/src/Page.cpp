@@ -51,11 +51,12 @@ Page::Page(const std::filesystem::path& folder, std::size_t most) {
         throw std::runtime_error(folder.string() + ": the page has more than " +
                                  std::to_string(most) + " bytes");
       files_["/" + entry.path().lexically_relative(folder).generic_string()] = {
-          typeOf(entry.path()), std::move(bytes)};
+          typeOf(entry.path()), std::make_shared<const std::string>(std::move(bytes))};
     }
   }
   isThere_ = files_.contains("/index.html");
-  if (!isThere_) files_["/index.html"] = {typeOf("index.html"), kNoPage};
+  if (!isThere_)
+    files_["/index.html"] = {typeOf("index.html"), std::make_shared<const std::string>(kNoPage)};
   files_["/"] = files_["/index.html"];
 }
 

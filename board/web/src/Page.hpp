@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,8 +14,8 @@ namespace ortung::web {
 class Page {
  public:
   struct File {
-    std::string type;  ///< MIME type
-    std::string bytes;
+    std::string type;                          ///< MIME type
+    std::shared_ptr<const std::string> bytes;  ///< never null
   };
 
   /// @param folder read with its folders; without index.html a note stands in its place
