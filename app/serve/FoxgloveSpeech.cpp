@@ -11,18 +11,11 @@ class FoxgloveSpeech final : public WebSpeech {
  public:
   explicit FoxgloveSpeech(const std::string& token) : session_(token) { fetch(); }
   ~FoxgloveSpeech() override = default;
-  /// Takes a message. A client that does not read its answers is disconnected.
   void fromClient(std::string_view message, bool isBinary) override {
-    constexpr std::size_t kMost = 1U << 18;  // bytes of answers
-    if (toClient.empty()) unread_ = 0;
     session_.fromClient(message, isBinary);
-    for (const FoxgloveSession::Frame& frame : session_.toClient)
-      unread_ += frame.bytes.size() + sizeof(Frame);
-    if (unread_ > kMost) session_.isOver = true;
     fetch();
   }
   void fromBoard(std::string_view bytes) override {
-    if (toClient.empty()) unread_ = 0;
     session_.fromBoard(bytes);
     fetch();
   }
@@ -36,7 +29,6 @@ class FoxgloveSpeech final : public WebSpeech {
     isOver = session_.isOver;
   }
   FoxgloveSession session_;
-  std::size_t unread_ = 0;  ///< bytes of answers since the client last had read all
 };
 
 /// Returns the query's token, if a token file may contain it; else "".

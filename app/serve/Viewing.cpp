@@ -38,6 +38,9 @@ WebConfig webConfigOf(const ServingArguments& arguments) {
   config.page = pageFolder();
   config.hosts = arguments.hosts;
   config.log = warn;
+  config.limits.sockets = std::max<std::size_t>(config.limits.sockets, arguments.clients);
+  config.limits.socketsOfAddress =
+      std::max<std::size_t>(config.limits.socketsOfAddress, arguments.clientsOfAddress);
 #ifdef ORTUNG_HAS_FOXGLOVE
   config.protocols.push_back(foxgloveProtocol());
 #endif
@@ -93,11 +96,12 @@ Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config)
     tokens.push_back({kClient, token_});
   }
   config.control.emplace_back(kClient);
-  config.http = [this](int socket, const std::string& head) { return door_.take(socket, head); };
+  config.http = [this](const HttpVisitor& visitor) {
+    return door_.take({visitor.socket, visitor.head, visitor.peer, visitor.join});
+  };
 }
 
 void Viewing::open(const MessageBoard& board) {
-  door_.open(address_, board.port());
   const std::string url = fmt::format("http://{}:{}/", reachable(address_), board.port());
   const std::string key = token_.empty() ? "" : "#token=" + token_;
   if (!door_.hasPage())

@@ -93,7 +93,8 @@ TEST(Serving, HowManyClientsThereAreIsAnOption) {
   TestClient second(port);
   first.ask("HELLO ortung/1");
   second.ask("HELLO ortung/1");
-  EXPECT_EQ(TestClient(port).line(), "* ERR limit there are 2 clients from 127.0.0.1 already");
+  EXPECT_EQ(TestClient(port).ask("HELLO ortung/1"),
+            "* ERR limit there are 2 clients from 127.0.0.1 already");
   server.signal(SIGTERM);
   EXPECT_EQ(server.finish().exitCode, 0);
 }

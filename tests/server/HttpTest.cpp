@@ -72,7 +72,7 @@ TEST(Http, ALineOfAHeadWithoutItsRequestIsRefusedAtOnce) {
 TEST(Http, HeadsThatAreTooLongOrTooLateAreRefused) {
   CountingWorld world;
   BoardConfig config;
-  config.limits.handshake = 0.2;
+  config.limits.handshake = config.limits.head = 0.2;
   config.limits.httpHead = 1000;
   const RunningBoard board(world, config);
   const auto begin = std::chrono::steady_clock::now();
@@ -101,9 +101,10 @@ TEST(Http, WhoeverHostsTheBoardMayTakeTheConnection) {
   CountingWorld world;
   BoardConfig config;
   std::string taken;
-  config.http = [&](int socket, const std::string& head) {
-    if (!head.starts_with("GET /page ")) return false;
-    taken = head;
+  config.http = [&](const HttpVisitor& visitor) {
+    if (!visitor.head.starts_with("GET /page ")) return false;
+    taken = visitor.head;
+    const int socket = visitor.socket;
     const std::string answer = "HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\nhi";
     EXPECT_EQ(::send(socket, answer.data(), answer.size(), MSG_NOSIGNAL),
               static_cast<ssize_t>(answer.size()));
@@ -118,7 +119,7 @@ TEST(Http, WhoeverHostsTheBoardMayTakeTheConnection) {
     EXPECT_EQ(client.rest(), "HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\nhi");
     TestClient other(board.port());
     other.send("GET /else HTTP/1.1\r\n\r\n");
-    EXPECT_TRUE(other.rest().starts_with("HTTP/1.1 501 "));
+    EXPECT_TRUE(other.rest().starts_with("HTTP/1.1 503 "));
     EXPECT_TRUE(TestClient(board.port()).ask("HELLO ortung/1").starts_with("OK HELLO"));
   }
   EXPECT_EQ(taken, kGet);  // the board's threads have ended
@@ -127,14 +128,14 @@ TEST(Http, WhoeverHostsTheBoardMayTakeTheConnection) {
 TEST(Http, AFailureOfWhoeverTakesItHarmsNobody) {
   CountingWorld world;
   BoardConfig config;
-  config.http = [](int, const std::string&) -> bool { throw std::runtime_error("no page"); };
+  config.http = [](const HttpVisitor&) -> bool { throw std::runtime_error("no page"); };
   std::string told;
   config.log = [&](const std::string& text) { told = text; };
   {
     const RunningBoard board(world, config);
     TestClient client(board.port());
     client.send(kGet);
-    EXPECT_TRUE(client.rest().starts_with("HTTP/1.1 501 "));
+    EXPECT_TRUE(client.rest().starts_with("HTTP/1.1 503 "));
   }
   EXPECT_EQ(told, "what takes web browsers failed: no page");
 }

@@ -33,11 +33,10 @@ class WebDoorTest : public testing::Test {
   }
   void start() {
     door_.emplace(webConfig_);
-    boardConfig_.http = [this](int socket, const std::string& head) {
-      return door_->take(socket, head);
+    boardConfig_.http = [this](const HttpVisitor& visitor) {
+      return door_->take({visitor.socket, visitor.head, visitor.peer, visitor.join});
     };
     board_.emplace(world_, boardConfig_);
-    door_->open("127.0.0.1", board_->port());
     host_ = "127.0.0.1:" + std::to_string(board_->port());
   }
   tcp::endpoint endpoint() const { return {asio::ip::make_address("127.0.0.1"), board_->port()}; }

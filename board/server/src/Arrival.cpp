@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kFarewell = 2.0;  // time for a browser to close after our answer [s]
 
+constexpr std::string_view kNoRoom =
+    "There are too many visitors of this page at the moment: try again.\n";
 constexpr std::string_view kNoWebServer =
     "This is a message board of Ortung, no web server. Its clients speak lines of text,\n"
     "beginning with HELLO ortung/1.\n";
@@ -41,7 +43,7 @@ void Arrival::receive(const boost::system::error_code& error, std::size_t count)
   const bool isAnswered = !answer_.empty();
   if (!error && !isAnswered) bytes_.append(buffer_.data(), count);
   if (isLate_) {
-    enter();
+    porter_.dismiss(newcomer());
   } else if (error) {
     close();
   } else if (isAnswered) {
@@ -50,7 +52,7 @@ void Arrival::receive(const boost::system::error_code& error, std::size_t count)
     isHttp_ = true;
     receiveHead();
   } else if (speech == Speech::kOther) {
-    enter();
+    porter_.enter(newcomer(), bytes_);
   } else {
     read();
   }
@@ -66,6 +68,8 @@ void Arrival::receiveHead() {
            "The head of a request has at most " + std::to_string(most) + " bytes.\n");
   else if (length != bytes_.npos && isTaken())
     return;
+  else if (length != bytes_.npos && config_.http)
+    answer("503 Service Unavailable", kNoRoom);
   else if (length != bytes_.npos)
     answer("501 Not Implemented", kNoWebServer);
   read();
@@ -80,7 +84,7 @@ bool Arrival::isTaken() {
   const int descriptor = error ? -1 : socket_.release(error);
   if (error) return false;
   try {
-    isGone_ = config_.http(descriptor, bytes_);
+    isGone_ = config_.http({descriptor, bytes_, peer_, porter_.joinFor(peer_)});
   } catch (const std::exception& failure) {
     if (config_.log) config_.log(std::string("what takes web browsers failed: ") + failure.what());
   } catch (...) {
@@ -93,9 +97,9 @@ bool Arrival::isTaken() {
   return isGone_;
 }
 
-void Arrival::enter() {
+Newcomer Arrival::newcomer() {
   isGone_ = true;
-  porter_.enter(std::move(socket_), id_, started_, bytes_);
+  return {std::move(socket_), peer_, id_, started_};
 }
 
 void Arrival::answer(std::string_view status, std::string_view text) {
@@ -116,14 +120,15 @@ void Arrival::look(Timestamp now) {
     if (toSeconds(now - answered_) > kFarewell) close();
     return;
   }
-  if (toSeconds(now - started_) <= config_.limits.handshake) return;
+  const BoardLimits& limits = config_.limits;
+  if (toSeconds(now - started_) <= (isHttp_ ? limits.head : limits.handshake)) return;
   if (isHttp_) {
     answer("408 Request Timeout", "The head of the request did not come in time.\n");
     return;
   }
   isLate_ = true;
   boost::system::error_code ignored;
-  socket_.cancel(ignored);  // then receive() lets it in, and the session says why it ends
+  socket_.cancel(ignored);  // then receive() has it dismissed
 }
 
 void Arrival::close() {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "WorldKeeper.hpp"
+#include "Session.hpp"
 #include "ortung/server/MessageBoard.hpp"
 
 namespace ortung::server {
@@ -14,10 +14,12 @@ namespace ortung::server {
 class Porter {
  public:
   virtual ~Porter();
-  /// It speaks the protocol, or kept silent for as long as it may.
-  /// @param since when it was accepted, on the computer's clock @param bytes what it has said
-  virtual void enter(boost::asio::ip::tcp::socket socket, ClientId id, Timestamp since,
-                     std::string_view bytes) = 0;
+  /// It speaks the protocol. @param bytes what it has said
+  virtual void enter(Newcomer newcomer, std::string_view bytes) = 0;
+  /// It kept silent for as long as it may.
+  virtual void dismiss(Newcomer newcomer) = 0;
+  /// Makes a connection to the board for somebody of that computer, see HttpVisitor::join.
+  virtual std::function<int()> joinFor(const std::string& peer) = 0;
   /// It is gone; the arrival is not needed any more.
   virtual void leave(ClientId id) = 0;
 };
@@ -42,7 +44,7 @@ class Arrival : public std::enable_shared_from_this<Arrival> {
   void receive(const boost::system::error_code& error, std::size_t count);
   void receiveHead();
   bool isTaken();
-  void enter();
+  Newcomer newcomer();
   void answer(std::string_view status, std::string_view text);
 
   boost::asio::ip::tcp::socket socket_;

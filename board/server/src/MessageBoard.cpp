@@ -4,7 +4,7 @@
 #include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/address.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
@@ -14,20 +14,19 @@
 #include <system_error>
 #include <thread>
 
-#include "AddressKey.hpp"
-#include "Arrival.hpp"
 #include "BoardChecks.hpp"
+#include "Entrance.hpp"
 #include "Session.hpp"
 
 namespace ortung {
 namespace {
 
 namespace asio = boost::asio;
-using asio::ip::tcp;
-using server::Arrival;
+using server::Newcomer;
 using server::Session;
 
-constexpr int kBacklog = 128;
+// Those who are told why they may not come in, at a time; more are told nothing.
+constexpr std::size_t kMostRefused = 64;
 constexpr std::chrono::seconds kLongestFarewell{1};
 // Longest time spent on many clients before requests of others are handled.
 constexpr Timestamp kTimeOfTurn = 300;  // [us]
@@ -50,11 +49,17 @@ void checkAddress(const BoardConfig& config) {
 }  // namespace
 
 /// The board's parts: what accepts connections, and the host of the conversations.
-struct MessageBoard::Parts final : server::Host, server::Porter {
+struct MessageBoard::Parts final : server::Host {
   Parts(ServedWorld& world, const BoardConfig& boardConfig)
       : Host(world, boardConfig, keeper_),
         keeper_(world, boardConfig, [this] { onCycle(); }),
-        acceptor_(io_),
+        entrance_(io_, config,
+                  {[this](Newcomer newcomer, std::string_view bytes) {
+                     enter(std::move(newcomer), bytes);
+                   },
+                   [this](Newcomer newcomer) {
+                     refuse(std::move(newcomer), server::lateHello(config.limits));
+                   }}),
         timer_(io_) {}
   ~Parts() override = default;
 
@@ -131,7 +136,10 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
   void forget(server::ClientId client) override {
     // This happens later: the session that calls is still at work, and maybe a loop over all
     // sessions.
-    post([this, client] { sessions_.erase(client); });
+    post([this, client] {
+      sessions_.erase(client);
+      refused_.erase(client);
+    });
   }
 
   void countSubscribers(int change) override { subscribers_ += change; }
@@ -154,120 +162,75 @@ struct MessageBoard::Parts final : server::Host, server::Porter {
     }
   }
 
-  void listen() {
-    const tcp::endpoint endpoint(asio::ip::make_address(config.address), config.port);
-    try {
-      acceptor_.open(endpoint.protocol());
-      acceptor_.set_option(tcp::acceptor::reuse_address(true));
-      acceptor_.bind(endpoint);
-      acceptor_.listen(kBacklog);
-    } catch (const boost::system::system_error& error) {
-      throw std::runtime_error("can't listen on " + config.address + " port " +
-                               std::to_string(config.port) + ": " + error.code().message());
-    }
-    port_ = acceptor_.local_endpoint().port();
-    accept();
-    look();
-  }
-
-  void accept() {
-    acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
-      if (!acceptor_.is_open()) return;
-      if (!error) {
-        admit(std::move(socket));
-        accept();
-        return;
-      }
-      log("a client could not be accepted: " + error.message());
-      // Most likely there are too many open files: give other clients time to leave.
-      retry_.expires_after(std::chrono::milliseconds(100));
-      retry_.async_wait([this](const boost::system::error_code& cancelled) {
-        if (!cancelled && !isEnding_) accept();
-      });
-    });
-  }
-
-  void admit(tcp::socket socket) {
-    const server::ClientId id = ++lastClient_;
+  void enter(Newcomer newcomer, std::string_view bytes) {
     const BoardLimits& limits = config.limits;
-    const bool isFull = sessions_.size() + arrivals_.size() >= limits.sessions;
-    const std::string peer = server::addressKey(socket);
-    if (isFull || count(peer) >= limits.sessionsOfAddress) {
-      const auto session =
-          std::make_shared<Session>(std::move(socket), *this, id, server::wallTime());
-      sessions_[id] = session;
-      session->dismiss("ERR limit there are " +
-                       std::to_string(isFull ? limits.sessions : limits.sessionsOfAddress) +
-                       " clients " + (isFull ? "" : "from " + peer + " ") + "already");
+    const bool isFull = sessions_.size() >= limits.sessions;
+    if (isFull || count(newcomer.peer) >= limits.sessionsOfAddress) {
+      const std::string whose = isFull ? "" : "from " + newcomer.peer + " ";
+      refuse(std::move(newcomer),
+             "ERR limit there are " +
+                 std::to_string(isFull ? limits.sessions : limits.sessionsOfAddress) + " clients " +
+                 whose + "already");
       return;
     }
-    const auto arrival = std::make_shared<Arrival>(std::move(socket), *this, config, id);
-    arrivals_[id] = arrival;
-    arrival->start();
-  }
-
-  /// Returns how many connections come from a computer.
-  std::size_t count(const std::string& peer) const {
-    const auto isThere = [&](const auto& entry) { return entry.second->peer() == peer; };
-    return static_cast<std::size_t>(std::count_if(sessions_.begin(), sessions_.end(), isThere) +
-                                    std::count_if(arrivals_.begin(), arrivals_.end(), isThere));
-  }
-
-  void enter(tcp::socket socket, server::ClientId id, Timestamp since,
-             std::string_view bytes) override {
-    arrivals_.erase(id);
-    const auto session = std::make_shared<Session>(std::move(socket), *this, id, since);
+    const server::ClientId id = newcomer.id;
+    const auto session = std::make_shared<Session>(std::move(newcomer), *this);
     sessions_[id] = session;
     session->start(bytes);
   }
 
-  void leave(server::ClientId id) override {
-    post([this, id] { arrivals_.erase(id); });  // later: a loop over all may be under way
+  /// Tells somebody why it may not come in. It is no client, so it takes no client's place.
+  void refuse(Newcomer newcomer, const std::string& why) {
+    if (refused_.size() >= kMostRefused) return;
+    const server::ClientId id = newcomer.id;
+    const auto session = std::make_shared<Session>(std::move(newcomer), *this);
+    refused_[id] = session;
+    session->dismiss(why);
+  }
+
+  /// Returns how many clients come from a computer.
+  std::size_t count(const std::string& peer) const {
+    return static_cast<std::size_t>(
+        std::count_if(sessions_.begin(), sessions_.end(),
+                      [&](const auto& entry) { return entry.second->peer() == peer; }));
   }
 
   /// Checks the time limits of all connections, periodically.
   void look() {
     const BoardLimits& limits = config.limits;
-    const double shortest = std::max(
-        0.01, std::min({limits.handshake, limits.idle, limits.stall, limits.refusal, 1.0}));
+    const double shortest = std::max(0.01, std::min({limits.handshake, limits.head, limits.idle,
+                                                     limits.stall, limits.refusal, 1.0}));
     timer_.expires_after(std::chrono::microseconds(fromSeconds(shortest / 4.0)));
     timer_.async_wait([this](const boost::system::error_code& cancelled) {
       if (cancelled || isEnding_) return;
       const Timestamp now = server::wallTime();
-      for (const auto& [id, arrival] : arrivals_) arrival->look(now);
-      for (const auto& [id, session] : sessions_) session->look(now);
+      entrance_.look(now);
+      for (const auto* all : {&sessions_, &refused_})
+        for (const auto& [id, session] : *all) session->look(now);
       look();
     });
   }
 
-  void log(const std::string& text) const {
-    if (config.log) config.log(text);
-  }
-
   void shutDown(const std::string& why) {
     isEnding_ = true;  // a timer that has expired already can't be cancelled
-    boost::system::error_code ignored;
-    acceptor_.close(ignored);
+    entrance_.close();
     timer_.cancel();
-    retry_.cancel();
     turnTimer_.cancel();
-    for (const auto& [id, arrival] : arrivals_) arrival->close();
-    arrivals_.clear();
     for (const auto& [id, session] : sessions_) {
       session->dismiss("BYE " + why);
       session->close();
     }
+    for (const auto& [id, session] : refused_) session->close();
     sessions_.clear();
+    refused_.clear();
   }
 
   server::WorldKeeper keeper_;
   asio::io_context io_{1};
-  tcp::acceptor acceptor_;
+  server::Entrance entrance_;
   asio::steady_timer timer_;
-  asio::steady_timer retry_{io_};
-  std::map<server::ClientId, std::shared_ptr<Arrival>> arrivals_;
   std::map<server::ClientId, std::shared_ptr<Session>> sessions_;
-  server::ClientId lastClient_ = 0;
+  std::map<server::ClientId, std::shared_ptr<Session>> refused_;  ///< see refuse()
   std::uint16_t port_ = 0;
   bool isEnding_ = false;
   std::atomic<int> subscribers_{0};
@@ -285,7 +248,8 @@ MessageBoard::MessageBoard(ServedWorld& world, const BoardConfig& config) {
   checkAddress(config);
   server::checkBoard(config, world);
   parts_ = std::make_unique<Parts>(world, config);
-  parts_->listen();
+  parts_->port_ = parts_->entrance_.listen();
+  parts_->look();
 }
 
 MessageBoard::~MessageBoard() = default;

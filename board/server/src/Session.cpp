@@ -1,8 +1,7 @@
 #include "Session.hpp"
 
 #include <algorithm>
-
-#include "AddressKey.hpp"
+#include <boost/asio/ip/tcp.hpp>
 
 namespace ortung::server {
 namespace {
@@ -18,6 +17,11 @@ bool hasPassed(Timestamp since, Timestamp now, double seconds) {
 }
 
 }  // namespace
+
+std::string lateHello(const BoardLimits& limits) {
+  return "ERR hello it did not come within " + std::to_string(static_cast<int>(limits.handshake)) +
+         " s";
+}
 
 class Session::SocketOutlet final : public Outlet {
  public:
@@ -41,21 +45,21 @@ class Session::SocketOutlet final : public Outlet {
   Session& session_;
 };
 
-Session::Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id, Timestamp since)
-    : socket_(std::move(socket)),
-      peer_(addressKey(socket_)),
+Session::Session(Newcomer newcomer, Host& host)
+    : socket_(std::move(newcomer.socket)),
+      peer_(std::move(newcomer.peer)),
       host_(host),
       limits_(host.config.limits),
       conversation_(
-          std::make_shared<Conversation>(host, id, std::make_unique<SocketOutlet>(*this))),
-      started_(since),
+          std::make_shared<Conversation>(host, newcomer.id, std::make_unique<SocketOutlet>(*this))),
+      started_(newcomer.since),
       heard_(wallTime()),
       progressed_(heard_) {}
 
 void Session::start(std::string_view bytes) {
   boost::system::error_code ignored;
   socket_.non_blocking(true, ignored);
-  socket_.set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+  socket_.set_option(boost::asio::ip::tcp::no_delay(true), ignored);  // not of local ones
   socket_.set_option(boost::asio::socket_base::keep_alive(true), ignored);
   conversation_->receive(bytes);
   read();
@@ -171,7 +175,7 @@ void Session::finish() {
 void Session::listenToTheEnd() {
   finished_ = wallTime();
   boost::system::error_code ignored;
-  socket_.shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+  socket_.shutdown(boost::asio::socket_base::shutdown_send, ignored);
   read();
 }
 
@@ -197,8 +201,7 @@ void Session::look(Timestamp now) {
   }
   if (conversation_->isWaiting()) return;
   if (!conversation_->hasJoined() && hasPassed(started_, now, limits_.handshake)) {
-    dismiss("ERR hello it did not come within " +
-            std::to_string(static_cast<int>(limits_.handshake)) + " s");
+    dismiss(lateHello(limits_));
   } else if (hasPassed(heard_, now, limits_.idle) && !conversation_->isSubscribed()) {
     dismiss("ERR idle nothing came for " + std::to_string(static_cast<int>(limits_.idle)) + " s");
   }
@@ -209,7 +212,7 @@ void Session::close() {
   isClosed_ = true;
   conversation_->hangUp();
   boost::system::error_code ignored;
-  socket_.shutdown(boost::asio::ip::tcp::socket::shutdown_both, ignored);
+  socket_.shutdown(boost::asio::socket_base::shutdown_both, ignored);
   socket_.close(ignored);
   host_.forget(conversation_->id());
 }

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <boost/asio/buffer.hpp>
-#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/generic/stream_protocol.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,12 +11,23 @@
 
 namespace ortung::server {
 
-/// One client's TCP connection: carries the bytes of a conversation. Never waits.
+/// A connection that is to be a client's.
+struct Newcomer {
+  /// Of TCP, or a local one that was made for a visitor of another kind.
+  boost::asio::generic::stream_protocol::socket socket;
+  std::string peer;  ///< its computer, see addressKey()
+  ClientId id = 0;
+  Timestamp since = 0;  ///< when it came, on the computer's clock
+};
+
+/// What somebody is told who has not said HELLO in time.
+std::string lateHello(const BoardLimits& limits);
+
+/// One client's connection: carries the bytes of a conversation. Never waits.
 /// All calls come from the thread of the io_context.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  /// @param since when it was accepted, on the computer's clock
-  Session(boost::asio::ip::tcp::socket socket, Host& host, ClientId id, Timestamp since);
+  Session(Newcomer newcomer, Host& host);
 
   /// @param bytes what the client has said already
   void start(std::string_view bytes);
@@ -41,7 +52,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void finish();
   void listenToTheEnd();
 
-  boost::asio::ip::tcp::socket socket_;
+  boost::asio::generic::stream_protocol::socket socket_;
   const std::string peer_;
   Host& host_;
   const BoardLimits limits_;

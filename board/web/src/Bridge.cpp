@@ -12,14 +12,19 @@ namespace asio = boost::asio;
 namespace websocket = boost::beast::websocket;
 using Error = boost::beast::error_code;
 
+// Frames are sent in fragments of this size, so that progress is noticed [bytes]
+constexpr std::size_t kPiece = 64u << 10;
+
 }  // namespace
 
-Bridge::Bridge(boost::beast::tcp_stream stream, std::unique_ptr<WebSpeech> speech, std::string name,
-               const WebLimits& limits, std::function<void()> onEnd)
+Bridge::Bridge(boost::beast::tcp_stream stream, int board, std::unique_ptr<WebSpeech> speech,
+               Way way, const WebLimits& limits, std::function<void()> onEnd)
     : client_(std::move(stream)),
-      board_(client_.get_executor()),
+      board_(client_.get_executor(), asio::local::stream_protocol(), board),
+      patience_(client_.get_executor()),
+      patienceTime_(limits.patience),
       speech_(std::move(speech)),
-      name_(std::move(name)),
+      way_(std::move(way)),
       onEnd_(std::move(onEnd)) {
   using std::chrono::duration;
   using std::chrono::duration_cast;
@@ -32,28 +37,16 @@ Bridge::Bridge(boost::beast::tcp_stream stream, std::unique_ptr<WebSpeech> speec
   timeout.keep_alive_pings = true;
   client_.set_option(timeout);
   client_.set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
-    response.set(boost::beast::http::field::sec_websocket_protocol, name_);
+    response.set(boost::beast::http::field::sec_websocket_protocol, way_.name);
   }));
 }
 
 Bridge::~Bridge() = default;
 
-void Bridge::start(const Request& request, const asio::ip::tcp::endpoint& board) {
+void Bridge::start(const Request& request) {
   request_ = request;
   // The deadline that the request had; from now on the WebSocket has its own.
   boost::beast::get_lowest_layer(client_).expires_never();
-  board_.async_connect(board, [self = shared_from_this()](const Error& error) {
-    if (error || self->isOver_) {
-      self->end();
-      return;
-    }
-    Error ignored;
-    self->board_.set_option(asio::ip::tcp::no_delay(true), ignored);
-    self->accept();
-  });
-}
-
-void Bridge::accept() {
   client_.async_accept(request_, [self = shared_from_this()](const Error& error) {
     if (error || self->isOver_) {
       self->end();
@@ -69,7 +62,7 @@ void Bridge::say() {
   sayToBoard();
   sayToClient();
   const bool isClientServed = !isWritingClient_ && speech_->toClient.empty();
-  if (!isWritingBoard_ && speech_->toBoard.empty()) listenToClient();
+  if (isClientServed && !isWritingBoard_ && speech_->toBoard.empty()) listenToClient();
   if (isClientServed && !isBoardGone_ && !speech_->isOver) listenToBoard();
   if (!isClientServed || !(isBoardGone_ || speech_->isOver) || isClosing_) return;
   isClosing_ = true;
@@ -131,14 +124,35 @@ void Bridge::sayToClient() {
     shown_ = 0;
   }
   client_.binary(showing_.isBinary);
-  client_.async_write(asio::buffer(showing_.bytes),
-                      [self = shared_from_this()](const Error& error, std::size_t) {
-                        self->isWritingClient_ = false;
-                        if (error)
-                          self->end();
-                        else
-                          self->say();
-                      });
+  said_ = 0;
+  sayPiece();
+}
+
+void Bridge::sayPiece() {
+  const std::string_view piece = std::string_view(showing_.bytes).substr(said_, kPiece);
+  said_ += piece.size();
+  const bool isLast = said_ == showing_.bytes.size();
+  patience_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(patienceTime_)));
+  patience_.async_wait([weak = weak_from_this()](const Error& cancelled) {
+    const auto self = weak.lock();
+    if (cancelled || !self || !self->isWritingClient_) return;
+    // It may have expired in the moment in which the next piece began.
+    if (self->patience_.expiry() <= std::chrono::steady_clock::now()) self->end();
+  });
+  client_.async_write_some(isLast, asio::buffer(piece.data(), piece.size()),
+                           [self = shared_from_this(), isLast](const Error& error, std::size_t) {
+                             self->patience_.cancel();
+                             if (error || self->isOver_) {
+                               self->isWritingClient_ = false;
+                               self->end();
+                             } else if (isLast) {
+                               self->isWritingClient_ = false;
+                               self->say();
+                             } else {
+                               self->sayPiece();
+                             }
+                           });
 }
 
 void Bridge::close() { end(); }

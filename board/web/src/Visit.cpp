@@ -4,7 +4,6 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
-#include <chrono>
 #include <utility>
 
 namespace ortung::web {
@@ -13,67 +12,110 @@ namespace {
 namespace http = boost::beast::http;
 using Error = boost::beast::error_code;
 
+constexpr double kFarewell = 2.0;            // time for a browser to close after our answer [s]
+constexpr std::size_t kMostRequests = 100;   // of one connection
+constexpr std::size_t kDropped = 16u << 10;  // read and forgotten at a time [bytes]
+
 }  // namespace
 
-Visit::Visit(boost::asio::ip::tcp::socket socket, const std::string& head, const Host& host,
+Visit::Visit(boost::asio::ip::tcp::socket socket, const WebVisitor& visitor, const Host& host,
              std::function<void()> onEnd)
-    : stream_(std::move(socket)), host_(host), onEnd_(std::move(onEnd)) {
+    : stream_(std::move(socket)), visitor_(visitor), host_(host), onEnd_(std::move(onEnd)) {
+  const std::string& head = visitor_.head;
   const auto room = buffer_.prepare(head.size());
   std::copy(head.begin(), head.end(), static_cast<char*>(room.data()));
   buffer_.commit(head.size());
+}
+
+/// All that happens in this stage has so much time together.
+void Visit::enter(Stage stage, double seconds) {
+  stage_ = stage;
+  since_ = std::chrono::steady_clock::now();
+  stream_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(seconds)));
 }
 
 void Visit::read() {
   parser_.emplace();
   parser_->header_limit(static_cast<std::uint32_t>(host_.config.limits.head));
   parser_->body_limit(std::uint64_t{0});  // nothing is taken here
-  stream_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-      std::chrono::duration<double>(host_.config.limits.request)));
+  enter(requests_ == 0 ? Stage::kServed : Stage::kIdle, host_.config.limits.pause);
   http::async_read(
       stream_, buffer_, *parser_, [self = shared_from_this()](const Error& error, std::size_t) {
-        if (self->isOver_) return;
+        if (self->stage_ == Stage::kOver) return;
         if (!error)
           self->receive();
         else if (error == http::error::end_of_stream || error == boost::beast::error::timeout)
           self->close();
         else
-          self->write(refusal(Request(), http::status::bad_request,
-                              "This is no request that is understood here."));
+          self->write(
+              farewell(http::status::bad_request, "This is no request that is understood here."));
       });
 }
 
 void Visit::receive() {
   const Request request = parser_->release();
   if (!boost::beast::websocket::is_upgrade(request)) {
-    write(answer(request, host_.page, host_.config));
+    const bool isLast = ++requests_ == kMostRequests;
+    Response response = answer(request, host_.page, host_.config);
+    if (isLast) response.keep_alive(false);
+    write(std::move(response));
     return;
   }
   const Speaking speaking = speakingOf(request, host_.config);
   if (speaking.protocol == nullptr) {
     write(refusal(request, speaking.status, speaking.why));
-    return;
+  } else if (host_.speak(stream_, visitor_, request, speaking)) {
+    stage_ = Stage::kOver;
+    onEnd_();
+  } else {
+    refuse();
   }
-  host_.speak(std::move(stream_), request, speaking);
-  isOver_ = true;
-  onEnd_();
+}
+
+void Visit::refuse() {
+  write(farewell(http::status::service_unavailable,
+                 "There are too many visitors from your address, or altogether: try again."));
 }
 
 void Visit::write(Response response) {
   response_ = std::move(response);
+  enter(Stage::kServed, host_.config.limits.request);
   http::async_write(stream_, response_,
                     [self = shared_from_this()](const Error& error, std::size_t) {
-                      if (self->isOver_) return;
-                      if (error || self->response_.need_eof() || !self->response_.keep_alive())
+                      if (self->stage_ == Stage::kOver) return;
+                      if (error)
                         self->close();
+                      else if (self->response_.need_eof() || !self->response_.keep_alive())
+                        self->leave();
                       else
                         self->read();
                     });
 }
 
-void Visit::close() {
-  if (std::exchange(isOver_, true)) return;
+/// Reads and drops what still comes until the browser closes, too: closing earlier would make the
+/// kernel discard our answer.
+void Visit::leave() {
   Error ignored;
-  stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+  stream_.socket().shutdown(boost::asio::socket_base::shutdown_send, ignored);
+  enter(Stage::kLeaving, kFarewell);
+  drop();
+}
+
+void Visit::drop() {
+  buffer_.clear();
+  stream_.async_read_some(buffer_.prepare(kDropped),
+                          [self = shared_from_this()](const Error& error, std::size_t) {
+                            if (self->stage_ == Stage::kOver) return;
+                            if (error)
+                              self->close();
+                            else
+                              self->drop();
+                          });
+}
+
+void Visit::close() {
+  if (std::exchange(stage_, Stage::kOver) == Stage::kOver) return;
   stream_.close();
   onEnd_();
 }

@@ -23,8 +23,10 @@ struct BoardLimits {
   double rays = 1e6;           ///< rays that a robot's sensors cost [1/s], see Sensor::rays()
   double allRays = 2e7;        ///< rays that all robots' sensors cost together [1/s]
   double allRaysAtOnce = 2e6;  ///< rays for one reading of each sensor of all robots
-  std::size_t sessions = 256;  ///< clients connected at a time
-  std::size_t sessionsOfAddress = 128;  ///< clients connected from one computer
+  /// Clients connected at a time. Connections that have not shown yet what they speak are not
+  /// clients: there may be as many of them again, then the oldest goes when another one comes.
+  std::size_t sessions = 256;
+  std::size_t sessionsOfAddress = 128;  ///< the same of one computer
   std::size_t httpHead = 16u << 10;     ///< head of a web browser's request [bytes]
   std::size_t output = 1u << 20;        ///< unread output of a client [bytes]; more: it is dropped
   std::size_t readings = 16u << 20;     ///< unread readings too large for a line [bytes]
@@ -35,11 +37,12 @@ struct BoardLimits {
   std::size_t talk = 64u << 10;       ///< others' words waiting for a client [bytes]; more: lost
   std::size_t queries = 64;           ///< queries in one request for readings
   std::size_t errors = 100;           ///< a client's errors in a row; more: it is dropped
-  double handshake = 5.0;  ///< time from connecting to HELLO or to the end of HTTP's head [s]
-  double idle = 30.0;      ///< silence of a client that has not subscribed [s]
-  double refusal = 2.0;    ///< delay of the answer to a wrong token, and of greetings from the same
-                           ///< computer in the minute after it [s]
-  double stall = 10.0;     ///< time during which a client reads none of its output [s]
+  double handshake = 5.0;             ///< time from connecting to HELLO [s]
+  double head = 3.0;                  ///< time from connecting to the end of HTTP's head [s]
+  double idle = 30.0;                 ///< silence of a client that has not subscribed [s]
+  double refusal = 2.0;  ///< delay of the answer to a wrong token, and of greetings from the same
+                         ///< computer in the minute after it [s]
+  double stall = 10.0;   ///< time during which a client reads none of its output [s]
 };
 
 /// How time passes.
@@ -55,14 +58,24 @@ struct BoardToken {
   std::string token;
 };
 
-/// Gets connections to the board's port that speak HTTP instead of the protocol.
-/// @param socket connected and non-blocking; nothing is read from it any more
-/// @param head all that was read: the request's head with the empty line that ends it, at most
-///   BoardLimits::httpHead bytes, and whatever has come behind it
+/// A connection to the board's port that speaks HTTP instead of the protocol.
+struct HttpVisitor {
+  int socket = -1;  ///< connected and non-blocking; nothing is read from it any more
+  /// All that was read: the request's head with the empty line that ends it, at most
+  /// BoardLimits::httpHead bytes, and whatever has come behind it.
+  std::string head;
+  std::string peer;  ///< its computer: the address, of IPv6 the network
+  /// Makes a connection to the board for it, whose limits hold for it as if it had come from the
+  /// visitor's computer by itself. @returns a connected, non-blocking socket that speaks the
+  /// protocol, or -1 if there is no board any more, or no socket. Thread-safe, at any time.
+  std::function<int()> join;
+};
+
+/// Gets connections to the board's port that speak HTTP.
 /// @returns whether it has taken the connection: then it closes the socket when it is done;
-///   otherwise the board answers that it is no web server, and closes it
+///   otherwise the board answers that there is no room, and closes it
 /// Called on the thread that talks to clients, so it must not wait; it may throw: not taken.
-using HttpTaker = std::function<bool(int socket, const std::string& head)>;
+using HttpTaker = std::function<bool(const HttpVisitor& visitor)>;
 
 /// How a board listens, whom it lets in, and how its world's time passes.
 struct BoardConfig {

@@ -18,9 +18,16 @@ struct WebLimits {
   std::size_t head = 16u << 10;      ///< head of a request [bytes]
   std::size_t message = 128u << 10;  ///< a client's message over a WebSocket [bytes]
   std::size_t page = 16u << 20;      ///< all files of the page together [bytes]
-  std::size_t connections = 256;     ///< connections at a time
-  double request = 15.0;             ///< time to receive a request, or to have its answer read [s]
-  double silence = 60.0;  ///< silence of a WebSocket that does not answer a ping either [s]
+  /// Connections at a time that ask for files. One more takes the place of one that has asked for
+  /// nothing since its last answer; if there is none, it is told to try again (503).
+  std::size_t connections = 256;
+  std::size_t connectionsOfAddress = 128;  ///< the same of one computer
+  std::size_t sockets = 256;               ///< WebSockets at a time; one more is told so (503)
+  std::size_t socketsOfAddress = 128;      ///< the same of one computer
+  double request = 15.0;   ///< time to have an answer read, or to agree on a WebSocket [s]
+  double pause = 5.0;      ///< time from an answer to the end of the next request [s]
+  double patience = 10.0;  ///< time in which a WebSocket reads nothing of what is sent to it [s]
+  double silence = 60.0;   ///< silence of a WebSocket that does not answer a ping either [s]
 };
 
 struct WebConfig {
@@ -33,19 +40,30 @@ struct WebConfig {
   std::function<void(const std::string&)> log;
 };
 
+/// A connection that speaks HTTP.
+struct WebVisitor {
+  int socket = -1;   ///< connected and non-blocking
+  std::string head;  ///< all that was read of it: a request's head, and whatever came behind it
+  std::string peer;  ///< its computer; its connections are counted together
+  /// Makes a connection to the board for it, as a client of its own computer. @returns a connected,
+  /// non-blocking local socket (AF_UNIX), or -1 if there is none to be had; thread-safe, at any
+  /// time
+  std::function<int()> join;
+};
+
 /// Lets web browsers in that come to the message board's port: gives them the files of a page, and
 /// joins each WebSocket to a connection of its own to the board, whose limits, roles and tokens
-/// hold for it as for any client.
+/// hold for it as for any client of the computer that it comes from.
 ///
 /// A foreign page can't use it: requests must name this computer by an address, as
 /// localhost or by a name of WebConfig::hosts (else DNS could be made to lead a strange page here),
 /// and a WebSocket's Origin must be the page's own or one of WebConfig::origins.
 ///
 ///     WebDoor door(webConfig);
-///     boardConfig.http = [&](int socket, const std::string& head) { return door.take(socket,
-///     head); };
+///     boardConfig.http = [&](const HttpVisitor& visitor) {
+///       return door.take({visitor.socket, visitor.head, visitor.peer, visitor.join});
+///     };
 ///     MessageBoard board(world, boardConfig);
-///     door.open("127.0.0.1", board.port());
 class ORTUNG_API WebDoor {
  public:
   /// Reads the page's files and starts a thread.
@@ -58,10 +76,9 @@ class ORTUNG_API WebDoor {
 
   /// Whether there is a page.
   bool hasPage() const;
-  /// Where the board listens; until then WebSockets are refused. Thread-safe.
-  void open(const std::string& address, std::uint16_t port);
-  /// A connection that speaks HTTP, see HttpTaker. Thread-safe.
-  bool take(int socket, const std::string& head);
+  /// Takes a connection, and closes its socket when that is done. Thread-safe.
+  /// @returns false if too many wait to be looked at: then the socket is still the caller's
+  bool take(const WebVisitor& visitor);
   /// Connections at present. Thread-safe.
   std::size_t connections() const;
 
