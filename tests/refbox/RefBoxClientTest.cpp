@@ -167,6 +167,35 @@ TEST_F(RefBoxClientTest, ComplaintsHaveAnEnd) {
   EXPECT_NE(told.back().find("further nonsense"), std::string::npos);
 }
 
+TEST_F(RefBoxClientTest, AFloodOfCommandsIsTakenAsSlowlyAsARefereeGivesThem) {
+  begin();
+  ASSERT_TRUE(connects());
+  for (int i = 0; i < 200; ++i) box.command(i % 2 == 0 ? "START" : "STOP");
+  ASSERT_TRUE(until([&] { return allTold().find("too fast") != std::string::npos; })) << allTold();
+  EXPECT_EQ(orders.size(), 100U);
+  for (int i = 0; i < 20; ++i) client->poll(now);
+  EXPECT_EQ(orders.size(), 100U) << "its clock stands still";
+  now += 5.0;
+  ASSERT_TRUE(until([&] { return orders.size() == 110; }));
+  now += 1000.0;  // as many as at first
+  ASSERT_TRUE(until([&] { return orders.size() == 200; })) << "none is lost";
+  EXPECT_EQ(orders.back(), "stop");
+  EXPECT_EQ(told.size(), 2U) << allTold();
+}
+
+TEST_F(RefBoxClientTest, ABoxThatComesAndGoesIsNotToldForEver) {
+  begin();
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(connects()) << i;
+    box.hangUp();
+    ASSERT_TRUE(until([&] { return !client->isConnected(); })) << i;
+    now += 1.0;
+  }
+  EXPECT_LT(told.size(), 75U) << "60 lines, and one in 10 s";
+  EXPECT_GT(told.size(), 60U);
+  EXPECT_NE(told.back().find("lines before were not told"), std::string::npos) << told.back();
+}
+
 TEST_F(RefBoxClientTest, AnOrderThatTheRefereeRefusesIsTold) {
   refused = "start";
   begin();

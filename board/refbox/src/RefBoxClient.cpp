@@ -6,9 +6,12 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
+#include "Budget.hpp"
 #include "Messages.hpp"
 #include "ortung/refbox/BoxCommand.hpp"
 
@@ -18,8 +21,15 @@ namespace {
 using boost::asio::ip::tcp;
 using Error = boost::system::error_code;
 
-constexpr int kMostEvents = 64;        ///< events per poll(), so that no box holds up the caller
-constexpr int kMostComplaints = 20;    ///< complaints reported per connection
+constexpr int kMostEvents = 64;      ///< events per poll(), so that no box holds up the caller
+constexpr int kMostMessages = 32;    ///< messages per poll()
+constexpr int kMostComplaints = 20;  ///< complaints reported per connection
+// A referee's hand is slower; what comes faster waits in the network.
+constexpr double kOrdersAtOnce = 100.0;
+constexpr double kOrders = 2.0;  ///< [1/s]
+// What a person is told, over all connections: a box may come and go for as long as it likes.
+constexpr double kLinesAtOnce = 60.0;
+constexpr double kLines = 0.1;         ///< [1/s]
 constexpr std::size_t kBuffer = 4096;  ///< [bytes]
 
 void need(bool holds, const std::string& what) {
@@ -61,6 +71,12 @@ struct RefBoxClient::Impl {
   std::string complaint;  ///< last one of connecting, which is not repeated
   int complaints = 0;
   Messages messages{0};
+  std::deque<std::string> waiting;  ///< messages that were not taken yet
+  Budget orders{kOrdersAtOnce, kOrders};
+  Budget lines{kLinesAtOnce, kLines};
+  std::size_t unsaid = 0;   ///< lines that were not told since the last one
+  bool isWaitTold = false;  ///< that this connection sends orders too fast
+  bool isReading = false;
   BoxTeams teams;
   bool isWelcome = false;
   std::array<char, kBuffer> buffer{};
@@ -96,9 +112,11 @@ struct RefBoxClient::Impl {
     complaint.clear();
     complaints = 0;
     messages.reset();
+    waiting.clear();
+    isWaitTold = false;
     isWelcome = false;
     teams = {config.ownTeam, config.otherTeam, config.address};
-    tell("connected to the RefBox " + server());
+    say("connected to the RefBox " + server());
     read();
   }
 
@@ -109,31 +127,46 @@ struct RefBoxClient::Impl {
     if (socket) socket->close(ignored);
     state = State::kIdle;
     next = now + config.retry;
-    if (why != complaint) tell("the RefBox " + server() + " " + why);
+    if (why != complaint) say("the RefBox " + server() + " " + why);
     complaint = why;
   }
 
+  /// Only while nothing waits, so what the box sends too fast stays with it.
   void read() {
+    isReading = true;
     socket->async_read_some(
         boost::asio::buffer(buffer),
         [this, id = connection, own = socket](const Error& error, std::size_t count) {
           if (id != connection) return;
+          isReading = false;
           if (error) return lose("is gone: " + error.message());
           receive({buffer.data(), count});
-          read();
+          if (waiting.empty()) read();
         });
   }
 
   void receive(std::string_view bytes) {
     messages.receive(
-        bytes, [this](std::string_view message) { take(message); },
+        bytes, [this](std::string_view message) { waiting.emplace_back(message); },
         [this] {
           complain("a message is longer than " + std::to_string(config.longestMessage) +
                    " bytes, it is passed over");
         });
   }
 
-  void take(std::string_view message) {
+  /// Takes what waits, as far as that may be done now.
+  void takeOn() {
+    const auto id = connection;
+    for (int i = 0; i < kMostMessages && !waiting.empty(); ++i) {
+      if (!take(waiting.front())) return;
+      if (id != connection) return;
+      waiting.pop_front();
+    }
+    if (waiting.empty() && !isReading && state == State::kConnected) read();
+  }
+
+  /// @returns whether it was taken; otherwise it has to wait
+  bool take(std::string_view message) {
     std::string why;
     const auto command = readBoxCommand(message, why);
     if (!command) return complain("a message makes no sense: " + why);
@@ -145,19 +178,37 @@ struct RefBoxClient::Impl {
       return complain("it does not know this team's address");
     const auto text = orderOf(*command, teams, why);
     if (!text) return complain(why);
-    if (text->empty()) return;
+    if (text->empty()) return true;
+    if (!orders.take(now)) {
+      if (!std::exchange(isWaitTold, true))
+        complain("its commands come too fast, they are taken as slowly as a referee gives them");
+      return false;
+    }
     try {
       order(*text);
     } catch (const std::invalid_argument& error) {
       complain(error.what());
     }
+    return true;
   }
 
-  void complain(const std::string& what) {
-    if (++complaints > kMostComplaints) return;
-    tell("the RefBox " + server() + ": " + what);
+  /// @returns that the message is done with
+  bool complain(const std::string& what) {
+    if (++complaints > kMostComplaints) return true;
+    say("the RefBox " + server() + ": " + what);
     if (complaints == kMostComplaints)
-      tell("the RefBox " + server() + ": further nonsense of this connection is not told");
+      say("the RefBox " + server() + ": further nonsense of this connection is not told");
+    return true;
+  }
+
+  void say(const std::string& line) {
+    if (!lines.take(now)) {
+      ++unsaid;
+      return;
+    }
+    const std::size_t missing = std::exchange(unsaid, 0);
+    tell(missing == 0 ? line
+                      : line + " (" + std::to_string(missing) + " lines before were not told)");
   }
 
   void tellState() {
@@ -201,6 +252,7 @@ void RefBoxClient::poll(double now) {
   i.io.restart();
   for (int event = 0; event < kMostEvents && i.io.poll_one() != 0; ++event) {
   }
+  if (i.state == Impl::State::kConnected) i.takeOn();
 }
 
 bool RefBoxClient::isConnected() const { return impl_->state == Impl::State::kConnected; }
