@@ -10,7 +10,13 @@ namespace ortung::test {
 /// after a minute, so that a broken server fails a test instead of hanging it.
 class TestClient {
  public:
-  explicit TestClient(std::uint16_t port);
+  /// @param from address of the client, in 127.0.0.0/8
+  explicit TestClient(std::uint16_t port, const std::string& from = "127.0.0.1");
+  /// Of a socket that is connected already; it is closed.
+  struct Connected {
+    int socket;
+  };
+  explicit TestClient(Connected connected);
   ~TestClient();
   TestClient(const TestClient&) = delete;
   TestClient& operator=(const TestClient&) = delete;
