@@ -218,6 +218,25 @@ TEST_F(FoxgloveSessionTest, ARobotThatLeavesTakesItsChannelsWithIt) {
   EXPECT_GE(gone[0]["channelIds"].size(), count - 1);  // the map stays
 }
 
+TEST_F(FoxgloveSessionTest, AMessageFullOfFaultsIsAnsweredInFewWords) {
+  meet();
+  saidToClient();
+  std::string subscriptions = "{}";
+  for (int i = 0; i < 40'000; ++i) subscriptions += ",{}";
+  for (const char* before : {"{\"op\":\"subscribe\",\"subscriptions\":[",
+                             "{\"op\":\"unsubscribe\",\"subscriptionIds\":["}) {
+    const bool isAsking = std::string(before).find("unsub") == std::string::npos;
+    std::string list = subscriptions;
+    if (!isAsking) std::replace_if(list.begin(), list.end(), [](char c) { return c != ','; }, '7');
+    session_.fromClient(before + list + "]}", false);
+    const auto told = texts("status");
+    ASSERT_EQ(told.size(), 9u);
+    EXPECT_EQ(told.back()["message"], "the same message has 39993 more such faults");
+  }
+  session_.fromClient("nonsense", false);
+  EXPECT_EQ(texts("status").size(), 1u) << "the next message is a new one";
+}
+
 TEST_F(FoxgloveSessionTest, PlaysPausesAndSeeksInARecordAlone) {
   const std::string play =
       "\x03\x00\x00\x00\x00\x40\x01\x00\x94\x35\x77\x00\x00\x00\x00\x02\x00\x00\x00id"s;

@@ -1,17 +1,23 @@
 // A message board with a door for browsers, as they see it: Boost.Beast's client.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "CountingWorld.hpp"
 #include "Files.hpp"
 #include "RunningBoard.hpp"
+#include "TestClient.hpp"
 #include "ortung/web/WebDoor.hpp"
 
 namespace ortung {
@@ -41,6 +47,35 @@ class WebDoorTest : public testing::Test {
   }
   tcp::endpoint endpoint() const { return {asio::ip::make_address("127.0.0.1"), board_->port()}; }
 
+  /// Connects from an address of this computer.
+  void connect(tcp::socket& socket, const std::string& from = "127.0.0.1") const {
+    socket.open(tcp::v4());
+    socket.bind({asio::ip::make_address(from), 0});
+    socket.connect(endpoint());
+  }
+  std::string requestOf(const std::string& target) const {
+    return "GET " + target + " HTTP/1.1\r\nHost: " + host_ + "\r\n\r\n";
+  }
+  /// All that comes until the end of the connection.
+  static std::string restOf(tcp::socket& socket) {
+    std::string all;
+    beast::error_code error;
+    asio::read(socket, asio::dynamic_buffer(all), error);
+    return all;
+  }
+  /// Asks for a file on a connection that stays open. @returns the status
+  unsigned ask(tcp::socket& socket, const std::string& target = "/") const {
+    asio::write(socket, asio::buffer(requestOf(target)));
+    beast::flat_buffer buffer;
+    http::response<http::string_body> response;
+    http::read(socket, buffer, response);
+    return response.result_int();
+  }
+  /// A file that no buffers of sockets can hold.
+  void makeLargeFile() const {
+    std::ofstream(folder_.path() / "large") << std::string(15u << 20, 'x');
+  }
+
   http::response<http::string_body> get(const std::string& target, const std::string& host = "",
                                         http::verb verb = http::verb::get) {
     tcp::socket socket(io_);
@@ -56,8 +91,9 @@ class WebDoorTest : public testing::Test {
   }
 
   using WebSocket = websocket::stream<tcp::socket>;
-  void speak(WebSocket& client, const std::string& origin = "") {
-    client.next_layer().connect(endpoint());
+  void speak(WebSocket& client, const std::string& origin = "",
+             const std::string& from = "127.0.0.1") {
+    connect(client.next_layer(), from);
     client.set_option(websocket::stream_base::decorator([=](websocket::request_type& request) {
       request.set(http::field::sec_websocket_protocol, "ortung.board.1");
       if (!origin.empty()) request.set(http::field::origin, origin);
@@ -222,6 +258,166 @@ TEST_F(WebDoorTest, ViewersThatNeverReadCostNoMemoryAndOthersGoOn) {
   say(driver, "STATUS\n");
   EXPECT_NE(lineWith(driver, "STATUS").find("state=running"), std::string::npos);
   EXPECT_EQ(door_->connections(), 21u);
+}
+
+TEST_F(WebDoorTest, ARequestThatIsNotUnderstoodIsAnsweredOnceAndTheLast) {
+  start();
+  const std::string host = "Host: " + host_ + "\r\n";
+  for (const std::string& request :
+       {"POST / HTTP/1.1\r\n" + host + "Content-Length: 3\r\nContent-Length: 4\r\n\r\nabcd",
+        "POST / HTTP/1.1\r\n" + host + "Content-Length: 4\r\n\r\nabcd",
+        "POST / HTTP/1.1\r\n" + host + "Content-Length: 4\r\nTransfer-Encoding: chunked\r\n\r\n",
+        "GET / HTTP/1.1\nHost: " + host_ + "\n\n", std::string("GET /\r\n\r\n"),
+        "GET / HTTP/1.1\r\n" + host + "nonsense\r\n\r\n" + requestOf("/")}) {
+    SCOPED_TRACE(request);
+    tcp::socket socket(io_);
+    connect(socket);
+    asio::write(socket, asio::buffer(request));
+    const std::string answer = restOf(socket);
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 400 Bad Request\r\n")) << answer;
+    EXPECT_NE(answer.find("\r\nConnection: close\r\n"), std::string::npos) << answer;
+    EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << answer;
+  }
+}
+
+TEST_F(WebDoorTest, AHeadRequestGetsNoBodyEvenIfItIsRefused) {
+  start();
+  tcp::socket socket(io_);
+  connect(socket);
+  const std::string head = "HEAD /none HTTP/1.1\r\nHost: " + host_ + "\r\n";
+  asio::write(socket, asio::buffer(head + "\r\n" + head + "Connection: close\r\n\r\n"));
+  const std::string answers = restOf(socket);
+  EXPECT_EQ(answers.find("There is no such file"), std::string::npos) << answers;
+  EXPECT_NE(answers.find("HTTP/1.1 404", 1), std::string::npos) << answers;
+}
+
+TEST_F(WebDoorTest, AConnectionEndsAfterAHundredRequests) {
+  start();
+  tcp::socket socket(io_);
+  connect(socket);
+  std::string requests;
+  for (int i = 0; i < 105; ++i) requests += requestOf("/");
+  asio::write(socket, asio::buffer(requests));
+  const std::string answers = restOf(socket);
+  std::size_t number = 0;
+  for (std::size_t at = answers.find("HTTP/1.1 200"); at != answers.npos;
+       at = answers.find("HTTP/1.1 200", at + 1))
+    ++number;
+  EXPECT_EQ(number, 100u);
+}
+
+TEST_F(WebDoorTest, WhoHasAskedForNothingMoreMakesRoomForOthers) {
+  webConfig_.limits.connections = 4;
+  webConfig_.limits.connectionsOfAddress = 2;
+  webConfig_.limits.pause = 60.0;
+  start();
+  std::vector<std::unique_ptr<tcp::socket>> kept;
+  for (int i = 0; i < 3; ++i)
+    for (const char* from : {"127.0.0.2", "127.0.0.3", "127.0.0.4"}) {
+      kept.push_back(std::make_unique<tcp::socket>(io_));
+      connect(*kept.back(), from);
+      EXPECT_EQ(ask(*kept.back()), 200u);
+    }
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(get("/").body(), "the page");
+}
+
+TEST_F(WebDoorTest, WhoFindsNoRoomIsToldAndOthersAreNot) {
+  makeLargeFile();
+  webConfig_.limits.connectionsOfAddress = 2;
+  start();
+  std::vector<std::unique_ptr<tcp::socket>> busy;
+  for (int i = 0; i < 2; ++i) {
+    busy.push_back(std::make_unique<tcp::socket>(io_));
+    connect(*busy.back(), "127.0.0.2");
+    asio::write(*busy.back(), asio::buffer(requestOf("/large")));
+    char first = '\0';
+    asio::read(*busy.back(), asio::buffer(&first, 1));  // it is being answered
+  }
+  tcp::socket third(io_);
+  connect(third, "127.0.0.2");
+  asio::write(third, asio::buffer(requestOf("/")));
+  const std::string answer = restOf(third);
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 503 Service Unavailable\r\n")) << answer;
+  EXPECT_EQ(get("/").body(), "the page");
+}
+
+TEST_F(WebDoorTest, WebSocketsOfOneComputerTakeNobodyElsesPlace) {
+  webConfig_.limits.socketsOfAddress = 3;
+  boardConfig_.limits.sessionsOfAddress = 2;
+  start();
+  std::vector<std::unique_ptr<WebSocket>> many;
+  for (int i = 0; i < 3; ++i) {
+    many.push_back(std::make_unique<WebSocket>(io_));
+    speak(*many.back(), "", "127.0.0.2");
+    say(*many.back(), "HELLO ortung/1\n");
+    heard_.clear();
+    EXPECT_EQ(lineWith(*many.back(), " "),
+              i < 2 ? "OK HELLO ortung/1 client=" + std::to_string(2 * i + 2) +
+                          " role=operator kind=simulation world=counting now=0 state=waiting"
+                    : "* ERR limit there are 2 clients from 127.0.0.2 already");
+  }
+  heard_.clear();
+  EXPECT_EQ(statusOf("", "ortung.board.1", "/board"), 101u);
+  EXPECT_TRUE(test::TestClient(board_->port()).ask("HELLO ortung/1").starts_with("OK HELLO"));
+}
+
+TEST_F(WebDoorTest, OneWebSocketTooManyIsTold) {
+  webConfig_.limits.socketsOfAddress = 1;
+  start();
+  WebSocket client(io_);
+  speak(client);
+  EXPECT_EQ(statusOf("", "ortung.board.1", "/board"), 503u);
+}
+
+/// Answers each message with more than there is room for in any socket.
+class Talker final : public WebSpeech {
+ public:
+  explicit Talker(std::atomic<int>& heard) : heard_(heard) {}
+  ~Talker() override = default;
+  void fromClient(std::string_view, bool) override {
+    ++heard_;
+    toClient.push_back({std::string(15u << 20, 'x'), true});
+  }
+  void fromBoard(std::string_view) override {}
+
+ private:
+  std::atomic<int>& heard_;
+};
+
+TEST_F(WebDoorTest, WhoDoesNotReadItsAnswersIsNotHeardAndThenGone) {
+  std::atomic<int> heard{0};
+  webConfig_.protocols = {{{"ortung.board.1"}, "/board", [&](std::string_view) {
+                             return std::make_unique<Talker>(heard);
+                           }}};
+  webConfig_.limits.patience = 0.1;
+  start();
+  WebSocket client(io_);
+  speak(client);
+  beast::error_code error;
+  for (int i = 0; i < 10; ++i) client.write(asio::buffer("again", 5), error);
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (door_->connections() > 0 && std::chrono::steady_clock::now() < latest)
+    std::this_thread::yield();
+  EXPECT_EQ(door_->connections(), 0u) << "it reads nothing";
+  EXPECT_EQ(heard, 1);
+}
+
+TEST_F(WebDoorTest, ALongMessageThatIsReadInPiecesArrivesWhole) {
+  std::atomic<int> heard{0};
+  webConfig_.protocols = {{{"ortung.board.1"}, "/board", [&](std::string_view) {
+                             return std::make_unique<Talker>(heard);
+                           }}};
+  start();
+  WebSocket client(io_);
+  client.read_message_max(32u << 20);
+  speak(client);
+  for (int i = 1; i <= 2; ++i) {
+    say(client, "more");
+    beast::flat_buffer buffer;
+    client.read(buffer);
+    EXPECT_EQ(buffer.size(), 15u << 20);
+    EXPECT_EQ(heard, i);
+  }
 }
 
 TEST_F(WebDoorTest, EndsWithItsConnections) {
