@@ -1,7 +1,9 @@
 #include "Serving.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
@@ -34,6 +36,16 @@ void readListen(const std::string& text, BoardConfig& config) {
                     text));
   if (hasAddress) config.address = found->host;
   config.port = *found->port;
+}
+
+/// Has the system allow as many open files as clients, their WebSockets (three files each) and
+/// connections that are none yet may take together: 1024 is what many systems allow at first.
+void allowFiles(std::size_t clients) {
+  const rlim_t needed = 1024 + 8 * clients;
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur >= needed) return;
+  files.rlim_cur = std::min(files.rlim_max, needed);
+  ::setrlimit(RLIMIT_NOFILE, &files);  // if not, who comes later waits until others leave
 }
 
 /// Ends the program if it runs for too long after a signal, e.g. because a cycle of the world
@@ -109,6 +121,7 @@ void serve(ServedWorld& world, const ServingArguments& arguments,
   config.limits.idle = arguments.idle;
   config.limits.sessions = arguments.clients;
   config.limits.sessionsOfAddress = arguments.clientsOfAddress;
+  allowFiles(arguments.clients);
   config.log = warn;
   config.commands = std::move(commands);
   std::optional<Viewing> viewing;
