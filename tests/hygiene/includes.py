@@ -26,7 +26,7 @@ FOREIGN = {
     r"nlohmann/": r"^(app|container/robot/src|board/refbox/src|play/benchmark/src|realsensors/foxglove/src)/",
     r"zstd\.h": r"^(container/records/src/Zstd|realsensors/ros2/src/Compression)\.cpp$",
     r"lz4frame\.h": r"^realsensors/ros2/src/Compression\.cpp$",
-    r"boost/(asio|beast)": r"^board/(server/src/(AddressKey\.|Arrival\.|Session\.|MessageBoard\.cpp)"
+    r"boost/(asio|beast|optional)": r"^board/(server/src/(AddressKey\.|Arrival\.|Entrance\.|Session\.|MessageBoard\.cpp)"
     r"|refbox/src/RefBoxClient\.cpp|web/src/)",
     r"boost/crc": r"^realsensors/(devices|ros2)/src/",
     r"boost/math/": r"^app/report/",
