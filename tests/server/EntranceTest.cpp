@@ -93,6 +93,26 @@ TEST(Entrance, WhoIsRefusedTakesNoClientsPlace) {
   EXPECT_TRUE(helloAtLast(board.port()).starts_with("OK HELLO"));
 }
 
+TEST(Entrance, WhoDoesNotSayHelloGivesItsPlaceToWhoDoes) {
+  CountingWorld world;
+  const RunningBoard board(world, fewPlaces(3, 2));
+  TestClient first(board.port());
+  EXPECT_TRUE(first.ask(kHello).starts_with("OK HELLO"));
+  Strangers talkers;
+  for (const char* from : {"127.0.0.1", kOther, kOther}) {
+    talkers.push_back(std::make_unique<TestClient>(board.port(), from));
+    EXPECT_TRUE(talkers.back()->ask("TIME").starts_with("ERR hello"));
+  }
+  EXPECT_EQ(talkers[0]->line(), "(closed)") << "the oldest, when there were three";
+  TestClient second(board.port());
+  EXPECT_TRUE(second.ask(kHello).starts_with("OK HELLO"));
+  TestClient third(board.port(), kOther);
+  EXPECT_TRUE(third.ask(kHello).starts_with("OK HELLO"));
+  EXPECT_TRUE(first.ask("STATUS").starts_with("OK STATUS"));
+  TestClient fourth(board.port(), kOther);
+  EXPECT_EQ(fourth.ask(kHello), "* ERR limit there are 3 clients already");
+}
+
 TEST(Entrance, WhoKeepsSilentIsToldAndTakesNoClientsPlace) {
   CountingWorld world;
   BoardConfig config = fewPlaces(1, 1);

@@ -44,11 +44,15 @@ void Arrival::receive(const boost::system::error_code& error, std::size_t count)
   if (!error && !isAnswered) bytes_.append(buffer_.data(), count);
   if (isLate_) {
     porter_.dismiss(newcomer());
-  } else if (error) {
+    return;
+  }
+  if (error) {
     close();
-  } else if (isAnswered) {
-    read();  // the data is dropped: closing while the peer still sends would discard our answer
-  } else if (const Speech speech = speechOf(bytes_); speech == Speech::kHttp) {
+    return;
+  }
+  // Behind an answer all is dropped: closing while the peer still sends would discard the answer.
+  const Speech speech = isAnswered ? Speech::kUnknown : speechOf(bytes_);
+  if (speech == Speech::kHttp) {
     isHttp_ = true;
     receiveHead();
   } else if (speech == Speech::kOther) {

@@ -39,7 +39,7 @@ Entrance::Entrance(asio::io_context& io, const BoardConfig& config, Ways ways)
   gate_->entrance = this;
 }
 
-Entrance::~Entrance() { close(); }
+Entrance::~Entrance() = default;
 
 std::uint16_t Entrance::listen() {
   const tcp::endpoint endpoint(asio::ip::make_address(config_.address), config_.port);

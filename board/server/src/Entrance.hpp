@@ -35,7 +35,7 @@ class Entrance final : public Porter {
   std::uint16_t listen();
   /// Ends those that take too long. @param now on the computer's clock
   void look(Timestamp now);
-  /// Nobody comes in any more.
+  /// Nobody comes in any more. Whoever has let the io_context run calls it before the end.
   void close();
 
   // Porter

@@ -164,8 +164,9 @@ struct MessageBoard::Parts final : server::Host {
 
   void enter(Newcomer newcomer, std::string_view bytes) {
     const BoardLimits& limits = config.limits;
+    const bool isCrowd = count(newcomer.peer) >= limits.sessionsOfAddress;
     const bool isFull = sessions_.size() >= limits.sessions;
-    if (isFull || count(newcomer.peer) >= limits.sessionsOfAddress) {
+    if ((isCrowd || isFull) && !displace(isCrowd ? newcomer.peer : "")) {
       const std::string whose = isFull ? "" : "from " + newcomer.peer + " ";
       refuse(std::move(newcomer),
              "ERR limit there are " +
@@ -177,6 +178,20 @@ struct MessageBoard::Parts final : server::Host {
     const auto session = std::make_shared<Session>(std::move(newcomer), *this);
     sessions_[id] = session;
     session->start(bytes);
+  }
+
+  /// Takes the place of the oldest of those that have not said HELLO, so that who says nothing of
+  /// use keeps nobody out. @param peer of which computer; "": any @returns whether there was one
+  bool displace(const std::string& peer) {
+    const auto found = std::find_if(sessions_.begin(), sessions_.end(), [&](const auto& entry) {
+      const Session& session = *entry.second;
+      return !session.hasJoined() && (peer.empty() || session.peer() == peer);
+    });
+    if (found == sessions_.end()) return false;
+    const std::shared_ptr<Session> session = found->second;
+    sessions_.erase(found);
+    session->close();
+    return true;
   }
 
   /// Tells somebody why it may not come in. It is no client, so it takes no client's place.

@@ -39,6 +39,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   Conversation& conversation() { return *conversation_; }
   const std::string& peer() const { return peer_; }
+  bool hasJoined() const { return conversation_->hasJoined(); }
 
  private:
   class SocketOutlet;

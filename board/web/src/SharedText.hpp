@@ -18,7 +18,7 @@ struct SharedText {
 
   static std::uint64_t size(const value_type& text) { return text ? text->size() : 0; }
 
-  class writer {
+  class writer {  // NOLINT(readability-identifier-naming): Beast's name
    public:
     using const_buffers_type = boost::asio::const_buffer;
 
