@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -43,6 +47,32 @@ TEST(Workers, AreWaitedForByWhoHasNothingMoreToDo) {
     });
     ASSERT_EQ(done, 2) << round;
   }
+}
+
+// A process that is forked has none of the threads: it makes some of its own, and waits for none.
+TEST(Workers, WorkInAProcessThatIsForked) {
+  std::vector<std::atomic<int>> done(100);
+  const auto work = [&](Workers& workers) {
+    for (auto& each : done) each = 0;
+    workers.run(done.size(), [&](std::size_t i) { ++done[i]; });
+    return std::all_of(done.begin(), done.end(), [](const auto& each) { return each == 1; });
+  };
+  auto workers = std::make_unique<Workers>(3);
+  auto unused = std::make_unique<Workers>(3);
+  EXPECT_TRUE(work(*workers));
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::alarm(60);  // ends it if it waits for ever
+    bool isRight = work(*workers) && work(*workers);
+    workers.reset();
+    unused.reset();
+    ::_exit(isRight ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_TRUE(work(*workers));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "ortung/base/Workers.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
@@ -18,7 +20,29 @@ struct Workers::Crew {
   const std::function<void(std::size_t)>* work = nullptr;
   std::size_t count = 0;
   std::atomic<std::size_t> next{0};
+  const pid_t process = ::getpid();  ///< the process that has the threads
   std::vector<std::jthread> threads;
+
+  explicit Crew(std::size_t others) {
+    try {
+      for (std::size_t i = 0; i < others; ++i) threads.emplace_back([this] { live(); });
+    } catch (...) {  // the system has no more threads; those that there are must end
+      endAll();
+      throw;
+    }
+  }
+  ~Crew() { endAll(); }
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  void endAll() {
+    {
+      const std::lock_guard lock(mutex);
+      isOver = true;
+    }
+    begin.notify_all();
+  }
+  bool isOfThisProcess() const { return threads.empty() || process == ::getpid(); }
 
   void workAll() {
     for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) (*work)(i);
@@ -39,19 +63,22 @@ struct Workers::Crew {
   }
 };
 
-Workers::Workers(unsigned threads) : crew_(std::make_unique<Crew>()) {
-  for (unsigned i = 1; i < threads; ++i) crew_->threads.emplace_back([this] { crew_->live(); });
-}
+// A process that was forked has this memory, but none of the threads: waiting for them, even to end
+// them, would take for ever. So it leaves them alone, and has threads of its own from its first
+// run() on.
+
+Workers::Workers(unsigned threads) : crew_(std::make_unique<Crew>(threads > 0 ? threads - 1 : 0)) {}
 
 Workers::~Workers() {
-  {
-    const std::lock_guard lock(crew_->mutex);
-    crew_->isOver = true;
-  }
-  crew_->begin.notify_all();
+  if (!crew_->isOfThisProcess()) static_cast<void>(crew_.release());
 }
 
 void Workers::run(std::size_t n, const std::function<void(std::size_t)>& work) {
+  if (!crew_->isOfThisProcess()) {
+    const std::size_t others = crew_->threads.size();
+    static_cast<void>(crew_.release());
+    crew_ = std::make_unique<Crew>(others);
+  }
   Crew& crew = *crew_;
   if (crew.threads.empty() || n < 2) {
     for (std::size_t i = 0; i < n; ++i) work(i);
