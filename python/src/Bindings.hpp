@@ -4,7 +4,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace ortung::python {
@@ -16,14 +17,7 @@ void bindContainer(py::module_& module);
 void bindRobots(py::module_& module);
 void bindLocalization(py::module_& module);
 
-/// The numbers themselves, not a copy. @param owner what they live in
-template <class T, class Element = T>
-py::array viewOf(std::span<const Element> numbers, std::vector<py::ssize_t> shape,
-                 const py::handle& owner) {
-  static_assert(sizeof(T) == sizeof(Element));
-  return py::array(py::dtype::of<T>(), std::move(shape), numbers.data(), owner);
-}
-/// The same, to be read only.
+/// A view that is to be read only.
 inline py::array readOnly(py::array array) {
   array.attr("flags").attr("writeable") = false;
   return array;
@@ -31,6 +25,33 @@ inline py::array readOnly(py::array array) {
 template <class T>
 py::array copyOf(const std::vector<T>& numbers) {
   return py::array(py::dtype::of<T>(), static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
+/// A table of numbers. @param row of an index, gives its columns
+template <class Row>
+py::array tableOf(py::ssize_t rows, py::ssize_t columns, const Row& row) {
+  py::array_t<double> all({rows, columns});
+  double* out = all.mutable_data();
+  for (py::ssize_t i = 0; i < rows; ++i)
+    for (const double value : row(i)) *out++ = value;
+  return all;
+}
+
+/// What Python prints of an object.
+inline std::string textOf(const py::handle& object) {
+  return py::cast<std::string>(py::str(object));
+}
+
+/// Real numbers of any type as an array of T; complex ones and flags would lose what they are.
+/// @param what names them in errors @throws py::type_error
+template <class T>
+py::array_t<T, py::array::c_style | py::array::forcecast> realNumbers(const py::handle& numbers,
+                                                                      const std::string& what) {
+  const auto array = py::module_::import("numpy").attr("asarray")(numbers);
+  const auto dtype = py::cast<py::array>(array).dtype();
+  if (std::string_view("fiu").find(dtype.kind()) == std::string_view::npos)
+    throw py::type_error(what + " are of " + textOf(dtype) + ", expected real numbers");
+  return array;
 }
 
 }  // namespace ortung::python

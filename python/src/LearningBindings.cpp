@@ -4,6 +4,7 @@
 #include <string>
 
 #include "Bindings.hpp"
+#include "Gate.hpp"
 #include "ortung/learning/Batch.hpp"
 
 namespace ortung::python {
@@ -60,10 +61,9 @@ py::dict describe(const EnvironmentInfo& info) {
   return all;
 }
 
-using Numbers = py::array_t<float, py::array::c_style | py::array::forcecast>;
-
 /// One action for each observation. @param observations (N, observation)
-py::array heuristicActions(const std::string& id, std::size_t agent, const Numbers& observations) {
+py::array heuristicActions(const std::string& id, std::size_t agent, const py::object& given) {
+  const auto observations = realNumbers<float>(given, id + ": observations");
   const EnvironmentInfo& info = learning::environment(id);
   if (agent >= info.agents.size())
     throw py::value_error(id + " has no agent " + std::to_string(agent));
@@ -79,7 +79,8 @@ py::array heuristicActions(const std::string& id, std::size_t agent, const Numbe
   return actions;
 }
 
-py::array blockingActions(const Numbers& observations) {
+py::array blockingActions(const py::object& given) {
+  const auto observations = realNumbers<float>(given, "observations");
   if (observations.ndim() != 2)
     throw py::value_error("observations must have the shape (N, observation)");
   py::array_t<float> actions({observations.shape(0), py::ssize_t{2}});
@@ -89,9 +90,20 @@ py::array blockingActions(const Numbers& observations) {
   return actions;
 }
 
-/// Holds what Python gave until the batch has read it.
-void step(Batch& batch, const Numbers& actions) {
+/// A batch, and Python's threads at it.
+struct SharedBatch {
+  std::unique_ptr<Batch> batch;
+  Gate gate{"this Batch"};
+
+  ~SharedBatch() {
+    if (gate.isBroken()) static_cast<void>(batch.release());
+  }
+};
+
+void step(SharedBatch& self, const py::object& given) {
+  Batch& batch = *self.batch;
   const EnvironmentInfo& info = batch.info();
+  const auto actions = realNumbers<float>(given, info.id + ": actions");
   const std::vector<py::ssize_t> expected = {static_cast<py::ssize_t>(batch.size()),
                                              static_cast<py::ssize_t>(info.agents.size()),
                                              static_cast<py::ssize_t>(info.actionSize())};
@@ -102,25 +114,25 @@ void step(Batch& batch, const Numbers& actions) {
     throw py::value_error(info.id + ": actions must have the shape (" +
                           std::to_string(expected[0]) + ", " + std::to_string(expected[1]) + ", " +
                           std::to_string(expected[2]) + ")");
-  const std::span<const float> numbers(actions.data(), static_cast<std::size_t>(actions.size()));
-  const py::gil_scoped_release others;
-  batch.step(numbers);
+  // A copy, which no other thread changes after it was checked.
+  const std::vector<float> numbers(actions.data(), actions.data() + actions.size());
+  alone(self.gate, [&] { batch.step(numbers); });
 }
 
 template <class T, class Get>
 auto array(const Get& get, bool hasAgents, std::size_t last) {
   return [=](const py::object& self) {
-    const auto& batch = py::cast<const Batch&>(self);
+    const Batch& batch = *py::cast<const SharedBatch&>(self).batch;
     std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(batch.size())};
     if (hasAgents) shape.push_back(static_cast<py::ssize_t>(batch.info().agents.size()));
     const std::size_t inner = last == 0 ? 0 : last == 1 ? batch.info().observation.size() : last;
     if (inner > 0) shape.push_back(static_cast<py::ssize_t>(inner));
     const auto numbers = (batch.*get)();
-    return py::array(py::dtype::of<T>(), shape, numbers.data(), self);
+    return readOnly(py::array(py::dtype::of<T>(), shape, numbers.data(), self));
   };
 }
 
-using PyBatch = py::class_<Batch>;
+using PyBatch = py::class_<SharedBatch>;
 
 /// Arrays that show what is in the batch, without copies.
 void bindArrays(PyBatch& batch) {
@@ -139,48 +151,51 @@ void bindArrays(PyBatch& batch) {
 void bindBatch(py::module_& module) {
   PyBatch bound(module, "Batch",
                 "N episodes of one environment, which one call steps on all threads. Arrays are "
-                "views of what the next call changes.");
+                "views of what the next call changes, to be read only. Threads take turns.");
   bound
       .def(py::init([](const std::string& id, const py::dict& options, std::size_t episodes,
                        unsigned threads, Autoreset autoreset, std::uint64_t seed) {
              const Options values = toOptions(id, options);
+             auto made = std::make_unique<SharedBatch>();
              const py::gil_scoped_release others;
-             return std::make_unique<Batch>(
+             made->batch = std::make_unique<Batch>(
                  id, values, learning::BatchConfig{episodes, threads, autoreset, seed});
+             return made;
            }),
            py::arg("id"), py::arg("options") = py::dict(), py::arg("episodes") = 1,
            py::arg("threads") = 1, py::arg("autoreset") = Autoreset::kNextStep, py::arg("seed") = 1)
       .def("step", &step, py::arg("actions"), "actions: (N, agents, action), float")
       .def(
           "reset",
-          [](Batch& batch, const std::optional<std::vector<std::uint64_t>>& seeds) {
-            const py::gil_scoped_release others;
-            if (seeds)
-              batch.reset(*seeds);
-            else
-              batch.reset();
+          [](SharedBatch& self, const std::optional<std::vector<std::uint64_t>>& seeds) {
+            alone(self.gate, [&] { seeds ? self.batch->reset(*seeds) : self.batch->reset(); });
           },
           py::arg("seeds") = py::none())
       .def(
           "reset_one",
-          [](Batch& batch, std::size_t episode, std::optional<std::uint64_t> seed) {
-            if (episode >= batch.size()) throw py::index_error("there is no such episode");
-            const py::gil_scoped_release others;
-            batch.reset(episode, seed);
+          [](SharedBatch& self, std::size_t episode, std::optional<std::uint64_t> seed) {
+            if (episode >= self.batch->size()) throw py::index_error("there is no such episode");
+            alone(self.gate, [&] { self.batch->reset(episode, seed); });
           },
           py::arg("episode"), py::arg("seed") = py::none())
       .def(
           "set_options",
-          [](Batch& batch, const py::dict& options, std::optional<std::size_t> episode) {
+          [](SharedBatch& self, const py::dict& options, std::optional<std::size_t> episode) {
+            Batch& batch = *self.batch;
+            if (episode && *episode >= batch.size())
+              throw py::index_error("there is no such episode");
             const Options values = toOptions(batch.info().id, options);
-            for (std::size_t i = 0; i < batch.size(); ++i)
-              if (!episode || *episode == i) batch.setOptions(i, values);
+            alone(self.gate, [&] {
+              for (std::size_t i = 0; i < batch.size(); ++i)
+                if (!episode || *episode == i) batch.setOptions(i, values);
+            });
           },
           py::arg("options"), py::arg("episode") = py::none(),
           "Of episodes that begin from now on.")
-      .def("__len__", &Batch::size)
-      .def_property_readonly("id", [](const Batch& batch) { return batch.info().id; })
-      .def_property_readonly("autoreset", &Batch::autoreset);
+      .def("__len__", [](const SharedBatch& self) { return self.batch->size(); })
+      .def_property_readonly("id", [](const SharedBatch& self) { return self.batch->info().id; })
+      .def_property_readonly("autoreset",
+                             [](const SharedBatch& self) { return self.batch->autoreset(); });
   bindArrays(bound);
 }
 }  // namespace

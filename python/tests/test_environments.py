@@ -1,4 +1,6 @@
+import multiprocessing
 import sys
+import threading
 import unittest
 
 try:
@@ -9,6 +11,7 @@ except ImportError:
 
 import ortung
 import rules
+from forks import in_child
 
 SINGLE = [one["id"] for one in ortung.environments() if len(one["agents"]) == 1]
 
@@ -79,6 +82,129 @@ class Views(unittest.TestCase):
         self.assertTrue(np.array_equal(play(1), play(3)))
 
 
+    def test_views_can_not_be_written(self):
+        batch = ortung.Batch("goalkeeper-v0", episodes=2)
+        for name in ("observations", "final_observations", "rewards", "terminated", "truncated",
+                     "endings", "seeds", "numbers", "states"):
+            with self.subTest(name):
+                view = getattr(batch, name)
+                with self.assertRaisesRegex(ValueError, "read-only"):
+                    view[0] = 1
+        env = ortung.make_vec("goalkeeper-v0", 2, copy=False)
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            env.reset(seed=1)[0][0] = 1
+
+
+class Threads(unittest.TestCase):
+    def test_they_take_turns_at_a_batch(self):
+        batch = ortung.Batch("goalkeeper-v0", episodes=16, threads=2)
+        actions = np.zeros((16, 1, 2), np.float32)
+        failures = []
+
+        def play(number):
+            try:
+                for i in range(30):
+                    batch.step(actions)
+                    if i % 10 == number:
+                        batch.reset_one(number, i)
+                        batch.set_options({"striker": "roll"}, number)
+                        batch.reset()
+            except BaseException as error:
+                failures.append(error)
+
+        threads = [threading.Thread(target=play, args=(i,)) for i in range(3)]
+        for one in threads:
+            one.start()
+        for one in threads:
+            one.join()
+        self.assertEqual(failures, [])
+
+    def test_they_leave_an_episode_as_one_thread_would(self):
+        actions = np.zeros((4, 1, 2), np.float32)
+        alone, shared = (ortung.Batch("goalkeeper-v0", episodes=4, threads=2, seed=3)
+                         for _ in range(2))
+        for _ in range(20):
+            alone.step(actions)
+        threads = [threading.Thread(target=lambda: [shared.step(actions) for _ in range(5)])
+                   for _ in range(4)]
+        for one in threads:
+            one.start()
+        for one in threads:
+            one.join()
+        self.assertTrue(np.array_equal(alone.observations, shared.observations))
+
+
+class Forks(unittest.TestCase):
+    def test_a_child_works_on_with_its_copy(self):
+        actions = np.zeros((8, 1, 2), np.float32)
+        batch = ortung.Batch("goalkeeper-v0", episodes=8, threads=3, seed=5)
+        batch.step(actions)
+
+        def play():
+            for _ in range(10):
+                batch.step(actions)
+            return batch.observations.sum()
+
+        self.assertEqual(in_child(play), str(play()))
+
+    def test_a_child_may_make_and_drop_batches(self):
+        batches = [ortung.Batch("localize-and-score-v0", episodes=2, threads=2, seed=5)]
+        actions = np.zeros((2, 1, 3), np.float32)
+
+        def play(mine):
+            for _ in range(3):
+                mine.step(actions)
+            return mine.observations.sum()
+
+        def work():
+            batches.clear()
+            return play(ortung.Batch("localize-and-score-v0", episodes=2, threads=2, seed=5))
+
+        expected = str(play(ortung.Batch("localize-and-score-v0", episodes=2, threads=2, seed=5)))
+        self.assertEqual(in_child(work), expected)
+
+    def test_a_batch_that_was_in_use_is_refused(self):
+        batch = ortung.Batch("localize-and-score-v0", episodes=4, threads=2)
+        actions = np.zeros((4, 1, 3), np.float32)
+        stop = threading.Event()
+
+        def play():
+            while not stop.is_set():
+                batch.step(actions)
+
+        def work():
+            batch.step(actions)
+            return "worked"
+
+        thread = threading.Thread(target=play)
+        thread.start()
+        try:
+            found = {in_child(work) for _ in range(20)}
+        finally:
+            stop.set()
+            thread.join()
+        refused = ("RuntimeError: this Batch was in use by another thread when this process was "
+                   "forked; make another one here")
+        self.assertLessEqual(found, {refused, "worked"})
+        self.assertIn(refused, found)
+
+    def test_multiprocessing(self):
+        context = multiprocessing.get_context("fork")
+        global _shared
+        _shared = ortung.make_vec("goalkeeper-v0", 4, threads=2)
+        _shared.reset(seed=1)
+        with context.Pool(2) as pool:
+            sums = pool.map_async(_steps, range(2)).get(timeout=60)
+        self.assertEqual(sums, [_steps(0)] * 2)
+
+
+_shared = None
+
+
+def _steps(_):
+    return float(_shared.step(np.zeros((4, 2), np.float32))[0].sum())
+
+
 class BadInput(unittest.TestCase):
     def fails(self, kind, words, call):
         with self.assertRaises(kind) as caught:
@@ -113,6 +239,13 @@ class BadInput(unittest.TestCase):
         self.fails(ValueError, "episode 2|keeper|forward", lambda: vector.step(actions))
         self.fails(ValueError, "shape (3, 1, 2)",
                    lambda: ortung.Batch("goalkeeper-v0", episodes=3).step(np.zeros((3, 2))))
+        batch = ortung.Batch("goalkeeper-v0")
+        for kind in (complex, bool, str):
+            self.fails(TypeError, "goalkeeper-v0: actions|real numbers",
+                       lambda kind=kind: batch.step(np.zeros((1, 1, 2)).astype(kind)))
+            self.fails(TypeError, "observations|real numbers",
+                       lambda kind=kind: ortung.blocking(np.zeros((1, 26)).astype(kind)))
+        self.fails(IndexError, "no such episode", lambda: batch.set_options({}, 1))
 
     def test_stepped_after_the_end(self):
         env = ortung.make("goalkeeper-v0", duration_s=1.0)
