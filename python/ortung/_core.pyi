@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 _Path = Union[str, "os.PathLike[str]"]
+_Words = Union[Sequence[int], npt.NDArray[np.uint32]]
 
 __version__: str
 
@@ -28,7 +29,15 @@ class SensorContainer:
         self,
         feature: str,
         region: FieldRegion,
-        words: Union[Sequence[npt.ArrayLike], npt.NDArray[Any]],
+        words: Union[Sequence[_Words], npt.NDArray[np.uint32]],
+        poses: Optional[npt.ArrayLike] = ...,
+        heading_step: float = ...,
+    ) -> None: ...
+    def learn_values(
+        self,
+        feature: str,
+        region: FieldRegion,
+        values: Union[Sequence[npt.ArrayLike], npt.NDArray[Any]],
         poses: Optional[npt.ArrayLike] = ...,
         heading_step: float = ...,
     ) -> None: ...
@@ -39,7 +48,8 @@ class SensorContainer:
     def stamp(self, feature: str) -> Optional[int]: ...
     def help(self, feature: str) -> str: ...
     def format(self, feature: str) -> str: ...
-    def set(self, stamp: int, feature: str, words: npt.ArrayLike) -> None: ...
+    def set(self, stamp: int, feature: str, words: _Words) -> None: ...
+    def set_values(self, stamp: int, feature: str, values: npt.ArrayLike) -> None: ...
     def expectation(self, feature: str, x: float, y: float, theta: float) -> npt.NDArray[np.float64]: ...
     def probability(self, x: float, y: float, theta: float) -> float: ...
 

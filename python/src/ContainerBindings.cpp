@@ -2,68 +2,18 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
 
 #include "Bindings.hpp"
 #include "Robots.hpp"
-#include "ortung/formats/BearingData.hpp"
-#include "ortung/formats/ConeData.hpp"
-#include "ortung/formats/LandmarksData.hpp"
-#include "ortung/formats/ObjectsData.hpp"
-#include "ortung/formats/OdometryData.hpp"
-#include "ortung/formats/PointsData.hpp"
-#include "ortung/formats/PoseData.hpp"
+#include "Values.hpp"
 #include "ortung/formats/ScalarData.hpp"
-#include "ortung/formats/ScanData.hpp"
 
 namespace ortung::python {
 namespace {
 
-using Words = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-template <class List, class Row>
-py::object table(const List& list, py::ssize_t columns, const Row& row) {
-  py::array_t<double> all({static_cast<py::ssize_t>(list.size()), columns});
-  double* out = all.mutable_data();
-  for (const auto& one : list)
-    for (const double value : row(one)) *out++ = value;
-  return all;
-}
-
-py::object numbersOf(std::initializer_list<double> numbers) {
-  return copyOf(std::vector<double>(numbers));
-}
-
-/// The newest reading in metres and radians, by the name of its format; one of a plugin's own gives
-/// its words.
-py::object readingOf(const SensorData& data) {
-  if (data.sequence() == 0) return py::none();
-  if (const auto scan = readingAs<ScanData>(data)) return copyOf(scan->ranges);
-  if (const auto pose = readingAs<PoseData>(data))
-    return numbersOf({pose->x, pose->y, pose->theta});
-  if (const auto r = readingAs<OdometryData>(data))
-    return numbersOf({r->pose.x, r->pose.y, r->pose.theta, r->translationalVelocity,
-                      r->lateralVelocity, r->rotationalVelocity});
-  if (const auto scalar = readingAs<ScalarData>(data))
-    return numbersOf({scalar->value_or(std::nan(""))});
-  if (const auto bearing = readingAs<BearingData>(data))
-    return numbersOf({bearing->value_or(std::nan(""))});
-  if (const auto cone = readingAs<ConeData>(data)) return numbersOf({*cone});
-  if (const auto landmarks = readingAs<LandmarksData>(data))
-    return table(*landmarks, 3, [](const auto& one) {
-      return std::array{static_cast<double>(one.identity), one.range, one.bearing};
-    });
-  if (const auto points = readingAs<PointsData>(data))
-    return table(*points, 2, [](const auto& one) { return std::array{one.range, one.bearing}; });
-  if (const auto objects = readingAs<ObjectsData>(data))
-    return table(*objects, 3,
-                 [](const auto& one) { return std::array{one.range, one.bearing, one.radius}; });
-  const auto words = data.getData();
-  return copyOf(std::vector<std::uint32_t>(words.begin(), words.end()));
-}
 
 SensorData& need(SensorContainer& container, const std::string& query) {
   SensorData* found = container.find(parseSensorQuery(query));
@@ -73,31 +23,95 @@ SensorData& need(SensorContainer& container, const std::string& query) {
   throw py::key_error("there is no feature " + query + ", but " + known);
 }
 
-/// One feature and its words by pose, all checked before any is learned.
-void learn(const Container& self, const std::string& query, const FieldRegion& region,
-           const py::sequence& words, const std::optional<Numbers>& poses, double headingStep) {
-  SensorData& data = need(*self.container, query);
+SensorData& find(const Container& self, const std::string& query) {
+  const Gate::Together visit(*self.gate);
+  return need(*self.container, query);
+}
+
+/// The newest readings, which stay while this lives. It waits for them without Python's lock.
+class Look {
+ public:
+  explicit Look(const Container& self) : visit_(*self.gate) {
+    const py::gil_scoped_release others;
+    lock_ = self.container->read();
+  }
+
+ private:
+  Gate::Together visit_;
+  SensorContainer::ReadLock lock_;
+};
+
+/// One feature and its readings by pose, all checked before any is learned.
+/// @param wordsOf makes words of one of them
+template <class WordsOf>
+void learn(const Container& self, SensorData& data, const FieldRegion& region,
+           const py::sequence& given, const py::object& where, double headingStep,
+           const WordsOf& wordsOf) {
+  std::optional<Numbers> poses;
+  if (!where.is_none()) poses = realNumbers<double>(where, "poses");
   if (poses && (poses->ndim() != 2 || poses->shape(1) != 3))
     throw py::value_error("poses must have the shape (N, 3): x, y, heading");
   const std::size_t count = poses ? static_cast<std::size_t>(poses->shape(0)) : region.grid.size();
-  if (py::len(words) != count)
-    throw py::value_error(std::to_string(py::len(words)) + " readings for " +
+  if (py::len(given) != count)
+    throw py::value_error(std::to_string(py::len(given)) + " readings for " +
                           std::to_string(count) + " poses");
   std::vector<std::vector<std::uint32_t>> readings;
-  for (const py::object one : words) {  // rows of an array are made as they are asked for
-    const auto numbers = py::cast<Words>(one);
-    readings.emplace_back(numbers.data(), numbers.data() + numbers.size());
+  for (const py::object one : given) {  // rows of an array are made as they are asked for
+    readings.push_back(wordsOf(one));
     data.checkData(readings.back());
   }
-  data.beginLearning(region, headingStep);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto row = static_cast<py::ssize_t>(i);
-    const Pose2 pose = poses ? Pose2{poses->at(row, 0), poses->at(row, 1), poses->at(row, 2)}
-                             : Pose2{region.grid.centreX(i), region.grid.centreY(i), 0.0};
-    data.setData(0, readings[i]);
-    data.learnProbability(pose);
-  }
-  data.endLearning();
+  alone(*self.gate, [&] {
+    data.beginLearning(region, headingStep);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto row = static_cast<py::ssize_t>(i);
+      const Pose2 pose = poses ? Pose2{poses->at(row, 0), poses->at(row, 1), poses->at(row, 2)}
+                               : Pose2{region.grid.centreX(i), region.grid.centreY(i), 0.0};
+      data.setData(0, readings[i]);
+      data.learnProbability(pose);
+    }
+    data.endLearning();
+  });
+}
+
+void learnWords(const Container& self, const std::string& query, const FieldRegion& region,
+                const py::sequence& words, const py::object& poses, double headingStep) {
+  SensorData& data = find(self, query);
+  learn(self, data, region, words, poses, headingStep,
+        [&](const py::object& one) { return wordsOf(one, toText(data.id())); });
+}
+
+void learnValues(const Container& self, const std::string& query, const FieldRegion& region,
+                 const py::sequence& values, const py::object& poses, double headingStep) {
+  SensorData& data = find(self, query);
+  learn(self, data, region, values, poses, headingStep,
+        [&](const py::object& one) { return encode(data, one); });
+}
+
+void set(const Container& self, Timestamp stamp, const SensorId& id,
+         std::vector<std::uint32_t> words) {
+  const Message message{stamp, id, std::move(words)};
+  const Gate::Together visit(*self.gate);
+  const py::gil_scoped_release others;
+  self.container->set(message);
+}
+
+/// The feature of this very name.
+SensorData& exactly(const Container& self, const std::string& feature) {
+  const SensorId id = parseSensorId(feature);
+  const Gate::Together visit(*self.gate);
+  SensorData* found = self.container->findExactly(id);
+  return found != nullptr ? *found : need(*self.container, feature);
+}
+
+void setWords(const Container& self, Timestamp stamp, const std::string& feature,
+              const py::object& words) {
+  set(self, stamp, exactly(self, feature).id(), wordsOf(words, feature));
+}
+
+void setValues(const Container& self, Timestamp stamp, const std::string& feature,
+               const py::object& values) {
+  const SensorData& data = exactly(self, feature);
+  set(self, stamp, data.id(), encode(data, values));
 }
 
 void addScalar(const Container& self, const std::string& feature, double maxRange, double sigma,
@@ -111,7 +125,8 @@ void addScalar(const Container& self, const std::string& feature, double maxRang
   ScalarData::Config config{maxRange, 0.0, {}};
   config.model.sigma = sigma;
   config.model.outliers = outliers;
-  self.container->add(std::make_unique<ScalarData>(parseSensorId(feature), Pose2{}, config));
+  auto data = std::make_unique<ScalarData>(parseSensorId(feature), Pose2{}, config);
+  alone(*self.gate, [&] { self.container->add(std::move(data)); });
 }
 
 FieldRegion makeRegion(int columns, int rows, double cell, double x, double y) {
@@ -125,9 +140,8 @@ FieldRegion makeRegion(int columns, int rows, double cell, double x, double y) {
 }
 
 py::object centresOf(const FieldRegion& region) {
-  std::vector<std::size_t> cells(region.grid.size());
-  std::iota(cells.begin(), cells.end(), std::size_t{0});
-  return table(cells, 2, [&](std::size_t cell) {
+  return tableOf(static_cast<py::ssize_t>(region.grid.size()), 2, [&](py::ssize_t i) {
+    const auto cell = static_cast<std::size_t>(i);
     return std::array{region.grid.centreX(cell), region.grid.centreY(cell)};
   });
 }
@@ -146,18 +160,22 @@ void bindContainer(py::module_& module) {
                         "stands for any.")
       .def(py::init([] {
         const auto own = std::make_shared<SensorContainer>();
-        return Container{own, own.get()};
+        return Container{own, own.get(), containerGate()};
       }))
       .def("add_scalar", &addScalar, py::arg("feature"), py::arg("max_range") = 20.0,
            py::arg("sigma") = 0.05, py::arg("outliers") = 0.05,
            "A feature that is one distance. Its words: [mm], or none where nothing was seen.")
-      .def("learn", &learn, py::arg("feature"), py::arg("region"), py::arg("words"),
+      .def("learn", &learnWords, py::arg("feature"), py::arg("region"), py::arg("words"),
            py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
            "Takes noise-free words as what the feature reads at poses (N, 3); without them at the "
            "centres of the region's cells, with heading 0. Forgets what it had learned, and leaves "
            "the last of the words as its reading.")
+      .def("learn_values", &learnValues, py::arg("feature"), py::arg("region"), py::arg("values"),
+           py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
+           "The same of noise-free readings in metres and radians, each as get() gives it.")
       .def_property_readonly("features",
                              [](const Container& self) {
+                               const Gate::Together visit(*self.gate);
                                std::vector<std::string> all;
                                for (const auto& one : self.container->all())
                                  all.push_back(toText(one->id()));
@@ -166,7 +184,7 @@ void bindContainer(py::module_& module) {
       .def(
           "get",
           [](const Container& self, const std::string& query) {
-            const SensorContainer::ReadLock lock = self.container->read();
+            const Look look(self);
             return readingOf(need(*self.container, query));
           },
           py::arg("feature"),
@@ -176,7 +194,7 @@ void bindContainer(py::module_& module) {
       .def(
           "words",
           [](const Container& self, const std::string& query) {
-            const SensorContainer::ReadLock lock = self.container->read();
+            const Look look(self);
             const auto words = need(*self.container, query).getData();
             return copyOf(std::vector<std::uint32_t>(words.begin(), words.end()));
           },
@@ -184,7 +202,7 @@ void bindContainer(py::module_& module) {
       .def(
           "stamp",
           [](const Container& self, const std::string& query) -> py::object {
-            const SensorContainer::ReadLock lock = self.container->read();
+            const Look look(self);
             const SensorData& data = need(*self.container, query);
             return data.sequence() == 0 ? py::object(py::none()) : py::cast(data.stamp());
           },
@@ -192,29 +210,25 @@ void bindContainer(py::module_& module) {
       .def(
           "help",
           [](const Container& self, const std::string& query) {
-            return need(*self.container, query).wordsHelp();
+            return find(self, query).wordsHelp();
           },
           py::arg("feature"), "What its words mean, for people.")
       .def(
           "format",
           [](const Container& self, const std::string& query) {
-            return need(*self.container, query).format().toText();
+            return find(self, query).format().toText();
           },
           py::arg("feature"), "What its words mean, for programs: a name and parameters.")
-      .def(
-          "set",
-          [](const Container& self, std::int64_t stamp, const std::string& feature,
-             const Words& words) {
-            const SensorId id = parseSensorId(feature);
-            if (self.container->findExactly(id) == nullptr) need(*self.container, feature);
-            Message message{stamp, id, {words.data(), words.data() + words.size()}};
-            const py::gil_scoped_release others;
-            self.container->set(message);
-          },
-          py::arg("stamp"), py::arg("feature"), py::arg("words"))
+      .def("set", &setWords, py::arg("stamp"), py::arg("feature"), py::arg("words"),
+           "Sets a reading by its words: an array of uint32, or whole numbers of Python.")
+      .def("set_values", &setValues, py::arg("stamp"), py::arg("feature"), py::arg("values"),
+           "Sets a reading in metres and radians, in the order of get(). A range of NaN is not "
+           "valid, an infinite one means that nothing was seen, as a distance or bearing of NaN "
+           "does.")
       .def(
           "expectation",
           [](const Container& self, const std::string& query, double x, double y, double theta) {
+            const Look look(self);
             return copyOf(need(*self.container, query).expectation({x, y, theta}));
           },
           py::arg("feature"), py::arg("x"), py::arg("y"), py::arg("theta"),
@@ -222,7 +236,7 @@ void bindContainer(py::module_& module) {
       .def(
           "probability",
           [](const Container& self, double x, double y, double theta) {
-            const SensorContainer::ReadLock lock = self.container->read();
+            const Look look(self);
             return self.container->getProbability(Pose2{x, y, theta});
           },
           py::arg("x"), py::arg("y"), py::arg("theta"), "p(s|l) of all readings at a pose.");

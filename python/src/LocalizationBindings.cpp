@@ -18,7 +18,29 @@
 namespace ortung::python {
 namespace {
 
-using Shared = std::shared_ptr<Localization>;
+/// A localization, and Python's threads at it: one call at a time, while other threads set readings
+/// of its container.
+struct SharedLocalization {
+  std::unique_ptr<Localization> localization;
+  bool hasSource = false;
+  Gate gate{"this Localization"};
+  std::shared_ptr<Gate> containerGate = python::containerGate();
+  OpenedHere opened;
+
+  ~SharedLocalization() {
+    if (gate.isBroken() || containerGate->isBroken()) static_cast<void>(localization.release());
+  }
+};
+using Shared = std::shared_ptr<SharedLocalization>;
+
+/// Calls work(Localization&) alone, without Python's lock. No feature is added meanwhile.
+template <class Work>
+decltype(auto) visit(SharedLocalization& self, const Work& work) {
+  const Gate::Alone alone(self.gate);
+  const Gate::Together together(*self.containerGate);
+  const py::gil_scoped_release others;
+  return work(*self.localization);
+}
 
 std::string reprOf(const PoseEstimate& e) {
   char text[120];
@@ -53,12 +75,15 @@ Shared open(const std::filesystem::path& robot, const std::filesystem::path& tab
   config.particles = particles;
   config.threads = threads;
   config.start = startOf(start);
+  const auto made = std::make_shared<SharedLocalization>();
+  made->hasSource = !source.empty();
   const py::gil_scoped_release others;
-  return std::make_shared<Localization>(config);
+  made->localization = std::make_unique<Localization>(config);
+  return made;
 }
 
-py::array particlesOf(const Localization& self) {
-  const SampleSet& samples = self.mcl().samples();
+py::array particlesOf(SharedLocalization& self) {
+  const SampleSet samples = visit(self, [](Localization& one) { return one.mcl().samples(); });
   const auto n = static_cast<py::ssize_t>(samples.x.size());
   py::array_t<float> all({n, py::ssize_t{4}});
   auto out = all.mutable_unchecked<2>();
@@ -79,46 +104,55 @@ py::array mapOf(const FieldGrid& grid, const std::vector<double>& values) {
       {static_cast<py::ssize_t>(grid.rows), static_cast<py::ssize_t>(grid.columns)});
 }
 
-py::array probability(Localization& self, const std::optional<std::vector<std::string>>& features,
-                      const std::optional<std::vector<double>>& headings) {
-  const TableInfo& tables = self.robot().tables;
-  std::vector<const SensorData*> chosen;
-  Weighers weighers;
-  std::vector<double> wanted;
-  {
-    const SensorContainer::ReadLock lock = self.container().read();
-    for (const auto& data : self.container().all()) {
-      bool isChosen = !features.has_value();
-      if (features)
-        for (const std::string& query : *features)
-          isChosen = isChosen || matches(parseSensorQuery(query), data->id());
-      if (isChosen && data->localizes()) chosen.push_back(data.get());
-    }
-    if (features && chosen.empty()) throw py::key_error("none of the features localizes");
-    weighers = weighersOf(chosen);
-    wanted = headings ? *headings : mapHeadings(tables.headingStep, chosen);
-  }
-  std::vector<double> values;
-  {
-    const py::gil_scoped_release others;
-    values = probabilityMap(tables.region, weighers, wanted);
-  }
-  return mapOf(tables.region.grid, values);
-}
-
-py::array expectation(Localization& self, const std::string& feature, std::size_t index,
-                      double heading) {
+/// The weighers that a map is made of.
+Weighers chosenWeighers(Localization& self, const std::optional<std::vector<std::string>>& features,
+                        std::optional<std::vector<double>>& headings) {
   const SensorContainer::ReadLock lock = self.container().read();
-  const SensorData* data = self.container().find(parseSensorQuery(feature));
-  if (data == nullptr) throw py::key_error("there is no feature " + feature);
-  const FieldRegion& region = self.robot().tables.region;
-  return mapOf(region.grid, expectationMap(region, *data, index, heading).values);
+  std::vector<const SensorData*> chosen;
+  for (const auto& data : self.container().all()) {
+    bool isChosen = !features.has_value();
+    if (features)
+      for (const std::string& query : *features)
+        isChosen = isChosen || matches(parseSensorQuery(query), data->id());
+    if (isChosen && data->localizes()) chosen.push_back(data.get());
+  }
+  if (features && chosen.empty()) throw py::key_error("none of the features localizes");
+  if (!headings) headings = mapHeadings(self.robot().tables.headingStep, chosen);
+  return weighersOf(chosen);
 }
 
-py::tuple extentOf(const Localization& self) {
-  const FieldGrid& grid = self.robot().tables.region.grid;
+py::array probability(SharedLocalization& self,
+                      const std::optional<std::vector<std::string>>& features,
+                      std::optional<std::vector<double>> headings) {
+  const FieldRegion& region = self.localization->robot().tables.region;
+  const std::vector<double> values = visit(self, [&](Localization& one) {
+    const Weighers weighers = chosenWeighers(one, features, headings);
+    return probabilityMap(region, weighers, *headings);
+  });
+  return mapOf(region.grid, values);
+}
+
+py::array expectation(SharedLocalization& self, const std::string& feature, std::size_t index,
+                      double heading) {
+  const FieldRegion& region = self.localization->robot().tables.region;
+  const std::vector<double> values = visit(self, [&](Localization& one) {
+    const SensorContainer::ReadLock lock = one.container().read();
+    const SensorData* data = one.container().find(parseSensorQuery(feature));
+    if (data == nullptr) throw py::key_error("there is no feature " + feature);
+    return expectationMap(region, *data, index, heading).values;
+  });
+  return mapOf(region.grid, values);
+}
+
+py::tuple extentOf(const SharedLocalization& self) {
+  const FieldGrid& grid = self.localization->robot().tables.region.grid;
   return py::make_tuple(grid.originX, grid.originX + grid.columns * grid.cell, grid.originY,
                         grid.originY + grid.rows * grid.cell);
+}
+
+std::optional<PoseEstimate> nextEstimate(SharedLocalization& self) {
+  if (self.hasSource) self.opened.check("the readings of this Localization");
+  return visit(self, [](Localization& one) { return one.next(); });
 }
 
 void bindEstimate(py::module_& module) {
@@ -144,7 +178,7 @@ void bindEstimate(py::module_& module) {
 
 void bindLocalization(py::module_& module) {
   bindEstimate(module);
-  py::class_<Localization, Shared>(
+  py::class_<SharedLocalization, Shared>(
       module, "Localization",
       "Where one robot is, by MCL: go through its estimates if it has a source, or set readings of "
       "its container and call update().")
@@ -152,21 +186,36 @@ void bindLocalization(py::module_& module) {
            py::arg("seed") = 1, py::arg("particles") = py::none(), py::arg("threads") = py::none(),
            py::arg("start") = "global")
       .def_property_readonly("container",
-                             [](const Shared& self) { return Container{self, &self->container()}; })
-      .def("update", &Localization::update, py::call_guard<py::gil_scoped_release>(),
-           "The new estimate if readings have weighed the belief, or None.")
-      .def("estimate", &Localization::estimate, py::arg("stamp"),
-           "The belief carried on by odometry to a time [us], or None.")
+                             [](const Shared& self) {
+                               return Container{self, &self->localization->container(),
+                                                self->containerGate};
+                             })
+      .def(
+          "update",
+          [](SharedLocalization& self) {
+            return visit(self, [](Localization& one) { return one.update(); });
+          },
+          "The new estimate if readings have weighed the belief, or None.")
+      .def(
+          "estimate",
+          [](SharedLocalization& self, Timestamp stamp) {
+            return visit(self, [&](Localization& one) { return one.estimate(stamp); });
+          },
+          py::arg("stamp"), "The belief carried on by odometry to a time [us], or None.")
       .def(
           "set_pose",
-          [](Localization& self, double x, double y, double theta, double sigmaPosition,
+          [](SharedLocalization& self, double x, double y, double theta, double sigmaPosition,
              double sigmaHeading) {
             const double p = sigmaPosition * sigmaPosition;
-            self.setPose({x, y, theta}, {p, 0, 0, 0, p, 0, 0, 0, sigmaHeading * sigmaHeading});
+            const PoseCovariance covariance{p, 0, 0, 0, p, 0, 0, 0, sigmaHeading * sigmaHeading};
+            visit(self, [&](Localization& one) { one.setPose({x, y, theta}, covariance); });
           },
           py::arg("x"), py::arg("y"), py::arg("theta"), py::arg("sigma_position") = 0.3,
           py::arg("sigma_heading") = 0.17)
-      .def("relocalize", &Localization::relocalize)
+      .def("relocalize",
+           [](SharedLocalization& self) {
+             visit(self, [](Localization& one) { one.relocalize(); });
+           })
       .def_property_readonly("particles", &particlesOf, "(n, 4): x, y, heading, weight")
       .def(
           "probability_map", &probability, py::arg("features") = py::none(),
@@ -177,12 +226,8 @@ void bindLocalization(py::module_& module) {
            py::arg("heading") = 0.0, "What a feature expects over the field, [m] or [rad].")
       .def_property_readonly("extent", &extentOf, "x, x, y, y of the maps' edges [m]")
       .def("__iter__", [](const py::object& self) { return self; })
-      .def("__next__", [](Localization& self) {
-        std::optional<PoseEstimate> estimate;
-        {
-          const py::gil_scoped_release others;
-          estimate = self.next();
-        }
+      .def("__next__", [](SharedLocalization& self) {
+        const std::optional<PoseEstimate> estimate = nextEstimate(self);
         if (!estimate) throw py::stop_iteration();
         return *estimate;
       });

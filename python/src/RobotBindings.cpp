@@ -30,19 +30,30 @@ py::dict arraysOf(const std::shared_ptr<TableFile>& file) {
   return all;
 }
 
+/// A robot, and Python's threads at its container.
+struct SharedRobot {
+  std::shared_ptr<Robot> robot;
+  std::shared_ptr<Gate> gate = containerGate();
+};
+
 /// A source whose readings Python goes through.
 struct Readings {
   std::unique_ptr<PluginFactory> factory;
   std::unique_ptr<Source> source;
+  Gate gate{"these Readings"};
+  OpenedHere opened;
+
+  ~Readings() {
+    if (!gate.isBroken()) return;
+    static_cast<void>(source.release());
+    static_cast<void>(factory.release());
+  }
 };
 
 py::tuple nextReading(Readings& readings) {
+  readings.opened.check("these Readings");
   Message message;
-  bool isThere = false;
-  {
-    const py::gil_scoped_release others;
-    isThere = readings.source->next(message);
-  }
+  const bool isThere = alone(readings.gate, [&] { return readings.source->next(message); });
   if (!isThere) throw py::stop_iteration();
   return py::make_tuple(message.stamp, toText(message.id), copyOf(message.words));
 }
@@ -50,15 +61,16 @@ py::tuple nextReading(Readings& readings) {
 }  // namespace
 
 void bindRobots(py::module_& module) {
-  py::class_<Robot, std::shared_ptr<Robot>>(module, "Robot", "A robot as its file describes it.")
+  py::class_<SharedRobot>(module, "Robot", "A robot as its file describes it.")
       .def(py::init([](const std::filesystem::path& robot,
                        const std::optional<std::filesystem::path>& tables) {
-             return std::shared_ptr<Robot>(tables ? openRobot(robot, *tables) : openRobot(robot));
+             return SharedRobot{tables ? openRobot(robot, *tables) : openRobot(robot)};
            }),
            py::arg("robot"), py::arg("tables") = py::none())
-      .def_property_readonly("name", [](const Robot& self) { return self.config.name; })
-      .def_property_readonly("container", [](const std::shared_ptr<Robot>& self) {
-        return Container{self, &self->container};
+      .def_property_readonly("name",
+                             [](const SharedRobot& self) { return self.robot->config.name; })
+      .def_property_readonly("container", [](const SharedRobot& self) {
+        return Container{self.robot, &self.robot->container, self.gate};
       });
   py::class_<TableFile, std::shared_ptr<TableFile>>(module, "Tables",
                                                     "A table file, mapped: arrays are no copies.")
@@ -74,8 +86,13 @@ void bindRobots(py::module_& module) {
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &nextReading)
       .def_property_readonly("world",
-                             [](const Readings& self) { return self.source->worldFingerprint(); })
-      .def_property_readonly("remark", [](const Readings& self) { return self.source->remark(); });
+                             [](Readings& self) {
+                               return alone(self.gate,
+                                            [&] { return self.source->worldFingerprint(); });
+                             })
+      .def_property_readonly("remark", [](Readings& self) {
+        return alone(self.gate, [&] { return self.source->remark(); });
+      });
   module.def(
       "shipped_file", &shippedFile, py::arg("kind"), py::arg("file"),
       "The path of a map that ships with Ortung, e.g. ('robots', 'pioneer.toml'); a file that "
@@ -83,9 +100,9 @@ void bindRobots(py::module_& module) {
   module.def(
       "readings",
       [](const std::string& source, const std::filesystem::path& robot) {
-        Readings readings{std::make_unique<PluginFactory>(PluginFactory::standardFolders()),
-                          nullptr};
-        readings.source = openSource(source, robot, *readings.factory);
+        auto readings = std::make_unique<Readings>();
+        readings->factory = std::make_unique<PluginFactory>(PluginFactory::standardFolders());
+        readings->source = openSource(source, robot, *readings->factory);
         return readings;
       },
       py::arg("source"), py::arg("robot") = "",

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "Gate.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/run/Robot.hpp"
 
@@ -11,6 +12,13 @@ namespace ortung::python {
 struct Container {
   std::shared_ptr<const void> owner;
   SensorContainer* container = nullptr;
+  /// Readings come and go together; features are added and learn alone.
+  std::shared_ptr<Gate> gate;
 };
+
+/// The gate of a container.
+inline std::shared_ptr<Gate> containerGate() {
+  return std::make_shared<Gate>("this SensorContainer");
+}
 
 }  // namespace ortung::python

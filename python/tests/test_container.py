@@ -1,5 +1,6 @@
 """Tests containers made in Python: features are added, learn, and weigh; docs/python.md."""
 import sys
+import threading
 import unittest
 
 try:
@@ -21,7 +22,7 @@ def learned(**options):
     container = ortung.SensorContainer()
     container.add_scalar(WALL, **options)
     region = corridor()
-    container.learn(WALL, region, np.rint(1000 * (4.0 - region.centres[:, 0]))[:, None])
+    container.learn_values(WALL, region, 4.0 - region.centres[:, 0])
     return container
 
 
@@ -42,15 +43,100 @@ class Container(unittest.TestCase):
         for x, p in ((2.5, 1.0), (2.6, 0.98 * np.exp(-0.5) + 0.02), (1.0, 0.02)):
             self.assertAlmostEqual(container.probability(x, 0.5, 0.0), p, delta=0.01)
 
-    def test_rows_may_be_of_any_kind(self):
+    def test_words_are_learned_as_values_are(self):
         region = corridor()
-        words = np.rint(1000 * (4.0 - region.centres[:, 0])).astype(int)
-        for rows in (words[:, None], words[:, None].astype(float), words[:, None].astype(np.uint32),
-                     [[one] for one in words.tolist()]):
+        words = np.rint(1000 * (4.0 - region.centres[:, 0])).astype(np.uint32)[:, None]
+        for rows in (words, words.tolist(), [tuple(one) for one in words], words.astype(">u4")):
             container = ortung.SensorContainer()
             container.add_scalar(WALL)
             container.learn(WALL, region, rows)
             self.assertAlmostEqual(container.expectation(WALL, 2.0, 0.5, 0.0)[0], 2.0, places=3)
+
+    def test_words_are_not_made_of_other_numbers(self):
+        container = learned()
+        container.set(1, WALL, [1500])
+        for words, error, text in (
+                (np.full(1, 2.0), TypeError, "float64, expected uint32.*set_values"),
+                (np.full(1, -2.9), TypeError, "float64"), (np.full(1, 2), TypeError, "int64"),
+                (np.full(1, True), TypeError, "bool"), (np.full(1, 2, np.uint64), TypeError, "uint64"),
+                (np.full((1, 1), 2, np.uint32), ValueError, "shape"), ([2.0], TypeError, "word 0 is 2.0"),
+                ([True], TypeError, "True"), (["2"], TypeError, "'2'"), ([-1], ValueError, "word 0 is -1"),
+                ([2**32], ValueError, "4294967296"), ([2**80], ValueError, "uint32"),
+                (2, TypeError, "iter")):
+            with self.subTest(words=words):
+                with self.assertRaisesRegex(error, text):
+                    container.set(2, WALL, words)
+                with self.assertRaisesRegex(error, text):
+                    container.learn(WALL, corridor(), [words], poses=[(1, 0.5, 0)])
+        self.assertEqual(container.get(WALL), [1.5])
+        self.assertAlmostEqual(container.expectation(WALL, 2.0, 0.5, 0.0)[0], 2.0, places=3)
+
+    def test_values_are_written_as_words(self):
+        container = learned()
+        for value, words in (([1.5], [1500]), (1.5, [1500]), (np.float32(0.25), [250]), ([], []),
+                             ([np.nan], []), (2, [2000])):
+            container.set_values(3, WALL, value)
+            self.assertEqual(container.words(WALL).tolist(), words)
+        for value, error, text in (
+                ([-2.9], ValueError, "value 0 is -2.9, expected metres, not negative"),
+                ([np.inf], ValueError, "inf"), ([1e9], ValueError, "metres"),
+                ([1, 2], ValueError, r"shape \(2,\), expected 1"), ([2j], TypeError, "complex"),
+                ([True], TypeError, "bool"), (["2"], TypeError, "real numbers"), (None, TypeError, "object")):
+            with self.subTest(value=value), self.assertRaisesRegex(error, WALL + ".*" + text):
+                container.set_values(4, WALL, value)
+        self.assertEqual(container.stamp(WALL), 3)
+        with self.assertRaises(KeyError):
+            container.set_values(4, "a/b/c", [1])
+
+    def test_values_of_each_format(self):
+        robot = ortung.Robot(ortung.shipped_file("robots", "pioneer.toml"))
+        container = robot.container
+        seen = set()
+        for feature in container.features:
+            name = container.format(feature).split()[0]
+            beams = int(dict(one.split("=") for one in container.format(feature).split()[1:]).get("beams", 0))
+            values = {"scan": [np.nan, np.inf] + [2.0] * (beams - 2), "odometry": [1, -2, 3, 0.5, 0, -0.25],
+                      "pose": [-1, 2, -3], "cone": [1.5]}.get(name)
+            if values is None:
+                with self.assertRaisesRegex(ValueError, "set\\(\\)|shape"):
+                    container.set_values(1, feature, [[[1.0]]])
+                continue
+            seen.add(name)
+            container.set_values(1, feature, values)
+            self.assertTrue(np.allclose(container.get(feature), values, atol=1e-3, equal_nan=True), feature)
+            with self.assertRaisesRegex(ValueError, "shape"):
+                container.set_values(1, feature, values + [1])
+        self.assertLessEqual({"scan", "odometry"}, seen)
+        scan = next(one for one in container.features if "/LRF/" in one)
+        ranges = container.get(scan)
+        ranges[3] = -2.9
+        with self.assertRaisesRegex(ValueError, "value 3 is -2.9"):
+            container.set_values(2, scan, ranges)
+        with self.assertRaisesRegex(TypeError, "set_values"):
+            container.set(2, scan, np.full(ranges.shape, 2.0))
+
+    def test_threads_may_read_set_and_learn(self):
+        container = learned()
+        failures = []
+
+        def work(number):
+            try:
+                for i in range(50):
+                    container.set_values(i, WALL, 1.5)
+                    container.get(WALL), container.probability(2.5, 0.5, 0.0)
+                    container.expectation(WALL, 2.0, 0.5, 0.0), container.features
+                    if i % 10 == 0:
+                        container.add_scalar(f"a/b/c{number}-{i}")
+                        container.learn_values(WALL, corridor(), 4.0 - corridor().centres[:, 0])
+            except BaseException as error:
+                failures.append(error)
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+        for one in threads:
+            one.start()
+        for one in threads:
+            one.join()
+        self.assertEqual(failures, [])
 
     def test_poses_of_ones_own(self):
         container = learned()

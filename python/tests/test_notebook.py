@@ -1,8 +1,10 @@
 """Tests what notebooks use: robots, containers, tables, readings, MCL, maps."""
+import itertools
 import pathlib
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 try:
@@ -12,6 +14,7 @@ except ImportError:
     sys.exit(77)
 
 import ortung
+from forks import in_child
 
 MAPS = pathlib.Path(sys.argv.pop())
 PROGRAM = sys.argv.pop()
@@ -118,6 +121,53 @@ class Notebook(unittest.TestCase):
         cell = expected[int((truth[1] - low) / (high - low) * rows),
                         int((truth[0] - left) / (right - left) * columns)]
         self.assertLess(abs(here - cell), 0.5)
+
+    def test_threads_take_turns_at_a_localization(self):
+        def estimates(others):
+            here = ortung.Localization(ROBOT, self.tables, source=f"record:{self.record}", seed=3)
+            stop, failures = threading.Event(), []
+
+            def look():
+                try:
+                    while not stop.is_set():
+                        here.particles, here.estimate(0), here.container.get("*/LRF/*")
+                        here.probability_map(["*/LRF/*"], [0.0])
+                except BaseException as error:
+                    failures.append(error)
+
+            threads = [threading.Thread(target=look) for _ in range(others)]
+            for one in threads:
+                one.start()
+            try:
+                found = [(one.x, one.y, one.theta) for one in here]
+            finally:
+                stop.set()
+                for one in threads:
+                    one.join()
+            self.assertEqual(failures, [])
+            return found
+
+        self.assertEqual(estimates(2), estimates(0))
+
+    def test_a_forked_process_has_readings_of_its_own(self):
+        here = ortung.Localization(ROBOT, self.tables, source=f"record:{self.record}", threads=2)
+        own, twin = (ortung.Localization(ROBOT, self.tables, threads=2) for _ in range(2))
+        readings = ortung.readings(f"record:{self.record}")
+        next(here), next(readings)
+        moment = {feature: (stamp, words) for stamp, feature, words in
+                  itertools.islice(ortung.readings(f"record:{self.record}"), 100)}
+
+        def update(one):
+            for feature, (stamp, words) in moment.items():
+                one.container.set(stamp, feature, words)
+            return repr(one.update())
+
+        for work, expected in (
+                (lambda: next(here), "RuntimeError: the readings of this Localization were opened before"),
+                (lambda: next(readings), "RuntimeError: these Readings were opened before this process"),
+                (lambda: here.particles.shape, str(here.particles.shape)),
+                (lambda: update(own), update(twin))):
+            self.assertIn(expected, in_child(work))
 
     def test_errors_keep_file_and_line(self):
         bad = pathlib.Path(self.folder.name) / "bad.toml"
