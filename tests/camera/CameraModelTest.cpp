@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "Cameras.hpp"
 #include "ortung/base/Random.hpp"
@@ -134,6 +137,68 @@ TEST(CameraModel, RefusesSettingsThatMakeNoCamera) {
                     "floor_m = [1, 1]\n")
                 .find("expected 8"),
             std::string::npos);
+  const std::string lens = "size_px = [64, 48]\nfocal_px = [50, 50]\ndistortion = [";
+  const std::string numbers = "0, 0, 0, 0";
+  EXPECT_EQ(refusal(lens + numbers + ", 0]\n"), "taken");
+  for (const std::string& more : {std::string(", 0, 7"), [&] {
+                                    std::string many;
+                                    for (int i = 0; i < 4000; ++i) many += ", 7";
+                                    return many;
+                                  }()})
+    EXPECT_NE(refusal(lens + numbers + more + "]\n").find("numbers, expected at most 5"),
+              std::string::npos);
+  const std::string unified = "model = \"unified\"\nxi = 1\n" + lens;
+  EXPECT_EQ(refusal(unified + numbers + "]\n"), "taken");
+  EXPECT_NE(refusal(unified + numbers + ", 0]\n").find("has 5 numbers, expected at most 4"),
+            std::string::npos);
+}
+
+// Whatever a calibration says, a camera is refused, or sees directions and pixels that are numbers.
+TEST(CameraModel, TakesOrRefusesAbsurdNumbers) {
+  const std::vector<std::string> absurd = {"nan",   "inf",   "-inf",   "0",   "-1",   "1e30",
+                                           "-1e30", "1e300", "1e-300", "1e4", "-1e4", "1e6"};
+  const std::string size = "size_px = [64, 48]\n";
+  std::vector<std::string> cameras;
+  for (const std::string& x : absurd) {
+    const std::string focal = "focal_px = [" + x + ", 50]\n";
+    const std::string four = "distortion = [" + x + ", 0, " + x + ", 0]\n";
+    for (const char* model : {"perspective", "fisheye", "unified"}) {
+      const std::string head = "model = \"" + std::string(model) + "\"\n" + size;
+      const std::string xi = std::string(model) == "unified" ? "xi = 1\n" : "";
+      cameras.push_back(head + xi + focal);
+      cameras.push_back(head + xi + "focal_px = [50, 50]\n" + four);
+      cameras.push_back(head + xi + "focal_px = [50, 50]\ncentre_px = [" + x + ", 0]\n");
+      cameras.push_back(head + xi + "focal_px = [50, 50]\nouter_px = " + x + "\n");
+    }
+    cameras.push_back("model = \"unified\"\n" + size + "focal_px = [50, 50]\nxi = " + x + "\n");
+    cameras.push_back("model = \"unified\"\n" + size +
+                      "focal_px = [50, 50]\nxi = 1\nskew_px = " + x + "\n");
+    cameras.push_back("model = \"ocam\"\n" + size + "polynomial = [" + x + "]\n");
+    cameras.push_back("model = \"ocam\"\n" + size + "polynomial = [10, " + x + ", 0, " + x + "]\n");
+    cameras.push_back("model = \"ocam\"\n" + size + "polynomial = [10]\naffine = [" + x +
+                      ", 0, 0]\n");
+    cameras.push_back("model = \"isometric\"\n" + size + "pixels_per_m = " + x +
+                      "\nheight_m = 1\n");
+    cameras.push_back("model = \"isometric\"\n" + size + "pixels_per_m = 50\nheight_m = " + x +
+                      "\n");
+    cameras.push_back("model = \"table\"\n" + size + "height_m = 1\ngrid = [2, 2]\nfloor_m = [" +
+                      x + ", 1, 1, -1, -1, 1, -1, " + x + "]\n");
+  }
+  for (const std::string& toml : cameras) {
+    std::shared_ptr<const CameraModel> camera;
+    try {
+      camera = cameraOf(toml);
+    } catch (const ConfigError& error) {
+      EXPECT_STRNE(error.what(), "") << toml;
+      continue;
+    }
+    for (const double u : {0.0, 31.5, 63.0, 1e5, 1e300, -1e300})
+      if (const auto ray = camera->unproject({u, 20.0}))
+        EXPECT_NEAR(std::hypot(ray->x, ray->y, ray->z), 1.0, 1e-9) << toml << u;
+    for (const double x : {0.0, 0.3, 1e5, 1e-300})
+      if (const auto pixel = camera->project({x, 0.2, 1.0}))
+        EXPECT_TRUE(std::isfinite(pixel->u) && std::isfinite(pixel->v)) << toml << x;
+  }
 }
 
 }  // namespace

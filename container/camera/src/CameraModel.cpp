@@ -28,6 +28,7 @@ std::optional<Point3> CameraModel::unproject(const Pixel& pixel) const {
   std::optional<Point3> ray = toRay(pixel);
   if (!ray) return std::nullopt;
   const double length = lengthOf(*ray);
+  if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
   *ray = {(common_.isMirrored ? -ray->x : ray->x) / length, ray->y / length, ray->z / length};
   return ray;
 }

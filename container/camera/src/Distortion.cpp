@@ -2,15 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
 
 #include "Inversion.hpp"
 
 namespace ortung {
 
+namespace {
+
+/// Their number is checked before anything is made of them.
+std::vector<double> readCoefficients(const Parameters& camera, std::size_t most) {
+  std::vector<double> all = camera.numbersOr("distortion", {}, -1, {-1e4, 1e4});
+  if (all.size() > most)
+    camera.fail("distortion", "has " + std::to_string(all.size()) + " numbers, expected at most " +
+                                  std::to_string(most) + ": k1, k2, p1, p2" +
+                                  (most == 5 ? ", k3" : ""));
+  return all;
+}
+
+}  // namespace
+
+Distortion::Distortion(const Parameters& camera, double farthest, std::size_t most)
+    : Distortion(readCoefficients(camera, most), farthest) {}
+
 Distortion::Distortion(const std::vector<double>& coefficients, double farthest)
     : given_(coefficients) {
   double* const all[] = {&k1_, &k2_, &p1_, &p2_, &k3_};
-  for (std::size_t i = 0; i < given_.size(); ++i) *all[i] = given_[i];
+  for (std::size_t i = 0; i < std::min(given_.size(), std::size(all)); ++i) *all[i] = given_[i];
   const auto along = [this](double r, double& slope) { return radial(r, slope); };
   mostRadius_ = endOfIncrease(along, farthest, 16384);
   double slope = 0.0;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "ortung/base/Parameters.hpp"
 #include "ortung/camera/CameraModel.hpp"
 
 namespace ortung {
@@ -17,9 +18,11 @@ struct PlanePoint {
 /// with coefficients in OpenCV's order: k1, k2, p1, p2, k3.
 class Distortion {
  public:
-  /// @param coefficients at most five, those missing are 0
+  /// Reads the key `distortion`; coefficients that are missing are 0.
   /// @param farthest radius of the undistorted plane that is ever asked for
-  Distortion(const std::vector<double>& coefficients, double farthest);
+  /// @param most number of coefficients that the camera's model has, at most five
+  /// @throws ConfigError
+  Distortion(const Parameters& camera, double farthest, std::size_t most = 5);
 
   /// Nothing beyond the radius up to which the map is one to one.
   std::optional<PlanePoint> distort(const PlanePoint& p) const;
@@ -27,6 +30,7 @@ class Distortion {
   const std::vector<double>& coefficients() const { return given_; }
 
  private:
+  Distortion(const std::vector<double>& coefficients, double farthest);
   double radial(double r, double& slope) const;
   PlanePoint apply(const PlanePoint& p) const;
   std::optional<PlanePoint> polish(PlanePoint guess, const PlanePoint& wanted) const;

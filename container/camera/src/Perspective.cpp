@@ -16,10 +16,7 @@ class PerspectiveModel : public CameraModel {
   explicit PerspectiveModel(const Parameters& p)
       : CameraModel(readCommon(p)),
         focal_(p.numbers("focal_px", 2, {1.0, 1e6})),
-        distortion_(p.numbersOr("distortion", {}, -1, {-1e4, 1e4}), kFarthest) {
-    if (distortion_.coefficients().size() > 5)
-      p.fail("distortion", "has more than five numbers, expected k1, k2, p1, p2, k3");
-  }
+        distortion_(p, kFarthest) {}
 
  private:
   std::optional<Pixel> toPixel(const Point3& point) const override {

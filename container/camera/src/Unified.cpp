@@ -20,9 +20,7 @@ class UnifiedModel : public CameraModel {
         xi_(p.number("xi", {0.0, 10.0})),
         focal_(p.numbers("focal_px", 2, {1.0, 1e6})),
         skew_(p.numberOr("skew_px", 0.0, {-1e5, 1e5})),
-        distortion_(p.numbersOr("distortion", {}, -1, {-1e4, 1e4}), kFarthest) {
-    if (distortion_.coefficients().size() > 4)
-      p.fail("distortion", "has more than four numbers, expected k1, k2, p1, p2");
+        distortion_(p, kFarthest, 4) {
     // Beyond this height two points of the sphere share a pixel, or the plane ends.
     lowest_ = xi_ > 1.0 ? -1.0 / xi_ : -xi_;
   }
