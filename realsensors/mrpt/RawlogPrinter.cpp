@@ -13,6 +13,7 @@
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/formats/Words.hpp"
+#include "ortung/realsensors/LogFile.hpp"
 
 namespace ortung {
 namespace {
@@ -175,12 +176,19 @@ void RawlogPrinter::move(const mrpt::obs::CActionCollection& actions) {
     const auto& change = movement->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry
                              ? movement->rawOdometryIncrementReading
                              : movement->poseChange->getMeanVal();
-    pose_ = pose_ * flat(change);
+    const Pose2 next = pose_ * flat(change);
+    if (isPlausible(next))
+      pose_ = next;
+    else
+      ++skipped_["movements that are no numbers or lead beyond 1000 km"];
   }
 }
 
 void RawlogPrinter::printOdometry(Timestamp stamp, const Pose2& pose) {
-  if (!isFinite(pose)) throw std::runtime_error("found odometry that is not finite");
+  if (!isPlausible(pose)) {
+    ++skipped_["poses of odometry that are no numbers or beyond 1000 km"];
+    return;
+  }
   write(stamp, {"odometry", "odometry", "pose"}, odometry_.words(stamp, pose));
 }
 

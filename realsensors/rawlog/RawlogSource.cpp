@@ -58,6 +58,7 @@ class RawlogSource : public LogSource {
 
   std::string robotToml() const override;
   void writeWorld(const std::filesystem::path& file) const override;
+  std::string remark() const override;
 
  private:
   void readOutput(const std::string& output);
@@ -85,6 +86,9 @@ class RawlogSource : public LogSource {
   std::set<std::uint32_t> beaconIdentities_;
   std::set<std::uint32_t> landmarkIdentities_;
   std::vector<Timestamp> scanStamps_;
+  std::vector<std::string> skipped_;            ///< what the reader left out, and how much of it
+  std::map<std::string, Timestamp> newest_;     ///< newest time of each feature
+  std::map<std::string, std::size_t> earlier_;  ///< number of readings before it
 };
 
 void RawlogSource::fail(const std::string& found, const std::string& expected) const {
@@ -121,6 +125,8 @@ std::vector<double> RawlogSource::numbersOf(std::istringstream& words, std::size
 
 Observer RawlogSource::observerOf(std::istringstream& words, bool hasFieldOfView) const {
   const auto n = numbersOf(words, hasFieldOfView ? 5 : 4);
+  if (std::abs(n[0]) > kFarMount || std::abs(n[1]) > kFarMount)
+    fail("a sensor that is farther from the robot", "one within 10 m");
   return {{n[0], n[1], wrapAngle(n[2])}, n[3], hasFieldOfView ? n[4] : 0.0};
 }
 
@@ -141,6 +147,9 @@ void RawlogSource::readComment(const std::string& line) {
     beacons_ = observerOf(words, false);
   } else if (what == "landmarks") {
     landmarks_ = observerOf(words, true);
+  } else if (what == "skipped") {
+    constexpr std::size_t kMostSkipped = 32;
+    if (skipped_.size() < kMostSkipped) skipped_.push_back(line.substr(line.find("skipped ") + 8));
   } else if (what == "end") {
     const auto n = numbersOf(words, 1);
     if (n[0] != static_cast<double>(readings_)) {
@@ -189,6 +198,9 @@ void RawlogSource::readMessage(const std::string& line) {
     feature = features_.emplace(toText(message->id), addFeature(message->id)).first;
   }
   if (message->id == kScan) scanStamps_.push_back(message->stamp);
+  const auto newest = newest_.try_emplace(feature->first, message->stamp).first;
+  if (message->stamp < newest->second) ++earlier_[feature->first];
+  newest->second = std::max(newest->second, message->stamp);
   add(feature->second, message->stamp, message->words);
   ++readings_;
 }
@@ -201,6 +213,16 @@ void RawlogSource::readTruth(const std::filesystem::path& path) {
     if (file.size() < 4) file.needFields(4, "time [s], x [m], y [m], theta [rad]");
     add(feature, clock(file, file.stamp(0)), PoseData::encode(file.pose(1)));
   }
+}
+
+std::string RawlogSource::remark() const {
+  std::string text;
+  const auto tell = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+  for (const std::string& one : skipped_) tell(one + ": left out");
+  for (const auto& [feature, count] : earlier_)
+    tell(std::to_string(count) + " readings of " + feature +
+         " have earlier times than those before them, and were put in the order of time");
+  return text;
 }
 
 /// Returns the [[sensor]] table of a sensor of landmarks.

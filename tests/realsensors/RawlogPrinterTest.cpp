@@ -238,8 +238,12 @@ TEST(RawlogPrinter, NumbersThatAreNoneAreRefusedByName) {
   EXPECT_EQ(errorOf([&] { printed({scan}); }), "found a number that is not finite");
   auto odometry = std::make_shared<mrpt::obs::CObservationOdometry>();
   odometry->timestamp = mrpt::Clock::fromDouble(1.0);
-  odometry->odometry = mrpt::poses::CPose2D(static_cast<double>(kEndless), 0, 0);
-  EXPECT_EQ(errorOf([&] { printed({odometry}); }), "found odometry that is not finite");
+  for (const double x : {static_cast<double>(kEndless), 1e300, -1.1e6}) {
+    odometry->odometry = mrpt::poses::CPose2D(x, 0, 0);
+    EXPECT_EQ(printed({odometry}),
+              "# skipped 1 poses of odometry that are no numbers or beyond 1000 km\n# end 0\n")
+        << x;
+  }
 }
 
 // The whole output, of classes of all libraries of MRPT that the program knows.

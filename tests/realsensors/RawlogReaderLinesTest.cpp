@@ -51,6 +51,24 @@ TEST_F(RawlogReaderLines, LandmarksHaveTheirSensorsMountAndFieldOfView) {
   EXPECT_NEAR(std::stod(robot.substr(view + 10)), 60.0, 1e-9);
 }
 
+TEST_F(RawlogReaderLines, WhatWasLeftOutAndTimesThatFallBackAreTold) {
+  const auto source = makeSource(
+      printing("5 odometry/odometry/pose 5 1 2 3 4 5\n3 odometry/odometry/pose 5 1 2 3 4 5\n"
+               "# skipped 7 CObservationImage\n# skipped 2 scans without beams\n# end 2\n"));
+  EXPECT_EQ(source->remark(),
+            "7 CObservationImage: left out; 2 scans without beams: left out; 1 readings of "
+            "odometry/odometry/pose have earlier times than those before them, and were put in "
+            "the order of time");
+}
+
+TEST_F(RawlogReaderLines, ASensorIsOnItsRobot) {
+  EXPECT_NE(errorOf("# scanner 1e6 0 0 -1 0.01 8 3\n# end 0\n")
+                .find("expected one within 10 m of the robot's origin; the options laser_x"),
+            std::string::npos);
+  EXPECT_EQ(errorOf("# landmarks 0 -10.5 0 8 1\n# end 0\n"),
+            "found a sensor that is farther from the robot in line 1" + kWhere + "one within 10 m");
+}
+
 // A range that is not known is 30 m, one of kilometres is 1000 m; a field of view of 0 is a turn,
 // as is one of more than that, and the least one is 1 degree.
 TEST_F(RawlogReaderLines, SightsAreWithinReason) {

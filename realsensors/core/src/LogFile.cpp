@@ -56,6 +56,10 @@ std::string rangeText(const Range& range) {
 
 }  // namespace
 
+bool isPlausible(const Pose2& pose) {
+  return isFinite(pose) && std::abs(pose.x) <= kMaxLogMetres && std::abs(pose.y) <= kMaxLogMetres;
+}
+
 std::optional<std::filesystem::path> findLogFile(const std::filesystem::path& path) {
   for (const char* ending : {"", ".xz", ".gz"}) {
     std::filesystem::path candidate = path;

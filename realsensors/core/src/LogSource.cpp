@@ -52,6 +52,11 @@ void LogSource::finish(const std::string& where) {
 std::vector<std::uint32_t> PoseOdometry::words(Timestamp stamp, const Pose2& pose) {
   constexpr double kShortest = 1e-3;  // [s]; in less, the clock's jitter makes huge velocities
   const double seconds = last_ ? toSeconds(stamp - last_->first) : 0.0;
+  if (last_) {
+    constexpr double kFar = 10.0;  // [m]; odometry is coarse, or begins anew, within less
+    const double way = std::hypot(pose.x - last_->second.x, pose.y - last_->second.y);
+    if (way > kFar && way > kMaxLogVelocity * seconds) ++leaps_;
+  }
   if (seconds >= kShortest) {
     const Pose2 change = inverse(last_->second) * pose;
     translational_ = change.x / seconds;
@@ -59,6 +64,12 @@ std::vector<std::uint32_t> PoseOdometry::words(Timestamp stamp, const Pose2& pos
   }
   last_ = {stamp, pose};
   return OdometryData::encode({pose, translational_, rotational_, {}});
+}
+
+std::string PoseOdometry::remark() const {
+  if (leaps_ == 0) return "";
+  return std::to_string(leaps_) +
+         " poses of odometry are more than 10 m from those before them, faster than 100 m/s";
 }
 
 Pose2 alongArc(const Pose2& pose, double v, double w, double seconds) {

@@ -98,6 +98,7 @@ void ScanLogSource::finishLog(const std::string& where) {
     }
     add(odometryId, stamp, reading);
   }
+  remark_ = odometry.remark();
   const auto beams = static_cast<std::size_t>(scanner_->beams);
   for (std::size_t i = 0; i < scanStamps_.size(); ++i) {
     add(scanId, scanStamps_[i], std::span(scanWords_).subspan(i * beams, beams));

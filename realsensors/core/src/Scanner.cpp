@@ -21,8 +21,8 @@ double shortDegrees(double radians) { return std::round(degrees(radians) * 1e6) 
 }  // namespace
 
 ScannerOptions::ScannerOptions(const Parameters& options)
-    : x_(optionNumber(options, "laser_x", {-10, 10})),
-      y_(optionNumber(options, "laser_y", {-10, 10})),
+    : x_(optionNumber(options, "laser_x", {-kFarMount, kFarMount})),
+      y_(optionNumber(options, "laser_y", {-kFarMount, kFarMount})),
       yaw_(optionNumber(options, "laser_yaw_deg", {-360, 360})),
       maxRange_(optionNumber(options, "max_range_m", {0.1, 1000})) {}
 
@@ -42,6 +42,11 @@ Scanner ScannerOptions::apply(Scanner scanner, const std::string& where) const {
   scanner.angleStep = std::min(scanner.angleStep, kTurn / scanner.beams);  // rounded in the log
   if (x_) scanner.mount.x = *x_;
   if (y_) scanner.mount.y = *y_;
+  if (!(std::abs(scanner.mount.x) <= kFarMount && std::abs(scanner.mount.y) <= kFarMount))
+    throw std::runtime_error(where + ": found a scanner at " + tomlNumber(scanner.mount.x) + ", " +
+                             tomlNumber(scanner.mount.y) +
+                             " m, expected one within 10 m of the robot's origin; the options "
+                             "laser_x and laser_y set where it is");
   if (yaw_) scanner.mount.theta = wrapAngle(radians(*yaw_));
   const double range = std::clamp(scanner.maxRange.value_or(kUsefulRange), 0.1, kUsefulRange);
   scanner.maxRange = maxRange_.value_or(range);

@@ -20,6 +20,10 @@ inline constexpr std::size_t kMaxLogLine = 1u << 20;       ///< greatest length 
 inline constexpr std::uint64_t kMaxLogBytes = 1ull << 31;  ///< greatest decompressed size [bytes]
 inline constexpr double kMaxLogSeconds = 1e10;             ///< greatest absolute time stamp [s]
 inline constexpr double kMaxLogMetres = 1e6;               ///< greatest absolute coordinate [m]
+inline constexpr double kMaxLogVelocity = 100.0;           ///< greatest velocity [m/s], [rad/s]
+
+/// Returns whether a pose is one that a log may have: finite, and at most kMaxLogMetres away.
+ORTUNG_API bool isPlausible(const Pose2& pose);
 
 /// Returns @p path if there is such a file, or the same name with .xz or .gz appended, or nothing.
 ORTUNG_API std::optional<std::filesystem::path> findLogFile(const std::filesystem::path& path);

@@ -54,8 +54,11 @@ class ORTUNG_API PoseOdometry {
  public:
   /// Returns the words of OdometryData for a pose. @pre stamps do not decrease
   std::vector<std::uint32_t> words(Timestamp stamp, const Pose2& pose);
+  /// Returns what is said of steps that no robot takes, for a remark; "" if there was none.
+  std::string remark() const;
 
  private:
+  std::size_t leaps_ = 0;  ///< number of steps that no robot takes
   std::optional<std::pair<Timestamp, Pose2>> last_;
   double translational_ = 0.0;  ///< newest translational velocity [m/s]
   double rotational_ = 0.0;     ///< newest rotational velocity [rad/s]

@@ -26,6 +26,7 @@ class ORTUNG_API ScanLogSource : public LogSource {
   std::string robotToml() const override;
   /// Writes the world of the map. @throws std::runtime_error if there is no map
   void writeWorld(const std::filesystem::path& file) const override;
+  std::string remark() const override { return remark_; }
 
  protected:
   /// @throws ConfigError
@@ -85,6 +86,7 @@ class ORTUNG_API ScanLogSource : public LogSource {
   std::vector<TimedPose> truth_;
   std::vector<Command> commands_;
   std::filesystem::path map_;  ///< file of the map, or empty
+  std::string remark_;         ///< what of the odometry no robot does, or ""
 };
 
 /// Appends the options that all logs of lasers have to @p options, for the help of a source.

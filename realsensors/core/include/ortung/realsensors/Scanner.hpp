@@ -13,6 +13,9 @@
 
 namespace ortung {
 
+/// Sensors are this far from the robot's origin at most, along each axis [m].
+inline constexpr double kFarMount = 10.0;
+
 /// The mount of a laser scanner and the directions of its beams. Angles are counter-clockwise.
 struct Scanner {
   Pose2 mount;                     ///< pose of the scanner in the robot frame
@@ -32,7 +35,7 @@ class ORTUNG_API ScannerOptions {
   /// options set it.
   /// @param scanner the scanner as the log describes it
   /// @param where   file and line for the error
-  /// @throws std::runtime_error if the number of beams or their angles are impossible
+  /// @throws std::runtime_error if the number of beams, their angles or the mount are impossible
   Scanner apply(Scanner scanner, const std::string& where) const;
 
  private:
