@@ -70,15 +70,31 @@ TEST_F(BagOptions, TopicsAreChosenByTheirNames) {
   EXPECT_EQ(xOf("?odometry=/b"), 2000u);
   EXPECT_EQ(errorOf(bag + "?odometry=/c"),
             path() +
-                ": found no topic '/c' with nav_msgs/msg/Odometry; the option odometry names "
-                "it");
+                ": found no message at the topic '/c' that the option odometry names, "
+                "expected one with nav_msgs/msg/Odometry: '/a', '/b'");
   EXPECT_EQ(asText(only(readAll(bag + "?scans=/top"), "laser/LRF/scan")),
             (Texts{"1000000 laser/LRF/scan 2000"}));
   EXPECT_EQ(only(readAll(bag + "?scans=/scan,/top"), "top/LRF/scan").size(), 1u);
   EXPECT_EQ(readAll(bag + "?scans=none").size(), 1u);
-  EXPECT_EQ(errorOf(bag + "?truth=/c"), path() +
-                                            ": found no pose at '/c'; the option truth names "
-                                            "it");
+  EXPECT_EQ(errorOf(bag + "?truth=/c"),
+            path() +
+                ": found no message at the topic '/c' that the option truth names, expected "
+                "one with geometry_msgs/msg/PoseStamped: '/a', '/b'");
+  EXPECT_EQ(errorOf(bag + "?scans=/scan,/nope"),
+            path() +
+                ": found no message at the topic '/nope' that the option scans names, "
+                "expected one with sensor_msgs/msg/LaserScan: '/scan', '/top'");
+  EXPECT_EQ(errorOf(bag + "?ranges=/scan"),
+            path() +
+                ": found no message at the topic '/scan' that the option ranges names, "
+                "expected one with sensor_msgs/msg/Range: there is none");
+  EXPECT_NE(errorOf(bag + "?images=/i").find("sensor_msgs/msg/Image: there is none"), bag.npos);
+  EXPECT_NE(errorOf(bag + "?map=/m").find("nav_msgs/msg/OccupancyGrid: there is none"), bag.npos);
+  EXPECT_EQ(errorOf(bag + "?odometry=tf"),
+            path() +
+                ": found no transform to the frame 'base_link' at /tf, expected the robot's "
+                "odometry there; frames are 'base_footprint', and the option base names the "
+                "robot's");
   EXPECT_EQ(asText(only(readAll(bag + "?truth=/b"), kTruth)),
             (Texts{"1000000 reference/groundTruth/pose 2147485648 2147483648 18000"}))
       << "odometry may be a reference, too";
@@ -109,6 +125,10 @@ TEST_F(BagOptions, TheRobotsFrameMayBeNamed) {
   EXPECT_NE(makeSource(bag)->robotToml().find("x_m = 0.5, y_m = 0.25"), std::string::npos);
   EXPECT_NE(makeSource(bag + "?base=chassis")->robotToml().find("x_m = 1.0, y_m = 0.25"),
             std::string::npos);
+  EXPECT_EQ(errorOf(bag + "?base=base_lnk"),
+            path() +
+                ": found no frame 'base_lnk' that the option base names, expected one of "
+                "'base_footprint', 'chassis', 'laser'");
 }
 
 TEST_F(BagOptions, MountsAreTakenAsTheyAreTold) {
@@ -124,6 +144,107 @@ TEST_F(BagOptions, MountsAreTakenAsTheyAreTold) {
     EXPECT_NE(errorOf(bag + "?mounts=" + mounts).find("must be FRAME:x,y,theta in m and degrees"),
               std::string::npos)
         << mounts;
+}
+
+TEST_F(BagOptions, MountsAreOfSensorsThatAreThereAndNear) {
+  BagMaker maker;
+  maker.add("/odom", odometryAt(0, 0, 0)).add("/scan", scanOf(0, "laser", {1.0F}));
+  const std::string bag = write(maker);
+  EXPECT_EQ(errorOf(bag + "?mounts=lazer:0,0,0"),
+            path() +
+                ": found no sensor in the frame 'lazer' that the option mounts names, "
+                "expected one of 'laser'");
+  for (const char* mount : {"laser:10.1,0,0", "laser:0,-1e300,0"})
+    EXPECT_NE(errorOf(bag + "?mounts=" + mount).find("must be within 10 m"), bag.npos) << mount;
+  BagMaker far;
+  far.add("/odom", odometryAt(0, 0, 0))
+      .add("/tf_static", frameAt("base_footprint", "laser", {{500, 0, 0}, {}}))
+      .add("/scan", scanOf(0, "laser", {1.0F}));
+  EXPECT_EQ(makeSource(write(far))->remark(),
+            "the frame 'laser' of /scan is 500.0 m from 'base_footprint'; the option mounts sets "
+            "where it is");
+}
+
+TEST_F(BagOptions, WhatCanNotBeIsLeftOutAndCounted) {
+  BagMaker maker;
+  Odometry far = odometryAt(2 * kSecond, 1e300, 0);
+  Odometry fast = odometryAt(3 * kSecond, 1, 1e300);
+  Odometry nothing = odometryAt(4 * kSecond, 1, 0);
+  nothing.pose.orientation = {0, 0, 0, 0};
+  maker.add("/odom", odometryAt(kSecond, 1, 0)).add("/odom", far).add("/odom", fast);
+  maker.add("/odom", nothing).add("/odom", odometryAt(5 * kSecond, 2, 0));
+  maker.add("/ground_truth", odometryAt(kSecond, 1, 0)).add("/ground_truth", far);
+  maker.add("/tf_static", frameAt("base_footprint", "laser", {{1e300, 0, 0}, {}}));
+  maker.add("/tf", frameAt("odom", "base_footprint", {{std::nan(""), 0, 0}, {}}));
+  const auto source = makeSource(write(maker));
+  const auto messages = readAll(*source);
+  EXPECT_EQ(only(messages, kWheels).size(), 2u);
+  EXPECT_EQ(only(messages, kTruth).size(), 1u);
+  const std::string remark = source->remark();
+  for (const char* expected :
+       {"2 messages of /odom have a place that is no number or beyond 1000 km, and were left out",
+        "1 messages of /odom have a velocity that is no number or above 100 m/s or rad/s, and",
+        "1 messages of /ground_truth have a place that", "1 messages of /tf_static have transforms",
+        "1 messages of /tf have transforms that are no numbers or beyond 1000 km"})
+    EXPECT_NE(remark.find(expected), remark.npos) << expected << "\n" << remark;
+}
+
+TEST_F(BagOptions, TimesThatDoNotRiseAreCounted) {
+  BagMaker maker;
+  for (const int second : {1, 5, 3, 5, 6}) maker.add("/odom", odometryAt(second * kSecond, 1, 0));
+  maker.add("/scan", scanOf(kSecond, "base_footprint", {1.0F}))
+      .add("/scan", scanOf(2 * kSecond, "base_footprint", {1.0F}));
+  const auto source = makeSource(write(maker));
+  EXPECT_EQ(only(readAll(*source), kWheels).size(), 4u);
+  EXPECT_EQ(source->remark(),
+            "1 messages of /odom have earlier times than those before them, by up to 2.0 s, and "
+            "were put in the order of time; 1 messages of /odom have the time of the one before "
+            "them, and take its place");
+}
+
+TEST_F(BagOptions, TimesThatNoClockHasAreRefused) {
+  std::string bytes;
+  McapWriter writer([&](std::string_view piece) { bytes += piece; }, {.isChunked = false});
+  const auto schema = writer.addSchema(ros2::Odometry::kType, "ros2msg", "");
+  writer.write(writer.addChannel(schema, "/odom", "cdr", {}), std::uint64_t{1} << 63,
+               toCdr(odometryAt(kSecond, 1, 0)));
+  writer.finish();
+  folder_.write("run.mcap", bytes);
+  EXPECT_EQ(errorOf("mcap:" + path() + "?stamps=log"),
+            path() +
+                ": topic /odom: found a time of 9223372036854775808 ns, expected 2^62 at "
+                "most");
+}
+
+TEST_F(BagOptions, AScannersStepAndRangeAreThoseOfAScanner) {
+  for (const float step : {1e30F, 7.0F, -7.0F}) {
+    LaserScan scan = scanOf(0, "laser", {1.0F, 2.0F, 3.0F});
+    scan.angleIncrement = step;
+    EXPECT_NE(complaint("/scan", scan).find("rad apart, expected at least one, within a turn"),
+              std::string::npos)
+        << step;
+  }
+  for (const float range : {-1.0F, 0.0F, 1e30F}) {
+    LaserScan scan = scanOf(kSecond, "base_link", {1.0F});
+    scan.rangeMax = range;
+    BagMaker maker;
+    maker.add("/scan", scan);
+    const std::string bag = write(maker);
+    const std::string remark = makeSource(bag)->remark();
+    EXPECT_NE(remark.find("m: it was taken as 30 m; the option max_range_m sets it"), bag.npos)
+        << range << " " << remark;
+    EXPECT_EQ(makeSource(bag + "?max_range_m=8")->remark(), "");
+  }
+  LaserScan later = scanOf(2 * kSecond, "laser", {1.0F, 2.0F, 3.0F});
+  later.angleIncrement = 1e30F;
+  BagMaker maker;
+  maker.add("/odom", odometryAt(0, 0, 0))
+      .add("/scan", scanOf(kSecond, "laser", {1.0F, 2.0F, 3.0F}));
+  maker.add("/scan", later);
+  const auto source = makeSource(write(maker));
+  EXPECT_EQ(only(readAll(*source), "laser/LRF/scan").size(), 1u);
+  EXPECT_NE(source->remark().find("1 messages of /scan reach beyond the angles of its first one"),
+            std::string::npos);
 }
 
 TEST_F(BagOptions, ScannersThatDoNotSayTheirRangeSee30Metres) {
@@ -221,12 +342,16 @@ TEST_F(BagOptions, MapsLieStraightAndAreComplete) {
   EXPECT_TRUE(refused(fine));
   fine.resolution = std::numeric_limits<float>::infinity();
   EXPECT_TRUE(refused(fine));
+  fine.resolution = 101.0F;
+  EXPECT_TRUE(refused(fine));
   OccupancyGrid empty = map;
   empty.width = 0;
   EXPECT_TRUE(refused(empty));
   OccupancyGrid lost = map;
-  lost.origin.position.x = std::nan("");
-  EXPECT_TRUE(refused(lost));
+  for (const double x : {std::nan(""), 1e300}) {
+    lost.origin.position.x = x;
+    EXPECT_TRUE(refused(lost)) << x;
+  }
 }
 
 TEST_F(BagOptions, OfSeveralMapsTheFirstOrTheNamedOneBecomesTheWorld) {
@@ -246,7 +371,9 @@ TEST_F(BagOptions, OfSeveralMapsTheFirstOrTheNamedOneBecomesTheWorld) {
   EXPECT_EQ(cellOf(""), 0) << "65 and more are occupied";
   EXPECT_EQ(cellOf("?map=/local"), 205) << "26 to 64 are unknown";
   EXPECT_EQ(errorOf([&] { cellOf("?map=/none"); }),
-            path() + ": found no nav_msgs/msg/OccupancyGrid, expected one to make a world of");
+            path() +
+                ": found no message at the topic '/none' that the option map names, expected "
+                "one with nav_msgs/msg/OccupancyGrid: '/local', '/map'");
 }
 
 TEST_F(BagOptions, MessagesThatAreCutOffNameTheirTopic) {

@@ -192,8 +192,7 @@ TEST_F(BagSource, NumbersThatAreNoneNeverComeIn) {
   maker.add("/odom", odometryAt(0, std::nan(""), 0.0)).add("/odom", odometryAt(1000, 1.0, 0.0));
   const auto source = makeSource(write(maker));
   EXPECT_EQ(readAll(*source).size(), 1u);
-  EXPECT_NE(source->remark().find("1 messages of /odom contain invalid numbers"),
-            std::string::npos);
+  EXPECT_NE(source->remark().find("1 messages of /odom have a "), std::string::npos);
 }
 
 TEST_F(BagSource, DamagedBagsAreReadOrRefused) {

@@ -11,6 +11,7 @@
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
+#include "ortung/realsensors/LogSource.hpp"
 #include "ortung/ros2/RobotTopics.hpp"
 
 namespace ortung::ros2 {
@@ -65,6 +66,20 @@ bool isOfWords(const McapChannel& channel) {
   return format->second.substr(0, format->second.find(' ')) != formats::kCone;
 }
 
+constexpr const char* kNoPlace = "have a place that is no number or beyond 1000 km";
+
+/// Returns names for an error: "'/scan', '/top'".
+std::string listOf(const std::set<std::string>& names) {
+  constexpr std::size_t kMost = 32;
+  std::string text;
+  std::size_t count = 0;
+  for (const std::string& name : names) {
+    if (++count > kMost) return text + " and " + std::to_string(names.size() - kMost) + " more";
+    text += (text.empty() ? "" : ", ") + inQuotes(name);
+  }
+  return text.empty() ? "there is none" : text;
+}
+
 template <class List>
 auto& ofTopic(List& list, const McapChannel& channel, const std::string& where) {
   const auto found = std::find_if(list.begin(), list.end(),
@@ -96,7 +111,10 @@ BagChoice BagChoice::read(const Parameters& options) {
 
 Bag::Bag(const fs::path& path, const BagChoice& choice) : choice_(choice) {
   for (const fs::path& file : filesOf(path)) readFile(file);
+  file_ = path.string();
+  checkChoice();
   choose();
+  tellTimes();
   for (const auto& [what, count] : unfit_)
     remarks.push_back(std::to_string(count) + " messages of " + what);
 }
@@ -117,6 +135,7 @@ void Bag::readFile(const fs::path& file) {
 void Bag::take(const McapMessage& message, const std::string& type) {
   const std::string& topic = message.channel->topic;
   const bool isOurs = !featureOf(*message.channel).empty();
+  topics_[type].insert(topic);
   if (type == LaserScan::kType) {
     if (isWanted(choice_.scans, topic)) takeScan(message);
   } else if (type == Range::kType) {
@@ -151,7 +170,42 @@ void Bag::refuse(const McapMessage& message, const std::string& what) const {
   throw std::runtime_error(file_ + ": topic " + message.channel->topic.substr(0, 80) + ": " + what);
 }
 
-Timestamp Bag::stampOf(const Header& header, const McapMessage& message) const {
+void Bag::leaveOut(const McapMessage& message, const char* why) {
+  ++unfit_[message.channel->topic.substr(0, 80) + " " + why + ", and were left out"];
+}
+
+Timestamp Bag::stampOf(const Header& header, const McapMessage& message) {
+  return inOrder(message.channel->topic, timeOf(header, message));
+}
+
+Timestamp Bag::inOrder(const std::string& topic, Timestamp stamp) {
+  const auto [known, isFirst] = times_.try_emplace(topic, Times{stamp, 0, 0, 0});
+  Times& times = known->second;
+  if (isFirst || stamp > times.newest) {
+    times.newest = stamp;
+  } else if (stamp == times.newest) {
+    ++times.same;
+  } else {
+    ++times.back;
+    times.farthest = std::max(times.farthest, times.newest - stamp);
+  }
+  return stamp;
+}
+
+/// Tells of times that are not those of a clock.
+void Bag::tellTimes() {
+  for (const auto& [topic, times] : times_) {
+    if (times.back > 0)
+      unfit_[topic.substr(0, 80) + " have earlier times than those before them, by up to " +
+             tomlNumber(toSeconds(times.farthest)) + " s, and were put in the order of time"] =
+          times.back;
+    if (times.same > 0)
+      unfit_[topic.substr(0, 80) + " have the time of the one before them, and take its place"] =
+          times.same;
+  }
+}
+
+Timestamp Bag::timeOf(const Header& header, const McapMessage& message) const {
   if (choice_.usesLogTime) return logTime(message);
   return header.stamp / 1000 - (header.stamp % 1000 < 0 ? 1 : 0);
 }
@@ -180,12 +234,9 @@ void Bag::takeScan(const McapMessage& message) {
   } catch (const std::invalid_argument& error) {
     refuse(message, error.what());
   }
+  sensorFrames_.insert(series.shape->frame());
   std::vector<float> fitted = series.shape->fit(scan);
-  if (fitted.empty()) {
-    ++unfit_[message.channel->topic +
-             " reach beyond the angles of its first one, and were left out"];
-    return;
-  }
+  if (fitted.empty()) return leaveOut(message, "reach beyond the angles of its first one");
   keep(fitted.size() * sizeof(float));
   if (!series.shape->isSame(scan))
     ++unfit_[message.channel->topic +
@@ -198,6 +249,7 @@ void Bag::takeRange(const McapMessage& message) {
   Ranges& list = ofTopic(ranges, *message.channel, file_);
   if (list.list.empty()) {
     list.frame = range.header.frame;
+    sensorFrames_.insert(list.frame);
     list.openingAngle = static_cast<double>(range.fieldOfView);
     list.maxRange = static_cast<double>(range.maxRange);
     if (!(list.openingAngle > 0.0 && list.openingAngle < 3.0) ||
@@ -227,6 +279,7 @@ void Bag::takeImage(const McapMessage& message) {
                         " bytes, expected as many as it has, and 4096 x 4096 at most");
   Pictures& list = ofTopic(pictures, *message.channel, file_);
   list.frame = image.header.frame;
+  sensorFrames_.insert(list.frame);
   Picture& picture = list.list.emplace_back();
   picture.stamp = stampOf(image.header, message);
   ImageData::start({static_cast<int>(image.width), static_cast<int>(image.height)},
@@ -253,7 +306,7 @@ void Bag::addTruth(const McapMessage& message, const Header& header, const Pose&
   }
   if (message.channel->topic != truth.topic) return;
   const Pose2 planar = toPose2(pose);
-  if (!isFinite(planar)) return;
+  if (!isPlausible(planar)) return leaveOut(message, kNoPlace);
   keep(sizeof(Moving));
   truth.list.push_back({stampOf(header, message), planar});
 }
@@ -262,11 +315,10 @@ void Bag::takeOdometry(const McapMessage& message) {
   const auto odom = *decode<Odometry>(message);
   if (isTruth(message)) return addTruth(message, odom.header, odom.pose);
   const Pose2 pose = toPose2(odom.pose);
-  const double sum = odom.linear.x + odom.linear.y + odom.angular.z;
-  if (!isFinite(pose) || !std::isfinite(sum)) {
-    ++unfit_[message.channel->topic + " contain invalid numbers, and were left out"];
-    return;
-  }
+  if (!isPlausible(pose)) return leaveOut(message, kNoPlace);
+  for (const double velocity : {odom.linear.x, odom.linear.y, odom.angular.z})
+    if (!(std::abs(velocity) <= kMaxLogVelocity))
+      return leaveOut(message, "have a velocity that is no number or above 100 m/s or rad/s");
   Track& track = ofTopic(odometries_, *message.channel, file_);
   if (odometryFrames_.size() < odometries_.size()) odometryFrames_.push_back(odom.childFrame);
   keep(sizeof(Moving));
@@ -277,13 +329,16 @@ void Bag::takeOdometry(const McapMessage& message) {
 void Bag::takeTransforms(const McapMessage& message) {
   const bool isStatic = message.channel->topic.ends_with("tf_static");
   const auto transforms = *decode<TfMessage>(message);
+  bool isWhole = true;
   for (const TransformStamped& one : transforms.transforms) {
-    frames.add(one, isStatic);
     const Pose2 pose = toPose2(one.transform);
-    if (isStatic || !isFinite(pose)) continue;
+    const bool isUsed = frames.add(one, isStatic) && isPlausible(pose);
+    isWhole = isWhole && isUsed;
+    if (isStatic || !isUsed) continue;
     keep(sizeof(TimedTransform));
-    moving_.push_back({stampOf(one.header, message), one.header.frame, one.childFrame, pose});
+    moving_.push_back({timeOf(one.header, message), one.header.frame, one.childFrame, pose});
   }
+  if (!isWhole) leaveOut(message, "have transforms that are no numbers or beyond 1000 km");
 }
 
 void Bag::takePose(const McapMessage& message) {
@@ -298,13 +353,13 @@ void Bag::takePose(const McapMessage& message) {
   const auto pose = *decode<PoseWithCovarianceStamped>(message);
   if (!isEstimate) return addTruth(message, pose.header, pose.pose);
   PoseFixData::Fix fix{toPose2(pose.pose), {}};
-  bool isNumber = isFinite(fix.pose);
+  bool isNumber = isPlausible(fix.pose);
   for (std::size_t i = 0; i < 9; ++i) {
     fix.covariance[i] = pose.covariance[kPlanar[i / 3] * 6 + kPlanar[i % 3]];
     isNumber =
         isNumber && std::isfinite(fix.covariance[i]) && (i % 4 != 0 || fix.covariance[i] >= 0);
   }
-  if (!isNumber) return;
+  if (!isNumber) return leaveOut(message, kNoPlace);
   addOwn(message, stampOf(pose.header, message), PoseFixData::encode({&fix, 1}));
 }
 
@@ -326,7 +381,7 @@ void Bag::takeMap(const McapMessage& message) {
   map = *decode<OccupancyGrid>(message);
   const Pose2 origin = toPose2(map->origin);
   constexpr double kLevel = 1e-6;  // [rad]
-  if (!(map->resolution > 0.0F) || !std::isfinite(map->resolution) || !isFinite(origin) ||
+  if (!(map->resolution > 0.0F) || map->resolution > 100.0F || !isPlausible(origin) ||
       std::abs(origin.theta) > kLevel || map->width == 0 || map->height == 0 ||
       map->data.size() / map->width != map->height || map->data.size() % map->width != 0)
     refuse(message, "found a map of " + std::to_string(map->width) + " x " +
@@ -334,6 +389,45 @@ void Bag::takeMap(const McapMessage& message) {
                         std::to_string(map->resolution) + " m with " +
                         std::to_string(map->data.size()) + " values, turned by " +
                         std::to_string(origin.theta) + " rad, expected a value a cell, not turned");
+}
+
+/// Throws unless there are messages of one of the types at a topic that an option names.
+void Bag::needTopic(const char* option, const std::string& topic,
+                    std::initializer_list<std::string_view> types) const {
+  std::set<std::string> there;
+  for (const std::string_view type : types)
+    if (const auto found = topics_.find(type); found != topics_.end())
+      there.insert(found->second.begin(), found->second.end());
+  if (there.contains(topic)) return;
+  throw std::runtime_error(file_ + ": found no message at the topic " + inQuotes(topic) +
+                           " that the option " + option + " names, expected one with " +
+                           std::string(*types.begin()) + ": " + listOf(there));
+}
+
+/// Throws for options that name topics which are not there.
+void Bag::checkChoice() const {
+  const auto needAll = [&](const char* option, const std::optional<std::vector<std::string>>& list,
+                           std::string_view type) {
+    for (const std::string& topic : list.value_or(std::vector<std::string>()))
+      needTopic(option, topic, {type});
+  };
+  needAll("scans", choice_.scans, LaserScan::kType);
+  needAll("ranges", choice_.ranges, Range::kType);
+  needAll("images", choice_.images, Image::kType);
+  if (!choice_.odometry.empty() && choice_.odometry != "tf")
+    needTopic("odometry", choice_.odometry, {Odometry::kType});
+  if (!choice_.truth.empty() && choice_.truth != "tf" && choice_.truth != "none")
+    needTopic("truth", choice_.truth,
+              {PoseStamped::kType, PoseWithCovarianceStamped::kType, Odometry::kType});
+  if (!choice_.map.empty()) needTopic("map", choice_.map, {OccupancyGrid::kType});
+}
+
+/// Returns all frames of which the bag tells, for errors.
+std::string Bag::frameList() const {
+  std::set<std::string> all = frames.frames();
+  all.insert(sensorFrames_.begin(), sensorFrames_.end());
+  all.insert(odometryFrames_.begin(), odometryFrames_.end());
+  return listOf(all);
 }
 
 /// Chooses odometry, ground truth and the robot's frame, after all messages were read.
@@ -344,12 +438,30 @@ void Bag::choose() {
   if (at < odometries_.size()) {
     odometry = std::move(odometries_[at]);
     base = odometryFrames_[at];
-  } else if (!wanted.empty() && wanted != "tf") {
-    throw std::runtime_error(file_ + ": found no topic " + inQuotes(wanted) +
-                             " with nav_msgs/msg/Odometry; the option odometry names it");
   }
-  if (!choice_.base.empty()) base = choice_.base;
+  if (!choice_.base.empty()) {
+    base = choice_.base;
+    const bool isThere =
+        frames.frames().contains(base) || sensorFrames_.contains(base) ||
+        std::find(odometryFrames_.begin(), odometryFrames_.end(), base) != odometryFrames_.end();
+    if (!isThere)
+      throw std::runtime_error(file_ + ": found no frame " + inQuotes(base) +
+                               " that the option base names, expected one of " + frameList());
+  }
   if (base.empty()) base = frames.hasFrame("base_footprint") ? "base_footprint" : "base_link";
+  followFrames();
+  if (wanted == "tf" && odometry.list.empty())
+    throw std::runtime_error(file_ + ": found no transform to the frame " + inQuotes(base) +
+                             " at /tf, expected the robot's odometry there; frames are " +
+                             frameList() + ", and the option base names the robot's");
+  if (choice_.truth == "tf") truth.topic = "/tf";
+  if (!choice_.truth.empty() && choice_.truth != "none" && truth.list.empty())
+    throw std::runtime_error(file_ + ": found no pose that may be one at " +
+                             inQuotes(choice_.truth) + "; the option truth names it");
+}
+
+/// Takes the robot's way from the transforms.
+void Bag::followFrames() {
   std::string inOdometry;  // the frame in which the robot moves
   std::optional<Pose2> odometryInMap;
   for (const TimedTransform& one : moving_) {
@@ -357,7 +469,7 @@ void Bag::choose() {
       inOdometry = one.parent;
       if (odometry.topic.empty() || odometry.topic == "/tf") {
         odometry.topic = "/tf";
-        odometry.list.push_back({one.stamp, one.pose});
+        odometry.list.push_back({inOrder("/tf to the robot", one.stamp), one.pose});
       }
       if (choice_.truth == "tf" && odometryInMap)
         truth.list.push_back({one.stamp, *odometryInMap * one.pose});
@@ -365,10 +477,6 @@ void Bag::choose() {
       odometryInMap = one.pose;
     }
   }
-  if (choice_.truth == "tf") truth.topic = "/tf";
-  if (!choice_.truth.empty() && choice_.truth != "none" && truth.list.empty())
-    throw std::runtime_error(file_ + ": found no pose at " + inQuotes(choice_.truth) +
-                             "; the option truth names it");
 }
 
 }  // namespace ortung::ros2

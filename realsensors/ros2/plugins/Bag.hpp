@@ -2,9 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "FrameTree.hpp"
@@ -82,6 +85,8 @@ class Bag {
   Track odometry, truth;
   std::map<std::string, OwnWords> own;  ///< words in files that Ortung wrote, by topic
   FrameTree frames;
+  /// Returns the frames of sensors, which options may mount.
+  const std::set<std::string>& sensorFrames() const { return sensorFrames_; }
   std::string base;  ///< frame of the robot
   std::optional<OccupancyGrid> map;
   std::string robotToml;             ///< robot file in a file that Ortung wrote, or ""
@@ -92,7 +97,10 @@ class Bag {
   void take(const McapMessage& message, const std::string& name);
   template <class M>
   std::optional<M> decode(const McapMessage& message) const;
-  Timestamp stampOf(const Header& header, const McapMessage& message) const;
+  Timestamp timeOf(const Header& header, const McapMessage& message) const;
+  /// Returns the time of a message that is kept, and counts those that are not in order.
+  Timestamp stampOf(const Header& header, const McapMessage& message);
+  Timestamp inOrder(const std::string& topic, Timestamp stamp);
   void takeScan(const McapMessage& message);
   void takeRange(const McapMessage& message);
   void takeImage(const McapMessage& message);
@@ -107,8 +115,22 @@ class Bag {
   void addTruth(const McapMessage& message, const Header& header, const Pose& pose);
   void refuse(const McapMessage& message, const std::string& what) const;
   void keep(std::size_t bytes);
+  void leaveOut(const McapMessage& message, const char* why);
+  void checkChoice() const;
+  void needTopic(const char* option, const std::string& topic,
+                 std::initializer_list<std::string_view> types) const;
+  std::string frameList() const;
   void choose();
+  void followFrames();
+  void tellTimes();
 
+  /// The times of a topic's messages.
+  struct Times {
+    Timestamp newest = 0;
+    Timestamp farthest = 0;  ///< longest step back [us]
+    std::size_t back = 0;    ///< number of messages before the newest one
+    std::size_t same = 0;    ///< number of messages at the time of the newest one
+  };
   struct TimedTransform {
     Timestamp stamp;
     std::string parent, child;
@@ -119,8 +141,11 @@ class Bag {
   std::vector<Track> odometries_;
   std::vector<std::string> odometryFrames_;  ///< the robot's frame of each odometry
   std::vector<TimedTransform> moving_;
-  std::size_t kept_ = 0;  ///< size of the readings [bytes]
-  std::map<std::string, std::size_t> unfit_;
+  std::size_t kept_ = 0;                      ///< size of the readings [bytes]
+  std::map<std::string, std::size_t> unfit_;  ///< number of messages by what is said about them
+  std::map<std::string, Times> times_;        ///< times by topic
+  std::map<std::string, std::set<std::string>, std::less<>> topics_;  ///< topics by type
+  std::set<std::string> sensorFrames_;                                ///< frames of sensors
 };
 
 }  // namespace ortung::ros2

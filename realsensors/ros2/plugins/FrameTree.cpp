@@ -10,20 +10,30 @@ constexpr double kFarthest = 1e6;  // [m]
 
 }  // namespace
 
-void FrameTree::add(const TransformStamped& transform, bool isStatic) {
+bool FrameTree::add(const TransformStamped& transform, bool isStatic) {
   const auto& [position, q] = transform.transform;
   const Eigen::Vector3d place(position.x, position.y, position.z);
   const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
   constexpr double kLeast = 1e-3;  // least length of a quaternion, which should be 1
   if (!place.allFinite() || place.norm() > kFarthest || !(turn.norm() > kLeast) ||
       !std::isfinite(turn.norm()))
-    return;
+    return false;
   const auto known = links_.find(transform.childFrame);
   if (known == links_.end() ? links_.size() >= kMostFrames : known->second.isStatic && !isStatic)
-    return;
+    return true;
   Link link{transform.header.frame, Eigen::Isometry3d::Identity(), isStatic};
   link.pose = Eigen::Translation3d(place) * turn.normalized();
   links_.insert_or_assign(transform.childFrame, std::move(link));
+  return true;
+}
+
+std::set<std::string> FrameTree::frames() const {
+  std::set<std::string> all;
+  for (const auto& [child, link] : links_) {
+    all.insert(child);
+    all.insert(link.parent);
+  }
+  return all;
 }
 
 bool FrameTree::hasFrame(const std::string& frame) const { return links_.contains(frame); }

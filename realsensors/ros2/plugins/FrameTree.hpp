@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "ortung/ros2/Messages.hpp"
@@ -12,12 +13,16 @@ namespace ortung::ros2 {
 /// Poses of frames in others, from the messages at /tf and /tf_static. Not thread-safe.
 class FrameTree {
  public:
-  /// Takes a transform; one that is not finite, or whose quaternion is 0, is ignored.
-  void add(const TransformStamped& transform, bool isStatic);
+  /// Takes a transform. Returns false for one that is not finite, reaches beyond 1000 km or has a
+  /// quaternion of length 0; it is ignored.
+  bool add(const TransformStamped& transform, bool isStatic);
   /// Returns the pose of @p frame in @p base by static transforms; if those do not connect the two,
   /// by the newest ones, too, except for that of @p base itself. Nothing if they are not connected.
   std::optional<Eigen::Isometry3d> find(const std::string& frame, const std::string& base) const;
+  /// Whether a transform leads to a frame.
   bool hasFrame(const std::string& frame) const;
+  /// Returns all frames that transforms lead from or to, sorted.
+  std::set<std::string> frames() const;
   std::size_t size() const { return links_.size(); }
 
  private:

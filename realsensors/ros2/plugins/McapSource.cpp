@@ -50,6 +50,7 @@ class McapSource : public LogSource {
     const BagChoice choice = BagChoice::read(options);
     readMounts(options);
     Bag bag(path_, choice);
+    checkMounts(bag);
     if (!bag.odometry.list.empty()) addOdometry(bag);
     for (const Bag::Scans& scans : bag.scans) addScans(bag, scans);
     for (const Bag::Ranges& ranges : bag.ranges) addRanges(bag, ranges);
@@ -74,6 +75,7 @@ class McapSource : public LogSource {
 
  private:
   void readMounts(const Parameters& options);
+  void checkMounts(const Bag& bag) const;
   void addOdometry(const Bag& bag);
   void addScans(const Bag& bag, const Bag::Scans& scans);
   void addRanges(const Bag& bag, const Bag::Ranges& ranges);
@@ -105,13 +107,29 @@ void McapSource::readMounts(const Parameters& options) {
     const std::size_t colon = one.rfind(':');
     const auto numbers =
         colon == one.npos ? std::nullopt : parseNumbers(std::string_view(one).substr(colon + 1));
-    if (!numbers || numbers->size() != 3)
+    const bool isNear = numbers && numbers->size() == 3 && std::abs((*numbers)[0]) <= kFarMount &&
+                        std::abs((*numbers)[1]) <= kFarMount;
+    if (numbers && numbers->size() == 3 && !isNear)
+      options.fail("mounts", "has '" + one + "', must be within 10 m of the robot's origin");
+    if (!isNear)
       options.fail("mounts", "has '" + one +
                                  "', must be FRAME:x,y,theta in m and degrees, and ';' "
                                  "between two");
     mounts_[one.substr(0, colon)] = {(*numbers)[0], (*numbers)[1],
                                      wrapAngle(radians((*numbers)[2]))};
   }
+}
+
+/// Throws for a mount of a frame that no sensor has.
+void McapSource::checkMounts(const Bag& bag) const {
+  std::string known;
+  for (const std::string& frame : bag.sensorFrames())
+    known += (known.empty() ? "" : ", ") + inQuotes(frame);
+  for (const auto& [frame, mount] : mounts_)
+    if (!bag.sensorFrames().contains(frame))
+      throw std::runtime_error(path_ + ": found no sensor in the frame " + inQuotes(frame) +
+                               " that the option mounts names, expected one of " +
+                               (known.empty() ? "none" : known));
 }
 
 SensorId McapSource::idFor(const std::string& feature, SensorId fallback) {
@@ -145,6 +163,10 @@ std::pair<Pose2, bool> McapSource::mountOf(const Bag& bag, const std::string& fr
                              " degrees, expected a level one; the option scans leaves it "
                              "out");
   const Eigen::Vector3d place = found->translation();
+  if (std::hypot(place.x(), place.y()) > kFarMount)
+    remarks_.push_back("the frame " + inQuotes(frame) + " of " + topic + " is " +
+                       tomlNumber(std::round(std::hypot(place.x(), place.y()))) + " m from " +
+                       inQuotes(bag.base) + "; the option mounts sets where it is");
   return {{plain(place.x()), plain(place.y()), std::atan2(turn(1, 0), turn(0, 0))},
           isScanner && turn(2, 2) < 0.0};
 }
@@ -153,17 +175,18 @@ void McapSource::addOdometry(const Bag& bag) {
   const SensorId id = idFor(bag.odometry.feature, {"odometry", "odometry", "pose"});
   const auto feature = addFeature(id);
   numbers_[toText(id)] = feature;
-  if (bag.odometry.topic != "/tf") {
-    for (const Bag::Moving& one : bag.odometry.list)
-      add(feature, one.stamp,
-          OdometryData::encode({one.pose, one.forward, one.turn, {}, one.left}));
-    return;
-  }
   auto list = bag.odometry.list;
   std::stable_sort(list.begin(), list.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  const bool isToldVelocities = bag.odometry.topic != "/tf";
   PoseOdometry odometry;
-  for (const Bag::Moving& one : list) add(feature, one.stamp, odometry.words(one.stamp, one.pose));
+  for (const Bag::Moving& one : list) {
+    const auto words = odometry.words(one.stamp, one.pose);
+    add(feature, one.stamp,
+        isToldVelocities ? OdometryData::encode({one.pose, one.forward, one.turn, {}, one.left})
+                         : words);
+  }
+  if (!odometry.remark().empty()) remarks_.push_back(odometry.remark());
 }
 
 void McapSource::addScans(const Bag& bag, const Bag::Scans& scans) {
@@ -174,6 +197,10 @@ void McapSource::addScans(const Bag& bag, const Bag::Scans& scans) {
   const auto [mount, isUpsideDown] = mountOf(bag, scans.shape->frame(), scans.topic, true);
   Scanner scanner = scans.shape->scanner(isUpsideDown);
   scanner.mount = mount;
+  if (!(scans.shape->maxRange() > 0.0) && !maxRange_)
+    remarks_.push_back("the scans of " + scans.topic + " say a greatest range of " +
+                       scans.shape->toldRange() +
+                       " m: it was taken as 30 m; the option max_range_m sets it");
   const double told = scans.shape->maxRange() > 0.0 ? plain(scans.shape->maxRange()) : kUsefulRange;
   scanner.maxRange = maxRange_.value_or(told);
   const bool isReversed = scans.shape->isClockwise() != isUpsideDown;

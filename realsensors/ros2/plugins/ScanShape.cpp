@@ -1,6 +1,8 @@
 #include "ScanShape.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -19,6 +21,12 @@ float meaning(float range) {
   return range > 0.0F ? range : std::numeric_limits<float>::quiet_NaN();
 }
 
+/// Whether beams lie within some turns: wheels of scanners repeat beams, but not that often.
+bool isWithinTurns(double step, std::size_t beams) {
+  constexpr double kMostTurns = 2.0;
+  return std::abs(step) * static_cast<double>(beams - 1) <= kMostTurns * kTurn;
+}
+
 }  // namespace
 
 ScanShape::ScanShape(const LaserScan& first)
@@ -28,7 +36,7 @@ ScanShape::ScanShape(const LaserScan& first)
       told_(first.ranges.size()),
       beams_(first.ranges.size()) {
   if (!std::isfinite(first_) || !std::isfinite(step_) || step_ == 0.0 ||
-      std::abs(first_) > 2 * kTurn || beams_ == 0)
+      std::abs(first_) > 2 * kTurn || beams_ == 0 || !isWithinTurns(step_, beams_))
     throw std::invalid_argument("found " + std::to_string(beams_) + " beams from " +
                                 std::to_string(first_) + " rad on, " + std::to_string(step_) +
                                 " rad apart, expected at least one, within a turn");
@@ -40,6 +48,8 @@ ScanShape::ScanShape(const LaserScan& first)
     throw std::invalid_argument("found " + std::to_string(beams_) + " beams, expected at most " +
                                 std::to_string(kMostBeams));
   const auto most = static_cast<double>(first.rangeMax);
+  std::array<char, 32> text{};
+  toldRange_.assign(text.data(), std::to_chars(text.data(), text.end(), first.rangeMax).ptr);
   if (std::isfinite(most) && most > 0.0 && most <= kMostMetres) maxRange_ = most;
 }
 
@@ -57,7 +67,9 @@ std::vector<float> ScanShape::fit(const LaserScan& scan) const {
   }
   const auto first = static_cast<double>(scan.angleMin);
   const auto step = static_cast<double>(scan.angleIncrement);
-  if (!std::isfinite(first) || !std::isfinite(step) || step * step_ <= 0.0) return {};
+  if (!std::isfinite(first) || !std::isfinite(step) || step * step_ <= 0.0 || scan.ranges.empty() ||
+      !isWithinTurns(step, scan.ranges.size()))
+    return {};
   bool isAny = false;
   for (std::size_t i = 0; i < beams_; ++i) {
     const double at = std::round((first_ + step_ * static_cast<double>(i) - first) / step);

@@ -28,6 +28,8 @@ class ScanShape {
   bool isClockwise() const { return step_ < 0; }
   const std::string& frame() const { return frame_; }
   double maxRange() const { return maxRange_; }  ///< greatest range [m]; 0: unknown
+  /// Returns the greatest range as the first scan has it, for people.
+  const std::string& toldRange() const { return toldRange_; }
 
  private:
   std::string frame_;
@@ -36,6 +38,7 @@ class ScanShape {
   std::size_t told_ = 0;   ///< number of beams of the first scan
   std::size_t beams_ = 0;  ///< number of these beams within a turn
   double maxRange_ = 0.0;
+  std::string toldRange_;
 };
 
 }  // namespace ortung::ros2
