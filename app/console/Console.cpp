@@ -1,6 +1,7 @@
 #include "Console.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -19,6 +20,11 @@ bool isControl(std::string_view text, std::size_t i) {
   // The C1 controls in UTF-8 are 0xC2 0x80 to 0xC2 0x9F.
   const bool afterC2 = i > 0 && static_cast<unsigned char>(text[i - 1]) == 0xC2;
   return afterC2 && byte >= 0x80 && byte < 0xA0;
+}
+
+bool hasNoReader() {
+  pollfd out{STDOUT_FILENO, 0, 0};
+  return ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
 }
 
 spdlog::logger& logger() {
@@ -48,11 +54,15 @@ void flushOutput() {
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;
   if (flushed && !hasFailed) return;
-  // If a print failed before, its error is lost; writing nothing returns it again.
-  if (errno == 0 && ::write(STDOUT_FILENO, "", 0) == 0) errno = EIO;
+  // If a print failed before, its error is lost; writing nothing returns it again, but of a pipe.
+  if (errno == 0 && ::write(STDOUT_FILENO, "", 0) == 0) errno = hasNoReader() ? EPIPE : EIO;
   if (error == 0) error = errno;
-  throw std::runtime_error("standard output: can't be written: " +
-                           std::generic_category().message(error));
+  throw std::system_error(error, std::generic_category(), "standard output: can't be written");
+}
+
+bool isReaderGone(const std::exception& error) {
+  const auto* const system = dynamic_cast<const std::system_error*>(&error);
+  return system != nullptr && system->code() == std::errc::broken_pipe;
 }
 
 std::string printable(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,8 +25,14 @@ void fail(const std::string& text);
 /// get them. Reading and writing these streams fails.
 void reserveStandardStreams();
 
-/// Flushes stdout. @throws std::runtime_error if it can't be written
+/// Flushes stdout. @throws std::system_error if it can't be written
 void flushOutput();
+
+/// Whether an error says that the reader of a pipe has left, as `| head` does: nobody wants the
+/// rest, and the program ends quietly with kReaderLeft.
+bool isReaderGone(const std::exception& error);
+/// The exit code of a program that SIGPIPE ends.
+inline constexpr int kReaderLeft = 128 + 13;
 
 /// Returns @p text with control characters, which a hostile file could send to the terminal, as
 /// \xNN.

@@ -18,15 +18,19 @@ constexpr int kBadInput = 1;
 constexpr int kWrongUsage = 2;
 constexpr int kSignalled = 128;
 
-/// Returns the error of stdout, which may have caused any other error; "" if there is none.
-std::string outputError() {
-  if (std::ferror(stdout) == 0) return "";
+/// Tells of an error, or of that of stdout, which may have caused any other error.
+/// @return the exit code
+int tell(const std::exception& error) {
   try {
-    flushOutput();
-  } catch (const std::exception& error) {
-    return error.what();
+    if (std::ferror(stdout) != 0) flushOutput();
+  } catch (const std::exception& output) {
+    if (isReaderGone(output)) return kReaderLeft;
+    fail(output.what());
+    return kBadInput;
   }
-  return "";
+  if (isReaderGone(error)) return kReaderLeft;
+  fail(error.what());
+  return kBadInput;
 }
 
 int run(const ParsedCommand& command) {
@@ -58,9 +62,8 @@ int runCommand(const std::vector<CommandDeclaration>& commands, int argc, char**
     fail("not enough memory");
   } catch (const std::exception& error) {
     // Work that a signal has stopped may throw different errors.
-    const std::string output = outputError();
-    const std::string what = output.empty() ? error.what() : output;
-    fail(interruptSignal() != 0 ? Interrupted().what() : what);
+    if (interruptSignal() == 0) return tell(error);
+    fail(Interrupted().what());
   } catch (...) {
     fail("an exception was thrown that is not a std::exception");
   }

@@ -71,6 +71,7 @@ int runProgram(int argc, char** argv) {
     flushOutput();
     return exitCode;
   } catch (const std::exception& error) {
+    if (isReaderGone(error)) return kReaderLeft;
     fail(error.what());
     return kBadInput;
   }

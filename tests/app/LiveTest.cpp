@@ -266,6 +266,34 @@ TEST_F(FullOutput, IsAnErrorOfEveryCommand) {
   EXPECT_FALSE(fs::is_regular_file("/dev/full"));
 }
 
+// As of a program that SIGPIPE ends: `ortung ... | head -1`.
+TEST_F(FullOutput, WhoseReaderHasLeftEndsACommandQuietly) {
+  learnTables();
+  recordRun();
+  const std::vector<std::string> mcl = {"--source", "record:" + path("run.rec"),
+                                        "--robot",  path("robot.toml"),
+                                        "--tables", path("hall.ortung")};
+  std::vector<std::vector<std::string>> commands = {
+      {"--help"},
+      {"learn", "--help"},
+      {"plugins"},
+      {"check", path("run.rec")},
+      {"localize"},
+      {"eval", "--start", "truth", "--json", path("eval.json")},
+      {"sim", path("hall.toml"), "--duration", "0.1", "--free-run"},
+      {"import", "sim", path("hall.toml"), "--with-robot", path("robot.toml"), "--option",
+       "duration=1", "--out", "/dev/stdout"},
+  };
+  for (auto& command : commands) {
+    if (command[0] == "localize" || command[0] == "eval")
+      command.insert(command.end(), mcl.begin(), mcl.end());
+    const Outcome outcome = ortung(command, {}, "left");
+    EXPECT_EQ(outcome.exitCode, 141) << command[0] << " " << outcome.err;
+    EXPECT_EQ(outcome.err.find("can't"), std::string::npos) << command[0] << " " << outcome.err;
+    EXPECT_EQ(outcome.err.find("pipe"), std::string::npos) << command[0] << " " << outcome.err;
+  }
+}
+
 // Files that are opened while stdout is closed must not get its number, and what is printed.
 TEST_F(FullOutput, ThatIsClosedDoesNotEndUpInAnotherFile) {
   learnTables();

@@ -74,7 +74,11 @@ Program::Program(const std::vector<std::string>& arguments,
   openPipe(err);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  if (output.empty()) {
+  if (output == "left") {
+    close(out[0]);
+    out[0] = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  }
+  if (output.empty() || output == "left") {
     posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
   } else if (output == "closed") {
     posix_spawn_file_actions_addclose(&actions, STDOUT_FILENO);

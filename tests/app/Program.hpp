@@ -18,7 +18,9 @@ struct Outcome {
 class Program {
  public:
   /// @param environment "KEY=value" additions
-  /// @param output where stdout goes: a file, or "closed"; "": it is read
+  /// @param output where stdout goes: a file, "closed", or "left": a pipe without a reader; "": it
+  /// is
+  ///   read
   explicit Program(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {},
                    const std::string& output = "");

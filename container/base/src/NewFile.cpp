@@ -105,8 +105,8 @@ NewFile::~NewFile() {
 }
 
 void NewFile::fail() const {
-  throw std::runtime_error(file_.string() +
-                           ": can't be written: " + std::generic_category().message(errno));
+  // With the code, by which a program knows a reader that has left.
+  throw std::system_error(errno, std::generic_category(), file_.string() + ": can't be written");
 }
 
 void NewFile::open() {
