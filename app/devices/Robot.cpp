@@ -158,6 +158,17 @@ class RunningRobot {
       fmt::print("{}: {} readings\n", printable(arguments_.record.string()), record_->messages());
     if (localization_) fmt::print("{} updates of the pose\n", updates_);
   }
+  /// @throws std::runtime_error if no device has given a reading, with the reasons
+  void needReadings() const {
+    std::string missing;
+    for (const DeviceStatus& one : devices_.status()) {
+      if (one.readings > 0) return;
+      missing += fmt::format("{}{} ({}{})", missing.empty() ? "" : ", ", one.name,
+                             toText(one.state), one.reason.empty() ? "" : ": " + one.reason);
+    }
+    throw std::runtime_error(fmt::format("{}: no device gave a reading: {}",
+                                         arguments_.localization.robot.string(), missing));
+  }
   void warn() const {
     warnOf("the devices", devices_, localization_ ? localization_->feeder() : *feeder_);
   }
@@ -295,6 +306,7 @@ int runRobot(const RobotArguments& arguments) {
   if (problem) std::rethrow_exception(problem);
   robot.warn();
   robot.print();
+  robot.needReadings();
   return 0;
 }
 

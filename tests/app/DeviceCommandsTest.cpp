@@ -73,8 +73,12 @@ TEST_F(DeviceCommands, ADeviceThatIsNotThereStandsInTheTableWithoutReadings) {
   std::filesystem::create_directory(path("dev"));
   const Outcome outcome = ortung({"robot", path("robot.toml"), "--dev", path("dev"), "--duration",
                                   "0.3", "--record", path("run.rec")});
-  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
   EXPECT_NE(outcome.err.find("ortung robot: sick_lms /dev/scanner: "), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("ortung robot: " + path("robot.toml") +
+                             ": no device gave a reading: sick_lms /dev/scanner ("),
+            std::string::npos)
       << outcome.err;
   EXPECT_TRUE(outcome.out.starts_with("device ")) << outcome.out;
   EXPECT_TRUE(std::regex_search(outcome.out,
