@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <stdexcept>
 
 #include "Console.hpp"
@@ -33,7 +32,19 @@ GoalMatrix readMatrix(const std::filesystem::path& file) {
   std::string why;
   std::ifstream in = openInput(file, why);
   if (!in) throw std::runtime_error(file.string() + ": " + why);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  // That many are 10,000,000 episodes of several pairs. A device or a pipe may go on for ever.
+  constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+  constexpr std::size_t kPiece = 1U << 20;
+  std::string text;
+  while (in && text.size() <= kMostBytes) {
+    const std::size_t before = text.size();
+    text.resize(before + kPiece);
+    in.read(text.data() + before, kPiece);
+    text.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (text.size() > kMostBytes)
+    throw std::runtime_error(file.string() + ": has more than 1 GiB, expected a result of " +
+                             "`ortung benchmark goalkeeper`");
   return readGoalMatrix(text, file.string());
 }
 

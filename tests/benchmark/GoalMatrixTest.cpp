@@ -233,6 +233,23 @@ TEST(GoalMatrix, DamagedFilesAreRefusedWithTheReason) {
     return readingOf(bad);
   };
   EXPECT_NE(with("/format", "x").find("expected the format"), std::string::npos);
+  const auto refuses = [&](const char* pointer, const nlohmann::ordered_json& value,
+                           const char* expected) {
+    const std::string why = with(pointer, value);
+    EXPECT_NE(why.find(expected), std::string::npos) << pointer << value << " " << why;
+  };
+  for (const char* key : {"/episodes", "/shard", "/shards"})
+    for (const auto& value :
+         {nlohmann::ordered_json(-1), nlohmann::ordered_json(0), nlohmann::ordered_json(1.5),
+          nlohmann::ordered_json("1"), nlohmann::ordered_json(18446744073709551615U)})
+      refuses(key, value, "expected 1 to 9223372036854775807");
+  refuses("/seed", -1, "expected a whole number from 0 on");
+  refuses("/seed", 1.5, "expected a whole number from 0 on");
+  for (const auto& value :
+       {nlohmann::ordered_json(-1), nlohmann::ordered_json(1.5),
+        nlohmann::ordered_json(9223372036854775807), nlohmann::ordered_json("1")})
+    refuses("/cells/0/ends_us/0", value, "an end is ");
+  refuses("/keepers/0", "goal\x1b[2Jkeeper", "has control characters");
   EXPECT_NE(with("/cells/0/outcomes", "ggx").find("outcome 'x'"), std::string::npos);
   EXPECT_NE(with("/cells/0/outcomes", "gg").find("2 outcomes"), std::string::npos);
   EXPECT_NE(with("/cells/1/ends_us/1", 5).find("its hash is"), std::string::npos);

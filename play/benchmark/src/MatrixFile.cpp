@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -47,12 +49,45 @@ void addErrors(Json& json, const std::string& who, const std::optional<ErrorSumm
   json[who + "_errors_urad"] = headings;
 }
 
+/// Reads a whole number, which JSON's library would also make of fractions, negative and greater
+/// numbers. @throws std::runtime_error
+std::int64_t whole(const Json& json, const std::string& what, std::int64_t low, std::int64_t high) {
+  const bool isLow = json.is_number_integer() && !json.is_number_unsigned();
+  const bool fits = json.is_number_unsigned()
+                        ? high >= 0 && json.get<std::uint64_t>() <= static_cast<std::uint64_t>(high)
+                        : isLow && json.get<std::int64_t>() <= high;
+  if (!fits || json.get<std::int64_t>() < low)
+    throw std::runtime_error(what + " is " + json.dump().substr(0, 40) + ", expected " +
+                             std::to_string(low) + " to " + std::to_string(high));
+  return json.get<std::int64_t>();
+}
+
+template <class T>
+std::vector<T> wholeNumbers(const Json& json, const std::string& what, std::int64_t low,
+                            std::int64_t high) {
+  std::vector<T> numbers;
+  for (const Json& one : json) numbers.push_back(static_cast<T>(whole(one, what, low, high)));
+  return numbers;
+}
+
+/// Reads names of players, which are shown. @throws std::runtime_error
+std::vector<std::string> namesOf(const Json& json) {
+  auto names = json.get<std::vector<std::string>>();
+  for (const std::string& name : names)
+    if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }))
+      throw std::runtime_error("the name " + Json(name).dump() +
+                               " has control characters, expected a player's text");
+  return names;
+}
+
 /// Reads the pose errors of one of the two players. @throws std::runtime_error
 void readErrors(const Json& json, const std::string& who, std::vector<GoalEpisode>& episodes,
                 PoseError GoalEpisode::* whose) {
   if (!json.contains(who + "_errors_um")) return;
-  const auto positions = json.at(who + "_errors_um").get<std::vector<std::int32_t>>();
-  const auto headings = json.at(who + "_errors_urad").get<std::vector<std::int32_t>>();
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  const std::string what = "an error of the " + who;
+  const auto positions = wholeNumbers<std::int32_t>(json.at(who + "_errors_um"), what, -1, kMost);
+  const auto headings = wholeNumbers<std::int32_t>(json.at(who + "_errors_urad"), what, -1, kMost);
   if (positions.size() != episodes.size() || headings.size() != episodes.size())
     throw std::runtime_error(who + "_errors: there are " + std::to_string(positions.size()) +
                              " and " + std::to_string(headings.size()) + ", expected " +
@@ -114,7 +149,8 @@ GoalCell readCell(const Json& json, const GoalMatrixConfig& config) {
   const std::string what = "'" + cell.striker + "' against '" + cell.keeper + "': ";
   const std::string outcomes = json.at("outcomes");
   const std::string digests = json.at("digests");
-  const auto ends = json.at("ends_us").get<std::vector<Timestamp>>();
+  constexpr std::int64_t kDay = std::int64_t{24} * 3600 * 1'000'000;
+  const auto ends = wholeNumbers<Timestamp>(json.at("ends_us"), what + "an end", 0, kDay);
   const std::uint64_t n = (config.episodes + config.shards - config.shard) / config.shards;
   if (outcomes.size() != n || digests.size() != 8 * n || ends.size() != n)
     throw std::runtime_error(what + "has " + std::to_string(outcomes.size()) + " outcomes, " +
@@ -172,12 +208,19 @@ GoalMatrix readGoalMatrix(std::string_view text, const std::string& name) {
     GoalMatrix matrix;
     GoalMatrixConfig& c = matrix.config;
     matrix.world = json.at("world");
+    if (!json.at("seed").is_number_unsigned())
+      return refuse("the seed is " + json.at("seed").dump().substr(0, 40) +
+                    ", expected a whole number from 0 on");
     c.seed = json.at("seed");
-    c.episodes = json.at("episodes");
-    c.shard = json.at("shard");
-    c.shards = json.at("shards");
-    c.keepers = json.at("keepers").get<std::vector<std::string>>();
-    c.strikers = json.at("strikers").get<std::vector<std::string>>();
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+    const auto count = [&](const char* key) {
+      return static_cast<std::uint64_t>(whole(json.at(key), key, 1, kMost));
+    };
+    c.episodes = count("episodes");
+    c.shard = count("shard");
+    c.shards = count("shards");
+    c.keepers = namesOf(json.at("keepers"));
+    c.strikers = namesOf(json.at("strikers"));
     c.check();
     const Json& cells = json.at("cells");
     if (!cells.is_array() || cells.size() != c.keepers.size() * c.strikers.size())
