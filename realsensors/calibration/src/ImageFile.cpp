@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "PictureHeader.hpp"
+#include "ortung/base/InputFile.hpp"
 
 namespace ortung {
 
@@ -23,18 +27,57 @@ void Picture::dot(const Pixel& at, int r, std::uint8_t red, std::uint8_t green, 
     }
 }
 
-Picture readPicture(const std::filesystem::path& file) {
-  cv::Mat image;
+namespace {
+
+constexpr std::size_t kMostBytes = 256U << 20;
+constexpr const char* kExpected = "expected a picture: JPEG, PNG, BMP, PGM or PPM";
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+std::string readBytes(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto kind = std::filesystem::status(file, error).type();
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+    refuse(file, std::string("is no regular file, ") + kExpected);
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  if (!in) refuse(file, why);
+  const auto size = std::filesystem::file_size(file, error);
+  if (!error && size > kMostBytes)
+    refuse(file, "has " + std::to_string(size) + " bytes, expected a picture of at most 256 MiB");
+  std::string bytes(static_cast<std::size_t>(error ? 0 : size), '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+/// The pixels of a file whose header is sound; empty if the rest is not.
+cv::Mat decode(const std::string& bytes) {
   try {
-    image = cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
+    const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8U,
+                      const_cast<char*>(bytes.data()));  // it is only read
+    return cv::imdecode(all, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    return {};
   }
-  if (image.empty())
-    throw std::runtime_error(file.string() + ": is not an image that can be read (JPEG, PNG, ...)");
-  if (std::max(image.cols, image.rows) > ImageData::kMostSide)
-    throw std::runtime_error(file.string() + ": has " + std::to_string(image.cols) + " x " +
-                             std::to_string(image.rows) + " pixels, at most 4096 a side");
+}
+
+}  // namespace
+
+Picture readPicture(const std::filesystem::path& file) {
+  const std::string bytes = readBytes(file);
+  const auto header = headerSize(bytes);
+  if (!header) refuse(file, std::string("has no header of a picture, ") + kExpected);
+  if (header->width < 1 || header->height < 1 ||
+      std::max(header->width, header->height) > ImageData::kMostSide)
+    refuse(file, "has " + std::to_string(header->width) + " x " + std::to_string(header->height) +
+                     " pixels, expected 1 to 4096 a side");
+  const cv::Mat image = decode(bytes);
+  if (image.cols != header->width || image.rows != header->height)
+    refuse(file, "is damaged: its " + std::to_string(header->width) + " x " +
+                     std::to_string(header->height) + " pixels can't be decoded");
   Picture picture{{image.cols, image.rows}, {}};
   picture.pixels.resize(picture.view().bytes());
   cv::Mat rgb(image.rows, image.cols, CV_8UC3, picture.pixels.data());

@@ -21,8 +21,10 @@ struct ORTUNG_API Picture {
   void dot(const Pixel& at, int r, std::uint8_t red, std::uint8_t green, std::uint8_t blue);
 };
 
-/// Reads an image file: JPEG, PNG and the other formats of OpenCV.
-/// @throws std::runtime_error that names the file, also for more than 4096 pixels a side
+/// Reads an image file: JPEG, PNG, BMP, PGM or PPM. Its size is known by its header before anything
+/// is decoded.
+/// @throws std::runtime_error that names the file, also for more than 4096 pixels a side, and for
+///   what is no regular file, such as a pipe
 ORTUNG_API Picture readPicture(const std::filesystem::path& file);
 /// Encodes an image as a PNG file. @return the file's bytes @throws std::runtime_error
 ORTUNG_API std::vector<std::uint8_t> toPng(const ImageView& image);
