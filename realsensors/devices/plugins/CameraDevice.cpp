@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <optional>
@@ -43,9 +44,11 @@ class CameraDevice : public DeviceDriver {
   void open() override {
     if (isAtEnd_) throw DeviceAbsent(name_ + ": has come to its end");
     isFile_ = name_.find(kVideo) == std::string::npos;
+    if (isFile_) checkFile();
     // The back ends would print, and look for the file on the network or as numbered pictures.
     const bool isOpen = video_.open(name_, isFile_ ? cv::CAP_FFMPEG : cv::CAP_V4L2);
     if (!isOpen) throw DeviceAbsent(name_ + ": can't be opened as a camera or a video");
+    if (isFile_) checkSize();
     if (width_ > 0) video_.set(cv::CAP_PROP_FRAME_WIDTH, width_);
     if (height_ > 0) video_.set(cv::CAP_PROP_FRAME_HEIGHT, height_);
     if (rate_ > 0.0 && !isFile_) video_.set(cv::CAP_PROP_FPS, rate_);
@@ -86,6 +89,26 @@ class CameraDevice : public DeviceDriver {
   std::uint64_t refused() const override { return refused_; }
 
  private:
+  /// A pipe or a folder under a video's name would be waited for, or be searched.
+  void checkFile() const {
+    std::error_code error;
+    const auto kind = std::filesystem::status(name_, error).type();
+    if (kind != std::filesystem::file_type::regular &&
+        kind != std::filesystem::file_type::not_found)
+      throw DeviceMisfit(name_ +
+                         ": is no regular file, expected a video or a camera (/dev/video*)");
+  }
+
+  /// Before anything is decoded, by what the file says.
+  void checkSize() const {
+    const double width = video_.get(cv::CAP_PROP_FRAME_WIDTH);
+    const double height = video_.get(cv::CAP_PROP_FRAME_HEIGHT);
+    if (std::max(width, height) > ImageData::kMostSide)
+      throw DeviceMisfit(name_ + ": has pictures of " + std::to_string(std::llround(width)) +
+                         " x " + std::to_string(std::llround(height)) + ", expected up to " +
+                         std::to_string(ImageData::kMostSide) + " a side");
+  }
+
   /// Takes the next picture; of a file also its time. False at the end.
   bool grab() {
     if (!video_.grab()) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <cstdlib>
@@ -72,6 +73,36 @@ TEST(CameraDevice, OfAnotherSizeThanItsCalibrationIsAMisfit) {
   while (devices.status()[0].state != DeviceState::kFailed)
     EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
   EXPECT_NE(devices.status()[0].reason.find("gives pictures of 64 x 48"), std::string::npos)
+      << devices.status()[0].reason;
+}
+
+// It would be waited for until somebody writes into it.
+TEST(CameraDevice, ThatIsAPipeIsAMisfit) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+  test::writeBytes(folder / "robot.toml", robot(folder / "fifo", "[64, 48]"));
+  DevicesSource devices({folder / "robot.toml"});
+  while (devices.status()[0].state != DeviceState::kFailed)
+    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+  EXPECT_NE(devices.status()[0].reason.find("fifo: is no regular file, expected a video"),
+            std::string::npos)
+      << devices.status()[0].reason;
+}
+
+TEST(CameraDevice, OfPicturesThatAreTooLargeIsAMisfit) {
+  const test::TemporaryFolder folder;
+  {
+    cv::VideoWriter writer((folder / "clip.avi").string(), cv::CAP_OPENCV_MJPEG,
+                           cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0, {4112, 16});
+    ASSERT_TRUE(writer.isOpened());
+    writer.write(cv::Mat(16, 4112, CV_8UC3, cv::Scalar(1, 2, 3)));
+  }
+  test::writeBytes(folder / "robot.toml", robot(folder / "clip.avi", "[64, 48]"));
+  DevicesSource devices({folder / "robot.toml"});
+  while (devices.status()[0].state != DeviceState::kFailed)
+    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+  EXPECT_NE(devices.status()[0].reason.find("has pictures of 4112 x 16, expected up to 4096"),
+            std::string::npos)
       << devices.status()[0].reason;
 }
 
