@@ -78,6 +78,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   readMessage<OccupancyGrid>(text);
   readMessage<Range>(text);
   readMessage<Image>(text);
+  readMessage<PointCloud>(text);
   readMessage<Words>(text);
   return 0;
 }

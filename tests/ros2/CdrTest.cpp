@@ -30,6 +30,19 @@ TEST(Cdr, LaysFieldsOutAsTheSpecificationSays) {
   EXPECT_EQ(toCdr(pose), kPose);
 }
 
+TEST(Cdr, AFlagIsSetByAnyByteButZero) {
+  PointCloud cloud;
+  std::string bytes = toCdr(cloud);
+  std::string why;
+  for (const auto& [byte, isSet] : {std::pair('\0', false), {'\1', true}, {'\x28', true}}) {
+    bytes.back() = byte;  // isDense is the last field
+    const auto read = fromCdr<PointCloud>(bytes, why);
+    ASSERT_TRUE(read) << why;
+    EXPECT_EQ(read->isDense, isSet);
+    EXPECT_EQ(toCdr(*read).back(), isSet ? '\1' : '\0');
+  }
+}
+
 TEST(Cdr, ReadsEitherOrderOfBytes) {
   std::string big = "\x00\x00\x00\x00\x00\x00\x00\x01\x00\x00\x00\x02\x00\x00\x00\x03ma\x00\x00"s;
   big += "\x3F\xF0\x00\x00\x00\x00\x00\x00"s + std::string(40, '\0') +

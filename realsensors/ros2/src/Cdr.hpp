@@ -95,6 +95,11 @@ class CdrReader {
   void operator()(T& number) {
     take(&number, 1);
   }
+  void operator()(bool& flag) {  // a byte of any value: no bool may be made of its bits
+    std::uint8_t byte = flag ? 1 : 0;
+    take(&byte, 1);
+    flag = byte != 0;
+  }
   void operator()(std::string& text) {
     const std::uint32_t size = count(1);
     if (size == 0) return text.clear();  // some writers leave out the zero of an empty text
