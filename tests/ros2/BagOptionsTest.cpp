@@ -217,7 +217,7 @@ TEST_F(BagOptions, TimesThatNoClockHasAreRefused) {
 }
 
 TEST_F(BagOptions, AScannersStepAndRangeAreThoseOfAScanner) {
-  for (const float step : {1e30F, 7.0F, -7.0F}) {
+  for (const float step : {1e30F, 7.0F, -7.0F, 0.0F, 1e-36F, std::nanf("")}) {
     LaserScan scan = scanOf(0, "laser", {1.0F, 2.0F, 3.0F});
     scan.angleIncrement = step;
     EXPECT_NE(complaint("/scan", scan).find("rad apart, expected at least one, within a turn"),

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMostBeams = 8192;
 constexpr double kMostMetres = 1000.0;
+constexpr double kLeastStep = 1e-6;  // [rad], of which no scanner has less
 
 /// Interprets a range (REP 117): below the least or not a number is invalid; beyond the greatest
 /// one nothing is seen.
@@ -35,15 +36,15 @@ ScanShape::ScanShape(const LaserScan& first)
       step_(static_cast<double>(first.angleIncrement)),
       told_(first.ranges.size()),
       beams_(first.ranges.size()) {
-  if (!std::isfinite(first_) || !std::isfinite(step_) || step_ == 0.0 ||
-      std::abs(first_) > 2 * kTurn || beams_ == 0 || !isWithinTurns(step_, beams_))
+  if (!std::isfinite(first_) || !(std::abs(step_) >= kLeastStep) || std::abs(first_) > 2 * kTurn ||
+      beams_ == 0 || !isWithinTurns(step_, beams_))
     throw std::invalid_argument("found " + std::to_string(beams_) + " beams from " +
                                 std::to_string(first_) + " rad on, " + std::to_string(step_) +
                                 " rad apart, expected at least one, within a turn");
   // Scanners that see all around repeat the first beam at the end.
   constexpr double kRounded = 0.01;  // beams
-  beams_ = std::min(beams_, static_cast<std::size_t>(
-                                std::max(1.0, std::floor(kTurn / std::abs(step_) + kRounded))));
+  const double inATurn = std::max(1.0, std::floor(kTurn / std::abs(step_) + kRounded));
+  if (inATurn < static_cast<double>(beams_)) beams_ = static_cast<std::size_t>(inATurn);
   if (beams_ > kMostBeams)
     throw std::invalid_argument("found " + std::to_string(beams_) + " beams, expected at most " +
                                 std::to_string(kMostBeams));
