@@ -90,8 +90,10 @@ TEST_F(PictureFile, IsOneOfTheFormatsThatAreRead) {
 TEST_F(PictureFile, ThatIsDamagedIsSaidSo) {
   const std::string whole = png(64, 48);
   const std::string damaged = "is damaged: its 64 x 48 pixels can't be decoded";
+  testing::internal::CaptureStderr();
   EXPECT_EQ(refusalOf(whole.substr(0, 40)), damaged);
   EXPECT_EQ(refusalOf("BM" + std::string(12, '\0') + "\x28\0\0\0\x40\0\0\0\x30\0\0\0"s), damaged);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "of the libraries that decode";
 }
 
 TEST_F(PictureFile, IsAFileThatEnds) {

@@ -22,7 +22,7 @@ struct ORTUNG_API Picture {
 };
 
 /// Reads an image file: JPEG, PNG, BMP, PGM or PPM. Its size is known by its header before anything
-/// is decoded.
+/// is decoded. While it is, nothing of this process appears on stderr. Not thread-safe.
 /// @throws std::runtime_error that names the file, also for more than 4096 pixels a side, and for
 ///   what is no regular file, such as a pipe
 ORTUNG_API Picture readPicture(const std::filesystem::path& file);
