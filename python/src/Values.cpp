@@ -197,9 +197,8 @@ std::vector<std::uint32_t> encode(const SensorData& data, const py::handle& give
     values.need(1, "a range [m]");
     return {ConeData::encode(values.range(0), ConeData::configOf(data.format()).maxRange)};
   }
-  throw py::value_error(
-      toText(data.id()) + ": readings of the format " + name +
-      " are no numbers in metres and radians; set() takes its words: " + data.wordsHelp());
+  throw py::value_error(toText(data.id()) + ": readings of the format " + name +
+                        " are no numbers in metres and radians; set() takes its words, see help()");
 }
 
 std::vector<std::uint32_t> wordsOf(const py::handle& words, const std::string& where) {
