@@ -146,33 +146,11 @@ py::object centresOf(const FieldRegion& region) {
   });
 }
 
-}  // namespace
+using PyContainer = py::class_<Container>;
 
-void bindContainer(py::module_& module) {
-  py::class_<FieldRegion>(module, "FieldRegion",
-                          "The part of the plane that is learned: cells [m] from a lower left "
-                          "corner on, all of them open.")
-      .def(py::init(&makeRegion), py::arg("columns"), py::arg("rows"), py::arg("cell"),
-           py::arg("x") = 0.0, py::arg("y") = 0.0)
-      .def_property_readonly("centres", &centresOf, "Of the cells, (N, 2), row by row [m].");
-  py::class_<Container>(module, "SensorContainer",
-                        "A robot's newest readings. Features are named 'model/type/feature'; '*' "
-                        "stands for any.")
-      .def(py::init([] {
-        const auto own = std::make_shared<SensorContainer>();
-        return Container{own, own.get(), containerGate()};
-      }))
-      .def("add_scalar", &addScalar, py::arg("feature"), py::arg("max_range") = 20.0,
-           py::arg("sigma") = 0.05, py::arg("outliers") = 0.05,
-           "A feature that is one distance. Its words: [mm], or none where nothing was seen.")
-      .def("learn", &learnWords, py::arg("feature"), py::arg("region"), py::arg("words"),
-           py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
-           "Takes noise-free words as what the feature reads at poses (N, 3); without them at the "
-           "centres of the region's cells, with heading 0. Forgets what it had learned, and leaves "
-           "the last of the words as its reading.")
-      .def("learn_values", &learnValues, py::arg("feature"), py::arg("region"), py::arg("values"),
-           py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
-           "The same of noise-free readings in metres and radians, each as get() gives it.")
+/// What features read.
+void bindReadings(PyContainer& container) {
+  container
       .def_property_readonly("features",
                              [](const Container& self) {
                                const Gate::Together visit(*self.gate);
@@ -224,7 +202,23 @@ void bindContainer(py::module_& module) {
       .def("set_values", &setValues, py::arg("stamp"), py::arg("feature"), py::arg("values"),
            "Sets a reading in metres and radians, in the order of get(). A range of NaN is not "
            "valid, an infinite one means that nothing was seen, as a distance or bearing of NaN "
-           "does.")
+           "does.");
+}
+
+/// What features learn, and what they make of readings.
+void bindModels(PyContainer& container) {
+  container
+      .def("add_scalar", &addScalar, py::arg("feature"), py::arg("max_range") = 20.0,
+           py::arg("sigma") = 0.05, py::arg("outliers") = 0.05,
+           "A feature that is one distance. Its words: [mm], or none where nothing was seen.")
+      .def("learn", &learnWords, py::arg("feature"), py::arg("region"), py::arg("words"),
+           py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
+           "Takes noise-free words as what the feature reads at poses (N, 3); without them at the "
+           "centres of the region's cells, with heading 0. Forgets what it had learned, and leaves "
+           "the last of the words as its reading.")
+      .def("learn_values", &learnValues, py::arg("feature"), py::arg("region"), py::arg("values"),
+           py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
+           "The same of noise-free readings in metres and radians, each as get() gives it.")
       .def(
           "expectation",
           [](const Container& self, const std::string& query, double x, double y, double theta) {
@@ -240,6 +234,26 @@ void bindContainer(py::module_& module) {
             return self.container->getProbability(Pose2{x, y, theta});
           },
           py::arg("x"), py::arg("y"), py::arg("theta"), "p(s|l) of all readings at a pose.");
+}
+
+}  // namespace
+
+void bindContainer(py::module_& module) {
+  py::class_<FieldRegion>(module, "FieldRegion",
+                          "The part of the plane that is learned: cells [m] from a lower left "
+                          "corner on, all of them open.")
+      .def(py::init(&makeRegion), py::arg("columns"), py::arg("rows"), py::arg("cell"),
+           py::arg("x") = 0.0, py::arg("y") = 0.0)
+      .def_property_readonly("centres", &centresOf, "Of the cells, (N, 2), row by row [m].");
+  PyContainer container(module, "SensorContainer",
+                        "A robot's newest readings. Features are named 'model/type/feature'; '*' "
+                        "stands for any.");
+  container.def(py::init([] {
+    const auto own = std::make_shared<SensorContainer>();
+    return Container{own, own.get(), containerGate()};
+  }));
+  bindReadings(container);
+  bindModels(container);
 }
 
 }  // namespace ortung::python

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 #include <unistd.h>
 
+#include <memory>
 #include <mutex>
 #include <shared_mutex>
 #include <stdexcept>
@@ -87,6 +88,12 @@ decltype(auto) alone(Gate& gate, const Work& work) {
   const Gate::Alone visit(gate);
   const pybind11::gil_scoped_release others;
   return work();
+}
+
+/// Gives an object up that a broken gate keeps from being destroyed.
+template <class T>
+void leave(std::unique_ptr<T>& object) {
+  [[maybe_unused]] const T* const left = object.release();
 }
 
 /// What was opened before a fork reads from the same files as the process that opened it.

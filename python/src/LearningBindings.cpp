@@ -96,7 +96,7 @@ struct SharedBatch {
   Gate gate{"this Batch"};
 
   ~SharedBatch() {
-    if (gate.isBroken()) static_cast<void>(batch.release());
+    if (gate.isBroken()) leave(batch);
   }
 };
 

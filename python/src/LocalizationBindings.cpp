@@ -28,7 +28,7 @@ struct SharedLocalization {
   OpenedHere opened;
 
   ~SharedLocalization() {
-    if (gate.isBroken() || containerGate->isBroken()) static_cast<void>(localization.release());
+    if (gate.isBroken() || containerGate->isBroken()) leave(localization);
   }
 };
 using Shared = std::shared_ptr<SharedLocalization>;

@@ -45,8 +45,8 @@ struct Readings {
 
   ~Readings() {
     if (!gate.isBroken()) return;
-    static_cast<void>(source.release());
-    static_cast<void>(factory.release());
+    leave(source);
+    leave(factory);
   }
 };
 

@@ -63,6 +63,16 @@ struct Workers::Crew {
   }
 };
 
+namespace {
+
+/// Gives an object up without ending it.
+template <class T>
+void leave(std::unique_ptr<T>& object) {
+  [[maybe_unused]] const T* const left = object.release();
+}
+
+}  // namespace
+
 // A process that was forked has this memory, but none of the threads: waiting for them, even to end
 // them, would take for ever. So it leaves them alone, and has threads of its own from its first
 // run() on.
@@ -70,13 +80,13 @@ struct Workers::Crew {
 Workers::Workers(unsigned threads) : crew_(std::make_unique<Crew>(threads > 0 ? threads - 1 : 0)) {}
 
 Workers::~Workers() {
-  if (!crew_->isOfThisProcess()) static_cast<void>(crew_.release());
+  if (!crew_->isOfThisProcess()) leave(crew_);
 }
 
 void Workers::run(std::size_t n, const std::function<void(std::size_t)>& work) {
   if (!crew_->isOfThisProcess()) {
     const std::size_t others = crew_->threads.size();
-    static_cast<void>(crew_.release());
+    leave(crew_);
     crew_ = std::make_unique<Crew>(others);
   }
   Crew& crew = *crew_;
