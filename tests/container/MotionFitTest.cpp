@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "MotionFit.hpp"
+#include "PluginProgress.hpp"
 #include "ortung/base/Random.hpp"
 
 namespace ortung {
@@ -44,6 +45,15 @@ TEST(MotionFit, KeepsBothCausesWhereBothAreCertain) {
   const MotionFit fit = fitMotion(drives);
   EXPECT_NEAR(fit.scale[0], 0.2, 4 * 0.025);
   EXPECT_NEAR(fit.scale[1], -0.3, 4 * 0.025);
+}
+
+// Its rounds take as long as the logs are: a watch over plugins must not take that for a hang.
+TEST(MotionFit, SaysInEachRoundThatItGoesOn) {
+  const std::vector<std::vector<MotionError>> drives(1,
+                                                     std::vector<MotionError>(30, {1.0, {}, {}}));
+  const std::uint64_t before = pluginProgress();
+  fitMotion(drives);
+  EXPECT_GE(pluginProgress() - before, 100U);
 }
 
 }  // namespace

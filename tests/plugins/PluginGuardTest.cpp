@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <limits>
 #include <thread>
+#include <vector>
 
 #include "Files.hpp"
+#include "PluginProgress.hpp"
+#include "ProcessorWaits.hpp"
 #include "ortung/core/PluginGuard.hpp"
 
 namespace ortung {
@@ -76,6 +81,40 @@ TEST(PluginWatch, SeesThroughExceptionsThatACallIsOver) {
   EXPECT_TRUE(wait(told.get_future()).starts_with("slow "));
   goOn.set_value();
   plugin.join();
+}
+
+TEST(PluginWatch, IsNotToldOfALongCallThatSaysThatItGoesOn) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double kBudget = 0.3;  // [s]
+  const PluginGuard learner("learner");
+  std::atomic<bool> isTold = false;
+  const PluginWatch watch(kBudget, [&](const std::string&) { isTold = true; });
+  learner("endLearning", [&] {
+    const auto end = Clock::now() + std::chrono::duration<double>(4.0 * kBudget);
+    while (Clock::now() < end) notePluginProgress();
+  });
+  EXPECT_FALSE(isTold);
+}
+
+// Four times as many threads as processors: some are always ready to run, and do not.
+TEST(ProcessorWaits, AreThoseOfThreadsThatOthersHoldUp) {
+  std::atomic<bool> isOver = false;
+  std::vector<std::thread> busy;
+  for (unsigned i = 0; i < 4 * std::max(1u, std::thread::hardware_concurrency()); ++i)
+    busy.emplace_back([&] {
+      while (!isOver) {
+      }
+    });
+  ProcessorWaits waits;
+  EXPECT_EQ(waits.sinceLast(), 0.0) << "there was no call before";
+  double waited = 0.0;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (waited < 0.01 && std::chrono::steady_clock::now() < end) waited += waits.sinceLast();
+  isOver = true;
+  for (std::thread& thread : busy) thread.join();
+  EXPECT_GE(waited, 0.01);
+  waits.forget();
+  EXPECT_EQ(waits.sinceLast(), 0.0);
 }
 
 TEST(PluginWatch, RefusesTimesThatAreNone) {

@@ -6,8 +6,13 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
+#include <utility>
+
+#include "PluginProgress.hpp"
+#include "ProcessorWaits.hpp"
 
 namespace ortung {
 namespace {
@@ -27,6 +32,8 @@ Guards& guards() {
 
 constexpr double kStepsOfBudget = 10.0;
 constexpr double kLongestStep = 0.25;  ///< [s]
+// However busy the computer is, so much of the time counts: a call that never ends is found.
+constexpr double kLeastShare = 0.1;
 
 }  // namespace
 
@@ -77,8 +84,7 @@ struct PluginWatch::Impl {
       const Clock::time_point now = Clock::now();
       const double passed = std::chrono::duration<double>(now - before).count();
       before = now;
-      // If this thread wakes much too late, the process was suspended, and so were the plugins.
-      const std::string late = look(std::min(passed, 2.0 * step));
+      const std::string late = look(passed);
       if (late.empty()) continue;
       lock.unlock();
       tell(late);
@@ -86,10 +92,22 @@ struct PluginWatch::Impl {
     }
   }
 
+  /// How much of the time since the last look counts: not that in which the plugin's thread waited
+  /// for a processor that others had. Which thread is the plugin's is not known, so it is the one
+  /// that waited longest.
+  double counted(double passed) {
+    // If this thread wakes much too late, the process was suspended, and so were the plugins.
+    const double most = std::min(passed, 2.0 * step);
+    return std::clamp(passed - waits.sinceLast(), kLeastShare * most, most);
+  }
+
   /// Which plugin is overdue, or "".
   std::string look(double passed) {
     const std::lock_guard lock(guards().mutex);
+    const std::uint64_t progress = pluginProgress();
+    const bool goesOn = std::exchange(noted, progress) != progress;
     std::map<const PluginGuard*, Seen> under;
+    std::optional<double> time;
     for (const PluginGuard* guard : guards().all) {
       const std::uint64_t left = guard->left_.load(std::memory_order_acquire);
       const std::uint64_t entered = guard->entered_.load(std::memory_order_relaxed);
@@ -97,13 +115,15 @@ struct PluginWatch::Impl {
       const auto was = seen.find(guard);
       const bool isSame =
           was != seen.end() && was->second.entered == entered && was->second.left == left;
-      const double seconds = isSame ? was->second.seconds + passed : 0.0;
+      if (!time) time = counted(passed);
+      const double seconds = isSame && !goesOn ? was->second.seconds + *time : 0.0;
       if (seconds >= budget)
         return guard->who_ + " has been in " + guard->what_.load(std::memory_order_relaxed) +
                " for " + std::to_string(std::round(seconds * 10.0) / 10.0).substr(0, 5) + " s";
       under[guard] = {entered, left, seconds};
     }
     seen = std::move(under);
+    if (!time) waits.forget();  // nothing is read of the system while no plugin is at work
     return "";
   }
 
@@ -111,6 +131,8 @@ struct PluginWatch::Impl {
   double step;
   std::function<void(const std::string&)> tell;
   std::map<const PluginGuard*, Seen> seen;
+  std::uint64_t noted = 0;  ///< progress at the last look
+  ProcessorWaits waits;
   std::mutex mutex;
   std::condition_variable end;
   bool isOver = false;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "PluginProgress.hpp"
+
 namespace ortung {
 namespace {
 
@@ -83,6 +85,7 @@ class Fit {
     used_ = used;
     scale_ = {};
     for (int round = 0; round < kRounds; ++round) {
+      notePluginProgress();  // a round takes as long as the logs are
       weighErrors();
       fitScale();
       fitVariances();

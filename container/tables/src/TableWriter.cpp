@@ -2,6 +2,7 @@
 #include <limits>
 #include <set>
 
+#include "PluginProgress.hpp"
 #include "Zip.hpp"
 #include "ortung/base/NewFile.hpp"
 #include "ortung/tables/TableFile.hpp"
@@ -53,6 +54,7 @@ struct TableWriter::Impl {
   std::set<std::string> names;
 
   void put(std::span<const std::byte> bytes) {
+    notePluginProgress();  // the player `learner` writes what may take long on a slow disk
     forTables([&] { out.write(bytes); });
     offset += bytes.size();
   }
