@@ -11,8 +11,6 @@
 namespace ortung::app {
 namespace {
 
-constexpr int kBadInput = 1;
-
 struct Rescues {
   std::mutex mutex;
   std::vector<Rescue*> all;
@@ -35,7 +33,7 @@ Rescue::~Rescue() {
   std::erase(rescues().all, this);
 }
 
-void Rescue::saveAllAndEnd(const std::string& why) {
+void Rescue::saveAllAndEnd(const std::string& why, int exitCode) {
   fail(why);
   const std::lock_guard lock(rescues().mutex);  // it is never released
   for (Rescue* rescue : rescues().all) {
@@ -47,7 +45,7 @@ void Rescue::saveAllAndEnd(const std::string& why) {
     }
   }
   std::fflush(nullptr);
-  std::_Exit(kBadInput);
+  std::_Exit(exitCode);
 }
 
 }  // namespace ortung::app

@@ -20,8 +20,9 @@ class Rescue {
   /// Locks out save(), for threads that change the data that it reads.
   std::unique_lock<std::mutex> hold() { return std::unique_lock(mutex_); }
 
-  /// Calls all save functions, and ends the program. @param why reason, for stderr
-  [[noreturn]] static void saveAllAndEnd(const std::string& why);
+  /// Calls all save functions, in the order in which they were registered, and ends the program.
+  /// @param why reason, for stderr
+  [[noreturn]] static void saveAllAndEnd(const std::string& why, int exitCode);
 
  private:
   std::function<void()> save_;

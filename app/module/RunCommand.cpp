@@ -41,7 +41,7 @@ int run(const ParsedCommand& command) {
   setCommandName("ortung " + command.name);
   catchInterrupts();
   const PluginWatch watch(command.pluginSeconds, [](const std::string& late) {
-    Rescue::saveAllAndEnd(late + "; the program ends, see --plugin-seconds");
+    Rescue::saveAllAndEnd(late + "; the program ends, see --plugin-seconds", kBadInput);
   });
   const int exitCode = command.run();
   flushOutput();

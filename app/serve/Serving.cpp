@@ -59,15 +59,24 @@ class Deadline {
           while (!isTold() && !stop.stop_requested()) wake_.wait_for(lock, stop, kLook, isTold);
           wake_.wait_for(lock, stop, kLongestEnd, [] { return false; });
           if (stop.stop_requested()) return;
-          warn(fmt::format("the world has not ended within {} s after the signal",
-                           kLongestEnd.count()));
           board.abandon("the server ends, since its world does not end");
-          std::_Exit(128 + interruptSignal());
+          std::thread(endSoon).detach();
+          Rescue::saveAllAndEnd(fmt::format("the world has not ended within {} s after the signal",
+                                            kLongestEnd.count()),
+                                128 + interruptSignal());
         }) {}
 
  private:
   static constexpr std::chrono::milliseconds kLook{100};
   static constexpr std::chrono::seconds kLongestEnd{2};
+  static constexpr std::chrono::seconds kLongestSaving{5};
+
+  /// What is saved may be what the world hangs in.
+  static void endSoon() {
+    std::this_thread::sleep_for(kLongestSaving);
+    std::_Exit(128 + interruptSignal());
+  }
+
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::jthread thread_;  ///< last member: it ends before what it uses

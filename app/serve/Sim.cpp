@@ -157,6 +157,13 @@ void print(const std::vector<RefereeEvent>& events) {
   if (!events.empty()) flushOutput();
 }
 
+/// Ends the players of a run in which a plugin hangs.
+void abandonPlayers(SceneRun& run) {
+  constexpr std::chrono::seconds kPatience{2};
+  if (!run.players().abandon(kPatience))
+    warn(fmt::format("not all players have ended within {} s", kPatience.count()));
+}
+
 /// A served simulation whose referee a RefBox may control; it prints the events of the game.
 class RefereedSimulation : public ServedSimulation {
  public:
@@ -197,6 +204,7 @@ class RefereedSimulation : public ServedSimulation {
   Pacing clock_{ServingArguments{}};
   std::optional<RefBoxLink> box_;
   std::optional<Trace> trace_;
+  Rescue farewell_{[this] { abandonPlayers(run()); }};
 };
 
 /// Returns the world with filters for those of its robots that can localize.
@@ -235,6 +243,7 @@ class Playing {
         recording_(arguments, outputs_, scene_, run_),
         duration_(arguments.duration ? arguments.duration : scene_.duration),
         rescue_([this] { recording_.commit(); }),
+        farewell_([this] { abandonPlayers(run_); }),
         pacing_(arguments.serving) {
     if (!arguments.refBox.empty())
       box_.emplace(arguments.refBox, [this]() -> SceneRun& { return run_; });
@@ -248,6 +257,7 @@ class Playing {
       if (duration_ && cycles_ % 100 == 0) progress.update(toSeconds(now()) / *duration_);
       pacing_.waitFor(toSeconds(now()));
     }
+    run_.players().endAll();  // now, so that what goes wrong is counted
   }
 
   void report() {
@@ -315,6 +325,7 @@ class Playing {
   std::optional<RefBoxLink> box_;
   const std::optional<double> duration_;
   Rescue rescue_;
+  Rescue farewell_;
   const Pacing pacing_;
   std::size_t cycles_ = 0;
   RunDigest digest_;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "Files.hpp"
 #include "Program.hpp"
@@ -28,8 +29,23 @@ struct BadRun {
     return of({"sim", at("world.toml"), "--robot", at("robot.toml"), "--free-run", "--duration",
                duration, "--record", at("run.rec"), "--trace", at("run.csv")});
   }
+  /// Robots with a player each, who notes that it has been ended.
+  Outcome played(const std::vector<std::string>& players, const std::string& duration) const {
+    std::vector<std::string> arguments = {"sim",    at("world.toml"), "--free-run", "--duration",
+                                          duration, "--record",       at("run.rec")};
+    for (const std::string& player : players)
+      arguments.insert(arguments.end(),
+                       {"--player", "misbehaving:robot=" + at("robot.toml") +
+                                        "&notes=" + at("notes.txt") + "&" + player});
+    return of(arguments);
+  }
+  std::string notes() const {
+    return std::filesystem::exists(at("notes.txt")) ? readBytes(at("notes.txt")) : "";
+  }
   TemporaryFolder folder;
 };
+
+const std::string kOdometry = "[[sensor]]\nplugin = \"odometry\"\nperiod_s = 0\n";
 
 std::string loopIn(const std::string& where, int after) {
   return "where = \"" + where + "\"\nhow = \"loop\"\nafter = " + std::to_string(after) + "\n";
@@ -71,6 +87,49 @@ TEST(Hanging, ADriveEndsTheRunWithItsName) {
   EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
   expectIn(outcome.err, "the drive plugin 'misbehaving' of robot bob has been in measure");
   expectSaved(run, "odometry/odometry/pose", 100, 21);
+}
+
+TEST(Hanging, APlayerEndsTheRunAndTheOthersAreEnded) {
+  const BadRun run(kOdometry);
+  const Outcome outcome =
+      run.played({"name=ann", "name=bea&where=senseAndAct&how=loop&after=100", "name=cid"}, "1000");
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  expectIn(outcome.err, "the player 'misbehaving' of robot bea has been in senseAndAct for 0.");
+  EXPECT_EQ(run.notes(), "ann\ncid\n") << outcome.err;
+  RecordSource record(run.at("run.rec"));
+  Message message;
+  std::size_t found = 0;
+  while (record.next(message)) ++found;
+  EXPECT_EQ(found, 100U) << "up to the cycle before";
+}
+
+TEST(Hanging, ASensorEndsTheRunAndAllPlayersAreEnded) {
+  const BadRun run(kOdometry + "[[sensor]]\nplugin = \"misbehaving\"\n" +
+                   loopIn("generateData", 100));
+  const Outcome outcome = run.played({"name=ann", "name=bea"}, "1000");
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  EXPECT_EQ(run.notes(), "ann\nbea\n") << outcome.err;
+}
+
+TEST(Hanging, APlayerThatHangsInItsEndHoldsUpNobody) {
+  const BadRun run(kOdometry);
+  const Outcome outcome =
+      run.played({"name=ann&where=senseAndAct&how=loop", "name=bea&where=end&how=loop"}, "1000");
+  EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+  expectIn(outcome.err, "not all players have ended within 2 s");
+  const Outcome atTheEnd = run.played({"name=bea&where=end&how=loop", "name=cid"}, "0.1");
+  EXPECT_EQ(atTheEnd.exitCode, 1) << atTheEnd.err;
+  expectIn(atTheEnd.err, "the player 'misbehaving' of robot bea has been in end for 0.");
+  EXPECT_EQ(run.notes(), "cid\n");
+}
+
+TEST(Hanging, PlayersAreEndedWithTheirRun) {
+  const BadRun run(kOdometry);
+  const Outcome outcome =
+      run.played({"name=ann", "name=bea&where=end&how=throw", "name=cid"}, "0.1");
+  EXPECT_EQ(run.notes(), "ann\ncid\n");
+  EXPECT_EQ(outcome.exitCode, 1) << "what went wrong at the end is told, too";
+  expectIn(outcome.err, "robot bea failed in end: a wheel came off");
 }
 
 TEST(Hanging, AnExtractorEndsTheRunWithItsName) {

@@ -142,6 +142,29 @@ TEST(PlayerControl, EndsThePlayerWhenItsRobotLeaves) {
   EXPECT_TRUE(field.players.isEmpty());
 }
 
+TEST(PlayerControl, EndsAllWhoPlayAtTheEndOfARun) {
+  int anna = 0;
+  int bert = 0;
+  {
+    Field field;
+    field.start("anna", {0, 0, 0}, ahead, "", 0.0, &anna);
+    field.start("bert", {2, 0, 0}, ahead, "", 0.0, &bert);
+    field.step(3);
+    EXPECT_EQ(anna + bert, 0);
+    field.players.endAll();
+    EXPECT_EQ(anna, 1);
+    EXPECT_EQ(bert, 1);
+    EXPECT_TRUE(field.players.isEmpty());
+    EXPECT_EQ(field.simulation.robots().size(), 2u) << "they stay where the run has ended";
+  }
+  EXPECT_EQ(anna, 1) << "once is enough";
+  {
+    Field field;
+    field.start("anna", {0, 0, 0}, ahead, "", 0.0, &anna);
+  }
+  EXPECT_EQ(anna, 2) << "whoever forgets to say that the run is over";
+}
+
 TEST(PlayerControl, StopsAPlayerByItsRobotsName) {
   Field field;
   int ended = 0;

@@ -1,9 +1,14 @@
 #include "ortung/sim/PlayerControl.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <iterator>
 #include <map>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -49,7 +54,10 @@ struct PlayerControl::Parts {
   std::map<std::string, std::string, std::less<>> teams;  ///< teams by robot
   /// Messages for robots without a player.
   std::map<std::string, std::vector<Heard>, std::less<>> ears;
-  std::vector<Heard> said;  ///< messages sent in this cycle
+  std::vector<Heard> said;                       ///< messages sent in this cycle
+  std::atomic<const Seating*> called = nullptr;  ///< whose function is under way; null: nobody's
+  std::atomic<bool> isAbandoned = false;         ///< see abandon()
+  std::atomic<bool> isStill = false;             ///< the simulation's thread waits for the end
 
   Parts(Simulation& s, FloorPlans& p, PluginFactory& f, const Config& c)
       : simulation(s),
@@ -72,13 +80,24 @@ struct PlayerControl::Parts {
   void tell(SimRobot& robot, const std::vector<Heard>& messages) const;
   template <class Call>
   void call(Seating& one, const char* what, const Call& call);
+  void report(const std::string& why, const char* what) const;
   void act(Seating& one, const Game& game);
+  bool farewell(Seating& one);
   void finish(Seating& one);
+  void endAll();
   void drop();
+  bool abandon(std::chrono::duration<double> patience);
+  /// To be called before anything is changed. After abandon() it does not return.
+  void keepStill() {
+    if (!isAbandoned) return;
+    isStill = true;
+    while (true) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
 };
 
 void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
                                const PlayerWish& wish, const Random& random, bool isGuest) {
+  keepStill();
   const std::string& name = robot.config().name;
   for (const auto& one : seatings)
     if (!one->isOver && one->number == robot.state().number)
@@ -134,12 +153,20 @@ std::shared_ptr<const FieldRegion> PlayerControl::Parts::teach(SimRobot& robot,
 /// Calls a player; a failure ends this player alone.
 template <class Call>
 void PlayerControl::Parts::call(Seating& one, const char* what, const Call& call) {
+  called = &one;
+  if (isAbandoned) called = nullptr;  // nobody is: abandon() asks after it has forbidden calls
+  keepStill();
   const std::string why = (*one.guard)(what, call);
+  called = nullptr;
+  keepStill();
   if (why.empty()) return;
   one.isOver = true;
+  report(why, one.isGuest ? "; it is stopped" : "; it is stopped, and its robot leaves the field");
+}
+
+void PlayerControl::Parts::report(const std::string& why, const char* what) const {
   if (config.onProblem)
-    config.onProblem("at " + std::to_string(toSeconds(simulation.now())) + " s: " + why +
-                     "; it is stopped" + (one.isGuest ? "" : ", and its robot leaves the field"));
+    config.onProblem("at " + std::to_string(toSeconds(simulation.now())) + " s: " + why + what);
 }
 
 void PlayerControl::Parts::say(std::string_view robot, std::string_view text) {
@@ -193,13 +220,55 @@ void PlayerControl::Parts::act(Seating& one, const Game& game) {
   one.seat->forgetHeard();
 }
 
-void PlayerControl::Parts::finish(Seating& one) {
+/// Ends a player; its robot stays. @returns whether the robot is there
+bool PlayerControl::Parts::farewell(Seating& one) {
   const bool wasThere = isThere(one);
   if (wasThere) call(one, "end", [&] { one.player->end(*one.seat); });
   one.player.reset();
-  if (!wasThere || one.isGuest) return;
+  return wasThere;
+}
+
+void PlayerControl::Parts::finish(Seating& one) {
+  if (!farewell(one) || one.isGuest) return;
   teams.erase(one.seat->name());
   simulation.removeRobot(one.seat->simRobot());
+}
+
+void PlayerControl::Parts::endAll() {
+  keepStill();
+  while (!seatings.empty()) {  // each leaves the list whatever becomes of its call
+    const std::unique_ptr<Seating> one = std::move(seatings.front());
+    seatings.erase(seatings.begin());
+    farewell(*one);
+  }
+}
+
+/// The simulation's thread, if it comes back from whatever it is in, waits in keepStill(), so that
+/// nothing changes while players say goodbye.
+bool PlayerControl::Parts::abandon(std::chrono::duration<double> patience) {
+  using Clock = std::chrono::steady_clock;
+  isAbandoned = true;
+  // It may be in no player at all.
+  const auto latest = Clock::now() + patience / 2;
+  while (!isStill && called == nullptr && Clock::now() < latest)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const Seating* const lost = isStill ? nullptr : called.load();
+  const auto done = std::make_shared<std::promise<void>>();
+  std::future<void> all = done->get_future();
+  const auto end = [this, lost, done] {
+    for (const auto& one : seatings) {
+      if (one.get() == lost || !one->player || !isThere(*one)) continue;
+      const std::string why = (*one->guard)("end", [&] { one->player->end(*one->seat); });
+      if (!why.empty()) report(why, "");
+    }
+    done->set_value();
+  };
+  try {
+    std::thread(end).detach();  // one of them may not come back either
+  } catch (const std::system_error&) {
+    return false;
+  }
+  return all.wait_for(patience) == std::future_status::ready;
 }
 
 /// Ends players whose robots are gone, or are commanded from outside.
@@ -218,7 +287,12 @@ PlayerControl::PlayerControl(Simulation& simulation, FloorPlans& plans, PluginFa
                                 std::to_string(config.budget) + ", must be at least 0 s");
 }
 
-PlayerControl::~PlayerControl() = default;
+PlayerControl::~PlayerControl() {
+  try {
+    parts_->endAll();
+  } catch (...) {  // of onProblem; who wants to hear of it calls endAll()
+  }
+}
 
 std::unique_ptr<Player> PlayerControl::make(const PlayerWish& wish) {
   return parts_->factory.make<Player>(wish.plugin, wish.options);
@@ -242,9 +316,19 @@ bool PlayerControl::stop(std::string_view robot) {
   return false;
 }
 
-void PlayerControl::deliver() { parts_->deliver(); }
+void PlayerControl::endAll() { parts_->endAll(); }
+
+bool PlayerControl::abandon(std::chrono::duration<double> patience) {
+  return parts_->abandon(patience);
+}
+
+void PlayerControl::deliver() {
+  parts_->keepStill();
+  parts_->deliver();
+}
 
 void PlayerControl::act(const Game& game) {
+  parts_->keepStill();
   parts_->stage.forget();
   parts_->drop();
   parts_->deliver();  // if the caller has not done so
@@ -252,6 +336,7 @@ void PlayerControl::act(const Game& game) {
 }
 
 void PlayerControl::clear() {
+  parts_->keepStill();
   parts_->drop();
   std::erase_if(parts_->seatings, [&](const std::unique_ptr<Parts::Seating>& one) {
     if (one->isOver) parts_->finish(*one);

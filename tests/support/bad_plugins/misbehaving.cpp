@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "ortung/formats/Words.hpp"
 #include "ortung/motion/MotionModel.hpp"
 #include "ortung/sim_api/Drive.hpp"
+#include "ortung/sim_api/Player.hpp"
 #include "ortung/sim_api/Sensor.hpp"
 
 /// Plugins of every kind that do as their settings say: `where` (a function, or "construct"), `how`
@@ -179,6 +181,22 @@ class BadMotion : public MotionModel {
   mutable Mischief mischief_;
 };
 
+/// When it ends it writes its robot's name into the file `notes`, a line each.
+class BadPlayer : public Player {
+ public:
+  explicit BadPlayer(const Parameters& p) : mischief_(p), notes_(p.textOr("notes", "")) {}
+  void begin(PlayerSeat&) override { mischief_.at("begin", 0.0); }
+  bool senseAndAct(PlayerSeat&) override { return mischief_.at("senseAndAct", 1.0) > 0.0; }
+  void end(PlayerSeat& seat) override {
+    mischief_.at("end", 0.0);
+    if (!notes_.empty()) std::ofstream(notes_, std::ios::app) << seat.name() << '\n';
+  }
+
+ private:
+  Mischief mischief_;
+  std::string notes_;
+};
+
 }  // namespace
 }  // namespace ortung
 
@@ -186,6 +204,7 @@ ORTUNG_PLUGINS("misbehaving", ortung::provideData<ortung::makeData>("misbehaving
                ortung::provide<ortung::Sensor, ortung::BadSensor>("misbehaving"),
                ortung::provide<ortung::Drive, ortung::BadDrive>("misbehaving"),
                ortung::provide<ortung::MotionModel, ortung::BadMotion>("misbehaving"),
+               ortung::provide<ortung::Player, ortung::BadPlayer>("misbehaving"),
                ortung::provideData<ortung::makeRange>("misbehaving_range"),
                ortung::provide<ortung::Sensor, ortung::BadRange>("misbehaving_range"),
                ortung::provideData<ortung::makeExtracted>("misbehaving_extracted"),

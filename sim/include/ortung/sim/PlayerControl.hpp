@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -49,7 +50,7 @@ class ORTUNG_API PlayerControl {
   /// @param simulation, plans, factory borrowed
   PlayerControl(Simulation& simulation, FloorPlans& plans, PluginFactory& factory,
                 const Config& config);
-  ~PlayerControl();
+  ~PlayerControl();  ///< ends all players, see endAll()
   PlayerControl(const PlayerControl&) = delete;
   PlayerControl& operator=(const PlayerControl&) = delete;
 
@@ -66,6 +67,13 @@ class ORTUNG_API PlayerControl {
 
   /// Ends the player on a robot. @returns whether there was one
   bool stop(std::string_view robot);
+  /// Ends all players; their robots stay on the field. For the end of a run.
+  void endAll();
+  /// For a program that has to end because a plugin of this simulation does not come back from a
+  /// call: ends all players but the one that is being called, on a thread of its own. Afterwards no
+  /// call of the simulation's thread comes back; what remains is to end the program. Thread-safe.
+  /// @returns whether all have ended within @p patience
+  bool abandon(std::chrono::duration<double> patience);
   /// Delivers the messages of the last cycle to all others of the team, and to the robots' features
   /// of the format TalkData. To be called before Simulation::sense().
   void deliver();
