@@ -100,7 +100,7 @@ TEST(Hanging, APlayerEndsTheRunAndTheOthersAreEnded) {
   Message message;
   std::size_t found = 0;
   while (record.next(message)) ++found;
-  EXPECT_EQ(found, 100U) << "up to the cycle before";
+  EXPECT_EQ(found, 200U) << "two of each cycle, up to the one before";
 }
 
 TEST(Hanging, ASensorEndsTheRunAndAllPlayersAreEnded) {

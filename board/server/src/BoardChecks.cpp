@@ -59,6 +59,9 @@ void checkBoard(const BoardConfig& config, const ServedWorld& world) {
     refuse("the speed is " + std::to_string(config.speed) + ", must be in [0.001, 1000]");
   if (world.livePeriod() > 0 && (config.pace != Pace::kRealTime || config.speed != 1.0))
     refuse("a running robot is served in real time, at speed 1");
+  for (const double share : {config.limits.slowShare, config.limits.seekShare})
+    if (!(share > 0.0 && share <= 1.0))
+      refuse("a share of the board's time is " + std::to_string(share) + ", must be in (0, 1]");
   checkCommands(config.commands);
 }
 

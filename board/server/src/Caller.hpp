@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include "ClientRobots.hpp"
 #include "Command.hpp"
 #include "Host.hpp"
+#include "Question.hpp"
 #include "Subscriptions.hpp"
 #include "TalkBudget.hpp"
 #include "WorldKeeper.hpp"
@@ -60,14 +62,18 @@ class Caller {
 
   /// Has the world's thread execute @p run, and then @p then here; by default that sends the reply.
   /// @param holdsLines whether the lines behind it depend on what becomes of it
+  /// @param question see aside(); the lines behind it are held then
   virtual void order(const std::string& tag, WorldKeeper::Order run, Then then = {},
-                     bool holdsLines = false) = 0;
+                     bool holdsLines = false, std::shared_ptr<Question> question = nullptr) = 0;
   /// Has @p say say something that needs no order, but not before what was asked for earlier.
   virtual void answer(const std::string& tag, std::function<void(Caller&)> say) = 0;
   /// Has @p work done on a thread beside, and then @p then here; lines behind it wait for that.
   /// What @p work throws is the reply. @param isLong whether others should not wait behind it
+  /// @param question if the next line is the same command, this one is withdrawn for it, unless it
+  ///   was begun, and answered "ERR superseded"; null: it is not
   virtual void aside(const std::string& tag, std::function<void()> work,
-                     std::function<void(Caller&)> then, bool isLong) = 0;
+                     std::function<void(Caller&)> then, bool isLong,
+                     std::shared_ptr<Question> question = nullptr) = 0;
   /// Calls @p then at @p due on the computer's clock; lines behind it wait for that.
   virtual void holdUntil(const std::string& tag, Timestamp due,
                          std::function<void(Caller&)> then) = 0;

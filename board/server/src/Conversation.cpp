@@ -50,12 +50,36 @@ void Conversation::takeLines() {
 /// @returns whether the turn ended although more lines can be taken
 bool Conversation::takeTurn() {
   const Timestamp begin = wallTime();
-  for (int lines = 0; mayTakeLine(); ++lines) {
+  for (int lines = 0; mayTakeLine() || isReplaced(); ++lines) {
     const bool isLate = lines > 0 && wallTime() - begin >= kTimeOfTurn;  // it always takes one
     if (lines == kLinesOfTurn || isLate) return true;
     if (!takeLine()) return false;
   }
   return false;
+}
+
+/// Withdraws a question that waits for its turn, if the next line asks anew: so who asks faster
+/// than it is answered gets the newest answer, and has one question in the queue.
+bool Conversation::isReplaced() {
+  if (isOver_ || !asked_ || isNextKnown_ || waiting_ != 1 ||
+      superseded_.size() >= host_.config.limits.orders)
+    return false;
+  const std::size_t end = input_.find('\n', searched_);
+  if (end == input_.npos) {
+    searched_ = input_.size();
+    return false;
+  }
+  isNextKnown_ = true;
+  if (end - taken_ > host_.config.limits.line) return false;
+  const Request next(std::string_view(input_).substr(taken_, end - taken_));
+  if (!next.fault().empty() || host_.commands.find(next.command()) != asked_->command ||
+      !asked_->question->withdraw())
+    return false;
+  const Asked old = *std::exchange(asked_, std::nullopt);
+  --waiting_;
+  if (old.isOrder) --pending_;
+  superseded_.push_back(old.tag);
+  return mayTakeLine();
 }
 
 bool Conversation::takeLine() {
@@ -72,6 +96,7 @@ bool Conversation::takeLine() {
   }
   std::string line = input_.substr(taken_, length);
   taken_ = searched_ = end + 1;
+  isNextKnown_ = false;
   if (line.ends_with('\r')) line.pop_back();
   handleLine(line);
   return true;
@@ -92,6 +117,7 @@ void Conversation::handleLine(std::string_view line) {
   try {
     call(command, request);
   } catch (...) {
+    tellSuperseded();
     if (command != nullptr && command->hasText)  // its text is sent in any case
       text_ = Text{request.tag(), {}, currentErrorText()};
     else
@@ -107,6 +133,7 @@ void Conversation::call(const Command* command, Request& request) {
   if (command->least && client_.role < *command->least)
     throw ServeError("role", command->name + " needs the role " + nameOf(*command->least) +
                                  ", this client is a " + nameOf(client_.role));
+  handled_ = command;
   command->handle(*this, request);
 }
 

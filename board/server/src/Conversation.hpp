@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "Caller.hpp"
 
@@ -60,10 +61,11 @@ class Conversation final : public Caller, public std::enable_shared_from_this<Co
   void tell(std::string_view text) override;
   void dismiss(std::string_view text) override;
   void leave() override;
-  void order(const std::string& tag, WorldKeeper::Order run, Then then, bool holdsLines) override;
+  void order(const std::string& tag, WorldKeeper::Order run, Then then, bool holdsLines,
+             std::shared_ptr<Question> question) override;
   void answer(const std::string& tag, std::function<void(Caller&)> say) override;
   void aside(const std::string& tag, std::function<void()> work, std::function<void(Caller&)> then,
-             bool isLong) override;
+             bool isLong, std::shared_ptr<Question> question) override;
   void holdUntil(const std::string& tag, Timestamp due, std::function<void(Caller&)> then) override;
   void awaitText(const std::string& tag,
                  std::function<void(Caller&, std::string text)> then) override;
@@ -73,6 +75,12 @@ class Conversation final : public Caller, public std::enable_shared_from_this<Co
     std::string tag;
     Timestamp due = 0;
     std::function<void(Caller&)> then;
+  };
+  struct Asked {  ///< a question that waits for its turn, see Question
+    std::shared_ptr<Question> question;
+    const Command* command = nullptr;
+    std::string tag;
+    bool isOrder = false;
   };
   struct Text {  ///< a text whose line has not come yet, see awaitText()
     std::string tag;
@@ -87,6 +95,8 @@ class Conversation final : public Caller, public std::enable_shared_from_this<Co
     return !isOver_ && waiting_ == 0 && pending_ < host_.config.limits.orders;
   }
   bool takeLine();
+  bool isReplaced();
+  void note(std::shared_ptr<Question> question, const std::string& tag, bool isOrder);
   void takeLines();
   bool takeTurn();
   void goOn();
@@ -95,6 +105,7 @@ class Conversation final : public Caller, public std::enable_shared_from_this<Co
   void call(const Command* command, Request& request);
 
   // replies (ConversationReplies.cpp)
+  void tellSuperseded();
   void put(std::string_view text);
   void flushSoon();
   bool mayReply();
@@ -120,6 +131,10 @@ class Conversation final : public Caller, public std::enable_shared_from_this<Co
   std::size_t errors_ = 0;      ///< errors in a row
   std::optional<Held> held_;
   std::optional<Text> text_;
+  const Command* handled_ = nullptr;  ///< the command that is being called
+  std::optional<Asked> asked_;
+  std::vector<std::string> superseded_;  ///< tags of withdrawn questions that are not answered yet
+  bool isNextKnown_ = false;             ///< whether the line behind asked_ was looked at
 };
 
 }  // namespace ortung::server

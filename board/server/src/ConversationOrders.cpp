@@ -6,21 +6,35 @@
 namespace ortung::server {
 
 std::function<bool()> Conversation::isAwaited() const {
-  return [isGone = isGone_] { return !*isGone; };
+  return [isGone = isGone_, host = &host_] {
+    host->paceLong();
+    return !*isGone;
+  };
 }
 
-void Conversation::order(const std::string& tag, WorldKeeper::Order run, Then then,
-                         bool holdsLines) {
+/// Remembers what waits for its turn, so that the client may ask anew.
+void Conversation::note(std::shared_ptr<Question> question, const std::string& tag, bool isOrder) {
+  asked_ = Asked{std::move(question), handled_, tag, isOrder};
+  isNextKnown_ = false;
+}
+
+void Conversation::order(const std::string& tag, WorldKeeper::Order run, Then then, bool holdsLines,
+                         std::shared_ptr<Question> question) {
   ++pending_;
+  holdsLines = holdsLines || question;
   waiting_ += holdsLines ? 1 : 0;
-  auto done = [weak = weak_from_this(), host = &host_, tag, holdsLines,
+  const bool isAsked = question != nullptr;
+  if (isAsked) note(std::move(question), tag, true);
+  auto done = [weak = weak_from_this(), host = &host_, tag, holdsLines, isAsked,
                then = std::move(then)](std::string text) {
-    host->post([weak, tag, holdsLines, then, text = std::move(text)] {
+    host->post([weak, tag, holdsLines, isAsked, then, text = std::move(text)] {
       const auto self = weak.lock();
       if (!self) return;
+      if (isAsked) self->asked_.reset();
       --self->pending_;
       self->waiting_ -= holdsLines ? 1 : 0;
       if (self->isOver_) return;
+      if (isAsked) self->tellSuperseded();
       if (text.starts_with("ERR "))
         self->error(tag, text);
       else if (then)
@@ -41,7 +55,7 @@ void Conversation::answer(const std::string& tag, std::function<void(Caller&)> s
   order(
       tag, [](WorldKeeper&, WorldKeeper::Done&) { return Reply(""); },
       [say = std::move(say)](Caller& its, const std::string&, const std::string&) { say(its); },
-      true);  // later lines must not change the reply
+      true, nullptr);  // later lines must not change the reply
 }
 
 /// Replies with an error, in the order of the requests.
@@ -50,22 +64,26 @@ void Conversation::refuse(const std::string& tag, const std::string& text) {
 }
 
 void Conversation::aside(const std::string& tag, std::function<void()> work,
-                         std::function<void(Caller&)> then, bool isLong) {
+                         std::function<void(Caller&)> then, bool isLong,
+                         std::shared_ptr<Question> question) {
   ++waiting_;
+  if (question) note(question, tag, false);
   auto task = [weak = weak_from_this(), host = &host_, isGone = isGone_, tag,
-               work = std::move(work), then = std::move(then)] {
-    if (*isGone) return;
+               work = std::move(work), then = std::move(then), question] {
+    if (*isGone || (question && !question->begin())) return;
     std::string fault;
     try {
       work();
     } catch (...) {
       fault = currentErrorText();
     }
-    host->post([weak, tag, fault = std::move(fault), then] {
+    host->post([weak, tag, fault = std::move(fault), then, isAsked = question != nullptr] {
       const auto self = weak.lock();
       if (!self) return;
+      if (isAsked) self->asked_.reset();
       --self->waiting_;
       if (self->isOver_) return;
+      if (isAsked) self->tellSuperseded();
       if (fault.empty())
         then(*self);
       else
@@ -74,7 +92,7 @@ void Conversation::aside(const std::string& tag, std::function<void()> work,
     });
   };
   if (isLong)
-    host_.workLong(std::move(task));
+    host_.workLong(client_.id, std::move(task));
   else
     host_.work(std::move(task));
 }

@@ -45,6 +45,16 @@ void Conversation::reply(const std::string& tag, std::string_view text, Output&&
   errors_ = 0;
 }
 
+/// With the answer to the question that has taken their place: who asked anew at once would be
+/// answered at once, again and again.
+void Conversation::tellSuperseded() {
+  if (superseded_.empty()) return;
+  answer("", [tags = std::exchange(superseded_, {})](Caller& its) {
+    for (const std::string& tag : tags)
+      its.reply(tag, "ERR superseded a newer one of the same command came before it was begun");
+  });
+}
+
 void Conversation::put(std::string_view text) {
   if (!isReceiving_ && pending_ == 0) {
     outlet_->send(text);

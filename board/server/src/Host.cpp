@@ -34,4 +34,6 @@ Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worl
       talk(kClientsAtOnce * config.limits.talkLines, kClientsAtOnce * config.limits.talkBytes) {}
 Host::~Host() = default;
 
+void Host::workLong(ClientId /*client*/, std::function<void()> task) { work(std::move(task)); }
+
 }  // namespace ortung::server

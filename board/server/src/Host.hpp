@@ -50,7 +50,10 @@ class Host {
   /// Has @p task run where nobody waits for it but who asked; thread-safe.
   virtual void work(std::function<void()> task) = 0;
   /// The same for what takes so long that others should not wait behind it; by default they do.
-  virtual void workLong(std::function<void()> task) { work(std::move(task)); }
+  /// A client's newer task takes the place of one that was not begun. Thread-safe.
+  virtual void workLong(ClientId client, std::function<void()> task);
+  /// For what workLong() has run, while it holds no lock: it may be held up here. Thread-safe.
+  virtual void paceLong() {}
   /// @p client has more lines than it gets done in a turn: calls its nextTurn() when those before
   /// it have had theirs. Such turns take a part of the time only, however many there are.
   virtual void queue(std::weak_ptr<Conversation> client) = 0;

@@ -17,6 +17,7 @@
 #include "BoardChecks.hpp"
 #include "Entrance.hpp"
 #include "Session.hpp"
+#include "SlowWork.hpp"
 
 namespace ortung {
 namespace {
@@ -60,14 +61,18 @@ struct MessageBoard::Parts final : server::Host {
                    [this](Newcomer newcomer) {
                      refuse(std::move(newcomer), server::lateHello(config.limits));
                    }}),
-        timer_(io_) {}
+        timer_(io_),
+        slow_(boardConfig.limits.slowShare) {}
   ~Parts() override = default;
 
   void post(std::function<void()> task) override { asio::post(io_, std::move(task)); }
 
   void work(std::function<void()> task) override { asio::post(workers_, std::move(task)); }
 
-  void workLong(std::function<void()> task) override { asio::post(slow_, std::move(task)); }
+  void workLong(server::ClientId client, std::function<void()> task) override {
+    slow_.give(client, std::move(task));
+  }
+  void paceLong() override { slow_.pace(); }
 
   void queue(std::weak_ptr<server::Conversation> client) override {
     backlog_.push_back(std::move(client));
@@ -256,7 +261,7 @@ struct MessageBoard::Parts final : server::Host {
   bool isTalkPosted_ = false;
   bool hasMoreTalk_ = false;
   asio::thread_pool workers_{1};  ///< last, so that threads end before what they work on
-  asio::thread_pool slow_{1};
+  server::SlowWork slow_;
 };
 
 MessageBoard::MessageBoard(ServedWorld& world, const BoardConfig& config) {

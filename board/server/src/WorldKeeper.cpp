@@ -146,19 +146,21 @@ void WorldKeeper::run(const std::function<bool()>& goesOn) {
     const Timestamp next = due();
     const Timestamp now = wallTime();
     if (execute(now >= next)) continue;
+    if (now >= nextSeek_ && seekNext()) continue;
     if (now >= next) {
       cycle(next);
       continue;
     }
     if (wasBlocked_ || isPaused_) publishLate();
+    const Timestamp rest = seeks_.empty() ? next - now : std::min(next, nextSeek_) - now;
     std::unique_lock lock(mutex_);
     if (!turns_.empty() || isStopped_) continue;
-    news_.wait_for(lock, std::chrono::microseconds(std::min(next - now, kLongestWait)));
+    news_.wait_for(lock, std::chrono::microseconds(std::min(rest, kLongestWait)));
   }
 }
 
 void WorldKeeper::runOnce() {
-  while (execute(false)) {
+  while (execute(false) || seekNext()) {
   }
   const Timestamp next = due();
   if (wallTime() >= next) cycle(next);
@@ -353,8 +355,40 @@ void WorldKeeper::reset(std::optional<std::uint64_t> seed) {
   anchor(wallTime());
 }
 
-void WorldKeeper::seek(Timestamp stamp) {
+void WorldKeeper::seek(ClientId id, Timestamp stamp, std::shared_ptr<Question> question,
+                       Done done) {
   refuseIfLive("wound back or forward");
+  if (question->isWithdrawn()) return;
+  const auto its =
+      std::find_if(seeks_.begin(), seeks_.end(), [&](const Seek& one) { return one.client == id; });
+  Seek wanted{id, stamp, std::move(question), std::move(done)};
+  if (its == seeks_.end())
+    seeks_.push_back(std::move(wanted));
+  else
+    *its = std::move(wanted);  // that one was withdrawn, since the client's lines wait for it
+}
+
+bool WorldKeeper::seekNext() {
+  if (seeks_.empty()) return false;
+  Seek next = std::move(seeks_.front());
+  seeks_.pop_front();
+  if (!next.question->begin()) return true;
+  const Timestamp begin = wallTime();
+  std::string text;
+  try {
+    seek(next.stamp);
+    text = "OK SEEK now=" + std::to_string(world_.now());
+  } catch (...) {
+    text = currentErrorText();
+  }
+  const Timestamp end = wallTime();
+  const double pause = static_cast<double>(end - begin) * (1.0 / config_.limits.seekShare - 1.0);
+  nextSeek_ = end + static_cast<Timestamp>(pause);
+  next.done(std::move(text));
+  return true;
+}
+
+void WorldKeeper::seek(Timestamp stamp) {
   world_.seek(stamp);
   for (const auto& [id, robot] : robots_) {
     robot.readings->forget();

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "BoardClock.hpp"
+#include "Question.hpp"
 #include "RobotReadings.hpp"
 #include "ortung/server/MessageBoard.hpp"
 #include "ortung/server/ServedWorld.hpp"
@@ -66,7 +67,9 @@ class WorldKeeper {
   void step(std::uint64_t cycles, Done done);
   void setSpeed(double speed);
   void reset(std::optional<std::uint64_t> seed);
-  void seek(Timestamp stamp);
+  /// Goes to a time when it is the client's turn: seeks wait for all other orders, and have a share
+  /// of the world's time (BoardLimits::seekShare). @param done gets the reply, or the refusal
+  void seek(ClientId client, Timestamp stamp, std::shared_ptr<Question> question, Done done);
   /// " speed=F achieved=F [seed=N]": asked, and of the last second; 0: as fast as possible.
   std::string paceText() const;
   std::string stateText() const;  ///< "running", "paused", "waiting", "ended" or "failed"
@@ -103,6 +106,15 @@ class WorldKeeper {
   bool isLockstepReady() const;
   bool mayAdvance() const;
   Timestamp due();
+  struct Seek {
+    ClientId client;
+    Timestamp stamp;
+    std::shared_ptr<Question> question;
+    Done done;
+  };
+  /// Makes the next seek. @returns whether there was one
+  bool seekNext();
+  void seek(Timestamp stamp);
   bool execute(bool isCycleDue);
   void execute(Given& given);
   void cycle(Timestamp due);
@@ -152,6 +164,8 @@ class WorldKeeper {
   Timestamp anchorWall_ = 0;
   Timestamp nextLook_ = 0;  ///< time of the next look at a live world, on the computer's clock [us]
   Timestamp cycle_ = 0;     ///< length of the last one on the world's clock [us]
+  std::deque<Seek> seeks_;  ///< one a client, the next one first
+  Timestamp nextSeek_ = 0;  ///< not before that, on the computer's clock [us]
   std::size_t executed_ = 0;    ///< orders since the last cycle
   Timestamp spent_ = 0;         ///< time spent on these orders [us]
   Timestamp measuredWall_ = 0;  ///< begin of the pace's measurement, on the computer's clock [us]

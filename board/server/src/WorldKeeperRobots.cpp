@@ -19,6 +19,7 @@ void WorldKeeper::join(ClientId client, const std::string& name, bool isOperator
 }
 
 void WorldKeeper::leave(ClientId client) {
+  std::erase_if(seeks_, [&](const Seek& one) { return one.client == client; });
   const auto found = clients_.find(client);
   if (found == clients_.end()) return;
   for (const RobotId robot : found->second.robots) remove(robot);

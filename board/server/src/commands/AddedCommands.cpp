@@ -39,7 +39,7 @@ void callSlow(Caller& caller, const std::string& tag,
           self.reply(tag, answered->text, answered->body);
         });
       },
-      true);
+      true, command->isReplaceable ? std::make_shared<Question>() : nullptr);
 }
 
 void call(Caller& caller, Request& request, const std::shared_ptr<const BoardCommand>& command) {

@@ -57,10 +57,14 @@ void seek(Caller& caller, Request& request) {
   const auto time = request.takeNumber("time_s", 0.0, kLatest);
   request.refuseRest();
   if (!time) throw ServeError("syntax", "SEEK needs time_s");
-  caller.order(request.tag(), [time](WorldKeeper& keeper, WorldKeeper::Done&) {
-    keeper.seek(fromSeconds(*time));
-    return Reply("OK SEEK now=" + std::to_string(keeper.world().now()));
-  });
+  const auto question = std::make_shared<Question>();
+  caller.order(
+      request.tag(),
+      [time, question, client = caller.client().id](WorldKeeper& keeper, WorldKeeper::Done& done) {
+        keeper.seek(client, fromSeconds(*time), question, std::move(done));
+        return Reply();  // sent when it has had its turn
+      },
+      {}, true, question);
 }
 
 void reset(Caller& caller, Request& request) {

@@ -155,11 +155,13 @@ std::vector<BoardCommand> localizationCommands(LocalizedRobots& robots) {
        .help = "robot=N [MODEL/TYPE/FEATURE ...] [theta_deg=T] [of=probability|expectation] "
                "[index=I] [scale=linear|log] [cells=MOST], p of its readings all over the field",
        .handle = [&robots](const Call& call) { return showMap(robots, call); },
-       .isSlow = true},
+       .isSlow = true,
+       .isReplaceable = true},
       {.name = "WHY",
        .help = "robot=N x_m=X y_m=Y theta_deg=T [MODEL/TYPE/FEATURE ...], p of its readings there",
        .handle = [&robots](const Call& call) { return tellWhy(robots, call); },
-       .isSlow = true}};
+       .isSlow = true,
+       .isReplaceable = true}};
 }
 
 }  // namespace ortung

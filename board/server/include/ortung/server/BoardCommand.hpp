@@ -38,10 +38,15 @@ struct BoardCommand {
   /// the world, and whatever takes long holds it up.
   /// @throws ServeError to refuse it, answered as "ERR code text"; other errors as the board's own
   std::function<Reply(const Call&)> handle;
-  /// It takes long: handle() is called on a thread of the board that has nothing else to do, so it
-  /// holds up neither the world nor other clients, but must be thread-safe. The same client's lines
-  /// behind it wait for it; they are executed one after the other, for all clients.
+  /// It takes long: handle() is called on a thread of the board that has nothing else to do, the
+  /// lowest priority, and a share of a processor (BoardLimits::slowShare), so it holds up neither
+  /// the world nor other clients, but must be thread-safe. The same client's lines behind it wait
+  /// for it; they are executed one after the other, clients by turns. One that asks
+  /// Call::isAwaited() again and again, without a lock, is held up there when it has to be.
   bool isSlow = false;
+  /// It only asks for something, so a client's newer one that comes before this one was begun takes
+  /// its place, and it is answered "ERR superseded". For slow ones.
+  bool isReplaceable = false;
 };
 
 }  // namespace ortung
