@@ -67,6 +67,43 @@ struct RecordedBoard {
   TestClient client;
 };
 
+// However many files there are, a name is found at once: above the greatest number.
+TEST(Recordings, NumbersFilesAboveThoseThatThereAre) {
+  const TemporaryFolder folder;
+  for (const char* file :
+       {"scout-7.rec", "scout-12.rec", "scout-12.txt", "scout-x.rec", "scout-.rec", "scout-2.rec",
+        "scout-99999999999.rec", "scout--3.rec", "other-50.rec"})
+    writeBytes(folder / file, "not ours");
+  Recordings recordings({.folder = folder / "", .onProblem = {}});
+  const auto begun = [&](const std::string& name) {
+    recordings.begin(1, name, "");
+    std::string file = recordings.state(1).file;
+    recordings.end(1);
+    return file;
+  };
+  EXPECT_EQ(begun("scout"), "scout-13.rec");
+  EXPECT_EQ(begun("scout"), "scout-14.rec");
+  EXPECT_EQ(begun("scout-"), "scout--4.rec");
+  for (int i = 15; i < 40; ++i)  // by another program meanwhile
+    writeBytes(folder / ("scout-" + std::to_string(i) + ".rec"), "not ours");
+  const std::string next = begun("scout");
+  EXPECT_GE(std::stoi(next.substr(6)), 40) << next;
+  EXPECT_EQ(readBytes(folder / "scout-12.rec"), "not ours");
+}
+
+TEST(Recordings, SayThatAFileIsGone) {
+  const TemporaryFolder folder;
+  Recordings recordings({.folder = folder / "", .onProblem = {}});
+  recordings.begin(1, "scout", "");
+  const std::vector<Message> moment{{10, {"a", "b", "c"}, {1}}};
+  recordings.write(1, moment);
+  fs::remove(folder / "scout-1.rec");
+  recordings.begin(1, "scout", "");  // goes on
+  EXPECT_EQ(messageOf<ServeError>([&] { recordings.end(1); }),
+            "scout-1.rec is gone: it was removed or renamed while it was written");
+  EXPECT_EQ(recordings.state(1).kind, Recordings::State::Kind::kFailed);
+}
+
 TEST(RecordedWorld, HoldsWhatWasServedBetweenOnAndOff) {
   RecordedBoard it;
   it.next(3);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <stdexcept>
 #include <system_error>
@@ -15,7 +16,9 @@ namespace {
 using Kind = Recordings::State::Kind;
 
 constexpr std::size_t kLongestName = 64;
-constexpr int kMostFiles = 100'000;  // for the name of one robot
+constexpr int kGreatestNumber = 999'999'999;
+constexpr int kMostTries = 40;  // to find a number that no other program has taken meanwhile
+const std::string kEnding = ".rec";
 
 /// Returns the name with only such characters as file systems, shells and clients accept.
 std::string safe(const std::string& name) {
@@ -42,14 +45,37 @@ Recordings::Recordings(Config config) : config_(std::move(config)) {
   if (::access(config_.folder.c_str(), W_OK | X_OK) != 0)
     throw std::runtime_error(config_.folder.string() + ": no records can be written there: " +
                              std::generic_category().message(errno));
+  noteFiles();
 }
 
 Recordings::~Recordings() { endAll(); }
 
-/// Returns the name of a new file, which is created empty so that no other program takes the name.
-std::string Recordings::newFile(const std::string& name) const {
-  for (int number = 1; number <= kMostFiles; ++number) {
-    std::string file = safe(name) + "-" + std::to_string(number) + ".rec";
+/// Notes the greatest number of each name in the folder. Once, before anything is served: whoever
+/// begins a record is waited for by the world.
+void Recordings::noteFiles() {
+  for (const auto& entry : std::filesystem::directory_iterator(config_.folder)) {
+    const std::string file = entry.path().filename().string();
+    if (!file.ends_with(kEnding)) continue;
+    const std::size_t dash = file.rfind('-');
+    if (dash == file.npos) continue;
+    const char* const end = file.data() + file.size() - kEnding.size();
+    int number = 0;
+    const auto read = std::from_chars(file.data() + dash + 1, end, number);
+    if (read.ec != std::errc() || read.ptr != end || number < 1 || number > kGreatestNumber)
+      continue;
+    int& greatest = numbers_[file.substr(0, dash)];
+    greatest = std::max(greatest, number);
+  }
+}
+
+/// The file is created empty, so that no other program takes the name.
+std::string Recordings::newFile(const std::string& name) {
+  const std::string begin = safe(name);
+  int& greatest = numbers_[begin];
+  int step = 1;  // another program may have written as many as it likes
+  for (int tries = 0; tries < kMostTries && step <= kGreatestNumber - greatest; ++tries) {
+    greatest += step;
+    std::string file = begin + "-" + std::to_string(greatest) + kEnding;
     const std::filesystem::path path = config_.folder / file;
     if (std::FILE* const made = std::fopen(path.c_str(), "wxe")) {
       std::fclose(made);
@@ -57,9 +83,11 @@ std::string Recordings::newFile(const std::string& name) const {
     }
     if (errno != EEXIST)
       throw ServeError("disk", file + " can't be made: " + std::generic_category().message(errno));
+    if (tries > 0) step *= 2;
   }
-  throw ServeError("limit", "there are " + std::to_string(kMostFiles) + " records of '" +
-                                safe(name) + "' in the server's folder");
+  throw ServeError("limit", "the numbers of the records of '" + begin +
+                                "' are used up in the server's folder, up to " +
+                                std::to_string(greatest));
 }
 
 void Recordings::begin(RobotId robot, const std::string& name, const std::string& worldFingerprint,
@@ -127,11 +155,13 @@ void Recordings::write(RobotId robot, std::span<const Message> moment,
 /// @returns what went wrong; "" if nothing did
 std::string Recordings::close(RobotId robot) {
   std::unique_ptr<RecordWriter> writer;
+  std::string file;
   {
     const std::lock_guard lock(mutex_);
     const auto found = records_.find(robot);
     if (found == records_.end()) return {};
     State& state = found->second.state;
+    file = state.file;
     if (state.kind == Kind::kFailed) state = {Kind::kOff, state.file, state.moments};
     writer = std::move(found->second.writer);
     if (!writer) return {};
@@ -139,6 +169,8 @@ std::string Recordings::close(RobotId robot) {
   }
   try {
     writer->commit();
+    if (!std::filesystem::exists(config_.folder / file))
+      throw std::runtime_error(file + " is gone: it was removed or renamed while it was written");
     return {};
   } catch (const std::exception& error) {
     const std::lock_guard lock(mutex_);

@@ -20,7 +20,8 @@ constexpr std::size_t kMaxMovables = 256;
 
 /// Reads a kind. An unknown kind is most likely misspelt, unless it is that of a landmark.
 std::string readKind(const Parameters& table, bool hasIdentity) {
-  static constexpr std::array kKinds{"wall", "goal", "post", "line", "ball", "obstacle", "other"};
+  static constexpr std::array kKinds{"wall", "goal",  "post",     "line",
+                                     "ball", "crate", "obstacle", "other"};
   const std::string kind = table.textOr("kind", "obstacle");
   const bool known = std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
   if (known || (hasIdentity && isWord(kind))) return kind;
@@ -31,12 +32,12 @@ std::string readKind(const Parameters& table, bool hasIdentity) {
                          "[A-Za-z0-9_-]{1,64}");
 }
 
-/// Reads whether a primitive is movable, and its mass. By default only balls are movable.
+/// Reads whether a primitive is movable, and its mass. By default balls and crates are movable.
 void readMechanics(const Parameters& table, Primitive& primitive) {
   if (table.has("friction")) primitive.friction = table.number("friction", {0.0, 10.0});
   if (table.has("restitution")) primitive.restitution = table.number("restitution", {0.0, 1.0});
   const bool isBall = primitive.kind == "ball";
-  primitive.isMovable = table.flagOr("movable", isBall);
+  primitive.isMovable = table.flagOr("movable", isBall || primitive.kind == "crate");
   if (!primitive.isMovable) {
     if (table.has("mass_kg")) table.fail("mass_kg", "does not fit something that is not movable");
     return;
@@ -134,6 +135,7 @@ class Extent {
   Box2 box_;
 };
 
+/// Of what stays where it is; where nothing does, of what moves, as it stands at the beginning.
 Extent extentOf(const WorldModel& world) {
   Extent extent;
   for (const Primitive& primitive : world.primitives) extent.add(boundsOf(primitive));
@@ -143,6 +145,8 @@ Extent extentOf(const WorldModel& world) {
                 map.originY + map.rows * map.cell});
   }
   for (const Landmark& mark : world.landmarks) extent.add({mark.x, mark.x, mark.y, mark.y});
+  if (extent.isEmpty())
+    for (const Primitive& movable : world.movables) extent.add(boundsOf(movable));
   return extent;
 }
 

@@ -19,9 +19,9 @@
 namespace ortung {
 
 /// Records of robots, begun and ended while these run: files of one folder, whose names are made of
-/// those of the robots and a number that is free, so a client that asks for a record can't choose
-/// the file. A record that can't be written any more ends, and its robot's state says why.
-/// Thread-safe; who gives readings never waits for a disk that closes another record.
+/// those of the robots and a number above all that there are, so a client that asks for a record
+/// can't choose the file. A record that can't be written any more ends, and its robot's state says
+/// why. Thread-safe; who gives readings never waits for a disk that closes another record.
 class ORTUNG_API Recordings {
  public:
   struct Config {
@@ -70,15 +70,17 @@ class ORTUNG_API Recordings {
     State state;
     Timestamp last = 0;  ///< stamp of the newest reading
   };
-  /// Returns a file name that is not in use, made of the robot's name and a number.
-  std::string newFile(const std::string& name) const;
+  /// Makes a file of a name that was not in use: the robot's name and a number. @returns the name
+  std::string newFile(const std::string& name);
+  void noteFiles();
   static void write(Record& record, std::span<const Message> readings);
   /// Ends a record; returns what went wrong, or "".
   std::string close(RobotId robot);
 
   const Config config_;
-  mutable std::mutex mutex_;  ///< guards records_
+  mutable std::mutex mutex_;  ///< guards the members below
   std::map<RobotId, Record> records_;
+  std::map<std::string, int> numbers_;  ///< greatest number in use, by what stands before it
 };
 
 /// "off", "on", "failed".
