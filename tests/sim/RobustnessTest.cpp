@@ -95,6 +95,25 @@ size_m = [0.4, 0.3]
   expectIn(complaint([&] { Simulation(worldOf(overlapping), {}); }), {"second crate", "overlaps"});
 }
 
+// A world may be a floor and what is pushed about on it.
+TEST(Movables, AreAWorldByThemselvesAndCratesAreOfThem) {
+  const std::string crate = R"(
+[[rectangle]]
+kind = "crate"
+mass_kg = 3
+center_m = [-2, 1]
+size_m = [0.4, 0.2]
+)";
+  Simulation simulation(worldOf("[world]\nx_m = [-6, 6]\ny_m = [-4, 4]\n" + crate), {});
+  ASSERT_EQ(simulation.things().size(), 1u);
+  EXPECT_EQ(simulation.things().front().kind, "crate");
+  PluginFactory factory{PluginFactory::standardFolders()};
+  simulation.addRobot(named("one"), factory, {-4, 1, 0}).setTranslationalVelocity(0.5);
+  for (int cycle = 0; cycle < 600; ++cycle) simulation.step();
+  EXPECT_GT(simulation.things().front().pose.x, -1.5) << "it was pushed";
+  EXPECT_EQ(refusalOf(crate), "") << "without a floor of its own: where it stands";
+}
+
 TEST(Refused, TwoRobotsOfOneName) {
   Field field;
   field.simulation.addRobot(named("one"), field.factory, {-4, -2, 0});
