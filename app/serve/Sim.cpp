@@ -231,6 +231,14 @@ LocalizedWorld localized(ServedWorld& world, ServedSimulation& simulation,
   }
 }
 
+/// Only a world that is to keep up with a clock can be too slow for it.
+PlayLimits playLimitsOf(const ServingArguments& serving) {
+  constexpr double kMostLoad = 0.7;
+  PlayLimits limits;
+  if (!serving.freeRun && !serving.lockstep) limits.load = kMostLoad / serving.speed;
+  return limits;
+}
+
 /// A run with nobody who looks on, and what it leaves behind.
 class Playing {
  public:
@@ -363,7 +371,7 @@ int runSim(const SimArguments& arguments) {
   RecordedWorld recorded(simulation, records.recordings(),
                          {.also = [&simulation] { return simulation.told(); }});
   LocalizedWorld world = localized(recorded, simulation, arguments);
-  std::vector<BoardCommand> commands = playerCommands(simulation);
+  std::vector<BoardCommand> commands = playerCommands(simulation, playLimitsOf(serving));
   commands.push_back(recordCommand(recorded));
   for (BoardCommand& command : localizationCommands(world)) commands.push_back(std::move(command));
   serve(world, arguments.serving, std::move(commands));

@@ -59,6 +59,32 @@ TEST(ServedPlayers, AreStartedListedAndStopped) {
   EXPECT_EQ(client.ask("PLAYERS"), "OK PLAYERS") << "the reset starts over";
 }
 
+TEST(ServedPlayers, ComeOnlyWhileThereIsRoomForTheirCosts) {
+  ServedSimulation world(kField, {.noise = false});
+  BoardConfig config = controlledConfig();
+  config.commands = playerCommands(world, {.robots = 2});
+  for (BoardCommand& command : playerCommands(world, {.load = 0.0})) {
+    if (command.name != "PLAY") continue;
+    command.name = "PLAY_IDLE";
+    config.commands.push_back(command);
+  }
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1 role=operator");
+  EXPECT_EQ(client.ask("PLAY_IDLE wander robot=pioneer.toml"), "OK PLAY_IDLE robot=pioneer")
+      << "nothing was computed yet";
+  client.ask("LOCKSTEP on");
+  client.ask("NEXT");
+  EXPECT_TRUE(
+      client.ask("PLAY_IDLE wander robot=pioneer.toml").starts_with("ERR limit a cycle takes "));
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml"), "OK PLAY robot=pioneer-2");
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml"),
+            "ERR limit there are 2 robots on the field, at most 2 are permitted with players that "
+            "clients start");
+  EXPECT_EQ(client.ask("STOP pioneer"), "OK STOP");
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml"), "OK PLAY robot=pioneer");
+}
+
 TEST(ServedPlayers, ThatCantBeSayWhy) {
   ServedSimulation world(kField, {.noise = false});
   const RunningBoard board(world, withPlayers(world));
@@ -78,6 +104,10 @@ TEST(ServedPlayers, ThatCantBeSayWhy) {
   EXPECT_TRUE(
       client.ask("PLAY wander robot=pioneer.toml speed_m_s=fast").starts_with("ERR configuration"));
   EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml team=a@b").starts_with("ERR"));
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml robot=nao.toml"),
+            "ERR syntax PLAY has robot= twice, expected it once");
+  EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml name=").starts_with("ERR configuration"));
+  EXPECT_TRUE(client.ask("PLAY wander robot=").starts_with("ERR configuration"));
   EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml start=90,0,0").starts_with("ERR no-room"));
   EXPECT_TRUE(client.ask("PLAY wander robot=pioneer.toml stage=no").starts_with("ERR argument"));
   EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=0");

@@ -46,6 +46,8 @@ TEST(PlayerWish, ThatCantBeReadSaysWhy) {
                                                         {"x:a=1&&b=2", "is not key=value"},
                                                         {"x:a=1&a=2", "a is given twice"},
                                                         {"x:name=a&name=b", "name is given twice"},
+                                                        {"x:name=", "name is empty"},
+                                                        {"x:robot=&k=v", "robot is empty"},
                                                         {"x:start=1", "start"},
                                                         {"x:stage=perhaps", "stage"}}) {
     SCOPED_TRACE(text);

@@ -126,7 +126,10 @@ std::vector<std::string> Request::takeWords() { return std::exchange(words_, {})
 
 std::map<std::string, std::string> Request::takeKeys() {
   std::map<std::string, std::string> keys;
-  for (auto& [key, value] : std::exchange(keys_, {})) keys[key] = std::move(value);
+  for (auto& [key, value] : std::exchange(keys_, {})) {
+    const auto [entry, isNew] = keys.emplace(key, std::move(value));
+    if (!isNew) refuse(command_ + " has " + entry->first + "= twice, expected it once");
+  }
   return keys;
 }
 

@@ -27,7 +27,7 @@ class Request {
   const std::string& fault() const { return fault_; }
 
   std::vector<std::string> takeWords();
-  /// All that is left of key=value; of a key that is there twice the last value.
+  /// All that is left of key=value, each key once.
   std::map<std::string, std::string> takeKeys();
   /// The next word. @param what what the error calls it
   std::string takeWord(const char* what);

@@ -1,26 +1,19 @@
 #include "SlowWork.hpp"
 
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <utility>
 
 #include "BoardClock.hpp"
+#include "ortung/server/ProcessorTime.hpp"
 
 namespace ortung::server {
 namespace {
 
 constexpr int kLowestPriority = 19;      // as of nice(1)
 constexpr double kShortestWait = 0.001;  // what is less is paid with the next piece [s]
-
-/// The processor time that this thread has used [s].
-double processorTime() {
-  timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 }  // namespace
 

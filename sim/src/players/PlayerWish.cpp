@@ -70,6 +70,7 @@ PlayerWish parse(const std::string& kind, const std::string& text) {
     const bool isOwn =
         key == "robot" || key == "tables" || key == "name" || key == "start" || key == "stage";
     if (!given.insert(key).second) refuse(key + " is given twice");
+    if (isOwn && value->empty()) refuse(key + " is empty");
     if (isOwn)
       own.set(key, std::string(*value));
     else
@@ -101,6 +102,8 @@ PlayerWish readPlayer(const Parameters& table, const std::filesystem::path& fold
   if (!wish.team.empty() && !isTeam(wish.team))
     table.fail("team", "is \"" + wish.team + "\", expected a word of at most 32 letters");
   wish.name = table.textOr("name", "");
+  for (const char* key : {"name", "team", "robot", "tables"})
+    if (table.has(key) && table.text(key).empty()) table.fail(key, "is empty; leave it out");
   for (const auto& [key, file] : {std::pair{"robot", &wish.robot}, {"tables", &wish.tables}}) {
     const std::string name = table.textOr(key, "");
     if (name.find('\0') != std::string::npos) table.fail(key, "names no file");

@@ -1,5 +1,8 @@
 #include "ortung/served/PlayerCommands.hpp"
 
+#include <cmath>
+#include <string>
+
 #include "ortung/base/Time.hpp"
 #include "ortung/server/CallArguments.hpp"
 #include "ortung/sim/PlayerWish.hpp"
@@ -39,6 +42,21 @@ PlayerWish wishOf(ServedSimulation& simulation, const BoardCommand::Call& call) 
   return parsePlayer(text + team);
 }
 
+/// @throws ServeError if one more player would be too many
+void checkRoom(ServedSimulation& simulation, const PlayLimits& limits) {
+  const std::size_t robots = simulation.run().simulation().robots().size();
+  if (robots >= limits.robots)
+    throw ServeError("limit", "there are " + std::to_string(robots) +
+                                  " robots on the field, at most " + std::to_string(limits.robots) +
+                                  " are permitted with players that clients start");
+  if (simulation.load() > limits.load)
+    throw ServeError("limit", "a cycle takes " +
+                                  std::to_string(std::lround(100.0 * simulation.load())) +
+                                  " % of its time already, at most " +
+                                  std::to_string(std::lround(100.0 * limits.load)) +
+                                  " % are permitted when a player comes; STOP another one first");
+}
+
 BoardCommand::Reply eventsSince(const ServedSimulation& simulation, std::uint64_t since) {
   BoardCommand::Reply reply;
   for (const ServedSimulation::Event& event : simulation.events())
@@ -51,11 +69,12 @@ BoardCommand::Reply eventsSince(const ServedSimulation& simulation, std::uint64_
 
 }  // namespace
 
-std::vector<BoardCommand> playerCommands(ServedSimulation& simulation) {
+std::vector<BoardCommand> playerCommands(ServedSimulation& simulation, const PlayLimits& limits) {
   std::vector<BoardCommand> commands(6);
   commands[0] = {
       "PLAY", "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
-      Role::kOperator, [&simulation](const BoardCommand::Call& call) {
+      Role::kOperator, [&simulation, limits](const BoardCommand::Call& call) {
+        checkRoom(simulation, limits);
         return BoardCommand::Reply{"robot=" + simulation.startPlayer(wishOf(simulation, call)), {}};
       }};
   commands[1] = {"STOP", "ROBOT: ends the player that plays it", Role::kOperator,

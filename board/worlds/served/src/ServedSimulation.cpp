@@ -11,6 +11,7 @@
 #include "Truth.hpp"
 #include "ortung/motion/MotionModel.hpp"
 #include "ortung/server/FieldText.hpp"
+#include "ortung/server/ProcessorTime.hpp"
 #include "ortung/server/RobotPlugins.hpp"
 
 namespace ortung {
@@ -149,10 +150,13 @@ Timestamp ServedSimulation::now() const {
 /// Clients command by what they have sensed in a cycle, as players in the simulator do. So robots
 /// move only when those have had their say: before the next cycle, or whatever else is done.
 void ServedSimulation::step() {
+  constexpr double kNewest = 0.1;  // share of the newest cycle in the mean
+  const double before = processorTime();
   finishCycle();
   run_->act();
   noteEvents();
   isMovePending_ = true;
+  load_ += kNewest * ((processorTime() - before) / simulation().cycle() - load_);
 }
 
 void ServedSimulation::noteEvents() {

@@ -17,7 +17,7 @@ struct BoardCommand {
   struct Call {
     std::string client;  ///< its name
     std::vector<std::string> words;
-    std::map<std::string, std::string> keys;  ///< the last one of each counts
+    std::map<std::string, std::string> keys;  ///< a key that is there twice is refused before
     Role role = Role::kViewer;
     /// Whether the client still waits for the answer; thread-safe, never empty.
     std::function<bool()> isAwaited = [] { return true; };

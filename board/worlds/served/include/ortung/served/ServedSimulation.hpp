@@ -74,6 +74,9 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   const SimRobot& simRobot(RobotId robot) const { return find(robot); }
   /// The state of the game.
   const Game& game() const { return run_->game(); }
+  /// Processor time that the thread of a cycle needs for it, as a share of the time that the cycle
+  /// simulates; a mean of the newest ones. 0 before the first.
+  double load() const { return load_; }
   /// What is under way; after a reset it is another one.
   SceneRun& run() { return *run_; }
   /// Something that the referee has seen or decided since the last reset.
@@ -124,6 +127,7 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   std::vector<ServedObject> objects_;  ///< objects in the order of the simulation's things
   std::unique_ptr<SceneRun> run_;
   std::unique_ptr<Truth> truth_;
+  double load_ = 0.0;
   bool isMovePending_ = false;  ///< all have sensed, nothing has moved yet
   std::vector<RobotSize>
       planned_;  ///< sizes of clients' robots with a planner, the most recent last

@@ -1,0 +1,13 @@
+#include "ortung/server/ProcessorTime.hpp"
+
+#include <time.h>
+
+namespace ortung {
+
+double processorTime() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace ortung
