@@ -68,33 +68,38 @@ void Conversation::aside(const std::string& tag, std::function<void()> work,
                          std::shared_ptr<Question> question) {
   ++waiting_;
   if (question) note(question, tag, false);
-  auto task = [weak = weak_from_this(), host = &host_, isGone = isGone_, tag,
-               work = std::move(work), then = std::move(then), question] {
-    if (*isGone || (question && !question->begin())) return;
-    std::string fault;
+  const auto fault = std::make_shared<std::string>();
+  SlowTask task;
+  task.begin = [isGone = isGone_, question] {
+    return !*isGone && (!question || question->begin());
+  };
+  task.work = [work = std::move(work), fault] {
     try {
       work();
     } catch (...) {
-      fault = currentErrorText();
+      *fault = currentErrorText();
     }
-    host->post([weak, tag, fault = std::move(fault), then, isAsked = question != nullptr] {
+  };
+  task.done = [weak = weak_from_this(), host = &host_, tag, fault, then = std::move(then),
+               isAsked = question != nullptr] {
+    host->post([weak, tag, fault, then, isAsked] {
       const auto self = weak.lock();
       if (!self) return;
       if (isAsked) self->asked_.reset();
       --self->waiting_;
       if (self->isOver_) return;
       if (isAsked) self->tellSuperseded();
-      if (fault.empty())
+      if (fault->empty())
         then(*self);
       else
-        self->refuse(tag, fault);
+        self->refuse(tag, *fault);
       self->goOn();
     });
   };
   if (isLong)
     host_.workLong(client_.id, std::move(task));
   else
-    host_.work(std::move(task));
+    host_.work([task = std::move(task)] { task.run(); });
 }
 
 void Conversation::holdUntil(const std::string& tag, Timestamp due,

@@ -34,6 +34,8 @@ Host::Host(ServedWorld& world, const BoardConfig& boardConfig, WorldKeeper& worl
       talk(kClientsAtOnce * config.limits.talkLines, kClientsAtOnce * config.limits.talkBytes) {}
 Host::~Host() = default;
 
-void Host::workLong(ClientId /*client*/, std::function<void()> task) { work(std::move(task)); }
+void Host::workLong(ClientId /*client*/, SlowTask task) {
+  work([task = std::move(task)] { task.run(); });
+}
 
 }  // namespace ortung::server

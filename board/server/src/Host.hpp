@@ -9,6 +9,7 @@
 #include "Command.hpp"
 #include "Doorkeeper.hpp"
 #include "Output.hpp"
+#include "SlowTask.hpp"
 #include "TalkBudget.hpp"
 #include "WorldKeeper.hpp"
 #include "ortung/server/MessageBoard.hpp"
@@ -51,7 +52,7 @@ class Host {
   virtual void work(std::function<void()> task) = 0;
   /// The same for what takes so long that others should not wait behind it; by default they do.
   /// A client's newer task takes the place of one that was not begun. Thread-safe.
-  virtual void workLong(ClientId client, std::function<void()> task);
+  virtual void workLong(ClientId client, SlowTask task);
   /// For what workLong() has run, while it holds no lock: it may be held up here. Thread-safe.
   virtual void paceLong() {}
   /// @p client has more lines than it gets done in a turn: calls its nextTurn() when those before

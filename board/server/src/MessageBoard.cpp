@@ -69,7 +69,7 @@ struct MessageBoard::Parts final : server::Host {
 
   void work(std::function<void()> task) override { asio::post(workers_, std::move(task)); }
 
-  void workLong(server::ClientId client, std::function<void()> task) override {
+  void workLong(server::ClientId client, server::SlowTask task) override {
     slow_.give(client, std::move(task));
   }
   void paceLong() override { slow_.pace(); }

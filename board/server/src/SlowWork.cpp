@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -12,17 +13,28 @@
 namespace ortung::server {
 namespace {
 
-constexpr int kLowestPriority = 19;      // as of nice(1)
+// As of nice(1): a tenth of the weight of others. Lower ones would keep readings from a container,
+// of which it looks at a few under a lock, for too long where others have all processors.
+constexpr int kPriority = 10;
 constexpr double kShortestWait = 0.001;  // what is less is paid with the next piece [s]
+constexpr double kLongestSleep = 0.05;   // so that the end is noticed [s]
 
 }  // namespace
 
 SlowWork::SlowWork(double share)
-    : budget_(share, 1.0), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+    : budget_(share, 1.0),
+      worker_([this] { work(); }),
+      director_([this](const std::stop_token& stop) { direct(stop); }) {}
 
-SlowWork::~SlowWork() = default;
+SlowWork::~SlowWork() {
+  director_.request_stop();
+  director_.join();
+  job_ = nullptr;
+  begins_.release();
+  worker_.join();
+}
 
-void SlowWork::give(ClientId client, std::function<void()> task) {
+void SlowWork::give(ClientId client, SlowTask task) {
   {
     const std::lock_guard lock(mutex_);
     if (!tasks_.contains(client)) turns_.push_back(client);
@@ -31,40 +43,55 @@ void SlowWork::give(ClientId client, std::function<void()> task) {
   news_.notify_one();
 }
 
-void SlowWork::run(const std::stop_token& stop) {
-  // Who answers clients at once, and the world, run whenever they want to. That it may be refused
-  // (it never is by Linux) would do no harm.
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLowestPriority);
-  while (const std::function<void()> task = take(stop)) {
-    task();
-    pay(stop);
+void SlowWork::work() {
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kPriority);
+  while (true) {
+    begins_.acquire();
+    if (job_ == nullptr) return;
+    (*job_)();
+    used_ = processorTime();
+    ends_.release();
   }
 }
 
-/// The next client's task; none at the end.
-std::function<void()> SlowWork::take(const std::stop_token& stop) {
+void SlowWork::direct(const std::stop_token& stop) {
+  while (const std::optional<SlowTask> task = take(stop)) {
+    if (!task->begin()) continue;
+    job_ = &task->work;
+    begins_.release();
+    ends_.acquire();
+    task->done();
+    const double wait = charge();
+    if (wait < kShortestWait) continue;
+    std::unique_lock lock(mutex_);
+    news_.wait_for(lock, stop, std::chrono::duration<double>(wait), [] { return false; });
+  }
+}
+
+/// The next client's task; nothing at the end.
+std::optional<SlowTask> SlowWork::take(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   if (!news_.wait(lock, stop, [this] { return !turns_.empty(); }) || stop.stop_requested())
-    return {};
+    return std::nullopt;
   const auto its = tasks_.find(turns_.front());
   turns_.pop_front();
-  std::function<void()> task = std::move(its->second);
+  std::optional<SlowTask> task = std::move(its->second);
   tasks_.erase(its);
   return task;
 }
 
-void SlowWork::pace() {
-  if (std::this_thread::get_id() == thread_.get_id()) pay(thread_.get_stop_token());
+/// Pays for the processor time that was used. @returns how long to wait for it [s]
+double SlowWork::charge() {
+  budget_.spend(used_ - std::exchange(charged_, used_), 0.0);
+  return budget_.wait(wallTime());
 }
 
-/// Waits until what the thread has used is no more than its share.
-void SlowWork::pay(const std::stop_token& stop) {
-  const double used = processorTime();
-  budget_.spend(used - std::exchange(charged_, used), 0.0);
-  const double wait = budget_.wait(wallTime());
-  if (wait < kShortestWait) return;
-  std::unique_lock lock(mutex_);
-  news_.wait_for(lock, stop, std::chrono::duration<double>(wait), [] { return false; });
+void SlowWork::pace() {
+  if (std::this_thread::get_id() != worker_.get_id()) return;
+  used_ = processorTime();
+  const std::stop_token stop = director_.get_stop_token();
+  for (double wait = charge(); wait >= kShortestWait && !stop.stop_requested(); wait = charge())
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait, kLongestSleep)));
 }
 
 }  // namespace ortung::server

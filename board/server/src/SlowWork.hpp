@@ -5,17 +5,23 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <semaphore>
 #include <stop_token>
 #include <thread>
 
+#include "SlowTask.hpp"
 #include "TalkBudget.hpp"
 #include "WorldKeeper.hpp"
 
 namespace ortung::server {
 
-/// What takes long, on a thread of its own that has the lowest priority and a share of one
-/// processor: clients take turns, and a client has one task at a time. However much clients ask
-/// for, the rest of the processors' time is others'.
+/// What takes long, beside the world and the conversations: clients take turns, a client has one
+/// task at a time, and the work is done on a thread that has a low priority and a share of one
+/// processor. However much clients ask for, the rest of the processors' time is others'.
+///
+/// A second thread, of the usual priority, takes tasks and passes on their results: the first one
+/// may be without a processor for long, so it must not hold a lock that others wait for.
 class SlowWork {
  public:
   /// @param share of one processor, in (0, 1]; what is not used is kept for up to a second
@@ -26,23 +32,30 @@ class SlowWork {
 
   /// Gives a client's task. One that it has given before and that was not begun is dropped, and
   /// this one takes its place in the queue. Thread-safe.
-  void give(ClientId client, std::function<void()> task);
-  /// For a task: takes as long as its thread has to wait by now, so that long ones are no bursts.
-  /// On other threads nothing happens. A task must not hold a lock meanwhile.
+  void give(ClientId client, SlowTask task);
+  /// For a task's work: takes as long as it has to wait by now, so that long work is no burst. On
+  /// other threads nothing happens. The work must not hold a lock meanwhile.
   void pace();
 
  private:
-  void run(const std::stop_token& stop);
-  std::function<void()> take(const std::stop_token& stop);
-  void pay(const std::stop_token& stop);
+  void work();
+  void direct(const std::stop_token& stop);
+  std::optional<SlowTask> take(const std::stop_token& stop);
+  double charge();
 
-  std::mutex mutex_;  ///< guards turns_ and tasks_
+  std::mutex mutex_;  ///< guards turns_ and tasks_; not for the thread that works
   std::condition_variable_any news_;
   std::deque<ClientId> turns_;  ///< who has a task, the next one first
-  std::map<ClientId, std::function<void()>> tasks_;
+  std::map<ClientId, SlowTask> tasks_;
+  // Both threads use these, but never at the same time: one waits for the other.
+  const std::function<void()>* job_ = nullptr;  ///< null: the end
   TalkBudget budget_;     ///< what it counts as lines are seconds of a processor
-  double charged_ = 0.0;  ///< processor time of the thread that was paid for [s]
-  std::jthread thread_;   ///< last member: it ends before what it uses
+  double used_ = 0.0;     ///< processor time of the thread that works [s]
+  double charged_ = 0.0;  ///< of that, what was paid for [s]
+  std::binary_semaphore begins_{0};
+  std::binary_semaphore ends_{0};
+  std::thread worker_;
+  std::jthread director_;
 };
 
 }  // namespace ortung::server

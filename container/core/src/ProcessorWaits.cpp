@@ -1,6 +1,6 @@
 #include "ProcessorWaits.hpp"
 
-#include <sched.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <charconv>
@@ -30,13 +30,14 @@ std::optional<std::uint64_t> waited(const std::filesystem::path& thread) {
 double ProcessorWaits::sinceLast() {
   std::map<int, std::uint64_t> now;
   std::uint64_t longest = 0;
+  const int own = ::getpriority(PRIO_PROCESS, 0);  // of the thread that asks
   std::error_code error;
   std::filesystem::directory_iterator threads("/proc/self/task", error);
   for (; !error && threads != std::filesystem::directory_iterator(); threads.increment(error)) {
     const std::string name = threads->path().filename().string();
     int thread = 0;
     std::from_chars(name.data(), name.data() + name.size(), thread);
-    if (::sched_getscheduler(thread) == SCHED_IDLE) continue;
+    if (::getpriority(PRIO_PROCESS, static_cast<id_t>(thread)) > own) continue;
     const std::optional<std::uint64_t> wait = waited(threads->path());
     if (!wait) continue;
     now[thread] = *wait;

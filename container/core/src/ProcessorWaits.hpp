@@ -11,8 +11,8 @@ namespace ortung {
 /// system counts it (/proc/self/task/N/schedstat). Not thread-safe.
 class ORTUNG_API ProcessorWaits {
  public:
-  /// @returns the greatest of such times, among all threads but those that run only when nothing
-  ///   else does, since the last call [s]; 0 the first time, and where the system does not count
+  /// @returns the greatest of such times, among all threads but those of a lower priority than the
+  ///   caller's, since the last call [s]; 0 the first time, and where the system does not count
   double sinceLast();
   /// Forgets the last call: the next one is the first.
   void forget() { last_.clear(); }

@@ -11,6 +11,13 @@ namespace {
 
 constexpr std::size_t kMostValues = 2048;  // of a feature: beams of any scanner
 
+/// A feature, and what it says at the pose that was asked for.
+struct Asked {
+  const SensorData* feature = nullptr;
+  std::shared_ptr<const Weigher> weigher;
+  std::vector<ReadingValue> values;
+};
+
 void addValues(const std::string& feature, const std::vector<ReadingValue>& values,
                std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -30,12 +37,16 @@ Why whyAt(const Robot& robot, const std::vector<std::string>& queries, const Pos
   const auto y = static_cast<float>(pose.y);
   const auto theta = static_cast<float>(pose.theta);
   const SampleView one{{&x, 1}, {&y, 1}, {&theta, 1}};
+  std::vector<Asked> asked;
+  {
+    const SensorContainer::ReadLock lock = robot.container.read();
+    for (const SensorData* feature : features)
+      asked.push_back({feature, feature->weigher(), readingValues(*feature, pose)});
+  }
   Why why;
   double sum = 0.0;
   bool any = false;
-  const SensorContainer::ReadLock lock = robot.container.read();
-  for (const SensorData* feature : features) {
-    const std::shared_ptr<const Weigher> weigher = feature->weigher();
+  for (auto& [feature, weigher, values] : asked) {
     if (weigher) {
       float logProbability = 0.0F;
       weigher->getProbability(one, {&logProbability, 1});
@@ -43,7 +54,6 @@ Why whyAt(const Robot& robot, const std::vector<std::string>& queries, const Pos
       any = true;
     }
     const std::string name = toText(feature->id());
-    std::vector<ReadingValue> values = readingValues(*feature, pose);
     if (values.size() > kMostValues) values.resize(kMostValues);
     why.lines.push_back(
         name + " p=" + numberText(weigher ? weigher->getProbability(pose) : kNoExpectation) +
