@@ -32,13 +32,14 @@ TEST(Commands, OfTheHostAreAnsweredInTheirTurn) {
   TestClient client(board.port());
   EXPECT_EQ(client.ask("ECHO a"), "ERR hello say HELLO ortung/1 first");
   client.ask("HELLO ortung/1 name=anna role=viewer");
-  client.send("#1 echo one two key=3 key=4\n#2 TIME\n");
+  client.send("#1 echo one two key=4\n#2 TIME\n");
   EXPECT_EQ(client.line(), "#1 OK ECHO from=anna lines=3");
   EXPECT_EQ(client.line(), "one");
   EXPECT_EQ(client.line(), "two");
   EXPECT_EQ(client.line(), "key=4");
   EXPECT_TRUE(client.line().starts_with("#2 OK TIME"));
   EXPECT_EQ(client.ask("#3 ECHO"), "#3 ERR syntax ECHO needs words");
+  EXPECT_EQ(client.ask("ECHO one key=3 key=4"), "ERR syntax ECHO has key= twice, expected it once");
 }
 
 TEST(Commands, OfTheHostStandBehindTheProtocolsInHelp) {

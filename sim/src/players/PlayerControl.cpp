@@ -290,7 +290,7 @@ PlayerControl::PlayerControl(Simulation& simulation, FloorPlans& plans, PluginFa
 PlayerControl::~PlayerControl() {
   try {
     parts_->endAll();
-  } catch (...) {  // of onProblem; who wants to hear of it calls endAll()
+  } catch (const std::exception&) {  // of onProblem; callers that need the error call endAll()
   }
 }
 
