@@ -288,9 +288,12 @@ PlayerControl::PlayerControl(Simulation& simulation, FloorPlans& plans, PluginFa
 }
 
 PlayerControl::~PlayerControl() {
-  try {
-    parts_->endAll();
-  } catch (const std::exception&) {  // of onProblem; callers that need the error call endAll()
+  while (!parts_->seatings.empty()) {
+    try {
+      parts_->endAll();
+    } catch (const std::exception&) {  // of onProblem; callers that need the error call endAll()
+      continue;                        // the others are ended, too
+    }
   }
 }
 
