@@ -59,6 +59,29 @@ TEST(MapWalls, AreTheFourOfARoomWhateverItsTurn) {
   }
 }
 
+/// Maps made of scans know walls only as far as somebody looked, so outlines end at unknown cells.
+TEST(MapWalls, ThatEndAtWhatIsUnknownAreFoundWhicheverWayTheyRun) {
+  for (const double degrees : {0.0, 30.0, 45.0}) {
+    const double turn = degrees * std::numbers::pi / 180.0;
+    GridBody body = roomMap(3.0, 2.0, turn);
+    GridMap& map = body.map;
+    for (int row = 0; row < map.rows; ++row)
+      for (int column = 0; column < map.columns; ++column) {
+        const double x = map.originX + (column + 0.5) * kCell;
+        const double y = map.originY + (row + 0.5) * kCell;
+        const double u = std::abs(std::cos(turn) * x + std::sin(turn) * y);
+        const double v = std::abs(-std::sin(turn) * x + std::cos(turn) * y);
+        if (u > 2.5 && v > 1.5) map.cells[map.index(column, row)] = GridCell::kUnknown;  // corners
+      }
+    std::vector<FieldWall> walls;
+    addMapWalls(body, walls);
+    ASSERT_EQ(walls.size(), 4u) << degrees;
+    double length = 0.0;
+    for (const FieldWall& wall : walls) length += lengthOf(wall);
+    EXPECT_NEAR(length, 2.0 * (5.0 + 3.0), 0.5) << degrees;
+  }
+}
+
 TEST(MapWalls, LieBehindTheOutlineAsRaysSeeThem) {
   GridBody body = roomMap(3.0, 2.0, 0.0);
   body.surfaceDepth = 0.025;

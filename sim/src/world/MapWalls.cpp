@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "ortung/base/StraightPieces.hpp"
 
@@ -32,12 +33,16 @@ class Outlines {
           if (isEdge(column, row, way)) at(column, row) |= bit(way);
   }
 
-  /// Calls found with the middles of the edges of each outline.
+  /// Calls found with the middles of the edges of each outline. One that is open, since it ends at
+  /// unknown cells, has to be followed from its beginning, or it falls to pieces; what is left then
+  /// is closed and may be followed from anywhere.
   template <class Found>
   void forEach(const Found& found) {
-    for (int row = 0; row <= map_.rows; ++row)
-      for (int column = 0; column <= map_.columns; ++column)
-        while (at(column, row) != 0) found(follow(column, row));
+    for (const bool isAnywhere : {false, true})
+      for (int row = 0; row <= map_.rows; ++row)
+        for (int column = 0; column <= map_.columns; ++column)
+          while (at(column, row) != 0 && (isAnywhere || isBeginning(column, row)))
+            found(follow(column, row));
   }
 
  private:
@@ -61,6 +66,19 @@ class Outlines {
     const auto right = static_cast<std::size_t>((way + kWays - 1) % kWays);
     return is(column + leftColumn[left], row + leftRow[left], false) &&
            is(column + leftColumn[right], row + leftRow[right], true);
+  }
+
+  /// Returns whether more edges leave a corner than come to it.
+  bool isBeginning(int column, int row) {
+    int more = std::popcount(at(column, row));
+    for (int way = 0; way < kWays; ++way) {
+      const int fromColumn = column - kColumns[static_cast<std::size_t>(way)];
+      const int fromRow = row - kRows[static_cast<std::size_t>(way)];
+      if (fromColumn < 0 || fromRow < 0 || fromColumn > map_.columns || fromRow > map_.rows)
+        continue;
+      more -= (at(fromColumn, fromRow) & bit(way)) != 0 ? 1 : 0;
+    }
+    return more > 0;
   }
 
   std::vector<PlanePoint> follow(int column, int row) {
