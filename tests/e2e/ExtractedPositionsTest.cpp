@@ -1,14 +1,11 @@
 // Logs of real laser range finders fill `position` and `obstacles` as a simulated one does.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <vector>
 
 #include "Files.hpp"
-#include "ortung/base/Angles.hpp"
+#include "FoundPositions.hpp"
 #include "ortung/formats/ObstaclesData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/robot/RobotFile.hpp"
@@ -21,39 +18,9 @@
 namespace ortung::test {
 namespace {
 
-/// Positions in scans, compared with the truth: right is one of them within 0.3 m and 0.2 rad.
-struct Found {
-  std::size_t scans = 0;
-  std::size_t withObstacles = 0;
-  std::size_t certain = 0;  ///< scans with one position alone
-  std::size_t certainlyWrong = 0;
-  std::size_t wrong = 0;       ///< scans with positions, none of which is right
-  std::vector<double> errors;  ///< of the best of a scan's positions, if it is right [m]
-  double squares = 0.0;        ///< of their errors in sigmas, summed
-
-  std::size_t fixed() const { return errors.size() + wrong; }
-  double nees() const { return squares / static_cast<double>(errors.size()); }
-
-  void add(const PoseFixData::Reading& fixes, const Pose2& truth) {
-    if (fixes.empty()) return;
-    const auto& best = *std::min_element(fixes.begin(), fixes.end(), [&](auto& a, auto& b) {
-      return distance(a.pose, truth) < distance(b.pose, truth);
-    });
-    const Eigen::Vector3d error(best.pose.x - truth.x, best.pose.y - truth.y,
-                                wrapAngle(best.pose.theta - truth.theta));
-    const bool isRight = error.head<2>().norm() < 0.3 && std::abs(error[2]) < 0.2;
-    certain += fixes.size() == 1 ? 1 : 0;
-    certainlyWrong += fixes.size() == 1 && !isRight ? 1 : 0;
-    wrong += isRight ? 0 : 1;
-    if (!isRight) return;
-    errors.push_back(error.head<2>().norm());
-    const Eigen::Matrix3d covariance = Eigen::Map<const Eigen::Matrix3d>(best.covariance.data());
-    squares += error.dot(covariance.ldlt().solve(error));
-  }
-  double medianError() {
-    std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
-    return errors[errors.size() / 2];
-  }
+/// What is found in a log.
+struct Found : FoundPositions {
+  std::size_t withObstacles = 0;  ///< scans in which there are some
 };
 
 /// Feeds a log to the robot that it describes, with lrf_iconic beside the scanner; the walls are
@@ -73,9 +40,10 @@ Found extract(const std::string& log) {
   const auto* obstacles = dynamic_cast<ObstaclesData*>(container.find({.feature = "obstacles"}));
   Feeder feeder(log, *source, container);
   Found found;
+  std::uint64_t seen = 0;
   while (feeder.next()) {
-    if (position->sequence() == found.scans) continue;
-    found.scans = position->sequence();
+    if (position->sequence() == seen) continue;
+    seen = position->sequence();
     found.withObstacles += obstacles->reading().empty() ? 0 : 1;
     if (feeder.truth()) found.add(position->reading(), *feeder.truth());
   }
