@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "ScanForecast.hpp"
 #include "WallMatcher.hpp"
@@ -11,6 +13,8 @@
 namespace ortung {
 
 LrfIconicExtractor::LrfIconicExtractor(const Parameters& p) : settings_(readLrfIconicSettings(p)) {}
+
+LrfIconicExtractor::~LrfIconicExtractor() = default;
 
 std::vector<std::string> LrfIconicExtractor::inputs() const {
   if (!settings_.reads.empty()) return {settings_.reads};
@@ -30,21 +34,34 @@ void LrfIconicExtractor::take(std::span<const SensorData* const> inputs) {
 void LrfIconicExtractor::extract(const FieldModel& field, std::span<std::optional<Words>> words) {
   const ScanShapes shapes =
       shapesOf(scan_.ranges, scan_.firstAngle, scan_.angleStep, settings_.shapes);
-  const std::vector<FieldWall> walls =
-      wallsAt(field, settings_.mounting.z, settings_.shapes.shortest);
-  // Matching is limited by the scan's rounding, even without noise.
-  constexpr double kFinest = 0.005;  // [m]
-  const double sigma = settings_.rangeSigma + settings_.rangeSigmaPerMetre * 0.5 * maxRange_;
-  const WallMatcher matcher(walls, {.rangeSigma = std::max(kFinest, sigma),
-                                    .wallSigma = settings_.wallSigma,
-                                    .shareMatched = settings_.shareMatched,
-                                    .mostFixes = settings_.mostFixes});
+  const WallMatcher& matcher = matcherOf(field);
   const std::vector<std::uint8_t> small = beamsOnCircles(shapes);
   const std::vector<PoseFixData::Fix> fixes = matcher.match(
       shapes.segments, {scan_.ranges, small, scan_.firstAngle, scan_.angleStep, maxRange_}, mount_);
   words[0] = ObstaclesData::encode(obstacles(shapes, matcher, fixes));
   // Without known walls it can't say that there is no position.
-  if (!walls.empty()) words[1] = PoseFixData::encode(fixes);
+  if (!walls_.empty()) words[1] = PoseFixData::encode(fixes);
+}
+
+/// Returns the matcher of a field's walls. It is kept: drawing the walls of a building takes as
+/// long as some scans do.
+const WallMatcher& LrfIconicExtractor::matcherOf(const FieldModel& field) {
+  // Matching is limited by the scan's rounding, even without noise.
+  constexpr double kFinest = 0.005;  // [m]
+  const double sigma = settings_.rangeSigma + settings_.rangeSigmaPerMetre * 0.5 * maxRange_;
+  const WallMatcherConfig config{.rangeSigma = std::max(kFinest, sigma),
+                                 .wallSigma = settings_.wallSigma,
+                                 .shareMatched = settings_.shareMatched,
+                                 .mostFixes = settings_.mostFixes};
+  std::vector<FieldWall> walls = wallsAt(field, settings_.mounting.z);
+  const auto ends = [](const FieldWall& w) { return std::tie(w.x0, w.y0, w.x1, w.y1); };
+  const bool isKnown =
+      matcher_ && sigma_ == config.rangeSigma && std::ranges::equal(walls, walls_, {}, ends, ends);
+  if (isKnown) return *matcher_;
+  walls_ = std::move(walls);
+  sigma_ = config.rangeSigma;
+  matcher_ = std::make_unique<WallMatcher>(walls_, config);
+  return *matcher_;
 }
 
 /// Returns, for each beam, whether it ends at a small body.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include "LrfIconicSettings.hpp"
 #include "ScanShapes.hpp"
 #include "ortung/core/Extractor.hpp"
+#include "ortung/tables/FieldModel.hpp"
 
 namespace ortung {
 
@@ -19,20 +21,25 @@ class WallMatcher;
 class LrfIconicExtractor : public Extractor {
  public:
   explicit LrfIconicExtractor(const Parameters& p);
+  ~LrfIconicExtractor() override;
 
   std::vector<std::string> inputs() const override;
   void take(std::span<const SensorData* const> inputs) override;
   void extract(const FieldModel& field, std::span<std::optional<Words>> words) override;
 
  private:
+  const WallMatcher& matcherOf(const FieldModel& field);
   std::vector<std::uint8_t> beamsOnCircles(const ScanShapes& shapes) const;
   ObstaclesData::Reading obstacles(const ScanShapes& shapes, const WallMatcher& matcher,
                                    const std::vector<PoseFixData::Fix>& fixes) const;
 
   LrfIconicSettings settings_;
   ScanData::Reading scan_;
-  Pose2 mount_;            ///< pose of the scanner in the robot frame
-  double maxRange_ = 0.0;  ///< greatest range of the scan [m]
+  Pose2 mount_;                   ///< pose of the scanner in the robot frame
+  double maxRange_ = 0.0;         ///< greatest range of the scan [m]
+  std::vector<FieldWall> walls_;  ///< walls and noise of the matcher
+  double sigma_ = 0.0;            ///< [m]
+  std::unique_ptr<WallMatcher> matcher_;
 };
 
 }  // namespace ortung

@@ -28,6 +28,7 @@ void addWall(const MeasuredWall& wall, const Pose2& sensor, const MeasuredScan& 
   const double x0 = wall.x0 - sensor.x;
   const double y0 = wall.y0 - sensor.y;
   const double off = wall.sine * x0 - wall.cosine * y0;  // positive on the visible side
+  if (std::abs(off) > scan.maxRange + 1.0) return;       // no beam ends there
   const double a0 = std::atan2(y0, x0);
   const double span = wrapAngle(std::atan2(wall.y1 - sensor.y, wall.x1 - sensor.x) - a0);
   const double from = std::min(0.0, span) + a0 - sensor.theta - scan.firstAngle;

@@ -4,29 +4,34 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "PlaceSearch.hpp"
 #include "ScanForecast.hpp"
 
 namespace ortung {
 namespace {
 
 constexpr std::size_t kMostWalls =
-    256;  // greatest number of walls that are matched, the longest first
-constexpr std::size_t kMostSegments = 6;   // greatest number of segments of which pairs are tried
-constexpr int kRefinements = 8;            // Gauss-Newton steps
-constexpr double kSamePlace = 0.3;         // poses within this distance are the same [m]
-constexpr double kSameHeading = 0.1;       // headings within this angle are the same [rad]
-constexpr std::size_t kMostCompared = 24;  // greatest number of candidates whose scan is predicted
-constexpr double kLeastExplained = 0.4;    // least explained share of a candidate's points
+    8192;  // greatest number of walls that are matched, the longest first
+constexpr double kShortestWall = 0.01;  // shorter ones have no direction [m]
+constexpr double kPointSpacing = 0.2;   // least distance of points on a piece [m]
+constexpr double kMostPoints = 80.0;    // greatest number of points of all pieces
+constexpr double kSearchReach = 0.2;    // of points from their walls when places are looked for [m]
+constexpr double kSearchAngle = 0.14;   // of pieces to their walls when they are [rad]
+constexpr int kRefinements = 8;         // Gauss-Newton steps
+constexpr double kSamePlace = 0.3;      // poses within this distance are the same [m]
+constexpr double kSameHeading = 0.1;    // headings within this angle are the same [rad]
+constexpr std::size_t kMostCompared = 64;  // greatest number of places whose scan is predicted
+constexpr double kLeastExplained = 0.5;    // least share of a place's points at walls
+constexpr double kAlikeExplained = 0.7;    // share of the best place's with which one is compared
 constexpr double kTolerance = 0.15;        // tolerance of a beam's end across its wall [m]
 constexpr double kMostThrough = 0.05;      // greatest share of beams that see through walls
 constexpr double kLeastOfWalls = 0.5;      // least share of beams to walls that must end there
-constexpr double kShareAWall = 0.115;      // reduction of the required share per further wall
+constexpr double kShareAWall = 0.115;      // increase of the required share per wall less
 constexpr double kMostShare = 0.98;
 constexpr int kUsualWalls = 5;
-constexpr double kAlike = 0.75;  // share of the best agreement that counts as equally good
-constexpr double kAlikeThrough = 0.1;
-constexpr double kFewestSine = 0.34;  // least sine of the angle between two pieces: 20 degrees
+constexpr double kAlike = 0.7;  // share of the best agreement that counts as equally good
 
 double lengthOf(const StraightPiece& s) { return distance(s.from, s.to); }
 double directionOf(const StraightPiece& s) {
@@ -51,6 +56,31 @@ bool isSame(const Pose2& a, const Pose2& b) {
   return distance(a, b) < kSamePlace && std::abs(wrapAngle(a.theta - b.theta)) < kSameHeading;
 }
 
+/// Returns whether a wall's ends are numbers that can be counted in cells.
+bool isOnEarth(const FieldWall& wall) {
+  constexpr double kFarthest = 1e7;  // [m]
+  return std::abs(wall.x0) < kFarthest && std::abs(wall.y0) < kFarthest &&
+         std::abs(wall.x1) < kFarthest && std::abs(wall.y1) < kFarthest;
+}
+
+/// Returns points of the pieces, equally far from each other: a wall counts by its length, whether
+/// many beams meet it nearby or a few far away.
+std::vector<OutlinePoint> pointsOf(std::span<const StraightPiece> segments) {
+  double total = 0.0;
+  for (const StraightPiece& s : segments) total += lengthOf(s);
+  const double spacing = std::max(kPointSpacing, total / kMostPoints);
+  std::vector<OutlinePoint> points;
+  for (const StraightPiece& s : segments) {
+    const double count = std::max(1.0, std::round(lengthOf(s) / spacing));
+    for (double i = 0.5; i < count; i += 1.0) {
+      const double along = i / count;
+      points.push_back({s.from.x + along * (s.to.x - s.from.x),
+                        s.from.y + along * (s.to.y - s.from.y), directionOf(s)});
+    }
+  }
+  return points;
+}
+
 /// Returns whether the foot of @p p lies on the wall, or up to @p slack [m] beyond its ends.
 bool isBeside(const MeasuredWall& wall, const PlanePoint& p, double slack) {
   const double along = wall.cosine * (p.x - wall.x0) + wall.sine * (p.y - wall.y0);
@@ -59,27 +89,26 @@ bool isBeside(const MeasuredWall& wall, const PlanePoint& p, double slack) {
 
 }  // namespace
 
-std::vector<FieldWall> wallsAt(const FieldModel& field, double z, double shortest) {
+std::vector<FieldWall> wallsAt(const FieldModel& field, double z) {
   std::vector<FieldWall> walls;
   for (const FieldWall& wall : field.walls) {
     if (walls.size() == kMostWalls) break;
-    if (wall.zLow <= z && z <= wall.zHigh && lengthOf(wall) >= shortest) walls.push_back(wall);
+    if (wall.zLow <= z && z <= wall.zHigh && isOnEarth(wall) && lengthOf(wall) >= kShortestWall)
+      walls.push_back(wall);
   }
   return walls;
 }
 
-struct WallMatcher::Candidate {
-  Pose2 sensor;
-  int explained = 0;
-};
-
-/// A refined candidate, and the scan's agreement with it.
+/// A refined place, and the scan's agreement with it.
 struct WallMatcher::Place {
   PoseFixData::Fix fix;
-  double share = 0.0;    ///< share of beams that end at the wall that is expected there
-  double through = 0.0;  ///< share of the beams to walls that end behind them
-  int walls = 0;         ///< number of walls of which there are pieces
-  double ofWalls = 0.0;  ///< share of the beams to walls that end there
+  bool isDetermined = false;  ///< whether the pieces say where in the place it is
+  double through = 0.0;       ///< share of the beams to walls that end behind them
+  int walls = 0;              ///< number of walls of which there are pieces
+  double ofWalls = 0.0;       ///< share of the beams to walls that end there
+  /// Share of beams that end at the wall that is expected there, less those that end behind it; it
+  /// is reduced where most beams to walls end elsewhere.
+  double worth = 0.0;
 };
 
 MeasuredWall::MeasuredWall(const FieldWall& wall)
@@ -90,13 +119,17 @@ MeasuredWall::MeasuredWall(const FieldWall& wall)
       sine((wall.y1 - wall.y0) / length) {}
 
 WallMatcher::WallMatcher(std::span<const FieldWall> walls, const WallMatcherConfig& config)
-    : walls_(walls.begin(), walls.end()), config_(config) {}
+    : walls_(walls.begin(), walls.end()),
+      config_(config),
+      nearby_(walls, std::numbers::sqrt2 * config.reach),
+      raster_(walls, kSearchReach, kSearchAngle) {}
 
 /// Returns the nearest wall to which a piece in this direction can belong, or null.
 const MeasuredWall* WallMatcher::wallOf(const PlanePoint& inField, double direction) const {
   const MeasuredWall* nearest = nullptr;
   double reach = config_.reach;
-  for (const MeasuredWall& wall : walls_) {
+  for (const std::uint32_t i : nearby_.at(inField.x, inField.y)) {
+    const MeasuredWall& wall = walls_[i];
     const double off = std::abs(offsetFrom(wall, inField));
     if (off >= reach || !isBeside(wall, inField, config_.reach)) continue;
     if (std::abs(wrapAngle(wall.direction - direction)) > config_.angle) continue;
@@ -104,16 +137,6 @@ const MeasuredWall* WallMatcher::wallOf(const PlanePoint& inField, double direct
     nearest = &wall;
   }
   return nearest;
-}
-
-int WallMatcher::explained(std::span<const StraightPiece> segments, const Pose2& sensor) const {
-  int count = 0;
-  for (const StraightPiece& segment : segments) {
-    const double direction = sensor.theta + directionOf(segment);
-    for (const PlanePoint& point : segment.points)
-      count += wallOf(moved(sensor, point), direction) != nullptr ? 1 : 0;
-  }
-  return count;
 }
 
 /// Returns the number of walls of which there are pieces.
@@ -125,55 +148,6 @@ int WallMatcher::wallsSeen(std::span<const StraightPiece> segments, const Pose2&
       seen.push_back(wall);
   }
   return static_cast<int>(seen.size());
-}
-
-/// Returns the poses at which two pieces lie on two walls.
-std::vector<WallMatcher::Candidate> WallMatcher::candidates(
-    std::span<const StraightPiece> segments) const {
-  std::vector<Candidate> found;
-  const auto lies = [this](const MeasuredWall& wall, const StraightPiece& s, const Pose2& sensor) {
-    return isBeside(wall, moved(sensor, s.from), config_.reach) &&
-           isBeside(wall, moved(sensor, s.to), config_.reach);
-  };
-  const auto tryPair = [&](const StraightPiece& a, const StraightPiece& b, double directionA,
-                           double directionB, const MeasuredWall& u, const MeasuredWall& v) {
-    const double turnA = wrapAngle(u.direction - directionA);
-    const double turnB = wrapAngle(v.direction - directionB);
-    if (std::abs(wrapAngle(turnA - turnB)) > config_.angle) return;
-    const double shareB = lengthOf(b) / (lengthOf(a) + lengthOf(b));
-    Pose2 sensor{0.0, 0.0, wrapAngle(turnA + shareB * wrapAngle(turnB - turnA))};
-    // The middles of both pieces must lie on the walls' lines.
-    const double offA = offsetFrom(u, moved(sensor, middleOf(a)));
-    const double offB = offsetFrom(v, moved(sensor, middleOf(b)));
-    const double sine = u.cosine * v.sine - u.sine * v.cosine;
-    if (std::abs(sine) < kFewestSine) return;
-    sensor.x = (-offA * v.cosine + offB * u.cosine) / sine;
-    sensor.y = (offB * u.sine - offA * v.sine) / sine;
-    if (!lies(u, a, sensor) || !lies(v, b, sensor)) return;
-    const bool isKnown = std::any_of(found.begin(), found.end(),
-                                     [&](const Candidate& c) { return isSame(c.sensor, sensor); });
-    if (!isKnown) found.push_back({sensor, explained(segments, sensor)});
-  };
-  const std::size_t tried = std::min(segments.size(), kMostSegments);
-  for (std::size_t i = 0; i < tried; ++i) {
-    for (std::size_t j = i + 1; j < tried; ++j) {
-      const double a = directionOf(segments[i]);
-      const double b = directionOf(segments[j]);
-      if (std::abs(std::sin(b - a)) < kFewestSine) continue;
-      const double cosine = std::cos(b - a);
-      const double sine = std::sin(b - a);
-      const double least = std::cos(config_.angle) - 1e-9;
-      for (const MeasuredWall& u : walls_)
-        for (const MeasuredWall& v : walls_) {
-          // Most walls are at another angle, which can be tested without a rotation.
-          const double along = u.cosine * v.cosine + u.sine * v.sine;
-          const double across = u.cosine * v.sine - u.sine * v.cosine;
-          if (along * cosine + across * sine >= least)
-            tryPair(segments[i], segments[j], a, b, u, v);
-        }
-    }
-  }
-  return found;
 }
 
 /// The evidence of a piece about the pose.
@@ -243,57 +217,61 @@ bool WallMatcher::refine(std::span<const StraightPiece> segments, const Pose2& m
 std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const StraightPiece> segments,
                                                  const MeasuredScan& scan,
                                                  const Pose2& mount) const {
-  std::vector<StraightPiece> sorted(segments.begin(), segments.end());
-  std::stable_sort(
-      sorted.begin(), sorted.end(),
-      [](const StraightPiece& a, const StraightPiece& b) { return lengthOf(a) > lengthOf(b); });
-  std::size_t points = 0;
-  for (const StraightPiece& segment : sorted) points += segment.points.size();
-  std::vector<Candidate> found = candidates(sorted);
-  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.explained > b.explained;
-  });
-  if (found.size() > kMostCompared) found.resize(kMostCompared);
+  const FoundPlaces found = findPlaces(raster_, pointsOf(segments),
+                                       {.least = kLeastExplained,
+                                        .alike = kAlikeExplained,
+                                        .most = kMostCompared,
+                                        .apart = kSamePlace,
+                                        .turned = kSameHeading});
+  if (!found.isAll) return {};  // too many to say which they are
   std::vector<Place> places;
-  for (const Candidate& candidate : found) {
-    if (candidate.explained < kLeastExplained * static_cast<double>(points)) break;
-    Place place;
-    place.fix.pose = candidate.sensor * inverse(mount);
-    if (!refine(sorted, mount, place.fix)) continue;
-    const Pose2 sensor = place.fix.pose * mount;
-    const Agreement agreement = agreementOf(scan, walls_, sensor, kTolerance);
-    if (agreement.seen == 0 || agreement.expected == 0) continue;
-    place.share = static_cast<double>(agreement.agreeing) / agreement.seen;
-    place.through = static_cast<double>(agreement.through) / agreement.expected;
-    place.ofWalls = static_cast<double>(agreement.agreeing) / agreement.expected;
-    place.walls = wallsSeen(sorted, sensor);
-    places.push_back(place);
-  }
+  for (const Pose2& sensor : found.scanners)
+    places.push_back(placeAt(sensor, segments, scan, mount));
   return chosen(std::move(places));
+}
+
+WallMatcher::Place WallMatcher::placeAt(const Pose2& sensor,
+                                        std::span<const StraightPiece> segments,
+                                        const MeasuredScan& scan, const Pose2& mount) const {
+  Place place;
+  const Pose2 first = sensor * inverse(mount);
+  place.fix.pose = first;
+  const bool isRefined = refine(segments, mount, place.fix);
+  if (!isRefined) place.fix.pose = first;
+  const double sigma = std::sqrt(std::max(place.fix.covariance[0], place.fix.covariance[4]));
+  place.isDetermined = isRefined && sigma < kSamePlace;
+  const Pose2 refined = place.fix.pose * mount;
+  const Agreement agreement = agreementOf(scan, walls_, refined, kTolerance);
+  if (agreement.seen == 0 || agreement.expected == 0) return place;
+  place.through = static_cast<double>(agreement.through) / agreement.expected;
+  place.ofWalls = static_cast<double>(agreement.agreeing) / agreement.expected;
+  place.walls = wallsSeen(segments, refined);
+  place.worth = static_cast<double>(agreement.agreeing - agreement.through) / agreement.seen *
+                std::min(1.0, place.ofWalls / kLeastOfWalls);
+  return place;
 }
 
 /// Returns the places that fit as well as the best if the fit is significant: a few beams end at
 /// walls by coincidence, too, the more likely the fewer walls there are.
 std::vector<PoseFixData::Fix> WallMatcher::chosen(std::vector<Place> places) const {
-  const auto worth = [](const Place& place) {
-    return place.share * std::min(1.0, place.ofWalls / kLeastOfWalls);
-  };
   std::stable_sort(places.begin(), places.end(),
-                   [&](const Place& a, const Place& b) { return worth(a) > worth(b); });
+                   [](const Place& a, const Place& b) { return a.worth > b.worth; });
   std::vector<PoseFixData::Fix> fixes;
   if (places.empty()) return fixes;
   const Place& best = places.front();
-  const double demanded =
-      std::min(kMostShare, config_.shareMatched + kShareAWall * (kUsualWalls - best.walls));
-  if (best.walls < 2 || best.share < demanded || best.through > kMostThrough ||
+  const double demanded = std::min(
+      kMostShare, config_.shareMatched + kShareAWall * std::max(0, kUsualWalls - best.walls));
+  if (best.walls < 2 || best.worth < demanded || best.through > kMostThrough ||
       best.ofWalls < kLeastOfWalls)
     return fixes;
   for (const Place& place : places) {
-    if (place.share < kAlike * best.share || place.through > best.through + kAlikeThrough) continue;
+    if (place.worth < kAlike * best.worth) break;
     const bool isKnown = std::any_of(fixes.begin(), fixes.end(), [&](const auto& fix) {
       return isSame(fix.pose, place.fix.pose);
     });
-    if (!isKnown) fixes.push_back(place.fix);
+    if (isKnown) continue;
+    if (!place.isDetermined) return {};  // somewhere along a corridor would do as well
+    fixes.push_back(place.fix);
   }
   if (static_cast<int>(fixes.size()) > config_.mostFixes) fixes.clear();
   return fixes;

@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "ScanShapes.hpp"
+#include "WallRaster.hpp"
+#include "WallsNearby.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/tables/FieldModel.hpp"
 
 namespace ortung {
 
-/// Returns the walls and goals that a scanner at height @p z [m] meets, the longest first, without
-/// those shorter than @p shortest [m].
-std::vector<FieldWall> wallsAt(const FieldModel& field, double z, double shortest);
+/// Returns the walls and goals that a scanner at height @p z [m] meets, the longest first.
+std::vector<FieldWall> wallsAt(const FieldModel& field, double z);
 
 /// A wall with precomputed values.
 struct MeasuredWall : FieldWall {
@@ -33,16 +34,17 @@ struct WallMatcherConfig {
   int mostFixes = 8;          ///< greatest number of equally good places; more are too ambiguous
 };
 
-/// Finds the pose of a scanner from the straight pieces of its scan: two pieces that are not
-/// parallel and two walls at the same angle give a pose; the poses that explain most points are
-/// refined by Gauss-Newton on the points' distances from their walls. Then the whole scan is
-/// compared with the expected one: a pose is reported only if so much of it agrees, with so many
-/// walls, that it can't be a coincidence, together with all others that agree nearly as well.
+/// Finds the pose of a scanner from the straight pieces of its scan: all places of the field at
+/// which so many of their points lie at walls are found (PlaceSearch) and refined by Gauss-Newton
+/// on the points' distances from their walls. Then the whole scan is compared with the expected
+/// one at each of them: a pose is reported only if so much of the scan agrees, with so many walls,
+/// that it can't be a coincidence, together with all others that agree nearly as well.
 class WallMatcher {
  public:
   WallMatcher(std::span<const FieldWall> walls, const WallMatcherConfig& config);
 
-  /// Returns the poses of the robot that fit as well as the best; none if nothing fits.
+  /// Returns the poses of the robot that fit as well as the best: of as many places as there are;
+  /// none if nothing fits, or too much.
   /// @param mount pose of the scanner in the robot frame
   std::vector<PoseFixData::Fix> match(std::span<const StraightPiece> segments,
                                       const MeasuredScan& scan, const Pose2& mount) const;
@@ -51,13 +53,12 @@ class WallMatcher {
   bool isOfWall(const StraightPiece& segment, const Pose2& mount, const Pose2& robot) const;
 
  private:
-  struct Candidate;
   struct Place;
   struct Evidence;
-  std::vector<Candidate> candidates(std::span<const StraightPiece> segments) const;
   const MeasuredWall* wallOf(const PlanePoint& inField, double direction) const;
-  int explained(std::span<const StraightPiece> segments, const Pose2& sensor) const;
   int wallsSeen(std::span<const StraightPiece> segments, const Pose2& sensor) const;
+  Place placeAt(const Pose2& sensor, std::span<const StraightPiece> segments,
+                const MeasuredScan& scan, const Pose2& mount) const;
   std::vector<PoseFixData::Fix> chosen(std::vector<Place> places) const;
   Evidence evidenceOf(const StraightPiece& segment, const Pose2& mount, const Pose2& robot) const;
   bool refine(std::span<const StraightPiece> segments, const Pose2& mount,
@@ -65,6 +66,8 @@ class WallMatcher {
 
   std::vector<MeasuredWall> walls_;
   WallMatcherConfig config_;
+  WallsNearby nearby_;
+  WallRaster raster_;
 };
 
 }  // namespace ortung
