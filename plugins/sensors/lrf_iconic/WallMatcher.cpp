@@ -31,7 +31,9 @@ constexpr double kLeastOfWalls = 0.5;      // least share of beams to walls that
 constexpr double kShareAWall = 0.115;      // increase of the required share per wall less
 constexpr double kMostShare = 0.98;
 constexpr int kUsualWalls = 5;
-constexpr double kAlike = 0.7;  // share of the best agreement that counts as equally good
+constexpr double kAlike = 0.7;          // share of the best agreement that counts as equally good
+constexpr double kAlikeOutline = 0.75;  // share of the best one's outline that does, too, ...
+constexpr double kAlikeThrough = 0.1;   // ... unless more beams than this share see through walls
 
 double lengthOf(const StraightPiece& s) { return distance(s.from, s.to); }
 double directionOf(const StraightPiece& s) {
@@ -106,6 +108,7 @@ struct WallMatcher::Place {
   double through = 0.0;       ///< share of the beams to walls that end behind them
   int walls = 0;              ///< number of walls of which there are pieces
   double ofWalls = 0.0;       ///< share of the beams to walls that end there
+  int outline = 0;            ///< number of the outline's points that lie at walls
   /// Share of beams that end at the wall that is expected there, less those that end behind it; it
   /// is reduced where most beams to walls end elsewhere.
   double worth = 0.0;
@@ -217,7 +220,8 @@ bool WallMatcher::refine(std::span<const StraightPiece> segments, const Pose2& m
 std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const StraightPiece> segments,
                                                  const MeasuredScan& scan,
                                                  const Pose2& mount) const {
-  const FoundPlaces found = findPlaces(raster_, pointsOf(segments),
+  const std::vector<OutlinePoint> outline = pointsOf(segments);
+  const FoundPlaces found = findPlaces(raster_, outline,
                                        {.least = kLeastExplained,
                                         .alike = kAlikeExplained,
                                         .most = kMostCompared,
@@ -225,8 +229,10 @@ std::vector<PoseFixData::Fix> WallMatcher::match(std::span<const StraightPiece> 
                                         .turned = kSameHeading});
   if (!found.isAll) return {};  // too many to say which they are
   std::vector<Place> places;
-  for (const Pose2& sensor : found.scanners)
+  for (const Pose2& sensor : found.scanners) {
     places.push_back(placeAt(sensor, segments, scan, mount));
+    places.back().outline = pointsAtWalls(outline, places.back().fix.pose * mount);
+  }
   return chosen(std::move(places));
 }
 
@@ -251,6 +257,15 @@ WallMatcher::Place WallMatcher::placeAt(const Pose2& sensor,
   return place;
 }
 
+int WallMatcher::pointsAtWalls(std::span<const OutlinePoint> outline, const Pose2& sensor) const {
+  return static_cast<int>(
+      std::count_if(outline.begin(), outline.end(), [&](const OutlinePoint& point) {
+        const PlanePoint inField = moved(sensor, {point.x, point.y});
+        const MeasuredWall* wall = wallOf(inField, sensor.theta + point.direction);
+        return wall != nullptr && std::abs(offsetFrom(*wall, inField)) < kTolerance;
+      }));
+}
+
 /// Returns the places that fit as well as the best if the fit is significant: a few beams end at
 /// walls by coincidence, too, the more likely the fewer walls there are.
 std::vector<PoseFixData::Fix> WallMatcher::chosen(std::vector<Place> places) const {
@@ -264,8 +279,14 @@ std::vector<PoseFixData::Fix> WallMatcher::chosen(std::vector<Place> places) con
   if (best.walls < 2 || best.worth < demanded || best.through > kMostThrough ||
       best.ofWalls < kLeastOfWalls)
     return fixes;
+  // Walls count by their beams, most of which meet the nearest one, and by their length: if that
+  // one has changed or is not in the map, the right place has little but the others.
+  const auto isAlike = [&](const Place& place) {
+    return place.worth >= kAlike * best.worth ||
+           (place.outline >= kAlikeOutline * best.outline && place.through <= kAlikeThrough);
+  };
   for (const Place& place : places) {
-    if (place.worth < kAlike * best.worth) break;
+    if (!isAlike(place)) continue;
     const bool isKnown = std::any_of(fixes.begin(), fixes.end(), [&](const auto& fix) {
       return isSame(fix.pose, place.fix.pose);
     });

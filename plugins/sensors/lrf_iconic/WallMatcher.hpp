@@ -24,6 +24,7 @@ struct MeasuredWall : FieldWall {
 };
 
 struct MeasuredScan;
+struct OutlinePoint;
 
 struct WallMatcherConfig {
   double reach = 0.25;        ///< greatest distance of a point from its wall [m]
@@ -59,6 +60,7 @@ class WallMatcher {
   int wallsSeen(std::span<const StraightPiece> segments, const Pose2& sensor) const;
   Place placeAt(const Pose2& sensor, std::span<const StraightPiece> segments,
                 const MeasuredScan& scan, const Pose2& mount) const;
+  int pointsAtWalls(std::span<const OutlinePoint> outline, const Pose2& sensor) const;
   std::vector<PoseFixData::Fix> chosen(std::vector<Place> places) const;
   Evidence evidenceOf(const StraightPiece& segment, const Pose2& mount, const Pose2& robot) const;
   bool refine(std::span<const StraightPiece> segments, const Pose2& mount,
