@@ -50,40 +50,60 @@ Found extract(const std::string& log) {
   return found;
 }
 
-/// Offices of several rooms: 117 of 342 scans had a position when this was written, all of them
+/// Offices of several rooms: 198 of 342 scans had a position when this was written, all of them
 /// right.
 TEST(ExtractedPositions, OfARobotInOffices) {
   const std::string log = ORTUNG_SHARED_DATA "/mrpt_uwb_ro";
   if (!std::filesystem::is_directory(log)) GTEST_SKIP() << log << " is not here";
   Found found = extract(log);
   EXPECT_GT(found.scans, 300u);
-  EXPECT_GT(found.fixed(), found.scans / 4);
-  EXPECT_LE(found.wrong, found.fixed() / 100);
+  EXPECT_GT(found.fixed(), 160u);
+  EXPECT_EQ(found.wrong, 0u);
   EXPECT_LT(found.medianError(), 0.05);  // the reference proves 0.02 to 0.04 m
   EXPECT_LT(found.nees(), 10.0);
   EXPECT_GT(found.withObstacles, found.scans / 2);  // furniture, people
 }
 
-/// Corridors and rooms that look alike: 103 of 395 scans had positions, 91 of them one alone.
+/// Corridors and rooms that look alike: 260 of 395 scans had positions.
 TEST(ExtractedPositions, OfARobotInACastle) {
   const std::string log = ORTUNG_SHARED_DATA "/carmen/belgioioso";
   if (!std::filesystem::is_directory(log)) GTEST_SKIP() << log << " is not here";
   const Found found = extract(log);
-  EXPECT_GT(found.fixed(), 80u);
-  EXPECT_GT(found.certain, 70u);
-  EXPECT_LE(found.wrong, found.fixed() / 100);
-  EXPECT_EQ(found.certainlyWrong, 0u);
+  EXPECT_GT(found.fixed(), 200u);
+  EXPECT_GT(found.certain, 150u);
+  EXPECT_EQ(found.wrong, 0u);
   EXPECT_LT(found.nees(), 10.0);
 }
 
-/// A laboratory whose outlines are mostly furniture: hardly a scan has a position, and none a wrong
+/// A laboratory whose outlines are mostly furniture: few scans have a position, and none a wrong
 /// one.
 TEST(ExtractedPositions, OfARobotInALaboratory) {
   const std::string log = ORTUNG_SHARED_DATA "/mrpt_sena_telecom";
   if (!std::filesystem::is_directory(log)) GTEST_SKIP() << log << " is not here";
   const Found found = extract(log);
   EXPECT_GT(found.scans, 200u);
-  EXPECT_GE(found.errors.size(), 2u);
+  EXPECT_GE(found.errors.size(), 25u);
+  EXPECT_EQ(found.wrong, 0u);
+}
+
+/// A building around a round crossing, half of which is the other half turned: 92 of 440 scans had
+/// positions, 55 of them several.
+TEST(ExtractedPositions, OfARobotWhereHalfATurnLooksTheSame) {
+  const std::string log = ORTUNG_SHARED_DATA "/carmen/aces";
+  if (!std::filesystem::is_directory(log)) GTEST_SKIP() << log << " is not here";
+  const Found found = extract(log);
+  EXPECT_GT(found.fixed(), 70u);
+  EXPECT_GT(found.fixed() - found.certain, 35u);
+  EXPECT_EQ(found.wrong, 0u);
+}
+
+/// A hall with visitors: 240 of 488 scans had a position. A few scans in a row were wrong by 35 m
+/// where the walls around the robot were not found in the map.
+TEST(ExtractedPositions, OfARobotInAHall) {
+  const std::string log = ORTUNG_SHARED_DATA "/carmen/fhw";
+  if (!std::filesystem::is_directory(log)) GTEST_SKIP() << log << " is not here";
+  const Found found = extract(log);
+  EXPECT_GT(found.fixed(), 190u);
   EXPECT_EQ(found.wrong, 0u);
 }
 
