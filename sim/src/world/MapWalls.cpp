@@ -60,12 +60,12 @@ class Outlines {
   /// Returns whether the edge from a corner has a free cell on its left and an occupied one on its
   /// right.
   bool isEdge(int column, int row, int way) const {
-    constexpr std::array<int, kWays> leftColumn = {0, -1, -1, 0};
-    constexpr std::array<int, kWays> leftRow = {0, 0, -1, -1};
+    constexpr std::array<int, kWays> kLeftColumn = {0, -1, -1, 0};
+    constexpr std::array<int, kWays> kLeftRow = {0, 0, -1, -1};
     const auto left = static_cast<std::size_t>(way);
     const auto right = static_cast<std::size_t>((way + kWays - 1) % kWays);
-    return is(column + leftColumn[left], row + leftRow[left], false) &&
-           is(column + leftColumn[right], row + leftRow[right], true);
+    return is(column + kLeftColumn[left], row + kLeftRow[left], false) &&
+           is(column + kLeftColumn[right], row + kLeftRow[right], true);
   }
 
   /// Returns whether more edges leave a corner than come to it.
