@@ -124,9 +124,9 @@ TEST(IconicPlaces, OfEqualRoomsAmongManyWallsAreAllOfThem) {
   Walls world;
   world.addRoom(kLShape, 0.0);
   world.addRoom(kLShape, -11.0);
-  for (int i = 0; i < 80; ++i) {
-    const double y = 10.0 + 4.0 * i;
-    world.addRoom({{0, y}, {40, y}, {40, y + 0.1}, {0, y + 0.1}}, 0.0);
+  for (int i = 0; i < 160; ++i) {
+    const double y = 10.0 + 2.2 * i;
+    world.addRoom({{0, y}, {20, y}, {20, y + 0.1}, {0, y + 0.1}}, 0.0);
   }
   const PoseFixData::Reading positions = positionsIn(world, {1.5, 2.0, 0.4});
   ASSERT_EQ(positions.size(), 2u);
