@@ -131,10 +131,7 @@ noise_sigma_m = 0.03
   for (const int seed : {1, 2}) {
     const Counts counts = drive(seed);
     EXPECT_GT(counts.steps, 90) << seed;
-    // Beside a wall too many places come into question for a position, for a second of seed 1; then
-    // there is odometry alone.
-    EXPECT_GE(counts.right, counts.steps - 1) << seed;
-    EXPECT_EQ(counts.mirrored, 0) << seed;
+    EXPECT_EQ(counts.right, counts.steps) << seed;
     EXPECT_LT(counts.worst, 0.15) << seed;
   }
 }
