@@ -21,7 +21,7 @@ class Rescue {
   std::unique_lock<std::mutex> hold() { return std::unique_lock(mutex_); }
 
   /// Calls all save functions, in the order in which they were registered, and ends the program.
-  /// @param why reason, for stderr
+  /// @param why reason, for stderr @param exitCode of the program
   [[noreturn]] static void saveAllAndEnd(const std::string& why, int exitCode);
 
  private:

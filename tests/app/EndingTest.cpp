@@ -149,9 +149,9 @@ TEST(Rescue, SavesAllSaysWhyAndEndsTheProgramThoughOneOfThemFails) {
         {
           const Rescue gone([&] { test::writeBytes(folder / "gone", "saved"); });
         }
-        Rescue::saveAllAndEnd("the plugin hangs");
+        Rescue::saveAllAndEnd("the plugin hangs", 7);
       },
-      testing::ExitedWithCode(1),
+      testing::ExitedWithCode(7),
       "ortung sim: the plugin hangs\nortung sim: no room on.x0athe disk");
   EXPECT_EQ(test::readBytes(folder / "first"), "saved");
   EXPECT_EQ(test::readBytes(folder / "last"), "saved");

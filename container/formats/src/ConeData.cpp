@@ -141,7 +141,6 @@ class ConeRanges final : public Expectations {
            keyNumber(config.resolution.perMetre) + " " + mountKey(cone_.mount());
   }
   double headingSpacing() const override { return headingStep_; }
-  ExpectationGrain grain() const override { return ExpectationGrain::kCellsAndDirections; }
 
   void start(const FieldRegion& region, double headingStep) override {
     const int directions = std::max(1, static_cast<int>(std::lround(kTurn / headingStep)));

@@ -50,7 +50,6 @@ class ScanRays final : public Expectations {
   double headingSpacing() const override {
     return kTurn / (views_ > 0 ? views_ : fewestViews(scan_.config()));
   }
-  ExpectationGrain grain() const override { return ExpectationGrain::kCellsAndDirections; }
 
   void start(const FieldRegion& region, double headingStep) override;
   void learn(const Pose2& sensor) override;
