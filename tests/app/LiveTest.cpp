@@ -2,6 +2,7 @@
 #include <csignal>
 #include <thread>
 
+#include "Await.hpp"
 #include "Workspace.hpp"
 #include "ortung/records/RecordEnd.hpp"
 #include "ortung/records/RecordSource.hpp"
@@ -22,11 +23,10 @@ class Live : public Workspace {
   /// Waits until a file has so many bytes; it is written by a program that has to be running.
   void waitForBytes(const std::string& name, std::uintmax_t bytes) const {
     std::error_code none;
-    for (;;) {
+    EXPECT_TRUE(comesTrue(name + " has " + std::to_string(bytes) + " bytes", [&] {
       const std::uintmax_t size = fs::file_size(path(name), none);
-      if (!none && size >= bytes) return;
-      std::this_thread::yield();
-    }
+      return !none && size >= bytes;
+    }));
   }
   std::size_t readingsOf(const std::string& name) const {
     RecordSource source(path(name));

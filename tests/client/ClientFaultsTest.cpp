@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "../server/RunningBoard.hpp"
+#include "Await.hpp"
 #include "Files.hpp"
 #include "ScriptedServer.hpp"
 #include "ortung/client/RemoteRobot.hpp"
@@ -60,7 +61,8 @@ TEST(OnTrouble, WhatItThrowsIsPassedOverInEveryThread) {
   EXPECT_THROW(robot.setManipulator("arm", "up"), std::invalid_argument);  // not what it throws
   EXPECT_EQ(told, 1);
   served.reset();
-  while (told < 2) std::this_thread::yield();  // by the thread that updates
+  // By the thread that updates.
+  ASSERT_TRUE(comesTrue("the loss is told", [&] { return told >= 2; }));
   EXPECT_FALSE(robot.waitForUpdate(0.0));
   const Served again(port);
   EXPECT_TRUE(robot.waitForUpdate(20.0)) << robot.trouble();
@@ -92,7 +94,7 @@ TEST(OnTrouble, MayUseTheRobotAndIsNotToldOfItself) {
   EXPECT_EQ(failed, 1);
   EXPECT_NE(robot.trouble().find("'leg'"), std::string::npos) << robot.trouble();
   served.reset();
-  while (told < 2) std::this_thread::yield();
+  ASSERT_TRUE(comesTrue("the loss is told", [&] { return told >= 2; }));
   const Served again(port);
   EXPECT_TRUE(robot.waitForUpdate(20.0)) << robot.trouble();
 }
@@ -112,13 +114,13 @@ TEST(OnTrouble, NobodyWaitsForTheOneWhoTells) {
   {
     const std::lock_guard lock(owners);
     served.reset();
-    while (!isTelling) std::this_thread::yield();
+    ASSERT_TRUE(comesTrue("the loss is told", [&] { return isTelling.load(); }));
     // The thread that updates waits for us; we do not wait for it.
     EXPECT_THROW(robot.setTranslationalVelocity(0.1), ConnectionLost);
     EXPECT_FALSE(robot.isConnected());
     EXPECT_NE(robot.trouble(), "");
   }
-  while (told < 1) std::this_thread::yield();
+  ASSERT_TRUE(comesTrue("the loss was told", [&] { return told >= 1; }));
 }
 
 /// A request at which the server hangs, and how.
@@ -147,7 +149,7 @@ TEST_P(HungServer, EndsNobodysDestructor) {
   RemoteOptions options = to(server.port());
   options.session.timeout = 60.0;
   auto robot = std::make_unique<RemoteRobot>(kRobot, options);
-  while (!server.isHung()) std::this_thread::yield();
+  ASSERT_TRUE(comesTrue("the server hangs", [&] { return server.isHung(); }));
   EXPECT_LT(secondsOf([&] { robot.reset(); }), 10.0);
 }
 
@@ -170,7 +172,7 @@ TEST(SessionStop, EndsACallFromAnotherThread) {
   options.stop = stop.get_token();
   RobotSession session(options, "[robot]\n");
   std::thread other([&] {
-    while (!server.isHung()) std::this_thread::yield();
+    EXPECT_TRUE(comesTrue("the server hangs", [&] { return server.isHung(); }));
     stop.request_stop();
   });
   const std::string what = messageOf<ConnectionLost>([&] { session.update(); });
@@ -338,8 +340,10 @@ TEST(ClientForC, NullIsAnErrorWithAText) {
   EXPECT_EQ(trouble(), "the timeout is not a number");
   EXPECT_EQ(ortung_read(robot, "*/odometry/*", nullptr, 0, nullptr), -1);  // nothing read yet
   EXPECT_EQ(trouble(), "");
-  while (ortung_read(robot, "*/odometry/*", nullptr, 0, nullptr) != 5)
-    ASSERT_EQ(ortung_update(robot), 1);
+  EXPECT_TRUE(comesTrue("odometry has five words", [&] {
+    return ortung_update(robot) == 1 &&
+           ortung_read(robot, "*/odometry/*", nullptr, 0, nullptr) == 5;
+  }));
   ortung_disconnect(robot);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "../server/RunningBoard.hpp"
+#include "Await.hpp"
 #include "Files.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/client/ortung_client.h"
@@ -44,7 +45,8 @@ TEST(RemoteRobot, TheContainerFillsItselfAndTheRobotMoves) {
     const auto odometry = robot.container().get<OdometryData>({.type = "odometry"});
     return odometry && std::abs(odometry->pose.theta) > 0.2;
   };
-  while (!turned()) ASSERT_TRUE(robot.waitForUpdate(20.0)) << robot.trouble();
+  ASSERT_TRUE(comesTrue("it has turned", [&] { return robot.waitForUpdate(20.0) && turned(); }))
+      << robot.trouble();
   const auto scan = robot.container().get<ScanData>({.type = "LRF"});
   ASSERT_TRUE(scan.has_value());
   EXPECT_EQ(robot.trouble(), "");
@@ -66,7 +68,9 @@ TEST(RemoteRobot, StampsAreThoseOfTheClientsClock) {
   const Timestamp before = clock();
   RemoteRobot robot(kRobot, options);
   const SensorData* odometry = robot.container().find({.type = "odometry"});
-  while (odometry->sequence() == 0) ASSERT_TRUE(robot.update()) << robot.trouble();
+  ASSERT_TRUE(comesTrue("there is a reading", [&] {
+    return robot.update() && odometry->sequence() > 0;
+  })) << robot.trouble();
   const ClockOffset offset = robot.clockOffset();
   const double bound = offset.bound(0);
   const auto lock = robot.container().read();
@@ -102,7 +106,7 @@ TEST(RemoteRobot, AServerThatDiesIsToldAndFoundAgain) {
   RemoteRobot robot(kRobot, options);
   ASSERT_TRUE(robot.waitForUpdate(20.0));
   board.reset();
-  while (robot.isConnected()) std::this_thread::yield();
+  ASSERT_TRUE(comesTrue("it is cut off", [&] { return !robot.isConnected(); }));
   EXPECT_NE(robot.trouble().find("127.0.0.1:" + std::to_string(port)), std::string::npos);
   EXPECT_THROW(robot.setTranslationalVelocity(0.1), ConnectionLost);
 

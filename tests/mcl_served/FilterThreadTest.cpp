@@ -4,6 +4,7 @@
 #include <latch>
 #include <thread>
 
+#include "Await.hpp"
 #include "LocalizedArena.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 
@@ -13,16 +14,17 @@ namespace {
 using Kind = LocalizationState::Kind;
 using OrderKind = LocalizationOrder::Kind;
 
-/// Waits until the filter is in a state; what hangs is ended by the test's own time limit.
+/// Waits until the filter is in a state.
 LocalizationState await(const FilterThread& filter, Kind kind) {
-  while (filter.state().kind != kind) std::this_thread::yield();
+  EXPECT_TRUE(
+      comesTrue("the filter is in that state", [&] { return filter.state().kind == kind; }));
   return filter.state();
 }
 
-/// Learns for as long as it may.
+/// Learns until it is cancelled.
 std::shared_ptr<const RobotTables> learnForEver(const Robot&,
                                                 const std::function<bool(double)>& goOn) {
-  while (goOn(0.25)) std::this_thread::yield();
+  EXPECT_TRUE(comesTrue("learning is cancelled", [&] { return !goOn(0.25); }));
   return nullptr;
 }
 
@@ -32,13 +34,13 @@ TEST(FilterThread, LearningIsCancelledBySwitchingItOff) {
   EXPECT_EQ(filter.state().kind, Kind::kOff);
   filter.order({OrderKind::kOn});
   EXPECT_EQ(filter.state().kind, Kind::kLearning) << "from now on";
-  while (filter.state().progress == 0.0) std::this_thread::yield();
+  ASSERT_TRUE(comesTrue("learning has begun", [&] { return filter.state().progress > 0.0; }));
   EXPECT_DOUBLE_EQ(filter.state().progress, 0.25);
   EXPECT_EQ(filter.perceiver(), nullptr);
   filter.order({OrderKind::kOff});
   EXPECT_EQ(filter.state().kind, Kind::kOff);
   filter.order({OrderKind::kOn});
-  while (filter.state().progress == 0.0) std::this_thread::yield();
+  ASSERT_TRUE(comesTrue("learning has begun", [&] { return filter.state().progress > 0.0; }));
   // Its end cancels learning, too.
 }
 

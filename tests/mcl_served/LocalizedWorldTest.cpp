@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "Await.hpp"
 #include "LocalizedArena.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
@@ -37,11 +38,13 @@ struct ServedArena {
   }
   /// Lets the world go on until LOCALIZE says so.
   std::string await(const std::string& state, const std::string& robot = "1") {
-    for (;;) {
+    std::string reply;
+    EXPECT_TRUE(comesTrue("robot " + robot + " is " + state, [&] {
       client.ask("NEXT cycles=5");
-      const std::string reply = client.ask("LOCALIZE robot=" + robot);
-      if (valueOf(reply, "state") == state) return reply;
-    }
+      reply = client.ask("LOCALIZE robot=" + robot);
+      return valueOf(reply, "state") == state;
+    })) << reply;
+    return reply;
   }
   std::vector<std::string> lines(const std::string& request) {
     std::vector<std::string> lines;
@@ -49,6 +52,14 @@ struct ServedArena {
     for (int left = count.empty() ? 0 : std::stoi(count); left > 0; --left)
       lines.push_back(client.line());
     return lines;
+  }
+  /// Lets the world go on until the robot believes to be within @p metres of a place.
+  void awaitBelief(const Pose2& place, double metres) {
+    EXPECT_TRUE(comesTrue("it believes to be there", [&] {
+      if (distance(believed(), place) <= metres) return true;
+      client.ask("NEXT none/*/* cycles=1");
+      return false;
+    }));
   }
   /// Where the robot is believed to be by the newest estimate.
   Pose2 believed() {
@@ -87,7 +98,7 @@ TEST(LocalizedWorld, RobotsAreLocalizedWhenAnOperatorSaysSo) {
   const std::string place = "x_m=" + std::to_string(told.x) + " y_m=" + std::to_string(told.y);
   EXPECT_TRUE(served.client.ask("LOCALIZE robot=1 " + place + " sigma_m=0.05")
                   .starts_with("OK LOCALIZE robot=1"));
-  while (distance(served.believed(), told) > 0.8) served.client.ask("NEXT none/*/* cycles=1");
+  served.awaitBelief(told, 0.8);
   EXPECT_TRUE(served.client.ask("LOCALIZE robot=1 x_m=50 y_m=0")
                   .starts_with("ERR argument the pose (50.00, 0.00) m is off the map"));
   EXPECT_EQ(valueOf(served.client.ask("LOCALIZE robot=1 off"), "state"), "off");
@@ -98,10 +109,11 @@ TEST(LocalizedWorld, SamplesComeForWhoAsksForThem) {
   served.await("running");
   EXPECT_TRUE(served.lines("READ */LOCALIZATION/samples robot=1").empty()) << "nobody has asked";
   std::vector<std::string> read;
-  while (read.empty()) {
+  ASSERT_TRUE(comesTrue("there are samples", [&] {
     served.client.ask("NEXT none/*/* cycles=5");
     read = served.lines("READ mcl/LOCALIZATION/samples robot=1");
-  }
+    return !read.empty();
+  }));
   const auto reading = parseLine(read.front());
   ASSERT_TRUE(reading);
   EXPECT_GT(reading->words.size(), 0U);
@@ -116,7 +128,7 @@ TEST(LocalizedWorld, AResetBeginsAnewAndPlayersComeAndGo) {
   served.await("running");
   served.client.ask("NEXT cycles=5");
   const Pose2 truth = served.simulation.simRobot(1).state().pose;
-  while (distance(served.believed(), truth) > 1.0) served.client.ask("NEXT none/*/* cycles=1");
+  served.awaitBelief(truth, 1.0);
   EXPECT_EQ(served.client.ask("PLAY wander robot=pioneer.toml name=bert"), "OK PLAY robot=bert");
   EXPECT_NE(valueOf(served.client.ask("LOCALIZE robot=2"), "state"), "off") << "one of all";
   EXPECT_EQ(served.client.ask("STOP bert"), "OK STOP");
@@ -137,11 +149,8 @@ TEST(LocalizedWorld, TellsWhatFiltersFinishWhileTheWorldStands) {
     return read.size() == 1 ? parseLine(read.front())->stamp : -1;
   };
   const Timestamp scan = stampOf("*/LRF/*");
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  Timestamp estimate = -1;
-  while (estimate < scan && std::chrono::steady_clock::now() < end)
-    estimate = stampOf("mcl/LOCALIZATION/pose");
-  EXPECT_GE(estimate, scan);
+  EXPECT_TRUE(comesTrue("there is an estimate of the newest scan",
+                        [&] { return stampOf("mcl/LOCALIZATION/pose") >= scan; }));
 }
 
 TEST(LocalizedWorld, NamesThatNobodyHasAreRefused) {

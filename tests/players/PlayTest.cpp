@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include "Await.hpp"
 #include "Files.hpp"
 #include "Program.hpp"
 #include "TestClient.hpp"
@@ -51,8 +52,8 @@ TEST(Play, InRealTimeItPlaysUntilASignal) {
                  kPlugins);
   TestClient client(port);
   client.ask("HELLO ortung/1");
-  while (client.ask("LIST robots") != "OK LIST lines=1") {
-  }
+  ASSERT_TRUE(comesTrue("there is a robot",
+                        [&] { return client.ask("LIST robots") == "OK LIST lines=1"; }));
   EXPECT_EQ(client.line(), "robot=1 name=anna client=2");
   player.signal(SIGTERM);
   EXPECT_EQ(player.finish().exitCode, 0);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "PlayedScene.hpp"
 #include "RunningBoard.hpp"
 #include "ortung/remote/RemotePlay.hpp"
 #include "ortung/served/PlayerCommands.hpp"
@@ -42,7 +43,7 @@ TEST(RemoteGame, IsThatOfTheSimulator) {
     wish.team = "blue";
     run.players().own(run.addRobot(readRobot(robot), factory, kStart, 0),
                       std::make_unique<Watcher>(inside), wish, Random(1));
-    while (!run.players().isEmpty()) run.step();
+    playToTheEnd(run);
   }
   std::vector<Game> outside;
   {

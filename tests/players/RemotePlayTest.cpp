@@ -7,7 +7,9 @@
 #include <optional>
 #include <thread>
 
+#include "Await.hpp"
 #include "Files.hpp"
+#include "PlayedScene.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/core/PluginFactory.hpp"
@@ -94,7 +96,7 @@ TEST(RemotePlay, APlayerSeesAndDoesTheSameAsInTheSimulator) {
     wish.plugin = "shy";
     run.players().own(run.addRobot(robot, factory(), kStart, 0),
                       std::make_unique<Noted>(shy(kPlays), inside), wish, Random(1));
-    while (!run.players().isEmpty()) run.step();
+    playToTheEnd(run);
   }
   std::vector<Seen> outside;
   {
@@ -161,7 +163,7 @@ TEST(RemotePlay, APlayerLocalizesItselfToTheSameBitsAsInTheSimulator) {
     wish.tables = tables;
     run.players().own(run.addRobot(readRobot(kRobot), factory(), kStart, 0),
                       std::make_unique<Localizer>(inside), wish, Random(1, 1));
-    while (!run.players().isEmpty()) run.step();
+    playToTheEnd(run);
   }
   std::vector<std::optional<PoseEstimate>> outside;
   ServedSimulation world(kWorld, {.noise = false});
@@ -212,7 +214,7 @@ std::string whyStopped(const std::function<void(PlayerSeat&)>& act, double budge
       why = stopped.what();
     }
   }
-  while (board.statistics().robots > 0) std::this_thread::yield();
+  EXPECT_TRUE(comesTrue("its robot is gone", [&] { return board.statistics().robots == 0; }));
   return why;
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "Await.hpp"
 #include "Files.hpp"
 #include "PluginProgress.hpp"
 #include "ProcessorWaits.hpp"
@@ -16,6 +17,7 @@
 namespace ortung {
 namespace {
 
+using test::comesTrue;
 using test::messageOf;
 
 /// What a watch said, if it said something within a minute.
@@ -61,11 +63,13 @@ TEST(PluginWatch, IsNotToldOfManyShortCalls) {
     told.set_value(late);
   });
   std::thread plugin([&] {
-    slow("learn", [&] {
-      while (!isTold) std::this_thread::yield();
-    });
+    slow("learn",
+         [&] { EXPECT_TRUE(comesTrue("the long call is told", [&] { return isTold.load(); })); });
   });
-  while (!isTold) busy("generateData", [] {});
+  EXPECT_TRUE(comesTrue("the long call is told", [&] {
+    busy("generateData", [] {});
+    return isTold.load();
+  }));
   plugin.join();
   EXPECT_EQ(wait(told.get_future()).substr(0, 22), "slow has been in learn");
 }

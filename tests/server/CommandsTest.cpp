@@ -3,6 +3,7 @@
 
 #include <latch>
 
+#include "Await.hpp"
 #include "CountingWorld.hpp"
 #include "Files.hpp"
 #include "RunningBoard.hpp"
@@ -139,7 +140,8 @@ TEST(Commands, ThatAreSlowSeeThatNobodyWaitsForThemAnyMore) {
                       .handle =
                           [&](const BoardCommand::Call& call) {
                             begun.count_down();
-                            while (call.isAwaited()) std::this_thread::yield();
+                            EXPECT_TRUE(comesTrue("nobody waits for it any more",
+                                                  [&] { return !call.isAwaited(); }));
                             gone.count_down();
                             return BoardCommand::Reply{};
                           },

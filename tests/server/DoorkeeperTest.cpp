@@ -4,6 +4,7 @@
 #include <chrono>
 #include <mutex>
 
+#include "Await.hpp"
 #include "CountingWorld.hpp"
 #include "Doorkeeper.hpp"
 #include "Files.hpp"
@@ -136,7 +137,7 @@ TEST(Doorkeeper, WhoHangsUpWhileItWaitsLeavesNothingBehind) {
     client.send("HELLO ortung/1 token=guesttoken1\n");
     if (i % 2 == 0) client.kill();
   }
-  while (board.statistics().clients > 0) std::this_thread::yield();
+  ASSERT_TRUE(comesTrue("no client is left", [&] { return board.statistics().clients == 0; }));
   EXPECT_TRUE(
       TestClient(board.port()).ask("HELLO ortung/1 token=guesttoken1").starts_with("OK HELLO"));
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "Await.hpp"
 #include "Conversation.hpp"
 #include "CountingWorld.hpp"
 
@@ -90,15 +91,24 @@ class FakeHost : public server::Host {
     for (const auto& weak : std::exchange(backlog, {}))
       if (const auto client = weak.lock()) client->nextTurn();
   }
+  /// Until the backlog is empty.
+  void giveAllTurns() {
+    EXPECT_TRUE(comesTrue("the backlog is empty", [this] {
+      giveTurns();
+      return backlog.empty();
+    }));
+  }
   /// Until nobody waits for anything.
   void settle() {
     constexpr int kStages = 4;  // a robot file is read, then ordered, then answered
-    for (int quiet = 0; quiet < kStages; ++quiet) {
-      if (!tasks.empty() || !backlog.empty()) quiet = 0;
+    int quiet = 0;
+    EXPECT_TRUE(comesTrue("nobody waits for anything", [&] {
+      quiet = tasks.empty() && backlog.empty() ? quiet + 1 : 1;
       giveTurns();
       keeper.runOnce();
       runTasks();
-    }
+      return quiet >= kStages;
+    }));
   }
   /// How many lines a client was told that begin with @p text.
   std::size_t count(server::ClientId client, const std::string& text = "") const {

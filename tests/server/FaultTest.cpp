@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "Await.hpp"
 #include "CountingWorld.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
@@ -20,8 +21,8 @@ std::size_t openFiles() {
 
 /// Waits until the field is as it should be, which another client sees.
 void waitForRobots(TestClient& observer, const std::string& count) {
-  while (valueOf(observer.ask("STATUS"), "robots") != count) {
-  }
+  EXPECT_TRUE(comesTrue("there are as many robots: " + count,
+                        [&] { return valueOf(observer.ask("STATUS"), "robots") == count; }));
 }
 
 TEST(Faults, AClientKilledInTheMiddleOfALineTakesItsRobotWithIt) {
@@ -48,8 +49,8 @@ TEST(Faults, AClientKilledInTheMiddleOfARobotFileLeavesNothing) {
     client.send("CREATE half\n[[sensor]]\nplug");
     client.kill();
   }
-  while (valueOf(observer.ask("STATUS"), "clients") != "1") {
-  }
+  EXPECT_TRUE(comesTrue("only the observer is left",
+                        [&] { return valueOf(observer.ask("STATUS"), "clients") == "1"; }));
   EXPECT_EQ(valueOf(observer.ask("STATUS"), "robots"), "0");
 }
 
@@ -175,14 +176,14 @@ TEST(Faults, FiveHundredVisitsLeaveNeitherFilesNorMemoryBehind) {
       client.ask("READ");
       if (i % 2 == 0) client.kill();
     }
-    while (board.statistics().clients > 0) std::this_thread::yield();
+    EXPECT_TRUE(comesTrue("no client is left", [&] { return board.statistics().clients == 0; }));
   };
   visit(100);  // buffers and tables have their size
   const auto memory = mallinfo2().uordblks;
   const std::size_t files = openFiles();
   visit(500);
   // Sessions are swept up four times a second.
-  while (openFiles() > files) std::this_thread::yield();
+  EXPECT_TRUE(comesTrue("their files are closed", [&] { return openFiles() <= files; }));
   constexpr std::size_t kLess = 100 * 1024;  // 200 bytes a visit would show
   EXPECT_LT(mallinfo2().uordblks, memory + kLess);
   EXPECT_EQ(board.statistics().robots, 0u);

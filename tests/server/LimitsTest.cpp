@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "Await.hpp"
 #include "CountingWorld.hpp"
 #include "Files.hpp"
 #include "RunningBoard.hpp"
@@ -13,8 +14,8 @@ namespace {
 
 /// Until the robot has sensed something.
 void waitForReadings(TestClient& client) {
-  while (valueOf(client.ask("READ counter/*/*"), "lines") != "1") {
-  }
+  EXPECT_TRUE(comesTrue("it has a reading",
+                        [&] { return valueOf(client.ask("READ counter/*/*"), "lines") == "1"; }));
   client.line();
 }
 
@@ -139,11 +140,12 @@ TEST(Limits, OneComputerCannotTakeAllPlaces) {
               "* ERR limit there are 2 clients from 127.0.0.1 already");
     EXPECT_EQ(third.line(), "(closed)");
   }
-  while (board.statistics().clients > 1) std::this_thread::yield();
+  ASSERT_TRUE(comesTrue("one client is left", [&] { return board.statistics().clients <= 1; }));
   std::string reply;
-  do {  // the places are given back
+  EXPECT_TRUE(comesTrue("the places are given back", [&] {
     reply = TestClient(board.port()).ask("HELLO ortung/1");
-  } while (reply.starts_with("* ERR limit"));
+    return !reply.starts_with("* ERR limit");
+  }));
   EXPECT_TRUE(reply.starts_with("OK HELLO")) << reply;
 }
 
@@ -183,13 +185,14 @@ TEST(Limits, WhoDoesNotReadIsToldAndDroppedWhileTheWorldGoesOn) {
   for (int i = 0; i < 100; ++i) slow.send("READ form=binary\n");
   // Dropped: its robot leaves the field although it has not read a byte.
   std::string status;
-  do {
+  ASSERT_TRUE(comesTrue("one robot is left", [&] {
     status = other.ask("STATUS");
-  } while (valueOf(status, "robots") != "1");
+    return valueOf(status, "robots") == "1";
+  }));
   const auto cycles = std::stoll(valueOf(status, "cycles"));
-  do {
-    status = other.ask("STATUS");
-  } while (std::stoll(valueOf(status, "cycles")) < cycles + 3);
+  EXPECT_TRUE(comesTrue("the world goes on", [&] {
+    return std::stoll(valueOf(other.ask("STATUS"), "cycles")) >= cycles + 3;
+  }));
 }
 
 TEST(Limits, ASlowReaderFindsTheReasonAtTheEndOfItsOutput) {
@@ -204,7 +207,7 @@ TEST(Limits, ASlowReaderFindsTheReasonAtTheEndOfItsOutput) {
     waitForReadings(slow);
     const std::string form = words > 8192 ? " form=binary" : "";
     for (int i = 0; i < 2000; ++i) slow.send("READ camera/*/*" + form + "\n");
-    while (board.statistics().clients > 0) std::this_thread::yield();
+    ASSERT_TRUE(comesTrue("it is dropped", [&] { return board.statistics().clients == 0; }));
     const std::string all = slow.rest();
     EXPECT_NE(all.find("* ERR slow more than 100000 bytes wait to be read"), std::string::npos);
   }
@@ -219,7 +222,7 @@ TEST(Limits, OutputThatIsNeverReadEndsTheConnection) {
   slow.shrinkBuffer();
   slow.join(kAnyRobot);
   slow.ask("SUBSCRIBE form=binary");
-  while (board.statistics().clients > 0) std::this_thread::yield();
+  EXPECT_TRUE(comesTrue("it is dropped", [&] { return board.statistics().clients == 0; }));
 }
 
 TEST(Limits, SilenceEndsTheConnectionButNotForSubscribersOrThoseInLockstep) {

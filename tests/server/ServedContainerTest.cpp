@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "Await.hpp"
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
@@ -74,8 +75,8 @@ class ServedContainerTest : public testing::Test {
 
 /// The reading that a client gets of a query, once there is one.
 std::string readingOf(TestClient& client, const std::string& query) {
-  while (valueOf(client.ask("READ " + query), "lines") != "1") {
-  }
+  EXPECT_TRUE(comesTrue("there is a reading of " + query,
+                        [&] { return valueOf(client.ask("READ " + query), "lines") == "1"; }));
   return client.line();
 }
 
@@ -113,7 +114,10 @@ TEST_F(ServedContainerTest, TheClockIsTheRobots) {
     clock_ = stamp;
     // It runs on between looks, at most for as long as a look may take to come.
     std::int64_t now = 0;
-    while (now < stamp) now = std::stoll(valueOf(client.ask("TIME"), "sent"));
+    EXPECT_TRUE(comesTrue("the clock is that of the robot", [&] {
+      now = std::stoll(valueOf(client.ask("TIME"), "sent"));
+      return now >= stamp;
+    }));
     EXPECT_LT(now, stamp + 10'000'000);
   }
 }
@@ -165,8 +169,8 @@ TEST_F(ServedContainerTest, OperatorsCommandItAndItStopsWhenTheyLeave) {
     EXPECT_EQ(motors_.told(), "v5 w-2 wheels1 ");
     olga.kill();
   }
-  while (valueOf(anna.ask("STATUS"), "clients") != "1") {
-  }
+  EXPECT_TRUE(comesTrue("the operator has left",
+                        [&] { return valueOf(anna.ask("STATUS"), "clients") == "1"; }));
   EXPECT_EQ(motors_.told(), "v5 w-2 wheels1 v0 w0 ");
 }
 

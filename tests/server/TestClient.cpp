@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "Await.hpp"
+
 namespace ortung::test {
 
 TestClient::TestClient(std::uint16_t port, const std::string& from)
@@ -93,10 +95,12 @@ std::string TestClient::rest() {
 }
 
 std::string TestClient::lineWith(const std::string& text) {
-  while (true) {
-    std::string next = line();
-    if (next.find(text) != std::string::npos || next == "(closed)") return next;
-  }
+  std::string next;
+  EXPECT_TRUE(comesTrue("a line says " + text, [&] {
+    next = line();
+    return next.find(text) != std::string::npos || next == "(closed)";
+  }));
+  return next;
 }
 
 void TestClient::kill() {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "Await.hpp"
 #include "CountingWorld.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
@@ -29,9 +30,10 @@ std::string statusAfter(int cycles, const RunningBoard& board) {
   TestClient client(board.port());
   client.ask("HELLO ortung/1");
   std::string status;
-  do {
+  EXPECT_TRUE(comesTrue("there were " + std::to_string(cycles) + " cycles", [&] {
     status = client.ask("STATUS");
-  } while (std::stoi(valueOf(status, "cycles")) < cycles);
+    return std::stoi(valueOf(status, "cycles")) >= cycles;
+  }));
   return status;
 }
 
@@ -68,8 +70,8 @@ TEST(WorldTime, TheClockRunsAgainAfterAPauseWithinACycle) {
   const RunningBoard board(world, config);
   TestClient client(board.port());
   client.ask("HELLO ortung/1");
-  while (valueOf(client.ask("STATUS"), "cycles") != "1") {
-  }
+  ASSERT_TRUE(comesTrue("there was one cycle",
+                        [&] { return valueOf(client.ask("STATUS"), "cycles") == "1"; }));
   const std::string paused = valueOf(client.ask("PAUSE"), "now");
   EXPECT_EQ(paused, "1000000000");
   for (int i = 0; i < 100; ++i) EXPECT_EQ(valueOf(client.ask("TIME"), "sent"), paused);

@@ -9,12 +9,14 @@
 #include <thread>
 #include <vector>
 
+#include "Await.hpp"
 #include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {
 
 using std::chrono::steady_clock;
+using test::comesTrue;
 
 TEST(Workers, DoEachPieceOnce) {
   for (const unsigned threads : {1u, 2u, 5u}) {
@@ -37,7 +39,7 @@ TEST(Workers, AreWaitedForByWhoHasNothingMoreToDo) {
     begun = done = 0;
     workers.run(2, [&](std::size_t) {
       if (std::this_thread::get_id() == caller) {  // leaves the other piece to the other thread
-        while (begun == 0) std::this_thread::yield();
+        EXPECT_TRUE(comesTrue("the other thread has begun", [&] { return begun > 0; }));
       } else {
         ++begun;
         const auto end = steady_clock::now() + std::chrono::milliseconds(20);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <opencv2/videoio.hpp>
 
+#include "Await.hpp"
 #include "Files.hpp"
 #include "ortung/camera/ImageData.hpp"
 #include "ortung/devices/DevicesSource.hpp"
@@ -36,6 +37,14 @@ std::string robot(const std::filesystem::path& video, const std::string& size) {
          ", focal_px = [60, 60] }\n"
          "device = { plugin = 'camera', port = '" +
          video.string() + "', repeat = true }\n";
+}
+
+/// Until the device is in a state, in which it has given no picture.
+void awaitState(DevicesSource& devices, DeviceState state) {
+  EXPECT_TRUE(test::comesTrue("the camera is " + std::string(toText(state)), [&] {
+    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+    return devices.status()[0].state == state;
+  }));
 }
 
 TEST(CameraDevice, PlaysAVideoFileAtItsOwnSpeed) {
@@ -70,8 +79,7 @@ TEST(CameraDevice, OfAnotherSizeThanItsCalibrationIsAMisfit) {
   writeVideo(folder / "clip.avi");
   test::writeBytes(folder / "robot.toml", robot(folder / "clip.avi", "[640, 480]"));
   DevicesSource devices({folder / "robot.toml"});
-  while (devices.status()[0].state != DeviceState::kFailed)
-    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+  awaitState(devices, DeviceState::kFailed);
   EXPECT_NE(devices.status()[0].reason.find("gives pictures of 64 x 48"), std::string::npos)
       << devices.status()[0].reason;
 }
@@ -82,8 +90,7 @@ TEST(CameraDevice, ThatIsAPipeIsAMisfit) {
   ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
   test::writeBytes(folder / "robot.toml", robot(folder / "fifo", "[64, 48]"));
   DevicesSource devices({folder / "robot.toml"});
-  while (devices.status()[0].state != DeviceState::kFailed)
-    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+  awaitState(devices, DeviceState::kFailed);
   EXPECT_NE(devices.status()[0].reason.find("fifo: is no regular file, expected a video"),
             std::string::npos)
       << devices.status()[0].reason;
@@ -99,8 +106,7 @@ TEST(CameraDevice, OfPicturesThatAreTooLargeIsAMisfit) {
   }
   test::writeBytes(folder / "robot.toml", robot(folder / "clip.avi", "[64, 48]"));
   DevicesSource devices({folder / "robot.toml"});
-  while (devices.status()[0].state != DeviceState::kFailed)
-    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+  awaitState(devices, DeviceState::kFailed);
   EXPECT_NE(devices.status()[0].reason.find("has pictures of 4112 x 16, expected up to 4096"),
             std::string::npos)
       << devices.status()[0].reason;
@@ -110,8 +116,7 @@ TEST(CameraDevice, ThatIsNotThereIsAbsent) {
   const test::TemporaryFolder folder;
   test::writeBytes(folder / "robot.toml", robot(folder / "none.avi", "[64, 48]"));
   DevicesSource devices({folder / "robot.toml"});
-  while (devices.status()[0].state != DeviceState::kAbsent)
-    EXPECT_FALSE(devices.poll(std::chrono::milliseconds(50)));
+  awaitState(devices, DeviceState::kAbsent);
   EXPECT_NE(devices.status()[0].reason.find("none.avi"), std::string::npos);
 }
 

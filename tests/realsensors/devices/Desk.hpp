@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "Await.hpp"
 #include "Files.hpp"
 #include "ortung/core/Source.hpp"
 #include "ortung/devices/DevicesSource.hpp"
@@ -81,10 +82,11 @@ class Desk {
   /// Readings of @p id, until there are so many.
   std::vector<Message> read(const SensorId& id, std::size_t count) {
     std::vector<Message> messages;
-    while (messages.size() < count) {
+    EXPECT_TRUE(comesTrue("there are " + std::to_string(count) + " readings of " + toText(id), [&] {
       auto message = devices_->poll(std::chrono::milliseconds(100));
       if (message && message->id == id) messages.push_back(std::move(*message));
-    }
+      return messages.size() >= count;
+    }));
     return messages;
   }
   /// Reads on until @p isTrue of the status of device number @p device; how many readings came of
@@ -92,9 +94,12 @@ class Desk {
   std::map<std::string, std::size_t> readUntil(
       std::size_t device, const std::function<bool(const DeviceStatus&)>& isTrue) {
     std::map<std::string, std::size_t> counts;
-    while (!isTrue(devices_->status()[device]))
+    EXPECT_TRUE(comesTrue("the device is as it should be", [&] {
+      if (isTrue(devices_->status()[device])) return true;
       if (const auto message = devices_->poll(std::chrono::milliseconds(50)))
         ++counts[toText(message->id)];
+      return false;
+    }));
     return counts;
   }
 

@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "Await.hpp"
 #include "Files.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/RobotCommands.hpp"
@@ -18,6 +19,7 @@ namespace ortung {
 namespace {
 
 using namespace base_lines;
+using test::comesTrue;
 using test::messageOf;
 
 constexpr std::chrono::milliseconds kPatience{5000};  // nothing here lasts as long
@@ -52,7 +54,10 @@ struct Driver : testing::Test {
   std::vector<DeviceReading> take(const std::string& bytes, std::size_t count) {
     end.write(bytes);
     std::vector<DeviceReading> readings;
-    while (readings.size() < count) driver->read(kPatience, readings);
+    EXPECT_TRUE(comesTrue("there are so many readings", [&] {
+      if (readings.size() < count) driver->read(kPatience, readings);
+      return readings.size() >= count;
+    }));
     return readings;
   }
   TcpEndpoint end{0};

@@ -1,6 +1,7 @@
 /// Lines, servers and child processes that devices hang on: bytes, ends, and what errors say.
 #include <gtest/gtest.h>
 
+#include "Await.hpp"
 #include "Files.hpp"
 #include "ortung/devices/ChildProcess.hpp"
 #include "ortung/devices/Port.hpp"
@@ -10,6 +11,7 @@ namespace ortung {
 namespace {
 
 using std::chrono::milliseconds;
+using test::comesTrue;
 using test::messageOf;
 
 constexpr milliseconds kPatience{5000};  // nothing here lasts as long
@@ -172,8 +174,12 @@ struct Script {
       : child("/bin/sh", {"-c", text}, longest) {}
   /// Its next line, for which it has a lot of time.
   std::string next() {
-    while (true)
-      if (const auto line = child.next(kPatience)) return *line;
+    std::optional<std::string> line;
+    EXPECT_TRUE(comesTrue("it writes a line", [&] {
+      line = child.next(kPatience);
+      return line.has_value();
+    }));
+    return line.value_or("");
   }
   ChildProcess child;
 };
