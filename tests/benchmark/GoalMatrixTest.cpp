@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -59,6 +60,66 @@ TEST(GoalMatrix, EpisodesStandAlone) {
   const GoalEpisode a = fresh.play(keeperText("random"), strikerText("shot"), 2, 7);
   EXPECT_EQ(a, used.play(keeperText("random"), strikerText("shot"), 2, 7));
   EXPECT_NE(a.digest, used.play(keeperText("random"), strikerText("shot"), 3, 7).digest);
+}
+
+TEST(GoalMatrix, PoseErrorsAreThoseOfTheEpisodesInWhichAPoseWasTold) {
+  GoalCell cell;
+  EXPECT_FALSE(cell.keeperError());
+  const PoseError errors[] = {{10'000, 2'000}, {}, {40'000, 1'000}, {100'000, 9'000}};
+  for (const PoseError& error : errors) cell.episodes.push_back({.keeper = error});
+  EXPECT_FALSE(cell.strikerError());
+  cell.episodes[1].striker = {7, 8};
+  const auto found = cell.keeperError();  // in metres and radians of millionths
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->episodes, 3u);
+  EXPECT_NEAR(found->mean, 0.05, 1e-12);
+  EXPECT_NEAR(found->median, 0.04, 1e-12);
+  EXPECT_NEAR(found->meanHeading, 0.004, 1e-12);
+  EXPECT_NEAR(found->medianHeading, 0.002, 1e-12);
+  ASSERT_TRUE(cell.strikerError());
+  EXPECT_EQ(cell.strikerError()->episodes, 1u);
+  EXPECT_NEAR(cell.strikerError()->meanHeading, 8e-6, 1e-15);
+}
+
+/// The angle between two headings, which knows of no turns.
+double angleBetween(double a, double b) {
+  return std::atan2(std::abs(std::cos(a) * std::sin(b) - std::sin(a) * std::cos(b)),
+                    std::cos(a) * std::cos(b) + std::sin(a) * std::sin(b));
+}
+
+// Strikers look towards negative x, where headings jump by a turn.
+TEST(GoalMatrix, PoseErrorsAreTheMeanOfWhatIsBelievedWheneverAPlayerActs) {
+  struct Sum {
+    void add(const std::optional<BelievedPose>& believed, const Pose2& truth, Timestamp now) {
+      if (!believed || believed->stamp != now) return;
+      ++count;
+      position += std::hypot(believed->pose.x - truth.x, believed->pose.y - truth.y);
+      heading += angleBetween(believed->pose.theta, truth.theta);
+      jumps += std::abs(believed->pose.theta - truth.theta) > 3.0 ? 1 : 0;
+    }
+    void expect(const PoseError& told) const {
+      ASSERT_GT(count, 10);
+      EXPECT_NEAR(told.position, 1e6 * position / count, 1.0);
+      EXPECT_NEAR(told.heading, 1e6 * heading / count, 1.0);
+    }
+    int count = 0, jumps = 0;
+    double position = 0.0, heading = 0.0;
+  };
+  GoalEpisodes episodes;
+  int jumps = 0;
+  for (const std::uint64_t i : {5, 14, 20}) {
+    Sum keeper, striker;
+    const GoalEpisode played =
+        episodes.play(withSight(keeperText("intercepting"), "localized"),
+                      strikerText("dribble:sees=localized"), 4, i, [&](const GoalMoment& moment) {
+                        keeper.add(moment.keeperBelieves, moment.keeper, moment.stamp);
+                        striker.add(moment.strikerBelieves, moment.striker, moment.stamp);
+                      });
+    keeper.expect(played.keeper);
+    striker.expect(played.striker);
+    jumps += striker.jumps;
+  }
+  EXPECT_GT(jumps, 0) << "or nothing is tested here";
 }
 
 // However keepers and strikers see.
@@ -180,12 +241,14 @@ TEST(GoalMatrix, ABallToARandomPlaceIsNoHarderForWhoStands) {
 TEST(GoalMatrix, SkillCostsWhatItIsWorth) {
   GoalMatrixConfig config;
   config.keepers = {"goalkeeper:policy=intercepting", "goalkeeper:policy=intercepting&delay_s=0.4",
-                    "goalkeeper:policy=intercepting&speed_m_s=0.4"};
+                    "goalkeeper:policy=intercepting&speed_m_s=0.4",
+                    "goalkeeper:policy=intercepting&noise_m=0.5"};
   config.strikers = {strikerText("shot")};
   config.episodes = 100;
   const GoalMatrix matrix = playMatrix(config, {.threads = 2});
   EXPECT_GT(matrix.difference(1, 0, 0).low, 0.1);
   EXPECT_GT(matrix.difference(2, 0, 0).low, 0.1);
+  EXPECT_GT(matrix.difference(3, 0, 0).low, 0.1);
 }
 
 TEST(GoalMatrix, AFileIsReadAsItWasWritten) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "Files.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/sim/PlayerWish.hpp"
 #include "ortung/sim/SceneRun.hpp"
@@ -14,13 +15,15 @@ constexpr double kBraking = 0.03 * 9.81;  // of the shipped fields [m/s^2]
 
 /// A goalkeeper on the F2000 field, who begins on its line.
 struct Keeping {
-  explicit Keeping(const std::string& options)
-      : factory(PluginFactory::standardFolders()), run(scene(), {.seed = 3}, factory, players()) {
+  explicit Keeping(const std::string& options,
+                   const std::filesystem::path& world = shippedFile("fields", "f2000.toml"))
+      : factory(PluginFactory::standardFolders()),
+        run(scene(world), {.seed = 3}, factory, players()) {
     robot = &run.addPlayer(parsePlayer("goalkeeper:" + options + "@blue"), 1);
   }
-  static Scene scene() {
+  static Scene scene(const std::filesystem::path& world) {
     Scene scene;
-    scene.world = shippedFile("fields", "f2000.toml");
+    scene.world = world;
     return scene;
   }
   PlayerControl::Config players() {
@@ -129,6 +132,40 @@ TEST(Goalkeeper, KnowsLateWhatItSees) {
     return toSeconds(keeping.run.simulation().now() - kicked);
   };
   EXPECT_NEAR(movesAt("0.4") - movesAt("0"), 0.4, 0.041);  // it decides every 0.04 s
+}
+
+// Noise that it knows of is no kick. Of a kick it would see two places, 0.04 s apart, whose noise
+// is a velocity of some metres a second.
+TEST(Goalkeeper, DoesNotTakeNoiseForAKick) {
+  Keeping keeping("policy=intercepting&start=-5.5,0,90&noise_m=0.1");
+  keeping.roll({-2.0, 0.0, 0.0}, 0.0, 0.0);
+  keeping.steps(200);
+  double farthest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    keeping.steps(1);
+    farthest = std::max(farthest, std::abs(keeping.pose().y));
+  }
+  EXPECT_LT(farthest, 0.1) << "a ball that rests before the middle is blocked in the middle";
+  EXPECT_EQ(keeping.problem, "");
+}
+
+TEST(Goalkeeper, KeepsAGoalThatIsNotInTheMiddle) {
+  const test::TemporaryFolder folder;
+  std::string field = test::readBytes(shippedFile("fields", "f2000.toml"));
+  const std::string blue = "position_m = [-6, 0, 0.5]";
+  ASSERT_NE(field.find(blue), std::string::npos);
+  field.replace(field.find(blue), blue.size(), "position_m = [-6, 1.5, 0.5]");
+  test::writeBytes(folder.path() / "aside.toml", field);
+  Keeping keeping("policy=pattern&start=-5.5,1.5,90", folder.path() / "aside.toml");
+  double least = 10.0, most = -10.0;
+  for (int i = 0; i < 1000; ++i) {
+    keeping.steps(1);
+    least = std::min(least, keeping.pose().y);
+    most = std::max(most, keeping.pose().y);
+    ASSERT_NEAR(keeping.pose().x, -5.5, 0.05);
+  }
+  EXPECT_NEAR(least, 1.5 - 0.75, 0.1);  // its reach to both sides of the goal's middle
+  EXPECT_NEAR(most, 1.5 + 0.75, 0.1);
 }
 
 TEST(Goalkeeper, ComesHomeFromAnywhere) {

@@ -50,6 +50,13 @@ TEST(Ratings, OfOneStrikerAreItsOdds) {
   }
 }
 
+// A pair has half a goal before it has played, and half a save.
+TEST(Ratings, OfFewEpisodesCountHalfAGoalAndHalfASaveMore) {
+  const GoalRatings ratings = rate(drawn({{1.0}, {0.0}}, 4, {strikerText("yardstick-v1")}), 1);
+  EXPECT_NEAR(ratings.keepers[0].points.value, -points(4.5 / 5.0), 1e-5);
+  EXPECT_NEAR(ratings.keepers[1].points.value, -points(0.5 / 5.0), 1e-5);
+}
+
 TEST(Ratings, FindTheStrengthsThatEpisodesWereDrawnFrom) {
   const std::vector<double> keepers = {-0.7, 0.4, 1.5};
   const std::vector<double> strikers = {0.0, 0.9, -0.5, 0.3};
@@ -111,6 +118,25 @@ TEST(MatrixPage, NeedsNoOtherFileAndShowsEpisodes) {
       outcomes += cell.count(outcome) > 0 ? 1 : 0;
   EXPECT_EQ(pictures, outcomes);
   EXPECT_EQ(html, toHtml(matrix, "1<2"));
+}
+
+TEST(MatrixPage, ShowsPoseErrorsWhereThereAreAny) {
+  GoalMatrixConfig config;
+  config.keepers = {keeperText("still")};
+  config.strikers = {strikerText("roll")};
+  config.episodes = 1;
+  GoalMatrix matrix = playMatrix(config, {});
+  PoseError& error = matrix.cells[0].episodes[0].keeper;
+  const auto shows = [&](const char* text) {
+    return toHtml(matrix, "1").find(text) != std::string::npos;
+  };
+  error = {};
+  EXPECT_FALSE(shows("Pose error of the keeper")) << "it told no pose";
+  error = {0, 0};
+  EXPECT_FALSE(shows("Pose error of the keeper")) << "it saw by ground truth";
+  error = {12'000, 34'907};  // 0.034907 rad are 2 degrees
+  EXPECT_TRUE(shows("Pose error of the keeper"));
+  EXPECT_TRUE(shows("<td>0.012 / 0.012<small>2.00\u00b0 on average"));
 }
 
 }  // namespace
