@@ -96,6 +96,48 @@ class PlacingTest : public testing::TestWithParam<Places> {
   }
 };
 
+/// A stage that counts how often robots are placed.
+class CountingStage final : public Stage {
+ public:
+  explicit CountingStage(Stage& stage) : stage_(stage) {}
+  Timestamp now() const override { return stage_.now(); }
+  double cycle() const override { return stage_.cycle(); }
+  const World& world() const override { return stage_.world(); }
+  std::span<const StagedRobot> robots() const override { return stage_.robots(); }
+  std::span<const StagedThing> things() const override { return stage_.things(); }
+  void placeRobot(std::string_view robot, const Pose2& pose) override {
+    ++placed;
+    stage_.placeRobot(robot, pose);
+  }
+  void placeThing(std::string_view thing, const Pose2& pose, const Twist& velocity) override {
+    stage_.placeThing(thing, pose, velocity);
+  }
+  std::shared_ptr<const FloorPlan> floorPlan(const RobotSize& size) override {
+    return stage_.floorPlan(size);
+  }
+  std::size_t placed = 0;
+
+ private:
+  Stage& stage_;
+};
+
+TEST(Placing, MovesNobodyAsideWhosePlaceIsFree) {
+  FakeStage stage(ORTUNG_SOURCE_DIR "/maps/fields/msl.toml", 0.01);
+  stage.set(StagedThing{"ball", "ball", {3.0, 2.0, 0.0}, {}});
+  // Along the touch line, where nobody wants to be.
+  for (int i = 0; i < 4; ++i)
+    stage.set(StagedRobot{"r" + std::to_string(i),
+                          i % 2 == 0 ? "blue" : "yellow",
+                          {-1.5 + i, 6.4, 0.0},
+                          {},
+                          kRadius});
+  CountingStage counting(stage);
+  const auto referee = refereeBy("msl", "orders");
+  referee->order("kick-off blue");
+  referee->watch(counting);
+  EXPECT_EQ(counting.placed, 4u);
+}
+
 TEST_P(PlacingTest, AllHaveRoomAndKeepAway) {
   const Places& places = GetParam();
   Random random(11);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <memory>
 
+#include "TeamTalk.hpp"
 #include "ortung/core/ShippedFiles.hpp"
+#include "ortung/formats/PlacesData.hpp"
 #include "ortung/sim/PlayerWish.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
@@ -103,6 +105,53 @@ TEST(Footballer, OfTwoOneGoesForTheBallAndTheOtherCovers) {
     EXPECT_LT(distance(near.state().pose, playing.ball()), 1.0) << sees;
     EXPECT_GT(distance(far.state().pose, playing.ball()), 1.0) << sees;
     EXPECT_LT(far.state().pose.x, playing.ball().x) << sees;
+  }
+}
+
+/// What a footballer that is alone on a field tells its team, by time.
+struct Told {
+  std::vector<double> costs;  ///< [s]
+  std::vector<Place> places;  ///< of itself
+};
+
+Told toldBy(const std::string& sees, double seconds) {
+  Playing playing("f2000.toml");
+  playing.put(3.0, 0.0);
+  playing.run.players().join("ear", "blue");
+  const SimRobot& robot = playing.add("footballer:name=only&start=-3,1,0&sees=" + sees + "@blue");
+  Told told;
+  playing.until(seconds, [&] {
+    for (const Heard& heard : playing.run.players().takeHeard("ear")) {
+      if (const auto word = football::Word::parse(heard.text, 0.3))
+        told.costs.push_back(word->cost);
+      const auto place = placeIn(heard.text);
+      if (!place || place->kind != Place::Kind::kRobot) continue;
+      told.places.push_back(*place);
+      EXPECT_LT(distance(place->fix.pose, robot.state().pose), 0.05);
+    }
+    return false;
+  });
+  return told;
+}
+
+// It covers at first. With the ball in its sight it attacks, which makes it count as half a second
+// nearer; within the 0.1 s between two words it hardly gets nearer itself.
+TEST(Footballer, WhoAttacksCountsAsNearerByHalfASecond) {
+  const Told told = toldBy("truth", 0.35);
+  ASSERT_GE(told.costs.size(), 3u);
+  EXPECT_NEAR(told.costs[0] - told.costs[1], 0.5, 0.15);
+  EXPECT_NEAR(told.costs[1] - told.costs[2], 0.0, 0.15);
+}
+
+TEST(Footballer, TellsItsPlaceAndHowWellItIsKnown) {
+  const Told told = toldBy("features&stage=no", 0.5);
+  ASSERT_GE(told.places.size(), 3u);
+  for (const Place& place : told.places) {
+    EXPECT_EQ(place.name, "only");
+    EXPECT_TRUE(place.hasHeading());
+    const auto& c = place.fix.covariance;  // 0.05 m and 0.05 rad, independent of each other
+    for (const std::size_t i : {0u, 4u, 8u}) EXPECT_NEAR(std::sqrt(c.at(i)), 0.05, 1e-3) << i;
+    for (const std::size_t i : {1u, 2u, 5u}) EXPECT_EQ(c.at(i), 0.0) << i;
   }
 }
 
