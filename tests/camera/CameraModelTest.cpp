@@ -106,6 +106,21 @@ TEST(CameraModel, ATableShowsItsFloorPointsAtItsPixels) {
   EXPECT_NEAR(pixel->v, 80.0, 1e-3);
 }
 
+// Beyond the radius where the distorted radius falls again, 1 + (2 i + 1) k_i r^(2 i) = 0 for k_i
+// alone, two points would have one pixel. It is found in steps of 0.0035.
+TEST(CameraModel, SeesAsFarAsItsDistortionIsOneToOne) {
+  const auto limitOf = [](const std::string& distortion) {
+    const auto camera = cameraOf("size_px = [641, 641]\nfocal_px = [100.0, 100.0]\ndistortion = [" +
+                                 distortion + "]\n");
+    double r = 0.0;
+    while (r < 3.0 && camera->project({r, 0.0, 1.0})) r += 1e-3;
+    return r;
+  };
+  EXPECT_NEAR(limitOf("-0.2"), std::sqrt(1.0 / (3.0 * 0.2)), 0.005);
+  EXPECT_NEAR(limitOf("0, -0.2"), std::pow(1.0 / (5.0 * 0.2), 1.0 / 4.0), 0.005);
+  EXPECT_NEAR(limitOf("0, 0, 0, 0, -0.2"), std::pow(1.0 / (7.0 * 0.2), 1.0 / 6.0), 0.005);
+}
+
 TEST(CameraModel, DoesNotLookBehindItself) {
   EXPECT_FALSE(cameraOf(kPerspective)->project({0.0, 0.0, -1.0}));
   EXPECT_FALSE(cameraOf(kPerspective)->project({1.0, 0.0, 0.0}));

@@ -40,6 +40,14 @@ TEST(CameraView, TiltedByFortyFiveDegreesItsMiddleShowsTheFloorAtItsHeight) {
   EXPECT_FALSE(viewOf(kPlain, 0.8).floorAt({320.0, 239.0})) << "above the horizon";
 }
 
+TEST(CameraView, SeesTheFloorUpToAMillionMetres) {
+  const CameraView view = viewOf(kPlain, 1.0);
+  const auto floorAt = [&](double metres) { return view.floorAt({320.0, 240.0 + 400.0 / metres}); };
+  ASSERT_TRUE(floorAt(0.99e6));
+  EXPECT_NEAR(floorAt(0.99e6)->x, 0.99e6, 1.0);
+  EXPECT_FALSE(floorAt(1.01e6)) << "that is the horizon";
+}
+
 TEST(CameraView, ARolledCameraSeesTheHorizonTurnAgainstIt) {
   // Clockwise as the camera looks: what lies level to the right moves up in its image.
   const CameraView view = viewOf(std::string(kPlain) + "roll_deg = 30\n", 0.8);

@@ -85,6 +85,17 @@ TEST(Camera, DoesNotSeeItsOwnRobot) {
   EXPECT_GT(pixels[above + 1], 80);
 }
 
+// A server refuses robots that cost too much: four pixels are drawn in the time of a ray.
+TEST(Camera, CostsAQuarterOfItsPixelsInRays) {
+  PluginFactory factory(PluginFactory::standardFolders());
+  Parameters sensor("robot.toml");
+  Parameters camera("robot.toml");
+  camera.set("size_px", std::vector<double>{320.0, 240.0});
+  camera.set("focal_px", std::vector<double>{200.0, 200.0});
+  sensor.set("camera", Parameters::Node{camera});
+  EXPECT_DOUBLE_EQ(factory.make<Sensor>("camera", sensor)->rays(), 320 * 240 / 4);
+}
+
 TEST(Camera, WithSettingsOutOfBoundsIsRefusedWithTheKey) {
   PluginFactory factory(PluginFactory::standardFolders());
   Parameters sensor("robot.toml");
