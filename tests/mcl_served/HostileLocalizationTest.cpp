@@ -73,6 +73,10 @@ TEST(LocalizationCommands, RefuseWhatMakesNoSense) {
   expectError("HEATMAP cells=999999999", "number");
   expectError("HEATMAP theta_deg=1 theta_rad=1", "syntax");
   expectError("HEATMAP theta_deg=nan", "number");
+  expectError("HEATMAP theta_deg=360.1", "number");
+  expectError("HEATMAP theta_deg=-360.1", "number");
+  expectError("HEATMAP theta_rad=7.1", "number");
+  expectError("HEATMAP theta_rad=-7.1", "number");
   expectError("HEATMAP a/b", "argument");
   expectError("HEATMAP " + std::string(30'000, '/'), "argument");
   expectError("HEATMAP", "argument no such feature of this robot localizes");

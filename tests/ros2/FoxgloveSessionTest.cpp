@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -43,8 +44,10 @@ class FoxgloveSessionTest : public ::testing::Test {
             "format reference/groundTruth/pose pose", "some/thing/else"};
   }
   /// Goes as far as a world with one robot.
+  /// @param truth what the board answers to who wants the world's truth
   void meet(const std::string& world = kSimulation,
-            const std::vector<std::string>& robot = described()) {
+            const std::vector<std::string>& robot = described(),
+            const std::string& truth = "ERR unknown-robot") {
     EXPECT_EQ(saidToBoard(), "HELLO ortung/1 name=foxglove role=viewer\nDESCRIBE world\n");
     session_.fromBoard("OK HELLO client=1 role=viewer kind=simulation now=1000000 state=running\n");
     session_.fromBoard("OK DESCRIBE lines=1\n" + world + "\n");
@@ -52,8 +55,8 @@ class FoxgloveSessionTest : public ::testing::Test {
               "DESCRIBE field\nSUBSCRIBE robot=0 period_s=1 form=binary world/truth/robots\n"
               "LIST robots\n");
     session_.fromBoard(
-        "OK DESCRIBE lines=1\nwall x0_m=-0.98 y0_m=1.02 x1_m=0.98 y1_m=1.02 z0_m=0 z1_m=1\n"
-        "ERR unknown-robot\nOK LIST lines=1\nrobot=3 name=my-robot client=0\n");
+        "OK DESCRIBE lines=1\nwall x0_m=-0.98 y0_m=1.02 x1_m=0.98 y1_m=1.02 z0_m=0 z1_m=1\n" +
+        truth + "\nOK LIST lines=1\nrobot=3 name=my-robot client=0\n");
     EXPECT_EQ(saidToBoard(), "DESCRIBE robot robot=3\n");
     session_.fromBoard("OK DESCRIBE lines=" + std::to_string(robot.size()) + "\n");
     for (const std::string& line : robot) session_.fromBoard(line + "\n");
@@ -188,6 +191,48 @@ TEST_F(FoxgloveSessionTest, GivesReadingsAsMessagesHoweverTheBoardsBytesAreCut) 
   ASSERT_TRUE(words) << why;
   EXPECT_EQ(words->data, (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(frames[2].bytes, "\x02\x00\x75\x2B\x7D\x00\x00\x00\x00"s);  // 2.1 * 10^9 ns
+}
+
+// Of robots that have no feature for it, the world says where they are.
+TEST_F(FoxgloveSessionTest, GivesTheWorldsTruthOfARobotThatHasNone) {
+  meet(kSimulation, {"odometry/odometry/pose how far it went"}, "OK SUBSCRIBE robot=0");
+  const auto found = channels();
+  ASSERT_TRUE(found.contains("/my_robot/ground_truth"));
+  const auto update = [](const std::vector<std::uint32_t>& words) {
+    std::string bytes;
+    writeBinary({2'000'000, {"world", "truth", "robots"}, words}, bytes);
+    return "* UPDATE robot=0 now=2100000 bytes=" + std::to_string(bytes.size()) + " readings=1\n" +
+           bytes;
+  };
+  constexpr std::uint32_t kZero = 1U << 31;
+  // A robot that it does not know, and its own at (1.5, -0.25) m, 270 degrees; a torn third one.
+  const std::vector<std::uint32_t> words{2,           kZero, kZero, 0, 0,     3,    kZero + 1500,
+                                         kZero - 250, 27000, 0,     3, kZero, kZero};
+  session_.fromBoard(update(words));
+  for (const auto& frame : saidToClient())
+    EXPECT_NE(frame.bytes[0], '\x01') << "nobody has subscribed";
+  client(
+      {{"op", "subscribe"},
+       {"subscriptions", {{{"id", 7}, {"channelId", found.at("/my_robot/ground_truth")["id"]}}}}});
+  EXPECT_EQ(saidToBoard(),
+            "SUBSCRIBE robot=3 form=binary */groundTruth/*\n"
+            "SUBSCRIBE robot=0 form=binary world/truth/robots\n");
+  session_.fromBoard("OK SUBSCRIBE robot=3\nOK SUBSCRIBE robot=0\n" + update(words));
+  std::vector<std::string> messages;
+  for (const auto& frame : saidToClient())
+    if (frame.isBinary && frame.bytes[0] == '\x01') messages.push_back(frame.bytes);
+  ASSERT_EQ(messages.size(), 1u);
+  std::string why;
+  const auto truth = ros2::fromCdr<ros2::PoseStamped>(messages[0].substr(13), why);
+  ASSERT_TRUE(truth) << why;
+  EXPECT_EQ(truth->header.frame, "map");
+  EXPECT_NEAR(truth->pose.position.x, 1.5, 1e-9);
+  EXPECT_NEAR(truth->pose.position.y, -0.25, 1e-9);
+  EXPECT_NEAR(truth->pose.orientation.z, -std::sqrt(0.5), 1e-9);  // a turn of -90 degrees
+  EXPECT_NEAR(truth->pose.orientation.w, std::sqrt(0.5), 1e-9);
+  client({{"op", "unsubscribe"}, {"subscriptionIds", {7}}});
+  EXPECT_EQ(saidToBoard(),
+            "UNSUBSCRIBE robot=3\nSUBSCRIBE robot=0 period_s=1 form=binary world/truth/robots\n");
 }
 
 TEST_F(FoxgloveSessionTest, TheFieldsWallsAreTheMapWhoeverComesWhen) {

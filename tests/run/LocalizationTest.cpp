@@ -127,6 +127,25 @@ TEST_F(Localizing, StartsAtTheFirstTruth) {
   EXPECT_TRUE(own.update());
 }
 
+// Robots can stand up to 1.8 m and 1.3 m from the middle: this is 1 m more.
+TEST_F(Localizing, APoseMayBeSetOffTheMapByThreeSigmaInXAndY) {
+  Localization localization(config());
+  const auto refusal = [&](const Pose2& pose, double sigmaX, double sigmaY) {
+    return messageOf<std::invalid_argument>([&] {
+      localization.setPose(pose, {sigmaX * sigmaX, 0, 0, 0, sigmaY * sigmaY, 0, 0, 0, 0.01});
+    });
+  };
+  const Pose2 aside{0.0, 2.3, 0.0}, ahead{2.8, 0.0, 0.0};
+  const std::string taken = messageOf<std::invalid_argument>([] {});
+  EXPECT_EQ(refusal(aside, 0.01, 0.4), taken);
+  EXPECT_EQ(refusal(ahead, 0.4, 0.01), taken);
+  EXPECT_EQ(refusal(aside, 0.25, 0.25), taken) << "together";
+  EXPECT_NE(refusal(aside, 0.01, 0.2).find("the pose set (0.00, 2.30) m is off the map"),
+            std::string::npos);
+  EXPECT_NE(refusal(ahead, 0.2, 0.01).find("the pose set (2.80, 0.00) m is off the map"),
+            std::string::npos);
+}
+
 TEST_F(Localizing, TruthThatNeverComesIsAnErrorAtTheEnd) {
   for (auto& moment : moments) moment.pop_back();
   record("room-1");

@@ -107,6 +107,12 @@ TEST(DeviceClock, StampsADeviceWithoutAClockByItsArrivalLessTheLatency) {
   EXPECT_EQ(clock.toHost(kSecond), kSecond - 40 * kMillisecond + 1);  // later than the last one
 }
 
+TEST(DeviceClock, StampsADeviceWithAClockEarlierByTheLatencyWhateverItsClock) {
+  DeviceClock clock({.latency = 0.04});
+  for (Timestamp t = 0; t < 30 * kSecond; t += 100 * kMillisecond)  // every reading is 40 ms late
+    EXPECT_EQ(clock.toHost(t + 1'000 * kSecond, t + 40 * kMillisecond), t);
+}
+
 TEST(DeviceClock, LivesWithTheClocksOfHostileDevices) {
   DeviceClock clock;
   Timestamp last = -1;
