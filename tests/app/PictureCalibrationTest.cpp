@@ -1,5 +1,9 @@
 // `ortung calibrate` on pictures of a field that the simulator draws.
 
+#include <cmath>
+#include <numbers>
+#include <regex>
+
 #include "Workspace.hpp"
 
 namespace ortung::test {
@@ -7,6 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 const std::string kField = std::string(ORTUNG_SOURCE_DIR) + "/maps/fields/msl.toml";
 
 class PictureCalibration : public Workspace {
@@ -54,6 +59,65 @@ TEST_F(PictureCalibration, ColoursArePrintedOrWrittenAndPicturesDrawn) {
     EXPECT_TRUE(read(name).starts_with("\x89PNG")) << name;
   expectRefused(ortung({"calibrate", "colours", picture(0), "--out", path("colours.toml")}), 1,
                 "ortung calibrate colours: " + path("colours.toml"), {"--force"});
+}
+
+// The camera that has drawn the pictures is known, and where it stood. A field looks the same from
+// the other side.
+TEST_F(PictureCalibration, LinesTellTheCameraThatDrewThemAndWhereItStood) {
+  constexpr double kFocal = 320.0, kHeight = 0.75, kTilt = 20.0;
+  write("tall.toml", R"([robot]
+name = "tall"
+[[sensor]]
+plugin = "camera"
+model = "front"
+pose = { z_m = 0.75 }
+[sensor.camera]
+size_px = [480, 360]
+focal_px = [320.0, 320.0]
+tilt_deg = 20
+)");
+  struct Place {
+    const char* start;
+    double x, y, heading;  ///< [m], [degrees]
+  };
+  const Place places[] = {{"-3,2,60", -3.0, 2.0, 60.0}, {"0,-3,100", 0.0, -3.0, 100.0}};
+  for (const Place& place : places) {
+    const std::string set = std::string("set") + place.start;
+    const Outcome drawn =
+        ortung({"export", "images", "sim:" + kField + "?speed=0&duration=0.1&start=" + place.start,
+                "--robot", path("tall.toml"), "--out", path(set), "--count", "1"});
+    ASSERT_EQ(drawn.exitCode, 0) << drawn.err;
+    fs::rename(path(set + "/images/000000.png"), path(std::string(place.start) + ".png"));
+  }
+  const std::string one = path("-3,2,60.png"), other = path("0,-3,100.png");
+  const Outcome outcome =
+      ortung({"calibrate", "lines", one, other, "--world", kField, "--height", "0.72",
+              "--height-share", "0.05", "--out", path("camera.toml"), "--draw", path("drawn")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const auto numberIn = [](const std::string& text, const std::string& pattern) {
+    std::smatch found;
+    EXPECT_TRUE(std::regex_search(text, found, std::regex(pattern))) << pattern << "\n" << text;
+    return found.empty() ? NAN : std::stod(found[1]);
+  };
+  for (const Place& place : places) {
+    const std::string begin = std::string(place.start) + "\\.png .* ";
+    const double x = numberIn(outcome.out, begin + "(\\S+) m, \\S+ m, ");
+    const double y = numberIn(outcome.out, begin + "(\\S+) m, \\S+ degrees");
+    const double heading = numberIn(outcome.out, begin + "(\\S+) degrees");
+    const bool isMirrored = std::cos((heading - place.heading) * kDegree) < 0.0;
+    const double side = isMirrored ? -1.0 : 1.0;
+    EXPECT_NEAR(side * x, place.x, 0.2) << place.start;
+    EXPECT_NEAR(side * y, place.y, 0.2) << place.start;
+    EXPECT_GT(side * std::cos((heading - place.heading) * kDegree), std::cos(3.0 * kDegree));
+  }
+  const std::string camera = read("camera.toml");
+  EXPECT_NEAR(numberIn(camera, "z_m = (\\S+) "), kHeight, 0.03);
+  EXPECT_NEAR(numberIn(camera, "tilt_deg = (\\S+)"), kTilt, 2.0);
+  EXPECT_NEAR(numberIn(camera, "focal_px = .(\\S+),"), kFocal, 0.05 * kFocal);
+  for (const std::string name : {"-3,2,60.png", "0,-3,100.png"}) {
+    EXPECT_TRUE(read("drawn/" + name).starts_with("\x89PNG")) << name;
+    EXPECT_FALSE(read("drawn/" + name) == read(name)) << "nothing is drawn into " << name;
+  }
 }
 
 TEST_F(PictureCalibration, PicturesAreNeverDrawnOver) {
