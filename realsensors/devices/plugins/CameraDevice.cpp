@@ -22,6 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::string_view kVideo = "/dev/video";
+constexpr double kMostRate = 1000.0;  ///< greatest rate of pictures [Hz]
 
 /// A camera that OpenCV reads ("/dev/video0"), or a video file, which is played at its own speed.
 /// Pictures that nobody has taken in time are passed over by the system, the newest one counts.
@@ -31,7 +32,7 @@ class CameraDevice : public DeviceDriver {
       : name_(p.text("port")),
         width_(static_cast<int>(p.integerOr("width_px", 0, {0, ImageData::kMostSide}))),
         height_(static_cast<int>(p.integerOr("height_px", 0, {0, ImageData::kMostSide}))),
-        rate_(p.numberOr("rate_hz", 0.0, {0.0, 1000.0})),
+        rate_(p.numberOr("rate_hz", 0.0, {0.0, kMostRate})),
         isGrey_(p.choiceOr("pixels", "rgb", {"rgb", "grey"}) == "grey"),
         repeats_(p.flagOr("repeat", false)) {}
 
@@ -113,19 +114,22 @@ class CameraDevice : public DeviceDriver {
   bool grab() {
     if (!video_.grab()) {
       if (!isFile_) throw DeviceAbsent(name_ + ": gives no picture any more");
-      if (isFirst_) throw DeviceMisfit(name_ + ": holds no picture");
+      if (isFirst_ || last_ < 0.0) throw DeviceMisfit(name_ + ": holds no picture");
       if (!repeats_) {
         isAtEnd_ = true;
         return false;
       }
       laps_ += std::max(last_, 0.0) + 40.0;
-      video_.set(cv::CAP_PROP_POS_FRAMES, 0);
+      // Not all files can be wound back.
+      if (!video_.open(name_, cv::CAP_FFMPEG))
+        throw DeviceAbsent(name_ + ": can't be opened again to repeat it");
       last_ = -1.0;
       return false;
     }
     const double time = video_.get(cv::CAP_PROP_POS_MSEC);
-    const double step =
-        video_.get(cv::CAP_PROP_FPS) > 1.0 ? 1000.0 / video_.get(cv::CAP_PROP_FPS) : 40.0;
+    const double rate = video_.get(cv::CAP_PROP_FPS);
+    // Of files without times, the rate may be the ticks of a clock.
+    const double step = rate > 1.0 && rate <= kMostRate ? 1000.0 / rate : 40.0;
     time_ = std::isfinite(time) && time > last_ ? time : last_ + step;  // some files tell none
     last_ = time_;
     pending_ = true;

@@ -74,6 +74,27 @@ TEST(CameraDevice, PlaysAVideoFileAtItsOwnSpeed) {
   }
 }
 
+// A file of nothing but pictures one after the other, which tells no times: 25 a second are
+// assumed.
+TEST(CameraDevice, PlaysPicturesWithoutTimes) {
+  const test::TemporaryFolder folder;
+  writeVideo(folder / "clip.avi");
+  const std::string video = test::readBytes(folder / "clip.avi");
+  std::string pictures;
+  for (std::size_t at = 0; (at = video.find("\xff\xd8\xff", at)) != std::string::npos; ++at)
+    pictures += video.substr(at, video.find("\xff\xd9", at) + 2 - at);
+  test::writeBytes(folder / "clip.mjpeg", pictures);
+  test::writeBytes(folder / "robot.toml", robot(folder / "clip.mjpeg", "[64, 48]"));
+  DevicesSource devices({folder / "robot.toml"});
+  std::vector<Timestamp> stamps;
+  EXPECT_TRUE(test::comesTrue("all its pictures are there", [&] {
+    if (const auto message = devices.poll(std::chrono::milliseconds(50)))
+      stamps.push_back(message->stamp);
+    return stamps.size() > kColours.size();  // it is repeated, too
+  }));
+  EXPECT_NEAR(toSeconds(stamps.back() - stamps.front()), 5 * 0.04, 0.06);
+}
+
 TEST(CameraDevice, OfAnotherSizeThanItsCalibrationIsAMisfit) {
   const test::TemporaryFolder folder;
   writeVideo(folder / "clip.avi");
