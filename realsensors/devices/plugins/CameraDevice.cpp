@@ -83,7 +83,8 @@ class CameraDevice : public DeviceDriver {
   void close() noexcept override {
     try {
       video_.release();
-    } catch (const std::exception&) {  // it is closed all the same
+    } catch (const std::exception&) {
+      // A release that is refused: it is closed all the same.
     }
     pending_ = false;
   }
