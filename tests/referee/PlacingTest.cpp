@@ -27,7 +27,9 @@ struct Places {
 };
 
 /// In names of tests.
-void PrintTo(const Places& places, std::ostream* out) { *out << places.field; }
+void PrintTo(const Places& places, std::ostream* out) {  // NOLINT: GoogleTest looks for this name
+  *out << places.field;
+}
 
 std::unique_ptr<Referee> refereeBy(const std::string& rules, const std::string& control = "rules") {
   Parameters p("test");
@@ -50,7 +52,7 @@ void scatter(FakeStage& stage, const Places& places, int robots, Random& random)
     for (bool isPlaced = false; !isPlaced;) try {
         stage.placeRobot(name, anywhere());
         isPlaced = true;
-      } catch (const std::invalid_argument&) {  // taken
+      } catch (const std::invalid_argument&) {  // refused: somebody is there
       }
   }
   const Pose2 ball = anywhere();
