@@ -1,4 +1,5 @@
 #include <atomic>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -7,6 +8,7 @@
 
 #include "ortung/core/Plugin.hpp"
 #include "ortung/devices/BaseLines.hpp"
+#include "ortung/devices/DeviceClock.hpp"
 #include "ortung/devices/DeviceDriver.hpp"
 #include "ortung/devices/Port.hpp"
 #include "ortung/formats/ConeData.hpp"
@@ -22,6 +24,7 @@ constexpr std::chrono::milliseconds kBetweenCommands{200};
 constexpr int kQuestions = 10;
 constexpr double kFastest = 10.0;      ///< greatest velocity that is taken [m/s]
 constexpr double kFastestTurn = 20.0;  ///< greatest turn rate that is taken [rad/s]
+constexpr std::int64_t kFarthestTime = DeviceClock::kFarthest / 1000;  ///< [ms]
 
 /// What the robot is told, from whatever thread, until the base hears of it.
 class BaseVoice : public RobotCommands {
@@ -175,6 +178,8 @@ class BaseDevice : public DeviceDriver {
     if (!time_) time_ = milliseconds;
     const auto ahead = static_cast<std::int32_t>(milliseconds - static_cast<std::uint32_t>(*time_));
     time_ = *time_ + ahead;
+    // A clock that jumps ahead by weeks, over and over, would count beyond every number.
+    if (std::abs(*time_) > kFarthestTime) time_ = milliseconds;
     return *time_ * 1000;
   }
 

@@ -23,6 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::string_view kVideo = "/dev/video";
 constexpr double kMostRate = 1000.0;  ///< greatest rate of pictures [Hz]
+constexpr double kLatestTime = 1e12;  ///< of a picture [ms]: 31 years; cameras count from the boot
 
 /// A camera that OpenCV reads ("/dev/video0"), or a video file, which is played at its own speed.
 /// Pictures that nobody has taken in time are passed over by the system, the newest one counts.
@@ -131,7 +132,8 @@ class CameraDevice : public DeviceDriver {
     const double rate = video_.get(cv::CAP_PROP_FPS);
     // Of files without times, the rate may be the ticks of a clock.
     const double step = rate > 1.0 && rate <= kMostRate ? 1000.0 / rate : 40.0;
-    time_ = std::isfinite(time) && time > last_ ? time : last_ + step;  // some files tell none
+    // Some files tell no times, or one that no clock will show.
+    time_ = time > last_ && time < kLatestTime ? time : last_ + step;
     last_ = time_;
     pending_ = true;
     return true;

@@ -21,6 +21,7 @@ constexpr std::chrono::seconds kOpening{30};  ///< a SICK is looked for at three
 constexpr std::chrono::milliseconds kLook{200};
 constexpr std::size_t kLongestLine = 1u << 17;  ///< 8192 beams
 constexpr std::size_t kBeforeRanges = 3;        ///< words
+constexpr int kMostAtOnce = 64;                 ///< scans of one read()
 constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
 constexpr std::string_view kError = "# error ";
 
@@ -52,7 +53,10 @@ void MrptScanner::open() {
 }
 
 void MrptScanner::read(std::chrono::milliseconds patience, std::vector<DeviceReading>& readings) {
-  for (auto line = child_->next(patience); line; line = child_->next()) take(*line, readings);
+  // A scanner that floods must neither fill the memory nor keep the thread from its end.
+  auto line = child_->next(patience);
+  for (int i = 0; line; line = ++i < kMostAtOnce ? child_->next() : std::nullopt)
+    take(*line, readings);
 }
 
 void MrptScanner::take(const std::string& line, std::vector<DeviceReading>& readings) {

@@ -8,10 +8,9 @@ namespace ortung {
 namespace {
 
 constexpr Timestamp kSecond = 1'000'000;
-constexpr std::size_t kKept = 60;                    ///< number of seconds that are used
-constexpr Timestamp kNeeded = 10 * kSecond;          ///< least time that shows a drift, not noise
-constexpr double kMostDrift = 1e-3;                  ///< greatest drift; crystals are 100 x better
-constexpr Timestamp kFarthest = Timestamp{1} << 60;  ///< latest device time that is accepted
+constexpr std::size_t kKept = 60;            ///< number of seconds that are used
+constexpr Timestamp kNeeded = 10 * kSecond;  ///< least time that shows a drift, not noise
+constexpr double kMostDrift = 1e-3;          ///< greatest drift; crystals are 100 x better
 
 }  // namespace
 
@@ -21,7 +20,8 @@ Timestamp DeviceClock::toHost(Timestamp arrival) {
 
 Timestamp DeviceClock::toHost(Timestamp device, Timestamp arrival) {
   device = std::clamp(device, -kFarthest, kFarthest);
-  if (device_ && device == *device_ && stamp_ && !least_.empty()) return *stamp_;
+  const bool isSame = device_ && device == *device_ && stamp_ && !least_.empty();
+  if (isSame && !standsStill(arrival)) return *stamp_;
   const Timestamp difference = arrival - device;
   if (!least_.empty() &&
       hasJumped(device, arrival, static_cast<double>(difference - base_) - envelope(device))) {
@@ -39,6 +39,11 @@ Timestamp DeviceClock::toHost(Timestamp device, Timestamp arrival) {
   return inOrder(device + base_ + offset - fromSeconds(config_.latency), arrival);
 }
 
+/// Returns whether the newest stamp is too old for readings of one time to arrive as late.
+bool DeviceClock::standsStill(Timestamp arrival) const {
+  return toSeconds(arrival - *stamp_) > config_.latency + config_.longest;
+}
+
 /// Returns whether the device's clock was set.
 /// @param above difference above the envelope [us]: the reading's delay
 bool DeviceClock::hasJumped(Timestamp device, Timestamp arrival, double above) {
@@ -49,6 +54,7 @@ bool DeviceClock::hasJumped(Timestamp device, Timestamp arrival, double above) {
     lateSince_.reset();
     return false;
   }
+  if (above > config_.longest * kMicrosecondsPerSecond) return true;
   // Either this reading and the following ones are delayed, or the clock was set back by less than
   // it has run since its last reading, or it stood still.
   if (!lateSince_) lateSince_ = arrival;

@@ -44,8 +44,12 @@ std::optional<Message> DeviceIntake::take(DeviceReading reading, Timestamp arriv
   return Message{stamp, feature.data->id(), std::move(reading.words)};
 }
 
-/// Checks the words: those that the feature refuses would end the readers of the container.
+/// Checks the time, and the words: those that the feature refuses would end the readers of the
+/// container.
 bool DeviceIntake::isSense(const Feature& feature, const DeviceReading& reading) {
+  constexpr Timestamp kFarthest = DeviceClock::kFarthest;
+  if (reading.deviceTime && (*reading.deviceTime > kFarthest || *reading.deviceTime < -kFarthest))
+    return false;
   try {
     feature.data->checkData(reading.words);
     return true;

@@ -126,5 +126,44 @@ TEST(DeviceClock, LivesWithTheClocksOfHostileDevices) {
   }
 }
 
+/// Stamps of a device whose clock shows, at each arrival, what @p device says; ten a second.
+/// Returns the greatest age of a stamp [us].
+template <class Device>
+Timestamp greatestAge(const Device& device) {
+  DeviceClock clock;
+  Timestamp age = 0;
+  Timestamp last = -1;
+  for (Timestamp arrival = 0; arrival < 120 * kSecond; arrival += 100 * kMillisecond) {
+    const Timestamp stamp = clock.toHost(device(arrival), arrival);
+    EXPECT_GE(stamp, last);
+    EXPECT_LE(stamp, arrival);
+    age = std::max(age, arrival - stamp);
+    last = stamp;
+  }
+  return age;
+}
+
+TEST(DeviceClock, StaysNearTheHostsTimeWhateverTheDeviceShows) {
+  constexpr Timestamp kHour = 3600 * kSecond;
+  constexpr Timestamp kLongest = 10'100 * kMillisecond;
+  const auto backAndForth = [](Timestamp t) { return t + (t / kSecond % 2) * 5 * kHour; };
+  EXPECT_LT(greatestAge(backAndForth), 100 * kMillisecond);
+  EXPECT_LE(greatestAge([](Timestamp) { return kHour; }), kLongest);
+  EXPECT_LE(greatestAge([](Timestamp t) { return INT64_MAX - 1 + t * 0; }), kLongest);
+  EXPECT_LE(greatestAge([](Timestamp t) { return INT64_MIN + t; }), kLongest);
+  EXPECT_LE(greatestAge([](Timestamp t) { return t / 100; }), kLongest);
+  EXPECT_LE(greatestAge([](Timestamp t) { return 3 * t; }), kLongest);
+}
+
+TEST(DeviceClock, GoesOnAtTheHostsTimeAfterItStoodStill) {
+  DeviceClock clock;
+  EXPECT_EQ(clock.toHost(70 * kSecond, kSecond), kSecond);
+  // The device's clock is where it was an hour ago.
+  EXPECT_EQ(clock.toHost(70 * kSecond + 100, 3601 * kSecond), 3601 * kSecond);
+  EXPECT_EQ(clock.jumps(), 1U);
+  EXPECT_EQ(clock.toHost(70 * kSecond + 100, 7201 * kSecond), 7201 * kSecond);
+  EXPECT_EQ(clock.jumps(), 2U);
+}
+
 }  // namespace
 }  // namespace ortung

@@ -47,6 +47,18 @@ TEST_F(DeviceIntakeTest, RefusesWordsThatTheFeatureDoesNotTake) {
   EXPECT_EQ(intake.status(kSecond).readings, 0U);
 }
 
+TEST_F(DeviceIntakeTest, RefusesTimesThatNoClockShows) {
+  DeviceIntake intake({&odometry}, {});
+  intake.opened(0);
+  const std::vector<std::uint32_t> words = OdometryData::encode({});
+  std::uint64_t refused = 0;
+  for (const Timestamp time : {INT64_MIN, INT64_MAX, DeviceClock::kFarthest + 1}) {
+    EXPECT_FALSE(intake.take({0, words, time}, kSecond)) << time;
+    EXPECT_EQ(intake.status(kSecond).refused, ++refused);
+  }
+  EXPECT_EQ(intake.take({0, words, kSecond}, 2 * kSecond)->stamp, 2 * kSecond);
+}
+
 TEST_F(DeviceIntakeTest, LeavesOutReadingsOfATimeThatItHasHad) {
   DeviceIntake intake({&scan, &odometry}, {});
   intake.opened(0);

@@ -20,15 +20,20 @@ namespace ortung {
 /// clock was set, the estimate starts over. Not thread-safe.
 class ORTUNG_API DeviceClock {
  public:
+  /// The greatest time of a device, before or after its zero [us]: 36,000 years, so that sums of
+  /// two of them fit. What lies beyond is no time; toHost() takes it for this one.
+  static constexpr Timestamp kFarthest = Timestamp{1} << 60;
   struct Config {
     double latency = 0.0;   ///< the shortest delay [s], if it is known
     double jump = 0.5;      ///< least change of the difference that may be a clock set [s]
     double patience = 2.0;  ///< duration of delays above `jump` after which it was set back [s]
+    double longest = 10.0;  ///< longest delay [s]; beyond it the clock was set back, or stood still
   };
   DeviceClock() = default;
   explicit DeviceClock(const Config& config) : config_(config) {}
 
-  /// Returns the host time of a reading. Readings of one device time have one stamp.
+  /// Returns the host time of a reading. Readings of one device time have one stamp, unless they
+  /// arrive so late that the clock stands still.
   /// @param device  time of measurement by the device's clock
   /// @param arrival time of arrival by the host's clock
   Timestamp toHost(Timestamp device, Timestamp arrival);
@@ -51,6 +56,7 @@ class ORTUNG_API DeviceClock {
     double difference = 0.0;  ///< arrival minus device time, minus base_ [us]
   };
   double envelope(Timestamp device) const;
+  bool standsStill(Timestamp arrival) const;
   bool hasJumped(Timestamp device, Timestamp arrival, double above);
   void note(Timestamp device, double difference);
   void fit();

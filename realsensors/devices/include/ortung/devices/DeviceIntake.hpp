@@ -48,7 +48,7 @@ class ORTUNG_API DeviceIntake {
     Timestamp second = 0;      ///< begin of the second in which readings are counted
     std::size_t inSecond = 0;  ///< number of readings in that second
   };
-  /// Whether the feature accepts the words.
+  /// Whether the device's time is one, and the feature accepts the words.
   static bool isSense(const Feature& feature, const DeviceReading& reading);
   /// Whether the device's time is that of the last reading.
   static bool repeatsItsTime(Feature& feature, const DeviceReading& reading);
