@@ -37,6 +37,11 @@ describe("the stream of a message board", () => {
     expect(list!.lines).toEqual(["robot=1", "lines=9 of text"]);
   });
 
+  it("shows what is no character, or turns the text around it, as such", () => {
+    const bytes = [...bytesOf("name=a\u202eb\u0000c\u001bd\u2066e\u200ff"), 0xed, 0xa0, 0x80, ...bytesOf("g\u00e9 h\n")];
+    expect(parse([new Uint8Array(bytes)])[0]!.line).toBe("name=a\ufffdb\ufffdc\ufffdd\ufffde\ufffdf\ufffd\ufffd\ufffdg\u00e9 h");
+  });
+
   it("holds blocks that are larger than its first buffer", () => {
     const large = new Uint8Array(300_000).fill(10);
     const messages = parse([bytesOf("#v1 OK X bytes=300000\n"), large.slice(0, 1000), large.slice(1000), bytesOf("#v2 OK Y\n")]);

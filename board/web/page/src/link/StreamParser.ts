@@ -19,6 +19,12 @@ const kFeed = 10;
 
 const text = new TextDecoder("utf-8", { fatal: false });
 
+/**
+ * What is no printable character, or turns the direction of the text around it: the board has none of them, but what it
+ * passes on may. Each becomes the character for what can't be shown.
+ */
+const kNotShown = /[\u0000-\u0008\u000a-\u001f\u007f-\u009f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]/g;
+
 export class StreamParser {
   private buffer = new Uint8Array(64 * 1024);
   private begin = 0;
@@ -72,7 +78,7 @@ export class StreamParser {
       return null;
     }
     const stop = at > this.begin && this.buffer[at - 1] === 13 ? at - 1 : at;
-    const line = text.decode(this.buffer.subarray(this.begin, stop));
+    const line = text.decode(this.buffer.subarray(this.begin, stop)).replace(kNotShown, "\ufffd");
     this.begin = this.searched = at + 1;
     return line;
   }

@@ -41,6 +41,8 @@ function split(line: string): [string, string] {
   return blank < 0 ? [line, ""] : [line.slice(0, blank), line.slice(blank + 1)];
 }
 
+const kLongestLabel = 48; // the board's names have at most 32 characters
+
 /** A robot as the page knows it. Mutable: the drawing loop reads what the connection writes. */
 export class Robot {
   name = "";
@@ -71,8 +73,10 @@ export class Robot {
 
   constructor(readonly number: number) {}
 
+  /** Its name, or its number; the beginning of what is too long for any place on the page. */
   get label(): string {
-    return this.name || `robot ${this.number}`;
+    const { name } = this;
+    return name.length > kLongestLabel ? `${name.slice(0, kLongestLabel)}…` : name || `robot ${this.number}`;
   }
 
   feature(name: string): Feature | undefined {
