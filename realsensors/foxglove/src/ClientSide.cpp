@@ -1,5 +1,7 @@
 // The part of a session that deals with the client.
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -15,6 +17,29 @@ constexpr std::size_t kMostTold = 8;             // about one message
 
 std::string textOf(const json& value) {
   return value.dump(-1, ' ', true, json::error_handler_t::replace);
+}
+
+/// The members of an advertised channel that are the same for all of a type.
+std::string schemaPart(std::string_view type) {
+  return R"("encoding":"cdr","schemaEncoding":"ros2msg","schemaName":)" + textOf(type) +
+         R"(,"schema":)" + textOf(ros2::schemaText(type));
+}
+
+/// The same from a table: each client is told some dozen of them, and escaping the schemas' texts
+/// is most of the work of a new one.
+std::string knownSchemaPart(std::string_view type) {
+  static const std::map<std::string, std::string, std::less<>> kParts = [] {
+    std::map<std::string, std::string, std::less<>> parts;
+    for (const std::string_view one :
+         {ros2::LaserScan::kType, ros2::Odometry::kType, ros2::TfMessage::kType,
+          ros2::PoseStamped::kType, ros2::PoseWithCovarianceStamped::kType, ros2::PoseArray::kType,
+          ros2::OccupancyGrid::kType, ros2::Range::kType, ros2::Image::kType,
+          ros2::PointCloud::kType, ros2::Words::kType})
+      parts.emplace(one, schemaPart(one));
+    return parts;
+  }();
+  const auto found = kParts.find(type);
+  return found == kParts.end() ? schemaPart(type) : found->second;
 }
 
 /// [ns since 1970]
@@ -87,18 +112,17 @@ std::uint32_t FoxgloveSession::Parts::channelFor(const ros2::Topic& topic) {
 }
 
 void FoxgloveSession::Parts::advertise(const std::vector<std::uint32_t>& fresh) {
-  json list = json::array();
+  std::string text = R"({"op":"advertise","channels":[)";
+  bool isFirst = true;
   for (const std::uint32_t id : fresh) {
     const Channel& channel = channels[id];
     if (channel.topic == "/map" && channel.latched.empty()) continue;
-    list.push_back({{"id", id},
-                    {"topic", channel.topic},
-                    {"encoding", "cdr"},
-                    {"schemaName", channel.type},
-                    {"schema", ros2::schemaText(channel.type)},
-                    {"schemaEncoding", "ros2msg"}});
+    text += isFirst ? "" : ",";
+    isFirst = false;
+    text += R"({"id":)" + std::to_string(id) + R"(,"topic":)" + textOf(channel.topic) + ',' +
+            knownSchemaPart(channel.type) + '}';
   }
-  sendText(textOf({{"op", "advertise"}, {"channels", std::move(list)}}));
+  sendText(text + "]}");
 }
 
 void FoxgloveSession::Parts::takeText(std::string_view text) {
