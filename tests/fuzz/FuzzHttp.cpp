@@ -1,5 +1,6 @@
 // What a browser, or who passes for one, says at the board's port: first to the board, then to the
 // web's door. The first byte of the input says in pieces of which size the others come.
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <optional>
@@ -96,8 +97,8 @@ class Port {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   if (size == 0) return 0;
-  const std::size_t piece = 1 + bytes[0];
   const std::string_view text(reinterpret_cast<const char*>(bytes) + 1, size - 1);
+  const std::size_t piece = std::max<std::size_t>(1 + bytes[0], text.size() / fuzz::kMostPieces);
   fuzz::Pair pair;
   Port port(pair.take());
   std::string heard;

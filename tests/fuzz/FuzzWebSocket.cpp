@@ -1,5 +1,6 @@
 // Frames of WebSockets as the bridge reads them, of a client whose handshake was right. The first
 // byte of the input says in pieces of which size the others come; the board says everything back.
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <utility>
@@ -81,8 +82,8 @@ class Bridged {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   if (size == 0) return 0;
-  const std::size_t piece = 1 + bytes[0];
   const std::string_view text(reinterpret_cast<const char*>(bytes) + 1, size - 1);
+  const std::size_t piece = std::max<std::size_t>(1 + bytes[0], text.size() / fuzz::kMostPieces);
   Bridged bridged;
   for (std::size_t at = 0; at < text.size(); at += piece) {
     bridged.client.say(text.substr(at, piece));
