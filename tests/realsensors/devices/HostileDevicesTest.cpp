@@ -102,7 +102,7 @@ TEST_F(HostileDevicesTest, NoiseOfAllKindsIsLeftOutAndCounted) {
   const auto messages = read(
       [&](std::size_t n) -> std::string {
         const auto time = static_cast<std::uint32_t>(100 * n);
-        const std::string sound = wheelsAt(time, 0.5);
+        std::string sound = wheelsAt(time, 0.5);
         switch (n % 7) {
           case 0:
             return sound;
