@@ -71,7 +71,7 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
   int shift_ = 0;
   std::array<std::uint8_t, kLevelDifferences> costs_{};
   SurfaceFit fit_;
-  std::uint32_t floorCost_ = 0;         ///< cost of a sample without expectation
+  std::uint32_t floorCost_ = 0;  ///< cost of a sample without expectation
   /// Levels, or parts of a level, per sigma, by direction; zero: no beam.
   std::vector<double> levelsPerSigma_;
 };
