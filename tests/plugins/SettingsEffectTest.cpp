@@ -204,7 +204,7 @@ TEST(SettingsEffect, OfTheLaserRangeFinder) {
                          {"sigma_m", "0.3"},
                          {"sigma_per_m", "0.2"},
                          {"outliers", "0.2"},
-                         {"max_range_mass", "0.6", {{"max_range_m", "1.5"}}},
+                         {"max_range_mass", "0.6", {{"max_range_m", "2.5"}}},
                          {"exponent", "0.8"},
                          {"resolution_m", "0.2"},
                          {"resolution_per_m", "0.2"},
