@@ -105,7 +105,7 @@ void Builder::flag(const std::string& name, bool& value, const std::string& desc
 }
 
 void Builder::shortcut(const std::string& name, const std::string& description,
-                       std::function<void(const std::string&)> take) {
+                       const std::function<void(const std::string&)>& take) {
   current_->add_option_function<std::string>(name, take, description);
 }
 

@@ -63,7 +63,7 @@ class Builder {
   void flag(const std::string& name, bool& value, const std::string& description);
   /// Declares an option that stands for other ones.
   void shortcut(const std::string& name, const std::string& description,
-                std::function<void(const std::string&)> take);
+                const std::function<void(const std::string&)>& take);
   /// Replaces the end of the help, by default the example; made when the help is printed.
   void footer(std::function<std::string()> text);
 

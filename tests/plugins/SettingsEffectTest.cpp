@@ -160,7 +160,7 @@ void expectEffects(const std::string& plugin, const Settings& base,
 
 void expectSensorEffects(const std::string& plugin, const Settings& base,
                          std::vector<Change> changes, std::vector<std::string> tables = {""},
-                         std::set<std::string> without = {"pose"}) {
+                         const std::set<std::string>& without = {"pose"}) {
   const auto world = field();
   tables.push_back("pose.");
   for (const auto& [key, value] :

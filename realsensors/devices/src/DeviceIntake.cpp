@@ -10,7 +10,7 @@ constexpr Timestamp kSecond = 1'000'000;
 
 }  // namespace
 
-DeviceIntake::DeviceIntake(std::vector<const SensorData*> features, const Config& config)
+DeviceIntake::DeviceIntake(const std::vector<const SensorData*>& features, const Config& config)
     : config_(config), clock_(config.clock), health_(config.health) {
   for (const SensorData* data : features) {
     features_.emplace_back();

@@ -24,7 +24,7 @@ class ORTUNG_API DeviceIntake {
     double mostPerSecond = 500.0;     ///< greatest rate of a feature [1/s]; more are dropped
   };
   /// @param features features by the index in DeviceReading; borrowed, their readings are not used
-  DeviceIntake(std::vector<const SensorData*> features, const Config& config);
+  DeviceIntake(const std::vector<const SensorData*>& features, const Config& config);
 
   /// Takes a reading.
   /// @param arrival time of arrival by the host's clock
