@@ -35,19 +35,10 @@ struct RayPlaces {
     std::int32_t* direction = places->direction.data();
     const auto turn = static_cast<float>(directions);
     const auto perRadian = static_cast<float>(directions / kTurn);
-    constexpr float kMostTurns = 1e6F;  // beyond it, single precision has no direction
     for (std::size_t i = 0; i < n; ++i) cell[i] = lookup.index(poses.x[i], poses.y[i]);
     for (std::size_t i = 0; i < n; ++i) {
-      const float place = (poses.theta[i] + firstAngle) * perRadian;
-      const bool usual =
-          static_cast<int>(place > -kMostTurns) & static_cast<int>(place < kMostTurns);
-      const float bounded = usual ? place : 0.0F;  // also for NaN
-      const float turns = bounded / turn;
-      const auto towardsZero = static_cast<std::int32_t>(turns);
-      const std::int32_t whole =
-          towardsZero - static_cast<std::int32_t>(turns < static_cast<float>(towardsZero));
-      const auto nearest =
-          static_cast<std::int32_t>(bounded - turn * static_cast<float>(whole) + 0.5F);
+      const float within = withinTurn((poses.theta[i] + firstAngle) * perRadian, turn);
+      const auto nearest = static_cast<std::int32_t>(within + 0.5F);
       direction[i] = nearest < directions ? nearest : 0;
     }
   }

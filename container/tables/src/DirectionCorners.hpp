@@ -7,6 +7,7 @@
 
 #include "CellCorners.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/base/InstructionSet.hpp"
 #include "ortung/tables/DirectionTable.hpp"
 
 namespace ortung {
@@ -21,6 +22,20 @@ struct LevelsAround {
   /// Weight of each cell: in the direction before the pose's, then in the next.
   std::array<std::uint8_t, 2 * kCells> weights;
 };
+
+/// Returns a place among directions within one turn, in [0, turn]; 0 for NaN, and where single
+/// precision has no direction. Without a branch, so that loops over it vectorize.
+/// @param turn number of directions
+ORTUNG_INLINE float withinTurn(float place, float turn) {
+  constexpr float kMost = 1e6F;
+  const bool usual = static_cast<int>(place > -kMost) & static_cast<int>(place < kMost);
+  const float bounded = usual ? place : 0.0F;
+  const float turns = bounded / turn;
+  const auto towardsZero = static_cast<std::int32_t>(turns);
+  const std::int32_t whole =
+      towardsZero - static_cast<std::int32_t>(turns < static_cast<float>(towardsZero));
+  return bounded - turn * static_cast<float>(whole);
+}
 
 /// Finds what a table by cell and direction knows around poses, a block of them at a time: it knows
 /// the centres of cells, in its directions.
@@ -40,17 +55,8 @@ class DirectionCorners {
   void start(const SensorPoses& poses, std::size_t n) {
     corners_.start(poses, n);
     const auto turn = static_cast<float>(directions_);
-    constexpr float kMostTurns = 1e6F;     // beyond it, single precision has no direction
     for (std::size_t k = 0; k < n; ++k) {  // vectorizes
-      const float place = (poses.theta[k] + firstAngle_) * perRadian_;
-      const bool usual =
-          static_cast<int>(place > -kMostTurns) & static_cast<int>(place < kMostTurns);
-      const float bounded = usual ? place : 0.0F;  // also for NaN
-      const float turns = bounded / turn;
-      const auto towardsZero = static_cast<std::int32_t>(turns);
-      const std::int32_t whole =
-          towardsZero - static_cast<std::int32_t>(turns < static_cast<float>(towardsZero));
-      const float within = bounded - turn * static_cast<float>(whole);
+      const float within = withinTurn((poses.theta[k] + firstAngle_) * perRadian_, turn);
       const auto before = static_cast<std::int32_t>(within);
       const std::int32_t safe = before < directions_ ? before : directions_ - 1;
       direction_[k] = safe;
