@@ -44,9 +44,10 @@ def main():
     if not (options.build / "compile_commands.json").is_file():
         sys.exit(f"mutate: {options.build} is not configured: cmake --preset dev")
     results_file = copy.folder / "results.json"
+    memory = copy.folder / "places.json"
     noticed = []
     if options.again:
-        found = tree.find(root, options.build.resolve(), say)
+        found = tree.find(root, options.build.resolve(), memory, options.jobs, say)
         before = json.loads(copy.list.read_text())
         results = json.loads(results_file.read_text())
         survivors = [Site(**s) for n, s in enumerate(before) if s is not None and results.get(str(n), "") is None]
@@ -61,7 +62,7 @@ def main():
         say(f"going on with what {copy.folder} holds; remove it to begin anew")
         chosen = [Site(**s) if s else None for s in json.loads(copy.list.read_text())]
     else:
-        found = tree.find(root, options.build.resolve(), say)
+        found = tree.find(root, options.build.resolve(), memory, options.jobs, say)
         chosen = tree.choose(found, options.mutants // len(tree.rooms(root)), options.seed)
         say(f"{len(chosen)} mutants, of {len(found)} places")
     copy.write(chosen)

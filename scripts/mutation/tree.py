@@ -1,11 +1,13 @@
 """A copy of the sources with mutants behind switches, built once."""
 
+import hashlib
 import json
 import os
 import random
 import re
 import shutil
 import subprocess
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 from . import sites as finding
@@ -24,17 +26,33 @@ def room_of(file):
     return file.split("/")[0]
 
 
-def find(root, build, say):
-    """All sites of all rooms, found in the translation units of a configured build."""
-    finder = finding.Finder(root)
+def find(root, build, memory, jobs, say):
+    """All sites of all rooms, found in the translation units of a configured build; in the file `memory`, too, for as long as
+    nothing in the rooms changes."""
     known = rooms(root)
     units = [(s, a) for s, a in finding.compile_commands(build)
              if room_of(str(Path(s)).removeprefix(str(root) + "/")) in known]
-    found = []
-    for count, (source, arguments) in enumerate(units, 1):
-        found += finder.sites(source, arguments, lambda file: room_of(file) in known)
-        say(f"{count}/{len(units)} sources, {len(found)} places")
-    return found
+    digest = hashlib.sha256(json.dumps(units).encode())
+    for file in subprocess.run(["git", "ls-files", "-z", *known], cwd=root, check=True, capture_output=True).stdout.split(b"\0"):
+        path = root / os.fsdecode(file)
+        digest.update(file + (path.read_bytes() if path.is_file() else b""))
+    if memory.is_file():
+        remembered = json.loads(memory.read_text())
+        if remembered["digest"] == digest.hexdigest():
+            return [finding.Site(**s) for s in remembered["sites"]]
+    with ProcessPoolExecutor(jobs) as pool:
+        parts = list(pool.map(find_in, [root] * jobs, [units[i::jobs] for i in range(jobs)], [known] * jobs))
+    found = {(site.file, site.change, json.dumps(site.edits)): site for part in parts for site in part}  # headers, once
+    say(f"{len(units)} sources, {len(found)} places")
+    memory.parent.mkdir(parents=True, exist_ok=True)
+    memory.write_text(json.dumps({"digest": digest.hexdigest(), "sites": [s.to_json() for s in found.values()]}))
+    return list(found.values())
+
+
+def find_in(root, units, known):
+    """What one process of several finds."""
+    finder = finding.Finder(root)
+    return [site for source, arguments in units for site in finder.sites(source, arguments, lambda file: room_of(file) in known)]
 
 
 def choose(found, each, seed):

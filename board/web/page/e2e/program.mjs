@@ -32,7 +32,7 @@ export function runProgram(words) {
 /** Starts `ortung WORDS --listen PORT --view` and reads the address that it prints. */
 export async function startProgram(words, port = 0) {
   const all = [...words, "--listen", String(port), "--view", "--no-browser", ...(words[0] === "sim" ? ["--idle", "600"] : [])];
-  const env = { ...process.env, ORTUNG_VIEW_PATH: join(root, "board", "web", "built") };
+  const env = { ...process.env, ORTUNG_VIEW_PATH: process.env.ORTUNG_VIEW_PATH ?? join(root, "board", "web", "built") };
   const child = spawn(program, all, { cwd: root, env, stdio: ["ignore", "pipe", "pipe"] });
   process.on("exit", () => child.kill()); // also after a test that failed
   let errors = "";
@@ -104,6 +104,8 @@ export async function openPage(browser, url, options = {}) {
     const isOfNetwork = /ERR_CONNECTION|WebSocket connection to/.test(message.text());
     if (message.type() === "error" && !isOfNetwork) page.problems.push(message.text());
   });
+  const mutant = process.env.__STRYKER_ACTIVE_MUTANT__; // of dev/mutate.mjs
+  if (mutant) await page.addInitScript((id) => (globalThis.__stryker__ = { activeMutant: id }), mutant);
   await page.goto(String(url));
   return page;
 }
