@@ -121,7 +121,7 @@ class Tree:
         header = self.source / "scripts/mutation/mutant.hpp"
         flags = f"-include {header} -w"
         subprocess.run(["cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
-                        "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g0", f"-DCMAKE_CXX_FLAGS={flags}"],
+                        "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g0", f"-DCMAKE_CXX_FLAGS={flags}", "-DORTUNG_PYTHON=ON"],
                        check=True, stdout=subprocess.DEVNULL)
         for attempt in range(12):
             run = subprocess.run(["cmake", "--build", self.build, "--", "-k", "0", f"-j{jobs}"], text=True, capture_output=True)
