@@ -58,7 +58,26 @@ class Trials:
         self.reached = {}
 
     def baseline(self):
-        """Each test without a mutant: how long it takes, and past which mutants it comes."""
+        """Each test without a mutant: how long it takes, and past which mutants it comes. Known as long as nothing changes."""
+        memory = self.tree.folder / "baseline.json"
+        files = (f for place in (self.tree.source, self.tree.build / "bin", self.tree.build / "lib") for f in place.rglob("*"))
+        built = max(f.stat().st_mtime_ns for f in files if f.is_file())
+        known = json.loads(memory.read_text()) if memory.is_file() else {}
+        if known.get("built") == built:
+            rows = known["tests"]
+        else:
+            rows = self.measure()
+            memory.write_text(json.dumps({"built": built, "tests": rows}))
+        for test in self.tests:
+            passed, test.seconds, reached = rows[test.name]
+            self.reached[test] = set(reached)
+            if not passed:
+                self.say(f"without mutants, {test.name} fails: left out")
+        self.tests = sorted((t for t in self.tests if rows[t.name][0]), key=lambda t: t.seconds)
+        self.say(f"{len(self.tests)} tests pass without mutants")
+
+    def measure(self):
+        """test's name -> whether it passes, how long it takes [s], numbers of the mutants that it comes past."""
         folder = self.tree.folder / "reached"
         folder.mkdir(exist_ok=True)
 
@@ -68,18 +87,13 @@ class Trials:
             path.write_bytes(bytes(MOST))
             start = time.monotonic()
             passed = test.run({"ORTUNG_MUTANTS_REACHED": str(path)}, 900)
-            test.seconds = time.monotonic() - start
-            self.reached[test] = {i for i, byte in enumerate(path.read_bytes()) if byte}
+            seconds = time.monotonic() - start
+            reached = [i for i, byte in enumerate(path.read_bytes()) if byte]
             path.unlink()
-            return test, passed
+            return test.name, (passed, seconds, reached)
 
         with ThreadPoolExecutor(self.jobs) as pool:
-            results = list(pool.map(one, enumerate(self.tests)))
-        for test, passed in results:
-            if not passed:
-                self.say(f"without mutants, {test.name} fails: left out")
-        self.tests = sorted((t for t, passed in results if passed), key=lambda t: t.seconds)
-        self.say(f"{len(self.tests)} tests pass without mutants")
+            return dict(pool.map(one, enumerate(self.tests)))
 
     def run(self, chosen):
         results = {}
