@@ -85,11 +85,15 @@ class Tree:
         self.source, self.build = folder / "source", folder / "build"
         self.list = folder / "mutants.json"
 
+    def files(self):
+        """Names of the files that git knows."""
+        names = subprocess.run(["git", "ls-files", "-z"], cwd=self.root, check=True, capture_output=True).stdout
+        return {f for f in names.decode().split("\0") if f and (self.root / f).is_file()}
+
     def write(self, chosen):
         """Copies the files that git knows and writes the mutants into them; number = index in `chosen`."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        files = subprocess.run(["git", "ls-files", "-z"], cwd=self.root, check=True, capture_output=True).stdout
-        known = {f for f in files.decode().split("\0") if f and (self.root / f).is_file()}
+        known = self.files()
         for file in known:
             self.put(file, self.mutated(file, list(enumerate(chosen))))
         if self.source.is_dir():

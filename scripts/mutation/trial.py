@@ -60,7 +60,8 @@ class Trials:
     def baseline(self):
         """Each test without a mutant: how long it takes, and past which mutants it comes. Known as long as nothing changes."""
         memory = self.tree.folder / "baseline.json"
-        files = (f for place in (self.tree.source, self.tree.build / "bin", self.tree.build / "lib") for f in place.rglob("*"))
+        files = [self.tree.source / name for name in self.tree.files()]
+        files += [f for place in ("bin", "lib") for f in (self.tree.build / place).rglob("*")]
         built = max(f.stat().st_mtime_ns for f in files if f.is_file())
         known = json.loads(memory.read_text()) if memory.is_file() else {}
         if known.get("built") == built:
