@@ -1,51 +1,12 @@
 """Runs the tests that come past a mutant with the mutant switched on, until one notices."""
 
 import json
-import os
-import re
-import signal
-import subprocess
-import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
+
+from .tests import tests_of, together
 
 MOST = 100000  # ortung_mutant::kMost
-
-
-class Test:
-    """One test of ctest's list, run as ctest would."""
-
-    def __init__(self, entry):
-        properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
-        self.name = entry["name"]
-        self.command = entry["command"]
-        self.folder = properties.get("WORKING_DIRECTORY")
-        self.environment = dict(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))
-        self.seconds = 0.0
-
-    def run(self, environment, limit_s):
-        """Whether it passed. A test that does not end in time is stopped with all its children and has failed."""
-        merged = {**os.environ, **self.environment, **environment}
-        with tempfile.TemporaryDirectory(prefix="ortung_mutant.") as folder:
-            merged["TMPDIR"] = folder
-            process = subprocess.Popen(self.command, cwd=self.folder, env=merged, start_new_session=True,
-                                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            try:
-                return process.wait(timeout=limit_s) == 0
-            except subprocess.TimeoutExpired:
-                return False
-            finally:
-                try:
-                    os.killpg(process.pid, signal.SIGKILL)
-                except ProcessLookupError:
-                    pass
-                process.wait()
-
-
-def tests_of(build, leave_out):
-    out = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True, text=True)
-    return [Test(t) for t in json.loads(out.stdout)["tests"] if "command" in t and not re.search(leave_out, t["name"])]
 
 
 class Trials:
@@ -53,7 +14,7 @@ class Trials:
 
     def __init__(self, tree, jobs, say, leave_out):
         self.tree, self.jobs, self.say = tree, jobs, say
-        self.tests = tests_of(tree.build, leave_out)
+        self.tests = list(tests_of(tree.build, leave_out))
         self.file = tree.folder / "results.json"
         self.reached = {}
 
@@ -71,7 +32,7 @@ class Trials:
             memory.write_text(json.dumps({"built": built, "tests": rows}))
         for test in self.tests:
             passed, test.seconds, reached = rows[test.name]
-            self.reached[test] = set(reached)
+            self.reached[test.name] = set(reached)
             if not passed:
                 self.say(f"without mutants, {test.name} fails: left out")
         self.tests = [t for t in self.tests if rows[t.name][0]]
@@ -94,7 +55,15 @@ class Trials:
             return test.name, (passed, seconds, reached)
 
         with ThreadPoolExecutor(self.jobs) as pool:
-            return dict(pool.map(one, enumerate(self.tests)))
+            rows = dict(pool.map(one, enumerate(self.tests)))
+            for test in self.tests:
+                test.seconds = rows[test.name][1]
+            groups = together([t for t in self.tests if rows[t.name][0]])
+            for group, passed in zip(groups, pool.map(lambda g: g.run({}, 900), groups)):
+                if not passed:
+                    raise SystemExit(f"mutate: tests of {group.command[0]} pass one by one, but not in one process: "
+                                     f"{group.filters}")
+        return rows
 
     def run(self, chosen):
         results = {}
@@ -103,11 +72,10 @@ class Trials:
         todo = [n for n, site in enumerate(chosen) if site is not None and n not in results]
 
         def one(number):
-            # First what is quick and comes past few others: it is about this place.
-            coming_past = sorted((t for t in self.tests if number in self.reached[t]), key=lambda t: t.seconds * len(self.reached[t]))
-            for test in coming_past:
-                if not test.run({"ORTUNG_MUTANT": str(number)}, 10 + 10 * test.seconds):
-                    return number, test.name, len(coming_past)
+            coming_past = [t for t in self.tests if number in self.reached[t.name]]
+            for tests in together(coming_past):
+                if not tests.run({"ORTUNG_MUTANT": str(number)}, 10 + 10 * tests.seconds):
+                    return number, tests.name, len(coming_past)
             return number, None, len(coming_past)
 
         with ThreadPoolExecutor(self.jobs) as pool:
