@@ -20,4 +20,9 @@ std::optional<HostPort> parseHostPort(const std::string& text) {
   return found;
 }
 
+std::string hostForBrowsers(const std::string& address) {
+  if (address == "0.0.0.0" || address == "::") return "localhost";
+  return address.find(':') == address.npos ? address : "[" + address + "]";
+}
+
 }  // namespace ortung::app

@@ -16,4 +16,8 @@ struct HostPort {
 /// number in [0, 65535].
 std::optional<HostPort> parseHostPort(const std::string& text);
 
+/// Returns the host by which a browser on this computer reaches a server that listens on
+/// @p address: localhost for one on all addresses; one with colons in brackets.
+std::string hostForBrowsers(const std::string& address);
+
 }  // namespace ortung::app

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "Console.hpp"
+#include "HostPort.hpp"
 #ifdef ORTUNG_HAS_FOXGLOVE
 #include "FoxgloveSpeech.hpp"
 #endif
@@ -45,12 +46,6 @@ WebConfig webConfigOf(const ServingArguments& arguments) {
   config.protocols.push_back(foxgloveProtocol());
 #endif
   return config;
-}
-
-/// Returns the address for browsers; localhost for a server on all addresses.
-std::string reachable(const std::string& address) {
-  if (address == "0.0.0.0" || address == "::") return "localhost";
-  return address.find(':') == address.npos ? address : "[" + address + "]";
 }
 
 bool hasDesktop() {
@@ -102,7 +97,7 @@ Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config)
 }
 
 void Viewing::open(const MessageBoard& board) {
-  const std::string url = fmt::format("http://{}:{}/", reachable(address_), board.port());
+  const std::string url = fmt::format("http://{}:{}/", hostForBrowsers(address_), board.port());
   const std::string key = token_.empty() ? "" : "#token=" + token_;
   if (!door_.hasPage())
     warn("this program has no viewer's page (board/web/page was not built): clients only");

@@ -35,5 +35,14 @@ TEST(HostPort, WhatIsNoPortIsRefused) {
     EXPECT_FALSE(parseHostPort(text)) << text;
 }
 
+// 0.0.0.0 and :: are all addresses of a computer, none that one could go to.
+TEST(HostPort, BrowsersReachServersOnAllAddressesAtLocalhost) {
+  EXPECT_EQ(hostForBrowsers("0.0.0.0"), "localhost");
+  EXPECT_EQ(hostForBrowsers("::"), "localhost");
+  EXPECT_EQ(hostForBrowsers("127.0.0.1"), "127.0.0.1");
+  EXPECT_EQ(hostForBrowsers("192.168.0.7"), "192.168.0.7");
+  EXPECT_EQ(hostForBrowsers("::1"), "[::1]");
+}
+
 }  // namespace
 }  // namespace ortung::app

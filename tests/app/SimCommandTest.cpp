@@ -1,4 +1,5 @@
 // What `ortung sim` simulates, and the files that it leaves.
+#include <csignal>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -50,6 +51,33 @@ TEST_F(SimCommand, RunsForItsDurationInCyclesOfTheGivenLength) {
                "hall: 0.60 s in 6 cycles, 1 robots");
   expectCycles({"--duration", "0", "--robot", path("robot.toml"), "--robot", path("robot.toml")},
                "hall: 0.01 s in 1 cycles, 2 robots");
+}
+
+// Whoever has the first address may control, with the token of this run; who has the second looks.
+TEST_F(SimCommand, ViewersGetTheAddressAtWhichItListens) {
+  const auto expectAddress = [&](const std::vector<std::string>& more, const std::string& host,
+                                 const std::string& last) {
+    std::vector<std::string> command = {"sim", path("hall.toml"), "--view", "--no-browser"};
+    command.insert(command.end(), more.begin(), more.end());
+    Program program(command);
+    program.waitForOutput("view and control");
+    program.signal(SIGINT);
+    const Outcome outcome = program.finish();
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::smatch found;
+    const std::regex form("listening on (.*) port ([0-9]+)\nview and control: http://" + host +
+                          ":([0-9]+)/" + last + "(.*\n)*");
+    ASSERT_TRUE(std::regex_match(outcome.out, found, form)) << outcome.out;
+    EXPECT_EQ(found[1], more[1].substr(0, more[1].rfind(':')));
+    EXPECT_EQ(found[2], found[3]);
+  };
+  const std::string token = "#token=[0-9a-f]{32}\n";
+  expectAddress({"--listen", "127.0.0.1:0"}, "127.0.0.1",
+                token + "view only:        http://127.0.0.1:[0-9]+/\n");
+  write("tokens", "* 12345678\n");
+  expectAddress({"--listen", "0.0.0.0:0", "--token-file", path("tokens")}, "localhost", token);
+  write("tokens", "view 12345678\n");
+  expectAddress({"--listen", "0.0.0.0:0", "--token-file", path("tokens")}, "localhost", "\n");
 }
 
 TEST_F(SimCommand, TracesHaveAllBodiesTwentyTimesASecond) {
