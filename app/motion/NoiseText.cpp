@@ -38,7 +38,7 @@ const std::vector<TermText>& termTexts() {
 }
 
 std::string line(const char* name, const Learned& learned, double scale, const char* unit) {
-  return fmt::format("  {:<16}{:>10.4f} +- {:.4f} {}", name, scale * learned.value,
+  return fmt::format("  {:<17}{:>9.4f} +- {:.4f} {}", name, scale * learned.value,
                      scale * learned.error, unit);
 }
 

@@ -78,6 +78,31 @@ TEST(NoiseText, TermsAreThoseThatWereLearnedAndSayWhetherTheyAreKnown) {
             "  latency             0.1250 +- 0.5000 s (none: less than three errors)\n");
 }
 
+// Half of each unit, or half a degree.
+TEST(NoiseText, EachTermIsInTheUnitThatItNames) {
+  LearnedNoise noise;
+  noise.readings = 5;
+  for (std::size_t k = 0; k < kNoiseTerms; ++k) {
+    const auto term = static_cast<NoiseTerm>(k);
+    const bool isAngle = term == NoiseTerm::kBearingBias || term == NoiseTerm::kMountTheta;
+    const double unit = isAngle ? kPi / 180 : 1.0;
+    learn(noise, term, 0.5 * unit, 0.125 * unit, true);
+  }
+  EXPECT_EQ(textOf(noise),
+            "eye/camera/post1, 5 readings\n"
+            "  range bias          0.5000 +- 0.1250 m\n"
+            "    per m             0.5000 +- 0.1250 m/m\n"
+            "    per m and rad     0.5000 +- 0.1250 1/rad\n"
+            "    per m and rad^2   0.5000 +- 0.1250 1/rad^2\n"
+            "  bearing bias        0.5000 +- 0.1250 deg\n"
+            "    per rad           0.5000 +- 0.1250 rad/rad\n"
+            "    per rad^2         0.5000 +- 0.1250 1/rad\n"
+            "  mount x             0.5000 +- 0.1250 m\n"
+            "  mount y             0.5000 +- 0.1250 m\n"
+            "  mount theta         0.5000 +- 0.1250 deg\n"
+            "  latency             0.5000 +- 0.1250 s\n");
+}
+
 SensorConfig sensorOf(const std::string& plugin,
                       const std::vector<std::pair<std::string, double>>& keys = {},
                       bool isList = false) {
