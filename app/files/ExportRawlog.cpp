@@ -57,12 +57,18 @@ struct Handed {
   std::string truth;
 };
 
+/// MRPT takes the first column for times only where neither of the first two is whole, else for
+/// numbers of observations: so a whole one becomes a microsecond later.
 void addTruth(const Message& message, std::string& text) {
+  constexpr Timestamp kSecond = 1'000'000;
   PoseData data(message.id);
   data.setData(message.stamp, message.words);
   const Pose2 pose = data.reading();
-  text += fmt::format("{} {:.4f} {:.4f} {:.6f}\n", secondsText(message.stamp), pose.x, pose.y,
-                      pose.theta);
+  const bool isOfFirstTwo = text.find('\n') == text.rfind('\n');
+  const bool isWhole = message.stamp % kSecond == 0;
+  text += fmt::format("{} {:.4f} {:.4f} {:.6f}\n",
+                      secondsText(message.stamp + (isOfFirstTwo && isWhole ? 1 : 0)), pose.x,
+                      pose.y, pose.theta);
 }
 
 /// Writes the lines that the writer reads.
@@ -103,20 +109,6 @@ Handed handOver(Source& source, const std::string& name, SensorContainer& contai
   return handed;
 }
 
-/// MRPT takes the first column of such a file for times only where neither of the first two is
-/// whole; else for numbers of observations.
-std::string forMrpt(std::string truth) {
-  const auto isWhole = [&](std::size_t line) {
-    return line != truth.npos && truth.compare(truth.find('.', line), 7, ".000000") == 0;
-  };
-  for (std::size_t second = truth.find('\n') + 1; second != 0 && second < truth.size();
-       second = truth.find('\n') + 1) {
-    if (!isWhole(0) && !isWhole(second)) break;
-    truth.erase(0, second);
-  }
-  return truth;
-}
-
 }  // namespace
 
 int runExportRawlog(const ExportRawlogArguments& arguments) {
@@ -145,7 +137,7 @@ int runExportRawlog(const ExportRawlogArguments& arguments) {
                                          arguments.out.string(), kWriter,
                                          said.substr(0, said.find('\n')), handed.readings));
   made.deliver(outputs);
-  outputs.write(arguments.truth, forMrpt(handed.truth));
+  outputs.write(arguments.truth, handed.truth);
   fmt::print("{}: {} observations\n", printable(arguments.out.string()), handed.readings);
   return 0;
 }

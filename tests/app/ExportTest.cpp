@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "Files.hpp"
 #include "Workspace.hpp"
+#include "ortung/formats/PoseData.hpp"
 #include "ortung/records/RecordSource.hpp"
 
 namespace ortung::test {
@@ -93,6 +95,53 @@ TEST_F(Export, RawlogComesBackAsTheSameRangesAndOdometry) {
   }
   // The scanner is where it was, and looks where it did.
   EXPECT_EQ(ortung({"check", path("back.rec"), "--robot", path("back.toml")}).exitCode, 0);
+}
+
+// pf-localization takes the first column for times only where neither of the first two is whole.
+TEST_F(Export, TruthHasEachPoseAndBeginsWithNoWholeSecond) {
+  const auto expectTruth = [this] {
+    ASSERT_EQ(
+        ortung({"export", "rawlog", "record:" + path("run.rec"), "--robot", path("robot.toml"),
+                "--out", path("run.rawlog"), "--truth", path("truth.txt"), "--force"})
+            .exitCode,
+        0);
+    const auto poses = readingsOf("run.rec", {"reference", "groundTruth", "pose"});
+    ASSERT_FALSE(poses.empty());
+    std::istringstream lines(read("truth.txt"));
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      SCOPED_TRACE(i);
+      double seconds = 0.0;
+      Pose2 pose;
+      ASSERT_TRUE(lines >> seconds >> pose.x >> pose.y >> pose.theta);
+      const bool isShifted = i < 2 && poses[i].stamp % 1'000'000 == 0;
+      EXPECT_EQ(std::llround(seconds * 1e6), poses[i].stamp + (isShifted ? 1 : 0));
+      PoseData there(poses[i].id);
+      there.setData(poses[i].stamp, poses[i].words);
+      EXPECT_NEAR(pose.x, there.reading().x, 5.1e-5);  // four digits
+      EXPECT_NEAR(pose.y, there.reading().y, 5.1e-5);
+      EXPECT_NEAR(pose.theta, there.reading().theta, 5.1e-7);
+    }
+    std::string more;
+    EXPECT_FALSE(lines >> more) << more;
+  };
+  recordRun();
+  expectTruth();
+  // Without all poses but those of whole seconds, then but the first of them.
+  const std::string all = read("run.rec");
+  for (const std::size_t most : {std::size_t{20}, std::size_t{1}}) {
+    std::string text;
+    std::size_t kept = 0;
+    std::istringstream lines(all);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find("/groundTruth/") != line.npos && line[0] != '#' &&
+          (std::stoll(line) % 1'000'000 != 0 || kept++ >= most))
+        continue;
+      text += line + "\n";
+    }
+    ASSERT_GE(kept, most);
+    write("run.rec", text);
+    expectTruth();
+  }
 }
 
 TEST_F(Export, RawlogHasWhatRawlogEditCounts) {
