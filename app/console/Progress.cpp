@@ -30,10 +30,11 @@ void show(const std::string& text) {
 
 }  // namespace
 
-Progress::Progress(std::string work, bool bar)
+Progress::Progress(std::string work, bool bar, std::function<Clock::time_point()> clock)
     : work_(std::move(work)),
       bar_(bar || isatty(STDERR_FILENO) == 1),
-      start_(Clock::now()),
+      clock_(std::move(clock)),
+      start_(clock_()),
       next_(bar_ ? start_ : start_ + kBetweenLines) {}
 
 Progress::~Progress() {
@@ -41,7 +42,7 @@ Progress::~Progress() {
 }
 
 void Progress::update(double share) {
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = clock_();
   const bool atEnd = share >= 1.0 && drawn_;
   if (now < next_ && !atEnd) return;
   next_ = now + (bar_ ? Clock::duration(kBetweenBars) : Clock::duration(kBetweenLines));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace ortung::app {
@@ -9,9 +10,12 @@ namespace ortung::app {
 /// Not thread-safe.
 class Progress {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// @param work what is done, for the user
   /// @param bar whether to draw a bar even if stderr is not a terminal
-  Progress(std::string work, bool bar);
+  /// @param clock tells the time
+  Progress(std::string work, bool bar, std::function<Clock::time_point()> clock = &Clock::now);
   ~Progress();  ///< ends the bar's line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -20,13 +24,13 @@ class Progress {
   void update(double share);
 
  private:
-  using Clock = std::chrono::steady_clock;
   void drawBar(double share, double seconds);
   void writeLine(double share, double seconds) const;
 
   std::string work_;
   bool bar_;
   bool drawn_ = false;
+  std::function<Clock::time_point()> clock_;
   Clock::time_point start_;
   Clock::time_point next_;
 };
