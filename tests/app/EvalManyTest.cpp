@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "Workspace.hpp"
+#include "ortung/base/Time.hpp"
+#include "ortung/formats/PoseData.hpp"
 #include "ortung/records/RecordSource.hpp"
 
 namespace ortung::test {
@@ -109,6 +111,44 @@ TEST_F(EvalMany, KidnapsAndWakeUpsAreCasesWithVerdicts) {
   }
   EXPECT_NE(outcome.out.find("    kidnap 2 (seed 2), at "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("    wake-up 3 (seed 3), at "), std::string::npos) << outcome.out;
+}
+
+// A wake-up leaves the record as it is from a time on, so its figures can be counted in it.
+TEST_F(EvalMany, EventsTellWhereAndAfterHowManyScans) {
+  const SensorId scan{"LMS200", "LRF", "180DegreeScan"};
+  const SensorId reference{"reference", "groundTruth", "pose"};
+  ASSERT_EQ(eval({"--source", source(), "--wake-ups", "3", "--converged-within", "0.3,10", "--json",
+                  path("o.json")})
+                .exitCode,
+            0);
+  std::vector<Message> record;
+  RecordSource file(path("run.rec"));
+  for (Message message; file.next(message);) record.push_back(message);
+  bool anyWithItsScan = false;
+  const Json all = json("o.json");
+  for (const Json& run : all["runs"]) {
+    const Json event = run["case"]["events"][0];
+    const Timestamp from = record.front().stamp + fromSeconds(event["at_s"].get<double>());
+    const auto begin = std::ranges::find_if(record, [&](const Message& message) {
+      return message.id == reference && message.stamp >= from;
+    });
+    ASSERT_NE(begin, record.end());
+    PoseData truth(reference);
+    truth.setData(begin->stamp, begin->words);
+    // The first comparison is a tenth of a second later at most.
+    EXPECT_NEAR(event["x_m"].get<double>(), truth.reading().x, 0.1);
+    EXPECT_NEAR(event["y_m"].get<double>(), truth.reading().y, 0.1);
+    ASSERT_TRUE(event["right"].get<bool>());
+    const Timestamp until = from + fromSeconds(event["after_s"].get<double>());
+    std::int64_t scans = 0;
+    for (const Message& message : record) {
+      if (message.id != scan || message.stamp < from || message.stamp > until) continue;
+      ++scans;
+      anyWithItsScan = anyWithItsScan || message.stamp == until;
+    }
+    EXPECT_EQ(event["after_readings"].get<std::int64_t>(), scans) << event;
+  }
+  EXPECT_TRUE(anyWithItsScan) << "the scan that has found the place counts, too";
 }
 
 // What eval makes of a source can be looked at, and be run again by itself.

@@ -11,6 +11,8 @@
 
 #include "FakeRoom.hpp"
 #include "SimulatedBound.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ScanData.hpp"
 #include "ortung/run/Feeder.hpp"
 #include "ortung/run/OpenSource.hpp"
 #include "ortung/run/Robot.hpp"
@@ -115,7 +117,6 @@ class SimulatedBoundTest : public testing::Test {
       EXPECT_NEAR(sum[axis], expectedSum[axis], within * expectedSum[axis]) << axis;
   }
 
- private:
   fs::path folder_;
 };
 
@@ -163,6 +164,55 @@ noise_sigma_per_m = 0
                         add(slopeOf(pose, (-0.5 + i / 179.0) * test::kPi), 0.02, information);
                       return information;
                     });
+}
+
+// A beam at right angles to the face of a pillar tells the distance from it and nothing else, since
+// it stays on the face. 12 mm from the face's edge, a step of 20 mm to this side goes past the
+// pillar to the wall behind; one of half a degree does not, being 9 mm there: whatever bends along
+// one axis alone must not be taken for a slope.
+TEST_F(SimulatedBoundTest, OfABeamBesideAnEdgeIsThatOfTheFace) {
+  const fs::path world = folder_ / "pillar.toml";
+  std::ofstream(world) << kRoom << R"(
+[[rectangle]]
+center_m = [1.5, 0.0]
+size_m = [1.0, 0.4]
+)";
+  const fs::path file = folder_ / "robot.toml";
+  std::ofstream(file) << kRobot << R"(
+[[sensor]]
+plugin = "lrf"
+pose = { z_m = 0.3 }
+beams = 1
+fov_deg = 1
+max_range_m = 20
+)";
+  const auto robot = openRobot(file);
+  SensorData* const odometry = robot->container.findExactly({"odometry", "odometry", "pose"});
+  SensorData* scan = nullptr;
+  for (const auto& data : robot->container.all())
+    if (data->localizes()) scan = data.get();
+  ASSERT_NE(odometry, nullptr);
+  ASSERT_NE(scan, nullptr);
+  SimulatedBound bound(world, file);
+  constexpr Pose2 kPlaces[] = {{0.0, 0.188, 0.0}, {0.0, -0.188, 0.0}, {0.0, 0.0, 0.0}};
+  constexpr int kTimes = 60;
+  for (int i = 0; i < kTimes; ++i) {
+    const Timestamp stamp = i * 100'000;
+    odometry->setData(stamp, OdometryData::encode({}));
+    std::vector<std::uint32_t> words;
+    const float range = 1.0F + (i % 2 == 0 ? 0.02F : -0.02F);
+    ScanData::encode({&range, 1}, 20.0F, words);
+    scan->setData(stamp, words);
+    bound.look(robot->container, stamp, kPlaces[i % 3]);
+  }
+  const std::vector<BoundStep> steps = bound.steps();
+  ASSERT_EQ(steps.size(), std::size_t{kTimes});
+  const double all = steps.front().information[0];
+  EXPECT_GT(all, 0.5 / (0.02 * 0.02)) << "sigma is 2 cm";
+  EXPECT_LT(all, 2 / (0.02 * 0.02));
+  for (const BoundStep& step : steps)
+    for (std::size_t k = 0; k < 9; ++k)
+      EXPECT_NEAR(step.information[k], k == 0 ? all : 0.0, 1e-4 * all) << step.truth.y << " " << k;
 }
 
 // Of a distance to a point the slope is the direction from it; of a bearing it is across, by
