@@ -1,7 +1,11 @@
 // Records on one page: their names, and what is refused.
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "Workspace.hpp"
+#include "ortung/formats/SamplesData.hpp"
+#include "ortung/records/RecordSource.hpp"
 
 namespace ortung::test {
 namespace {
@@ -54,6 +58,39 @@ TEST_F(ExportedPage, OfASourceOnlyThePartThatIsAskedForIsThere) {
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   EXPECT_EQ(told()["end_us"], 0);
   EXPECT_FALSE(told()["field"].empty());
+}
+
+// A page has 300 samples of each belief, of all over the field as long as the robot may be
+// anywhere.
+TEST_F(ExportedPage, LocalizedRecordsHaveSamplesOfEachBelief) {
+  learnTables();
+  recordRun();
+  const Outcome outcome = exportPage(
+      {path("run.rec")}, {"--robot", path("robot.toml"), "--tables", path("hall.ortung")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  write("readings", told()["robots"][0]["readings"].get<std::string>());
+  write("page.rec", "# ortung record 1\n");
+  const std::string unpack = "base64 -d " + path("readings") + " | gunzip >> " + path("page.rec");
+  ASSERT_EQ(std::system(unpack.c_str()), 0);
+  RecordSource source(path("page.rec"));
+  std::vector<Timestamp> estimates;
+  std::vector<Timestamp> beliefs;
+  for (Message message; source.next(message);) {
+    if (message.id == SensorId{"mcl", "LOCALIZATION", "pose"}) estimates.push_back(message.stamp);
+    if (message.id != SensorId{"mcl", "LOCALIZATION", "samples"}) continue;
+    beliefs.push_back(message.stamp);
+    EXPECT_LE(message.words.size(), 300u * 4u);
+    if (beliefs.size() > 1) continue;
+    SamplesData samples;
+    samples.setData(message.stamp, message.words);
+    std::set<std::pair<double, double>> places;
+    for (const auto& sample : samples.reading()) places.insert({sample.pose.x, sample.pose.y});
+    EXPECT_GT(places.size(), 250u) << "of 300";
+    EXPECT_LT(places.begin()->first, -2.0);
+    EXPECT_GT(places.rbegin()->first, 2.0);
+  }
+  EXPECT_GT(estimates.size(), 100u);
+  EXPECT_EQ(beliefs, estimates);
 }
 
 TEST_F(ExportedPage, WhatCanNotBeShownIsNamedAndNothingWritten) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -41,6 +42,19 @@ TEST_F(Localization, EvalTracksFromAKnownStartAndWritesAllItsFiles) {
 
 // Scans every 3 s, and 5 s without any reading: between scans odometry alone says where the robot
 // is.
+// The viewer localizes the record again, as it was told for the evaluation.
+TEST_F(Localization, EvalShowsItsRunInTheViewer) {
+  const std::string source = "record:" + path("run.rec");
+  Program program({"eval", "--source", source, "--robot", path("robot.toml"), "--tables",
+                   path("hall.ortung"), "--seed", "5", "--progress", "--view"});
+  const std::string said = program.waitForOutput("view and control: ");
+  program.signal(SIGINT);
+  const Outcome outcome = program.finish();
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_LT(said.find("Position error, RMS"), said.find("listening on ")) << said;
+  EXPECT_NE(outcome.err.find("localizing " + source + " ["), std::string::npos) << outcome.err;
+}
+
 TEST_F(Localization, ReportDrawsTheEstimateWhereItIsComparedAndBreaksItAtGaps) {
   std::istringstream lines(read("run.rec"));
   std::string rare;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "Workspace.hpp"
 
 namespace ortung::test {
@@ -48,6 +50,43 @@ TEST_F(Show, TakesTheProductOfSeveralFeatures) {
   EXPECT_NE(outcome.out.find("2 features"), std::string::npos) << outcome.out;
   expectRefused(show({"--feature", "*/LRF/*"}), 2, "ortung show: --feature matches 2 features",
                 {"rear/LRF"});
+}
+
+// Most of the colours of a reading that is probable at one place only would be one colour.
+TEST_F(Show, ColoursGoByLogarithmsWhereLinearOnesShowNextToNothing) {
+  const auto legendOf = [&](const std::vector<std::string>& scale) {
+    std::vector<std::string> more = {"--feature", "*/LRF/*", "--record", path("run.rec"),
+                                     "--at",      "5",       "--force"};
+    more.insert(more.end(), scale.begin(), scale.end());
+    const Outcome outcome = show(more);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::vector<double> legend;
+    for (std::size_t at = outcome.out.find(" %: "); at != outcome.out.npos;
+         at = outcome.out.find(" %: ", at + 1))
+      legend.push_back(std::stod(outcome.out.substr(at + 4)));
+    EXPECT_EQ(legend.size(), 5u) << outcome.out;
+    legend.resize(5);
+    return legend;
+  };
+  const auto expectEven = [](const std::vector<double>& values) {
+    for (std::size_t i = 2; i < values.size(); ++i)  // of four digits
+      EXPECT_NEAR(values[i] - values[i - 1], values[1] - values[0],
+                  2e-3 * std::abs(values[1] - values[0]))
+          << i;
+  };
+  recordRun();
+  std::vector<double> logarithms;
+  for (const double value : legendOf({"--scale", "log"})) logarithms.push_back(std::log(value));
+  expectEven(logarithms);
+  expectEven(legendOf({"--scale", "linear"}));
+  EXPECT_EQ(legendOf({"--log"}), legendOf({"--scale", "log"}));
+  EXPECT_EQ(legendOf({}), legendOf({"--scale", "log"}));
+  // A single beam fits some heading nearly everywhere.
+  replace("robot.toml", "beams = 60", "beams = 1");
+  learnTables();
+  recordRun();
+  EXPECT_EQ(legendOf({}), legendOf({"--scale", "linear"}));
+  EXPECT_NE(legendOf({}), legendOf({"--scale", "log"}));
 }
 
 TEST_F(Show, RefusesWhatItCannotDraw) {

@@ -61,6 +61,24 @@ TEST(Play, InRealTimeItPlaysUntilASignal) {
   EXPECT_EQ(server.finish().exitCode, 0);
 }
 
+// A nanosecond is less than any call takes.
+TEST(Play, APlayerThatTakesMoreThanItsTimeIsStopped) {
+  Program server({"sim", kMaps + "/fields/arena.toml", "--listen", "0", "--lockstep"});
+  const std::uint16_t port = portOf(server);
+  const auto within = [&](const char* milliseconds) {
+    return play("shy", port, {"--lockstep", "--duration", "1", "--player-budget-ms", milliseconds});
+  };
+  const Outcome stopped = within("0.000001");
+  EXPECT_EQ(stopped.exitCode, 1);
+  EXPECT_NE(stopped.err.find("the player 'shy' of robot "), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find(" s of processor time, expected at most "), std::string::npos)
+      << stopped.err;
+  const Outcome unlimited = within("0");
+  EXPECT_EQ(unlimited.exitCode, 0) << unlimited.err;
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.finish().exitCode, 0);
+}
+
 TEST(Play, SaysWhatIsWrong) {
   Program server({"sim", kMaps + "/fields/arena.toml", "--listen", "0"});
   const std::uint16_t port = portOf(server);
