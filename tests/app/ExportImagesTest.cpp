@@ -209,6 +209,23 @@ TEST_F(ExportImages, CopiesThePicturesOfARecord) {
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   for (const char* name : {"000000.png", "000001.png", "000007.png"})
     EXPECT_EQ(readBytes(path("copied/images") / name), readBytes(path("drawn/images") / name));
+  // Of the four that each of the two cameras took, in turn.
+  for (const auto& [every, taken] : {std::pair<std::string, std::vector<int>>{"2", {0, 1, 4, 5}},
+                                     {"3", {0, 1, 6, 7}},
+                                     {"4", {0, 1}}}) {
+    const std::string some = "every" + every;
+    const Outcome left =
+        ortung({"export", "images", "record:" + path("run.rec").string(), "--robot",
+                path("robot.toml").string(), "--world", ORTUNG_SOURCE_DIR "/maps/fields/msl.toml",
+                "--every", every, "--out", path(some).string()});
+    ASSERT_EQ(left.exitCode, 0) << left.err;
+    EXPECT_NE(left.out.find(": " + std::to_string(taken.size()) + " pictures"), std::string::npos)
+        << left.out;
+    for (std::size_t i = 0; i < taken.size(); ++i)
+      EXPECT_EQ(readBytes(path(some + "/images/00000" + std::to_string(i) + ".png")),
+                readBytes(path("copied/images/00000" + std::to_string(taken[i]) + ".png")))
+          << every << " " << i;
+  }
   const YAML::Node pose = YAML::LoadFile(
       path("copied/annotations.yaml").string())["images"]["000001.png"]["metadata"]["camera_pose"];
   EXPECT_NEAR(pose["position"]["x"].as<double>(), 7.5, 1e-3);  // truth is in whole millimetres

@@ -116,6 +116,22 @@ TEST_F(ImportedWorld, KeepsLinksAndWhatIsThere) {
                                                "site.pgm", "site.toml", "site.yaml"}));
 }
 
+TEST_F(ImportedWorld, ShortOptionsStandForOptionsOfTheSource) {
+  const auto robotOf = [this](const std::vector<std::string>& option) {
+    std::vector<std::string> more = {"--force", "--robot-file", path("mine.toml")};
+    more.insert(more.end(), option.begin(), option.end());
+    const Outcome made = import(path("site.toml"), more);
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    return read("mine.toml");
+  };
+  const std::string shortly = robotOf({"--laser-x", "0.25"});
+  EXPECT_NE(shortly.find("x_m = 0.25"), std::string::npos) << shortly;
+  EXPECT_EQ(shortly, robotOf({"--option", "laser_x=0.25"}));
+  EXPECT_NE(robotOf({}).find("x_m = 0.78"), std::string::npos) << "as the log has it";
+  expectRefused(import(path("site.toml"), {"--force", "--robot", "5"}), 1,
+                "ortung import: ", {"log: robot is not known here"});
+}
+
 TEST_F(ImportedWorld, ReplacesNeitherADeviceNorTheMapThatItIsMadeOf) {
   expectRefused(import("/dev/null", {"--force"}), 1,
                 "ortung import: /dev/null: ", {"is made beside it"});

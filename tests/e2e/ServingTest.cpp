@@ -170,6 +170,81 @@ TEST(Serving, ARecordIsServedLikeASimulation) {
   EXPECT_EQ(server.finish().exitCode, 0);
 }
 
+/// The readings of a client in lockstep, until there are @p count or no more.
+std::vector<std::string> readingsOf(TestClient& client, std::size_t count, std::string& last) {
+  std::vector<std::string> lines;
+  for (last = client.ask("NEXT"); last.starts_with("OK"); last = client.ask("NEXT")) {
+    for (int more = std::stoi(valueOf(last, "lines")); more > 0; --more)
+      lines.push_back(client.line());
+    if (lines.size() >= count) break;
+  }
+  return lines;
+}
+
+TEST(Serving, ARecordStartsOverOnlyWhereItIsAskedFor) {
+  const TemporaryFolder folder;
+  const std::string record = folder / "run.rec";
+  ASSERT_EQ(ortung({"import", "sim", kMaps + "/fields/arena.toml", "--out", record, "--with-robot",
+                    kRobot, "--option", "duration=1"})
+                .exitCode,
+            0);
+  const auto served = [&](std::size_t count, const std::vector<std::string>& more,
+                          std::string& last) {
+    std::vector<std::string> command = {"serve", record, "--listen", "0", "--lockstep"};
+    command.insert(command.end(), more.begin(), more.end());
+    Program server(command);
+    TestClient client(portOf(server));
+    client.ask("HELLO ortung/1");
+    client.send("CREATE r\n" + readBytes(kRobot) + ".\n");
+    client.line();
+    client.ask("LOCKSTEP on");
+    std::vector<std::string> lines = readingsOf(client, count, last);
+    server.signal(SIGINT);
+    EXPECT_EQ(server.finish().exitCode, 0);
+    return lines;
+  };
+  std::string last;
+  const std::vector<std::string> once = served(100'000, {}, last);
+  ASSERT_GT(once.size(), 20u);
+  EXPECT_NE(last.find("ERR end"), last.npos) << last;
+  const std::vector<std::string> twice = served(2 * once.size(), {"--repeat"}, last);
+  EXPECT_TRUE(last.starts_with("OK")) << last;
+  ASSERT_GE(twice.size(), 2 * once.size());
+  const auto behindStamp = [](const std::string& line) { return line.substr(line.find(' ')); };
+  for (std::size_t i = 0; i < 2 * once.size(); ++i) {
+    ASSERT_EQ(behindStamp(twice[i]), behindStamp(once[i % once.size()])) << i;
+    ASSERT_GE(std::stoll(twice[i]), std::stoll(twice[i == 0 ? 0 : i - 1])) << i;
+  }
+  EXPECT_GT(std::stoll(twice[once.size()]), std::stoll(once.back())) << "time goes on";
+}
+
+TEST(Serving, ASilentClientIsSentAwayAfterTheTimeOfTheOption) {
+  Program server({"sim", kMaps + "/fields/arena.toml", "--listen", "0", "--idle", "1"});
+  TestClient client(portOf(server));
+  client.ask("HELLO ortung/1");
+  EXPECT_NE(client.line().find("ERR idle nothing came for 1 s"), std::string::npos);
+  EXPECT_EQ(client.line(), "(closed)");
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.finish().exitCode, 0);
+}
+
+// A page of somebody else's that has its own name lead to this computer gets nothing.
+TEST(Serving, BrowsersReachThePageByNamesOfTheOptionOnly) {
+  Program server({"sim", kMaps + "/fields/arena.toml", "--view", "--no-browser", "--listen",
+                  "127.0.0.1:0", "--view-host", "robot.example", "--view-host", "scout"});
+  const std::uint16_t port = portOf(server);
+  const auto statusFor = [port](const std::string& host) {
+    TestClient client(port);
+    client.send("GET / HTTP/1.1\r\nHost: " + host + ":" + std::to_string(port) + "\r\n\r\n");
+    return client.line().substr(std::string("HTTP/1.1 ").size(), 3);
+  };
+  for (const char* host : {"127.0.0.1", "localhost", "robot.example", "scout"})
+    EXPECT_EQ(statusFor(host), "200") << host;
+  EXPECT_EQ(statusFor("evil.example"), "421");
+  server.signal(SIGTERM);
+  EXPECT_EQ(server.finish().exitCode, 0);
+}
+
 TEST(Serving, WhatCanNotBeServedIsToldInOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"sim", kMaps + "/fields/arena.toml", "--listen", "x"}, "--listen is 'x'"},
