@@ -1,5 +1,7 @@
 // Noise learned from a record, and bounds beside errors, as a user gets them.
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "Workspace.hpp"
@@ -81,6 +83,55 @@ TEST_F(CalibrateNoise, LearnsAlongItsOwnTrackWhereThereIsNoTruth) {
   write("run.rec", begin);
   expectRefused(calibrate({}), 1, "ortung calibrate noise: record:" + path("run.rec"),
                 {"MCL was never tracking, so there is no reference"});
+}
+
+// Landmarks in a list have all terms but the mount's heading, which is their bearings' bias, and
+// scans have those of ranges alone.
+TEST_F(CalibrateNoise, WhatIsFixedIsNotLearned) {
+  std::string hall = read("hall.toml");
+  int identity = 0;
+  for (const std::string place : {"1, 1.8", "-2.5, -1", "2.5, 1.5"})
+    hall += "[[landmark]]\nkind = \"post\"\nidentity = " + std::to_string(++identity) +
+            "\nposition_m = [" + place + ", 0.5]\n";
+  write("hall.toml", hall);
+  replace("robot.toml", "[mcl]", R"([[sensor]]
+plugin = "landmarks"
+kind = "post"
+identities = [1, 2, 3]
+features = "list"
+fov_deg = 360
+max_range_m = 20
+[mcl])");
+  learnTables();
+  recordRun();
+  using Terms = std::set<std::string>;
+  const Terms mount = {"mount x", "mount y", "mount theta"};
+  const Terms latency = {"latency"};
+  const Terms bias = {"range bias",      "bearing bias", "per m",    "per m and rad",
+                      "per m and rad^2", "per rad",      "per rad^2"};
+  const auto learnt = [&](const std::string& fixed) {
+    const Outcome outcome =
+        fixed.empty() ? calibrate({}) : calibrate(std::vector<std::string>{"--fixed", fixed});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    Terms terms;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+      const std::string name = line.substr(begin, line.find("  ", begin) - begin);
+      for (const Terms* some : {&mount, &latency, &bias})
+        if (some->contains(name)) terms.insert(name);
+    }
+    return terms;
+  };
+  const auto sum = [](Terms some, const Terms& more) {
+    some.insert(more.begin(), more.end());
+    return some;
+  };
+  EXPECT_EQ(learnt(""), sum(sum(mount, latency), bias));
+  EXPECT_EQ(learnt("bias"), sum(mount, latency));
+  EXPECT_EQ(learnt("mount"), sum(latency, bias));
+  EXPECT_EQ(learnt("latency"), sum(mount, bias));
+  EXPECT_EQ(learnt("bias,mount"), latency);
 }
 
 // One scan of 60 beams with 3 cm says where the robot is to some 5 mm, with the scans before it to
