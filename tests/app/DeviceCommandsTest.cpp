@@ -1,7 +1,12 @@
 // Commands of real robots: options that need each other, no device where one should be, and what
 // can't be emulated.
+#include <csignal>
+#include <cstdint>
+#include <optional>
 #include <regex>
+#include <sstream>
 
+#include "TestClient.hpp"
 #include "Workspace.hpp"
 
 namespace ortung::test {
@@ -59,6 +64,40 @@ TEST_F(DeviceCommands, AnEmulatorNeedsOneSourceAndSomeOptionsOneDevice) {
   for (const Words& one :
        {Words{"--link", path("x")}, Words{"--tcp", "0"}, Words{"--baud", "9600"}})
     expectWrong(emulateInHall(one), "--link, --tcp and --baud are for a single device");
+}
+
+// A clock that is a tenth too fast tells 1.1 s of each second, from what it showed at the start on.
+TEST_F(DeviceCommands, ClocksOfEmulatedDevicesShowAnotherTimeAndDrift) {
+  writeRobot(std::string(kOdometry) + "device = { plugin = \"lines\", port = \"/dev/base\" }\n");
+  std::string record = "# ortung record 1\n";
+  for (int i = 0; i < 30'000; ++i)  // x is the number of the reading
+    record += std::to_string(7'000'000 + 20'000 * i) + " odometry/odometry/pose 5 " +
+              std::to_string(0x80000000U + static_cast<unsigned>(i)) +
+              " 2147483648 18000 2147483648 2147483648\n";
+  write("run.rec", record);
+  Program emulator(emulate({"--source", "record:" + path("run.rec"), "--tcp", "0", "--speed", "10",
+                            "--clock-offset", "5000", "--clock-drift-ppm", "100000"}));
+  const std::string said = emulator.waitForOutput("\n");
+  const std::size_t colon = said.rfind(':');
+  ASSERT_NE(colon, said.npos) << said;
+  TestClient client(static_cast<std::uint16_t>(std::stoi(said.substr(colon + 1))));
+  std::optional<std::int64_t> began;
+  for (int lines = 0; lines < 50; ++lines) {
+    std::istringstream words(client.line());
+    std::int64_t stamp = 0;
+    std::string feature;
+    std::size_t count = 0;
+    std::uint32_t x = 0;
+    ASSERT_TRUE(words >> stamp >> feature >> count >> x) << words.str();
+    // The readings begin a moment after the clock.
+    const std::int64_t offset = stamp - 22'000 * (x - 0x80000000U);
+    if (!began) began = offset;
+    EXPECT_NEAR(static_cast<double>(offset), static_cast<double>(*began), 1.0) << "rounded";
+  }
+  EXPECT_GE(*began, 5'000'000'000);
+  EXPECT_LT(*began, 6'000'000'000);
+  emulator.signal(SIGTERM);
+  EXPECT_EQ(emulator.finish().exitCode, 0);
 }
 
 TEST_F(DeviceCommands, ABoardHasTwoNumbers) {
