@@ -165,6 +165,23 @@ TEST(Grid, UnknownCellsNearFreeOnesAreOpenButNotThoseBehindWalls) {
   EXPECT_EQ(none, (std::vector<std::uint8_t>{1, 1, 0}));
 }
 
+// Two cells around the only free one, wherever that is; rows do not go on in their neighbours.
+TEST(Grid, UnknownCellsNearAFreeOneAreThoseInTheCircle) {
+  constexpr int kColumns = 6;
+  constexpr int kRows = 5;
+  for (int row = 0; row < kRows; ++row)
+    for (int column = 0; column < kColumns; ++column) {
+      std::vector<std::string> image(kRows, std::string(kColumns, ' '));
+      image[static_cast<std::size_t>(kRows - 1 - row)][static_cast<std::size_t>(column)] = '.';
+      std::vector<std::uint8_t> expected;
+      for (int r = 0; r < kRows; ++r)
+        for (int c = 0; c < kColumns; ++c)
+          expected.push_back((r - row) * (r - row) + (c - column) * (c - column) <= 4 ? 1 : 0);
+      EXPECT_EQ(gridOf(image, "unknown_margin_m = 0.5\n")->region(0.25, {0}).open, expected)
+          << column << " " << row;
+    }
+}
+
 TEST(Grid, UnknownCellsAreTransparentAndNotSolid) {
   const auto world = gridOf({".   #"});
   EXPECT_NEAR(rangeAt(*world, 0.1, 0.1, 0), 0.9, 1e-5);

@@ -45,7 +45,6 @@ namespace ortung {
   X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
   X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
   X(PFNGLMULTIDRAWARRAYSPROC, MultiDrawArrays)                 \
-  X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
   X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
   X(PFNGLREADPIXELSPROC, ReadPixels)                           \
   X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \

@@ -16,7 +16,6 @@ GlSheet::GlSheet(const GlFunctions& gl) : gl_(gl) {
   gl_.GenRenderbuffers(kBuffers, buffers_);
   gl_.GenFramebuffers(1, &forColours_);
   gl_.GenFramebuffers(1, &forThings_);
-  gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
 }
 
 void GlSheet::resize(int width, int height) {
