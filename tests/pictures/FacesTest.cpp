@@ -129,6 +129,9 @@ TEST(FaceView, SeesASphereUntilItHasLeftTheView) {
     expectBorder({depth * x, depth * face.top, depth}, {0.0, -1.0, face.top});
     expectBorder({depth * x, depth * face.bottom, depth}, {0.0, 1.0, -face.bottom});
     EXPECT_FALSE(sees({0.0, 0.0, -1.001 * reach - 1e-9}, reach)) << i << " behind";
+    Vector within{};
+    for (double& part : within) part = random.uniform(-0.5, 0.5) * reach;
+    EXPECT_TRUE(sees(within, reach)) << i << " around the camera";
   }
 }
 
