@@ -155,10 +155,13 @@ TEST(HeatMap, IsThatOfTheLibraryInLevelsAndCoarserIfAskedFor) {
   const double least = std::stod(valueOf(bearing.words, "low"));
   const double most = std::stod(valueOf(bearing.words, "high"));
   const Map field(bearing);
-  const auto cell = static_cast<std::size_t>(field.grid.cellAt(0.0, 1.0));
-  const double told = least + (most - least) * (field.at(cell) - 1) / 254.0;
-  const double geometry = std::atan2(-1.0, 6.0) - kTurn / 4;  // to the goal in (6, 0), facing left
-  EXPECT_NEAR(told, geometry, 0.05) << "a level is 0.025 rad, a cell 0.1 m";
+  for (double x = -4.0; x <= 3.0; x += 1.0)
+    for (double y = -3.0; y <= 3.0; y += 1.0) {
+      const auto cell = static_cast<std::size_t>(field.grid.cellAt(x, y));
+      const double told = least + (most - least) * (field.at(cell) - 1) / 254.0;
+      const double geometry = std::atan2(-y, 6.0 - x) - kTurn / 4;  // to the goal in (6, 0)
+      EXPECT_NEAR(told, geometry, 0.05) << x << ", " << y << ": a level is 0.025 rad, a cell 0.1 m";
+    }
 }
 
 TEST(Why, TellsWhatTheContainerSaysAndEachFeaturesShare) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "Files.hpp"
 #include "RunningBoard.hpp"
@@ -99,6 +100,77 @@ TEST(Describe, ARobotTellsWhereItsSensorsAreAndWhatItsDriveCanDo) {
   EXPECT_EQ(line("motion "), "motion kind=differential numbers=2");
   EXPECT_TRUE(line("format A/B/C ").starts_with("format A/B/C scan beams=180 first_deg=-"));
   EXPECT_EQ(line("format reference/groundTruth/pose"), "format reference/groundTruth/pose pose");
+}
+
+/// The corners of a line "outline ...".
+std::vector<Point2> cornersIn(const std::string& line) {
+  std::vector<Point2> corners;
+  std::istringstream words(line);
+  for (std::string word; words >> word;)
+    if (const std::size_t comma = word.find(','); comma != word.npos)
+      corners.push_back({std::stod(word.substr(0, comma)), std::stod(word.substr(comma + 1))});
+  return corners;
+}
+
+/// Twice the area that corners enclose, by the shoelace formula: above 0 if they go round to the
+/// left.
+double twiceTheArea(const std::vector<Point2>& corners) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point2& a = corners[i];
+    const Point2& b = corners[(i + 1) % corners.size()];
+    sum += a.x * b.y - b.x * a.y;
+  }
+  return sum;
+}
+
+TEST(Describe, ARobotsPiecesAreOutlinedCornerByCorner) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
+  const RunningBoard board(world, lockstepConfig());
+  TestClient client(board.port());
+  const std::string reply = client.join(
+      "[robot]\nradius_m = 0.4\n[[sensor]]\nplugin = \"odometry\"\n"
+      "[[body]]\nshape = \"ellipse\"\ncenter_m = [0.05, -0.1]\nsize_m = [0.4, 0.2]\n"
+      "angle_deg = 30\nz_m = [0.1, 0.3]\n"
+      "[[body]]\nshape = \"rectangle\"\ncenter_m = [0.1, 0.2]\nsize_m = [0.2, 0.1]\n"
+      "angle_deg = 90\nz_m = [0, 0.25]\n"
+      "[[manipulator]]\nname = \"arm\"\n[[manipulator.state]]\nname = \"in\"\n"
+      "[[manipulator.state]]\nname = \"out\"\n[[manipulator.state.body]]\nshape = "
+      "\"triangle\"\ncorners_m = [0.2, 0.0, 0.3, 0.1, 0.2, 0.1]\nz_m = [0, 0.125]\n");
+  ASSERT_TRUE(reply.starts_with("OK CREATE")) << reply;
+  std::vector<std::string> outlines;
+  for (const std::string& line : linesOf(client, "DESCRIBE robot"))
+    if (line.starts_with("outline")) outlines.push_back(line);
+  ASSERT_EQ(outlines.size(), 3u) << "the arm has nothing when it is in";
+
+  EXPECT_TRUE(outlines[0].starts_with("outline z0_m=0.1 z1_m=0.3 ")) << outlines[0];
+  const std::vector<Point2> ellipse = cornersIn(outlines[0]);
+  constexpr double kTurned = std::numbers::pi / 6.0;
+  for (std::size_t i = 0; i < ellipse.size(); ++i) {
+    const double dx = ellipse[i].x - 0.05;
+    const double dy = ellipse[i].y + 0.1;
+    const double along = (dx * std::cos(kTurned) + dy * std::sin(kTurned)) / 0.2;
+    const double across = (dy * std::cos(kTurned) - dx * std::sin(kTurned)) / 0.1;
+    EXPECT_NEAR(std::hypot(along, across), 1.0, 0.001) << "corner " << i << ", to 0.1 mm";
+    const Point2& next = ellipse[(i + 1) % ellipse.size()];
+    EXPECT_GT(std::hypot(next.x - ellipse[i].x, next.y - ellipse[i].y), 0.01) << "none is twice";
+  }
+  EXPECT_GT(twiceTheArea(ellipse), 2.0 * 0.98 * std::numbers::pi * 0.2 * 0.1) << "once around";
+  EXPECT_LT(twiceTheArea(ellipse), 2.0 * std::numbers::pi * 0.2 * 0.1);
+
+  EXPECT_TRUE(outlines[1].starts_with("outline z0_m=0 z1_m=0.25 ")) << outlines[1];
+  const std::vector<Point2> rectangle = cornersIn(outlines[1]);
+  ASSERT_EQ(rectangle.size(), 4u);
+  EXPECT_NEAR(std::abs(twiceTheArea(rectangle)), 2.0 * 0.2 * 0.1, 1e-9);
+  for (const Point2& corner : rectangle) {  // turned, it is 0.1 wide and 0.2 deep
+    EXPECT_NEAR(std::abs(corner.x - 0.1), 0.05, 1e-9);
+    EXPECT_NEAR(std::abs(corner.y - 0.2), 0.1, 1e-9);
+  }
+
+  EXPECT_TRUE(outlines[2].starts_with("outline manipulator=arm state=out z0_m=0 z1_m=0.125 "))
+      << outlines[2];
+  EXPECT_EQ(cornersIn(outlines[2]).size(), 3u);
+  EXPECT_NEAR(std::abs(twiceTheArea(cornersIn(outlines[2]))), 0.1 * 0.1, 1e-9);
 }
 
 TEST(Describe, ARobotThatIsTrackedByANetworkCanJoin) {

@@ -11,6 +11,7 @@
 #include "TestClient.hpp"
 #include "ortung/served/PlayerCommands.hpp"
 #include "ortung/served/ServedSimulation.hpp"
+#include "ortung/server/ProcessorTime.hpp"
 
 namespace ortung::test {
 namespace {
@@ -57,6 +58,9 @@ TEST(ServedPlayers, AreStartedListedAndStopped) {
   EXPECT_TRUE(client.ask("READ robot=3").starts_with("ERR no-robot"));
   EXPECT_TRUE(client.ask("RESET").starts_with("OK RESET"));
   EXPECT_EQ(client.ask("PLAYERS"), "OK PLAYERS") << "the reset starts over";
+  EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=2") << "those of clients";
+  EXPECT_EQ(client.line(), "robot=1 name=guest client=1");
+  EXPECT_EQ(client.line(), "robot=4 name=late client=1");
 }
 
 TEST(ServedPlayers, ComeOnlyWhileThereIsRoomForTheirCosts) {
@@ -83,6 +87,24 @@ TEST(ServedPlayers, ComeOnlyWhileThereIsRoomForTheirCosts) {
             "clients start");
   EXPECT_EQ(client.ask("STOP pioneer"), "OK STOP");
   EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml"), "OK PLAY robot=pioneer");
+}
+
+TEST(ServedPlayers, CostsOfACycleAreAMeanOfTheNewestOnes) {
+  ServedSimulation world(kField, {.noise = false});
+  world.startPlayer({.plugin = "wander", .robot = kRobot});
+  EXPECT_EQ(world.load(), 0.0) << "before the first";
+  const double cycle = 0.01;  // [s]
+  double least = 0.0, most = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    const double before = processorTime();
+    world.step();
+    const double atMost = (processorTime() - before) / cycle;  // with all that is around it
+    const double last = world.load();
+    ASSERT_GT(last, least) << "nothing costs nothing";
+    most += 0.1 * (atMost - most);
+    EXPECT_LE(last, most) << "cycle " << i;
+    least = 0.9 * last;  // if the next one cost nothing
+  }
 }
 
 TEST(ServedPlayers, ThatCantBeSayWhy) {
