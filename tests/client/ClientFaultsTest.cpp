@@ -125,6 +125,33 @@ TEST(OnTrouble, NobodyWaitsForTheOneWhoTells) {
   ASSERT_TRUE(comesTrue("the loss was told", [&] { return told >= 1; }));
 }
 
+TEST(OnTrouble, IsToldOfTheNewestOfWhatHappensWhileItIsBusy) {
+  const Served served;
+  std::vector<std::string> told;
+  RemoteRobot* itself = nullptr;
+  RemoteOptions options = to(served.board.port(), 0.0);
+  constexpr int kTroubles = 130;
+  options.onTrouble = [&](const std::string& what) {
+    told.push_back(what);
+    if (told.size() > 1) return;
+    std::thread([&] {
+      for (int i = 0; i < kTroubles; ++i) {
+        EXPECT_THROW(itself->setManipulator("arm" + std::to_string(i), "up"),
+                     std::invalid_argument);
+        itself->setTranslationalVelocity(0.0);  // else these were too many errors in a row
+      }
+    }).join();
+  };
+  RemoteRobot robot(kRobot, options);
+  itself = &robot;
+  EXPECT_THROW(robot.setManipulator("leg", "down"), std::invalid_argument);
+  ASSERT_EQ(told.size(), 101u) << "it, and the newest hundred";
+  EXPECT_NE(told.front().find("'leg'"), std::string::npos) << told.front();
+  for (std::size_t i = 1; i < told.size(); ++i)
+    EXPECT_NE(told[i].find("'arm" + std::to_string(kTroubles - 101 + i) + "'"), std::string::npos)
+        << told[i];
+}
+
 /// A request at which the server hangs, and how.
 struct Hang {
   std::string name;

@@ -68,6 +68,25 @@ TEST(Turns, RepliesToWhatCameTogetherLeaveTogether) {
   EXPECT_EQ(outlet.pieces - before, 1);
 }
 
+TEST(Turns, RepliesToOrdersThatWereExecutedTogetherLeaveTogether) {
+  for (std::size_t orders = 1; orders <= 6; ++orders) {
+    CountingWorld world;
+    FakeHost host(world, lockstepConfig());
+    auto [client, outlet] = host.join();
+    client.receive(repeated("STATUS", static_cast<int>(orders)));
+    host.giveAllTurns();  // however slow this computer is
+    const int before = outlet.pieces;
+    ASSERT_TRUE(comesTrue("all orders are executed", [&] {
+      host.keeper.runOnce();
+      return host.tasks.size() >= orders;
+    }));
+    host.runTasks();
+    EXPECT_EQ(host.count(1, "OK STATUS"), orders);
+    EXPECT_EQ(outlet.pieces - before, 1) << orders;
+    EXPECT_FALSE(outlet.hasMore) << orders << ": the last one was not sent";
+  }
+}
+
 TEST(Turns, NoReplyWaitsForThoseBehindIt) {
   CountingWorld world;
   FakeHost host(world, lockstepConfig());
@@ -327,6 +346,33 @@ TEST(RealTime, AChangeOfSpeedCountsFromThenOn) {
   EXPECT_EQ(world.now(), 10'010'000);
   for (int i = 0; i < 10; ++i) host.keeper.runOnce();  // the next one is due in 10 s
   EXPECT_EQ(world.now(), 10'010'000);
+}
+
+/// Its time can be set back: to the board this is as if the computer had slept for so long.
+class SleptWorld : public CountingWorld {
+ public:
+  ~SleptWorld() override = default;
+  Timestamp now() const override { return CountingWorld::now() - slept; }
+  Timestamp slept = 0;  ///< [us]
+};
+
+TEST(RealTime, CyclesThatTheComputerSleptThroughAreMissedOnceAndNotCaughtUp) {
+  for (const double speed : {1.0, 4.0, 0.25}) {
+    SleptWorld world;
+    FakeHost host(world, {});
+    host.keeper.setSpeed(speed);
+    host.keeper.runOnce();  // a cycle of 10 ms
+    ASSERT_EQ(world.now(), 10'000);
+    const std::uint64_t before = host.keeper.statistics().missedCycles;
+    world.slept = 1'000'000'000'000;  // 10^8 cycles
+    host.keeper.runOnce();
+    const double missed = static_cast<double>(host.keeper.statistics().missedCycles - before);
+    EXPECT_NEAR(missed, 1e8, 1e6) << speed << ": whatever else this computer has to do";
+    EXPECT_EQ(host.keeper.statistics().cycles, 2u) << "it goes on from there";
+    host.keeper.runOnce();
+    EXPECT_NEAR(static_cast<double>(host.keeper.statistics().missedCycles - before), 1e8, 1e6)
+        << speed << ": not once more";
+  }
 }
 
 // --- readings

@@ -29,7 +29,8 @@ struct RemoteOptions {
   std::function<Timestamp()> clock;
   /// Is called with what goes wrong, and when it is well again; from any thread, but by one at a
   /// time, and with no lock held: it may command the robot, whose errors it then gets as exceptions
-  /// only. What it throws is ignored. It must not destroy the robot. May be empty.
+  /// only. What it throws is ignored. What happens while it is busy waits for it, the newest 100
+  /// at most. It must not destroy the robot. May be empty.
   std::function<void(const std::string&)> onTrouble;
 };
 
