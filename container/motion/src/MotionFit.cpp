@@ -26,11 +26,14 @@ constexpr double kSmallestShare = 1e-4;  // share of a variance, so that it neve
 
 using Terms = Eigen::Vector3d;  // the error of truth itself, and two terms that grow
 
-/// Errors over several consecutive pieces, with their weight in the fit.
+/// Errors over several consecutive pieces, and what they are worth in the fit.
 struct Chain {
   MotionError sum;
   double weight;
   bool longest;
+  double counts = 1.0;  ///< 1, or 0 if it is too far off to be motion
+  /// Precision of its error, relative to that of an error that is no outlier.
+  double precision = 1.0;
 };
 
 void addChains(const std::vector<std::vector<MotionError>>& drives, std::size_t length,
@@ -62,8 +65,7 @@ double gaussian(double error, double variance) {
 /// Fits by expectation maximization over outliers and others; the noise by Fisher scoring.
 class Fit {
  public:
-  explicit Fit(std::vector<Chain> chains)
-      : chains_(std::move(chains)), counts_(chains_.size(), 1.0), precision_(chains_.size(), 1.0) {
+  explicit Fit(std::vector<Chain> chains) : chains_(std::move(chains)) {
     double squares = 0.0;
     double weights = 0.0;
     Terms reach = Terms::Zero();
@@ -138,30 +140,29 @@ class Fit {
   void weighErrors() {
     double outliers = 0.0;
     double all = 0.0;
-    for (std::size_t i = 0; i < chains_.size(); ++i) {
-      const double v = variance(chains_[i]);
-      const double e = error(chains_[i]);
-      counts_[i] = e * e < kFarSigmas * kFarSigmas * kOutlierSpread * v ? 1.0 : 0.0;
-      if (counts_[i] == 0.0) {
-        precision_[i] = 0.0;
+    for (Chain& c : chains_) {
+      const double v = variance(c);
+      const double e = error(c);
+      c.counts = e * e < kFarSigmas * kFarSigmas * kOutlierSpread * v ? 1.0 : 0.0;
+      if (c.counts == 0.0) {
+        c.precision = 0.0;
         continue;
       }
       const double near = (1 - outliers_) * gaussian(e, v);
       const double far = outliers_ * gaussian(e, kOutlierSpread * v);
       const double outlier = far / (near + far);
-      precision_[i] = 1.0 - outlier + outlier / kOutlierSpread;
-      outliers += chains_[i].weight * outlier;
-      all += chains_[i].weight;
+      c.precision = 1.0 - outlier + outlier / kOutlierSpread;
+      outliers += c.weight * outlier;
+      all += c.weight;
     }
     if (all > 0.0) outliers_ = std::clamp(outliers / all, kFewestOutliers, kMostOutliers);
   }
 
   Eigen::Matrix2d normalMatrix(bool longestOnly) const {
     Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-    for (std::size_t i = 0; i < chains_.size(); ++i) {
-      const Chain& c = chains_[i];
+    for (const Chain& c : chains_) {
       if (longestOnly && !c.longest) continue;
-      const double w = precision_[i] * (longestOnly ? 1.0 : c.weight) / variance(c);
+      const double w = c.precision * (longestOnly ? 1.0 : c.weight) / variance(c);
       for (int a = 0; a < 2; ++a) {
         for (int b = 0; b < 2; ++b) {
           const auto ka = static_cast<std::size_t>(a);
@@ -175,9 +176,8 @@ class Fit {
 
   void fitScale() {
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    for (std::size_t i = 0; i < chains_.size(); ++i) {
-      const Chain& c = chains_[i];
-      const double w = precision_[i] * c.weight / variance(c);
+    for (const Chain& c : chains_) {
+      const double w = c.precision * c.weight / variance(c);
       for (int k = 0; k < 2; ++k) {
         const auto at = static_cast<std::size_t>(k);
         if (used_[at]) right[k] += w * c.sum.causes[at] * c.sum.error;
@@ -197,12 +197,11 @@ class Fit {
   void fitVariances() {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Terms right = Terms::Zero();
-    for (std::size_t i = 0; i < chains_.size(); ++i) {
-      const Chain& c = chains_[i];
+    for (const Chain& c : chains_) {
       const double v = variance(c);
-      const double w = counts_[i] * c.weight / (v * v);
+      const double w = c.counts * c.weight / (v * v);
       normal += w * terms(c) * terms(c).transpose();
-      right += w * precision_[i] * error(c) * error(c) * terms(c);
+      right += w * c.precision * error(c) * error(c) * terms(c);
     }
     double best = 0.0;
     Terms found = Terms::Zero();
@@ -232,9 +231,6 @@ class Fit {
   }
 
   std::vector<Chain> chains_;
-  std::vector<double> counts_;  ///< count of each chain: 1, or 0 if it is too far off to be motion
-  /// Precision of each chain's error, relative to that of an error that is no outlier.
-  std::vector<double> precision_;
   double outliers_ = 0.05;  ///< share of errors
   std::array<bool, 2> used_{};
   std::array<double, 2> scale_{};
