@@ -106,6 +106,24 @@ TEST(CameraModel, ATableShowsItsFloorPointsAtItsPixels) {
   EXPECT_NEAR(pixel->v, 80.0, 1e-3);
 }
 
+TEST(CameraModel, ATableReachesHalfAStepBeyondItsGrid) {
+  const auto camera = cameraOf(tableToml());  // 20 pixels a step, on 401 x 321
+  for (const double off : {-9.9, 0.0, 200.0, 409.9}) {
+    EXPECT_TRUE(camera->unproject({off, 160.0})) << off;
+    EXPECT_TRUE(camera->unproject({160.0, std::min(off, 329.9)})) << off;
+  }
+  for (const double off : {-1000.0, -15.0, -10.1, 410.1, 415.0, 1000.0})
+    EXPECT_FALSE(camera->unproject({off, 160.0})) << off;
+  for (const double off : {-1000.0, -15.0, -10.1, 330.1, 335.0, 1000.0})
+    EXPECT_FALSE(camera->unproject({160.0, off})) << off;
+  for (const Pixel& pixel : {Pixel{-9.9, 100.0}, {409.9, 100.0}, {100.0, -9.9}, {100.0, 329.9}}) {
+    const auto back = camera->project(*camera->unproject(pixel));
+    ASSERT_TRUE(back) << pixel.u << " " << pixel.v;
+    EXPECT_NEAR(back->u, pixel.u, 1e-6);
+    EXPECT_NEAR(back->v, pixel.v, 1e-6);
+  }
+}
+
 // Beyond the radius where the distorted radius falls again, 1 + (2 i + 1) k_i r^(2 i) = 0 for k_i
 // alone, two points would have one pixel. It is found in steps of 0.0035.
 TEST(CameraModel, SeesAsFarAsItsDistortionIsOneToOne) {

@@ -537,6 +537,12 @@ TEST(HostileRecord, WhoseIndexIsWrongGivesTheSameOrIsRefused) {
   EXPECT_EQ(played({}), right);
   EXPECT_EQ(played({{offsets[4], 4'000'000}, {offsets[0], 0}}), right) << "not in order";
   EXPECT_EQ(played({{1ULL << 60, 0}}), right) << "beyond the end";
+  EXPECT_EQ(played({{1ULL << 60, 0}}), right) << "beyond the end";
+  EXPECT_EQ(played({{bytes.size(), 0}}), right) << "the index itself";
+  EXPECT_EQ(played({{0, 0}}), right) << "the beginning of the file, which is no chunk";
+  EXPECT_EQ(played({{kMagic.size() - 1, 0}}), right) << "within it";
+  EXPECT_EQ(played({{offsets[4], 4'000'000}, {offsets[4], 4'000'000}}), right) << "twice";
+  EXPECT_EQ(played({{offsets[4], 4'000'000}, {offsets[5], 3'000'000}}), right) << "back in time";
   EXPECT_THROW(played({{offsets[4] + 1, 4'000'000}}), std::runtime_error);
   EXPECT_THROW(played({{offsets[8], 0}}), std::runtime_error) << "that chunk begins at 8 s";
   EXPECT_EQ(played({{offsets[6], 6'000'000}}), right) << "others lie before";

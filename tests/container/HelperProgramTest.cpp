@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
+
 #include "Files.hpp"
 #include "ortung/base/HelperProgram.hpp"
 
@@ -42,6 +44,23 @@ TEST(RunHelper, KeepsOurOpenFilesToItself) {
       "test -e /dev/fd/" + std::to_string(file) + " && echo open || echo closed";
   EXPECT_EQ(runHelper("/bin/sh", {"-c", look}, "x", 100), "closed\n");
   ::close(file);
+}
+
+TEST(RunHelper, GivesItNothingToReadAndDropsWhatItComplainsAbout) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  ASSERT_EQ(::write(ends[1], "ours", 4), 4);
+  ::close(ends[1]);
+  const int own = ::dup(STDIN_FILENO);
+  ::dup2(ends[0], STDIN_FILENO);
+  const std::string read = runHelper("/bin/cat", {}, "x", 100);
+  const std::string names =
+      runHelper("/bin/sh", {"-c", "readlink /dev/fd/0; readlink /dev/fd/2"}, "x", 100);
+  ::dup2(own, STDIN_FILENO);
+  ::close(own);
+  ::close(ends[0]);
+  EXPECT_EQ(read, "");
+  EXPECT_EQ(names, "/dev/null\n/dev/null\n");
 }
 
 class FindHelper : public ::testing::Test {

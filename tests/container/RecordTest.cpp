@@ -94,8 +94,12 @@ TEST(RecordLine, SaysWhatIsWrong) {
   EXPECT_EQ(whyNot("1 a/b/c 1 5\r"), "found '5?', expected an unsigned 32-bit word");
   EXPECT_EQ(whyNot(std::string("\x1b[2J\x80", 5)),
             "found '?[2J?', expected a time stamp in microseconds");
-  EXPECT_EQ(whyNot(std::string(100, '9')),
-            "found '" + std::string(40, '9') + "...', expected a time stamp in microseconds");
+  for (const std::size_t length : {39u, 40u})
+    EXPECT_EQ(whyNot(std::string(length, '9')),
+              "found '" + std::string(length, '9') + "', expected a time stamp in microseconds");
+  for (const std::size_t length : {41u, 100u})
+    EXPECT_EQ(whyNot(std::string(length, '9')),
+              "found '" + std::string(40, '9') + "...', expected a time stamp in microseconds");
 }
 
 TEST(RecordLine, SurvivesAHundredThousandMutations) {

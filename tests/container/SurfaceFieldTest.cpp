@@ -83,6 +83,10 @@ TEST(SurfaceField, KnowsASpotOnAllSides) {
   EXPECT_GE(spot->along, 0.0F);
   EXPECT_NEAR(static_cast<double>(spot->x), 0.325, 0.001);
   EXPECT_NEAR(static_cast<double>(spot->y), 0.225, 0.001);
+  EXPECT_NEAR(static_cast<double>(spot->y), 0.225, 0.001);
+  // On a ring of radius r either coordinate has the variance r^2 / 2.
+  EXPECT_NEAR(static_cast<double>(spot->across), 0.01 / std::sqrt(2.0), 1e-4);
+  EXPECT_NEAR(static_cast<double>(spot->along), 0.01 / std::sqrt(2.0), 1e-4);
   EXPECT_EQ(field.near(1.2, 0.2), nullptr);  // out of reach
 }
 
@@ -156,6 +160,21 @@ TEST(SurfaceField, RefusesFilesThatLie) {
                                     {0, 0, -1, 10, 10, 0},
                                     {std::nan(""), 0, 0.05, 10, 10, 0},
                                     {0, 0, 0.05, 10.5, 10, 0},
+                                    {0, std::nan(""), 0.05, 10, 10, 0},
+                                    {0, 0, 1e-5, 10, 10, 0},
+                                    {0, 0, 1e4, 10, 10, 0},
+                                    {0, 0, std::nan(""), 10, 10, 0},
+                                    {0, 0, 0.05, 10.5, 10, 0},
+                                    {0, 0, 0.05, 10, 10.5, 0},
+                                    {0, 0, 0.05, 0, 10, 0},
+                                    {0, 0, 0.05, 10, 0, 0},
+                                    {0, 0, 0.05, -10, -10, 0},
+                                    {0, 0, 0.05, std::nan(""), 10, 0},
+                                    {0, 0, 0.05, HUGE_VAL, 10, 0},
+                                    {0, 0, 0.05, 10, HUGE_VAL, 0},
+                                    {0, 0, 0.05, 1e10, 1, 0},
+                                    {0, 0, 0.05, 10, 10, 1e4},
+                                    {0, 0, 0.05, 10, 10, std::nan("")},
                                     {0, 0, 0.05, 10, 10, -1},
                                     {0, 0, 0.05}})
     EXPECT_THROW(load(lying, {5}, ends), TableError);

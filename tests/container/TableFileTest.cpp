@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -102,6 +103,14 @@ TEST(TableFile, IsTheSameForTheSameContent) {
   writeExample(folder / "a.npz");
   writeExample(folder / "b.npz");
   EXPECT_EQ(readBytes(folder / "a.npz"), readBytes(folder / "b.npz"));
+}
+
+// The system tells errors only of calls that fail.
+TEST(TableFile, IsReadAfterSomethingElseHasFailed) {
+  const TemporaryFolder folder;
+  writeExample(folder / "t.npz");
+  errno = EIO;
+  EXPECT_TRUE(isExample(TableFile(folder / "t.npz")));
 }
 
 TEST(TableFile, SaysWhichTableIsMissingOrOther) {

@@ -3,7 +3,10 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/formats/PlacesData.hpp"
 #include "ortung/formats/TalkData.hpp"
 
@@ -135,6 +138,39 @@ TEST(PlaceText, LeavesOtherTextsAlone) {
     EXPECT_FALSE(placeIn(text)) << text;
   EXPECT_TRUE(placeIn("robot a 1 2 3 0.1 0.1 1 0 0 0"));
   EXPECT_THROW(toText(placeAt(NAN, 0.0, 0.0)), std::invalid_argument);
+}
+
+TEST(PlaceText, EachOfItsNumbersHasItsLimits) {
+  constexpr double kFarthest = 1e5;  // [m]
+  const double noHeading = degrees(Place::kNoHeading);
+  struct Limit {
+    double least, most;
+  };
+  const std::vector<Limit> limits = {{-kFarthest, kFarthest},
+                                     {-kFarthest, kFarthest},
+                                     {-1e300, 1e300},
+                                     {0.0, kFarthest},
+                                     {0.0, kFarthest},
+                                     {0.0, noHeading},
+                                     {-1.0, 1.0},
+                                     {-1.0, 1.0},
+                                     {-1.0, 1.0}};
+  const std::vector<double> usual = {1.0, 2.0, 3.0, 0.1, 0.1, 1.0, 0.0, 0.0, 0.0};
+  const auto isPlace = [&](std::size_t number, double value) {
+    std::ostringstream text;
+    text << "robot a" << std::setprecision(17);
+    for (std::size_t i = 0; i < usual.size(); ++i) text << ' ' << (i == number ? value : usual[i]);
+    return placeIn(text.str()).has_value();
+  };
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const auto [least, most] = limits[i];
+    const double beyond = 0.001 * most;
+    EXPECT_TRUE(isPlace(i, 0.999 * most)) << i;
+    EXPECT_TRUE(isPlace(i, 0.999 * least)) << i;
+    if (most >= 1e300) continue;  // any angle
+    EXPECT_FALSE(isPlace(i, most + beyond)) << i;
+    EXPECT_FALSE(isPlace(i, least - beyond)) << i;
+  }
 }
 
 /// Texts of strangers do no harm, and what is a place can be said again.

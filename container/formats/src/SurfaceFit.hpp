@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/Polishable.hpp"
 #include "ortung/tables/SensorModel.hpp"
@@ -12,7 +13,7 @@ namespace ortung {
 
 /// How well the ends of a scan's beams lie on surfaces, and how a change of pose would help.
 /// Immutable once all ends are there.
-class SurfaceFit {
+class ORTUNG_API SurfaceFit {
  public:
   SurfaceFit(std::shared_ptr<const SurfaceField> surfaces, const Pose2& mount,
              const SensorModel& model)

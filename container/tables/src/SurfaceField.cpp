@@ -219,7 +219,7 @@ void SurfaceField::load(const std::shared_ptr<const TableFile>& shared, const st
     throw TableError(file.path().string() + ": table " + prefix + what + " has impossible values");
   };
   const auto place = file.get<double>(prefix + "surface_grid", {6});
-  const auto isCount = [](double v) { return v >= 1.0 && v <= 1e8 && v == std::floor(v); };
+  const auto isCount = [](double v) { return v >= 1.0 && v == std::floor(v); };
   if (!std::isfinite(place[0]) || !std::isfinite(place[1]) || !(place[2] > 1e-4) ||
       !(place[2] < 1e3) || !isCount(place[3]) || !isCount(place[4]) ||
       place[3] * place[4] > static_cast<double>(kMostCells) || !(place[5] >= 0.0 && place[5] < 1e3))

@@ -1,0 +1,53 @@
+// How far what is known of surfaces blurs the pose that a scan fits to them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "FakeRoom.hpp"
+#include "SurfaceFit.hpp"
+
+namespace ortung {
+namespace {
+
+constexpr double kSigma = 0.015;  // of the surfaces [m]
+
+/// The wall x = 1, of which the world says no more than to 15 mm.
+std::shared_ptr<const SurfaceField> wall() {
+  FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
+  region.surfaceSigma = kSigma;
+  auto field = std::make_shared<SurfaceField>();
+  field->start(region, 0.05, 0.1);
+  for (double y = -1.9; y <= 1.9; y += 0.003) field->mark(1.0, y);
+  field->finish();
+  return field;
+}
+
+/// A scan from the origin of two places of the wall, @p off to the left and to the right.
+SurfaceFit seen(double off) {
+  SurfaceFit fit(wall(), Pose2{}, SensorModel{.sigma = 0.02});
+  for (const double y : {-off, off}) fit.add(std::hypot(1.0, y), std::atan2(y, 1.0));
+  return fit;
+}
+
+// A turn by t moves what is seen of a wall by t times how far to the side it is.
+TEST(SurfaceFit, IsBlurredByTheWallAtTheEndOfItsLever) {
+  for (const double off : {1.5, 1.0, 0.5, 0.1}) {
+    const Slope slope = seen(off).slopeAt({});
+    EXPECT_EQ(slope.blurMetres, kSigma);
+    EXPECT_NEAR(slope.blurRadians, kSigma / off, 0.02 * kSigma / off) << off;
+  }
+  EXPECT_EQ(seen(0.001).slopeAt({}).blurRadians, 1.0) << "straight ahead it tells no heading";
+}
+
+TEST(SurfaceFit, SaysNothingOfAHeadingWhereNoSurfaceIsNear) {
+  const Slope slope = seen(1.0).slopeAt({-1.0, 0.0, 0.0});
+  EXPECT_EQ(slope.blurRadians, 0.0);
+  for (const double value : slope.information) EXPECT_EQ(value, 0.0);
+}
+
+TEST(SurfaceFit, OfNothingSaysNothing) {
+  EXPECT_EQ(SurfaceFit(wall(), Pose2{}, SensorModel{}).slopeAt({}).blurMetres, 0.0);
+}
+
+}  // namespace
+}  // namespace ortung
