@@ -324,6 +324,34 @@ TEST(GoalMatrix, DamagedFilesAreRefusedWithTheReason) {
   EXPECT_NE(with("/seed", "x").find("m.json"), std::string::npos);
 }
 
+TEST(GoalMatrix, EpisodesAndShardsHaveLimits) {
+  struct Numbers {
+    std::uint64_t episodes, shard, shards;
+  };
+  const auto checked = [](const Numbers& numbers) {
+    GoalMatrixConfig config = someConfig(1);
+    config.episodes = numbers.episodes;
+    config.shard = numbers.shard;
+    config.shards = numbers.shards;
+    config.check();
+  };
+  for (const Numbers& good :
+       {Numbers{1, 1, 1}, {10'000'000, 1, 1}, {10, 1, 10}, {10, 10, 10}, {10, 3, 3}})
+    EXPECT_NO_THROW(checked(good)) << good.episodes << " " << good.shard << "/" << good.shards;
+  for (const Numbers& bad : {Numbers{0, 1, 1},
+                             {10, 0, 1},
+                             {10, 1, 0},
+                             {10, 0, 0},
+                             {10, 2, 1},
+                             {10, 11, 10},
+                             {10, 1, 11},
+                             {10, 11, 11},
+                             {10'000'001, 1, 1},
+                             {1ULL << 63, 1, 1}})
+    EXPECT_THROW(checked(bad), std::invalid_argument)
+        << bad.episodes << " " << bad.shard << "/" << bad.shards;
+}
+
 TEST(GoalMatrix, BadEntriesAreRefusedByName) {
   const auto why = [](const std::string& keeper, const std::string& striker) -> std::string {
     GoalMatrixConfig config;

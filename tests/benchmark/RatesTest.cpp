@@ -33,6 +33,16 @@ TEST(Rates, NoTrialsSayNothing) {
   EXPECT_NEAR(wilson(0, 10).high, 0.2775, 1e-4);  // = z^2 / (n + z^2)
 }
 
+TEST(Rates, NoPairsAndNoDrawsMayBeAnything) {
+  for (const Interval& interval :
+       {pairedBootstrap({}, 1), pairedBootstrap(std::vector<int>{1, 1}, 1, 0),
+        pairedBootstrap({}, 1, 0)}) {
+    EXPECT_EQ(interval.value, 0.0);
+    EXPECT_EQ(interval.low, -1.0);
+    EXPECT_EQ(interval.high, 1.0);
+  }
+}
+
 // The mean of n pairs has the standard deviation of one pair divided by sqrt(n).
 TEST(Rates, BootstrapIsAsWideAsTheCentralLimitSays) {
   std::vector<int> differences;

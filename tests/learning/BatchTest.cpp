@@ -201,6 +201,30 @@ TEST(Batch, BadActionsAreRefusedByPlaceAndNothingMoves) {
   batch.step(actions);
 }
 
+// An action has as many numbers as that of the agent with the most.
+TEST(Batch, WhatAnAgentDoesNotUseMayBeAnything) {
+  Batch batch("keeper-vs-striker-v0", {}, {.episodes = 2});
+  Batch same("keeper-vs-striker-v0", {}, {.episodes = 2});
+  ASSERT_EQ(batch.info().actions[0].size(), 2u) << "a keeper does not kick";
+  ASSERT_EQ(batch.info().actions[1].size(), 3u);
+  std::vector<float> actions(12, 0.5f);
+  same.step(actions);
+  for (const std::size_t unused : {2u, 6u + 2u})
+    actions[unused] = std::numeric_limits<float>::quiet_NaN();
+  batch.step(actions);
+  EXPECT_TRUE(std::equal(batch.states().begin(), batch.states().end(), same.states().begin()));
+}
+
+TEST(Batch, TheEnvironmentNamesAndPlacesItsPlayers) {
+  for (const char* said :
+       {"striker:kind=roll@blue", "striker:kind=roll&name=bert", "striker:kind=roll&start=1,2,3"})
+    EXPECT_NE(whyNot([&] {
+                Batch("goalkeeper-v0", {{"striker", {std::string(said)}}}, {});
+              }).find("the environment sets team, name and start"),
+              std::string::npos)
+        << said;
+}
+
 TEST(Batch, BadOptionsAreRefusedByName) {
   const auto make = [](const char* id, const Options& options) {
     return whyNot([&] { Batch(id, options, {}); });
