@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "ortung/benchmark/GoalMatrix.hpp"
@@ -276,6 +277,40 @@ TEST(GoalMatrix, VerifyFindsATamperedEpisode) {
   EXPECT_EQ(found[0].number, 2u);
   EXPECT_EQ(found[0].keeper, matrix.cells[3].keeper);
   EXPECT_NE(found[0].told, found[0].found);
+}
+
+// What is not in the digest could be changed without anybody noticing.
+TEST(GoalMatrix, TheDigestOfACellCoversAllOfItsEpisodes) {
+  const GoalMatrixConfig config = someConfig(2);
+  GoalEpisode some;
+  some.outcome = GoalOutcome::kSaved;
+  some.end = 1'500'000;
+  some.digest = 77;
+  some.keeper = {12'000, 34'000};
+  some.striker = {56'000, 78'000};
+  const auto digestOf = [&](const GoalEpisode& first) {
+    return GoalCell{"keeper", "striker", {first, some}}.hash(config);
+  };
+  std::vector<GoalEpisode> others(10, some);
+  others[1].outcome = GoalOutcome::kGoal;
+  others[2].end += 1;
+  others[3].digest += 1;
+  others[4].keeper.position += 1;
+  others[5].keeper.heading += 1;
+  others[6].striker.position += 1;
+  others[7].striker.heading += 1;
+  others[8].keeper = {};
+  others[9].striker = {};
+  std::set<std::uint64_t> digests;
+  for (const GoalEpisode& other : others) digests.insert(digestOf(other));
+  EXPECT_EQ(digests.size(), others.size()) << "each differs from the first, and from the others";
+  // Who told no pose has no error, whatever stands there.
+  GoalEpisode none = others[8];
+  none.keeper.heading = 5;
+  EXPECT_EQ(digestOf(none), digestOf(others[8]));
+  EXPECT_NE((GoalCell{"keeper", "striker", {others[1], some}}.hash(config)),
+            (GoalCell{"keeper", "striker", {some, others[1]}}.hash(config)))
+      << "which episode is which counts, too";
 }
 
 std::string readingOf(const nlohmann::ordered_json& json) {

@@ -169,7 +169,7 @@ void GoalMatrixConfig::check() const {
   if (episodes < 1 || episodes > kMostEpisodes)
     throw std::invalid_argument("there are " + std::to_string(episodes) +
                                 " episodes a pair, expected 1 to " + std::to_string(kMostEpisodes));
-  if (shards < 1 || shard < 1 || shard > shards || shards > episodes)
+  if (shard < 1 || shard > shards || shards > episodes)
     throw std::invalid_argument("the shard is " + std::to_string(shard) + "/" +
                                 std::to_string(shards) + " of " + std::to_string(episodes) +
                                 " episodes, expected one from 1/N to N/N with N at most as many");
