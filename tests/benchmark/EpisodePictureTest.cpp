@@ -1,94 +1,106 @@
-// Episodes as pictures: a unit of the picture is a metre, the goal is at its bottom.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <regex>
 
 #include "EpisodePicture.hpp"
 
 namespace ortung {
 namespace {
 
-/// The ball rolls towards the goal, the keeper goes aside; at first nobody is where he plays.
-std::vector<GoalMoment> moments(std::size_t count) {
-  std::vector<GoalMoment> all;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double t = static_cast<double>(i);
-    GoalMoment moment;
-    moment.ball = {-3.0 - t, 0.5, 0.0};
-    moment.keeper = {-5.5, 0.25 * t, std::numbers::pi / 2.0};
-    moment.striker = {-2.0, 1.0 + 0.5 * t, std::numbers::pi};
-    all.push_back(moment);
+/// A moment with the ball, the keeper and the striker at places that nothing else has.
+GoalMoment momentAt(double x) {
+  GoalMoment moment;
+  moment.ball = {x, 1.0, 0.0};
+  moment.keeper = {x - 1.0, -0.5, std::numbers::pi / 2.0};
+  moment.striker = {x + 1.0, 2.0, std::numbers::pi};
+  return moment;
+}
+
+// What was before the first move is no part of the episode: the striker makes its situation then.
+const std::vector<GoalMoment> kMoments = {momentAt(3.0), momentAt(-2.0), momentAt(-3.0),
+                                          momentAt(-4.0)};
+
+/// A square of the picture, in the picture's own frame.
+struct Square {
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0, x = 0.0, y = 0.0, turn = 0.0;
+};
+
+Square squareOf(const std::string& svg, const std::string& style) {
+  const std::regex form(
+      "<rect x=\"([-.\\d]+)\" y=\"([-.\\d]+)\" width=\"([-.\\d]+)\" height=\"([-.\\d]+)\" "
+      "transform=\"translate\\(([-.\\d]+) ([-.\\d]+)\\) rotate\\(([-.\\d]+)\\)\" class=\"" +
+      style + "\"/>");
+  std::smatch found;
+  EXPECT_TRUE(std::regex_search(svg, found, form)) << style << " in " << svg;
+  if (found.empty()) return {};
+  const auto at = [&](std::size_t i) { return std::stod(found[i].str()); };
+  return {at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
+}
+
+// Seen from above with the goal, which is at negative x, at the bottom: y is to the right.
+TEST(EpisodePicture, BodiesAreToScaleAroundTheirPoses) {
+  const std::string svg = pictureOf(kMoments, "one");
+  const auto expectAt = [&](const char* style, const Pose2& pose, double side) {
+    SCOPED_TRACE(style);
+    const Square square = squareOf(svg, style);
+    EXPECT_DOUBLE_EQ(square.width, side);
+    EXPECT_DOUBLE_EQ(square.height, side);
+    EXPECT_DOUBLE_EQ(square.left, -side / 2.0) << "it turns about its middle";
+    EXPECT_DOUBLE_EQ(square.top, -side / 2.0);
+    EXPECT_DOUBLE_EQ(square.x, pose.y);
+    EXPECT_DOUBLE_EQ(square.y, -pose.x);
+    // Of who looks along x, up in the picture, the front is the side that is up.
+    EXPECT_NEAR(std::cos(square.turn * std::numbers::pi / 180.0), std::sin(pose.theta), 1e-3);
+    EXPECT_NEAR(std::sin(square.turn * std::numbers::pi / 180.0), std::cos(pose.theta), 1e-3);
+  };
+  expectAt("keeper from", kMoments[1].keeper, 0.45);  // robots/goalkeeper.toml: size_m
+  expectAt("keeper body", kMoments[3].keeper, 0.45);
+  expectAt("striker body", kMoments[3].striker, 0.5);  // robots/striker.toml: the longer side
+}
+
+TEST(EpisodePicture, HollowBallIsTheFirstAndTheFullOneTheLast) {
+  const std::string svg = pictureOf(kMoments, "one");
+  EXPECT_NE(svg.find("<circle class=\"ball from\" cx=\"1.00\" cy=\"2.00\" r=\"0.11\"/>"),
+            std::string::npos)
+      << svg;
+  EXPECT_NE(svg.find("<circle class=\"ball body\" cx=\"1.00\" cy=\"4.00\" r=\"0.11\"/>"),
+            std::string::npos)
+      << svg;
+}
+
+// Each begins with the first move; places within 2 cm of the last one that is drawn are left out,
+// but for the end.
+TEST(EpisodePicture, PathsGoThroughAllPlacesFromTheFirstMoveOn) {
+  std::vector<GoalMoment> moments = kMoments;
+  moments.push_back(momentAt(-4.015));
+  moments.push_back(momentAt(-4.03));
+  moments.push_back(momentAt(-4.04));
+  const std::string svg = pictureOf(moments, "one");
+  for (const auto& [style, across, ahead] :
+       {std::tuple{"ball", "1.00", 0.0}, {"keeper", "-0.50", 1.0}, {"striker", "2.00", -1.0}}) {
+    std::string points;
+    for (const double down : {2.0, 3.0, 4.0, 4.03, 4.04}) {
+      char place[32];
+      std::snprintf(place, sizeof place, "%s,%.2f ", across, down + ahead);
+      points += place;
+    }
+    const std::string path =
+        std::string("<polyline class=\"") + style + "\" points=\"" + points + "\"/>";
+    EXPECT_NE(svg.find(path), std::string::npos) << path << "\nin " << svg;
   }
-  return all;
 }
 
-/// What is drawn of a class: "<rect ...", up to its end.
-std::string element(const std::string& svg, const std::string& style) {
-  const std::size_t at = svg.find("class=\"" + style + "\"");
-  if (at == svg.npos) return "";
-  const std::size_t begin = svg.rfind('<', at);
-  return svg.substr(begin, svg.find('>', at) - begin);
-}
-
-double attribute(const std::string& element, const std::string& name) {
-  const std::size_t at = element.find(" " + name + "=\"");
-  return at == element.npos ? NAN : std::stod(element.substr(at + name.size() + 3));
-}
-
-/// A robot's body: a square around its middle, where it stands, turned as it is.
-void expectBody(const std::string& drawn, const Pose2& pose, double width) {
-  EXPECT_NEAR(attribute(drawn, "width"), width, 1e-9) << drawn;
-  EXPECT_NEAR(attribute(drawn, "height"), width, 1e-9) << drawn;
-  EXPECT_NEAR(attribute(drawn, "x"), -width / 2, 1e-9) << drawn;
-  EXPECT_NEAR(attribute(drawn, "y"), -width / 2, 1e-9) << drawn;
-  char place[80];
-  std::snprintf(place, sizeof place, "translate(%.3f %.3f) rotate(%.1f)", pose.y, -pose.x,
-                90.0 - pose.theta * 180.0 / std::numbers::pi);
-  EXPECT_NE(drawn.find(place), std::string::npos) << drawn << ", expected " << place;
-}
-
-TEST(EpisodePicture, ShowsFromWhereToWhereAllHaveGone) {
-  for (const std::size_t count : {1u, 2u, 3u, 5u}) {
-    const std::vector<GoalMoment> all = moments(count);
-    const std::string svg = pictureOf(all, "saved");
-    // The first moment is before the players have taken their places.
-    const GoalMoment& first = all[count > 1 ? 1 : 0];
-    expectBody(element(svg, "keeper from"), first.keeper, 0.45);
-    expectBody(element(svg, "keeper body"), all.back().keeper, 0.45);
-    expectBody(element(svg, "striker body"), all.back().striker, 0.5);
-    EXPECT_NEAR(attribute(element(svg, "ball from"), "cy"), -first.ball.x, 1e-9);
-    EXPECT_NEAR(attribute(element(svg, "ball body"), "cy"), -all.back().ball.x, 1e-9);
-    EXPECT_NEAR(attribute(element(svg, "ball body"), "cx"), 0.5, 1e-9);
-    const std::string way = element(svg, "ball");
-    EXPECT_EQ(static_cast<std::size_t>(std::count(way.begin(), way.end(), ',')),
-              count > 1 ? count - 1 : 1)
-        << way;
-    EXPECT_NE(svg.find("<title>saved</title>"), std::string::npos);
-  }
-}
-
-TEST(EpisodePicture, LeavesOutPlacesWithinTwoCentimetresButNotTheLast) {
-  std::vector<GoalMoment> all = moments(2);
-  for (int i = 0; i < 9; ++i) {
-    all.push_back(all.back());
-    all.back().ball.x -= 0.01;
-  }
-  // From -4.00, each 0.01 farther: -4.02 (or -4.03), ..., -4.09.
-  const std::string way = element(pictureOf(all, ""), "ball");
-  EXPECT_NE(way.find("0.50,4.00 "), std::string::npos) << way;
-  EXPECT_NE(way.find("0.50,4.09 "), std::string::npos) << way;
-  EXPECT_LE(std::count(way.begin(), way.end(), ','), 6) << way;
-  EXPECT_GE(std::count(way.begin(), way.end(), ','), 4) << way;
-}
-
-TEST(EpisodePicture, OfNothingIsTheField) {
-  const std::string svg = pictureOf({}, "nothing");
-  EXPECT_NE(svg.find("class=\"goal\""), std::string::npos);
-  EXPECT_EQ(element(svg, "ball body"), "");
-  EXPECT_TRUE(svg.ends_with("</svg>"));
+TEST(EpisodePicture, OfOneMomentOrNoneIsAPictureToo) {
+  const std::string one = pictureOf({momentAt(-2.0)}, "one");
+  EXPECT_DOUBLE_EQ(squareOf(one, "keeper from").y, 3.0);
+  EXPECT_DOUBLE_EQ(squareOf(one, "keeper body").y, 3.0);
+  const std::string none = pictureOf({}, "none");
+  EXPECT_NE(none.find("<title>none</title>"), std::string::npos);
+  EXPECT_EQ(none.find("<rect"), std::string::npos);
+  EXPECT_TRUE(none.ends_with("</svg>"));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -387,6 +388,26 @@ TEST(GoalMatrix, EpisodesAndShardsHaveLimits) {
         << bad.episodes << " " << bad.shard << "/" << bad.shards;
 }
 
+TEST(GoalMatrix, PlayersAreGivenOnceAtLeastOneOfThem) {
+  const auto why = [](const std::vector<std::string>& keepers,
+                      const std::vector<std::string>& strikers) {
+    GoalMatrixConfig config;
+    config.keepers = keepers;
+    config.strikers = strikers;
+    try {
+      config.check();
+      return std::string();
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(why({"a"}, {"a"}), "");
+  EXPECT_EQ(why({}, {"a"}), "there are no keepers");
+  EXPECT_EQ(why({"a"}, {}), "there are no strikers");
+  EXPECT_EQ(why({"a", "b", "a"}, {"a"}), "'a' is given twice among the keepers");
+  EXPECT_EQ(why({"a"}, {"a", "b", "b"}), "'b' is given twice among the strikers");
+}
+
 TEST(GoalMatrix, BadEntriesAreRefusedByName) {
   const auto why = [](const std::string& keeper, const std::string& striker) -> std::string {
     GoalMatrixConfig config;
@@ -402,7 +423,13 @@ TEST(GoalMatrix, BadEntriesAreRefusedByName) {
   };
   EXPECT_NE(why("nobody", "striker").find("'nobody'"), std::string::npos);
   EXPECT_NE(why("goalkeeper:policy=x", "striker").find("policy is 'x'"), std::string::npos);
-  EXPECT_NE(why("goalkeeper@blue", "striker").find("sets team, name and start"), std::string::npos);
+  // The benchmark's own are team, name and start.
+  for (const char* more : {"@blue", ":name=a", ":start=0,0,0"}) {
+    for (const std::string& found : {why(std::string("goalkeeper") + more, "striker"),
+                                     why("goalkeeper", std::string("striker") + more)})
+      EXPECT_NE(found.find("sets team, name and start"), std::string::npos)
+          << more << ": " << found;
+  }
   EXPECT_NE(why("wander", "striker").find("names no robot file"), std::string::npos);
   // One that has nothing to see by is stopped, and the message says in which episode.
   const std::string stopped = why("goalkeeper:stage=no", "striker");

@@ -66,5 +66,26 @@ TEST(Rates, BootstrapIsTheSameForASeed) {
   EXPECT_EQ(same.high, -1.0);
 }
 
+TEST(Rates, NoPairsSayNothingAndNoResamplesNothingBesidesTheMean) {
+  const auto expectInterval = [](const Interval& found, double value, double low, double high) {
+    EXPECT_EQ(found.value, value);
+    EXPECT_EQ(found.low, low);
+    EXPECT_EQ(found.high, high);
+  };
+  expectInterval(pairedBootstrap({}, 1), 0.0, -1.0, 1.0);
+  const std::vector<int> differences = {1, 0, 0, 1};
+  expectInterval(pairedBootstrap(differences, 1, 0), 0.5, 0.5, 0.5);
+}
+
+// Of 1001 values, the 25th from either end.
+TEST(Rates, PercentilesAreAmongTheValues) {
+  std::vector<double> drawn;
+  for (int i = 0; i <= 1000; ++i) drawn.push_back(i * 8 % 1001);
+  const Interval found = percentiles(3.0, drawn);
+  EXPECT_EQ(found.value, 3.0);
+  EXPECT_EQ(found.low, 25.0);
+  EXPECT_EQ(found.high, 975.0);
+}
+
 }  // namespace
 }  // namespace ortung

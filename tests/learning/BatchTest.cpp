@@ -236,6 +236,10 @@ TEST(Batch, BadOptionsAreRefusedByName) {
             std::string::npos);
   const std::string kind = make("goalkeeper-v0", {{"striker", {std::string("striker:kind=lob")}}});
   EXPECT_NE(kind.find("lob"), std::string::npos) << kind;
+  for (const char* more : {"@yellow", ":name=a", ":start=0,0,0"}) {
+    const std::string own = make("goalkeeper-v0", {{"striker", {std::string("striker") + more}}});
+    EXPECT_NE(own.find("sets team, name and start"), std::string::npos) << more << ": " << own;
+  }
   EXPECT_NE(make("goalkeeper-v0", {{"action_s", {0.15}}}).find("multiple of cycle_ms"),
             std::string::npos);
   EXPECT_NE(make("goalkeeper-v0", {{"observation", {std::string("localized")}}}).find("features"),
