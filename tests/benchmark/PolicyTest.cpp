@@ -117,5 +117,23 @@ TEST(KeeperPolicy, MixedIsEachOfTheOthersInTurn) {
   EXPECT_NEAR(intercepts, kDecisions / 5, kDecisions / 25);
 }
 
+// It is one of the others for 0.8 s: of 20 decisions in a row all are to stay, or none.
+TEST(KeeperPolicy, MixedKeepsToOneForSomeTime) {
+  KeeperMind mind(KeeperPolicy::kMixed, kLine);
+  Random random(2);
+  int changes = 0;
+  bool stood = false;
+  for (int turn = 0; turn < 200; ++turn) {
+    int none = 0;
+    for (int i = 0; i < 20; ++i)
+      none += !mind.decide((20 * turn + i) * 40'000, 0.0, std::nullopt, random);
+    ASSERT_TRUE(none == 0 || none == 20) << none;
+    changes += turn > 0 && stood != (none == 20) ? 1 : 0;
+    stood = none == 20;
+  }
+  // From one turn to the next it changes in 2 * 1/5 * 4/5 of the cases.
+  EXPECT_NEAR(changes, 64, 30);
+}
+
 }  // namespace
 }  // namespace ortung

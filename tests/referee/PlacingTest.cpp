@@ -112,12 +112,14 @@ class CountingStage final : public Stage {
     stage_.placeRobot(robot, pose);
   }
   void placeThing(std::string_view thing, const Pose2& pose, const Twist& velocity) override {
+    ++balls;
     stage_.placeThing(thing, pose, velocity);
   }
   std::shared_ptr<const FloorPlan> floorPlan(const RobotSize& size) override {
     return stage_.floorPlan(size);
   }
   std::size_t placed = 0;
+  std::size_t balls = 0;
 
  private:
   Stage& stage_;
@@ -138,6 +140,34 @@ TEST(Placing, MovesNobodyAsideWhosePlaceIsFree) {
   referee->order("kick-off blue");
   referee->watch(counting);
   EXPECT_EQ(counting.placed, 4u);
+}
+
+// Who comes while a restart is prepared takes part in it, unless it has no team.
+TEST(Placing, IsDoneAgainForPlayersThatCome) {
+  FakeStage stage(ORTUNG_SOURCE_DIR "/maps/fields/msl.toml", 0.01);
+  stage.set(StagedThing{"ball", "ball", {3.0, 2.0, 0.0}, {}});
+  const auto add = [&](const std::string& name, const std::string& team, double x) {
+    stage.set(StagedRobot{name, team, {x, 6.4, 0.0}, {}, kRadius});
+  };
+  add("b1", "blue", -1.5);
+  CountingStage counting(stage);
+  const auto referee = refereeBy("msl", "orders");
+  referee->order("kick-off blue");
+  referee->watch(counting);
+  EXPECT_EQ(counting.placed, 1u);
+  EXPECT_EQ(counting.balls, 1u);
+  add("guest", "", 0.5);
+  referee->watch(counting);
+  EXPECT_EQ(counting.placed, 1u) << "nobody came who plays";
+  EXPECT_EQ(counting.balls, 1u);
+  EXPECT_EQ(stage.find("guest")->pose.x, 0.5);
+  add("y1", "yellow", 2.5);
+  referee->watch(counting);
+  EXPECT_EQ(counting.placed, 2u);
+  EXPECT_EQ(counting.balls, 2u);
+  EXPECT_GT(stage.find("y1")->pose.x, 0.0);
+  referee->watch(counting);
+  EXPECT_EQ(counting.placed, 2u) << "it is there";
 }
 
 TEST_P(PlacingTest, AllHaveRoomAndKeepAway) {

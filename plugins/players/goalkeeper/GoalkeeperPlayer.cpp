@@ -118,7 +118,7 @@ class GoalkeeperPlayer : public Player {
       return std::nullopt;
     }
     const auto ball = own_.ball(seat);
-    if (!ball || ball->stamp <= newest_) return std::nullopt;
+    if (!ball) return std::nullopt;
     const Pose2 at = pose * ball->inRobot;
     return Sight{ball->stamp, {at.x, at.y}, ball->sigma};
   }

@@ -13,7 +13,7 @@ class MatchClock {
   double time() const { return time_; }  ///< time of this half [s]
   double length() const;                 ///< length of this half [s]
   bool isOvertime() const { return half_ > rules_.halves; }
-  bool isHalfOver() const { return half_ > 0 && time_ >= length() - 1e-9; }
+  bool isHalfOver() const { return time_ >= length() - 1e-9; }
   /// Returns whether another half follows this one.
   bool hasNext(bool isDraw) const;
 

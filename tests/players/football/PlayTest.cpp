@@ -78,21 +78,19 @@ TEST(Footballer, OfTheOtherTeamShootsAtTheOtherGoal) {
       25.0, [&] { return playing.ball().x < -6.11 && std::abs(playing.ball().y) < 1.0; }));
 }
 
+// It sees them itself, too.
 TEST(Footballer, GoesRoundRobotsThatStandInItsWay) {
-  Playing playing("f2000.toml");
-  playing.put(2.0, 0.0);
-  const SimRobot& robot = playing.add("footballer:start=-4,0,0@blue");
-  playing.add("goalkeeper:policy=still&name=one&start=-2,0.1,0@yellow");
-  playing.add("goalkeeper:policy=still&name=two&start=0,-0.3,0@yellow");
-  double still = 0.0;
-  for (const auto& other : playing.run.simulation().robots())
-    if (other->config().name == "one") still = other->state().pose.x;
-  EXPECT_TRUE(playing.until(30.0, [&] { return isIn(playing.ball()); }));
-  EXPECT_GT(robot.state().pose.x, 0.5);
-  for (const auto& other : playing.run.simulation().robots())
-    if (other->config().name == "one") {
-      EXPECT_NEAR(other->state().pose.x, still, 0.02);
-    }
+  for (const std::string sees : {"truth", "features&stage=no"}) {
+    Playing playing("f2000.toml");
+    playing.put(2.0, 0.0);
+    const SimRobot& robot = playing.add("footballer:start=-4,0,0&sees=" + sees + "@blue");
+    const SimRobot& one = playing.add("goalkeeper:policy=still&name=one&start=-2,0.1,0@yellow");
+    const SimRobot& two = playing.add("goalkeeper:policy=still&name=two&start=0,-0.3,0@yellow");
+    EXPECT_TRUE(playing.until(30.0, [&] { return isIn(playing.ball()); })) << sees;
+    EXPECT_GT(robot.state().pose.x, 0.5) << sees;
+    EXPECT_LT(distance(one.state().pose, {-2.0, 0.1, 0.0}), 0.02) << "pushed, " << sees;
+    EXPECT_LT(distance(two.state().pose, {0.0, -0.3, 0.0}), 0.02) << "pushed, " << sees;
+  }
 }
 
 TEST(Footballer, OfTwoOneGoesForTheBallAndTheOtherCovers) {
