@@ -97,6 +97,15 @@ TEST(TcpSource, WithoutAServerItSaysSo) {
             "127.0.0.1:1: can't connect: Connection refused");
 }
 
+// An address of IPv6 has brackets around it, since it has colons itself.
+TEST(TcpSource, BracketsAreNoPartOfAnAddress) {
+  for (const char* path : {"[::1]:1", "::1:1", "[127.0.0.1]:1"}) {
+    const std::string said =
+        messageOf<std::runtime_error>([&] { open(1, {{"path", path}}); });  // nobody is there
+    EXPECT_NE(said.find("can't connect"), std::string::npos) << said;
+  }
+}
+
 TEST(TcpSource, WithoutLockstepItFollowsAWorldThatGoesOnByItself) {
   ServedSimulation world(kWorld, {});
   BoardConfig config;

@@ -70,7 +70,10 @@ void LineSocket::connect(const std::string& host, std::uint16_t port) {
   std::string why = "no address";
   for (const addrinfo* address = list; address != nullptr; address = address->ai_next) {
     socket_ = ::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (socket_ < 0) fail(std::strerror(errno));
+    if (socket_ < 0) {  // e.g. an address of IPv6 where the system has none
+      why = std::strerror(errno);
+      continue;
+    }
     int result = ::connect(socket_, address->ai_addr, address->ai_addrlen);
     int code = result == 0 ? 0 : errno;
     if (code == EINPROGRESS) {
