@@ -8,9 +8,9 @@ from gymnasium.vector import VectorEnv as _VectorEnv  # type: ignore[import]
 class Env(_Env[npt.NDArray[np.float32], npt.ArrayLike]):  # type: ignore[misc]
     id: str
     metadata: Dict[str, Any]
-    def __init__(self, id: str = ..., *, render_mode: None = ..., **options: Any) -> None: ...
+    def __init__(self, id: str = "goalkeeper-v0", *, render_mode: None = None, **options: Any) -> None: ...
     def reset(
-        self, *, seed: Optional[int] = ..., options: Optional[Dict[str, Any]] = ...
+        self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None
     ) -> Tuple[npt.NDArray[np.float32], Dict[str, Any]]: ...
     def step(
         self, action: npt.ArrayLike
@@ -23,20 +23,20 @@ class VectorEnv(_VectorEnv[npt.NDArray[np.float32], npt.ArrayLike, npt.NDArray[A
     metadata: Dict[str, Any]
     def __init__(
         self,
-        id: str = ...,
-        num_envs: int = ...,
+        id: str = "goalkeeper-v0",
+        num_envs: int = 1,
         *,
-        threads: int = ...,
-        autoreset: Any = ...,
-        copy: bool = ...,
-        render_mode: None = ...,
+        threads: int = 0,
+        autoreset: Any = "NextStep",
+        copy: bool = True,
+        render_mode: None = None,
         **options: Any,
     ) -> None: ...
     def reset(
         self,
         *,
-        seed: Optional[Union[int, Sequence[Optional[int]]]] = ...,
-        options: Optional[Dict[str, Any]] = ...,
+        seed: Optional[Union[int, Sequence[Optional[int]]]] = None,
+        options: Optional[Dict[str, Any]] = None,
     ) -> Tuple[npt.NDArray[np.float32], Dict[str, Any]]: ...
     def step(
         self, actions: npt.ArrayLike
@@ -51,5 +51,5 @@ class VectorEnv(_VectorEnv[npt.NDArray[np.float32], npt.ArrayLike, npt.NDArray[A
     def close_extras(self, **kwargs: Any) -> None: ...
 
 def make(id: str, **options: Any) -> Env: ...
-def make_vec(id: str, num_envs: int = ..., **options: Any) -> VectorEnv: ...
+def make_vec(id: str, num_envs: int = 1, **options: Any) -> VectorEnv: ...
 def register() -> None: ...

@@ -1,4 +1,4 @@
-"""Tests that the stubs agree with the package: names, members, properties, arguments, which are optional."""
+"""Tests that the stubs agree with the package: names, members, properties, arguments, and what these are if left out."""
 import ast
 import importlib
 import inspect
@@ -26,7 +26,7 @@ def is_public(name):
 
 
 def arguments_of_text(text):
-    """Reads pybind11's signature: [(name, whether it is optional)]."""
+    """Reads pybind11's signature: [(name, its default as Python writes it, or None)]."""
     inside = text[text.index("(") + 1:text.rindex(") ->")]
     depth, parts = 0, [""]
     for letter in inside:
@@ -35,8 +35,8 @@ def arguments_of_text(text):
             parts.append("")
         else:
             parts[-1] += letter
-    found = [re.match(r"\s*(\w+)[^=]*(=)?", part) for part in parts if part.strip()]
-    return [(one[1], one[2] is not None) for one in found if one[1] != "self"]
+    found = [re.match(r"\s*(\w+)[^=]*(?:= (.*))?", part) for part in parts if part.strip()]
+    return [(one[1], one[2] and re.sub(r"<(.*): \d+>", r"\1", one[2])) for one in found if one[1] != "self"]
 
 
 def arguments_of(function):
@@ -48,18 +48,18 @@ def arguments_of(function):
     kinds = {inspect.Parameter.VAR_KEYWORD: "**", inspect.Parameter.KEYWORD_ONLY: "*"}
     if [one.name for one in parameters] == ["self", "args", "kwargs"]:  # pybind11's methods
         return arguments_of_text(function.__doc__.splitlines()[0])
-    return [(kinds.get(one.kind, "") + one.name, one.default is not one.empty)
+    return [(kinds.get(one.kind, "") + one.name, None if one.default is one.empty else repr(one.default))
             for one in parameters if one.name != "self"]
 
 
 def arguments_of_stub(node):
     places = node.args.posonlyargs + node.args.args
-    first = len(places) - len(node.args.defaults)
-    found = [(one.arg, i >= first) for i, one in enumerate(places) if one.arg != "self"]
-    found += [("*" + one.arg, default is not None)
+    defaults = [None] * (len(places) - len(node.args.defaults)) + node.args.defaults
+    found = [(one.arg, default and ast.unparse(default)) for one, default in zip(places, defaults) if one.arg != "self"]
+    found += [("*" + one.arg, default and ast.unparse(default))
               for one, default in zip(node.args.kwonlyargs, node.args.kw_defaults)]
     if node.args.kwarg:
-        found.append(("**" + node.args.kwarg.arg, False))
+        found.append(("**" + node.args.kwarg.arg, None))
     return found
 
 
