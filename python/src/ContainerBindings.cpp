@@ -215,7 +215,7 @@ void bindModels(PyContainer& container) {
            py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
            "Takes noise-free words as what the feature reads at poses (N, 3); without them at the "
            "centres of the region's cells, with heading 0. Forgets what it had learned, and leaves "
-           "the last of the words as its reading.")
+           "the last of the words as its reading, at the time 0.")
       .def("learn_values", &learnValues, py::arg("feature"), py::arg("region"), py::arg("values"),
            py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
            "The same of noise-free readings in metres and radians, each as get() gives it.")

@@ -86,7 +86,7 @@ py::array blockingActions(const py::object& given) {
   py::array_t<float> actions({observations.shape(0), py::ssize_t{2}});
   for (py::ssize_t i = 0; i < observations.shape(0); ++i)
     learning::blocking({observations.data(i, 0), static_cast<std::size_t>(observations.shape(1))},
-                       {actions.mutable_data(i, 0), 2});
+                       {actions.mutable_data(i, 0), static_cast<std::size_t>(actions.shape(1))});
   return actions;
 }
 

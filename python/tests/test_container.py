@@ -10,6 +10,7 @@ except ImportError:
     sys.exit(77)
 
 import ortung
+from forks import in_child
 
 WALL = "sonar/range/wallDistance"
 
@@ -88,33 +89,6 @@ class Container(unittest.TestCase):
         with self.assertRaises(KeyError):
             container.set_values(4, "a/b/c", [1])
 
-    def test_values_of_each_format(self):
-        robot = ortung.Robot(ortung.shipped_file("robots", "pioneer.toml"))
-        container = robot.container
-        seen = set()
-        for feature in container.features:
-            name = container.format(feature).split()[0]
-            beams = int(dict(one.split("=") for one in container.format(feature).split()[1:]).get("beams", 0))
-            values = {"scan": [np.nan, np.inf] + [2.0] * (beams - 2), "odometry": [1, -2, 3, 0.5, 0, -0.25],
-                      "pose": [-1, 2, -3], "cone": [1.5]}.get(name)
-            if values is None:
-                with self.assertRaisesRegex(ValueError, "set\\(\\)|shape"):
-                    container.set_values(1, feature, [[[1.0]]])
-                continue
-            seen.add(name)
-            container.set_values(1, feature, values)
-            self.assertTrue(np.allclose(container.get(feature), values, atol=1e-3, equal_nan=True), feature)
-            with self.assertRaisesRegex(ValueError, "shape"):
-                container.set_values(1, feature, values + [1])
-        self.assertLessEqual({"scan", "odometry"}, seen)
-        scan = next(one for one in container.features if "/LRF/" in one)
-        ranges = container.get(scan)
-        ranges[3] = -2.9
-        with self.assertRaisesRegex(ValueError, "value 3 is -2.9"):
-            container.set_values(2, scan, ranges)
-        with self.assertRaisesRegex(TypeError, "set_values"):
-            container.set(2, scan, np.full(ranges.shape, 2.0))
-
     def test_threads_may_read_set_and_learn(self):
         container = learned()
         failures = []
@@ -146,6 +120,46 @@ class Container(unittest.TestCase):
             self.assertTrue(np.isnan(container.expectation(WALL, x, 0.55, 0)[0]))
         container.learn(WALL, corridor(), [[700]], poses=[(1e9, 0, 0)])  # off the map
 
+    def test_what_was_learned_last_is_the_reading_at_the_time_0(self):
+        container = learned()
+        container.set(5, WALL, [1500])
+        container.learn(WALL, corridor(), [[700], [900]], poses=[(1.05, 0.55, 0), (2.05, 0.55, 0)])
+        self.assertEqual((container.get(WALL).tolist(), container.words(WALL).tolist(), container.stamp(WALL)),
+                         ([0.9], [900], 0))
+
+    def test_a_scalar_says_how_far_it_reads(self):
+        container = ortung.SensorContainer()
+        container.add_scalar(WALL)
+        container.add_scalar("a/b/c", max_range=2.5)
+        self.assertEqual([container.format(one) for one in (WALL, "a/b/c")], ["range max_m=20", "range max_m=2.5"])
+
+    def test_a_process_that_was_forked_gets_no_container_in_use(self):
+        container = learned()
+        region = ortung.FieldRegion(200, 200, 0.1)
+        distances = 20.0 - region.centres[:, 0]
+        stop = threading.Event()
+
+        def work():
+            while not stop.is_set():
+                container.learn_values(WALL, region, distances)
+
+        def look():
+            return container.get(WALL).size
+
+        self.assertEqual(in_child(look), "1")
+        thread = threading.Thread(target=work)
+        thread.start()
+        try:
+            found = {in_child(look) for _ in range(10)}
+        finally:
+            stop.set()
+            thread.join()
+        self.assertEqual(in_child(look), "1")
+        refused = ("RuntimeError: this SensorContainer was in use by another thread when this process was forked; "
+                   "make another one here")
+        self.assertLessEqual(found, {refused, "1"})
+        self.assertIn(refused, found)
+
     def test_what_does_not_fit_is_said_before_anything_is_learned(self):
         container = learned()
         for words, options, error in (
@@ -164,8 +178,9 @@ class Container(unittest.TestCase):
                         {"outliers": 0}, {"outliers": 1}):
             with self.assertRaisesRegex(ValueError, next(iter(options))):
                 container.add_scalar("a/b/c", **options)
-        for options in ((0, 3, 0.1), (3, 0, 0.1), (3, 3, 0)):
-            with self.assertRaises(ValueError):
+        for options in ((0, 3, 0.1), (3, 0, 0.1), (3, 3, 0), (-1, 3, 0.1), (3, -1, 0.1), (-3, -3, 0.1), (3, 3, -0.1),
+                        (3, 3, np.nan), (3, 3, np.inf), (3, 3, 0.1, np.nan), (3, 3, 0.1, 0, np.inf)):
+            with self.assertRaisesRegex(ValueError, "field region: the grid must have cells of positive, finite size"):
                 ortung.FieldRegion(*options)
 
     def test_shipped_files_are_found(self):

@@ -95,6 +95,42 @@ class Views(unittest.TestCase):
             env.reset(seed=1)[0][0] = 1
 
 
+class Episodes(unittest.TestCase):
+    def test_options_and_resets_are_of_one_or_of_all(self):
+        def batch(options={}):
+            return ortung.Batch("striker-v0", options, episodes=3, seed=10)
+
+        changed = {"keeper": "random"}
+        plain, random, one, all_of_them = batch(), batch(changed), batch(), batch()
+        one.set_options(changed, 1)
+        all_of_them.set_options(changed)
+        actions = np.zeros((3, 1, 3), np.float32)
+        for each in (plain, random, one, all_of_them):
+            each.reset([7, 8, 9])
+            for _ in range(5):
+                each.step(actions)
+        self.assertTrue((plain.states != random.states).any(axis=1).all())  # each episode shows the keeper
+        np.testing.assert_array_equal(all_of_them.states, random.states)
+        np.testing.assert_array_equal(one.states[[0, 2]], plain.states[[0, 2]])
+        np.testing.assert_array_equal(one.states[1], random.states[1])
+        plain.reset_one(2, 5)
+        self.assertEqual(plain.seeds.tolist(), [7, 8, 5])
+        for call in (lambda: plain.reset_one(3), lambda: plain.set_options(changed, 3)):
+            with self.assertRaisesRegex(IndexError, "no such episode"):
+                call()
+
+    def test_heuristics_act_row_by_row(self):
+        batch = ortung.Batch("goalkeeper-v0", episodes=4, seed=3)
+        batch.step(np.zeros((4, 1, 2), np.float32))
+        seen = batch.observations[:, 0]
+        for act in (lambda rows: ortung.heuristic("goalkeeper-v0", 0, rows), ortung.blocking):
+            actions = act(seen)
+            self.assertEqual((actions.shape, actions.dtype), ((4, 2), np.float32))
+            np.testing.assert_array_equal(actions, np.concatenate([act(row[None]) for row in seen]))
+            self.assertTrue((np.abs(actions) <= 1).all() and actions.any())
+            self.assertEqual(act(seen[:0]).shape, (0, 2))
+
+
 class Threads(unittest.TestCase):
     def test_they_take_turns_at_a_batch(self):
         batch = ortung.Batch("goalkeeper-v0", episodes=16, threads=2)

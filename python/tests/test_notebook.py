@@ -103,6 +103,37 @@ class Notebook(unittest.TestCase):
         self.assertLess(np.hypot(*(np.average(particles[:, :2], axis=0, weights=particles[:, 3])
                                    - truth[:2])), 0.4)
 
+    def test_starts_where_it_is_told(self):
+        here = ortung.Localization(ROBOT, self.tables)  # anywhere: nothing to say before readings come
+        pose, truth = (1.0, -0.5, 4.0), (1.0, -0.5, 4.0 - 2 * np.pi)
+        told = ortung.Localization(ROBOT, self.tables, start=pose)
+        here.set_pose(*pose, sigma_position=0.2, sigma_heading=0.1)
+        for one in (told, here):
+            particles = one.particles
+            np.testing.assert_allclose(particles[:, :2].mean(axis=0), truth[:2], atol=0.05)
+            self.assertLess(np.abs(np.angle(np.exp(1j * (particles[:, 2] - truth[2])))).max(), 1.0)
+        by_hand = here.particles
+        n = len(by_hand)
+        self.assertGreater(n, 100)
+        angles = np.angle(np.exp(1j * (by_hand[:, 2] - truth[2])))
+        found = np.cov(by_hand[:, 0], by_hand[:, 1])
+        # an estimate of a variance is off by sqrt(2 / n) of it, one of a covariance by sqrt(1 / n)
+        np.testing.assert_allclose(found, [[0.04, 0], [0, 0.04]], atol=5 * 0.04 * np.sqrt(2 / n))
+        self.assertAlmostEqual(angles.var(), 0.01, delta=5 * 0.01 * np.sqrt(2 / n))
+        np.testing.assert_allclose([np.cov(by_hand[:, i], angles)[0, 1] for i in (0, 1)], 0,
+                                   atol=5 * 0.02 * np.sqrt(1 / n))
+        source = f"record:{self.record}"
+        known = ortung.Localization(ROBOT, self.tables, source=source, start="truth")
+        first = next(known)
+        truth = known.container.get("*/groundTruth/*")
+        self.assertEqual(first.status, "tracking")
+        self.assertLess(np.hypot(first.x - truth[0], first.y - truth[1]), 0.2)
+        for start in ("nowhere", "", "Truth"):
+            with self.assertRaisesRegex(ValueError, f"start is '{start}', expected 'global', 'truth' or"):
+                ortung.Localization(ROBOT, self.tables, start=start)
+        with self.assertRaises((RuntimeError, TypeError, ValueError)):
+            ortung.Localization(ROBOT, self.tables, start=(1, 2))
+
     def test_maps_have_their_peak_at_the_robot(self):
         whole = ortung.Localization(ROBOT, self.tables, source=f"record:{self.record}")
         for _ in whole:
@@ -180,8 +211,6 @@ class Notebook(unittest.TestCase):
         with self.assertRaises(ortung.TableError) as caught:
             ortung.Tables(torn)
         self.assertIn("torn.tables", str(caught.exception))
-        with self.assertRaises(ValueError):
-            ortung.Localization(ROBOT, self.tables, start="nowhere")
 
 
 if __name__ == "__main__":
