@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "Physics.hpp"
 
@@ -42,6 +43,44 @@ struct Lopsided {
   Physics physics;
   Physics::Body body = 0;
 };
+
+// The engine looks at each step, since there is a wall 2 cm beside the way.
+TEST(FreeMotion, ADrivingBodyGoesAsItWantsUntilSomethingIsInItsWay) {
+  for (int direction = 0; direction < 16; ++direction) {
+    const double angle = 2.0 * std::numbers::pi * direction / 16;
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    const auto wallAt = [&](double along, double aside, double halfAlong, double halfAside) {
+      Primitive wall = boxAt(c * along - s * aside, s * along + c * aside, halfAlong, halfAside);
+      wall.angle = angle;
+      return wall;
+    };
+    Physics physics({.cycle = kCycle}, {{-20.0, 20.0, -20.0, 20.0},
+                                        {wallAt(0.0, 0.32, 2.0, 0.1), wallAt(0.6, 0.0, 0.1, 0.2)},
+                                        {}});
+    const Primitive shape = circle(0.2);
+    const auto robot = physics.add({&shape, 1}, {10.0, Physics::Floor::kDrives}, {});
+    double way = 0.0;
+    double speed = 0.0;
+    for (int i = 0; i < 40; ++i) {  // 0.16 m, up to 0.8 m/s
+      speed += 2.0 * kCycle;
+      way += speed * kCycle;
+      physics.want(robot, {c * speed * kCycle, s * speed * kCycle, 0.0});
+      physics.step(kCycle);
+      ASSERT_FALSE(physics.wasDisturbed(robot)) << direction << " " << i;
+      ASSERT_NEAR(physics.pose(robot).x, c * way, 1e-12);
+      ASSERT_NEAR(physics.pose(robot).y, s * way, 1e-12);
+    }
+    int disturbed = 0;
+    for (int i = 0; i < 40; ++i) {  // 0.32 m more, of which it gets half
+      physics.want(robot, {c * speed * kCycle, s * speed * kCycle, 0.0});
+      physics.step(kCycle);
+      disturbed += physics.wasDisturbed(robot) ? 1 : 0;
+    }
+    EXPECT_GT(disturbed, 5) << direction;
+    EXPECT_LT(c * physics.pose(robot).x + s * physics.pose(robot).y, 0.31) << direction;
+  }
+}
 
 // About its centroid a right triangle has the moment m (a^2 + b^2) / 18, a and b being its legs.
 TEST(FreeMotion, ATriangleIsAsHardToTurnAsItsShapeSays) {

@@ -2,8 +2,14 @@
 #include <gtest/gtest.h>
 #include <time.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <semaphore>
+#include <thread>
 
 #include "FakeWorld.hpp"
 #include "WorldFiles.hpp"
@@ -95,6 +101,50 @@ TEST(PlayerControl, ActsOnWhatIsSensedInTheSameCycle) {
   EXPECT_EQ(stamps.front(), 0);
   EXPECT_EQ(stamps.back(), 990'000);
   EXPECT_GT(field.simulation.robots()[0]->state().pose.x, 0.2);
+}
+
+/// What abandon() says, for which it has a minute whatever its patience is. What is abandoned waits
+/// for the program's end, so it is never destroyed.
+std::optional<bool> abandoned(PlayerControl& players, std::chrono::duration<double> patience) {
+  const auto promise = std::make_shared<std::promise<bool>>();
+  std::future<bool> haveEnded = promise->get_future();
+  std::thread([&players, promise, patience] {
+    promise->set_value(players.abandon(patience));
+  }).detach();
+  if (haveEnded.wait_for(std::chrono::minutes(1)) != std::future_status::ready) return std::nullopt;
+  return haveEnded.get();
+}
+
+TEST(PlayerControl, EndsAllPlayersOfAProgramThatHangsElsewhere) {
+  static auto* const field = new Field;  // NOLINT(cppcoreguidelines-owning-memory)
+  static int ended = 0;
+  field->start("anna", {0, 0, 0}, ahead, "blue", 0.0, &ended);
+  field->start("bert", {2, 0, 0}, ahead, "blue", 0.0, &ended);
+  field->step(2);
+  EXPECT_EQ(abandoned(field->players, std::chrono::milliseconds(200)), true)
+      << "it waits for a call that nobody is in";
+  EXPECT_EQ(ended, 2);
+}
+
+TEST(PlayerControl, EndsAllPlayersButTheOneThatHangsAtOnce) {
+  static auto* const field = new Field;  // NOLINT(cppcoreguidelines-owning-memory)
+  static int ended = 0;
+  static int hung = 0;
+  static std::promise<void> isIn;
+  static std::binary_semaphore never(0);
+  const auto hang = [](PlayerSeat&) {
+    isIn.set_value();
+    never.acquire();
+    return true;
+  };
+  field->start("anna", {0, 0, 0}, hang, "blue", 0.0, &hung);
+  field->start("bert", {2, 0, 0}, ahead, "blue", 0.0, &ended);
+  std::thread([] { field->step(); }).detach();
+  ASSERT_EQ(isIn.get_future().wait_for(std::chrono::minutes(1)), std::future_status::ready);
+  EXPECT_EQ(abandoned(field->players, std::chrono::hours(1)), true)
+      << "it waits although it is known who hangs";
+  EXPECT_EQ(ended, 1);
+  EXPECT_EQ(hung, 0);
 }
 
 TEST(PlayerControl, KeepsToThePeriodOfAPlayer) {

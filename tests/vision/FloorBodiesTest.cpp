@@ -161,6 +161,10 @@ TEST(FloorTop, IsTheRowWhereTheFloorEnds) {
     for (int u = 0; u < 200; ++u) set(picture, u, v, kGreen);
   EXPECT_EQ(floorTopOf(picture.view(), ColourTable({})), 60.0);
   EXPECT_EQ(floorTopOf(pictureOf(200, 160, kBlack).view(), ColourTable({})), 80.0) << "no floor";
+  picture = pictureOf(600, 160, kGreen);  // read as grey, three times as many pixels as it has
+  EXPECT_EQ(floorTopOf({{600, 160}, PixelFormat::kGrey, picture.pixels.data()}, ColourTable({})),
+            80.0)
+      << "grey has no green";
 }
 
 TEST(FindBlobs, GivesBoxMiddleAndAreaTheLargestFirst) {

@@ -59,6 +59,32 @@ TEST(LinePoseSearch, FindsAnyPoseUpToTheFieldsSymmetry) {
   }
 }
 
+TEST(LinePoseSearch, KnowsTheNearestLineOfAnyPlaceWithinItsTableAndBeyond) {
+  const FieldLines field(mslLines({}));
+  const LinePoseSearch search(field);
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const double x = random.uniform(-12.0, 12.0), y = random.uniform(-8.0, 8.0);
+    const double least = field.nearest(x, y).distance;
+    EXPECT_GE(search.nearest(x, y).distance, least - 1e-12) << x << " " << y;
+    EXPECT_LE(search.nearest(x, y).distance, least + 0.1) << x << " " << y;  // two cells
+  }
+  for (const double away : {20.0, 1000.0})
+    for (const auto& [x, y] : {std::pair{-away, 0.3},
+                               {away, 0.3},
+                               {0.3, -away},
+                               {0.3, away},
+                               {-away, -away},
+                               {away, -away},
+                               {-away, away},
+                               {away, away}}) {
+      const FieldLines::Nearest found = search.nearest(x, y), right = field.nearest(x, y);
+      EXPECT_EQ(found.distance, right.distance) << x << " " << y;
+      EXPECT_EQ(found.x, right.x) << x << " " << y;
+      EXPECT_EQ(found.y, right.y) << x << " " << y;
+    }
+}
+
 TEST(LinePoseSearch, FindsNothingOfNothing) {
   const LinePoseSearch search(FieldLines(mslLines({})));
   EXPECT_TRUE(search.search({}, {}, 3).empty());

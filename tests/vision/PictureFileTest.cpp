@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,21 @@ TEST_F(PictureFile, IsMeasuredByItsHeader) {
   rusage after{};
   ::getrusage(RUSAGE_SELF, &after);
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000) << "kB";
+}
+
+// ITU-T T.81, table B.1: SOF0 to SOF15, of which three codes are other segments.
+TEST_F(PictureFile, OfAnyFrameOfJpegIsMeasured) {
+  const std::set<int> frames{0xC0, 0xC1, 0xC2, 0xC3, 0xC5, 0xC6, 0xC7,
+                             0xC9, 0xCA, 0xCB, 0xCD, 0xCE, 0xCF};
+  for (int marker = 0; marker < 0xFF; ++marker) {
+    const std::string bytes = "\xFF\xD8\xFF"s + static_cast<char>(marker) +
+                              "\x00\x11\x08\x27\x10\x9C\x40\x03\x01\x22\x00"s;
+    EXPECT_EQ(refusalOf(bytes),
+              frames.contains(marker)
+                  ? "has 40000 x 10000 pixels, expected 1 to 4096 a side"
+                  : "has no header of a picture, expected a picture: JPEG, PNG, BMP, PGM or PPM")
+        << std::hex << marker;
+  }
 }
 
 TEST_F(PictureFile, IsOneOfTheFormatsThatAreRead) {

@@ -44,10 +44,9 @@ struct Profile {
   int count() const { return static_cast<int>(whiteness.size()); }
   double white(int i) const { return whiteness[static_cast<std::size_t>(i)]; }
   int floorIn(int from, int to) const { return sumOf(floorSum, from, to); }
-  /// The mean; below 0: there is no floor.
+  /// The mean. @pre there is floor
   double whiteOfFloor(int from, int to) const {
-    const int floor = floorIn(from, to);
-    return floor > 0 ? static_cast<double>(sumOf(whiteSum, from, to)) / floor : -1.0;
+    return static_cast<double>(sumOf(whiteSum, from, to)) / floorIn(from, to);
   }
   /// The floor's standard deviation; 0: there is too little of it.
   double roughness(int from, int to) const {

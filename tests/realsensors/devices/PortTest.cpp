@@ -1,5 +1,9 @@
 /// Lines, servers and child processes that devices hang on: bytes, ends, and what errors say.
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
 
 #include "Await.hpp"
 #include "Files.hpp"
@@ -161,6 +165,91 @@ TEST(Port, AServersNewClientReplacesTheLastOne) {
   EXPECT_THROW(first->read(bytes, kPatience), DeviceAbsent);
   end.write("x");
   EXPECT_EQ(readAll(*second, 1), "x");
+}
+
+TEST(Port, AServerThatIsLeftTakesTheNextClient) {
+  TcpEndpoint end(0);
+  for (const char* const word : {"a", "b", "c"}) {
+    const auto port = Port::open(end.name(), 0);
+    port->write(word);
+    std::string got;
+    for (int i = 0; i < 1'000'000 && got.empty(); ++i) end.read(got);
+    EXPECT_EQ(got, word);
+    end.write(word);
+    EXPECT_EQ(readAll(*port, 1), word);
+  }
+}
+
+// A descriptor that was closed is somebody else's soon.
+TEST(Port, AServerThatIsUnpluggedLeavesTheDescriptorsOfOthersAlone) {
+  TcpEndpoint end(0);
+  const auto port = Port::open(end.name(), 0);
+  std::string got;
+  port->write("1");
+  for (int i = 0; i < 1'000'000 && got.empty(); ++i) end.read(got);
+  end.unplug();
+  int pair[2];
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, pair), 0);
+  end.write("x");
+  end.read(got);
+  end.unplug();
+  EXPECT_EQ(got, "1");
+  for (const int one : pair) {
+    char letter = 0;
+    EXPECT_EQ(::recv(one, &letter, 1, 0), -1);
+    EXPECT_EQ(errno, EAGAIN) << "nothing was written, and it is still open";
+  }
+  for (const int one : pair) ::close(one);
+}
+
+/// Descriptor 0 is free while this lives, as in a program that was started without an input.
+class WithoutInput {
+ public:
+  WithoutInput() { ::close(0); }
+  ~WithoutInput() {
+    if (kept_ < 0) return;
+    ::dup2(kept_, 0);
+    ::close(kept_);
+  }
+  WithoutInput(const WithoutInput&) = delete;
+  WithoutInput& operator=(const WithoutInput&) = delete;
+
+ private:
+  int kept_ = ::dup(0);
+};
+
+TEST(Port, AnyEndMayHaveTheDescriptor0) {
+  const test::TemporaryFolder folder;
+  const auto answers = [](Endpoint& end, Port& port) {
+    std::string question;
+    port.write("question");
+    for (int i = 0; i < 1'000'000 && question.size() < 8; ++i) end.read(question);
+    EXPECT_EQ(question, "question");
+    end.write("answer");
+    EXPECT_EQ(readAll(port, 6), "answer");
+  };
+  {
+    const WithoutInput zero;
+    PseudoTerminal line(folder / "line");
+    const auto port = Port::open((folder / "line").string(), 9600);
+    answers(line, *port);
+  }
+  {
+    const WithoutInput zero;
+    TcpEndpoint server(0);
+    const auto port = Port::open(server.name(), 0);
+    answers(server, *port);
+  }
+  {
+    TcpEndpoint server(0);
+    const WithoutInput zero;
+    const auto port = Port::open(server.name(), 0);
+    answers(server, *port);
+  }
+  TcpEndpoint server(0);
+  const auto port = Port::open(server.name(), 0);
+  const WithoutInput zero;  // of the server's side of the connection
+  answers(server, *port);
 }
 
 TEST(Port, AServersAddressIsOneOfNumbers) {

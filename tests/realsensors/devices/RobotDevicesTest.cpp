@@ -1,8 +1,12 @@
 /// The devices of a robot file: which tables are one device, and which settings are refused.
 #include <gtest/gtest.h>
 
+#include <atomic>
+
+#include "Await.hpp"
 #include "Files.hpp"
 #include "ortung/devices/RobotDevices.hpp"
+#include "ortung/emulators/Endpoint.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
@@ -110,6 +114,75 @@ TEST_F(RobotDevicesTest, TheFolderOfDevicesMayBeAnother) {
   const auto relative = read(wheels(), "desk");
   EXPECT_EQ(relative[0].parameters.text("port"),
             (std::filesystem::current_path() / "desk/ttyS0").string());
+}
+
+/// Two compasses that stamp nothing, at a time that the test says.
+class TwoCompasses : public RobotDevicesTest {
+ protected:
+  static constexpr Timestamp kSecond = 1'000'000;
+
+  TwoCompasses() {
+    std::string toml;
+    for (const std::size_t i : {0u, 1u})
+      toml += "[[sensor]]\nplugin = 'compass'\nmodel = 'c" + std::to_string(i) +
+              "'\ndevice = { plugin = 'lines', port = '" + ends_[i].name() +
+              "', has_clock = false, latency_s = 0, stale_after_s = 1000 }\n";
+    devices_ =
+        std::make_unique<RobotDevices>(read(toml), kWait, factory_, [this] { return now_.load(); });
+    for (const std::size_t i : {0u, 1u})
+      EXPECT_TRUE(test::comesTrue("the device is open", [&] {
+        std::string said;
+        ends_[i].read(said);
+        return devices_->status()[i].openings == 1;
+      }));
+  }
+  /// A device gives a reading at a time [s].
+  void measure(std::size_t device, int seconds) {
+    now_ = seconds * kSecond;
+    std::string said;
+    ends_[device].read(said);  // takes its connection
+    ends_[device].write("0 c" + std::to_string(device) + "/compass/north 1 " +
+                        std::to_string(18000 + seconds) + "\n");
+    const std::uint64_t before = readings_[device]++;
+    EXPECT_TRUE(test::comesTrue("the reading is there",
+                                [&] { return devices_->status()[device].readings == before + 1; }));
+  }
+  /// The next reading that need not wait, as "DEVICE at SECONDS".
+  std::string next() {
+    const auto message = devices_->next(std::chrono::milliseconds(0));
+    return message ? message->id.model + " at " + std::to_string(message->stamp / kSecond) : "none";
+  }
+  static constexpr double kWait = 100.0;  // [s]
+  std::atomic<Timestamp> now_ = 0;
+  TcpEndpoint ends_[2] = {TcpEndpoint(0), TcpEndpoint(0)};
+  std::uint64_t readings_[2] = {0, 0};
+  std::unique_ptr<RobotDevices> devices_;
+};
+
+TEST_F(TwoCompasses, WaitForOneAnotherUpToTheTimeThatTheyMay) {
+  measure(0, 1);
+  EXPECT_EQ(next(), "c0 at 1") << "nobody waits for a device's first reading";
+  measure(1, 2);
+  EXPECT_EQ(next(), "none") << "the first one may have one of before";
+  measure(0, 3);
+  EXPECT_EQ(next(), "c1 at 2");
+  EXPECT_EQ(next(), "none");
+  now_ = 103 * kSecond - 1;
+  EXPECT_EQ(next(), "none");
+  now_ = 103 * kSecond;
+  EXPECT_EQ(next(), "c0 at 3");
+}
+
+TEST_F(TwoCompasses, DoNotWaitForOneThatIsGone) {
+  measure(0, 1);
+  measure(1, 1);
+  EXPECT_EQ(next(), "c0 at 1");
+  EXPECT_EQ(next(), "c1 at 1");
+  ends_[0].unplug();
+  EXPECT_TRUE(test::comesTrue("it is gone",
+                              [&] { return devices_->status()[0].state == DeviceState::kAbsent; }));
+  measure(1, 2);
+  EXPECT_EQ(next(), "c1 at 2");
 }
 
 }  // namespace
