@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "ortung/base/Angles.hpp"
@@ -14,9 +13,6 @@ namespace {
 
 /// Number of pictures between two estimates of the floor's colour: light changes slowly.
 constexpr int kPicturesAColour = 10;
-
-/// Where a pixel above the horizon shows the floor: farther than any range.
-constexpr Point3 kNever{std::numeric_limits<double>::infinity(), 0.0, 0.0};
 
 }  // namespace
 
@@ -144,10 +140,10 @@ std::optional<Point3> ImageFeaturesExtractor::footOf(const ImageView& image,
           static_cast<std::size_t>(v) * static_cast<std::size_t>(image.size.width) +
           static_cast<std::size_t>(u);
       if (!colours.isBall(image.pixels + 3 * at)) continue;
-      const Point3 floor =
-          view_->floorAt({static_cast<double>(u), static_cast<double>(v)}).value_or(kNever);
-      if (std::abs(wrapAngle(std::atan2(floor.y, floor.x) - bearing)) > kAside) continue;
-      const double range = std::hypot(floor.x, floor.y);
+      const auto floor = view_->floorAt({static_cast<double>(u), static_cast<double>(v)});
+      if (!floor || std::abs(wrapAngle(std::atan2(floor->y, floor->x) - bearing)) > kAside)
+        continue;
+      const double range = std::hypot(floor->x, floor->y);
       if (range >= nearest) continue;
       nearest = range;
       foot = floor;
