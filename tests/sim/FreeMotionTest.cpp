@@ -133,6 +133,47 @@ TEST(FreeMotion, TheVelocityIsThatOfTheOrigin) {
   }
 }
 
+// Between two walls that it does not touch the engine has to look at each step. Nothing keeps a
+// body there from going where it wants, to the last bit, until there is something in its way.
+TEST(FreeMotion, ADrivingBodyThatNothingTouchesGoesWhereItWants) {
+  for (const double direction : {0.6, 2.2, -0.6, -2.2}) {
+    const double c = std::cos(direction);
+    const double s = std::sin(direction);
+    Solids corridor{{-20.0, 20.0, -20.0, 20.0}, {}, {}};
+    for (const double side : {-0.4, 0.4}) {
+      Primitive wall = boxAt(-side * s, side * c, 10.0, 0.1);
+      wall.angle = direction;
+      corridor.primitives.push_back(wall);
+    }
+    for (const bool isBlocked : {false, true}) {
+      Physics physics({.cycle = kCycle}, corridor);
+      const Primitive shape = circle(0.25);
+      const Pose2 start{-c, -s, 0.3};
+      const auto body = physics.add({&shape, 1}, {10.0, Physics::Floor::kDrives}, start);
+      physics.place(body, start, {0.5 * c, 0.5 * s, 1.0});
+      const Primitive heavy = circle(0.1);
+      if (isBlocked)
+        physics.add({&heavy, 1}, {50.0, Physics::Floor::kSlides}, {-0.4 * c, -0.4 * s, 0.0});
+      bool wasDisturbed = false;
+      for (int i = 1; i <= 100; ++i) {
+        const double way = 0.5 * i * kCycle;
+        const Pose2 wanted{start.x + way * c, start.y + way * s, start.theta + i * kCycle};
+        const Pose2 before = physics.pose(body);
+        const Pose2 change = inverse(before) * wanted;
+        physics.want(body, change);
+        physics.step(kCycle);
+        wasDisturbed = wasDisturbed || physics.wasDisturbed(body);
+        if (isBlocked) continue;
+        const Pose2 planned = before * change;
+        ASSERT_EQ(physics.pose(body).x, planned.x) << direction << " " << i;
+        ASSERT_EQ(physics.pose(body).y, planned.y) << direction << " " << i;
+        ASSERT_EQ(physics.pose(body).theta, planned.theta) << direction << " " << i;
+      }
+      EXPECT_EQ(wasDisturbed, isBlocked) << direction;
+    }
+  }
+}
+
 TEST(Friction, OfTwoBodiesIsTheGeometricMeanOfTheirOwn) {
   // The spinning first hits the second; the impulse across is mu times that along, since they slip.
   struct Case {
