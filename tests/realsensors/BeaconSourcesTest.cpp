@@ -52,8 +52,11 @@ TEST_F(BeaconSources, UwbPoseLeavesOutFailedRangesAndTakesTheHeadingOfTheWay) {
   EXPECT_EQ(asText(only(messages, "tag0/landmarks/anchor1Distance")),
             (Texts{"1000000 tag0/landmarks/anchor1Distance 1500"}));
   EXPECT_EQ(only(messages, "tag1/landmarks/anchor1Distance").size(), 2u);
-  for (const Message& truth : only(messages, "reference/groundTruth/pose"))
-    EXPECT_NEAR(words::toAngle(truth.words[2]), 1.5708, 1e-3) << "0.2 m to the left";
+  EXPECT_EQ(asText(only(messages, "reference/groundTruth/pose")),
+            (Texts{"1000000 reference/groundTruth/pose 2147483648 2147483648 27000",
+                   "1250000 reference/groundTruth/pose 2147483648 2147483748 27000",
+                   "1500000 reference/groundTruth/pose 2147483648 2147483848 27000"}))
+      << "0.2 m to the left";
 }
 
 // Ticks of 0.349 mm, tracks 0.173 m apart; the reference is of the scanner, 30 mm ahead.

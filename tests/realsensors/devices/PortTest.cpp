@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "Await.hpp"
@@ -177,6 +178,34 @@ TEST(Port, AServerThatIsLeftTakesTheNextClient) {
     EXPECT_EQ(got, word);
     end.write(word);
     EXPECT_EQ(readAll(*port, 1), word);
+  }
+}
+
+// As a line does: what its reader does not take is lost, and nobody waits for it.
+TEST(Port, AnEndWritesWhatItsReaderTakes) {
+  const test::TemporaryFolder folder;
+  PseudoTerminal line(folder / "line");
+  TcpEndpoint server(0);
+  const std::pair<Endpoint*, std::string> all[] = {{&line, (folder / "line").string()},
+                                                   {&server, server.name()}};
+  for (const auto& [end, name] : all) {
+    const auto port = Port::open(name, 9600);
+    std::string got;
+    port->write("1");
+    for (int i = 0; i < 1'000'000 && got.empty(); ++i) end->read(got);
+    constexpr std::size_t kMuch = 1u << 25;
+    errno = 0;
+    end->write(std::string(kMuch, 'x'));
+    end->write(std::string(kMuch, 'y'));
+    std::string bytes;
+    while (port->read(bytes, milliseconds(0))) {
+    }
+    EXPECT_LT(bytes.size(), 2 * kMuch);
+    EXPECT_EQ(bytes.find_first_not_of("xy"), bytes.npos);
+    EXPECT_EQ(bytes.substr(0, 1), "x") << "in the order in which it was written";
+    EXPECT_TRUE(std::is_sorted(bytes.begin(), bytes.end()));
+    end->write("z");
+    EXPECT_EQ(readAll(*port, 1), "z") << "there is room again";
   }
 }
 
