@@ -332,8 +332,12 @@ TEST_F(MrptMaps, AreRefusedWithTheReadersOwnWords) {
   EXPECT_HAS(refusal("map.gridmap.gz"), "answered \"something else\"");
   reader("printf 'ortung-gridmap 3 2 0.5 -1 2\\nabc'");
   EXPECT_HAS(refusal("map.gridmap.gz"), "expected a line and 6 cells");
-  reader("printf 'ortung-gridmap 25 1 1 0 0'");  // 25 bytes, of a line that has no end
-  EXPECT_HAS(refusal("map.gridmap.gz"), "expected a line and 25 cells");
+  for (const char* cells : {"", "abcde", "abcdefg"}) {
+    reader(std::string("printf 'ortung-gridmap 3 2 0.5 -1 2\\n") + cells + "'");
+    EXPECT_HAS(refusal("map.gridmap.gz"), "expected a line and 6 cells");
+  }
+  reader("printf 'ortung-gridmap 4 7 0.5 -1 2 '");  // 28 bytes, but no line
+  EXPECT_HAS(refusal("map.gridmap.gz"), "gave 28 bytes, expected a line and 28 cells");
   reader("printf 'ortung-gridmap 99999 99999 0.5 -1 2\\n'");
   EXPECT_HAS(refusal("map.gridmap.gz"), "expected 1 to 2^26");
   reader("printf 'ortung-gridmap 1 1 nan -1 2\\na'");
