@@ -91,7 +91,10 @@ TEST(ServedPlayers, ComeOnlyWhileThereIsRoomForTheirCosts) {
 
 TEST(ServedPlayers, CostsOfACycleAreAMeanOfTheNewestOnes) {
   ServedSimulation world(kField, {.noise = false});
-  world.startPlayer({.plugin = "wander", .robot = kRobot});
+  PlayerWish wish;
+  wish.plugin = "wander";
+  wish.robot = kRobot;
+  world.startPlayer(wish);
   EXPECT_EQ(world.load(), 0.0) << "before the first";
   const double cycle = 0.01;  // [s]
   double least = 0.0, most = 0.0;
