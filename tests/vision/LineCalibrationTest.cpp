@@ -81,8 +81,9 @@ TEST(LineCalibration, CostsWhatTheNoiseOfPixelsExplains) {
   std::vector<LinePicture> pictures;
   for (const Pose2 pose : {Pose2{-7.0, 3.0, 2.8}, Pose2{2.5, 1.0, 2.9}, Pose2{8.0, -4.0, -0.6}})
     pictures.push_back(pictureFrom(field, truth, pose, random, 1.0));
-  const auto found = calibrateByLines({608, 800}, pictures, LinePoseSearch(field),
-                                      {.pixelSigma = 1.0, .focals = {0.4}});
+  LineCalibrationGuess guess;
+  guess.focals = {0.4};
+  const auto found = calibrateByLines({608, 800}, pictures, LinePoseSearch(field), guess);
   ASSERT_TRUE(found);
   EXPECT_LT(found->cost, 0.79);
   EXPECT_GT(found->cost, 0.55);
