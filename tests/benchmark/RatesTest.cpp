@@ -66,17 +66,6 @@ TEST(Rates, BootstrapIsTheSameForASeed) {
   EXPECT_EQ(same.high, -1.0);
 }
 
-TEST(Rates, NoPairsSayNothingAndNoResamplesNothingBesidesTheMean) {
-  const auto expectInterval = [](const Interval& found, double value, double low, double high) {
-    EXPECT_EQ(found.value, value);
-    EXPECT_EQ(found.low, low);
-    EXPECT_EQ(found.high, high);
-  };
-  expectInterval(pairedBootstrap({}, 1), 0.0, -1.0, 1.0);
-  const std::vector<int> differences = {1, 0, 0, 1};
-  expectInterval(pairedBootstrap(differences, 1, 0), 0.5, 0.5, 0.5);
-}
-
 // Of 1001 values, the 25th from either end.
 TEST(Rates, PercentilesAreAmongTheValues) {
   std::vector<double> drawn;

@@ -12,7 +12,7 @@ namespace ortung {
 Interval pairedBootstrap(std::span<const int> differences, std::uint64_t seed,
                          std::size_t resamples) {
   const std::size_t n = differences.size();
-  if (n == 0) return {0.0, -1.0, 1.0};
+  if (n == 0 || resamples == 0) return {0.0, -1.0, 1.0};
   std::int64_t sum = 0;
   for (const int difference : differences) sum += difference;
   Random random(seed, 0);

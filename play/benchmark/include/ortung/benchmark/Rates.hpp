@@ -14,7 +14,7 @@ namespace ortung {
 /// of the means, as percentiles() has it.
 /// @param differences differences, each -1, 0 or 1 @param seed the same seed gives the same
 ///   interval
-/// @returns 0 in [-1, 1], which says nothing, if there are no pairs
+/// @returns 0 in [-1, 1], which says nothing, if there are no pairs or no draws
 ORTUNG_API Interval pairedBootstrap(std::span<const int> differences, std::uint64_t seed,
                                     std::size_t resamples = 1000);
 
