@@ -370,7 +370,7 @@ TEST(ClientForC, NullIsAnErrorWithAText) {
   EXPECT_EQ(ortung_read(robot, "*/odometry/*", nullptr, 0, nullptr), -1);  // nothing read yet
   EXPECT_EQ(trouble(), "");
   EXPECT_TRUE(comesTrue("odometry has five words", [&] {
-    return ortung_wait_for_update(robot, 1.0) == 1 &&
+    return ortung_update(robot) == 1 &&
            ortung_read(robot, "*/odometry/*", nullptr, 0, nullptr) == 5;
   }));
   ortung_disconnect(robot);
