@@ -49,13 +49,20 @@ LinePicture pictureFrom(const FieldLines& field, const CameraView& view, const P
   return picture;
 }
 
-TEST(LineCalibration, FindsTheCameraThatMadeThePictures) {
-  const FieldLines field(mslLines({}));
-  const CameraView truth = fisheye(318.0, 0.76, radians(3.0));
+/// Pictures from three places all over the field.
+std::vector<LinePicture> picturesFrom(const FieldLines& field, const CameraView& view,
+                                      double noise = 0.5) {
   Random random(8);
   std::vector<LinePicture> pictures;
   for (const Pose2 pose : {Pose2{-7.0, 3.0, 2.8}, Pose2{2.5, 1.0, 2.9}, Pose2{8.0, -4.0, -0.6}})
-    pictures.push_back(pictureFrom(field, truth, pose, random));
+    pictures.push_back(pictureFrom(field, view, pose, random, noise));
+  return pictures;
+}
+
+TEST(LineCalibration, FindsTheCameraThatMadeThePictures) {
+  const FieldLines field(mslLines({}));
+  const CameraView truth = fisheye(318.0, 0.76, radians(3.0));
+  const auto pictures = picturesFrom(field, truth);
   const auto found = calibrateByLines({608, 800}, pictures, LinePoseSearch(field), {});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->view.place().z, 0.76, 0.01);
@@ -77,10 +84,7 @@ TEST(LineCalibration, FindsTheCameraThatMadeThePictures) {
 TEST(LineCalibration, CostsWhatTheNoiseOfPixelsExplains) {
   const FieldLines field(mslLines({}));
   const CameraView truth = fisheye(318.0, 0.76, radians(3.0));
-  Random random(8);
-  std::vector<LinePicture> pictures;
-  for (const Pose2 pose : {Pose2{-7.0, 3.0, 2.8}, Pose2{2.5, 1.0, 2.9}, Pose2{8.0, -4.0, -0.6}})
-    pictures.push_back(pictureFrom(field, truth, pose, random, 1.0));
+  const auto pictures = picturesFrom(field, truth, 1.0);
   LineCalibrationGuess guess;
   guess.focals = {0.4};
   const auto found = calibrateByLines({608, 800}, pictures, LinePoseSearch(field), guess);

@@ -18,9 +18,9 @@ namespace {
 // As of nice(1): a tenth of the weight of others. Lower ones would keep readings from a container,
 // of which it looks at a few under a lock, for too long where others have all processors.
 constexpr int kPriority = 10;
-// Long, since whoever wakes up takes the processor at once from a thread whose slice is longer than
-// its own, and else waits for the end of that slice, up to 3 ms [ns]. Linux before 6.12 has slices
-// of one length for all.
+// A thread that wakes up preempts at once one whose slice is longer than its own; otherwise it
+// waits for the end of that slice, up to 3 ms. Before Linux 6.12 all slices have the same length
+// [ns].
 constexpr std::uint64_t kSlice = 100'000'000;
 constexpr double kShortestWait = 0.001;  // what is less is paid with the next piece [s]
 constexpr double kLongestSleep = 0.05;   // so that the end is noticed [s]
