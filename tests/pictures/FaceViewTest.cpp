@@ -63,5 +63,48 @@ TEST(FaceView, SeesWhatIsBetweenItsEdgesAndSpheresThatReachInto) {
   EXPECT_GT(seen, 50);
 }
 
+TEST(FaceView, SeesASphereUntilItHasLeftTheView) {
+  Random random(5);
+  for (int i = 0; i < 500; ++i) {
+    CameraPose camera;
+    camera.axes = anyTurn(random);
+    SheetFace face;
+    face.inCamera = anyTurn(random);
+    face.left = random.uniform(-1.5, 0.3);
+    face.right = face.left + random.uniform(0.1, 1.5);
+    face.top = random.uniform(-1.5, 0.3);
+    face.bottom = face.top + random.uniform(0.1, 1.5);
+    const FaceView view(camera, face);
+    const auto sees = [&](const Vector& p, double reach) {
+      const Vector relative = times(camera.axes, times(face.inCamera, p));
+      return view.sees(relative[0], relative[1], relative[2], reach);
+    };
+    const double depth = random.uniform(0.5, 5.0);
+    const double x = random.uniform(face.left, face.right);
+    const double y = random.uniform(face.top, face.bottom);
+    EXPECT_TRUE(sees({depth * x, depth * y, depth}, 0.0)) << i;
+    const double reach = random.uniform(0.0, 0.2);
+    const auto expectBorder = [&](const Vector& border, const Vector& outwards) {
+      const double length = std::hypot(outwards[0], outwards[1], outwards[2]);
+      for (const auto& [share, isSeen] : {std::pair{0.999, true}, {1.001, false}}) {
+        const double by = share * (reach + 1e-6) / length;
+        EXPECT_EQ(sees({border[0] + by * outwards[0], border[1] + by * outwards[1],
+                        border[2] + by * outwards[2]},
+                       reach + 1e-6),
+                  isSeen)
+            << i << " " << share;
+      }
+    };
+    expectBorder({depth * face.left, depth * y, depth}, {-1.0, 0.0, face.left});
+    expectBorder({depth * face.right, depth * y, depth}, {1.0, 0.0, -face.right});
+    expectBorder({depth * x, depth * face.top, depth}, {0.0, -1.0, face.top});
+    expectBorder({depth * x, depth * face.bottom, depth}, {0.0, 1.0, -face.bottom});
+    EXPECT_FALSE(sees({0.0, 0.0, -1.001 * reach - 1e-9}, reach)) << i << " behind";
+    Vector within{};
+    for (double& part : within) part = random.uniform(-0.5, 0.5) * reach;
+    EXPECT_TRUE(sees(within, reach)) << i << " around the camera";
+  }
+}
+
 }  // namespace
 }  // namespace ortung
