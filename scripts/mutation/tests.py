@@ -22,6 +22,7 @@ class Tests:
     environment: dict
     filters: list = field(default_factory=list)
     seconds: float = 0.0
+    joins: bool = True  # may run in one process with others
 
     def run(self, environment, limit_s):
         """Whether all passed. What does not end in time is stopped with all its children and has failed."""
@@ -61,11 +62,13 @@ def together(tests):
     for test in sorted(tests, key=lambda t: t.seconds):
         place = (*test.command, test.folder, *sorted(test.environment.items()))
         group = open_groups.get(place)
-        if test.filters and group and group.seconds + test.seconds <= TOGETHER_S:
+        if test.joins and test.filters and group and group.seconds + test.seconds <= TOGETHER_S:
             group.filters += test.filters
             group.seconds += test.seconds
             group.name = f"{group.filters[0]} or another of {Path(test.command[0]).name}"
-        else:
+        elif test.joins:
             open_groups[place] = replace(test, filters=list(test.filters))
             groups.append(open_groups[place])
+        else:
+            groups.append(replace(test))
     return sorted(groups, key=lambda g: g.seconds / max(1, len(g.filters)))
