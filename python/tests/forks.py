@@ -1,6 +1,13 @@
 """What a forked process does, for tests."""
 import os
 import signal
+import unittest
+
+# It ends processes that start threads after a fork.
+if "libtsan" in os.environ.get("LD_PRELOAD", ""):
+    unless_thread_sanitizer = unittest.skip("the thread sanitizer knows no forks")
+else:
+    unless_thread_sanitizer = lambda test: test  # noqa: E731
 
 
 def in_child(work):

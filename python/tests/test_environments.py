@@ -11,7 +11,7 @@ except ImportError:
 
 import ortung
 import rules
-from forks import in_child
+from forks import in_child, unless_thread_sanitizer
 
 SINGLE = [one["id"] for one in ortung.environments() if len(one["agents"]) == 1]
 
@@ -170,6 +170,7 @@ class Threads(unittest.TestCase):
         self.assertTrue(np.array_equal(alone.observations, shared.observations))
 
 
+@unless_thread_sanitizer
 class Forks(unittest.TestCase):
     def test_a_child_works_on_with_its_copy(self):
         actions = np.zeros((8, 1, 2), np.float32)
