@@ -225,6 +225,24 @@ TEST(FieldSearch, EachStageHasAThresholdOfItsOwn) {
   EXPECT_NEAR(places[0].logProbability, -60.0, 0.05);
 }
 
+// A cover that is as fine as can be is divided no more: what climbs is weighed by the readings
+// themselves, and so are the places, as with a coarse one.
+TEST(FieldSearch, PlacesAreThoseOfTheReadingsThemselvesHoweverFineTheCoverIs) {
+  FieldRegion region{{.originX = 0, .originY = 0, .cell = 0.05, .columns = 40, .rows = 40}, {}, {}};
+  region.open.assign(region.grid.size(), 1);
+  region.standable = region.open;
+  const Pose2 top{1.232, 0.791, 0.43};
+  for (const double spacing : {0.05, 0.1, 0.2, 0.4}) {
+    SCOPED_TRACE(spacing);
+    const auto hill = std::make_shared<Hills>(std::vector<Hill>{{top, -60.0}});
+    const auto places = found(region, {std::make_shared<Raised>(hill, 0.0F)},
+                              {.spacing = spacing, .headings = 64, .places = 1});
+    ASSERT_EQ(places.size(), 1U);
+    expectNear(places[0].pose, top, 0.006, 0.004);
+    EXPECT_NEAR(places[0].logProbability, -60.0, 0.05);
+  }
+}
+
 TEST(FieldSearch, MultipliesReadingsOfWhichNoneTellsThePlace) {
   const Pose2 truth{6.6, 3.3, 0.9};
   const auto squared = [](double residual) { return -0.5 * residual * residual; };

@@ -154,9 +154,27 @@ TEST(GridFilter, RefusesWhatDoesNotFitIntoMemory) {
     EXPECT_NE(std::string(error.what()).find("a grid of 377040000 poses"), std::string::npos)
         << error.what();
   }
-  EXPECT_THROW(make({.cell = 0.0}), std::invalid_argument);
-  EXPECT_THROW(make({.cell = std::nan("")}), std::invalid_argument);
-  EXPECT_THROW(make({.headingStep = 2.0}), std::invalid_argument);
+}
+
+TEST(GridConfig, LetsAllThroughThatItsMessagesNameAndNothingElse) {
+  const auto refusal = [](const GridConfig& config) -> std::string {
+    try {
+      config.check();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal({}), "");
+  for (const double cell : {0.01, 1.0, 10.0}) EXPECT_EQ(refusal({.cell = cell}), "") << cell;
+  for (const double cell : {0.0, 0.00999, 10.001, -1.0, HUGE_VAL, std::nan("")})
+    EXPECT_NE(refusal({.cell = cell}).find("must be in [0.01, 10] m"), std::string::npos) << cell;
+  for (const double step : {0.001, 1.0, kPi / 2.0})
+    EXPECT_EQ(refusal({.headingStep = step}), "") << step;
+  for (const double step : {0.0, 0.000999, 1.571, -0.1, HUGE_VAL, std::nan("")})
+    EXPECT_NE(refusal({.headingStep = step}).find("must be in [0.001, a quarter of a turn] rad"),
+              std::string::npos)
+        << step;
 }
 
 }  // namespace

@@ -97,5 +97,26 @@ TEST(MotionLearner, StopsWhenAsked) {
   EXPECT_FALSE(model);
 }
 
+// What some delays give is no result: the best one may be among the others.
+TEST(MotionLearner, GivesNoModelWhereverItIsStopped) {
+  std::vector<MotionLog> logs;
+  logs.push_back(drive(0.0, 60.0, 5));
+  MotionLearning options;
+  options.earliestDelay = 0.0;
+  options.latestDelay = 0.08;  // five delays
+  for (int most = 0; most <= 5; ++most) {
+    int asked = 0;
+    std::vector<double> shares;
+    std::unique_ptr<MotionModel> model = odometryMotion();  // of something else, before
+    learnMotion(logs, options, odometryMotion, model, [&](double share) {
+      shares.push_back(share);
+      return asked++ < most;
+    });
+    EXPECT_EQ(model != nullptr, most == 5) << "after " << most << " delays";
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      EXPECT_NEAR(shares[i], static_cast<double>(i) / 5.0, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace ortung
