@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "ExactMotion.hpp"
 #include "FakeRoom.hpp"
@@ -12,6 +13,7 @@
 namespace ortung {
 namespace {
 
+constexpr double kPi = std::numbers::pi;
 constexpr double kFloor = -30.0;  ///< ln p of readings that fit nowhere
 
 TEST(Lead, NoReadingCountsMoreThanFourNatsAndNoneFromTheSamePlace) {
@@ -198,6 +200,40 @@ TEST(Rivals, WhereOdometryLiedTheSurroundingsTakeOverASharedBelief) {
     EXPECT_GE(taken, 5) << off;
     // Its ring begins with 0.5 m and grows by 0.5 m/s; readings come ten times a second.
     EXPECT_LE(taken, 5 + static_cast<int>(std::max(0.0, off - 0.5) / 0.5 * 10.0) + 3) << off;
+  }
+}
+
+// A heading of its own makes another place, where readings tell the difference.
+TEST(Rivals, TheSamePlaceWithAnotherHeadingTakesOver) {
+  for (const double off : {kPi, 0.5 * kPi, -2.0}) {
+    Drive drive;
+    bool isTaken = false;
+    for (int i = 0; i < 60 && !isTaken; ++i) {
+      const Pose2 believed{drive.truth.x + 0.3, drive.truth.y, drive.truth.theta + off};
+      const auto takeover = drive.reading(0.3, believed);
+      if (!takeover) continue;
+      isTaken = true;
+      EXPECT_LT(distanceOf(takeover->samples, drive.truth), 0.3) << off;
+      for (const float theta : takeover->samples.theta)
+        EXPECT_NEAR(wrapAngle(static_cast<double>(theta) - drive.truth.theta), 0.0, 0.5) << off;
+    }
+    EXPECT_TRUE(isTaken) << "with a heading that is off by " << off;
+  }
+}
+
+// Whoever has come to where the belief is has nothing else to say, however far it leads.
+TEST(Rivals, WhoMeetsTheBeliefNoLongerCompetes) {
+  for (const double turn : {0.0, 0.15, -0.15, 2.0 * kPi}) {
+    Drive drive;
+    int with = 0;
+    for (int i = 0; i < 40 && with < 3; ++i) {
+      drive.reading(0.3, {8, -5, 2});
+      with += drive.hasElsewhere() ? 1 : 0;
+    }
+    ASSERT_TRUE(drive.hasElsewhere());
+    ASSERT_GT(drive.rivals.lead(), 0.0);
+    drive.reading(0.3, {drive.truth.x + 0.4, drive.truth.y, drive.truth.theta + turn});
+    EXPECT_FALSE(drive.hasElsewhere()) << turn;
   }
 }
 

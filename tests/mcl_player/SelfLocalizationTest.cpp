@@ -223,5 +223,26 @@ TEST(TableStore, LearnsOnceForRobotsThatSenseAlike) {
   EXPECT_EQ(first->info().worldFingerprint, game.simulation.world().fingerprint());
 }
 
+// Who is asked whether to go on may say no at any time; nothing that is half learned is kept.
+TEST(TableStore, GivesNothingWhenItIsStopped) {
+  Game1 game(1);
+  RobotConfig robot = readRobot(shippedFile("robots", "pioneer_lrf.toml"));
+  const SimRobot& sim = game.simulation.addRobot(robot, game.factory, {-2.0, 2.0, 0.0});
+  TableStore tables(kWorld);
+  for (const int most : {0, 3, 3}) {
+    std::vector<double> shares;
+    const auto learned = tables.of(robot, sim.container(), game.factory, [&](double share) {
+      shares.push_back(share);
+      return static_cast<int>(shares.size()) <= most;
+    });
+    EXPECT_EQ(learned, nullptr);
+    ASSERT_EQ(shares.size(), static_cast<std::size_t>(most) + 1U) << "it begins anew each time";
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      EXPECT_GT(shares[i], i == 0 ? 0.0 : shares[i - 1]);
+      EXPECT_LT(shares[i], 1.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ortung

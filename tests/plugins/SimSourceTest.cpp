@@ -155,6 +155,35 @@ TEST(SimSource, RefusesWrongOptionsByName) {
   expectRefused("tempo", "1", "tempo");
 }
 
+// A scene says itself which robots drive where; whose readings are wanted can be said, else they
+// are the first one's.
+TEST(SimSource, OfASceneIsOneOfItsRobots) {
+  const Options kick{{"path", ORTUNG_SOURCE_DIR "/maps/scenes/kick.toml"}, {"duration", "0.2"}};
+  const auto startOf = [&](const std::string& robot) {
+    Options options = kick;
+    if (!robot.empty()) options["robot"] = robot;
+    SimRun run(options, "");
+    return posesOf(run.all(), "groundTruth").at(0);
+  };
+  EXPECT_NEAR(startOf("").x, -1.3, 0.1) << "the striker";
+  EXPECT_NEAR(startOf("striker").x, -1.3, 0.1);
+  EXPECT_NEAR(startOf("pusher").y, -3.1, 0.1);
+  EXPECT_THROW(startOf("nobody"), std::exception);
+  for (const auto& [key, value] :
+       Options{{"start", "1,2,0"}, {"waypoints", "1,2;3,4"}, {"speed", "0.5"}, {"kidnap", "1,2"}}) {
+    Options options = kick;
+    options[key] = value;
+    try {
+      SimRun run(options, "");
+      ADD_FAILURE() << key << " was taken";
+    } catch (const ConfigError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find(key + " does not fit a scene"), std::string::npos) << message;
+    }
+  }
+  EXPECT_THROW(SimRun(Options{{"robot", "pioneer"}}), ConfigError) << "of a world there is but one";
+}
+
 TEST(SimSource, NeedsARobotFileAndRoomAtTheStart) {
   EXPECT_THROW(SimRun(Options{}, ""), ConfigError);
   EXPECT_THROW(SimRun(Options{{"start", "100,0,0"}}), std::exception);

@@ -10,6 +10,17 @@
 namespace ortung {
 namespace {
 
+const std::string kExpected = ", expected PLUGIN[:key=value&key=value...][@TEAM]";
+
+std::string refusalOf(const std::string& text) {
+  try {
+    parsePlayer(text);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(PlayerWish, IsReadFromAText) {
   const PlayerWish bare = parsePlayer("wander");
   EXPECT_EQ(bare.plugin, "wander");
@@ -33,6 +44,31 @@ TEST(PlayerWish, IsReadFromAText) {
   EXPECT_TRUE(wish.options.flagOr("loud", false));
   EXPECT_EQ(wish.options.text("empty"), "");
   EXPECT_NO_THROW(wish.options.refuseUnread());
+}
+
+// What is the wish's own is no option of the plugin's, and each of it is given once, with a value.
+TEST(PlayerWish, KeepsItsOwnKeysFromThePlugin) {
+  const std::pair<std::string, std::string> keys[] = {{"robot", "r.toml"},
+                                                      {"tables", "t.tables"},
+                                                      {"name", "anna"},
+                                                      {"start", "1,2,3"},
+                                                      {"stage", "no"}};
+  for (const auto& [key, value] : keys) {
+    SCOPED_TRACE(key);
+    const std::string text = "keeper:" + key + "=" + value;
+    const PlayerWish wish = parsePlayer(text);
+    EXPECT_FALSE(wish.options.has(key));
+    EXPECT_EQ(wish.robot, key == "robot" ? value : "");
+    EXPECT_EQ(wish.tables, key == "tables" ? value : "");
+    EXPECT_EQ(wish.name, key == "name" ? value : "");
+    EXPECT_EQ(wish.start.has_value(), key == "start");
+    EXPECT_EQ(wish.seesStage, key != "stage");
+    EXPECT_EQ(refusalOf("keeper:" + key + "="),
+              "player 'keeper:" + key + "=': " + key + " is empty" + kExpected);
+    EXPECT_EQ(
+        refusalOf(text + "&" + key + "=" + value),
+        "player '" + text + "&" + key + "=" + value + "': " + key + " is given twice" + kExpected);
+  }
 }
 
 TEST(PlayerWish, ThatCantBeReadSaysWhy) {
