@@ -55,7 +55,7 @@ class FakeRun {
     const Pose2 change{speed * kPeriod, 0, turn * kPeriod};
     truths_.push_back(truth);
     truth = truth * change;
-    odometry_ = odometry_ * Pose2{change.x * (1 + 0.02 * random_.gaussian()), 0,
+    odometry_ = odometry_ * Pose2{(change.x + spin * kPeriod) * (1 + 0.02 * random_.gaussian()), 0,
                                   change.theta + 0.004 * random_.gaussian()};
     stamp += fromSeconds(kPeriod);
     readAll();
@@ -97,6 +97,7 @@ class FakeRun {
   Pose2 truth;
   Timestamp stamp = 0;
   bool tellsOdometry = true;
+  double spin = 0.0;     ///< speed of wheels that spin: counted by odometry, but not driven [m/s]
   std::size_t late = 0;  ///< periods by which stamps of readings are
 
  private:
