@@ -141,7 +141,7 @@ TEST(PlayerWish, IsReadFromAScene) {
     SCOPED_TRACE(player);
     try {
       const Scene bad = Scene::read(folder.write("b.toml", sceneWith(player)));
-      SceneRun(bad, {}, factory);
+      const SceneRun refused(bad, {}, factory);
       ADD_FAILURE() << "was taken";
     } catch (const std::exception& error) {
       EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
