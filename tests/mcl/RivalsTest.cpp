@@ -1,8 +1,11 @@
 // Places that compete with the belief: what it takes until they win.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "ExactMotion.hpp"
 #include "FakeRoom.hpp"
@@ -14,6 +17,8 @@ namespace ortung {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+/// Places that look alike, from one of them.
+const std::vector<Pose2> kAlike{{0, -3, 0}, {0, -2, 0}, {0, -1, 0}, {0, 1, 0}};
 constexpr double kFloor = -30.0;  ///< ln p of readings that fit nowhere
 
 TEST(Lead, NoReadingCountsMoreThanFourNatsAndNoneFromTheSamePlace) {
@@ -45,23 +50,57 @@ TEST(Lead, FourReadingsAreEnoughAndThreeHopeless) {
   EXPECT_TRUE(behind.isHopeless());
 }
 
-float fitAt(float x, float y, float theta, const Pose2& there) {
-  const double way = std::hypot(x - there.x, y - there.y) / 0.1;
-  const double turn = wrapAngle(theta - there.theta) / 0.1;
-  return static_cast<float>(std::max(-0.5 * (way * way + turn * turn), kFloor));
+TEST(Lead, TwoReadingsAreEnoughForAPlaceThatIsHardlyConfused) {
+  EXPECT_EQ(mostNatsFor(1), 9.0);
+  EXPECT_NEAR(mostNatsFor(2), 9.0 - std::log(2.0), 1e-12);
+  EXPECT_EQ(mostNatsFor(1000), 4.0) << "as if nothing was known of others";
+  for (const int places : {1, 2, 3}) {
+    Lead lead(mostNatsFor(places));
+    for (int i = 0; i < 2; ++i) lead.count(1000.0, 1.0);
+    EXPECT_EQ(lead.isEnough(), places < 3) << places;
+  }
+  Lead lead(9.0);
+  lead.count(-1000.0, 1.0);
+  EXPECT_EQ(lead.nats(), -9.0);
 }
 
-/// A reading that fits at one place.
+TEST(Lead, OfTheSamePlaceIsKeptUnlessItIsAgainstIt) {
+  Lead before;
+  before.count(3.0, 1.0);
+  Lead lead(9.0);
+  lead.count(8.0, 1.0);
+  lead.add(before);
+  EXPECT_EQ(lead.nats(), 11.0);
+  before.count(-1000.0, 1.0);
+  lead.add(before);
+  EXPECT_EQ(lead.nats(), 11.0);
+  lead.forget();
+  EXPECT_EQ(lead.nats(), 0.0);
+  lead.count(1000.0, 1.0);
+  EXPECT_EQ(lead.nats(), 9.0) << "it still counts as much";
+}
+
+/// ln p of a reading that fits at some places.
+float fitAt(float x, float y, float theta, const std::vector<Pose2>& places) {
+  double best = kFloor;
+  for (const Pose2& there : places) {
+    const double way = std::hypot(x - there.x, y - there.y) / 0.1;
+    const double turn = wrapAngle(theta - there.theta) / 0.1;
+    best = std::max(best, -0.5 * (way * way + turn * turn));
+  }
+  return static_cast<float>(best);
+}
+
 class FitsAt : public Weigher {
  public:
-  explicit FitsAt(const Pose2& there) : there_(there) {}
+  explicit FitsAt(std::vector<Pose2> there) : there_(std::move(there)) {}
 
  private:
   void weigh(const SampleView& poses, std::span<float> out) const override {
     for (std::size_t i = 0; i < out.size(); ++i)
       out[i] += fitAt(poses.x[i], poses.y[i], poses.theta[i], there_);
   }
-  Pose2 there_;
+  std::vector<Pose2> there_;
 };
 
 /// A robot drives through a hall; readings tell where it is, the belief is elsewhere.
@@ -83,7 +122,9 @@ struct Drive {
         for (float& x : some.x) x += static_cast<float>(metres);
       });
     }
-    const Pose2 there = seen.value_or(truth);
+    std::vector<Pose2> there{seen.value_or(truth)};
+    for (const Pose2& apart : alike)
+      there.push_back({there[0].x + apart.x, there[0].y + apart.y, there[0].theta + apart.theta});
     Evidence reading;
     reading.weigh = [&](const SampleSet& set, std::vector<float>& out) {
       out.resize(set.size());
@@ -115,7 +156,8 @@ struct Drive {
     return rivals.follow(moment, recovery, reading);
   }
   bool hasElsewhere() { return rivals.hypotheses()[1] != nullptr; }
-  static float logProbability(const SampleSet& set, std::size_t i, const Pose2& there) {
+  static float logProbability(const SampleSet& set, std::size_t i,
+                              const std::vector<Pose2>& there) {
     return fitAt(set.x[i], set.y[i], set.theta[i], there);
   }
 
@@ -128,6 +170,7 @@ struct Drive {
   Rivals rivals{config, region, search, motion, time, workers};
   Recovery recovery{MclConfig{}};
   Pose2 truth{-8, 2, 0.3};
+  std::vector<Pose2> alike;  ///< places that look like the robot's, from there
   Timestamp stamp = 0;
   int readings = 0;
 };
@@ -139,8 +182,32 @@ double distanceOf(const SampleSet& set, const Pose2& pose) {
   return sum;
 }
 
-TEST(Rivals, APlaceElsewhereTakesOverAfterSeveralReadingsOnSomeWay) {
+TEST(Rivals, APlaceThatAloneExplainsReadingsTakesOverWithTheSecondOne) {
   Drive drive;
+  EXPECT_FALSE(drive.reading(0.3, {8, -5, 2})) << "no reading decides alone";
+  ASSERT_TRUE(drive.hasElsewhere());
+  EXPECT_EQ(drive.rivals.lead(), 9.0);
+  const auto takeover = drive.reading(0.3, {8, -5, 2});
+  ASSERT_TRUE(takeover);
+  EXPECT_EQ(takeover->share, 1.0);
+  EXPECT_FALSE(takeover->isConfirmed) << "two readings are few";
+  EXPECT_LT(distanceOf(takeover->samples, drive.truth), 0.3);
+  EXPECT_FALSE(drive.hasElsewhere()) << "all is told";
+}
+
+TEST(Rivals, APlaceThatAloneExplainedOneReadingIsLeftWhenTheNextContradicts) {
+  Drive drive;
+  drive.reading(0.3, {8, -5, 2}, Pose2{0, -3, 1});
+  ASSERT_TRUE(drive.hasElsewhere());
+  EXPECT_FALSE(drive.reading(0.3, {8, -5, 2}));  // it fits where the robot is, not there
+  const auto takeover = drive.reading(0.3, {8, -5, 2});
+  ASSERT_TRUE(takeover) << "the search of the reading before found the robot";
+  EXPECT_LT(distanceOf(takeover->samples, drive.truth), 0.3);
+}
+
+TEST(Rivals, OfManyPlacesThatLookAlikeNoneTakesOverBeforeReadingsHaveConfirmedIt) {
+  Drive drive;
+  drive.alike = kAlike;
   int sinceSearch = 0;
   for (int i = 0; i < 40; ++i) {
     const bool hadRivals = drive.hasElsewhere();
@@ -149,25 +216,30 @@ TEST(Rivals, APlaceElsewhereTakesOverAfterSeveralReadingsOnSomeWay) {
     if (!takeover) continue;
     EXPECT_EQ(sinceSearch, 5);
     EXPECT_EQ(takeover->share, 1.0);
-    EXPECT_LT(distanceOf(takeover->samples, drive.truth), 0.3);
+    EXPECT_TRUE(takeover->isConfirmed);
     EXPECT_FALSE(drive.hasElsewhere()) << "all is told";
     return;
   }
   FAIL() << "it never came back";
 }
 
-TEST(Rivals, ReadingsFromOnePlaceCarryNobodyAway) {
+/// How often a robot has to come 0.1 m on until it is found again, after it stood still.
+int stepsAfterStanding(const std::vector<Pose2>& alike = {}) {
   Drive drive;
-  for (int i = 0; i < 200; ++i) ASSERT_FALSE(drive.reading(0.0, {8, -5, 2})) << i;
-  ASSERT_TRUE(drive.hasElsewhere()) << "but there is somebody to compare with";
-  // Slow motion counts by its way: at least 1 m.
-  for (int i = 1; i < 40; ++i) {
-    const auto takeover = drive.reading(0.1, {8, -5, 2});
-    if (!takeover) continue;
-    EXPECT_GE(i, 10);
-    return;
-  }
-  FAIL() << "it never came back";
+  drive.alike = alike;
+  for (int i = 0; i < 200; ++i)
+    EXPECT_FALSE(drive.reading(0.0, {8, -5, 2})) << "carried away standing, reading " << i;
+  EXPECT_TRUE(drive.hasElsewhere()) << "but there is somebody to compare with";
+  for (int i = 1; i < 40; ++i)
+    if (drive.reading(0.1, {8, -5, 2})) return i;
+  return 40;
+}
+
+TEST(Rivals, ReadingsFromOnePlaceCarryNobodyAway) {
+  EXPECT_EQ(stepsAfterStanding(), 3) << "slow motion counts by its way, of 0.3 m";
+  const int steps = stepsAfterStanding(kAlike);
+  EXPECT_GE(steps, 10) << "of 1 m at least";
+  EXPECT_LT(steps, 40);
 }
 
 TEST(Rivals, ReadingsThatLieForAWhileCarryNobodyAway) {
@@ -188,6 +260,7 @@ TEST(Rivals, ReadingsThatLieForAWhileCarryNobodyAway) {
 TEST(Rivals, WhereOdometryLiedTheSurroundingsTakeOverASharedBelief) {
   for (const double off : {0.6, 1.0}) {
     Drive drive;
+    for (const double x : {6.0, 8.0, 10.0}) drive.alike.push_back({x, -3.0, 1.0});
     int taken = 0;
     for (int i = 1; i <= 60 && taken == 0; ++i) {
       const Pose2 believed{drive.truth.x + 0.15, drive.truth.y + off, drive.truth.theta + 0.2};
@@ -248,7 +321,7 @@ TEST(Rivals, NobodyCompetesWhileReadingsFit) {
 
 TEST(Rivals, AreForgottenWhenItBeginsAnew) {
   Drive drive;
-  for (int i = 0; i < 12; ++i) drive.reading(0.1, {8, -5, 2});
+  drive.reading(0.1, {8, -5, 2});
   ASSERT_TRUE(drive.hasElsewhere());
   drive.rivals.forget();
   EXPECT_FALSE(drive.hasElsewhere());

@@ -76,6 +76,10 @@ ORTUNG_CONSTANT(lead, kHopelessNats, -12.0);
 /// [nats] Most that one reading counts, so that no single reading moves the belief: at least four
 /// have to agree.
 ORTUNG_CONSTANT(lead, kMostNatsOfAReading, 4.0);
+/// [nats] Most that one reading counts for a place that alone in the whole field explains a reading
+/// as well as usual: two have to agree, also if there are two such places. A search with each scan
+/// of seven logs of buildings found no wrong place that alone explained one as well as usual.
+ORTUNG_CONSTANT(lead, kMostNatsIfUnique, 9.0);
 
 }  // namespace lead
 

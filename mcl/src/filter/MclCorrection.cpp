@@ -158,7 +158,7 @@ bool Mcl::Impl::letRivalLead(const Weighed& weighed) {
   } else {
     track->belief.setSamples(std::move(takeover->samples));
     track->recovery.beginAnew();
-    track->confirmation.forget();  // the takeover itself was a confirmation
+    takeover->isConfirmed ? track->confirmation.forget() : track->confirmation.begin();
   }
   takeover->trustsOdometry ? track->trust.forget() : track->trust.lose();
   return true;

@@ -7,7 +7,7 @@ namespace ortung {
 
 void OdometryTrust::lose() {
   lost_ = true;
-  lead_ = {};
+  lead_.forget();
 }
 
 void OdometryTrust::compare(double ratio, double travelled) {

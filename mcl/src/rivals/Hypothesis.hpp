@@ -52,7 +52,8 @@ class ORTUNG_API Hypothesis {
     bool isOfBelief = true;
   };
 
-  explicit Hypothesis(SampleSet samples = {}) : samples_(std::move(samples)) {}
+  explicit Hypothesis(SampleSet samples = {}, Lead lead = Lead())
+      : samples_(std::move(samples)), lead_(lead) {}
 
   const SampleSet& samples() const { return samples_; }
   /// Replaces the samples of the same hypothesis: its lead stays.
@@ -95,7 +96,7 @@ class ORTUNG_API Hypothesis {
   /// @returns whether they counted
   bool count(double ratio, double part, bool isUsual);
   const Lead& lead() const { return lead_; }
-  void forgetLead() { lead_ = {}; }
+  void forgetLead() { lead_.forget(); }
   /// Returns the number of readings in a row that fitted worse than usual.
   int unusual() const { return unusual_; }
 

@@ -1,7 +1,9 @@
 #include "Rivals.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "BeliefTuning.hpp"
@@ -47,6 +49,26 @@ Centre centreOf(const SampleSet& set) {
   return centre;
 }
 
+/// Returns how many places explain the readings about as well as the best one does; none if even
+/// that fits worse than usual, or not well in itself.
+int explainedBy(std::span<const FieldSearch::Place> places, const Rivals::Moment& moment,
+                const Recovery& recovery) {
+  std::vector<const Weigher*> readings;
+  for (const auto& reading : moment.readings) readings.push_back(reading.get());
+  std::vector<double> fits;
+  for (const FieldSearch::Place& place : places) {
+    SampleSet one;
+    one.resize(1);
+    one.x[0] = static_cast<float>(place.pose.x);
+    one.y[0] = static_cast<float>(place.pose.y);
+    one.theta[0] = static_cast<float>(place.pose.theta);
+    fits.push_back(fitOf(readings, one, std::array{1.0}).value_or(0.0));
+  }
+  if (fits.empty() || fits.front() < elsewhere::kWell || !recovery.isUsual(fits.front())) return 0;
+  return static_cast<int>(std::ranges::count_if(
+      fits, [&](double fit) { return fit >= elsewhere::kAsWell * fits.front(); }));
+}
+
 /// Returns whether a hypothesis is at the same place as the belief, so that it is no alternative.
 bool isSame(const Pose2& rival, const Pose2& belief) {
   return distance(rival, belief) < hypothesis::kSamePlace &&
@@ -54,6 +76,10 @@ bool isSame(const Pose2& rival, const Pose2& belief) {
 }
 
 }  // namespace
+
+bool Rivals::Elsewhere::isConfirmed() const {
+  return travelled >= hypothesis::kDistance && readings >= elsewhere::kReadings;
+}
 
 void Rivals::forget() {
   doubtSince_.reset();
@@ -168,19 +194,32 @@ double Rivals::travelledAround(const Moment& moment) {
 std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
                                                       const Recovery& recovery,
                                                       const Evidence& evidence) {
-  if (!elsewhere_) {
-    search(moment, recovery);
-    return std::nullopt;
-  }
+  // What was found since the last readings is weighed by these already.
+  if (searching_ && searching_->job.isDone()) drawElsewhere(moment, recovery);
+  std::optional<Takeover> takeover;
+  if (elsewhere_) takeover = followElsewhere(moment, recovery, evidence);
+  travelledSinceSearch_ += moment.travelled;
+  if (!takeover && mayFindBetter()) search(moment, recovery);
+  return takeover;
+}
+
+std::optional<Rivals::Takeover> Rivals::followElsewhere(const Moment& moment,
+                                                        const Recovery& recovery,
+                                                        const Evidence& evidence) {
   Hypothesis& rival = elsewhere_->hypothesis;
   const double ratio = weighElsewhere(moment, evidence);
-  rival.count(ratio, moment.travelled / common::kIndependent,
-              recovery.isUsual(evidence.fit(rival.samples())));
+  const double fit = evidence.fit(rival.samples());
+  const double most = fit < elsewhere::kWell ? lead::kMostNatsOfAReading : std::abs(ratio);
+  rival.count(std::clamp(ratio, -most, most), moment.travelled / common::kIndependent,
+              recovery.isUsual(fit));
   elsewhere_->travelled += moment.travelled;
   ++elsewhere_->readings;
-  if (rival.lead().isEnough() && elsewhere_->travelled >= hypothesis::kDistance &&
-      elsewhere_->readings >= elsewhere::kReadings) {
-    Takeover takeover{rival.samples(), 1.0, true};
+  const bool isConfirmed = elsewhere_->isConfirmed();
+  if (rival.lead().isEnough() && (elsewhere_->isDistinct || isConfirmed)) {
+    // A place that is near was probably reached by motion that odometry did not count.
+    const bool isNear =
+        distance(centreOf(rival.samples()).pose, moment.predicted) < around::kLargestRing;
+    Takeover takeover{rival.samples(), 1.0, !isNear, isConfirmed};
     forget();
     return takeover;
   }
@@ -203,33 +242,54 @@ double Rivals::weighElsewhere(const Moment& moment, const Evidence& evidence) {
          moment.logEvidence;
 }
 
+/// Returns whether a search may find a better place than the one that is followed: not from where
+/// the last one was made, and not while readings fit at a distinct place.
+bool Rivals::mayFindBetter() const {
+  if (!elsewhere_ || searching_) return true;
+  const Hypothesis& rival = elsewhere_->hypothesis;
+  const bool fits = rival.lead().nats() > 0.0 && rival.unusual() == 0;
+  return travelledSinceSearch_ >= trust::kIndependent && !(elsewhere_->isDistinct && fits);
+}
+
 /// Begins a search of the field, if the fit of the readings calls for it, and continues it.
 void Rivals::search(const Moment& moment, const Recovery& recovery) {
-  if (!searching_ && recovery.callsForSearch()) {
+  if (!searching_ && (recovery.callsForSearch() || recovery.unusual() > 0)) {
     FieldSearch::Settings settings;
     settings.workers = &workers_;
     searching_.emplace(Searching{FieldSearch(region_, settings), moment});
+    travelledSinceSearch_ = 0.0;
     searching_->job.begin(moment.readings);
   }
   if (!searching_) return;
   searchOn();
-  if (searching_->job.isDone()) drawElsewhere(moment);
+  if (searching_->job.isDone()) drawElsewhere(moment, recovery);
 }
 
-/// Draws a hypothesis around the places found. The readings of the search do not count as evidence
-/// for it.
-void Rivals::drawElsewhere(const Moment& moment) {
+/// Draws a hypothesis around the places found. The readings of the search count as evidence for it
+/// only if hardly any other place explains them: otherwise they have merely selected it. One that
+/// is followed is replaced only by such a place.
+void Rivals::drawElsewhere(const Moment& moment, const Recovery& recovery) {
   std::vector<PoseSearch::Ring> rings;
   const auto places = searching_->job.places();
+  const int explained = explainedBy(places, searching_->moment, recovery);
+  const double most = explained > 0 ? mostNatsFor(explained) : lead::kMostNatsOfAReading;
+  const bool isDistinct = 2.0 * most >= lead::kEnoughNats;
   for (const FieldSearch::Place& place : places) {
     if (place.logProbability > places.front().logProbability + lead::kHopelessNats)
       rings.push_back({place.pose, common::kPlaceRadius, places::kTurn});
   }
   const Moment then = std::move(searching_->moment);
   searching_.reset();
-  if (rings.empty()) return;
-  elsewhere_.emplace(Elsewhere{Hypothesis(drawnFrom(rings, then))});
-  carryOn(elsewhere_->hypothesis, then, moment);
+  if (rings.empty() || (!isDistinct && (elsewhere_ || !recovery.callsForSearch()))) return;
+  Lead lead(most);
+  if (isDistinct) lead.count(places.front().logProbability - then.logEvidence, 1.0);
+  Hypothesis found(drawnFrom(rings, then));
+  carryOn(found, then, moment);
+  if (isSame(centreOf(found.samples()).pose, moment.predicted)) return;
+  if (elsewhere_ &&
+      isSame(centreOf(elsewhere_->hypothesis.samples()).pose, centreOf(found.samples()).pose))
+    lead.add(elsewhere_->hypothesis.lead());
+  elsewhere_.emplace(Elsewhere{Hypothesis(found.samples(), lead), isDistinct});
 }
 
 SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Moment& then) const {

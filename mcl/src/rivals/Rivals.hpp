@@ -32,7 +32,8 @@ namespace ortung {
 ///   odometry, and pushes. Half of the samples follow odometry, the other half spreads by process
 ///   noise.
 /// - Elsewhere, drawn around the places where a search of the whole field finds that one time
-///   step's readings fit, and moved by odometry. The search may take several updates.
+///   step's readings fit, and moved by odometry. The search may take several updates. It tells how
+///   many places explain the readings about as well, and so how much they may count.
 ///
 /// Both are drawn by one time step's readings, and weighed by all later ones, as the belief is. A
 /// reading counts in their favour only if it fits as well as usual: in a crowd it fits nowhere. Not
@@ -55,6 +56,7 @@ class ORTUNG_API Rivals {
     SampleSet samples;
     double share;
     bool trustsOdometry;
+    bool isConfirmed = true;  ///< whether as many readings support it as confirm a place
   };
 
   /// All arguments are borrowed.
@@ -93,8 +95,11 @@ class ORTUNG_API Rivals {
   };
   struct Elsewhere {
     Hypothesis hypothesis;
+    /// Whether the search's readings count, too, since hardly any other place explains them.
+    bool isDistinct = false;
     double travelled = 0.0;
     int readings = 0;
+    bool isConfirmed() const;
   };
   /// A search of the field, for the time of its readings.
   struct Searching {
@@ -108,9 +113,12 @@ class ORTUNG_API Rivals {
   double travelledAround(const Moment& moment);
   std::optional<Takeover> lookElsewhere(const Moment& moment, const Recovery& recovery,
                                         const Evidence& evidence);
+  std::optional<Takeover> followElsewhere(const Moment& moment, const Recovery& recovery,
+                                          const Evidence& evidence);
   double weighElsewhere(const Moment& moment, const Evidence& evidence);
+  bool mayFindBetter() const;
   void search(const Moment& moment, const Recovery& recovery);
-  void drawElsewhere(const Moment& moment);
+  void drawElsewhere(const Moment& moment, const Recovery& recovery);
   SampleSet drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Moment& then) const;
   void carryOn(Hypothesis& found, const Moment& then, const Moment& now) const;
 
@@ -123,6 +131,7 @@ class ORTUNG_API Rivals {
   std::optional<Timestamp> doubtSince_;
   std::optional<Around> around_;
   std::optional<Searching> searching_;
+  double travelledSinceSearch_ = 0.0;
   std::optional<Elsewhere> elsewhere_;
 };
 

@@ -55,6 +55,14 @@ namespace elsewhere {
 /// Least number of readings before a takeover. Chosen by hand: with lead::kMostNatsOfAReading four
 /// would be enough.
 ORTUNG_CONSTANT(elsewhere, kReadings, 5);
+/// [share] Share of the best place's fit from which another place explains readings about as well.
+/// Chosen by hand: with 0.8 a fifth fewer scans of buildings are of one place alone, with 0.96 that
+/// is the wrong place for the first time.
+ORTUNG_CONSTANT(elsewhere, kAsWell, 0.9);
+/// [share] Least fit of readings that count more than others do. Chosen by hand: where people stand
+/// around the robot from the start scans that fit badly are usual, and two thirds of those that fit
+/// at one wrong place alone fit worse than this, without people hardly any.
+ORTUNG_CONSTANT(elsewhere, kWell, 0.75);
 /// Number of readings in a row that fit worse than usual after which the place counts as a random
 /// match. Chosen by hand.
 ORTUNG_CONSTANT(elsewhere, kMostUnusual, 4);
