@@ -205,6 +205,21 @@ TEST(Rivals, APlaceThatAloneExplainedOneReadingIsLeftWhenTheNextContradicts) {
   EXPECT_LT(distanceOf(takeover->samples, drive.truth), 0.3);
 }
 
+// Who looks often enough finds a place at last that fits by chance.
+TEST(Rivals, AfterReadingsThatFitNowhereTwoAreNotEnough) {
+  Drive drive;
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(drive.reading(0.3, {8, -5, 2}, Pose2{1000, 1000, 0}));
+  for (int i = 1; i <= 20; ++i) {
+    const auto takeover = drive.reading(0.3, {8, -5, 2});
+    if (!takeover) continue;
+    EXPECT_GE(i, 5);
+    EXPECT_TRUE(takeover->isConfirmed);
+    EXPECT_LT(distanceOf(takeover->samples, drive.truth), 0.3);
+    return;
+  }
+  FAIL() << "it never came back";
+}
+
 TEST(Rivals, OfManyPlacesThatLookAlikeNoneTakesOverBeforeReadingsHaveConfirmedIt) {
   Drive drive;
   drive.alike = kAlike;

@@ -86,6 +86,7 @@ void Rivals::forget() {
   around_.reset();
   searching_.reset();
   elsewhere_.reset();
+  inVain_ = 0;
 }
 
 double Rivals::lead() const {
@@ -267,12 +268,15 @@ void Rivals::search(const Moment& moment, const Recovery& recovery) {
 
 /// Draws a hypothesis around the places found. The readings of the search count as evidence for it
 /// only if hardly any other place explains them: otherwise they have merely selected it. One that
-/// is followed is replaced only by such a place.
+/// is followed is replaced only by such a place. In a crowd readings fit nowhere, one after the
+/// other, so that each further search is one more chance to find a wrong place.
 void Rivals::drawElsewhere(const Moment& moment, const Recovery& recovery) {
   std::vector<PoseSearch::Ring> rings;
   const auto places = searching_->job.places();
   const int explained = explainedBy(places, searching_->moment, recovery);
-  const double most = explained > 0 ? mostNatsFor(explained) : lead::kMostNatsOfAReading;
+  if (explained == 0) ++inVain_;
+  const double most =
+      explained > 0 ? mostNatsFor(explained * (1 + inVain_)) : lead::kMostNatsOfAReading;
   const bool isDistinct = 2.0 * most >= lead::kEnoughNats;
   for (const FieldSearch::Place& place : places) {
     if (place.logProbability > places.front().logProbability + lead::kHopelessNats)

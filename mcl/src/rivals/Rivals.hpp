@@ -131,7 +131,9 @@ class ORTUNG_API Rivals {
   std::optional<Timestamp> doubtSince_;
   std::optional<Around> around_;
   std::optional<Searching> searching_;
-  double travelledSinceSearch_ = 0.0;
+  double travelledSinceSearch_ = 0.0;  ///< [m]
+  /// Searches since doubts began that found no place where their readings fit.
+  int inVain_ = 0;
   std::optional<Elsewhere> elsewhere_;
 };
 
