@@ -271,9 +271,12 @@ void Rivals::search(const Moment& moment, const Recovery& recovery) {
 /// is followed is replaced only by such a place. In a crowd readings fit nowhere, one after the
 /// other, so that each further search is one more chance to find a wrong place.
 void Rivals::drawElsewhere(const Moment& moment, const Recovery& recovery) {
+  const Searching done = std::move(*searching_);
+  searching_.reset();
+  const Moment& then = done.moment;
+  const std::span<const FieldSearch::Place> places = done.job.places();
   std::vector<PoseSearch::Ring> rings;
-  const auto places = searching_->job.places();
-  const int explained = explainedBy(places, searching_->moment, recovery);
+  const int explained = explainedBy(places, then, recovery);
   if (explained == 0) ++inVain_;
   const double most =
       explained > 0 ? mostNatsFor(explained * (1 + inVain_)) : lead::kMostNatsOfAReading;
@@ -282,8 +285,6 @@ void Rivals::drawElsewhere(const Moment& moment, const Recovery& recovery) {
     if (place.logProbability > places.front().logProbability + lead::kHopelessNats)
       rings.push_back({place.pose, common::kPlaceRadius, places::kTurn});
   }
-  const Moment then = std::move(searching_->moment);
-  searching_.reset();
   if (rings.empty() || (!isDistinct && (elsewhere_ || !recovery.callsForSearch()))) return;
   Lead lead(most);
   if (isDistinct) lead.count(places.front().logProbability - then.logEvidence, 1.0);
