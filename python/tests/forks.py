@@ -1,6 +1,7 @@
 """What a forked process does, for tests."""
 import os
 import signal
+import threading
 import unittest
 
 # It ends processes that start threads after a fork.
@@ -27,3 +28,20 @@ def in_child(work):
         text = file.read()
     status = os.waitpid(child, 0)[1]
     return text if status == 0 else f"ended by signal {status}"
+
+
+def in_children_while(busy, work):
+    """The different texts that work() returns in ten processes that are forked while a thread here calls busy() on and on."""
+    stop = threading.Event()
+
+    def keep_busy():
+        while not stop.is_set():
+            busy()
+
+    thread = threading.Thread(target=keep_busy)
+    thread.start()
+    try:
+        return {in_child(work) for _ in range(10)}
+    finally:
+        stop.set()
+        thread.join()

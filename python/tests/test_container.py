@@ -10,7 +10,7 @@ except ImportError:
     sys.exit(77)
 
 import ortung
-from forks import in_child
+from forks import in_child, in_children_while
 
 WALL = "sonar/range/wallDistance"
 
@@ -137,23 +137,12 @@ class Container(unittest.TestCase):
         container = learned()
         region = ortung.FieldRegion(200, 200, 0.1)
         distances = 20.0 - region.centres[:, 0]
-        stop = threading.Event()
-
-        def work():
-            while not stop.is_set():
-                container.learn_values(WALL, region, distances)
 
         def look():
             return container.get(WALL).size
 
         self.assertEqual(in_child(look), "1")
-        thread = threading.Thread(target=work)
-        thread.start()
-        try:
-            found = {in_child(look) for _ in range(10)}
-        finally:
-            stop.set()
-            thread.join()
+        found = in_children_while(lambda: container.learn_values(WALL, region, distances), look)
         self.assertEqual(in_child(look), "1")
         refused = ("RuntimeError: this SensorContainer was in use by another thread when this process was forked; "
                    "make another one here")

@@ -11,7 +11,7 @@ except ImportError:
 
 import ortung
 import rules
-from forks import in_child, unless_thread_sanitizer
+from forks import in_child, in_children_while, unless_thread_sanitizer
 
 SINGLE = [one["id"] for one in ortung.environments() if len(one["agents"]) == 1]
 
@@ -203,23 +203,12 @@ class Forks(unittest.TestCase):
     def test_a_batch_that_was_in_use_is_refused(self):
         batch = ortung.Batch("goalkeeper-v0", episodes=256, threads=2)
         actions = np.zeros((256, 1, 2), np.float32)
-        stop = threading.Event()
-
-        def play():
-            while not stop.is_set():
-                batch.step(actions)
 
         def work():
             batch.step(actions)
             return "worked"
 
-        thread = threading.Thread(target=play)
-        thread.start()
-        try:
-            found = {in_child(work) for _ in range(10)}
-        finally:
-            stop.set()
-            thread.join()
+        found = in_children_while(lambda: batch.step(actions), work)
         refused = ("RuntimeError: this Batch was in use by another thread when this process was "
                    "forked; make another one here")
         self.assertLessEqual(found, {refused, "worked"})
