@@ -290,9 +290,9 @@ void Rivals::drawElsewhere(const Moment& moment, const Recovery& recovery) {
   if (isDistinct) lead.count(places.front().logProbability - then.logEvidence, 1.0);
   Hypothesis found(drawnFrom(rings, then));
   carryOn(found, then, moment);
-  if (isSame(centreOf(found.samples()).pose, moment.predicted)) return;
-  if (elsewhere_ &&
-      isSame(centreOf(elsewhere_->hypothesis.samples()).pose, centreOf(found.samples()).pose))
+  const Pose2 there = centreOf(found.samples()).pose;
+  if (isSame(there, moment.predicted)) return;
+  if (elsewhere_ && isSame(centreOf(elsewhere_->hypothesis.samples()).pose, there))
     lead.add(elsewhere_->hypothesis.lead());
   elsewhere_.emplace(Elsewhere{Hypothesis(found.samples(), lead), isDistinct});
 }
