@@ -81,7 +81,7 @@ class Drive {
     if (!stands) {
       const Pose2 change{0.35, 0.0, 0.35 / 3.0};
       pose_ = pose_ * change;
-      biases.move(motion_, change, 1, ++step_);
+      biases.move(changeOf(motion_, change, 1, ++step_));
     }
   }
 

@@ -351,12 +351,13 @@ TEST(MclConfig, IsReadFromAFilesSection) {
             "r.toml: min_particles is 4000, must be in [1, 3000]");
   Parameters misspelt("r.toml");
   misspelt.set("particels", 3000.0);
-  EXPECT_EQ(test::messageOf<ConfigError>([&] { MclConfig::read(misspelt); }),
-            "r.toml: particels is not known here; known are bin_deg, bin_m, budget_ms, drift_deg, "
-            "drift_m, "
-            "kld_error, kld_quantile, learns_biases, max_interval_s, min_distance_m, "
-            "min_particles, min_rotation_deg, particles, recover_fast, recover_slow, "
-            "resample_below, start_candidates_per_m2");
+  EXPECT_EQ(
+      test::messageOf<ConfigError>([&] { MclConfig::read(misspelt); }),
+      "r.toml: particels is not known here; known are bin_deg, bin_m, budget_ms, drift_deg, "
+      "drift_m, "
+      "kld_error, kld_quantile, learns_biases, learns_odometry, max_interval_s, min_distance_m, "
+      "min_particles, min_rotation_deg, particles, recover_fast, recover_slow, "
+      "resample_below, start_candidates_per_m2");
 }
 
 TEST(Mcl, RefusesARegionWithoutAPlaceToStand) {

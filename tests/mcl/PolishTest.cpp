@@ -163,7 +163,7 @@ TEST(Polish, MovesByOdometry) {
   Polish polish;
   PoseEstimate estimate = cluster({1, 1, 0}, 0.05);
   polish.follow(reading({1, 1, 0}, 0.001), estimate);
-  polish.move(OdometryMotion(), {0.5, 0, 0.1}, 1, 1);
+  polish.move(changeOf(OdometryMotion(), {0.5, 0, 0.1}, 1, 1));
   PoseEstimate later = cluster({1.5, 1, 0.1}, 0.05);
   polish.apply(later);
   EXPECT_NEAR(later.pose.x, 1.5, 1e-3);

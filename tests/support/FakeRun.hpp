@@ -55,8 +55,9 @@ class FakeRun {
     const Pose2 change{speed * kPeriod, 0, turn * kPeriod};
     truths_.push_back(truth);
     truth = truth * change;
-    odometry_ = odometry_ * Pose2{(change.x + spin * kPeriod) * (1 + 0.02 * random_.gaussian()), 0,
-                                  change.theta + 0.004 * random_.gaussian()};
+    odometry_ = odometry_ *
+                Pose2{(odometryScale * change.x + spin * kPeriod) * (1 + 0.02 * random_.gaussian()),
+                      0, change.theta + 0.004 * random_.gaussian()};
     stamp += fromSeconds(kPeriod);
     readAll();
   }
@@ -66,6 +67,7 @@ class FakeRun {
     if (tellsOdometry)
       container.set(
           {stamp, {"base", "odometry", "pose"}, OdometryData::encode({odometry_, 0, 0, {}})});
+    if (!reads) return;
     container.set({stamp, {"LMS200", "LRF", "scan"}, scanned});
     if (posts_ != nullptr)
       container.set({stamp,
@@ -97,6 +99,8 @@ class FakeRun {
   Pose2 truth;
   Timestamp stamp = 0;
   bool tellsOdometry = true;
+  bool reads = true;           ///< whether there are readings beside odometry
+  double odometryScale = 1.0;  ///< of the ways that odometry says
   double spin = 0.0;     ///< speed of wheels that spin: counted by odometry, but not driven [m/s]
   std::size_t late = 0;  ///< periods by which stamps of readings are
 

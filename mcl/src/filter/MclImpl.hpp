@@ -77,7 +77,7 @@ struct Mcl::Impl {
       : tools(c, std::move(r), std::move(m)),
         track(std::in_place, tools, SampleSet{}, true),
         parts{Lateness(tools.config, *tools.motion),
-              {},
+              Polish(tools.config.learnsOdometry),
               {},
               {tools.config, tools.region, tools.search, tools.workers}},
         intake(tools.config, *tools.motion) {}

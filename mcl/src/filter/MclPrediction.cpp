@@ -49,14 +49,17 @@ void Mcl::Impl::move(const MoveSome& moveSome) {
 }
 
 void Mcl::Impl::moveBy(const Pose2& odometry) {
-  const Pose2 change = reached.odometry ? inverse(*reached.odometry) * odometry : Pose2{};
+  const Pose2 change =
+      reached.odometry ? parts.polish.odometry().corrected(inverse(*reached.odometry) * odometry)
+                       : Pose2{};
   reached.odometry = odometry;
   const double come = std::hypot(change.x, change.y);
   track->travelled.metres += come;
   track->travelled.all += come + std::abs(change.theta);
   const std::uint64_t seed = tools.config.seed;
-  parts.polish.move(*tools.motion, change, seed, stream(Purpose::kMotion));
-  parts.biases.move(*tools.motion, change, seed, stream(Purpose::kMotion));
+  const MotionChange its = changeOf(*tools.motion, change, seed, stream(Purpose::kMotion));
+  parts.polish.move(its);
+  parts.biases.move(its);
   move([&](const MovableSamples& some, std::size_t first) {
     tools.motion->sampleMotion(some, change, seed, stream(Purpose::kMotion), first);
   });

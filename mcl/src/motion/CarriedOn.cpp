@@ -53,6 +53,12 @@ MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, st
   return change;
 }
 
+MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, std::uint64_t seed,
+                      std::uint64_t stream) {
+  if (odometryChange.x == 0.0 && odometryChange.y == 0.0 && odometryChange.theta == 0.0) return {};
+  return changeOf(motion, odometryChange, kCopies, seed, stream);
+}
+
 PoseEstimate moved(PoseEstimate e, const Pose2& change) {
   // With the displacement in the field frame, (dx, dy), a heading error h shifts the new position
   // by h (-dy, dx): the covariance is F P F^T with F = [1 0 -dy; 0 1 dx; 0 0 1].
@@ -74,11 +80,14 @@ PoseEstimate moved(PoseEstimate e, const Pose2& change) {
 
 PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionModel& motion,
                        const Pose2& odometryChange, std::uint64_t seed, std::uint64_t stream) {
-  if (odometryChange.x == 0.0 && odometryChange.y == 0.0 && odometryChange.theta == 0.0)
-    return estimate;
-  const MotionChange change = changeOf(motion, odometryChange, kCopies, seed, stream);
+  return carriedOn(estimate, changeOf(motion, odometryChange, seed, stream));
+}
+
+PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionChange& change, double noise) {
   PoseEstimate then = moved(estimate, change.mean);
-  add(change.covariance, estimate.pose.theta, then.covariance);
+  PoseCovariance its = change.covariance;
+  for (double& c : its) c *= noise;
+  add(its, estimate.pose.theta, then.covariance);
   return then;
 }
 

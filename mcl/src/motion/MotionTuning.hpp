@@ -13,10 +13,39 @@ namespace ortung::tuning {
 namespace carried {
 
 /// Number of samples of the motion model that give its mean and covariance. Cost: the mean is off
-/// by a tenth of the noise's sigma, and a prediction takes microseconds.
-ORTUNG_CONSTANT(carried, kCopies, std::size_t{128});
+/// by a thirtieth of the noise's sigma, and a prediction takes microseconds.
+ORTUNG_CONSTANT(carried, kCopies, std::size_t{1024});
 
 }  // namespace carried
+
+/// Odometry: its errors, learned on the way.
+namespace odometry {
+
+/// [share] Prior sigma of the error in scale of ways and of turns: raw odometry of the logs errs by
+/// up to 18 %, that of most robots by a few.
+ORTUNG_CONSTANT(odometry, kScale, 0.05);
+/// [rad/m] Prior sigma of the turn per metre that odometry does not count. Chosen by hand: 1.7
+/// degrees.
+ORTUNG_CONSTANT(odometry, kVeer, 0.03);
+/// [share/sqrt(m), share/sqrt(rad)] Drift of the errors in scale, since loads, tyres and floors
+/// change. Chosen by hand: 5 % in 100 m.
+ORTUNG_CONSTANT(odometry, kScaleDrift, 0.005);
+/// [rad/m/sqrt(m)] Drift of the turn per metre. Chosen by hand.
+ORTUNG_CONSTANT(odometry, kVeerDrift, 0.003);
+/// [share] Greatest error in scale that is believed. Chosen by hand.
+ORTUNG_CONSTANT(odometry, kMostScale, 0.5);
+/// [rad/m] Greatest turn per metre that is believed. Chosen by hand.
+ORTUNG_CONSTANT(odometry, kMostVeer, 0.3);
+/// [nats] Evidence that it takes before less noise is believed than the motion model has. Chosen by
+/// hand.
+ORTUNG_CONSTANT(odometry, kCaution, 5.0);
+/// [nats] Most that one pose says against less noise, as it may be an outlier. Chosen by hand.
+ORTUNG_CONSTANT(odometry, kMostNats, 8.0);
+/// [share] How much of the evidence is left after a pose, so that about a hundred count. Chosen by
+/// hand.
+ORTUNG_CONSTANT(odometry, kKept, 0.99);
+
+}  // namespace odometry
 
 /// MotionPieces: long paths without readings.
 namespace pieces {

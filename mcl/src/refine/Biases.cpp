@@ -30,14 +30,13 @@ void Biases::forget() {
   for (Device& device : devices_) device = {std::move(device.name)};
 }
 
-void Biases::move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
-                  std::uint64_t stream) {
+void Biases::move(const MotionChange& change) {
   if (!isRunning_) return;
   PoseEstimate before;
   before.pose = pose_;
   const Matrix old = covariance_.topLeftCorner<3, 3>();
   Eigen::Map<RowMajor>(before.covariance.data()) = old;
-  const PoseEstimate after = carriedOn(before, motion, change, seed, stream);
+  const PoseEstimate after = carriedOn(before, change);
   Matrix forward = Matrix::Identity();
   forward(0, 2) = -(after.pose.y - pose_.y);
   forward(1, 2) = after.pose.x - pose_.x;
@@ -45,7 +44,7 @@ void Biases::move(const MotionModel& motion, const Pose2& change, std::uint64_t 
   covariance_.topRightCorner(kPose, rest) = forward * covariance_.topRightCorner(kPose, rest);
   covariance_.bottomLeftCorner(rest, kPose) = covariance_.topRightCorner(kPose, rest).transpose();
   covariance_.topLeftCorner<3, 3>() = Eigen::Map<const RowMajor>(after.covariance.data());
-  travelled_ += std::hypot(change.x, change.y) + std::abs(change.theta);
+  travelled_ += std::hypot(change.mean.x, change.mean.y) + std::abs(change.mean.theta);
   pose_ = after.pose;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "CarriedOn.hpp"
 #include "NewReadings.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Correctable.hpp"
@@ -25,9 +26,7 @@ class ORTUNG_API Biases {
  public:
   /// Forgets all biases, as the belief is another one, or may be.
   void forget();
-  /// Moves the pose by odometry. @param change change of pose in the robot's frame before it
-  void move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
-            std::uint64_t stream);
+  void move(const MotionChange& change);  ///< moves the pose by odometry
   /// Corrects new readings by the known biases. It reads features, so the caller holds the
   /// container's lock, or no other thread uses the container.
   void correct(ReadingsByTime& news);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -56,7 +57,8 @@ struct Prior {
 struct Solution {
   Pose2 pose;
   Matrix covariance;
-  Slope slope;  ///< sum of the readings' derivatives there
+  Slope slope;    ///< sum of the readings' derivatives
+  Pose2 slopeAt;  ///< pose at which they were taken, which is hardly another one
 };
 
 Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose) {
@@ -69,9 +71,10 @@ Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose)
 /// @param slope derivative of the readings at @p start
 std::optional<Solution> agreement(const std::vector<const Polishable*>& readings,
                                   const Prior& prior, const Pose2& start, const Slope& slope) {
-  Solution found{start, {}, slope};
+  Solution found{start, {}, slope, start};
   for (int step = 0; step < kMostSteps; ++step) {
     if (step > 0) found.slope = slopeOf(readings, found.pose);
+    found.slopeAt = found.pose;
     const Eigen::LDLT<Matrix> all(prior.precision + matrixOf(found.slope.information));
     const Vector change = all.solve(Vector(found.slope.pull.data()) +
                                     prior.precision * difference(prior.mean, found.pose));
@@ -97,6 +100,37 @@ Determined determinedBy(const Slope& slope) {
   const Eigen::SelfAdjointEigenSolver<Matrix> parts(times, Eigen::EigenvaluesOnly);
   if (!(parts.eigenvalues()[2] > 1.0)) return Determined::kNothing;
   return parts.eigenvalues()[0] > 1.0 ? Determined::kAll : Determined::kPartly;
+}
+
+/// Returns how the readings pull a pose near the solution: their information times the distance
+/// from there to where they alone would have it.
+Vector pullOn(const Pose2& pose, const Solution& solution) {
+  return matrixOf(solution.slope.information) * difference(solution.slopeAt, pose) +
+         Vector(solution.slope.pull.data());
+}
+
+/// Returns whether the covariances of a predicted pose and of the readings explain how far apart
+/// they are. @param times factor of the readings' squared errors
+bool explains(const PoseEstimate& predicted, const Solution& solution, double times) {
+  const Vector pull = pullOn(predicted.pose, solution);
+  const Matrix seen = matrixOf(solution.slope.information);
+  const Matrix expected = seen * matrixOf(predicted.covariance) * seen + times * seen;
+  // Directions that the readings leave open are no directions of the pull.
+  const Vector apart = expected.completeOrthogonalDecomposition().solve(pull);
+  return pull.dot(apart) < kOutlier * kOutlier;
+}
+
+/// Returns the pose by the readings alone, if they determine one.
+std::optional<PoseEstimate> aloneOf(const Solution& solution) {
+  if (determinedBy(solution.slope) != Determined::kAll) return std::nullopt;
+  const Eigen::LDLT<Matrix> information(matrixOf(solution.slope.information));
+  const Vector off = information.solve(Vector(solution.slope.pull.data()));
+  if (!off.allFinite()) return std::nullopt;
+  PoseEstimate alone;
+  alone.pose = {solution.slopeAt.x + off.x(), solution.slopeAt.y + off.y(),
+                wrapAngle(solution.slopeAt.theta + off.z())};
+  Eigen::Map<RowMajor>(alone.covariance.data()) = information.solve(Matrix::Identity());
+  return alone;
 }
 
 Prior priorOf(const PoseEstimate& cluster, double metres, double radians) {
@@ -138,10 +172,10 @@ std::optional<double> surprise(const Vector& moved, const Matrix& promised,
 
 }  // namespace
 
-void Polish::move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
-                  std::uint64_t stream) {
-  if (place_) place_ = carriedOn(*place_, motion, change, seed, stream);
-  if (cluster_) cluster_ = carriedOn(*cluster_, motion, change, seed, stream);
+void Polish::move(const MotionChange& change) {
+  odometry_.move(change, place_);
+  if (careful_) careful_ = carriedOn(*careful_, change);
+  if (cluster_) cluster_ = carriedOn(*cluster_, change);
 }
 
 void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate) {
@@ -160,10 +194,17 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
     apply(estimate);
     return;
   }
-  const Prior prior = follows
-                          ? between(*predicted, *place_, std::min(1.0, kRandomRatio / times_))
-                          : priorOf(predicted.value_or(estimate), kClusterMetres, kClusterRadians);
-  const auto solution = agreement(readings, prior, estimate.pose, slope);
+  Prior prior = follows ? between(*predicted, *place_, std::min(1.0, kRandomRatio / times_))
+                        : priorOf(predicted.value_or(estimate), kClusterMetres, kClusterRadians);
+  auto solution = agreement(readings, prior, estimate.pose, slope);
+  if (solution && follows && !explains(*place_, *solution, times_)) {
+    // Less noise than the model's does not explain the readings, so it is the model's.
+    place_ = careful_;
+    odometry_.separate();
+    prior = between(*predicted, *place_, std::min(1.0, kRandomRatio / times_));
+    solution = agreement(readings, prior, estimate.pose, slope);
+  }
+  if (learnsOdometry_) odometry_.compare(solution ? aloneOf(*solution) : std::nullopt);
   if (!solution || !isSame(solution->pose, estimate)) {
     place_.reset();
     return;
@@ -173,6 +214,12 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
         surprise(difference(solution->pose, place_->pose), matrixOf(place_->covariance), *solution);
     if (observed) learnTimes(*observed);
   }
+  // Readings that err by more than they promise say less of odometry, too.
+  if (follows && learnsOdometry_)
+    odometry_.follow(pullOn(place_->pose, *solution) / times_,
+                     matrixOf(solution->slope.information) / times_, place_->covariance);
+  else
+    odometry_.separate();
   const Matrix blur =
       Vector(solution->slope.blurMetres, solution->slope.blurMetres, solution->slope.blurRadians)
           .asDiagonal();
@@ -182,6 +229,7 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
   place_ = estimate;
   place_->pose = solution->pose;
   Eigen::Map<RowMajor>(place_->covariance.data()) = solution->covariance;
+  careful_ = place_;
   if (readings.size() == news.size()) {
     put(estimate);
   } else {

@@ -1,17 +1,17 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "CarriedOn.hpp"
+#include "LearnedOdometry.hpp"
 #include "NewReadings.hpp"
 #include "RefineTuning.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/Polishable.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
-#include "ortung/motion/MotionModel.hpp"
 
 namespace ortung {
 
@@ -22,14 +22,17 @@ namespace ortung {
 /// from their heaviest cluster is dropped. Not thread-safe.
 class ORTUNG_API Polish {
  public:
+  /// @param learnsOdometry whether odometry's errors are learned from refined poses
+  explicit Polish(bool learnsOdometry = true) : learnsOdometry_(learnsOdometry) {}
   void forget() {
     place_.reset();
+    careful_.reset();
     cluster_.reset();
+    odometry_.forgetPose();
   }
-  /// Moves the refined pose by odometry. @param change change of pose in the robot's frame before
-  /// it
-  void move(const MotionModel& motion, const Pose2& change, std::uint64_t seed,
-            std::uint64_t stream);
+  void move(const MotionChange& change);  ///< moves the refined pose by odometry
+  /// Returns what is known of odometry's errors.
+  const LearnedOdometry& odometry() const { return odometry_; }
   /// Refines the estimate by readings.
   /// @param estimate in: the heaviest cluster after the readings were weighed; out: refined, if
   ///   they permit it
@@ -44,6 +47,11 @@ class ORTUNG_API Polish {
 
   /// Refined estimate; its covariance is that of readings and motion alone.
   std::optional<PoseEstimate> place_;
+  /// The same, predicted with all of the motion model's noise: for readings that less noise does
+  /// not explain.
+  std::optional<PoseEstimate> careful_;
+  bool learnsOdometry_;
+  LearnedOdometry odometry_;
   std::optional<PoseEstimate> cluster_;  ///< cluster of samples as the last readings left it
   /// Error of the refined pose by systematic errors of the map or the tables, row-major: this times
   /// a random vector of unit variance. As the same vector holds for all readings, the error is

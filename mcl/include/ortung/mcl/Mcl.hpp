@@ -12,6 +12,7 @@
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/mcl/Belief.hpp"
 #include "ortung/mcl/MclConfig.hpp"
+#include "ortung/mcl/OdometryErrors.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 #include "ortung/motion/MotionModel.hpp"
@@ -101,6 +102,9 @@ class ORTUNG_API Mcl {
   /// Returns the systematic errors of devices that read distances or bearings, as learned since the
   /// last start (MclConfig::learnsBiases), by "model/type" of their features.
   std::map<std::string, DeviceBias> biases() const;
+  /// Returns odometry's errors, as learned so far (MclConfig::learnsOdometry); none as long as
+  /// nothing was learned.
+  OdometryErrors odometryErrors() const;
 
  private:
   struct Impl;

@@ -30,6 +30,7 @@ struct MclConfig {
   double driftMetres = 0.5;      ///< `drift_m`: sigma of positions after 1 s [m]
   double driftRadians = 0.5236;  ///< `drift_deg`: sigma of headings after 1 s [rad], 30 degrees
   bool learnsBiases = true;      ///< `learns_biases`: learn biases of distances and bearings
+  bool learnsOdometry = true;    ///< `learns_odometry`: learn odometry's errors from refined poses
   /// `budget_ms`: nominal time of an update [ms]; longer searches are spread over several updates.
   double budgetMs = 20.0;
   std::uint64_t seed = 1;  ///< seed of all random numbers

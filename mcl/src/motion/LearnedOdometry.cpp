@@ -1,0 +1,108 @@
+#include "LearnedOdometry.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "MotionTuning.hpp"
+#include "ortung/base/Angles.hpp"
+
+namespace ortung {
+namespace {
+
+using namespace tuning::odometry;
+
+using Vector = LearnedOdometry::Vector;
+using Matrix = LearnedOdometry::Matrix;
+using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+Matrix matrixOf(const PoseCovariance& covariance) {
+  return Eigen::Map<const RowMajor>(covariance.data());
+}
+
+/// Returns what the systematic errors (columns) make of a change of pose, in the robot's frame.
+Matrix effectOn(const Pose2& change) {
+  Matrix effect = Matrix::Zero();
+  effect(0, 0) = change.x;
+  effect(1, 0) = change.y;
+  effect(2, 1) = change.theta;
+  effect(2, 2) = std::hypot(change.x, change.y);
+  return effect;
+}
+
+}  // namespace
+
+LearnedOdometry::LearnedOdometry()
+    : covariance_(Vector(kScale * kScale, kScale * kScale, kVeer * kVeer).asDiagonal()) {}
+
+OdometryErrors LearnedOdometry::errors() const {
+  return {mean_.x(), mean_.y(), mean_.z(), noise_.value()};
+}
+
+Pose2 LearnedOdometry::corrected(const Pose2& change) const {
+  const Vector error = effectOn(change) * mean_;
+  return {change.x + error.x(), change.y + error.y(), change.theta + error.z()};
+}
+
+MotionChange LearnedOdometry::expected(const MotionChange& model) const {
+  return isLearned_ ? known(model) : model;
+}
+
+MotionChange LearnedOdometry::known(const MotionChange& model) const {
+  const Matrix effect = effectOn(model.mean);
+  MotionChange its = model;
+  Eigen::Map<RowMajor>(its.covariance.data()) =
+      noise_.value() * matrixOf(model.covariance) + effect * covariance_ * effect.transpose();
+  return its;
+}
+
+void LearnedOdometry::move(const MotionChange& model, std::optional<PoseEstimate>& refined) {
+  if (alone_) alone_ = {carriedOn(alone_->pose, model, 0.0), carriedOn(alone_->motion, model)};
+  if (!refined) return;
+  const Pose2 before = refined->pose;
+  refined = carriedOn(*refined, known(model));
+  const Matrix effect =
+      Eigen::AngleAxisd(before.theta, Vector::UnitZ()).toRotationMatrix() * effectOn(model.mean);
+  Matrix forward = Matrix::Identity();
+  forward(0, 2) = before.y - refined->pose.y;
+  forward(1, 2) = refined->pose.x - before.x;
+  const Matrix mixed = forward * cross_ * effect.transpose();
+  Eigen::Map<RowMajor>(refined->covariance.data()) += mixed + mixed.transpose();
+  cross_ = forward * cross_ + effect * covariance_;
+  const double way = std::hypot(model.mean.x, model.mean.y);
+  const double scale = kScaleDrift * kScaleDrift;
+  covariance_.diagonal() +=
+      Vector(way * scale, std::abs(model.mean.theta) * scale, way * kVeerDrift * kVeerDrift);
+}
+
+void LearnedOdometry::follow(const Vector& pull, const Matrix& information,
+                             const PoseCovariance& predicted) {
+  const Matrix prior = matrixOf(predicted);
+  const Matrix precision = prior.inverse();
+  const Matrix posterior = (precision + information).inverse();
+  const Matrix gain = cross_.transpose() * precision;
+  const Vector change = gain * (posterior * pull);
+  const Matrix covariance = covariance_ - gain * (prior - posterior) * gain.transpose();
+  if (!change.allFinite() || !covariance.allFinite()) return;
+  const Vector most(kMostScale, kMostScale, kMostVeer);
+  mean_ = (mean_ + change).cwiseMin(most).cwiseMax(-most);
+  covariance_ = 0.5 * (covariance + covariance.transpose());
+  cross_ = posterior * gain.transpose();
+  isLearned_ = true;
+}
+
+void LearnedOdometry::compare(const std::optional<PoseEstimate>& alone) {
+  if (alone && alone_) {
+    const Vector off(alone->pose.x - alone_->pose.pose.x, alone->pose.y - alone_->pose.pose.y,
+                     wrapAngle(alone->pose.theta - alone_->pose.pose.theta));
+    noise_.follow(off, matrixOf(alone_->motion.covariance),
+                  matrixOf(alone_->pose.covariance) + matrixOf(alone->covariance));
+  }
+  alone_.reset();
+  if (!alone) return;
+  alone_ = {*alone, *alone};
+  alone_->motion.covariance.fill(0.0);
+}
+
+}  // namespace ortung
