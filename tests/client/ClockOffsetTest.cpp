@@ -97,6 +97,26 @@ TEST(ClockOffset, AClockThatWasSetIsMeasuredAnew) {
   EXPECT_LT(std::abs(error), halfTrip(exchange) + 2.0);
 }
 
+// What was measured before a clock was set says nothing of it, however good it was: of two such
+// exchanges no rate comes that a world could have.
+TEST(ClockOffset, OfAClockThatWasSetOnlyTheNewestExchangeCounts) {
+  const auto expectOneReading = [](Timestamp set, const char* how) {
+    ClockOffset clock;
+    clock.add({0, 5'000'000, 5'000'000, 20});  // a good one
+    constexpr Timestamp kLater = 2'000'000;
+    const Timestamp server = 5'000'000 + kLater + set;
+    clock.add({kLater - 2'000, server, server, kLater + 2'000});  // a bad one, of another clock
+    EXPECT_EQ(clock.rate(), 1.0) << how;
+    for (const Timestamp after : {0, 10'000, 1'000'000})
+      EXPECT_NEAR(static_cast<double>(clock.toLocal(server + after)),
+                  static_cast<double>(kLater + after), 1.0)
+          << how;
+  };
+  expectOneReading(-2'100'000, "back to before the first exchange");
+  expectOneReading(-1'999'000, "back to a little after it: 2000 times slower");
+  expectOneReading(4'000'000'000, "far ahead: 2000 times faster");
+}
+
 TEST(ClockOffset, ANetworkThatTakesNoTimeLeavesTheRoundingOfStamps) {
   ClockOffset clock;
   clock.add({1'000, 50'000, 50'010, 1'010});  // all of it passed at the server
