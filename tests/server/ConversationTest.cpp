@@ -375,6 +375,17 @@ TEST(RealTime, CyclesThatTheComputerSleptThroughAreMissedOnceAndNotCaughtUp) {
   }
 }
 
+TEST(RealTime, AWorldThatStartsOverHasNoSpeedBackwards) {
+  SleptWorld world;
+  world.slept = -3'600'000'000;  // an hour has gone by
+  FakeHost host(world, {});
+  host.keeper.setSpeed(0.0);  // as fast as possible
+  host.keeper.runOnce();
+  world.slept = 0;
+  host.keeper.runOnce();
+  EXPECT_EQ(host.keeper.paceText(), " speed=0 achieved=0") << "a second has not gone by";
+}
+
 // --- readings
 
 TEST(Readings, OfARobotWithOneFeatureOrInAnotherOrderAreThereToo) {

@@ -103,5 +103,33 @@ TEST(RobotReadings, GiveAPictureToAllClientsWithoutACopy) {
   }
 }
 
+TEST(RobotReadings, TellWhatIsWantedWheneverThatHasChanged) {
+  const SensorId front{"camera", "image", "front"};
+  const SensorId back{"camera", "image", "back"};
+  using Wanted = std::vector<SensorId>;
+  RobotReadings readings(1, "r", {{front, ""}, {back, ""}});
+  const auto ask = [&](std::vector<Query> queries) {
+    std::vector<std::uint64_t> sent;
+    Output output;
+    readings.write({std::move(queries), false, false}, sent, output);
+  };
+  std::vector<Message> none;
+  EXPECT_FALSE(readings.takeWanted()) << "nobody has asked";
+  ask({});
+  EXPECT_FALSE(readings.takeWanted()) << "whatever there is: nobody needs more for that";
+  ask({Query("*/*/*")});
+  EXPECT_EQ(readings.takeWanted(), (Wanted{front, back}));
+  EXPECT_FALSE(readings.takeWanted()) << "that was told";
+  for (std::uint64_t cycle = 1; cycle < RobotReadings::kPatience; ++cycle) readings.publish(none);
+  ask({Query("*/*/back")});
+  EXPECT_FALSE(readings.takeWanted()) << "for a while it remembers";
+  readings.publish(none);
+  EXPECT_EQ(readings.takeWanted(), Wanted{back});
+  readings.forget();
+  EXPECT_EQ(readings.takeWanted(), Wanted{back}) << "a new world has to be told";
+  for (std::uint64_t cycle = 0; cycle < RobotReadings::kPatience; ++cycle) readings.publish(none);
+  EXPECT_EQ(readings.takeWanted(), Wanted{});
+}
+
 }  // namespace
 }  // namespace ortung::server
