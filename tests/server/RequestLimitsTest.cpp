@@ -1,6 +1,7 @@
 // Limits of the numbers in requests: the limit itself is taken, what is beyond it is refused.
 #include <gtest/gtest.h>
 
+#include "Command.hpp"
 #include "FakeHost.hpp"
 #include "RunningBoard.hpp"
 
@@ -61,6 +62,47 @@ TEST(RequestLimits, AreThoseThatRefusalsTell) {
     for (const std::string& number : limit.wrong)
       EXPECT_TRUE(answer(number).starts_with("ERR number " + limit.what + " is "))
           << limit.request << " " << number << ": " << answer(number);
+  }
+}
+
+// A word that is passed over is a mistake that nobody hears of.
+TEST(RequestLimits, NoCommandTakesAWordThatItDoesNotKnow) {
+  const std::map<std::string, std::vector<std::string>> requests = {
+      {"HELP", {"HELP"}},
+      {"BYE", {"BYE"}},
+      {"TIME", {"TIME"}},
+      {"STATUS", {"STATUS"}},
+      {"LIST", {"LIST worlds", "LIST plugins", "LIST clients", "LIST robots"}},
+      {"DESCRIBE", {"DESCRIBE world", "DESCRIBE robot robot=1"}},
+      {"CREATE", {"CREATE b"}},
+      {"REMOVE", {"REMOVE", "REMOVE robot=1"}},
+      {"VELOCITY", {"VELOCITY v_m_s=0"}},
+      {"MANIPULATOR", {"MANIPULATOR kicker 1"}},
+      {"SUBSCRIBE", {"SUBSCRIBE period_s=1"}},
+      {"UNSUBSCRIBE", {"UNSUBSCRIBE", "UNSUBSCRIBE robot=1"}},
+      {"GOT", {"GOT"}},
+      {"LOCKSTEP", {"LOCKSTEP on", "LOCKSTEP off"}},
+      {"NEXT", {"NEXT cycles=2"}},
+      {"UPDATE", {"UPDATE"}},
+      {"READ", {"READ"}},
+      {"HEAR", {"HEAR"}},
+      {"SCORE", {"SCORE", "SCORE left=1"}},
+      {"PAUSE", {"PAUSE"}},
+      {"RESUME", {"RESUME"}},
+      {"STEP", {"STEP", "STEP cycles=2"}},
+      {"SPEED", {"SPEED 2"}},
+      {"RESET", {"RESET", "RESET seed=1"}},
+      {"SEEK", {"SEEK time_s=1"}},
+      {"PLACE", {"PLACE robot=1 x_m=1 y_m=1", "PLACE object=ball x_m=1 y_m=1"}}};
+  const std::set<std::string> others = {"HELLO", "TELL", "SAY", "MOTION"};  // of texts and numbers
+  const server::CommandTable table;
+  for (const server::Command& command : table.all()) {
+    if (others.contains(command.name)) continue;
+    ASSERT_TRUE(requests.contains(command.name)) << command.name << " has no request here";
+    for (const std::string& request : requests.at(command.name)) {
+      const std::string answer = answerTo(request + " surplus=1");
+      EXPECT_EQ(answer, "ERR syntax " + command.name + " does not know 'surplus='");
+    }
   }
 }
 

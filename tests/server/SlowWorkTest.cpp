@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <latch>
 
+#include "BoardClock.hpp"
 #include "SlowWork.hpp"
+#include "ortung/server/ProcessorTime.hpp"
 
 namespace ortung::server {
 namespace {
@@ -55,6 +57,34 @@ TEST(SlowWork, HoldsUpOnlyItsOwnThread) {
               for (int i = 0; i < 100; ++i) work.pace();  // for hours, but for the end
             }));
   begun.wait();
+}
+
+/// Keeps a processor busy for so long. @returns the processor time that was used [s]
+double work(double seconds) {
+  const double begin = processorTime();
+  double used = 0.0;
+  while (used < seconds) used = processorTime() - begin;
+  return used;
+}
+
+// However busy the computer is, this takes as long at least: no test can fail by being late.
+TEST(SlowWork, WhatIsBeyondItsShareIsWaitedForBeforeTheNextTask) {
+  constexpr double kShare = 0.2;  // of a processor; what a second gives is there at the beginning
+  double used = 0.0;
+  double end = 0.0;
+  double next = 0.0;
+  std::latch done{1};
+  SlowWork slow(kShare);
+  slow.give(1, taskOf([&] {
+              used = work(kShare + 0.05);
+              end = toSeconds(wallTime());
+            }));
+  slow.give(2, taskOf([&] {
+              next = toSeconds(wallTime());
+              done.count_down();
+            }));
+  done.wait();
+  EXPECT_GE(next - end, (used - kShare) / kShare - 0.001);
 }
 
 }  // namespace
