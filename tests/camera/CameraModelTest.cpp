@@ -186,6 +186,56 @@ TEST(CameraModel, RefusesSettingsThatMakeNoCamera) {
             std::string::npos);
 }
 
+TEST(CameraModel, NumbersHaveTheLimitsThatRefusalsTell) {
+  struct Limits {
+    std::string settings;  ///< with @ where the number stands
+    std::string low;
+    std::string high;
+  };
+  const std::string size = "size_px = [64, 48]\n";
+  const std::string lens = size + "focal_px = [50, 50]\n";
+  std::vector<Limits> all = {
+      {"focal_px = [50, 50]\nsize_px = [64, @]", "8", "8192"},
+      {lens + "centre_px = [@, 0]", "-100000", "100000"},
+      {lens + "inner_px = @", "0", "100000"},
+      {lens + "outer_px = @", "0", "100000"},
+      {"model = \"unified\"\n" + lens + "xi = @", "0", "10"},
+      {"model = \"unified\"\nxi = 1\n" + lens + "skew_px = @", "-100000", "100000"},
+      {"model = \"ocam\"\n" + size + "polynomial = [10, @]", "-1000000000", "1000000000"},
+      {"model = \"ocam\"\n" + size + "polynomial = [10]\naffine = [@, 0, 0]", "-10", "10"},
+      {"model = \"isometric\"\n" + size + "height_m = 1\npixels_per_m = @", "0.01", "100000"},
+      {"model = \"isometric\"\n" + size + "pixels_per_m = 10\nheight_m = @", "0.01", "100"},
+      {"model = \"table\"\n" + size + "grid = [2, 2]\nfloor_m = [1, 1]\nheight_m = @", "0.01",
+       "100"},
+      {"model = \"table\"\n" + size + "height_m = 1\nfloor_m = [1, 1]\ngrid = [2, @]", "2", "1024"},
+      {"model = \"table\"\n" + size + "height_m = 1\ngrid = [2, 2]\nfloor_m = [@, 1]",
+       "-1000000000", "1000000000"}};
+  for (const std::string model : {"perspective", "fisheye", "unified"}) {
+    const std::string head =
+        "model = \"" + model + "\"\n" + (model == "unified" ? "xi = 1\n" : "") + size;
+    all.push_back({head + "focal_px = [@, 50]", "1", "1000000"});
+    all.push_back({head + "focal_px = [50, 50]\ndistortion = [@, 0, 0, 0]", "-10000", "10000"});
+  }
+  for (const Limits& limits : all) {
+    const auto isRefused = [&](const std::string& number) {
+      std::string toml = limits.settings;
+      toml.replace(toml.find('@'), 1, number);
+      try {
+        cameraOf(toml + "\n");
+      } catch (const ConfigError& error) {
+        return std::string(error.what())
+                   .find("must be in [" + limits.low + ", " + limits.high + "]") !=
+               std::string::npos;
+      }
+      return false;
+    };
+    EXPECT_FALSE(isRefused(limits.low)) << limits.settings;
+    EXPECT_FALSE(isRefused(limits.high)) << limits.settings;
+    EXPECT_TRUE(isRefused(std::to_string(std::stod(limits.low) - 0.005))) << limits.settings;
+    EXPECT_TRUE(isRefused(std::to_string(std::stod(limits.high) + 0.005))) << limits.settings;
+  }
+}
+
 // Whatever a calibration says, a camera is refused, or sees directions and pixels that are numbers.
 TEST(CameraModel, TakesOrRefusesAbsurdNumbers) {
   const std::vector<std::string> absurd = {"nan",   "inf",   "-inf",   "0",   "-1",   "1e30",

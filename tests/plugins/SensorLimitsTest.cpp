@@ -29,6 +29,79 @@ TEST(SensorLimits, SensorsSitWithinTenMetresOfTheMiddle) {
   }
 }
 
+TEST(SensorLimits, NumbersHaveTheLimitsThatRefusalsTell) {
+  struct Limits {
+    std::string key;
+    std::string low;
+    std::string high;
+  };
+  const auto expectLimits = [](const std::string& plugin, const std::string& head,
+                               const std::vector<Limits>& all) {
+    for (const auto& [key, low, high] : all) {
+      const auto answer = [&](double number) {
+        return refusal(plugin, head + "\n" + key + " = " + std::to_string(number));
+      };
+      const std::string range = "must be in [" + low + ", " + high + "]";
+      const auto isRefused = [&](double number) {
+        return answer(number).find(range) != std::string::npos;
+      };
+      EXPECT_FALSE(isRefused(std::stod(low))) << plugin << " " << key;
+      EXPECT_FALSE(isRefused(std::stod(high))) << plugin << " " << key;
+      for (const double wrong : {std::stod(low) - 1e-5, std::stod(high) + 1e-5})
+        EXPECT_TRUE(isRefused(wrong)) << plugin << " " << key << ": " << answer(wrong);
+    }
+  };
+  expectLimits("landmarks", "features = 'list'",
+               {{"max_range_m", "0.05", "1000"},
+                {"min_range_m", "0", "20"},
+                {"fov_deg", "1", "360"},
+                {"range_scale", "0.1", "10"},
+                {"slack_m", "0", "10"},
+                {"period_s", "0", "3600"},
+                {"range_bias_m", "-10", "10"},
+                {"range_bias_per_m", "-0.5", "0.5"},
+                {"range_bias_per_m_rad", "-1", "1"},
+                {"range_bias_per_m_rad2", "-1", "1"},
+                {"bearing_bias_deg", "-180", "180"},
+                {"bearing_bias_per_rad", "-0.3", "0.3"},
+                {"bearing_bias_per_rad2", "-0.2", "0.2"},
+                {"noise_range_sigma_m", "0", "100"},
+                {"noise_range_sigma_per_m", "0", "10"},
+                {"noise_bearing_sigma_deg", "0", "180"},
+                {"missed_share", "0", "1"},
+                {"false_share", "0", "1"}});
+  expectLimits("lrf", "",
+               {{"angle_step_deg", "0.001", "360"},
+                {"fov_deg", "0.1", "360"},
+                {"first_angle_deg", "-360", "360"},
+                {"max_range_m", "0.05", "1000"},
+                {"min_range_m", "0", "8"},
+                {"endpoint_cell_m", "0.005", "1"},
+                {"noise_sigma_m", "0", "10"},
+                {"noise_sigma_per_m", "0", "1"}});
+  expectLimits("sonar", "",
+               {{"ring_radius_m", "0", "10"},
+                {"opening_deg", "0.1", "120"},
+                {"max_range_m", "0.05", "100"},
+                {"min_range_m", "0", "3"},
+                {"noise_sigma_m", "0", "10"},
+                {"noise_sigma_per_m", "0", "1"}});
+  expectLimits("iconic_omnivision", "see = ['posts', 'lines']",
+               {{"max_range_m", "0.05", "1000"},
+                {"min_range_m", "0", "10"},
+                {"fov_deg", "1", "360"},
+                {"slack_m", "0", "10"},
+                {"visible_share", "0", "1"},
+                {"noise_range_sigma_m", "0", "100"},
+                {"noise_range_sigma_per_m", "0", "10"},
+                {"noise_bearing_sigma_deg", "0", "180"}});
+  expectLimits("compass", "", {{"north_deg", "-360", "360"}, {"noise_sigma_deg", "0", "180"}});
+  expectLimits("lrf_cylinders", "reads = 'a/b/c'", {{"radius_m", "0.005", "5"}});
+  expectLimits(
+      "lrf_cylinders", "reads = 'a/b/c'\nradius_m = 0.2",
+      {{"break_m", "0.01", "10"}, {"tolerance_m", "0.0001", "1"}, {"max_range_m", "0.05", "1000"}});
+}
+
 TEST(SensorLimits, KindsOfLandmarksHaveLettersDigitsAndThreeSigns) {
   PluginFactory factory(PluginFactory::standardFolders());
   const std::string good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
