@@ -47,6 +47,15 @@ TEST_F(NeuralPlugin, TellsItsCommandsAndKeepsToItsLimits) {
   EXPECT_NEAR(words::toRate(drive->motionData()[1]), -3.0, 0.0002);
 }
 
+TEST_F(NeuralPlugin, ACommandVectorIsItsTwoVelocities) {
+  const auto drive = makeDrive("neural", settings(obedientNetwork(false)));
+  drive->setCommand(std::array{0.5, -1.25});
+  drive->measure({}, nullptr);
+  ASSERT_EQ(drive->motionData().size(), 2U);
+  EXPECT_NEAR(words::toSignedMetres(drive->motionData()[0]), 0.5, 0.0006);
+  EXPECT_NEAR(words::toRate(drive->motionData()[1]), -1.25, 0.0002);
+}
+
 // Commands of 1 m/s from 0.1 s on: the network sees each at the beginning of its step.
 TEST_F(NeuralPlugin, FollowsCommandsInsteadOfOdometry) {
   const auto motion = makeMotion("neural", settings(obedientNetwork(true)));
