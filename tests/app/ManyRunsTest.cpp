@@ -185,6 +185,24 @@ TEST(ManyRuns, TheTextListsAllCases) {
       << text;
 }
 
+TEST(ManyRuns, TheTextListsTheCasesOfEachSourceAndKindUnderItsOwnLine) {
+  std::vector<RunResult> runs = {threeKidnaps()[0], threeKidnaps()[1], threeKidnaps()[2]};
+  runs[1].figures.source = "record:c.rec";
+  runs[2].kind = RunKind::kWakeUp;
+  std::string outline;  // what has a case's line below itself
+  std::istringstream text(toText(runs));
+  for (std::string line; std::getline(text, line);)
+    if (!line.starts_with("  ") || line.starts_with("    kidnap") || line.starts_with("    wake"))
+      outline += line.substr(0, line.find(", at")) + "\n";
+  EXPECT_EQ(outline,
+            "record:b.rec: 1 kidnap runs\n"
+            "    kidnap 1 (seed 5)\n"
+            "record:c.rec: 1 kidnap runs\n"
+            "    kidnap 2 (seed 6)\n"
+            "record:b.rec: 1 wake-up runs\n"
+            "    wake-up 3 (seed 7)\n");
+}
+
 TEST(ManyRuns, TheTextSaysDashForWhatIsNotKnown) {
   std::vector<RunResult> runs = {threeKidnaps()[0]};
   runs[0].events.clear();
