@@ -127,6 +127,45 @@ TEST(HeatMapLayout, TheKeyHasALineForEveryRowOfEntries) {
   EXPECT_EQ(draw(map).height(), plain + 4 * kKeyLine) << "no landmarks, no entry";
 }
 
+TEST(HeatMapLayout, EntriesOfTheKeyStandBelowEachOtherAtTheirSymbols) {
+  FieldRegion region = regionOf(5, 4);
+  region.open[3] = 0;
+  HeatMap map = evenMap(region);
+  map.values[6] = kNan;
+  const std::array<Colour, 2> boxes = {palette::kSolid, palette::kNoValue};
+  const auto expectBoxes = [&](int row) {
+    const DecodedPng png(draw(map).png());
+    for (const Colour& colour : boxes) {
+      const int middle = heightFor(160) - 16 + row++ * kKeyLine + kKeyLine / 2;
+      for (const int y : {-7, 0, 6})
+        for (const int x : {-11, 0, 10})
+          EXPECT_TRUE(png.is(kLeft + 18 + x, middle + y, colour)) << row << ": " << x << " " << y;
+      for (const int y : {-9, 8}) EXPECT_TRUE(png.is(kLeft + 18, middle + y, palette::kPaper));
+    }
+  };
+  expectBoxes(0);
+  map.truth = Pose2{1.0, 1.0, 0.0};
+  map.marksBest = true;
+  expectBoxes(2);
+}
+
+TEST(HeatMapLayout, EntriesThatFitExactlyStandSideBySide) {
+  const auto lines = [](int columns) {
+    const FieldRegion region = regionOf(columns, 250);  // 4 pixels a cell, as 1000 are for 250 rows
+    HeatMap map = evenMap(region);
+    const int plain = draw(map).height();
+    map.truth = Pose2{1.0, 1.0, 0.0};
+    map.marksBest = true;
+    return (draw(map).height() - plain) / kKeyLine;
+  };
+  // 52 pixels before each text and 24 behind it.
+  const int both =
+      2 * 76 + Picture::textWidth(2, "true pose") + Picture::textWidth(2, "most probable cell");
+  ASSERT_EQ(both % 4, 0) << "no picture is as wide as that";
+  EXPECT_EQ(lines(both / 4), 1);
+  EXPECT_EQ(lines(both / 4 - 1), 2);
+}
+
 TEST(HeatMapLayout, CaptionsAreInSmallLettersIfLargeOnesDoNotFit) {
   const FieldRegion region = regionOf(5, 4);
   HeatMap map = evenMap(region);
