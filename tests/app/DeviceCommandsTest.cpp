@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include "Await.hpp"
 #include "TestClient.hpp"
 #include "Workspace.hpp"
 
@@ -98,6 +99,40 @@ TEST_F(DeviceCommands, ClocksOfEmulatedDevicesShowAnotherTimeAndDrift) {
   EXPECT_LT(*began, 6'000'000'000);
   emulator.signal(SIGTERM);
   EXPECT_EQ(emulator.finish().exitCode, 0);
+}
+
+/// What is said by a program that listens: its port.
+std::string portOf(const std::string& said, char before) {
+  const std::size_t at = said.find_first_of("0123456789", said.rfind(before));
+  EXPECT_NE(at, said.npos) << said;
+  return at == said.npos ? "0" : std::to_string(std::stoi(said.substr(at)));
+}
+
+TEST_F(DeviceCommands, ClientsOfARobotRecordWhatItsDevicesSay) {
+  const std::string device = "device = { plugin = \"lines\", port = \"tcp:127.0.0.1:@\" }\n";
+  writeRobot(std::string(kOdometry) + device);
+  std::string record = "# ortung record 1\n";
+  for (int i = 0; i < 30'000; ++i)
+    record += std::to_string(20'000 * i) +
+              " odometry/odometry/pose 5 2147483648 2147483648 18000 2147483648 2147483648\n";
+  write("run.rec", record);
+  Program emulator(emulate({"--source", "record:" + path("run.rec"), "--tcp", "0"}));
+  replace("robot.toml", "@", portOf(emulator.waitForOutput("\n"), ':'));
+  std::filesystem::create_directory(path("records"));
+  Program robot({"robot", path("robot.toml"), "--listen", "0", "--allow-control", "all",
+                 "--record-into", path("records")});
+  TestClient client(static_cast<std::uint16_t>(std::stoi(portOf(robot.waitForOutput("\n"), 'p'))));
+  client.ask("HELLO ortung/1 role=operator");
+  const std::string begun = client.ask("RECORD on");
+  ASSERT_TRUE(begun.starts_with("OK RECORD robot=1 state=on file=")) << begun;
+  EXPECT_TRUE(comesTrue("five moments are recorded",
+                        [&] { return std::stoi(valueOf(client.ask("RECORD"), "moments")) >= 5; }));
+  const std::string ended = client.ask("RECORD off");
+  EXPECT_TRUE(ended.starts_with("OK RECORD robot=1 state=off file=")) << ended;
+  const Outcome good = ortung({"check", path("records/" + valueOf(ended, "file"))});
+  EXPECT_EQ(good.exitCode, 0) << good.err;
+  robot.signal(SIGTERM);
+  EXPECT_EQ(robot.finish().exitCode, 0);
 }
 
 TEST_F(DeviceCommands, ABoardHasTwoNumbers) {

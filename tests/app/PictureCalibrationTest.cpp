@@ -4,6 +4,8 @@
 #include <numbers>
 #include <regex>
 
+#include "DecodedPng.hpp"
+#include "Files.hpp"
 #include "Workspace.hpp"
 
 namespace ortung::test {
@@ -13,6 +15,18 @@ namespace fs = std::filesystem;
 
 constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 const std::string kField = std::string(ORTUNG_SOURCE_DIR) + "/maps/fields/msl.toml";
+
+const char* const kTall = R"([robot]
+name = "tall"
+[[sensor]]
+plugin = "camera"
+model = "front"
+pose = { z_m = 0.75 }
+[sensor.camera]
+size_px = [480, 360]
+focal_px = [320.0, 320.0]
+tilt_deg = 20
+)";
 
 class PictureCalibration : public Workspace {
  protected:
@@ -47,7 +61,12 @@ tilt_deg = 30
 };
 
 TEST_F(PictureCalibration, ColoursArePrintedOrWrittenAndPicturesDrawn) {
+  const fs::path before = fs::current_path();
+  const fs::path here = path("here");
+  fs::create_directory(here);
+  fs::current_path(here);
   const Outcome printed = ortung({"calibrate", "colours", picture(0), picture(1)});
+  fs::current_path(before);
   ASSERT_EQ(printed.exitCode, 0) << printed.err;
   EXPECT_TRUE(printed.out.starts_with("[sensor.colours]\n")) << printed.out;
   const Outcome written = ortung({"calibrate", "colours", picture(0), picture(1), "--out",
@@ -55,27 +74,47 @@ TEST_F(PictureCalibration, ColoursArePrintedOrWrittenAndPicturesDrawn) {
   ASSERT_EQ(written.exitCode, 0) << written.err;
   EXPECT_EQ(written.out, "");
   EXPECT_EQ(read("colours.toml"), printed.out);
+  EXPECT_TRUE(fs::is_empty(here)) << "nothing is drawn that nobody wants";
   for (const char* name : {"drawn/deep/000000.png", "drawn/deep/000001.png"})
     EXPECT_TRUE(read(name).starts_with("\x89PNG")) << name;
   expectRefused(ortung({"calibrate", "colours", picture(0), "--out", path("colours.toml")}), 1,
                 "ortung calibrate colours: " + path("colours.toml"), {"--force"});
 }
 
+/// Which share of the blue dots that were drawn near the robot is on something white in the
+/// picture, to 4 pixels. Farther away lines are too thin to be there.
+double shareOnLines(const std::string& picture, const std::string& drawn) {
+  const auto decoded = [](const std::string& text) {
+    return app::DecodedPng(std::as_bytes(std::span(text)));
+  };
+  const app::DecodedPng before = decoded(picture);
+  const app::DecodedPng after = decoded(drawn);
+  const auto isOnLine = [&](int x, int y) {
+    for (int v = std::max(y - 4, 0); v <= std::min(y + 4, before.height - 1); ++v)
+      for (int u = std::max(x - 4, 0); u <= std::min(x + 4, before.width - 1); ++u) {
+        const app::Colour c = before.at(u, v);
+        if (std::min({c.red, c.green, c.blue}) > 140) return true;
+      }
+    return false;
+  };
+  constexpr int kNear = 110;  // row of what is 5 m away
+  int dots = 0;
+  int good = 0;
+  for (int y = kNear; y < after.height; ++y)
+    for (int x = 0; x < after.width; ++x) {
+      if (!after.is(x, y, {0, 0, 255})) continue;
+      ++dots;
+      good += isOnLine(x, y) ? 1 : 0;
+    }
+  EXPECT_GT(dots, 100);
+  return static_cast<double>(good) / std::max(dots, 1);
+}
+
 // The camera that has drawn the pictures is known, and where it stood. A field looks the same from
 // the other side.
 TEST_F(PictureCalibration, LinesTellTheCameraThatDrewThemAndWhereItStood) {
   constexpr double kFocal = 320.0, kHeight = 0.75, kTilt = 20.0;
-  write("tall.toml", R"([robot]
-name = "tall"
-[[sensor]]
-plugin = "camera"
-model = "front"
-pose = { z_m = 0.75 }
-[sensor.camera]
-size_px = [480, 360]
-focal_px = [320.0, 320.0]
-tilt_deg = 20
-)");
+  write("tall.toml", kTall);
   struct Place {
     const char* start;
     double x, y, heading;  ///< [m], [degrees]
@@ -118,6 +157,24 @@ tilt_deg = 20
     EXPECT_TRUE(read("drawn/" + name).starts_with("\x89PNG")) << name;
     EXPECT_FALSE(read("drawn/" + name) == read(name)) << "nothing is drawn into " << name;
   }
+}
+
+TEST_F(PictureCalibration, TheFieldIsDrawnWhereThePictureHasItsLines) {
+  const std::string circle = "center_m = [0, 0]\nsize_m = [4, 4]\n";
+  std::string field = readBytes(kField);
+  ASSERT_NE(field.find(circle), field.npos);
+  write("arcs.toml", field.replace(field.find(circle), circle.size(),
+                                   "center_m = [1, 0.5]\nsize_m = [5, 2.5]\nangle_deg = 40\n"));
+  write("tall.toml", kTall);
+  const Outcome seen = ortung(
+      {"export", "images", "sim:" + path("arcs.toml") + "?speed=0&duration=0.1&start=3,-2,140",
+       "--robot", path("tall.toml"), "--out", path("arcs"), "--count", "1"});
+  ASSERT_EQ(seen.exitCode, 0) << seen.err;
+  const Outcome outcome = ortung({"calibrate", "lines", path("arcs/images/000000.png"), "--world",
+                                  path("arcs.toml"), "--height", "0.75", "--height-share", "0.05",
+                                  "--out", path("camera.toml"), "--draw", path("drawn")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_GT(shareOnLines(read("arcs/images/000000.png"), read("drawn/000000.png")), 0.95);
 }
 
 TEST_F(PictureCalibration, PicturesAreNeverDrawnOver) {
