@@ -63,6 +63,24 @@ TEST(ServedPlayers, AreStartedListedAndStopped) {
   EXPECT_EQ(client.line(), "robot=4 name=late client=1");
 }
 
+TEST(ServedPlayers, OfASceneComeBackAtAResetWhoeverHadTheirNamesMeanwhile) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/scenes/f2000_match.toml", {.noise = false});
+  const RunningBoard board(world, withPlayers(world));
+  TestClient client(board.port());
+  ASSERT_TRUE(client.ask("HELLO ortung/1 role=operator").starts_with("OK"));
+  client.ask("LOCKSTEP on");
+  EXPECT_EQ(client.ask("STOP blue2"), "OK STOP");
+  EXPECT_EQ(client.ask("PLAY wander robot=pioneer.toml name=blue2"), "OK PLAY robot=blue2");
+  EXPECT_TRUE(client.ask("RESET").starts_with("OK RESET"));
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    EXPECT_TRUE(client.ask("NEXT none/none/none").starts_with("OK NEXT"));
+    EXPECT_EQ(client.ask("LIST robots"), "OK LIST lines=8");
+    std::string all;
+    for (int i = 0; i < 8; ++i) all += client.line() + "\n";
+    EXPECT_NE(all.find(" name=blue2 client=0"), all.npos) << all;
+  }
+}
+
 TEST(ServedPlayers, ComeOnlyWhileThereIsRoomForTheirCosts) {
   ServedSimulation world(kField, {.noise = false});
   BoardConfig config = controlledConfig();
