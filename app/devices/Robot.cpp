@@ -286,7 +286,7 @@ int runRobot(const RobotArguments& arguments) {
   std::atomic<bool> isDone = false;
   {
     const Watch watch(robot);
-    std::jthread work([&] {
+    const std::jthread work([&] {
       try {
         robot.run();
       } catch (...) {
@@ -300,7 +300,6 @@ int runRobot(const RobotArguments& arguments) {
       robot.stop();
       throw;
     }
-    work.join();
   }
   robot.commit();
   if (problem) std::rethrow_exception(problem);
