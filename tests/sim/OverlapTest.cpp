@@ -153,6 +153,29 @@ TEST(Overlap, AnArmDoesNotPushABallThroughAWall) {
   EXPECT_LT(physics.pose(pushed).x, 0.445);
 }
 
+// All things give way, or none of them moves: whichever is looked at first.
+TEST(Overlap, AnArmThatOneBallHoldsUpLeavesTheOtherWhereItIs) {
+  const std::vector<Primitive> closed{circle(0.1)};
+  const Primitive ball = circle(0.11);
+  for (const double first : {0.2, -0.2}) {
+    // In front there is no room between the arm and the wall, behind there is.
+    Physics physics({.cycle = kCycle}, room({box(0.45, 0.0, 0.01, 8.0), box(0.2, 0.7, 0.6, 0.9),
+                                             box(0.2, -0.7, 0.6, 0.9)}));
+    const std::vector<Primitive> arms{box(first, 0.0, 0.2, 0.3), box(-first, 0.0, 0.2, 0.3)};
+    std::vector<Primitive> open = closed;
+    open.insert(open.end(), arms.begin(), arms.end());
+    const auto robot = physics.add(closed, {10.0, Physics::Floor::kDrives}, {});
+    const auto held = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {0.33, 0.0, 0.0});
+    const auto loose = physics.add({&ball, 1}, {0.43, Physics::Floor::kRolls}, {-0.33, 0.0, 0.0});
+    EXPECT_FALSE(physics.reshape(robot, open, arms));
+    EXPECT_FALSE(physics.isFree({&ball, 1}, {-0.33, 0.0, 0.0}, robot));
+    EXPECT_TRUE(physics.isFree({&ball, 1}, {-0.56, 0.0, 0.0}, robot));
+    for (int i = 0; i < 5; ++i) physics.step(kCycle);
+    EXPECT_NEAR(physics.pose(held).x, 0.33, 1e-6);
+    EXPECT_NEAR(physics.pose(loose).x, -0.33, 1e-6);
+  }
+}
+
 TEST(Push, TooWeakMovesNothing) {
   // A robot of 10 kg pushes with at most 0.7 x 9.81 x 10 N; the crate holds with up to mu m g.
   for (const double mass : {10.5, 15.0, 40.0, 200.0}) {
