@@ -131,6 +131,38 @@ TEST(Batch, AnEpisodeThatIsOverMustBeReset) {
   batch.step(nothing);
 }
 
+TEST(Batch, AResetForgetsHowEpisodesEnded) {
+  for (const int how : {0, 1, 2}) {
+    Batch batch("goalkeeper-v0", {{"striker", {std::string("roll")}}},
+                {.episodes = 2, .autoreset = Autoreset::kDisabled, .seed = 1});
+    const std::vector<float> nothing(4);
+    while (batch.endings()[0] == 0 && batch.endings()[1] == 0) batch.step(nothing);
+    if (how == 0) batch.reset();
+    if (how == 1) batch.reset(std::vector<std::uint64_t>{5, 6});
+    if (how == 2)
+      for (const std::size_t episode : {0, 1}) batch.reset(episode, {});
+    for (const std::size_t episode : {0, 1}) {
+      EXPECT_EQ(batch.rewards()[episode], 0.0) << how;
+      EXPECT_EQ(batch.terminated()[episode], 0) << how;
+      EXPECT_EQ(batch.truncated()[episode], 0) << how;
+      EXPECT_EQ(batch.endings()[episode], 0) << how;
+    }
+    batch.step(nothing);
+  }
+}
+
+TEST(Batch, TheTrueBallIsSeenFromTheFirstMomentOn) {
+  Batch batch("keeper-vs-striker-v0", {{"observation", {std::string("truth")}}},
+              {.episodes = 6, .seed = 3});
+  const std::size_t seen = batch.info().observation.size();
+  for (std::size_t e = 0; e < batch.size(); ++e) {
+    const auto state = batch.states().subspan(12 * e, 12);
+    const auto keeper = batch.observations().subspan(2 * e * seen, seen);
+    EXPECT_NEAR(keeper[8], state[1] + 6.0f, 1e-5);
+    EXPECT_NEAR(keeper[9], state[2], 1e-5);
+  }
+}
+
 TEST(Batch, TimeTruncates) {
   Batch batch("keeper-vs-striker-v0", {{"duration_s", {1.0}}}, {.seed = 2});
   const std::vector<float> nothing(6);
