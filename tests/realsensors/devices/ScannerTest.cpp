@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
 #include <map>
 
 #include "Desk.hpp"
@@ -37,6 +40,24 @@ std::vector<std::uint32_t> scanAt(std::size_t n, int beams) {
                                  : static_cast<std::uint32_t>(random.uniform(100.0, 7990.0)));
   }
   return words;
+}
+
+/// What the program that holds MRPT's drivers says to such words.
+std::string answerTo(const std::string& words) {
+  const std::filesystem::path folder = std::filesystem::path(ORTUNG_PROGRAM).parent_path();
+  const std::string command = (folder / "ortung-mrpt-device").string() + " " + words;
+  std::string said;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::array<char, 256> text{};
+  while (pipe && std::fgets(text.data(), text.size(), pipe.get())) said += text.data();
+  return said;
+}
+
+TEST(ScannerProgram, SaysHowItIsUsedToWhoeverDoesNotKnow) {
+  for (const char* words : {"", "hokuyo", "sick /dev/null", "hokyuo /dev/null",
+                            "hokuyo /dev/null 2", "slick /dev/null 9600 180 1 mm"})
+    EXPECT_TRUE(answerTo(words).starts_with("# error usage: ortung-mrpt-device sick PORT"))
+        << words << ": " << answerTo(words);
 }
 
 struct DeskOfScanner : testing::Test {
