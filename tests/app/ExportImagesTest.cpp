@@ -132,6 +132,18 @@ TEST_F(ExportImages, WritesPicturesWithWhatTheyShow) {
   EXPECT_TRUE(fs::exists(path("set/front-camera-image.toml")));
 }
 
+// Of 100 s it takes a picture in each of the first cycles.
+TEST_F(ExportImages, ItsProgressIsTheShareOfTheTimeThatIsSimulated) {
+  const std::string field = ORTUNG_SOURCE_DIR "/maps/fields/msl.toml";
+  const Outcome outcome = ortung({"export", "images", "sim:" + field + "?duration=100", "--robot",
+                                  path("robot.toml").string(), "--out", path("set").string(),
+                                  "--count", "4", "--progress"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const std::size_t bar = outcome.err.find(']');
+  ASSERT_NE(bar, std::string::npos) << outcome.err;
+  EXPECT_TRUE(outcome.err.substr(bar).starts_with("]   0 %")) << outcome.err;
+}
+
 TEST_F(ExportImages, HasMasksAndDepthsOfTheSamePixels) {
   ASSERT_EQ(exportTo("set").exitCode, 0);
   const Png mask(path("set/segmentations/000000.png"));

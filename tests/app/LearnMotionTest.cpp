@@ -30,8 +30,10 @@ TEST_F(LearnMotion, FindsWhatTheSimulatorWasToldToGetWrong) {
                     "duration=150", "--option", "seed=3", "--with-robot", path("robot.toml")})
                 .exitCode,
             0);
-  const Outcome outcome = learn();
+  const Outcome outcome = learn({"--progress"});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  for (const char* bar : {"reading [", "learning ["})
+    EXPECT_NE(outcome.err.find(bar), outcome.err.npos) << outcome.err;
   EXPECT_NEAR(value("way_scale"), 1 / 1.08, 0.02);
   EXPECT_NEAR(value("turn_scale"), 1 / 0.95, 0.03);
   EXPECT_NEAR(value("way_per_m"), 0.03 / 1.08, 0.01);
