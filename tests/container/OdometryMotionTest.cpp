@@ -160,6 +160,29 @@ TEST(OdometryMotion, DependsOnSeedStreamAndPlaceAlone) {
   EXPECT_NE(whole.x, other.x);
 }
 
+TEST(OdometryCorrection, HasTheLimitsThatRefusalsTell) {
+  struct Limits {
+    const char* key;
+    double low;
+    double high;
+  };
+  for (const auto& [key, low, high] : {Limits{"way_scale", 0.5, 2.0},
+                                       {"turn_scale", 0.5, 2.0},
+                                       {"turn_bias_deg_per_m", -180.0, 180.0},
+                                       {"way_bias_m_per_rad", -10.0, 10.0},
+                                       {"delay_s", -0.3, 2.0}}) {
+    const auto read = [&, key = key](double number) {
+      Parameters p("r.toml");
+      p.set(key, number);
+      return OdometryCorrection::read(p);
+    };
+    EXPECT_NO_THROW(read(low)) << key;
+    EXPECT_NO_THROW(read(high)) << key;
+    EXPECT_THROW(read(low - 1e-6), ConfigError) << key;
+    EXPECT_THROW(read(high + 1e-6), ConfigError) << key;
+  }
+}
+
 TEST(OdometryNoise, IsChecked) {
   for (const double bad : {-0.1, 101.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
     OdometryNoise noise;

@@ -133,6 +133,21 @@ TEST(SurfaceField, IsTheSameFromAFile) {
   EXPECT_EQ(read.near(0.1, 0.2), nullptr);
 }
 
+TEST(SurfaceField, RefusesToBeginWithoutCellsOrWithTooMany) {
+  const auto start = [](int columns, int rows, double cell) {
+    FieldRegion region = square();
+    region.grid = {0.0, 0.0, 0.1, columns, rows};
+    SurfaceField().start(region, cell, 0.0);
+  };
+  EXPECT_NO_THROW(start(1, 1, 0.1));
+  EXPECT_THROW(start(0, 1, 0.1), std::invalid_argument);
+  EXPECT_THROW(start(1, 0, 0.1), std::invalid_argument);
+  EXPECT_THROW(start(-1, -1, 0.1), std::invalid_argument);
+  EXPECT_THROW(start(1, 1, -0.1), std::invalid_argument);
+  EXPECT_THROW(start(1, 1, std::nan("")), std::invalid_argument);
+  EXPECT_THROW(start(1 << 14, (1 << 13) + 1, 0.1), std::invalid_argument);
+}
+
 TEST(SurfaceField, RefusesFilesThatLie) {
   const TemporaryFolder folder;
   int number = 0;

@@ -39,6 +39,25 @@ TEST(SurfaceFit, IsBlurredByTheWallAtTheEndOfItsLever) {
   EXPECT_EQ(seen(0.001).slopeAt({}).blurRadians, 1.0) << "straight ahead it tells no heading";
 }
 
+// A spot is as sharp in all directions, so it tells of both coordinates alike, and of a turn by its
+// distance.
+TEST(SurfaceFit, OfASpotTellsBothCoordinatesAndTheHeading) {
+  constexpr double kX = 1.025, kY = 0.325;  // in the middle of a cell
+  const FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
+  auto field = std::make_shared<SurfaceField>();
+  field->start(region, 0.05, 0.1);
+  for (double angle = 0.0; angle < 6.28; angle += 0.05)
+    field->mark(kX + 0.01 * std::cos(angle), kY + 0.01 * std::sin(angle));
+  field->finish();
+  SurfaceFit fit(field, Pose2{}, SensorModel{.sigma = 0.02});
+  fit.add(std::hypot(kX, kY), std::atan2(kY, kX));
+  const auto i = fit.slopeAt({}).information;
+  ASSERT_GT(i[0], 0.0);
+  EXPECT_NEAR(i[4] / i[0], 1.0, 0.02);
+  EXPECT_NEAR(i[1] / i[0], 0.0, 0.02);
+  EXPECT_NEAR(i[8] / i[0], kX * kX + kY * kY, 0.02);
+}
+
 TEST(SurfaceFit, SaysNothingOfAHeadingWhereNoSurfaceIsNear) {
   const Slope slope = seen(1.0).slopeAt({-1.0, 0.0, 0.0});
   EXPECT_EQ(slope.blurRadians, 0.0);
