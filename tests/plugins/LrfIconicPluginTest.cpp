@@ -99,6 +99,26 @@ TEST(LrfIconicPlugin, TellsRoundObstaclesFromWalls) {
   EXPECT_NEAR(obstacles[0].radius, 0.2, 0.02);
 }
 
+TEST(LrfIconicPlugin, HasTheFeaturesOfItsPage) {
+  const SensorRig rig("lrf_iconic", "");
+  std::string names;
+  for (const auto& data : rig.data)
+    names += data->id().model + "/" + data->id().type + "/" + data->id().feature + "\n";
+  EXPECT_EQ(names, "LMS200/LRF/obstacles\nLMS200/LRF/position\nLMS200/LRF/scan\n");
+}
+
+// Beams are 1 degree apart: one, two or three of them meet the post.
+TEST(LrfIconicPlugin, ThreePointsAreABodyAndFewerAreNoise) {
+  for (const auto& [half, heading, bodies] :  // [degrees]
+       {std::tuple{0.5, 0.0, 0U}, {1.2, 0.5, 0U}, {1.5, 0.0, 1U}}) {
+    FakeWorld world = room();
+    world.addPost({2.0, 0.0, 2.0 * std::sin(half * kDegree)});
+    SensorRig rig("lrf_iconic", "beams = 360\nfov_deg = 360\nmax_range_m = 12");
+    rig.sense(world, {0.0, 0.0, heading * kDegree});
+    EXPECT_EQ(rig.get<ObstaclesData>(0).reading().size(), bodies) << half;
+  }
+}
+
 TEST(LrfIconicPlugin, WithoutKnownWallsAllIsObstacle) {
   const FakeWorld world(8.0, 5.0);  // nobody knows its walls
   SensorRig rig("lrf_iconic", "beams = 360\nfov_deg = 360\nmax_range_m = 12");
