@@ -140,6 +140,13 @@ TEST_F(MapFiles, BrokenYamlIsRefusedWithItsPlace) {
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0]", "0"), image), "resolution is 0, expected");
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0]", "wide"), image),
              "resolution is wide, expected");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[left, 0, 0]"), image), "x of origin is left, expected");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, [0]]"), image), "yaw of origin is no number");
+  for (const char* key : {"occupied_thresh", "free_thresh"})
+    EXPECT_HAS(refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n" + std::string(key) +
+                           ": dark\n",
+                       image),
+               std::string(key) + " is dark, expected");
   EXPECT_HAS(refusal(mapYaml() + "mode: raw\n", image), "mode is \"raw\"");
   EXPECT_HAS(refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 2\n", image),
              "negate must be 0 or 1");

@@ -97,7 +97,15 @@ TEST(Region, DoesNotCountWhatIsAboveRobots) {
 
 TEST(Region, RefusesBadSizes) {
   const auto world = worldOf(kMixed);
-  EXPECT_THROW(world->region(0, {0.2}), std::invalid_argument);
+  for (const double cell : {-1.0, -0.1, 0.0, 0.0009, 1000.1}) {
+    try {
+      world->region(cell, {0.2});
+      ADD_FAILURE() << "cells of " << cell << " m were taken";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("m, expected 0.001 to 1000"), std::string::npos)
+          << error.what();
+    }
+  }
   EXPECT_THROW(world->region(std::nan(""), {0.2}), std::invalid_argument);
   EXPECT_THROW(world->region(0.1, {-1}), std::invalid_argument);
   EXPECT_THROW(world->region(0.1, {std::nan("")}), std::invalid_argument);
