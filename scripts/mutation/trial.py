@@ -1,6 +1,7 @@
 """Runs the tests that come past a mutant with the mutant switched on, until one notices."""
 
 import json
+import random
 import time
 from concurrent.futures import ThreadPoolExecutor
 
@@ -72,6 +73,7 @@ class Trials:
         if self.file.is_file():
             results = {int(k): v for k, v in json.loads(self.file.read_text()).items()}
         todo = [n for n, site in enumerate(chosen) if site is not None and n not in results]
+        random.Random(len(chosen)).shuffle(todo)  # so that what a run that was cut has tried is a sample of all
 
         def one(number):
             coming_past = [t for t in self.tests if number in self.reached[t.name]]
