@@ -128,9 +128,15 @@ TEST(BeaconLog, AScaleThatIsOffByThreePercentIsLearnedOnTheWay) {
   std::ofstream(folder.path("robot.toml")) << robot;
   learn(folder, "0.5");
   const std::string part = "?from_s=970";
-  const auto learned = localized(folder, "robot.toml", part, {"--seed", "2"});
-  ASSERT_FALSE(learned["converged_after_s"].is_null());
-  EXPECT_LT(learned["position_median_m"].get<double>(), 0.4);
+  // Until it is learned, chance decides for how long the robot is lost: the middle one of three.
+  std::vector<double> medians;
+  for (const char* seed : {"2", "3", "4"}) {
+    const auto learned = localized(folder, "robot.toml", part, {"--seed", seed});
+    ASSERT_FALSE(learned["converged_after_s"].is_null());
+    medians.push_back(learned["position_median_m"].get<double>());
+  }
+  std::sort(medians.begin(), medians.end());
+  EXPECT_LT(medians[1], 0.4);
   robot.insert(robot.find("[mcl]") + 5, "\nlearns_biases = false");
   std::ofstream(folder.path("stubborn.toml")) << robot;
   const auto stubborn = localized(folder, "stubborn.toml", part, {"--seed", "2"});

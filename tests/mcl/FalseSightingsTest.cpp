@@ -78,8 +78,9 @@ TEST(FalseSightings, ThatAreHalfOfAllCostLessThanHalfOfTheAccuracyAndNoRun) {
     EXPECT_TRUE(std::isfinite(sum)) << "lost with seed " << seed;
     with += sum;
   }
-  EXPECT_LT(std::sqrt(without / (20 * kPeriods)), 0.04);
-  EXPECT_LT(std::sqrt(with / without), 1.5);
+  EXPECT_LT(std::sqrt(without / (20 * kPeriods)), 0.015);
+  EXPECT_LT(std::sqrt(with / (20 * kPeriods)), 0.03);
+  EXPECT_LT(std::sqrt(with / without), 2.0);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class Drive {
   /// @param said what odometry says @param isRead whether readings say where the robot is
   void step(const Pose2& said, bool isRead = true) {
     const double way = std::hypot(said.x, said.y);
-    truth = truth * Pose2{said.x * (1.0 + errors_.way) + noise(), said.y * (1.0 + errors_.way),
+    truth = truth * Pose2{said.x * (1.0 + errors_.way), said.y * (1.0 + errors_.way),
                           said.theta * (1.0 + errors_.turn) + errors_.veer * way};
     learned.move(changeWith(learned.corrected(said), modelled_), refined);
     if (!isRead) return;
@@ -57,7 +57,7 @@ class Drive {
     learned.compare(alone);
     const Matrix information = Matrix::Identity() / (kRead * kRead);
     const Matrix prior = Eigen::Map<const RowMajor>(refined->covariance.data());
-    learned.follow(information * off, information, refined->covariance);
+    learned.follow(information * off, information, refined->covariance, determinesPose);
     const Matrix after = (prior.inverse() + information).inverse();
     const Vector change = after * information * off;
     refined->pose = {refined->pose.x + change.x(), refined->pose.y + change.y(),
@@ -74,10 +74,9 @@ class Drive {
   LearnedOdometry learned;
   std::optional<PoseEstimate> refined;
   Pose2 truth;
-  double noiseSigma = 0.0;  ///< of each step [m]
+  bool determinesPose = true;  ///< what readings are said to do
 
  private:
-  double noise() { return noiseSigma * random_.gaussian(); }
   double read() { return kRead * random_.gaussian(); }
   OdometryErrors errors_;
   double modelled_;
@@ -105,6 +104,14 @@ TEST(LearnedOdometry, LeavesOdometryThatIsRightAsItIs) {
   EXPECT_NEAR(found.turn, 0.0, 0.02);
   EXPECT_NEAR(found.veer, 0.0, 0.01);
   EXPECT_EQ(drive.learned.corrected({}).x, 0.0);
+}
+
+// Distances that are all too long by a share are explained by ways that are, too.
+TEST(LearnedOdometry, LearnsNothingFromReadingsThatDetermineNoPose) {
+  Drive drive({-0.1, 0.0, 0.0, 1.0});
+  drive.determinesPose = false;
+  drive.wander(100);
+  EXPECT_EQ(drive.learned.errors().way, 0.0);
 }
 
 // Of a way that was never turned on nothing is known of turns.
@@ -167,7 +174,7 @@ TEST(LearnedOdometry, StaysWhenTheBeliefIsAnotherOne) {
   drive.learned.forgetPose();
   // A pose that has nothing to do with the one before teaches nothing of the way in between.
   const Matrix information = Matrix::Identity() / (kRead * kRead);
-  drive.learned.follow(information * Vector(3, 3, 1), information, independent(1, 1, 1));
+  drive.learned.follow(information * Vector(3, 3, 1), information, independent(1, 1, 1), true);
   EXPECT_EQ(drive.learned.errors().way, before.way);
   EXPECT_EQ(drive.learned.errors().noise, before.noise);
 }
@@ -177,8 +184,8 @@ TEST(LearnedOdometry, WhatIsNoNumberChangesNothing) {
   drive.wander(30);
   const OdometryErrors before = drive.learned.errors();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  drive.learned.follow(Vector(nan, 0, 0), Matrix::Identity(), independent(1, 1, 1));
-  drive.learned.follow(Vector(1, 1, 1), Matrix::Identity(), independent(0, 0, 0));
+  drive.learned.follow(Vector(nan, 0, 0), Matrix::Identity(), independent(1, 1, 1), true);
+  drive.learned.follow(Vector(1, 1, 1), Matrix::Identity(), independent(0, 0, 0), true);
   EXPECT_EQ(drive.learned.errors().way, before.way);
 }
 

@@ -77,7 +77,7 @@ void LearnedOdometry::move(const MotionChange& model, std::optional<PoseEstimate
 }
 
 void LearnedOdometry::follow(const Vector& pull, const Matrix& information,
-                             const PoseCovariance& predicted) {
+                             const PoseCovariance& predicted, bool determinesPose) {
   const Matrix prior = matrixOf(predicted);
   const Matrix precision = prior.inverse();
   const Matrix posterior = (precision + information).inverse();
@@ -85,10 +85,11 @@ void LearnedOdometry::follow(const Vector& pull, const Matrix& information,
   const Vector change = gain * (posterior * pull);
   const Matrix covariance = covariance_ - gain * (prior - posterior) * gain.transpose();
   if (!change.allFinite() || !covariance.allFinite()) return;
+  cross_ = posterior * gain.transpose();
+  if (!determinesPose) return;
   const Vector most(kMostScale, kMostScale, kMostVeer);
   mean_ = (mean_ + change).cwiseMin(most).cwiseMax(-most);
   covariance_ = 0.5 * (covariance + covariance.transpose());
-  cross_ = posterior * gain.transpose();
   isLearned_ = true;
 }
 

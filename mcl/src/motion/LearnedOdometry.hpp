@@ -34,11 +34,14 @@ class ORTUNG_API LearnedOdometry {
   /// Predicts the refined pose, if there is one, by what the motion model predicts from a corrected
   /// change.
   void move(const MotionChange& model, std::optional<PoseEstimate>& refined);
-  /// Learns systematic errors from how readings pull the pose that move() has predicted.
+  /// Takes how readings pull the pose that move() has predicted. Systematic errors are learned if
+  /// the readings determine a pose: errors of a radio's distances, for instance, would be taken for
+  /// odometry's.
   /// @param pull the readings' information times the distance to where they alone would have it
   /// @param information information of the readings, in the field frame
   /// @param predicted covariance of the predicted pose
-  void follow(const Vector& pull, const Matrix& information, const PoseCovariance& predicted);
+  void follow(const Vector& pull, const Matrix& information, const PoseCovariance& predicted,
+              bool determinesPose);
   /// Learns the noise, from poses that readings determine by themselves twice in a row.
   /// @param alone pose by the newest readings alone, if they determine one
   void compare(const std::optional<PoseEstimate>& alone);

@@ -217,7 +217,8 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
   // Readings that err by more than they promise say less of odometry, too.
   if (follows && learnsOdometry_)
     odometry_.follow(pullOn(place_->pose, *solution) / times_,
-                     matrixOf(solution->slope.information) / times_, place_->covariance);
+                     matrixOf(solution->slope.information) / times_, place_->covariance,
+                     determinedBy(solution->slope) == Determined::kAll);
   else
     odometry_.separate();
   const Matrix blur =
