@@ -214,12 +214,14 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
         surprise(difference(solution->pose, place_->pose), matrixOf(place_->covariance), *solution);
     if (observed) learnTimes(*observed);
   }
-  // Readings that err by more than they promise say less of odometry, too.
-  if (follows && learnsOdometry_)
+  // Where estimates err by more than they promise, readings say less of odometry, too.
+  if (follows && learnsOdometry_) {
+    PoseCovariance before = place_->covariance;
+    for (double& c : before) c *= times_;
     odometry_.follow(pullOn(place_->pose, *solution) / times_,
-                     matrixOf(solution->slope.information) / times_, place_->covariance,
+                     matrixOf(solution->slope.information) / times_, before,
                      determinedBy(solution->slope) == Determined::kAll);
-  else
+  } else
     odometry_.separate();
   const Matrix blur =
       Vector(solution->slope.blurMetres, solution->slope.blurMetres, solution->slope.blurRadians)
