@@ -144,7 +144,7 @@ TEST(LearnedOdometry, WaysWithoutReadingsAreAsUncertainAsTheyErr) {
   constexpr int kDrives = 200;
   for (int i = 0; i < kDrives; ++i) {
     const OdometryErrors errors{0.05 * random.gaussian(), 0.05 * random.gaussian(),
-                                0.03 * random.gaussian(), 1.0};
+                                0.01 * random.gaussian(), 1.0};
     Drive drive(errors, 1e-4, static_cast<std::uint64_t>(i));
     for (int k = 0; k < 50; ++k) drive.step({0.1, 0.0, k < 25 ? 0.05 : -0.02}, false);
     const Vector off(drive.truth.x - drive.refined->pose.x, drive.truth.y - drive.refined->pose.y,
