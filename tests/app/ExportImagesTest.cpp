@@ -207,17 +207,15 @@ TEST_F(ExportImages, TakesTheSamePicturesAgain) {
 }
 
 TEST_F(ExportImages, CopiesThePicturesOfARecord) {
+  const std::string world = ORTUNG_SOURCE_DIR "/maps/fields/msl.toml";
   const Outcome imported =
-      ortung({"import",
-              "sim:" ORTUNG_SOURCE_DIR "/maps/fields/msl.toml?speed=0&duration=0.3&start=7.5,1,"
-              "-15&pictures=on",
+      ortung({"import", "sim:" + world + "?speed=0&duration=0.3&start=7.5,1,-15&pictures=on",
               "--with-robot", path("robot.toml").string(), "--out", path("run.rec").string()});
   ASSERT_EQ(imported.exitCode, 0) << imported.err;
   ASSERT_EQ(exportTo("drawn").exitCode, 0);
   const Outcome outcome =
       ortung({"export", "images", "record:" + path("run.rec").string(), "--robot",
-              path("robot.toml").string(), "--world", ORTUNG_SOURCE_DIR "/maps/fields/msl.toml",
-              "--out", path("copied").string()});
+              path("robot.toml").string(), "--world", world, "--out", path("copied").string()});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   for (const char* name : {"000000.png", "000001.png", "000007.png"})
     EXPECT_EQ(readBytes(path("copied/images") / name), readBytes(path("drawn/images") / name));
@@ -226,10 +224,9 @@ TEST_F(ExportImages, CopiesThePicturesOfARecord) {
                                      {"3", {0, 1, 6, 7}},
                                      {"4", {0, 1}}}) {
     const std::string some = "every" + every;
-    const Outcome left =
-        ortung({"export", "images", "record:" + path("run.rec").string(), "--robot",
-                path("robot.toml").string(), "--world", ORTUNG_SOURCE_DIR "/maps/fields/msl.toml",
-                "--every", every, "--out", path(some).string()});
+    const Outcome left = ortung({"export", "images", "record:" + path("run.rec").string(),
+                                 "--robot", path("robot.toml").string(), "--world", world,
+                                 "--every", every, "--out", path(some).string()});
     ASSERT_EQ(left.exitCode, 0) << left.err;
     EXPECT_NE(left.out.find(": " + std::to_string(taken.size()) + " pictures"), std::string::npos)
         << left.out;
