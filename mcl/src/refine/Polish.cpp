@@ -173,7 +173,10 @@ std::optional<double> surprise(const Vector& moved, const Matrix& promised,
 }  // namespace
 
 void Polish::move(const MotionChange& change) {
-  odometry_.move(change, place_);
+  if (learnsOdometry_)
+    odometry_.move(change, place_);
+  else if (place_)
+    place_ = carriedOn(*place_, change);
   if (careful_) careful_ = carriedOn(*careful_, change);
   if (cluster_) cluster_ = carriedOn(*cluster_, change);
 }
