@@ -13,6 +13,7 @@
 #include "FakeRun.hpp"
 #include "LearnedOdometry.hpp"
 #include "NoiseRatio.hpp"
+#include "PoseMatrix.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Random.hpp"
 
@@ -21,7 +22,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
-using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr double kRead = 0.003;  // sigma of what readings say of the pose [m], [rad]
 
@@ -48,21 +48,21 @@ class Drive {
                           said.theta * (1.0 + errors_.turn) + errors_.veer * way};
     learned.move(changeWith(learned.corrected(said), modelled_), refined);
     if (!isRead) return;
-    const Vector off(truth.x + read() - refined->pose.x, truth.y + read() - refined->pose.y,
-                     wrapAngle(truth.theta + read() - refined->pose.theta));
+    const Vector off =
+        difference({truth.x + read(), truth.y + read(), truth.theta + read()}, refined->pose);
     PoseEstimate alone;
     alone.pose = {refined->pose.x + off.x(), refined->pose.y + off.y(),
                   refined->pose.theta + off.z()};
     alone.covariance = independent(kRead * kRead, kRead * kRead, kRead * kRead);
     learned.compare(alone);
     const Matrix information = Matrix::Identity() / (kRead * kRead);
-    const Matrix prior = Eigen::Map<const RowMajor>(refined->covariance.data());
-    learned.follow(information * off, information, refined->covariance, determinesPose);
+    const Matrix prior = matrixOf(refined->covariance);
+    learned.follow(information * off, information, prior, 1.0, determinesPose);
     const Matrix after = (prior.inverse() + information).inverse();
     const Vector change = after * information * off;
     refined->pose = {refined->pose.x + change.x(), refined->pose.y + change.y(),
                      wrapAngle(refined->pose.theta + change.z())};
-    Eigen::Map<RowMajor>(refined->covariance.data()) = after;
+    inPlace(refined->covariance) = after;
   }
 
   /// Drives bends to both sides, and straight on between them.
@@ -149,7 +149,7 @@ TEST(LearnedOdometry, WaysWithoutReadingsAreAsUncertainAsTheyErr) {
     for (int k = 0; k < 50; ++k) drive.step({0.1, 0.0, k < 25 ? 0.05 : -0.02}, false);
     const Vector off(drive.truth.x - drive.refined->pose.x, drive.truth.y - drive.refined->pose.y,
                      wrapAngle(drive.truth.theta - drive.refined->pose.theta));
-    const Matrix covariance = Eigen::Map<const RowMajor>(drive.refined->covariance.data());
+    const Matrix covariance = matrixOf(drive.refined->covariance);
     squares += off.dot(covariance.inverse() * off) / kDrives;
   }
   EXPECT_GT(squares, 2.0);  // three degrees of freedom
@@ -166,6 +166,26 @@ TEST(LearnedOdometry, WhatIsKnownMakesTheNextWayMoreCertain) {
   EXPECT_EQ(next.mean.x, 1.0);  // it is a corrected change already
 }
 
+// What is not looked at drifts, but is known no worse than it was before anything was known.
+TEST(LearnedOdometry, ForgetsNoMoreThanItHasLearned) {
+  Drive drive({});
+  const auto sigmaOfAMetre = [&] {
+    return std::sqrt(drive.learned.expected(changeWith({1.0, 0.0, 0.0}, 0.0)).covariance[0]);
+  };
+  drive.step({0.01, 0.0, 0.0});
+  const double atFirst = sigmaOfAMetre();
+  drive.wander(600);
+  const double learned = sigmaOfAMetre();
+  EXPECT_LT(learned, 0.3 * atFirst);
+  const auto drivesOn = [&](int steps) {
+    for (int i = 0; i < steps; ++i) drive.step({0.1, 0.0, 0.1}, false);
+  };
+  drivesOn(100);
+  EXPECT_GT(sigmaOfAMetre(), learned);
+  drivesOn(100'000);
+  EXPECT_NEAR(sigmaOfAMetre(), atFirst, 0.01 * atFirst);
+}
+
 // When the belief is another one, the robot is the same.
 TEST(LearnedOdometry, StaysWhenTheBeliefIsAnotherOne) {
   Drive drive({-0.1, 0.0, 0.0, 1.0});
@@ -174,7 +194,7 @@ TEST(LearnedOdometry, StaysWhenTheBeliefIsAnotherOne) {
   drive.learned.forgetPose();
   // A pose that has nothing to do with the one before teaches nothing of the way in between.
   const Matrix information = Matrix::Identity() / (kRead * kRead);
-  drive.learned.follow(information * Vector(3, 3, 1), information, independent(1, 1, 1), true);
+  drive.learned.follow(information * Vector(3, 3, 1), information, Matrix::Identity(), 1.0, true);
   EXPECT_EQ(drive.learned.errors().way, before.way);
   EXPECT_EQ(drive.learned.errors().noise, before.noise);
 }
@@ -184,8 +204,8 @@ TEST(LearnedOdometry, WhatIsNoNumberChangesNothing) {
   drive.wander(30);
   const OdometryErrors before = drive.learned.errors();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  drive.learned.follow(Vector(nan, 0, 0), Matrix::Identity(), independent(1, 1, 1), true);
-  drive.learned.follow(Vector(1, 1, 1), Matrix::Identity(), independent(0, 0, 0), true);
+  drive.learned.follow(Vector(nan, 0, 0), Matrix::Identity(), Matrix::Identity(), 1.0, true);
+  drive.learned.follow(Vector(1, 1, 1), Matrix::Identity(), Matrix::Zero(), 1.0, true);
   EXPECT_EQ(drive.learned.errors().way, before.way);
 }
 

@@ -9,12 +9,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "PoseMatrix.hpp"
 #include "ortung/mcl/Belief.hpp"
 
 namespace ortung {
 namespace {
-
-using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr std::size_t kMostSamples = 5'000'000;
 constexpr double kFarthest = 1e6;   // farthest position that is permitted [m]
@@ -35,8 +34,8 @@ template <class... Parts>
 
 /// Returns a matrix R with R R^T = covariance. It is computed from the correlations, so that metres
 /// and radians are not compared with each other.
-Matrix3 rootOf(const PoseCovariance& given) {
-  const Matrix3 covariance = Eigen::Map<const Matrix3>(given.data());
+PoseMatrix rootOf(const PoseCovariance& given) {
+  const PoseMatrix covariance = matrixOf(given);
   for (Eigen::Index i = 0; i < 3; ++i)
     for (Eigen::Index k = 0; k < 3; ++k)
       if (!std::isfinite(covariance(i, k)))
@@ -45,7 +44,7 @@ Matrix3 rootOf(const PoseCovariance& given) {
     if (covariance(i, i) < 0.0)
       refuse("covariance ", nameOf(i, i), " is ", covariance(i, i), ", expected at least 0");
   const Eigen::Vector3d sigma = covariance.diagonal().cwiseSqrt();
-  Matrix3 correlation = Matrix3::Identity();
+  PoseMatrix correlation = PoseMatrix::Identity();
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index k = 0; k < i; ++k) {
       const double unit = sigma(i) * sigma(k);
@@ -59,7 +58,7 @@ Matrix3 rootOf(const PoseCovariance& given) {
         correlation(i, k) = correlation(k, i) = (covariance(i, k) + covariance(k, i)) / (2 * unit);
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(correlation);
+  const Eigen::SelfAdjointEigenSolver<PoseMatrix> solver(correlation);
   const Eigen::Vector3d& values = solver.eigenvalues();
   if (!(values.minCoeff() >= -kRounding))
     refuse("covariance is not positive semi-definite: its correlations have the eigenvalue ",
@@ -73,7 +72,7 @@ SampleSet normalSamples(const Pose2& pose, const PoseCovariance& covariance, std
                         Random random) {
   if (!isFinite(pose))
     refuse("pose is (", pose.x, ", ", pose.y, ", ", pose.theta, "), expected finite numbers");
-  const Matrix3 root = rootOf(covariance);
+  const PoseMatrix root = rootOf(covariance);
   SampleSet set;
   set.resize(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -1,28 +1,17 @@
 #include "CarriedOn.hpp"
 
+#include <Eigen/Geometry>
 #include <array>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "MotionTuning.hpp"
+#include "PoseMatrix.hpp"
 
 namespace ortung {
 namespace {
 
 using namespace tuning::carried;
-
-/// Adds noise that is given in the robot's frame, rotated by the heading @p theta into the field
-/// frame.
-void add(const PoseCovariance& noise, double theta, PoseCovariance& covariance) {
-  const double c = std::cos(theta);
-  const double s = std::sin(theta);
-  const std::array<std::array<double, 3>, 3> turn = {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
-  for (std::size_t row = 0; row < 3; ++row)
-    for (std::size_t column = 0; column < 3; ++column)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-          covariance[3 * row + column] += turn[row][i] * noise[3 * i + k] * turn[column][k];
-}
 
 }  // namespace
 
@@ -60,21 +49,9 @@ MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, st
 }
 
 PoseEstimate moved(PoseEstimate e, const Pose2& change) {
-  // With the displacement in the field frame, (dx, dy), a heading error h shifts the new position
-  // by h (-dy, dx): the covariance is F P F^T with F = [1 0 -dy; 0 1 dx; 0 0 1].
-  const Pose2 old = e.pose;
-  e.pose = old * change;
-  const double dx = e.pose.x - old.x;
-  const double dy = e.pose.y - old.y;
-  PoseCovariance& p = e.covariance;
-  for (std::size_t column = 0; column < 3; ++column) {
-    p[column] -= dy * p[6 + column];
-    p[3 + column] += dx * p[6 + column];
-  }
-  for (std::size_t row = 0; row < 9; row += 3) {
-    p[row] -= dy * p[row + 2];
-    p[row + 1] += dx * p[row + 2];
-  }
+  const Pose2 before = std::exchange(e.pose, e.pose * change);
+  const Eigen::Matrix3d derivative = derivativeOfMoved(before, e.pose);
+  inPlace(e.covariance) = derivative * matrixOf(e.covariance) * derivative.transpose();
   return e;
 }
 
@@ -85,9 +62,9 @@ PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionModel& motion,
 
 PoseEstimate carriedOn(const PoseEstimate& estimate, const MotionChange& change, double noise) {
   PoseEstimate then = moved(estimate, change.mean);
-  PoseCovariance its = change.covariance;
-  for (double& c : its) c *= noise;
-  add(its, estimate.pose.theta, then.covariance);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(estimate.pose.theta, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  inPlace(then.covariance) += noise * turn * matrixOf(change.covariance) * turn.transpose();
   return then;
 }
 

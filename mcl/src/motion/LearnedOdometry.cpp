@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "MotionTuning.hpp"
-#include "ortung/base/Angles.hpp"
+#include "PoseMatrix.hpp"
 
 namespace ortung {
 namespace {
@@ -15,11 +15,9 @@ using namespace tuning::odometry;
 
 using Vector = LearnedOdometry::Vector;
 using Matrix = LearnedOdometry::Matrix;
-using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-Matrix matrixOf(const PoseCovariance& covariance) {
-  return Eigen::Map<const RowMajor>(covariance.data());
-}
+/// Returns the variances of what is not known of a robot.
+Vector prior() { return {kScale * kScale, kScale * kScale, kVeer * kVeer}; }
 
 /// Returns what the systematic errors (columns) make of a change of pose, in the robot's frame.
 Matrix effectOn(const Pose2& change) {
@@ -33,8 +31,7 @@ Matrix effectOn(const Pose2& change) {
 
 }  // namespace
 
-LearnedOdometry::LearnedOdometry()
-    : covariance_(Vector(kScale * kScale, kScale * kScale, kVeer * kVeer).asDiagonal()) {}
+LearnedOdometry::LearnedOdometry() : covariance_(prior().asDiagonal()) {}
 
 OdometryErrors LearnedOdometry::errors() const {
   return {mean_.x(), mean_.y(), mean_.z(), noise_.value()};
@@ -52,7 +49,7 @@ MotionChange LearnedOdometry::expected(const MotionChange& model) const {
 MotionChange LearnedOdometry::known(const MotionChange& model) const {
   const Matrix effect = effectOn(model.mean);
   MotionChange its = model;
-  Eigen::Map<RowMajor>(its.covariance.data()) =
+  inPlace(its.covariance) =
       noise_.value() * matrixOf(model.covariance) + effect * covariance_ * effect.transpose();
   return its;
 }
@@ -64,25 +61,26 @@ void LearnedOdometry::move(const MotionChange& model, std::optional<PoseEstimate
   refined = carriedOn(*refined, known(model));
   const Matrix effect =
       Eigen::AngleAxisd(before.theta, Vector::UnitZ()).toRotationMatrix() * effectOn(model.mean);
-  Matrix forward = Matrix::Identity();
-  forward(0, 2) = before.y - refined->pose.y;
-  forward(1, 2) = refined->pose.x - before.x;
+  const Matrix forward = derivativeOfMoved(before, refined->pose);
   const Matrix mixed = forward * cross_ * effect.transpose();
-  Eigen::Map<RowMajor>(refined->covariance.data()) += mixed + mixed.transpose();
+  inPlace(refined->covariance) += mixed + mixed.transpose();
   cross_ = forward * cross_ + effect * covariance_;
   const double way = std::hypot(model.mean.x, model.mean.y);
   const double scale = kScaleDrift * kScaleDrift;
-  covariance_.diagonal() +=
-      Vector(way * scale, std::abs(model.mean.theta) * scale, way * kVeerDrift * kVeerDrift);
+  const Vector drift(way * scale, std::abs(model.mean.theta) * scale,
+                     way * kVeerDrift * kVeerDrift);
+  // Without readings that say something, it is known no worse than at first.
+  const Vector known = covariance_.diagonal();
+  covariance_.diagonal() = (known + drift).cwiseMin(known.cwiseMax(prior()));
 }
 
-void LearnedOdometry::follow(const Vector& pull, const Matrix& information,
-                             const PoseCovariance& predicted, bool determinesPose) {
-  const Matrix prior = matrixOf(predicted);
+void LearnedOdometry::follow(const Vector& pull, const Matrix& information, const Matrix& predicted,
+                             double times, bool determinesPose) {
+  const Matrix prior = times * predicted;
   const Matrix precision = prior.inverse();
-  const Matrix posterior = (precision + information).inverse();
+  const Matrix posterior = (precision + information / times).inverse();
   const Matrix gain = cross_.transpose() * precision;
-  const Vector change = gain * (posterior * pull);
+  const Vector change = gain * (posterior * pull) / times;
   const Matrix covariance = covariance_ - gain * (prior - posterior) * gain.transpose();
   if (!change.allFinite() || !covariance.allFinite()) return;
   cross_ = posterior * gain.transpose();
@@ -95,9 +93,7 @@ void LearnedOdometry::follow(const Vector& pull, const Matrix& information,
 
 void LearnedOdometry::compare(const std::optional<PoseEstimate>& alone) {
   if (alone && alone_) {
-    const Vector off(alone->pose.x - alone_->pose.pose.x, alone->pose.y - alone_->pose.pose.y,
-                     wrapAngle(alone->pose.theta - alone_->pose.pose.theta));
-    noise_.follow(off, matrixOf(alone_->motion.covariance),
+    noise_.follow(difference(alone->pose, alone_->pose.pose), matrixOf(alone_->motion.covariance),
                   matrixOf(alone_->pose.covariance) + matrixOf(alone->covariance));
   }
   alone_.reset();

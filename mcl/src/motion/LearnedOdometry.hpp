@@ -40,7 +40,8 @@ class ORTUNG_API LearnedOdometry {
   /// @param pull the readings' information times the distance to where they alone would have it
   /// @param information information of the readings, in the field frame
   /// @param predicted covariance of the predicted pose
-  void follow(const Vector& pull, const Matrix& information, const PoseCovariance& predicted,
+  /// @param times factor of the squared errors of both
+  void follow(const Vector& pull, const Matrix& information, const Matrix& predicted, double times,
               bool determinesPose);
   /// Learns the noise, from poses that readings determine by themselves twice in a row.
   /// @param alone pose by the newest readings alone, if they determine one

@@ -8,6 +8,7 @@
 
 #include "BeliefTuning.hpp"
 #include "CarriedOn.hpp"
+#include "PoseMatrix.hpp"
 #include "RefineTuning.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/SensorData.hpp"
@@ -17,9 +18,6 @@ namespace {
 
 using namespace tuning::biases;
 using tuning::common::kIndependent, tuning::common::kOutlier;
-
-using Matrix = Eigen::Matrix3d;
-using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 }  // namespace
 
@@ -34,16 +32,13 @@ void Biases::move(const MotionChange& change) {
   if (!isRunning_) return;
   PoseEstimate before;
   before.pose = pose_;
-  const Matrix old = covariance_.topLeftCorner<3, 3>();
-  Eigen::Map<RowMajor>(before.covariance.data()) = old;
+  inPlace(before.covariance) = covariance_.topLeftCorner<3, 3>();
   const PoseEstimate after = carriedOn(before, change);
-  Matrix forward = Matrix::Identity();
-  forward(0, 2) = -(after.pose.y - pose_.y);
-  forward(1, 2) = after.pose.x - pose_.x;
+  const Eigen::Matrix3d forward = derivativeOfMoved(pose_, after.pose);
   const Eigen::Index rest = covariance_.cols() - kPose;
   covariance_.topRightCorner(kPose, rest) = forward * covariance_.topRightCorner(kPose, rest);
   covariance_.bottomLeftCorner(rest, kPose) = covariance_.topRightCorner(kPose, rest).transpose();
-  covariance_.topLeftCorner<3, 3>() = Eigen::Map<const RowMajor>(after.covariance.data());
+  covariance_.topLeftCorner<3, 3>() = matrixOf(after.covariance);
   travelled_ += std::hypot(change.mean.x, change.mean.y) + std::abs(change.mean.theta);
   pose_ = after.pose;
 }
@@ -120,7 +115,7 @@ void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidu
     else
       metres = std::max(metres, r.sigma + kScale * r.expected);
   }
-  covariance_ = Eigen::Map<const RowMajor>(estimate.covariance.data());
+  covariance_ = matrixOf(estimate.covariance);
   covariance_.diagonal() += Eigen::Vector3d(metres * metres, metres * metres, radians * radians);
 }
 
@@ -161,7 +156,7 @@ bool Biases::learn(std::size_t device, const ReadingResidual& r, const Pose2& at
     by[place] = 1.0;
     by[place + 1] = r.expected;
   }
-  const Eigen::Vector3d moved(pose_.x - at.x, pose_.y - at.y, wrapAngle(pose_.theta - at.theta));
+  const Eigen::Vector3d moved = difference(pose_, at);
   double off = r.value - by.head<3>().dot(moved) - by.tail(n - kPose).dot(mean_.tail(n - kPose));
   if (r.isAngle) off = wrapAngle(off);
   const Eigen::VectorXd cross = covariance_ * by;

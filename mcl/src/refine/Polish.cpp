@@ -11,6 +11,7 @@
 
 #include "BeliefTuning.hpp"
 #include "CarriedOn.hpp"
+#include "PoseMatrix.hpp"
 #include "RefineTuning.hpp"
 #include "ortung/base/Angles.hpp"
 
@@ -22,18 +23,9 @@ using tuning::common::kOutlier;
 
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
-using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr double kSettledMetres = 2e-4;
 constexpr double kSettledRadians = 2e-5;
-
-Matrix matrixOf(const std::array<double, 9>& values) {
-  return Eigen::Map<const RowMajor>(values.data());
-}
-
-Vector difference(const Pose2& to, const Pose2& from) {
-  return {to.x - from.x, to.y - from.y, wrapAngle(to.theta - from.theta)};
-}
 
 Matrix widened(const PoseCovariance& covariance, double metres, double radians) {
   Matrix wider = matrixOf(covariance);
@@ -120,16 +112,15 @@ bool explains(const PoseEstimate& predicted, const Solution& solution, double ti
   return pull.dot(apart) < kOutlier * kOutlier;
 }
 
-/// Returns the pose by the readings alone, if they determine one.
+/// Returns the pose by the readings alone, which determine one.
 std::optional<PoseEstimate> aloneOf(const Solution& solution) {
-  if (determinedBy(solution.slope) != Determined::kAll) return std::nullopt;
   const Eigen::LDLT<Matrix> information(matrixOf(solution.slope.information));
   const Vector off = information.solve(Vector(solution.slope.pull.data()));
   if (!off.allFinite()) return std::nullopt;
   PoseEstimate alone;
   alone.pose = {solution.slopeAt.x + off.x(), solution.slopeAt.y + off.y(),
                 wrapAngle(solution.slopeAt.theta + off.z())};
-  Eigen::Map<RowMajor>(alone.covariance.data()) = information.solve(Matrix::Identity());
+  inPlace(alone.covariance) = information.solve(Matrix::Identity());
   return alone;
 }
 
@@ -207,7 +198,8 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
     prior = between(*predicted, *place_, std::min(1.0, kRandomRatio / times_));
     solution = agreement(readings, prior, estimate.pose, slope);
   }
-  if (learnsOdometry_) odometry_.compare(solution ? aloneOf(*solution) : std::nullopt);
+  const bool determinesPose = solution && determinedBy(solution->slope) == Determined::kAll;
+  if (learnsOdometry_) odometry_.compare(determinesPose ? aloneOf(*solution) : std::nullopt);
   if (!solution || !isSame(solution->pose, estimate)) {
     place_.reset();
     return;
@@ -219,22 +211,19 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
   }
   // Where estimates err by more than they promise, readings say less of odometry, too.
   if (follows && learnsOdometry_) {
-    PoseCovariance before = place_->covariance;
-    for (double& c : before) c *= times_;
-    odometry_.follow(pullOn(place_->pose, *solution) / times_,
-                     matrixOf(solution->slope.information) / times_, before,
-                     determinedBy(solution->slope) == Determined::kAll);
+    odometry_.follow(pullOn(place_->pose, *solution), matrixOf(solution->slope.information),
+                     matrixOf(place_->covariance), times_, determinesPose);
   } else
     odometry_.separate();
   const Matrix blur =
       Vector(solution->slope.blurMetres, solution->slope.blurMetres, solution->slope.blurRadians)
           .asDiagonal();
   const Matrix kept = solution->covariance * prior.precision;
-  auto mixed = Eigen::Map<RowMajor>(blur_.data());
+  auto mixed = inPlace(blur_);
   mixed = follows ? Matrix(kept * mixed + (Matrix::Identity() - kept) * blur) : blur;
   place_ = estimate;
   place_->pose = solution->pose;
-  Eigen::Map<RowMajor>(place_->covariance.data()) = solution->covariance;
+  inPlace(place_->covariance) = solution->covariance;
   careful_ = place_;
   if (readings.size() == news.size()) {
     put(estimate);
@@ -266,7 +255,7 @@ void Polish::put(PoseEstimate& cluster) const {
                             (1.0 - std::min(1.0, kRandomRatio / times_)) * samples;
   const Matrix blur = matrixOf(blur_);
   cluster.pose = place_->pose;
-  Eigen::Map<RowMajor>(cluster.covariance.data()) = covariance + blur * blur.transpose();
+  inPlace(cluster.covariance) = covariance + blur * blur.transpose();
 }
 
 }  // namespace ortung
