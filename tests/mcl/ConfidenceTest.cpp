@@ -133,5 +133,48 @@ TEST(Judge, QualityFallsWithEverySign) {
   EXPECT_LT(judged({}, shared).quality, best);
 }
 
+// The long axis of the position counts, whatever its direction.
+TEST(Judge, ProtectsAlongTheLongAxis) {
+  for (const double angle : {0.0, 0.4, 1.3, 0.5 * std::numbers::pi}) {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    PoseEstimate estimate = narrow();
+    estimate.covariance = covarianceOf(1e-4 * c * c + 1e-6 * s * s, (1e-4 - 1e-6) * c * s,
+                                       1e-4 * s * s + 1e-6 * c * c);
+    const PoseEstimate tracking = judged({}, estimate);
+    ASSERT_EQ(tracking.status, TrackStatus::kTracking);
+    EXPECT_NEAR(tracking.protection.metres, 4.2 * 0.01, 1e-9) << angle;
+    EXPECT_NEAR(tracking.protection.radians, 4.2 * 0.1, 1e-9);
+    // One in a hundred may be beyond it, instead of one in a thousand.
+    const PoseEstimate uncertain = judged({.isLate = true}, estimate);
+    ASSERT_EQ(uncertain.status, TrackStatus::kUncertain);
+    EXPECT_NEAR(uncertain.protection.metres, 3.3 * 0.01, 1e-9) << angle;
+    EXPECT_NEAR(uncertain.protection.radians, 3.3 * 0.1, 1e-9);
+  }
+}
+
+TEST(Judge, ProtectsOverWhatOdometrySaysAndAsFarAsTheBeliefReaches) {
+  const double alone = judged({}).protection.metres;
+  EXPECT_NEAR(judged({.apart = {0.3, 0.2}}).protection.metres, alone + 0.3, 1e-9);
+  EXPECT_NEAR(judged({.apart = {0.3, 0.2}}).protection.radians, 0.42 + 0.2, 1e-9);
+  EXPECT_NEAR(judged({.others = {7.0, 2.0}}).protection.metres, 7.0, 1e-9);
+  EXPECT_NEAR(judged({.others = {7.0, 2.0}}).protection.radians, 2.0, 1e-9);
+  EXPECT_NEAR(judged({.others = {0.5 * alone, 0.1}}).protection.metres, alone, 1e-9);
+  EXPECT_EQ(judged({.apart = {0.0, 9.0}}).protection.radians, std::numbers::pi);
+}
+
+TEST(Judge, NothingBoundsTheErrorWhereOtherPlacesMayBeRight) {
+  for (const Signs& signs : {Signs{.isFrozen = true}, Signs{.unusual = 1}, Signs{.lead = 4.0},
+                             Signs{.isConfirmed = false}, Signs{.unusual = 1, .silence = 9.0},
+                             Signs{.fit = 0.3, .fitLately = 0.4, .unusual = 5, .lead = 12.0}}) {
+    EXPECT_TRUE(std::isinf(judged(signs).protection.metres));
+    EXPECT_TRUE(std::isinf(judged(signs).protection.radians));
+  }
+  EXPECT_TRUE(std::isinf(PoseEstimate().protection.metres));
+  for (const Signs& signs : {Signs{}, Signs{.lead = 3.9}, Signs{.silence = 9.0},
+                             Signs{.trustsOdometry = false}, Signs{.isLate = true}})
+    EXPECT_TRUE(std::isfinite(judged(signs).protection.metres));
+}
+
 }  // namespace
 }  // namespace ortung

@@ -11,7 +11,39 @@ namespace {
 
 using namespace tuning::confidence;
 
+// Standard deviations along the long axis beyond which an error is with the probabilities
+// kBeyondTracking and kBeyondUncertain. A normal distribution would have 3.3 to 3.7 and 2.6 to 3.0
+// (in one direction, in both alike); the errors' tails are heavier: docs/mcl.md has what was
+// measured.
+constexpr double kSigmasTracking = 4.2;
+constexpr double kSigmasUncertain = 3.3;
+
 double square(double v) { return v * v; }
+
+/// Returns the standard deviation along the long axis of a position.
+double longSigma(const PoseCovariance& covariance) {
+  const double off = std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1]);
+  return std::sqrt(std::max(0.0, 0.5 * positionVariance(covariance) + off));
+}
+
+/// Returns whether something speaks for other places, and nothing says how far away they are.
+bool isAnywhere(const Signs& signs, const PoseEstimate& estimate) {
+  return estimate.status == TrackStatus::kLost || signs.isFrozen || signs.unusual > 0 ||
+         signs.lead >= tuning::lead::kMostNatsOfAReading || !signs.isConfirmed;
+}
+
+/// Returns the protection level: it reaches over the errors that the covariance explains and over
+/// what odometry would have it, or, if that is farther, to all but a small share of the belief.
+PoseDistance protectionOf(const Signs& signs, const PoseEstimate& estimate) {
+  if (isAnywhere(signs, estimate)) return kUnbounded;
+  const double sigmas =
+      estimate.status == TrackStatus::kTracking ? kSigmasTracking : kSigmasUncertain;
+  return {
+      std::max(signs.others.metres, sigmas * longSigma(estimate.covariance) + signs.apart.metres),
+      std::min(std::numbers::pi, std::max(signs.others.radians,
+                                          sigmas * std::sqrt(headingVariance(estimate.covariance)) +
+                                              signs.apart.radians))};
+}
 
 }  // namespace
 
@@ -45,10 +77,6 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   const double fitLately = std::clamp(signs.fitLately, 0.0, 1.0);
   // With more the other place takes over.
   const double lead = std::clamp(signs.lead, 0.0, tuning::lead::kEnoughNats);
-#ifdef ORTUNG_SWEEP
-  noteSigns({static_cast<double>(estimate.stamp), estimate.pose.x, estimate.pose.y, oddsOfBelief,
-             fit, fitLately, lead});
-#endif
   const double odds = kConstant + kOfBelief * oddsOfBelief + kOfFit * fit +
                       kOfFitLately * fitLately + kOfLead * lead;
   estimate.quality = 1.0 / (1.0 + std::exp(-odds));
@@ -77,6 +105,31 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   estimate.status = estimate.quality < kLost                ? TrackStatus::kLost
                     : estimate.reason == TrackReason::kFits ? TrackStatus::kTracking
                                                             : TrackStatus::kUncertain;
+  estimate.protection = protectionOf(signs, estimate);
+#ifdef ORTUNG_SWEEP
+  noteSigns({static_cast<double>(estimate.stamp),
+             estimate.pose.x,
+             estimate.pose.y,
+             oddsOfBelief,
+             fit,
+             fitLately,
+             lead,
+             estimate.pose.theta,
+             longSigma(estimate.covariance),
+             std::sqrt(headingVariance(estimate.covariance)),
+             estimate.share,
+             static_cast<double>(estimate.status),
+             static_cast<double>(estimate.reason),
+             signs.apart.metres,
+             signs.apart.radians,
+             signs.others.metres,
+             signs.others.radians,
+             signs.silence.value_or(-1.0),
+             static_cast<double>(signs.unusual),
+             estimate.quality,
+             estimate.protection.metres,
+             estimate.protection.radians});
+#endif
 }
 
 }  // namespace ortung

@@ -8,6 +8,10 @@
 
 namespace ortung {
 
+/// The probabilities with which errors are beyond the protection level.
+inline constexpr double kBeyondTracking = 0.001;
+inline constexpr double kBeyondUncertain = 0.01;
+
 /// The evidence from which the confidence in an estimate is computed.
 struct Signs {
   double fit = 1.0;        ///< best fit of the newest readings, as a share of the usual one
@@ -22,14 +26,17 @@ struct Signs {
   /// Time since the last reading that was weighed, in units of the usual interval between readings;
   /// nothing: there was no reading.
   std::optional<double> silence = 0.0;
-  bool isLate = false;  ///< whether stamps of readings seem delayed
+  bool isLate = false;      ///< whether stamps of readings seem delayed
+  PoseDistance apart = {};  ///< how far the estimate is from where odometry has led to, unexplained
+  PoseDistance others = {};  ///< how far from the estimate the belief reaches at other places
 };
 
 /// Returns the probability that the position of a pose drawn from a Gaussian with this covariance
 /// is within @p metres of its mean.
 ORTUNG_API double probabilityWithin(const PoseCovariance& covariance, double metres);
 
-/// Fills in quality, status and reason of an estimate whose share and covariance are already set.
+/// Fills in quality, status, reason and protection level of an estimate whose share and covariance
+/// are already set.
 ORTUNG_API void judge(const Signs& signs, PoseEstimate& estimate);
 
 }  // namespace ortung

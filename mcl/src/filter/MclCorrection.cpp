@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "Annealing.hpp"
+#include "BeliefTuning.hpp"
 #include "FilterTuning.hpp"
 #include "MclImpl.hpp"
 #include "MotionTuning.hpp"
+#include "Reach.hpp"
 #include "Resampling.hpp"
 
 namespace ortung {
@@ -194,12 +196,22 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
   track->momentum.follow(estimate, stamp);
   parts.lateness.keep(track->belief.samples(), led.weights, estimate, stamp);
   parts.polish.follow(news, estimate);
+  parts.separation.follow(estimate);
   track->present = estimate;
   if (parts.lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);
   estimate = parts.lateness.widened(estimate, stamp);
+  track->others = othersOf(led);
   judge(signsAt(stamp), estimate);
   if (tools.config.learnsBiases) parts.biases.follow(news, estimate);
   return {std::move(led.weights), std::move(led.bins)};
+}
+
+/// Returns how far the belief reaches at other places than the estimate's.
+PoseDistance Mcl::Impl::othersOf(const Led& led) const {
+  const bool isOnePlace = estimate.share >= tuning::confidence::kOfOnePlace;
+  const double rest = isOnePlace ? kBeyondTracking : kBeyondUncertain;
+  if (estimate.share >= 1.0 - rest) return {};
+  return reachOf(track->belief.samples().view(), led.weights, estimate.pose, rest);
 }
 
 /// Resamples, with KLD-adaptive size, if the effective sample size is low.

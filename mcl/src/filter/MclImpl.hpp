@@ -79,6 +79,7 @@ struct Mcl::Impl {
         parts{Lateness(tools.config, *tools.motion),
               Polish(tools.config.learnsOdometry),
               {},
+              {},
               {tools.config, tools.region, tools.search, tools.workers}},
         intake(tools.config, *tools.motion) {}
 
@@ -100,6 +101,7 @@ struct Mcl::Impl {
   bool drifts() const;
   void addDrift(PoseEstimate& e, Timestamp stamp) const;
   Signs signsAt(Timestamp stamp) const;
+  double wayTo(Timestamp stamp) const;
   ReadingsByTime look(const SensorContainer& container);
   void start(ReadingsByTime& news);
   void goOnStarting();
@@ -123,6 +125,7 @@ struct Mcl::Impl {
   [[nodiscard]] Weighed weigh(const std::vector<NewReading>& news, Predicted predicted);
   [[nodiscard]] Led letBestLead(Weighed weighed);
   [[nodiscard]] Estimated estimateFrom(Led led);
+  PoseDistance othersOf(const Led& led) const;
   void resample(const Estimated& estimated);
   std::optional<Rivals::Moment> competition(const Moment& moment, const Hypothesis::Said& said);
   std::vector<double> takeIn(const Moment& moment, const Hypothesis::Said& said);

@@ -60,6 +60,7 @@ void Mcl::Impl::moveBy(const Pose2& odometry) {
   const MotionChange its = changeOf(*tools.motion, change, seed, stream(Purpose::kMotion));
   parts.polish.move(its);
   parts.biases.move(its);
+  parts.separation.move(parts.polish.odometry().expected(its));
   move([&](const MovableSamples& some, std::size_t first) {
     tools.motion->sampleMotion(some, change, seed, stream(Purpose::kMotion), first);
   });
@@ -102,6 +103,7 @@ void Mcl::Impl::moveBlindly(Timestamp stamp) {
   track->travelled.all += come;
   parts.polish.forget();
   parts.biases.forget();
+  parts.separation.forget();
   if (!track->waitsForStart) enlarge();
   const Pose2 ahead = track->momentum.changeAt(stamp);
   move([&](const MovableSamples& some, std::size_t first) {
@@ -119,6 +121,7 @@ std::size_t Mcl::Impl::spread(Timestamp stamp) {
                                stream(Purpose::kSpread));
   parts.polish.forget();
   parts.biases.forget();
+  parts.separation.forget();
   track->belief.setSamples(std::move(both.samples));
   track->present.reset();
   return both.drifted;

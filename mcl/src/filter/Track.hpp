@@ -16,6 +16,7 @@
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
 #include "Rivals.hpp"
+#include "Separation.hpp"
 #include "UpdateTime.hpp"
 #include "ortung/base/Workers.hpp"
 #include "ortung/mcl/MclConfig.hpp"
@@ -68,6 +69,7 @@ struct Track {
   /// Estimate of the present samples; computed when it is needed.
   mutable std::optional<PoseEstimate> present;
   PoseResolution coarsest;  ///< coarsest resolution of the tables that weighed the belief last
+  PoseDistance others;      ///< how far the belief reached at other places when it was weighed last
   bool waitsForStart;       ///< a global start waits for the first reading, or searches
   bool hasStarted = false;  ///< whether update() has yet to report an estimate
   Travelled travelled;
@@ -87,14 +89,15 @@ struct LastingParts {
   Lateness lateness;
   Polish polish;
   Biases biases;
+  Separation separation;
   GlobalStart globalStart;
 
   /// Each part forgets what it knows of the belief. If a part is added, this does not compile until
   /// it is named here.
   void forget() {
     const auto forgetAll = [](auto&... each) { (each.forget(), ...); };
-    auto& [first, second, third, fourth] = *this;
-    forgetAll(first, second, third, fourth);
+    auto& [first, second, third, fourth, fifth] = *this;
+    forgetAll(first, second, third, fourth, fifth);
   }
 };
 

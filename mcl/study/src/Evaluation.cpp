@@ -65,6 +65,35 @@ void addErrors(const std::vector<EvaluationPoint>& points, Timestamp since, doub
   errors.neesAboveShare = static_cast<double>(above) / static_cast<double>(nees.size());
 }
 
+/// Adds how protection levels hold.
+void addProtection(const std::vector<EvaluationPoint>& points, EvaluationResult& result) {
+  const auto isBeyond = [](const EvaluationPoint& p) {
+    return p.positionError > p.protection.metres || p.headingError > p.protection.radians;
+  };
+  const auto beyondShare = [&](TrackStatus status) {
+    double count = 0.0;
+    double beyond = 0.0;
+    for (const EvaluationPoint& p : points) {
+      if (p.status != status) continue;
+      count += 1.0;
+      if (isBeyond(p)) beyond += 1.0;
+    }
+    return count > 0.0 ? beyond / count : kNan;
+  };
+  result.beyondProtectionShare = beyondShare(TrackStatus::kTracking);
+  result.beyondProtectionUncertainShare = beyondShare(TrackStatus::kUncertain);
+  std::vector<double> levels;
+  std::vector<double> errors;
+  for (const EvaluationPoint& p : points) {
+    if (p.status != TrackStatus::kTracking) continue;
+    levels.push_back(p.protection.metres);
+    errors.push_back(p.positionError);
+  }
+  if (levels.empty()) return;
+  result.protectionMedian = quantile(levels, 0.5);
+  result.protectionRatio = result.protectionMedian / quantile(errors, 0.5);
+}
+
 }  // namespace
 
 std::optional<Pose2> interpolate(const std::vector<std::pair<Timestamp, Pose2>>& truth,
@@ -150,7 +179,7 @@ std::vector<EvaluationPoint> Evaluation::compare(const std::vector<PoseEstimate>
     const bool followsGap =
         !points.empty() && toSeconds(e.stamp - points.back().stamp) > options_.longestGap;
     points.push_back({e.stamp, *truth, e.pose, distance(e.pose, *truth), std::abs(turn), e.samples,
-                      e.covariance, followsGap, e.quality, e.status});
+                      e.covariance, followsGap, e.quality, e.status, e.protection});
   }
   return points;
 }
@@ -190,6 +219,7 @@ EvaluationResult Evaluation::result(const std::string& source) const {
   r.wrongWhileTrackingShare = shareOf([&](const EvaluationPoint& p) {
     return p.status == TrackStatus::kTracking && p.positionError > options_.lostMetres;
   });
+  addProtection(r.points, r);
   const Timestamp begin = r.points.front().stamp;
   const Verdict converged =
       judge(r.points, begin, std::numeric_limits<Timestamp>::max(),

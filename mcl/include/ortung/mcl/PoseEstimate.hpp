@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
@@ -10,6 +11,16 @@
 #include "ortung/formats/TrackStatus.hpp"
 
 namespace ortung {
+
+/// How far apart two poses are.
+struct PoseDistance {
+  double metres = 0.0;   ///< of their positions
+  double radians = 0.0;  ///< of their headings, in [0, pi]
+};
+
+/// The distance of a bound where nothing bounds it.
+inline constexpr PoseDistance kUnbounded{std::numeric_limits<double>::infinity(),
+                                         std::numeric_limits<double>::infinity()};
 
 /// An estimate of the robot's pose, from the heaviest cluster of the sample set.
 struct PoseEstimate {
@@ -23,6 +34,10 @@ struct PoseEstimate {
   TrackReason reason = TrackReason::kNoReading;  ///< reason for the status
   /// Probability that the position error is below 0.5 m, in [0, 1].
   double quality = 0.0;
+  /// Protection level: the error exceeds it with a probability of at most 0.001 while tracking and
+  /// 0.01 while uncertain, in position and in heading each; infinite while lost, and where nothing
+  /// bounds it (docs/mcl.md, "A bound of the error").
+  PoseDistance protection = kUnbounded;
 };
 
 }  // namespace ortung

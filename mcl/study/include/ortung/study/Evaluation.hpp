@@ -36,6 +36,7 @@ struct EvaluationPoint {
   bool followsGap = false;
   double quality = 0.0;  ///< quality of the filter's PoseEstimate
   TrackStatus status = TrackStatus::kLost;
+  PoseDistance protection;  ///< protection level of the filter's PoseEstimate
 };
 
 /// Errors of some estimates; NaN where there are none.
@@ -78,6 +79,15 @@ struct EvaluationResult {
   /// Share of estimates over time with the status "tracking" but an error above 1 m, which should
   /// not happen.
   double wrongWhileTrackingShare = std::numeric_limits<double>::quiet_NaN();
+  /// Share of estimates over time with the status "tracking" whose error in position or heading is
+  /// beyond the protection level: at most 0.001 is promised.
+  double beyondProtectionShare = std::numeric_limits<double>::quiet_NaN();
+  /// The same of the status "uncertain": at most 0.01 is promised.
+  double beyondProtectionUncertainShare = std::numeric_limits<double>::quiet_NaN();
+  /// Median protection level of positions with the status "tracking" [m].
+  double protectionMedian = std::numeric_limits<double>::quiet_NaN();
+  /// That by the median position error with the status "tracking".
+  double protectionRatio = std::numeric_limits<double>::quiet_NaN();
   double updateMsP50 = 0.0;             ///< median computing time of an update [ms]
   double updateMsP99 = 0.0;             ///< 99 % quantile of that time [ms]
   double updateMsMax = 0.0;             ///< longest of these times [ms]
