@@ -42,6 +42,8 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
   line["quality"] = estimate.quality;
   line["status"] = nameOf(estimate.status);
   line["reason"] = nameOf(estimate.reason);
+  line["protection_m"] = estimate.protection.metres;
+  line["protection_rad"] = estimate.protection.radians;  // what is infinite is written as null
   line["age_s"] = age ? nlohmann::ordered_json(*age) : nlohmann::ordered_json();
   text += line.dump() + "\n";
 }

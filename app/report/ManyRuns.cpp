@@ -45,6 +45,8 @@ struct Summary {
   double lostShare = kNan;
   double trackingShare = kNan;
   double wrongWhileTrackingShare = kNan;
+  Share within;  ///< runs that were never beyond the protection level while tracking
+  double beyondProtectionShare = kNan;
   double neesMean = kNan;
   Spread after;      ///< time until converged, or right again [s]
   Spread travelled;  ///< distance travelled until then [m]
@@ -88,6 +90,13 @@ class Adding {
     nees_.add(figures.overTime.neesMean, run.errors.size());
     tracking_.add(figures.trackingShare, figures.overTime.compared);
     wrongWhileTracking_.add(figures.wrongWhileTrackingShare, figures.overTime.compared);
+    if (std::isfinite(figures.beyondProtectionShare)) {
+      ++summary_.within.of;
+      summary_.within.count += figures.beyondProtectionShare == 0.0 ? 1 : 0;
+      const double tracked = figures.trackingShare * static_cast<double>(figures.overTime.compared);
+      beyondProtection_.add(figures.beyondProtectionShare,
+                            static_cast<std::size_t>(std::llround(tracked)));
+    }
     if (run.kind == RunKind::kWhole && hasConverged) {
       after_.push_back(*figures.convergedAfter);
       travelled_.push_back(figures.convergedDistance);
@@ -109,6 +118,7 @@ class Adding {
     s.neesMean = nees_.mean();
     s.trackingShare = tracking_.mean();
     s.wrongWhileTrackingShare = wrongWhileTracking_.mean();
+    s.beyondProtectionShare = beyondProtection_.mean();
     s.after = spreadOf(after_);
     s.travelled = spreadOf(travelled_);
     s.readings = spreadOf(readings_);
@@ -127,6 +137,7 @@ class Adding {
   TimeMean nees_;
   TimeMean tracking_;
   TimeMean wrongWhileTracking_;
+  TimeMean beyondProtection_;
 };
 
 /// Returns the summaries in the order of their first runs.
@@ -176,6 +187,8 @@ Json jsonOf(const Summary& s) {
   json["lost_share"] = jsonNumber(s.lostShare);
   json["tracking_share"] = jsonNumber(s.trackingShare);
   json["wrong_while_tracking_share"] = jsonNumber(s.wrongWhileTrackingShare);
+  json["beyond_protection_share"] = jsonNumber(s.beyondProtectionShare);
+  json["never_beyond_protection"] = jsonOf(s.within);
   json["nees_mean"] = jsonNumber(s.neesMean);
   json["update_ms"] = jsonOf(s.updateMs);
   return json;
@@ -236,6 +249,8 @@ std::string show(const std::vector<RunResult>& runs, const Summary& s) {
   text += line("Share of time lost", show(100.0 * s.lostShare, 2, " %"));
   text += line("Time with status tracking", show(100.0 * s.trackingShare, 2, " %"));
   text += line("... with an error above 1 m", show(100.0 * s.wrongWhileTrackingShare, 3, " %"));
+  text += line("... with one beyond the bound", show(100.0 * s.beyondProtectionShare, 3, " %"));
+  text += line("Runs never beyond it", show(s.within));
   text += line("Consistency (NEES, 3 is right)", show(s.neesMean, 2, ""));
   text += line("Time per update", show(s.updateMs, 3, " ms"));
   return text + listOfCases(runs, s);

@@ -156,7 +156,8 @@ TEST_F(RunFiles, AreReadAsTheyWereWritten) {
 }
 
 TEST_F(RunFiles, OfEarlierVersionsAreRead) {
-  for (const char* file : {"result.json", "result-2.json", "result-3.json", "result-4.json"})
+  for (const char* file :
+       {"result.json", "result-2.json", "result-3.json", "result-4.json", "result-5.json"})
     EXPECT_EQ(readRuns(test::goldenFile(file)).size(), 1u) << file;
 }
 

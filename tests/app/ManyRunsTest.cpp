@@ -111,6 +111,18 @@ TEST(ManyRuns, SharesAreMeansOverTheTimeThatTheyAreOf) {
   EXPECT_NEAR(summary["wrong_while_tracking_share"].get<double>(), 30 * 0.1 / 50, 1e-12);
 }
 
+// Only time with the status "tracking" counts, and only runs that have some.
+TEST(ManyRuns, ProtectionLevelsAreOfTimeThatIsTracked) {
+  std::vector<RunResult> runs = threeRuns();
+  runs[0].figures.beyondProtectionShare = 0.0;  // of 10 times
+  runs[1].figures.beyondProtectionShare = 0.2;  // of half of 30 times
+  runs[2].figures.beyondProtectionShare = std::numeric_limits<double>::quiet_NaN();
+  const Json summary = Json::parse(toJson(runs))["summary"][0];
+  EXPECT_NEAR(summary["beyond_protection_share"].get<double>(), 15 * 0.2 / 25, 1e-12);
+  EXPECT_EQ(summary["never_beyond_protection"]["count"], 1);
+  EXPECT_EQ(summary["never_beyond_protection"]["of"], 2);
+}
+
 TEST(ManyRuns, WhatNoRunHasIsNull) {
   std::vector<RunResult> runs = {threeRuns()[2]};
   runs[0].figures.trackingShare = std::numeric_limits<double>::quiet_NaN();
@@ -165,6 +177,8 @@ TEST(ManyRuns, TheTextHasTheSameFiguresWithTheirUnits) {
             "  Share of time lost                5.00 %\n"
             "  Time with status tracking         50.00 %\n"
             "  ... with an error above 1 m       6.000 %\n"
+            "  ... with one beyond the bound     -\n"
+            "  Runs never beyond it              - (none)\n"
             "  Consistency (NEES, 3 is right)    3.00\n"
             "  Time per update                   2.000, 2.900, 2.980, 3.000 ms\n");
 }

@@ -36,6 +36,8 @@ RunResult figuredRun() {
   figures.atCorrections.positionMedian = 0.09;
   figures.trackingShare = 0.875;
   figures.wrongWhileTrackingShare = 0.0125;
+  figures.beyondProtectionShare = 0.0025;
+  figures.protectionMedian = 0.0321;
   figures.updateMsP50 = 0.2504;
   figures.updateMsP99 = 0.7506;
   figures.updateMsMax = 8.5;
@@ -67,6 +69,8 @@ TEST(RunFigures, AreRoundedAndHaveTheirUnits) {
       {"Share of time lost", "6.2 %"},
       {"Time with status tracking", "87.5 %"},
       {"... with an error above 1 m", "1.25 %"},
+      {"... with one beyond the bound", "0.25 %"},
+      {"... bound of the position error, median", "0.032 m"},
       {"Consistency (NEES, 3 is right)", "2.88"},
       {"Position error at updates, RMS", "0.120 m"},
       {"Samples, mean", "1234"},

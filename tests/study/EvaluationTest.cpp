@@ -119,6 +119,39 @@ TEST(Evaluation, CountsWhatTheFilterHoldsToBeAllButImpossible) {
   EXPECT_NEAR(result.overTime.neesAboveShare, 5.0 / 101, 1e-12);
 }
 
+// Truth stands at the origin; the levels are 0.1 m and 0.2 rad.
+TEST(Evaluation, CountsErrorsBeyondTheProtectionLevelByStatus) {
+  Evaluation evaluation;
+  const auto moment = [](int t) {
+    PoseEstimate e = step(t, {0.05, 0.0, 0.0}).estimate;
+    e.status = t < 80   ? TrackStatus::kTracking
+               : t < 90 ? TrackStatus::kUncertain
+                        : TrackStatus::kLost;
+    e.protection = {0.1, 0.2};
+    if (t == 10 || t == 95) e.pose.x = 0.11;
+    if (t == 20) e.pose.theta = -0.21;
+    if (t >= 80 && t < 84) e.pose.y = -0.3;
+    if (t == 84) e.protection = kUnbounded;
+    return e;
+  };
+  for (int t = 0; t < 100; ++t) {
+    evaluation.addTruth(fromSeconds(t), {});
+    evaluation.addMoment(moment(t));
+  }
+  const EvaluationResult r = evaluation.result("test:x");
+  EXPECT_NEAR(r.beyondProtectionShare, 2.0 / 80.0, 1e-12);
+  EXPECT_NEAR(r.beyondProtectionUncertainShare, 4.0 / 10.0, 1e-12);
+  EXPECT_NEAR(r.protectionMedian, 0.1, 1e-12);
+  EXPECT_NEAR(r.protectionRatio, 2.0, 1e-9);
+}
+
+TEST(Evaluation, OfNoTimeThatIsTrackedThereAreNoProtectionLevels) {
+  const EvaluationResult r = resultOf([](int) { return Pose2{}; });  // lost all the time
+  EXPECT_TRUE(std::isnan(r.beyondProtectionShare));
+  EXPECT_TRUE(std::isnan(r.protectionMedian));
+  EXPECT_TRUE(std::isnan(r.protectionRatio));
+}
+
 TEST(Evaluation, TellsTheWayUntilItConvergedAndTheLongestUpdate) {
   Evaluation evaluation;
   for (int t = 0; t <= 40; ++t) {
