@@ -171,6 +171,14 @@ void bindEstimate(py::module_& module) {
       .def_property_readonly("reason", [](const PoseEstimate& e) { return nameOf(e.reason); })
       .def_readonly("quality", &PoseEstimate::quality,
                     "probability that the position error is below 0.5 m")
+      .def_property_readonly(
+          "protection_m", [](const PoseEstimate& e) { return e.protection.metres; },
+          "distance that the position error exceeds in one of 1000 cases while tracking, of 100 "
+          "while uncertain; inf: "
+          "nothing bounds it")
+      .def_property_readonly(
+          "protection_rad", [](const PoseEstimate& e) { return e.protection.radians; },
+          "the same angle of the heading")
       .def("__repr__", &reprOf);
 }
 

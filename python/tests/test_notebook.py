@@ -97,6 +97,10 @@ class Notebook(unittest.TestCase):
         for one in (estimates[-1], own.estimate(stamp)):
             self.assertLess(np.hypot(one.x - truth[0], one.y - truth[1]), 0.3)
             self.assertEqual(one.status, "tracking")
+            self.assertLess(np.hypot(one.x - truth[0], one.y - truth[1]), one.protection_m)
+            self.assertLess(one.protection_m, 0.5)
+            self.assertLess(0.0, one.protection_rad)
+            self.assertLess(one.protection_rad, 0.2)
         particles = own.particles
         self.assertEqual(particles.shape[1], 4)
         self.assertAlmostEqual(float(particles[:, 3].sum()), 1.0, places=3)
