@@ -13,6 +13,7 @@ NUMBER = re.compile(r"^(?:inline )?(?:static )?constexpr (?:double|float|int) (k
 # Numbers that nothing is tuned by: bounds of what is taken from others, rounding, tolerances of a solution, streams of random
 # numbers, shapes of tables.
 FIXED = {
+    "belief/Confidence.hpp": {"kBeyondTracking", "kBeyondUncertain"},  # what is promised
     "belief/GivenBelief.cpp": {"kFarthest", "kRounding"},
     "belief/Resampling.cpp": {"kLeastWeight"},
     "filter/MclConfig.cpp": {"kMostSamples", "kRounding"},

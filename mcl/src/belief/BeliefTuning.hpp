@@ -61,6 +61,20 @@ ORTUNG_CONSTANT(confidence, kOfOnePlace, 0.8);
 
 }  // namespace confidence
 
+/// Protection: the bound that an error exceeds rarely.
+namespace protection {
+
+/// [sigma] Standard deviations along the long axis beyond which an error is with the probability
+/// 0.001. A normal distribution would have 3.3 (errors in one direction) to 3.7 (in both alike);
+/// the errors' tails are heavier. Chosen on simulated drives: with 3.7, three in eight of a scanner
+/// without a fault were beyond it once, with 4.2 none.
+ORTUNG_CONSTANT(protection, kSigmasTracking, 4.2);
+/// [sigma] The same with the probability 0.01, for which a normal distribution would have 2.6 to
+/// 3.0.
+ORTUNG_CONSTANT(protection, kSigmasUncertain, 3.3);
+
+}  // namespace protection
+
 /// Lead: a sequential test of whether readings support another place than the belief's.
 namespace lead {
 

@@ -11,13 +11,6 @@ namespace {
 
 using namespace tuning::confidence;
 
-// Standard deviations along the long axis beyond which an error is with the probabilities
-// kBeyondTracking and kBeyondUncertain. A normal distribution would have 3.3 to 3.7 and 2.6 to 3.0
-// (in one direction, in both alike); the errors' tails are heavier: docs/mcl.md has what was
-// measured.
-constexpr double kSigmasTracking = 4.2;
-constexpr double kSigmasUncertain = 3.3;
-
 double square(double v) { return v * v; }
 
 /// Returns the standard deviation along the long axis of a position.
@@ -36,8 +29,9 @@ bool isAnywhere(const Signs& signs, const PoseEstimate& estimate) {
 /// what odometry would have it, or, if that is farther, to all but a small share of the belief.
 PoseDistance protectionOf(const Signs& signs, const PoseEstimate& estimate) {
   if (isAnywhere(signs, estimate)) return kUnbounded;
-  const double sigmas =
-      estimate.status == TrackStatus::kTracking ? kSigmasTracking : kSigmasUncertain;
+  const double sigmas = estimate.status == TrackStatus::kTracking
+                            ? tuning::protection::kSigmasTracking
+                            : tuning::protection::kSigmasUncertain;
   return {
       std::max(signs.others.metres, sigmas * longSigma(estimate.covariance) + signs.apart.metres),
       std::min(std::numbers::pi, std::max(signs.others.radians,

@@ -6,16 +6,13 @@
 
 #include "BeliefTuning.hpp"
 #include "PoseMatrix.hpp"
+#include "RefineTuning.hpp"
 
 namespace ortung {
 namespace {
 
+using namespace tuning::separation;
 using tuning::common::kOutlier;
-
-/// Share of a separation that is left after an update, so that it counts for some ten of them.
-/// With 0.98, robots whose odometry jumps had levels twice as wide, and stamps that become late,
-/// which take longer to be found, were covered hardly better.
-constexpr double kKept = 0.9;
 
 PoseDistance greater(const PoseDistance& a, const PoseDistance& b) {
   return {std::max(a.metres, b.metres), std::max(a.radians, b.radians)};
