@@ -79,6 +79,13 @@ GridComparison besideGridOf(const RunResult& run) {
   return {0, median(divergences), median(distances)};
 }
 
+void addProtection(const EvaluationResult& figures, nlohmann::ordered_json& json) {
+  json["beyond_protection_share"] = jsonNumber(figures.beyondProtectionShare);
+  json["beyond_protection_uncertain_share"] = jsonNumber(figures.beyondProtectionUncertainShare);
+  json["protection_median_m"] = jsonNumber(figures.protectionMedian);
+  json["protection_ratio"] = jsonNumber(figures.protectionRatio);
+}
+
 }  // namespace
 
 const char* nameOf(RunKind kind) {
@@ -133,10 +140,6 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
       {"lost_share", jsonNumber(overTime.lostShare)},
       {"tracking_share", jsonNumber(figures.trackingShare)},
       {"wrong_while_tracking_share", jsonNumber(figures.wrongWhileTrackingShare)},
-      {"beyond_protection_share", jsonNumber(figures.beyondProtectionShare)},
-      {"beyond_protection_uncertain_share", jsonNumber(figures.beyondProtectionUncertainShare)},
-      {"protection_median_m", jsonNumber(figures.protectionMedian)},
-      {"protection_ratio", jsonNumber(figures.protectionRatio)},
       {"quality", jsonOf(run.calibration)},
       {"update_ms_p50", jsonNumber(figures.updateMsP50)},
       {"update_ms_p99", jsonNumber(figures.updateMsP99)},
@@ -162,6 +165,7 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
   const GridComparison besideGrid = besideGridOf(run);
   json["grid_divergence_median"] = jsonNumber(besideGrid.divergence);
   json["grid_distance_median_m"] = jsonNumber(besideGrid.distance);
+  addProtection(figures, json);
   if (run.kind != RunKind::kWhole) json["case"] = caseOf(run);
   return json;
 }

@@ -69,7 +69,8 @@ TEST(Workers, WorkInAProcessThatIsForked) {
   ASSERT_GE(child, 0);
   if (child == 0) {
     ::alarm(60);  // ends it if it waits for ever
-    bool isRight = work(*workers) && work(*workers);
+    bool isRight = work(*workers);
+    isRight = work(*workers) && isRight;
     workers.reset();
     unused.reset();
     ::_exit(isRight ? 0 : 1);

@@ -19,6 +19,21 @@ double longSigma(const PoseCovariance& covariance) {
   return std::sqrt(std::max(0.0, 0.5 * positionVariance(covariance) + off));
 }
 
+/// Returns what speaks against an estimate first, whose share, covariance and quality are set.
+TrackReason reasonFor(const Signs& signs, const PoseEstimate& estimate) {
+  if (signs.isFrozen) return TrackReason::kFrozen;
+  if (!signs.silence || *signs.silence > tuning::common::kLongGap) return TrackReason::kNoReading;
+  if (signs.isLate) return TrackReason::kLate;
+  // So at least two readings agree.
+  if (signs.lead >= tuning::lead::kMostNatsOfAReading) return TrackReason::kRival;
+  if (signs.unusual > 0) return TrackReason::kPoorFit;
+  if (estimate.share < kOfOnePlace) return TrackReason::kSeveralPlaces;
+  if (!signs.isConfirmed) return TrackReason::kUnconfirmed;
+  // The stamps of the readings may be wrong instead.
+  if (!signs.trustsOdometry) return TrackReason::kOdometry;
+  return estimate.quality < kTracking ? TrackReason::kSpread : TrackReason::kFits;
+}
+
 /// Returns whether something speaks for other places, and nothing says how far away they are.
 bool isAnywhere(const Signs& signs, const PoseEstimate& estimate) {
   return estimate.status == TrackStatus::kLost || signs.isFrozen || signs.unusual > 0 ||
@@ -71,59 +86,18 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   const double fitLately = std::clamp(signs.fitLately, 0.0, 1.0);
   // With more the other place takes over.
   const double lead = std::clamp(signs.lead, 0.0, tuning::lead::kEnoughNats);
+#ifdef ORTUNG_SWEEP
+  noteSigns({static_cast<double>(estimate.stamp), estimate.pose.x, estimate.pose.y, oddsOfBelief,
+             fit, fitLately, lead});
+#endif
   const double odds = kConstant + kOfBelief * oddsOfBelief + kOfFit * fit +
                       kOfFitLately * fitLately + kOfLead * lead;
   estimate.quality = 1.0 / (1.0 + std::exp(-odds));
-  const bool isSilent = !signs.silence || *signs.silence > tuning::common::kLongGap;
-  if (signs.isFrozen) {
-    estimate.reason = TrackReason::kFrozen;
-  } else if (isSilent) {
-    estimate.reason = TrackReason::kNoReading;
-  } else if (signs.isLate) {
-    estimate.reason = TrackReason::kLate;
-  } else if (signs.lead >= tuning::lead::kMostNatsOfAReading) {  // so at least two readings agree
-    estimate.reason = TrackReason::kRival;
-  } else if (signs.unusual > 0) {
-    estimate.reason = TrackReason::kPoorFit;
-  } else if (estimate.share < kOfOnePlace) {
-    estimate.reason = TrackReason::kSeveralPlaces;
-  } else if (!signs.isConfirmed) {
-    estimate.reason = TrackReason::kUnconfirmed;
-  } else if (!signs.trustsOdometry) {
-    estimate.reason = TrackReason::kOdometry;  // the stamps of the readings may be wrong instead
-  } else if (estimate.quality < kTracking) {
-    estimate.reason = TrackReason::kSpread;
-  } else {
-    estimate.reason = TrackReason::kFits;
-  }
+  estimate.reason = reasonFor(signs, estimate);
   estimate.status = estimate.quality < kLost                ? TrackStatus::kLost
                     : estimate.reason == TrackReason::kFits ? TrackStatus::kTracking
                                                             : TrackStatus::kUncertain;
   estimate.protection = protectionOf(signs, estimate);
-#ifdef ORTUNG_SWEEP
-  noteSigns({static_cast<double>(estimate.stamp),
-             estimate.pose.x,
-             estimate.pose.y,
-             oddsOfBelief,
-             fit,
-             fitLately,
-             lead,
-             estimate.pose.theta,
-             longSigma(estimate.covariance),
-             std::sqrt(headingVariance(estimate.covariance)),
-             estimate.share,
-             static_cast<double>(estimate.status),
-             static_cast<double>(estimate.reason),
-             signs.apart.metres,
-             signs.apart.radians,
-             signs.others.metres,
-             signs.others.radians,
-             signs.silence.value_or(-1.0),
-             static_cast<double>(signs.unusual),
-             estimate.quality,
-             estimate.protection.metres,
-             estimate.protection.radians});
-#endif
 }
 
 }  // namespace ortung
