@@ -24,7 +24,7 @@ ROBOTS = {"pioneer_lrf": "f2000_hall", "pioneer": "f2000", "pioneer_posts": "f20
 SCANNERS = ("pioneer_lrf", "pioneer")
 FAULTS = ("", "odometry=scale:1.1", "odometry=turn:1.2", "odometry=slip@{0}-{1}", "odometry=jump:0.3,0.1,20@{0}", "odometry=zero@{0}-{1}",
           "odometry=none@{0}-{1}", "odometry=reverse@{0}-{1}", "readings=drop:0.5", "readings=missing@{0}-{2}",
-          "readings=frozen@{0}-{2}", "readings=late:0.3@{0}-60")
+          "readings=frozen@{0}-{2}", "readings=late:0.3@{0}")
 SCANS = ("readings=random:0.3", "readings=short:0.3", "readings=crowd@{0}-{3}")  # of scanners
 HEAD = "| | drives | beyond the level once | of the time tracked | of the time uncertain | median level by median error | tracked |"
 
