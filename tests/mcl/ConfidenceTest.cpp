@@ -157,10 +157,19 @@ TEST(Judge, ProtectsOverWhatOdometrySaysAndAsFarAsTheBeliefReaches) {
   const double alone = judged({}).protection.metres;
   EXPECT_NEAR(judged({.apart = {0.3, 0.2}}).protection.metres, alone + 0.3, 1e-9);
   EXPECT_NEAR(judged({.apart = {0.3, 0.2}}).protection.radians, 0.42 + 0.2, 1e-9);
-  EXPECT_NEAR(judged({.others = {7.0, 2.0}}).protection.metres, 7.0, 1e-9);
-  EXPECT_NEAR(judged({.others = {7.0, 2.0}}).protection.radians, 2.0, 1e-9);
-  EXPECT_NEAR(judged({.others = {0.5 * alone, 0.1}}).protection.metres, alone, 1e-9);
+  EXPECT_NEAR(judged({.others = PoseDistance{7.0, 2.0}}).protection.metres, 7.0, 1e-9);
+  EXPECT_NEAR(judged({.others = PoseDistance{7.0, 2.0}}).protection.radians, 2.0, 1e-9);
+  EXPECT_NEAR(judged({.others = PoseDistance{0.5 * alone, 0.1}}).protection.metres, alone, 1e-9);
   EXPECT_EQ(judged({.apart = {0.0, 9.0}}).protection.radians, std::numbers::pi);
+  // Where it is not known how far the belief reaches, all of it has to be at one place.
+  PoseEstimate most = narrow();
+  most.share = 0.998;
+  ASSERT_EQ(judged({}, most).status, TrackStatus::kTracking);
+  EXPECT_TRUE(std::isinf(judged({}, most).protection.metres));
+  EXPECT_NEAR(judged({.others = PoseDistance{0.3, 0.1}}, most).protection.metres, 0.3, 1e-9);
+  EXPECT_NEAR(judged({.isLate = true}, most).protection.metres, 3.3 * 0.05, 1e-9);
+  most.share = 0.98;
+  EXPECT_TRUE(std::isinf(judged({.isLate = true}, most).protection.metres));
 }
 
 TEST(Judge, NothingBoundsTheErrorWhereOtherPlacesMayBeRight) {

@@ -165,6 +165,16 @@ TEST(SetPose, IsSharpenedByWhatWasReadJustBefore) {
   EXPECT_FALSE(mcl->update(run.container)) << "once";
 }
 
+TEST(Relocalize, NothingBoundsTheErrorUntilAPlaceIsFound) {
+  FakeRun run;
+  const auto mcl = trackingAfter(5, run);
+  ASSERT_LT(mcl->estimate().protection.metres, 0.5);
+  EXPECT_LT(distance(mcl->estimate().pose, run.truth), mcl->estimate().protection.metres);
+  mcl->relocalize();
+  EXPECT_TRUE(std::isinf(mcl->estimate().protection.metres));
+  EXPECT_TRUE(std::isinf(mcl->estimate().protection.radians));
+}
+
 TEST(Relocalize, FindsACarriedRobotByThePresentReading) {
   FakeRun run;
   const auto mcl = trackingAfter(5, run);

@@ -43,15 +43,17 @@ bool isAnywhere(const Signs& signs, const PoseEstimate& estimate) {
 /// Returns the protection level: it reaches over the errors that the covariance explains and over
 /// what odometry would have it, or, if that is farther, to all but a small share of the belief.
 PoseDistance protectionOf(const Signs& signs, const PoseEstimate& estimate) {
-  if (isAnywhere(signs, estimate)) return kUnbounded;
-  const double sigmas = estimate.status == TrackStatus::kTracking
-                            ? tuning::protection::kSigmasTracking
-                            : tuning::protection::kSigmasUncertain;
+  const bool tracks = estimate.status == TrackStatus::kTracking;
+  const bool isOnePlace = estimate.share >= 1.0 - (tracks ? kBeyondTracking : kBeyondUncertain);
+  if (isAnywhere(signs, estimate) || (!signs.others && !isOnePlace)) return kUnbounded;
+  const PoseDistance others = signs.others.value_or(PoseDistance());
+  const double sigmas =
+      tracks ? tuning::protection::kSigmasTracking : tuning::protection::kSigmasUncertain;
   return {
-      std::max(signs.others.metres, sigmas * longSigma(estimate.covariance) + signs.apart.metres),
-      std::min(std::numbers::pi, std::max(signs.others.radians,
-                                          sigmas * std::sqrt(headingVariance(estimate.covariance)) +
-                                              signs.apart.radians))};
+      std::max(others.metres, sigmas * longSigma(estimate.covariance) + signs.apart.metres),
+      std::min(std::numbers::pi,
+               std::max(others.radians, sigmas * std::sqrt(headingVariance(estimate.covariance)) +
+                                            signs.apart.radians))};
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ struct Signs {
   std::optional<double> silence = 0.0;
   bool isLate = false;      ///< whether stamps of readings seem delayed
   PoseDistance apart = {};  ///< how far the estimate is from where odometry has led to, unexplained
-  PoseDistance others = {};  ///< how far from the estimate the belief reaches at other places
+  /// How far from the estimate the belief reaches at other places; nothing: that is not known.
+  std::optional<PoseDistance> others = std::nullopt;
 };
 
 /// Returns the probability that the position of a pose drawn from a Gaussian with this covariance
