@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Counts errors beyond the protection level, drive by drive and cause by cause. Prints a table in Markdown.
 
-  scripts/protection.py build/release/bin/ortung [../shared/data] [--drives 60] [--only sim,logs] [--out DIR] [--write docs/mcl.md]
+  scripts/protection.py build/release/bin/ortung [../shared/data] [--drives 60] [--only sim,logs] [--logs intel,aces] [--out DIR] [--write docs/mcl.md]
 
 sim   simulated drives of a minute: four robots, in a hall and on a field, without faults and with each fault of a kind that they can
       meet, --drives of each; the simulator's seed, the fault's and the filter's differ
@@ -91,6 +91,8 @@ def simulated(options, out):
 def recorded(options, out):
     rows = {}
     for name, (folder, more) in LASER.items():
+        if options.logs and name not in options.logs.split(","):
+            continue
         base = os.path.join(out, name)
         run([options.ortung, "import", "scanlog", os.path.join(options.data, folder), "--out", base + ".rec", "--world", base + ".toml",
              "--robot-file", base + "-robot.toml", "--force",
@@ -109,6 +111,7 @@ def main():
     parser.add_argument("data", nargs="?", help="folder of the logs")
     parser.add_argument("--drives", type=int, default=60)
     parser.add_argument("--only", default="sim,logs")
+    parser.add_argument("--logs", metavar="NAMES", help="logs, by commas; all by default")
     parser.add_argument("--out")
     parser.add_argument("--write", metavar="PAGE")
     options = parser.parse_args()
