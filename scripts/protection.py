@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 import results_page
-from evaluate import LASER, MAPS, run
+from evaluate import LASER, MAPS, import_laser, run
 
 ROBOTS = {"pioneer_lrf": "f2000_hall", "pioneer": "f2000", "pioneer_posts": "f2000", "sonar_ring": "f2000_hall"}
 SCANNERS = ("pioneer_lrf", "pioneer")
@@ -90,14 +90,10 @@ def simulated(options, out):
 
 def recorded(options, out):
     rows = {}
-    for name, (folder, more) in LASER.items():
+    for name in LASER:
         if options.logs and name not in options.logs.split(","):
             continue
-        base = os.path.join(out, name)
-        run([options.ortung, "import", "scanlog", os.path.join(options.data, folder), "--out", base + ".rec", "--world", base + ".toml",
-             "--robot-file", base + "-robot.toml", "--force",
-             *[w for m in more for w in ("--option", m.format(data=options.data))]])
-        run([options.ortung, "learn", "--world", base + ".toml", "--robot", base + "-robot.toml", "--out", base + ".ortung", "--force"])
+        base = import_laser(options.ortung, options.data, out, name)
         for number, fault in enumerate(FAULTS + SCANS):
             row = rows.setdefault(name_of(fault), Row())
             row.add(drive(options.ortung, ["record:" + base + ".rec"], base + "-robot.toml", base + ".ortung",

@@ -101,7 +101,7 @@ struct Mcl::Impl {
   bool drifts() const;
   void addDrift(PoseEstimate& e, Timestamp stamp) const;
   Signs signsAt(Timestamp stamp) const;
-  double wayTo(Timestamp stamp) const;
+  std::optional<Pose2> changeTo(Timestamp stamp) const;
   ReadingsByTime look(const SensorContainer& container);
   void start(ReadingsByTime& news);
   void goOnStarting();

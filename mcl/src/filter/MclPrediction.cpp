@@ -101,9 +101,7 @@ void Mcl::Impl::moveBlindly(Timestamp stamp) {
   const double come = tools.config.driftMetres * std::sqrt(seconds);
   track->travelled.metres += come;
   track->travelled.all += come;
-  parts.polish.forget();
-  parts.biases.forget();
-  parts.separation.forget();
+  parts.forgetPlace();
   if (!track->waitsForStart) enlarge();
   const Pose2 ahead = track->momentum.changeAt(stamp);
   move([&](const MovableSamples& some, std::size_t first) {
@@ -119,9 +117,7 @@ std::size_t Mcl::Impl::spread(Timestamp stamp) {
   Spread both = ortung::spread(tools.config, track->belief.samples(), track->anchor,
                                track->momentum.changeAt(stamp), seconds, kSpreadSamples,
                                stream(Purpose::kSpread));
-  parts.polish.forget();
-  parts.biases.forget();
-  parts.separation.forget();
+  parts.forgetPlace();
   track->belief.setSamples(std::move(both.samples));
   track->present.reset();
   return both.drifted;

@@ -92,6 +92,13 @@ struct LastingParts {
   Separation separation;
   GlobalStart globalStart;
 
+  /// The parts that follow the estimate by odometry forget where it was, as something else than
+  /// odometry moves the belief.
+  void forgetPlace() {
+    polish.forget();
+    biases.forget();
+    separation.forget();
+  }
   /// Each part forgets what it knows of the belief. If a part is added, this does not compile until
   /// it is named here.
   void forget() {
