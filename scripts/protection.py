@@ -29,6 +29,12 @@ SCANS = ("readings=random:0.3", "readings=short:0.3", "readings=crowd@{0}-{3}") 
 HEAD = "| | drives | beyond the level once | of the time tracked | of the time uncertain | median level by median error | tracked |"
 
 
+def chosen(options, faults):
+    """The faults that are tried, each with its number, which its seeds follow from."""
+    names = options.faults.split(",") if options.faults else None
+    return [(n, f) for n, f in enumerate(faults) if names is None or name_of(f) in names]
+
+
 def name_of(fault):
     return fault.split("=")[0].split("/")[-1] + " " + fault.split("=")[1].split("@")[0] if fault else "no fault"
 
@@ -81,7 +87,7 @@ def simulated(options, out):
         file, field = os.path.join(MAPS, "robots", robot + ".toml"), os.path.join(MAPS, "fields", world + ".toml")
         tables = os.path.join(out, robot + ".ortung")
         run([options.ortung, "learn", "--world", field, "--robot", file, "--out", tables, "--force"])
-        for number, fault in enumerate(FAULTS + (SCANS if robot in SCANNERS else ())):
+        for number, fault in chosen(options, FAULTS + (SCANS if robot in SCANNERS else ())):
             sources = ["sim:%s?duration=60&seed=%d" % (field, 1000 * number + i) for i in range(1, options.drives + 1)]
             row = rows.setdefault("%s, %s" % (robot, name_of(fault)), Row())
             row.add(drive(options.ortung, sources, file, tables, fault.format(20, 24, 25, 40), number + 1, 1))
@@ -94,7 +100,7 @@ def recorded(options, out):
         if options.logs and name not in options.logs.split(","):
             continue
         base = import_laser(options.ortung, options.data, out, name)
-        for number, fault in enumerate(FAULTS + SCANS):
+        for number, fault in chosen(options, FAULTS + SCANS):
             row = rows.setdefault(name_of(fault), Row())
             row.add(drive(options.ortung, ["record:" + base + ".rec"], base + "-robot.toml", base + ".ortung",
                           fault.format(60, 65, 70, 80), number + 1, max(1, options.drives // 20)))
@@ -107,6 +113,7 @@ def main():
     parser.add_argument("data", nargs="?", help="folder of the logs")
     parser.add_argument("--drives", type=int, default=60)
     parser.add_argument("--only", default="sim,logs")
+    parser.add_argument("--faults", metavar="NAMES", help="rows of the tables, by commas, as 'no fault,odometry none'; all by default")
     parser.add_argument("--logs", metavar="NAMES", help="logs, by commas; all by default")
     parser.add_argument("--out")
     parser.add_argument("--write", metavar="PAGE")

@@ -106,8 +106,19 @@ TEST(Intake, ARobotThatStandsMayReadTheSameForEver) {
   }
 }
 
+// Fifteen words may be repeated by chance, but not over several readings on end.
+TEST(Intake, FewWordsMayComeAgainOnAShortWay) {
+  Robot robot;
+  const Words words = countedFrom(1000, 15);
+  for (const double x : {0.0, 0.1, 0.19}) EXPECT_TRUE(robot.reads(words, x));
+  EXPECT_FALSE(robot.reads(words, 0.21));
+  EXPECT_EQ(robot.intake.frozen(), robot.feature);
+  EXPECT_TRUE(robot.reads(countedFrom(1001, 15), 0.3));
+  EXPECT_EQ(robot.intake.frozen(), nullptr);
+}
+
 TEST(Intake, FewWordsAndThoseThatAreAllEqualMayComeAgain) {
-  for (const Words& words : {countedFrom(1000, 15), Words(181, 30000), Words(181, 0), Words()}) {
+  for (const Words& words : {countedFrom(1000, 5), Words(15, 30000), Words(181, 30000), Words(181, 0), Words()}) {
     Robot robot;
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(robot.reads(words, 0.1 * i)) << words.size();
     EXPECT_EQ(robot.intake.frozen(), nullptr) << words.size();

@@ -83,8 +83,8 @@ TEST(MclSettings, WeightsMultiplyUntilTheyAreResampled) {
   config.resampleBelow = 0.0;
   const auto mcl = robot.mcl(config);
   mcl->startAt({0, 0, 0}, 0.5, 0.1);
-  robot.odometry(0.5, {});  // it stands
   for (int k = 1; k <= 400; ++k) {
+    robot.odometry(k, {});  // it stands
     robot.reading(k);
     ASSERT_TRUE(mcl->update(robot.container));
   }
@@ -143,8 +143,8 @@ TEST(MclSettings, BinsSayWhatHangsTogether) {
     const auto mcl = robot.mcl(config);
     mcl->startAt({apart.x / 2, 0, apart.theta / 2}, std::max(0.02, apart.x / 2),
                  std::max(0.02, apart.theta / 2));
-    robot.odometry(0.5, {});                // it stands
     for (const double time : {1.0, 2.0}) {  // the first one leaves samples at the two places alone
+      robot.odometry(time, {});             // it stands
       robot.reading(time);
       mcl->update(robot.container);
     }

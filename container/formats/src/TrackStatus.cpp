@@ -28,4 +28,17 @@ const char* nameOf(TrackReason reason) {
   return kNames[static_cast<std::size_t>(reason)];
 }
 
+const char* nameOf(Relocalization cause) {
+  constexpr const char* kNames[] = {
+      "none",
+      "a global start found the robot",
+      "a pose was given",
+      "readings fit another place better",
+      "readings are late by another time",
+      "readings corrected it",
+  };
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Relocalization::kLast) + 1);
+  return kNames[static_cast<std::size_t>(cause)];
+}
+
 }  // namespace ortung

@@ -162,6 +162,7 @@ bool Mcl::Impl::letRivalLead(const Weighed& weighed) {
     track->recovery.beginAnew();
     takeover->isConfirmed ? track->confirmation.forget() : track->confirmation.begin();
   }
+  steps.because(Relocalization::kOtherPlace);
   takeover->trustsOdometry ? track->trust.forget() : track->trust.lose();
   return true;
 }
@@ -178,6 +179,7 @@ bool Mcl::Impl::letDelayLead(const Led& led, const Weighed& weighed) {
     track->belief.setSamples(std::move(*change->samples));
     track->recovery.beginAnew();
   }
+  steps.because(Relocalization::kDelay);
   reached.odometry = parts.lateness.odometryAt(stamp);
   track->trust.forget();
   track->rivals.forget();
@@ -202,6 +204,8 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
   estimate = parts.lateness.widened(estimate, stamp);
   track->others = othersOf(led);
   judge(signsAt(stamp), estimate);
+  steps.follow(estimate.pose, stamp);
+  steps.apply(estimate);
   if (tools.config.learnsBiases) parts.biases.follow(news, estimate);
   return {std::move(led.weights), std::move(led.bins)};
 }

@@ -10,6 +10,7 @@
 #include "Drift.hpp"
 #include "Intake.hpp"
 #include "Kld.hpp"
+#include "Steps.hpp"
 #include "Track.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/mcl/Mcl.hpp"
@@ -68,6 +69,7 @@ struct Mcl::Impl {
   std::optional<Track> track;
   LastingParts parts;
   Intake intake;
+  Steps steps;  ///< how far updates move what is told
   Reached reached;
   double usualInterval = 0.0;  ///< usual time between weighings: the longest recent one [s]
   PoseEstimate estimate;       ///< estimate of the newest weighing
@@ -96,6 +98,7 @@ struct Mcl::Impl {
   std::optional<Timestamp> newestTime() const;
   PoseEstimate estimateNow() const;
   PoseEstimate estimateAt(Timestamp stamp) const;
+  PoseEstimate presentAt(Timestamp stamp) const;
   void keepResolution(PoseEstimate& e) const;
   PoseEstimate atStamp(const PoseEstimate& e, Timestamp stamp) const;
   bool drifts() const;
@@ -108,7 +111,10 @@ struct Mcl::Impl {
   void goOnWithoutNews();
 
   // Predict.
-  double secondsSinceWeighing(Timestamp stamp) const;
+  std::optional<Timestamp> silentSince(Timestamp stamp) const;
+  std::optional<Timestamp> aloneSince(Timestamp stamp) const;
+  bool isNear(Timestamp stamp) const;
+  double secondsAlone(Timestamp stamp) const;
   void followMotion(const Pose2& odometry);
   [[nodiscard]] Predicted predict(Timestamp stamp);
   void moveBy(const Pose2& odometry);

@@ -8,6 +8,7 @@
 #include "MclImpl.hpp"
 #include "MotionPieces.hpp"
 #include "MotionTuning.hpp"
+#include "ReadingsTuning.hpp"
 #include "Resampling.hpp"
 
 namespace ortung {
@@ -22,15 +23,38 @@ constexpr std::size_t kNumberOfRivals = 1U << 24;
 
 }  // namespace
 
+/// Returns since when nothing has said how the robot moves: since the last weighing without trusted
+/// odometry, or since odometry has been missing. Nothing: odometry says it.
+std::optional<Timestamp> Mcl::Impl::aloneSince(Timestamp stamp) const {
+  if (!reached.stamp || !reached.odometry || track->trust.isLost()) return reached.stamp;
+  const std::optional<Timestamp> silent = silentSince(stamp);
+  return silent ? std::optional(std::max(*reached.stamp, *silent)) : std::nullopt;
+}
+
 /// Returns the time over which process noise acts [s].
-double Mcl::Impl::secondsSinceWeighing(Timestamp stamp) const {
-  return reached.stamp ? driftSeconds(*reached.stamp, stamp) : 0.0;
+double Mcl::Impl::secondsAlone(Timestamp stamp) const {
+  const std::optional<Timestamp> since = aloneSince(stamp);
+  return since ? driftSeconds(*since, stamp) : 0.0;
+}
+
+/// Returns since when odometry has been missing for a reading with this stamp, by readings' clock.
+std::optional<Timestamp> Mcl::Impl::silentSince(Timestamp stamp) const {
+  const Timestamp delay = fromSeconds(parts.lateness.seconds());
+  const std::optional<Timestamp> since = intake.odometrySilentSince(stamp - delay);
+  return since ? std::optional(*since + delay) : std::nullopt;
+}
+
+/// Returns whether a reading comes soon after what was heard before. If it doesn't, its stamp may
+/// be wrong, and must not spread the belief.
+bool Mcl::Impl::isNear(Timestamp stamp) const {
+  const std::optional<Timestamp> newest = newestTime();
+  return newest && toSeconds(stamp - *newest) < tuning::intake::kTimeJump;
 }
 
 /// Moves the samples without readings, once the robot has moved by a piece (isPiece()).
 void Mcl::Impl::followMotion(const Pose2& odometry) {
-  if (!reached.odometry && !track->waitsForStart)
-    reached.odometry = odometry;  // odometry's pose at the start
+  // Odometry's pose at the start; without it the samples wait for the next reading.
+  if (!reached.odometry && !reached.stamp && !track->waitsForStart) reached.odometry = odometry;
   if (!reached.odometry) return;
   if (!isPiece(inverse(*reached.odometry) * odometry)) return;
   ++step;
@@ -69,11 +93,17 @@ void Mcl::Impl::moveBy(const Pose2& odometry) {
 /// Predicts the samples to the time when a reading was taken.
 Predicted Mcl::Impl::predict(Timestamp stamp) {
   Predicted predicted{stamp};
-  const std::optional<Pose2> now = parts.lateness.odometryAt(stamp);
+  const std::optional<Timestamp> silent = isNear(stamp) ? silentSince(stamp) : std::nullopt;
+  const std::optional<Pose2> now = parts.lateness.odometryAt(silent.value_or(stamp));
   track->isBlind = !reached.odometry;
   if (track->isBlind) moveBlindly(stamp);
   if (now) moveBy(*now);
-  if (now && track->trust.isLost()) {
+  if (silent) {
+    if (!track->isBlind) moveBlindly(stamp);
+    // Readings say from now on where it is, so what odometry will have added up counts no more.
+    track->isBlind = true;
+    reached.odometry.reset();
+  } else if (now && track->trust.isLost()) {
     // Untrusted odometry that says that the robot is stationary counts as no odometry.
     track->isBlind = track->travelled.all < tuning::trust::kStationary;
     if (track->isBlind)
@@ -92,18 +122,19 @@ void Mcl::Impl::followIntervals(Timestamp stamp) {
     usualInterval = std::max(toSeconds(stamp - *reached.stamp), kUsualKept * usualInterval);
 }
 
-/// Moves the samples by process noise: without odometry, before its first reading, or if it is not
-/// trusted and says that the robot is stationary.
+/// Moves the samples by process noise: without odometry, before its first reading, while it is
+/// missing, or if it is not trusted and says that the robot is stationary.
 void Mcl::Impl::moveBlindly(Timestamp stamp) {
-  const double seconds = secondsSinceWeighing(stamp);
-  if (seconds == 0.0) return;
+  const std::optional<Timestamp> since = aloneSince(stamp);
+  const double seconds = secondsAlone(stamp);
+  if (!since || seconds == 0.0) return;
   // distance that the robot may have travelled [m]
   const double come = tools.config.driftMetres * std::sqrt(seconds);
   track->travelled.metres += come;
   track->travelled.all += come;
   parts.forgetPlace();
   if (!track->waitsForStart) enlarge();
-  const Pose2 ahead = track->momentum.changeAt(stamp);
+  const Pose2 ahead = inverse(track->momentum.changeAt(*since)) * track->momentum.changeAt(stamp);
   move([&](const MovableSamples& some, std::size_t first) {
     drift(tools.config, some, ahead, seconds, stream(Purpose::kMotion), first);
   });
@@ -112,7 +143,7 @@ void Mcl::Impl::moveBlindly(Timestamp stamp) {
 /// Moves half of the samples by process noise instead of odometry, while odometry is not trusted.
 /// @returns first sample that was moved by process noise; 0: none
 std::size_t Mcl::Impl::spread(Timestamp stamp) {
-  const double seconds = secondsSinceWeighing(stamp);
+  const double seconds = secondsAlone(stamp);
   if (seconds == 0.0 || track->waitsForStart) return 0;
   Spread both = ortung::spread(tools.config, track->belief.samples(), track->anchor,
                                track->momentum.changeAt(stamp), seconds, kSpreadSamples,

@@ -178,6 +178,7 @@ struct GridFilter::Impl {
     waitsForReading = false;
     estimate = estimateNow();
     estimate.stamp = stamp;
+    estimate.smooth = estimate.pose;
     present = estimate;
   }
   PoseEstimate estimateNow() const {
@@ -265,6 +266,7 @@ std::optional<PoseEstimate> GridFilter::estimate(Timestamp stamp) const {
   if (odometry && g.lastOdometry)
     then = carriedOn(then, *g.motion, inverse(*g.lastOdometry) * *odometry, g.config.seed, g.step);
   then.stamp = stamp;
+  then.smooth = then.pose;
   judge(Signs{}, then);
   return then;
 }

@@ -1,7 +1,9 @@
 #include "CarriedOn.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -44,7 +46,11 @@ MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, st
 
 MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, std::uint64_t seed,
                       std::uint64_t stream) {
-  if (odometryChange.x == 0.0 && odometryChange.y == 0.0 && odometryChange.theta == 0.0) return {};
+  // What is left of no change by rounding is none, either.
+  constexpr double kRounding = 1e-12;
+  if (std::max({std::abs(odometryChange.x), std::abs(odometryChange.y),
+                std::abs(odometryChange.theta)}) < kRounding)
+    return {};
   return changeOf(motion, odometryChange, kCopies, seed, stream);
 }
 

@@ -1,10 +1,9 @@
 #include "Intake.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <utility>
 
+#include "Moved.hpp"
 #include "ReadingsTuning.hpp"
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
@@ -14,17 +13,6 @@ namespace ortung {
 namespace {
 
 using namespace tuning::intake;
-
-/// A reading of at least this many words never repeats itself at random while its device works,
-/// because of its noise.
-constexpr std::size_t kManyWords = 16;
-
-/// FNV-1a (Fowler, Noll, Vo), a word at a time.
-std::uint64_t hashOf(std::span<const std::uint32_t> words) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const std::uint32_t word : words) hash = (hash ^ word) * 1099511628211ULL;
-  return hash;
-}
 
 }  // namespace
 
@@ -39,10 +27,9 @@ Intake::Look Intake::look(const SensorContainer& container, Timestamp ofBelief, 
     passOver(container, ofBelief + fromSeconds(kTimeJump));
   }
   takeOdometry(container);
-  frozen_ = nullptr;
+  frozen_.look(container);
   for (const auto& data : container.all()) {
-    if (isFrozen(*data)) frozen_ = data.get();
-    if (frozen_ == data.get() || !isNews(*data, ofBelief, trustsOdometry, delay))
+    if (frozen_.has(*data) || !isNews(*data, ofBelief, trustsOdometry, delay))
       continue;  // without making a weigher
     if (std::shared_ptr<const Weigher> weigher = data->weigher())
       look.news[data->stamp()].push_back({data.get(), data->sequence(), std::move(weigher)});
@@ -63,8 +50,8 @@ void Intake::used(const std::vector<NewReading>& news, Timestamp stamp,
 
 void Intake::forget() {
   uses_.clear();
-  words_.clear();
-  frozen_ = nullptr;
+  silence_.forget();
+  frozen_.forget();
   odometrySequence_ = 0;
   looksBehind_ = 0;
   motion_.forget();
@@ -134,14 +121,9 @@ void Intake::takeOdometry(const SensorContainer& container) {
                      {reading->pose, reading->translationalVelocity, reading->rotationalVelocity,
                       reading->motionData, reading->lateralVelocity});
     odometrySequence_ = data->sequence();
-    return;
+    break;
   }
-}
-
-bool Intake::hasMoved(const Pose2& from, const Pose2& to) const {
-  const Pose2 change = inverse(from) * to;
-  return std::hypot(change.x, change.y) >= config_.minDistance ||
-         std::abs(change.theta) >= config_.minRotation;
+  silence_.hear(newestOdometry_);
 }
 
 bool Intake::isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry,
@@ -151,27 +133,9 @@ bool Intake::isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdome
   const Use& last = it->second;
   if (data.sequence() == last.sequence || data.stamp() < ofBelief) return false;
   const std::optional<Pose2> odometry = motion_.odometryAt(data.stamp() - delay);
-  return !trustsOdometry || !odometry || hasMoved(last.odometry, *odometry) ||
+  return !trustsOdometry || !odometry || odometrySilentSince(data.stamp() - delay) ||
+         hasMoved(config_, last.odometry, *odometry) ||
          toSeconds(data.stamp() - last.stamp) >= config_.maxInterval;
-}
-
-/// Returns whether a reading's words came again and again while the robot moved. Readings of a
-/// stationary robot may well repeat themselves if they have no noise.
-bool Intake::isFrozen(const SensorData& data) {
-  const std::span<const std::uint32_t> words = data.getData();
-  if (!data.localizes() || data.sequence() == 0 || words.size() < kManyWords) return false;
-  // All words are equal if nothing is in sight, and then do not change.
-  if (std::adjacent_find(words.begin(), words.end(), std::not_equal_to<>()) == words.end())
-    return false;
-  Words& known = words_[&data];
-  if (data.sequence() == known.sequence) return known.isFrozen;
-  const std::optional<Pose2> odometry = motion_.odometryAt(data.stamp());
-  const std::uint64_t hash = hashOf(words);
-  if (known.sequence == 0 || hash != known.hash || !known.odometry || !odometry)
-    known = {data.sequence(), hash, odometry, false};
-  known.sequence = data.sequence();
-  if (odometry && hasMoved(*known.odometry, *odometry)) known.isFrozen = true;
-  return known.isFrozen;
 }
 
 }  // namespace ortung

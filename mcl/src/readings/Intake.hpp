@@ -4,7 +4,9 @@
 #include <map>
 #include <optional>
 
+#include "FrozenDevices.hpp"
 #include "NewReadings.hpp"
+#include "OdometrySilence.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
@@ -17,8 +19,7 @@ namespace ortung {
 /// Takes out of a container what the filter has not seen yet: odometry for the motion model, and
 /// new readings. Not new are readings from the same place too soon after the last one, since a
 /// stationary robot must not grow more certain with every repetition; readings older than the
-/// belief, which are late; and a scan that is repeated word for word though the robot moved, since
-/// its device hangs. Not thread-safe.
+/// belief, which are late; and those of devices that hang and repeat themselves. Not thread-safe.
 class ORTUNG_API Intake {
  public:
   /// The new readings of a container.
@@ -29,7 +30,8 @@ class ORTUNG_API Intake {
   };
 
   /// @param motion borrowed; it is given the odometry
-  Intake(const MclConfig& config, MotionModel& motion) : config_(config), motion_(motion) {}
+  Intake(const MclConfig& config, MotionModel& motion)
+      : config_(config), motion_(motion), frozen_(config, motion) {}
 
   /// Takes odometry and returns new readings. It holds the container's read lock meanwhile.
   /// @param ofBelief time of the newest reading that was weighed
@@ -49,8 +51,12 @@ class ORTUNG_API Intake {
 
   /// Returns the time of the newest odometry, if the robot has any.
   const std::optional<Timestamp>& newestOdometry() const { return newestOdometry_; }
+  /// Returns since when odometry has been missing at @p stamp; nothing: it is not.
+  std::optional<Timestamp> odometrySilentSince(Timestamp stamp) const {
+    return silence_.since(stamp);
+  }
   /// Returns a feature whose readings repeat themselves though the robot moves; null: none.
-  const SensorData* frozen() const { return frozen_; }
+  const SensorData* frozen() const { return frozen_.first(); }
 
  private:
   /// When and where a feature was last used.
@@ -59,34 +65,25 @@ class ORTUNG_API Intake {
     Timestamp stamp = 0;
     Pose2 odometry;
   };
-  /// The words of a reading, and where the robot was when they first came.
-  struct Words {
-    std::uint64_t sequence = 0;
-    std::uint64_t hash = 0;
-    std::optional<Pose2> odometry;
-    bool isFrozen = false;
-  };
   std::optional<Timestamp> clockSetBack(const SensorContainer& container, Timestamp ofBelief);
   void passOver(const SensorContainer& container, Timestamp stamp);
   bool isOdometry(const SensorData& data);
   void takeOdometry(const SensorContainer& container);
   bool isNews(const SensorData& data, Timestamp ofBelief, bool trustsOdometry,
               Timestamp delay) const;
-  bool isFrozen(const SensorData& data);
-  bool hasMoved(const Pose2& from, const Pose2& to) const;
 
   const MclConfig& config_;
   MotionModel& motion_;
   std::map<const SensorData*, Use> uses_;
-  std::map<const SensorData*, Words> words_;
   std::map<const SensorData*, std::uint64_t> seen_;  ///< sequence numbers at the look before
   std::map<const SensorData*, bool> isOdometry_;  ///< whether a feature is odometry, by its format
   /// Calls of look() in a row at which all new readings were much older than the belief.
   int looksBehind_ = 0;
   Timestamp behindSince_ = 0;  ///< newest stamp at the first of those looks
   std::optional<Timestamp> newestOdometry_;
+  OdometrySilence silence_;
+  FrozenDevices frozen_;
   std::uint64_t odometrySequence_ = 0;  ///< sequence number of the newest odometry that motion took
-  const SensorData* frozen_ = nullptr;
 };
 
 }  // namespace ortung

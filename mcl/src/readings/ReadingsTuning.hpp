@@ -21,6 +21,28 @@ ORTUNG_CONSTANT(intake, kSecondsBehind, 2.0);
 
 }  // namespace intake
 
+/// OdometrySilence: when odometry stays away.
+namespace silence {
+
+/// [s] Least age at which odometry is missing; motion models carry it on for as long. A few cycles
+/// of any base.
+ORTUNG_CONSTANT(silence, kPatience, 0.3);
+/// [s] Least time between two of them that is a silence, however rarely they come. Chosen by hand.
+ORTUNG_CONSTANT(silence, kLongest, 2.0);
+
+}  // namespace silence
+
+/// FrozenDevices: readings that repeat themselves.
+namespace frozen {
+
+/// [share of min_distance_m] Way on which a device repeats few words before it counts as frozen.
+/// Chosen by hand: several readings of a ring of sonars beside a wall.
+ORTUNG_CONSTANT(frozen, kTimesFarther, 4.0);
+/// Least number of different words in these readings. Chosen by hand: two sightings of landmarks.
+ORTUNG_CONSTANT(frozen, kFewWords, 6);
+
+}  // namespace frozen
+
 /// NominalTime: how long weighing takes.
 namespace nominal {
 

@@ -38,6 +38,13 @@ struct PoseEstimate {
   /// 0.01 while uncertain, in position and in heading each; infinite while lost, and where nothing
   /// bounds it (docs/mcl.md, "A bound of the error").
   PoseDistance protection = kUnbounded;
+  /// The pose without steps, for controllers: corrections by readings are blended in over half a
+  /// second. Only a relocalization moves it at once.
+  Pose2 smooth;
+  /// How often the pose has moved by more than 0.10 m or 3 degrees beyond the robot's motion, or
+  /// began anew; it begins anew itself after 2^32.
+  std::uint32_t relocalizations = 0;
+  Relocalization relocalization = Relocalization::kNone;  ///< why it did so last
 };
 
 }  // namespace ortung

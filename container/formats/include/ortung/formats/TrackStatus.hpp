@@ -30,9 +30,23 @@ enum class TrackReason : std::uint8_t {
   kLast = kUnconfirmed,
 };
 
+/// Why an estimate moved by more than the robot did. The numbers are words of the protocol: new
+/// ones come last.
+enum class Relocalization : std::uint8_t {
+  kNone,        ///< it has not moved so
+  kFound,       ///< a global start found the robot
+  kGiven,       ///< a pose or a belief was given
+  kOtherPlace,  ///< readings fit another place better
+  kDelay,       ///< readings turned out to be late by another time
+  kReadings,    ///< readings corrected it by more than 0.10 m or 3 degrees
+  kLast = kReadings,
+};
+
 /// Returns "tracking", "uncertain" or "lost".
 ORTUNG_API const char* nameOf(TrackStatus status);
 /// Returns a few words, such as "readings fit worse than usual".
 ORTUNG_API const char* nameOf(TrackReason reason);
+/// Returns a few words, such as "readings fit another place better".
+ORTUNG_API const char* nameOf(Relocalization cause);
 
 }  // namespace ortung
