@@ -44,6 +44,9 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
   line["reason"] = nameOf(estimate.reason);
   line["protection_m"] = estimate.protection.metres;
   line["protection_rad"] = estimate.protection.radians;  // what is infinite is written as null
+  line["smooth"] = {estimate.smooth.x, estimate.smooth.y, estimate.smooth.theta};
+  line["relocalizations"] = estimate.relocalizations;
+  line["relocalization"] = nameOf(estimate.relocalization);
   line["age_s"] = age ? nlohmann::ordered_json(*age) : nlohmann::ordered_json();
   text += line.dump() + "\n";
 }

@@ -179,6 +179,16 @@ void bindEstimate(py::module_& module) {
       .def_property_readonly(
           "protection_rad", [](const PoseEstimate& e) { return e.protection.radians; },
           "the same angle of the heading")
+      .def_property_readonly(
+          "smooth",
+          [](const PoseEstimate& e) { return std::tuple(e.smooth.x, e.smooth.y, e.smooth.theta); },
+          "(x, y, theta) without steps, for controllers: corrections are blended in over half a "
+          "second")
+      .def_readonly("relocalizations", &PoseEstimate::relocalizations,
+                    "how often the pose moved by more than 0.10 m or 3 degrees beyond the motion")
+      .def_property_readonly(
+          "relocalization", [](const PoseEstimate& e) { return nameOf(e.relocalization); },
+          "why it did so last")
       .def("__repr__", &reprOf);
 }
 

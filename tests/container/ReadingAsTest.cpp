@@ -14,6 +14,7 @@
 #include "ortung/formats/PointsData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/formats/ScanData.hpp"
@@ -60,12 +61,13 @@ TEST(ReadingAs, AnyFeatureOfAFormatIsReadWhateverItsClass) {
 }
 
 TEST(ReadingAs, WhatALocalizationReportsIsReadToo) {
-  expectRead<TrackData>(
-      "track status=tracking,uncertain,lost",
-      TrackData::encode({TrackStatus::kUncertain, TrackReason::kRival, 0.25, 0.5}));
+  expectRead<TrackData>("track status=tracking,uncertain,lost",
+                        TrackData::encode({TrackStatus::kUncertain, TrackReason::kRival, 0.25, 0.5,
+                                           9, Relocalization::kDelay}));
   expectRead<ClustersData>(
       "clusters",
       ClustersData::encode({{{0.75, {{1, 2, 0.5}, {0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01}}}}}));
+  expectRead<ProtectionData>("protection", ProtectionData::encode({0.25, 0.5}));
   expectRead<WorkData>("work", WorkData::encode({2'000, 150.0, 0.004, 77}));
   expectRead<SamplesData>("samples",
                           SamplesData::encode({{{{1, 2, 0.5}, 1.0}, {{3, 4, 1.5}, 0.5}}}));

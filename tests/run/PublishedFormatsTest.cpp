@@ -1,12 +1,15 @@
-// What a localization publishes beside its pose: samples, places, work.
+// What a localization publishes beside its pose: what bounds its error, samples, places, work.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "Files.hpp"
 #include "RoomRun.hpp"
 #include "ortung/formats/ClustersData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/WorkData.hpp"
 #include "ortung/run/Published.hpp"
@@ -82,6 +85,63 @@ TEST(ClustersData, HasTheWordsThatTheProtocolStates) {
   EXPECT_FALSE(data.localizes());
 }
 
+TEST(SmoothPose, IsAPoseOfItsOwn) {
+  PoseEstimate estimate;
+  estimate.stamp = 9;
+  estimate.pose = {1.0, 2.0, 0.0};
+  estimate.smooth = {1.25, -0.5, kPi / 2};
+  const Message message = smoothMessage(estimate);
+  EXPECT_EQ(message.stamp, 9);
+  EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/smooth");
+  EXPECT_EQ(message.words, PoseData::encode(estimate.smooth));
+}
+
+ProtectionData::Reading told(const PoseEstimate& estimate) {
+  ProtectionData data;
+  const Message message = protectionMessage(estimate);
+  data.setData(message.stamp, message.words);
+  return data.reading();
+}
+
+TEST(ProtectionData, HasTheWordsThatTheProtocolStates) {
+  PoseEstimate estimate;
+  estimate.stamp = 9;
+  estimate.protection = {0.125, kPi / 180.0};
+  const Message message = protectionMessage(estimate);
+  EXPECT_EQ(message.stamp, 9);
+  EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/protection");
+  EXPECT_EQ(message.words, (std::vector<std::uint32_t>{125'000, 10'000}));
+  EXPECT_DOUBLE_EQ(told(estimate).metres, 0.125);
+  EXPECT_NEAR(told(estimate).radians, kPi / 180.0, 1e-12);
+  EXPECT_FALSE(ProtectionData().localizes());
+}
+
+TEST(ProtectionData, IsNeverLessThanTheBoundThatItTells) {
+  Random random(4, 2);
+  for (int i = 0; i < 1000; ++i) {
+    PoseEstimate estimate;
+    estimate.protection = {10.0 * random.uniform(), kPi * random.uniform()};
+    const auto [metres, radians] = told(estimate);
+    // But for the millionth of a word that what was itself made of words is rounded by.
+    EXPECT_GE(metres, estimate.protection.metres - 1e-12);
+    EXPECT_LT(metres, estimate.protection.metres + 1e-6);
+    EXPECT_GE(radians, estimate.protection.radians - 1e-11);
+    EXPECT_LT(radians, estimate.protection.radians + 1e-4 * kPi / 180.0);
+    EXPECT_EQ(ProtectionData::encode({metres, radians}), protectionMessage(estimate).words)
+        << "what was decoded has the same words";
+  }
+}
+
+TEST(ProtectionData, TellsWhatNothingBounds) {
+  constexpr std::uint32_t kNone = 4'294'967'295U;
+  EXPECT_EQ(protectionMessage(PoseEstimate()).words, (std::vector<std::uint32_t>{kNone, kNone}));
+  EXPECT_TRUE(std::isinf(told(PoseEstimate()).metres));
+  EXPECT_TRUE(std::isinf(told(PoseEstimate()).radians));
+  EXPECT_EQ(ProtectionData::encode({std::nan(""), 1e30}),
+            (std::vector<std::uint32_t>{kNone, kNone}));
+  EXPECT_EQ(ProtectionData::encode({-1.0, 0.0}), (std::vector<std::uint32_t>{0, 0}));
+}
+
 TEST(WorkData, HasTheWordsThatTheProtocolStates) {
   const Message message = WorkData::message(9, {1000, 612.4, 0.00125, 17});
   EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/work");
@@ -99,6 +159,7 @@ TEST(PublishedFormats, RefuseWhatCannotBe) {
   expectRefused<ClustersData>({10'001, 0, 0, 0, 1, 1, 1, 0, 0, 0}, "found the share 10001");
   expectRefused<ClustersData>({5, 0, 0, 36'000, 1, 1, 1, 0, 0, 0}, "found the angle word 36000");
   expectRefused<ClustersData>({5, 0, 0, 0, 0, 1, 1, 0, 0, 0}, "found a sigma of 0");
+  expectRefused<ProtectionData>({1}, "found 1 words, expected 2");
   expectRefused<WorkData>({1, 1, 1}, "found 3 words, expected 4");
   expectRefused<WorkData>({5, 6, 0, 0}, "found 5 samples worth 6");
 }
@@ -116,6 +177,8 @@ TEST_F(Publishing, SamplesAreSetOnlyWhileSomebodyWantsThem) {
   EXPECT_EQ(count("samples"), 0U);
   EXPECT_EQ(count("places"), 1U);
   EXPECT_EQ(count("work"), 1U);
+  EXPECT_EQ(count("smooth"), 1U);
+  EXPECT_EQ(count("protection"), 1U);
   localization.wantSamples(true);
   const auto estimate = localization.next();
   ASSERT_TRUE(estimate);
@@ -145,6 +208,7 @@ TEST_F(Publishing, APoseOffTheMapIsRefusedBeforeItIsSet) {
 }
 
 TEST(PublishedFormats, AreOfTheirNames) {
+  EXPECT_EQ(ProtectionData().format().toText(), "protection");
   EXPECT_EQ(ClustersData().format().toText(), "clusters");
   EXPECT_EQ(WorkData().format().toText(), "work");
   EXPECT_EQ(SamplesData().format().toText(), "samples");

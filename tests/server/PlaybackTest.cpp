@@ -63,6 +63,8 @@ TEST(Playback, KnowsFormatsByNamesThatAreAlwaysTheSameOrAsItIsTold) {
       {kTruth, "pose"},
       {{"odometry", "odometry", "pose"}, "odometry"},
       {{"mcl", "LOCALIZATION", "pose"}, "fix"},
+      {{"mcl", "LOCALIZATION", "smooth"}, "pose"},
+      {{"mcl", "LOCALIZATION", "protection"}, "protection"},
       {{"mcl", "LOCALIZATION", "places"}, "clusters"},
       {{"mcl", "LOCALIZATION", "samples"}, "samples"},
       {{"mcl", "LOCALIZATION", "work"}, "work"},

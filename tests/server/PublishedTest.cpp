@@ -1,11 +1,13 @@
 // A robot that localizes itself and serves its container: clients subscribe to where it is.
 #include <atomic>
+#include <cmath>
 
 #include "../run/RoomRun.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/TrackData.hpp"
 #include "ortung/server/ServedContainer.hpp"
 
@@ -80,6 +82,13 @@ TEST_F(PublishedEstimate, TellsHowFarItCanBeReliedOn) {
     EXPECT_EQ(heard.reading().reason, estimate->reason);
     EXPECT_NEAR(heard.reading().quality, estimate->quality, 1e-4);
     EXPECT_NEAR(heard.reading().share, estimate->share, 1e-4);
+    const auto bound = localization.container().get<ProtectionData>({.feature = "protection"});
+    ASSERT_TRUE(bound);
+    if (estimate->status == TrackStatus::kTracking) {
+      EXPECT_NEAR(bound->metres, estimate->protection.metres, 2e-6);
+      EXPECT_NEAR(bound->radians, estimate->protection.radians, 2e-6);
+    }
+    EXPECT_EQ(std::isinf(bound->metres), std::isinf(estimate->protection.metres));
     if (estimate->status == TrackStatus::kTracking) ++tracking;
   }
   EXPECT_GT(tracking, 10U);
@@ -99,6 +108,10 @@ TEST_F(PublishedEstimate, TellsHowFarItCanBeReliedOn) {
     }
   }
   EXPECT_EQ(heard.stamp(), odometry.stamp);
+  const SensorData* bound =
+      localization.container().findExactly({"mcl", "LOCALIZATION", "protection"});
+  ASSERT_NE(bound, nullptr);
+  EXPECT_EQ(bound->stamp(), odometry.stamp) << "it is told together with the status";
   EXPECT_NE(heard.reading().status, TrackStatus::kTracking);
   EXPECT_LE(silent, 20U) << "within 2 s";
 }

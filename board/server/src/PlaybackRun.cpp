@@ -10,6 +10,7 @@
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/TalkData.hpp"
 #include "ortung/formats/TrackData.hpp"
@@ -37,7 +38,9 @@ ServedFeature featureOf(const SensorId& id) {
   if (id.type == "groundTruth") return served(PoseData(id));
   if (id == SensorId{"odometry", "odometry", "pose"}) return served(OdometryData(id));
   if (id == SensorId{"mcl", "LOCALIZATION", "pose"}) return served(PoseFixData(id, {}));
+  if (id == SensorId{"mcl", "LOCALIZATION", "smooth"}) return served(PoseData(id));
   if (const TrackData track; track.id() == id) return served(track);
+  if (const ProtectionData bound; bound.id() == id) return served(bound);
   if (const ClustersData clusters; clusters.id() == id) return served(clusters);
   if (const WorkData work; work.id() == id) return served(work);
   if (const SamplesData samples; samples.id() == id) return served(samples);
@@ -113,7 +116,11 @@ void PlaybackRun::noteTrack(const Message& message) {
   } catch (const std::invalid_argument&) {
     return;
   }
-  const TrackStatus now = track.reading().status;
+  const TrackData::Reading& told = track.reading();
+  if (relocalizations_ && told.relocalizations != *relocalizations_)
+    mark(message.stamp, std::string("relocalized: ") + nameOf(told.relocalization));
+  relocalizations_ = told.relocalizations;
+  const TrackStatus now = told.status;
   if (now == status_ || now == TrackStatus::kUncertain) return;  // it may waver between them
   // A run that has just begun is not lost.
   if (now == TrackStatus::kTracking || status_) mark(message.stamp, nameOf(now));

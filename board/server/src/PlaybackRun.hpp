@@ -66,6 +66,7 @@ class PlaybackRun {
   // while it is scanned
   std::map<std::string, std::string> formats_;  ///< that the record's notes tell, by feature
   std::optional<TrackStatus> status_;
+  std::optional<std::uint32_t> relocalizations_;
   std::optional<std::pair<Timestamp, Pose2>> lastTruth_;
 };
 

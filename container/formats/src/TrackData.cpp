@@ -8,6 +8,9 @@ namespace {
 
 constexpr auto kLastStatus = static_cast<std::uint32_t>(TrackStatus::kLast);
 constexpr auto kLastReason = static_cast<std::uint32_t>(TrackReason::kLast);
+constexpr auto kLastCause = static_cast<std::uint32_t>(Relocalization::kLast);
+constexpr std::size_t kWords = 6;
+constexpr std::size_t kWordsOfOlder = 4;  // without relocalizations
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "status"}; }
 
@@ -20,14 +23,28 @@ std::vector<const char*> namesOf() {
   return names;
 }
 
+/// Returns "0 tracking, 1 uncertain, ...".
+template <class Enumeration>
+std::string numbered() {
+  const std::vector<const char*> names = namesOf<Enumeration>();
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : ", ") + std::to_string(i) + " " + names[i];
+  return text;
+}
+
 }  // namespace
 
 TrackData::TrackData() : SensorData(ownId()) {}
 TrackData::~TrackData() = default;
 
 std::vector<std::uint32_t> TrackData::encode(const Reading& reading) {
-  return {static_cast<std::uint32_t>(reading.status), static_cast<std::uint32_t>(reading.reason),
-          shareWord(reading.quality), shareWord(reading.share)};
+  return {static_cast<std::uint32_t>(reading.status),
+          static_cast<std::uint32_t>(reading.reason),
+          shareWord(reading.quality),
+          shareWord(reading.share),
+          reading.relocalizations,
+          static_cast<std::uint32_t>(reading.relocalization)};
 }
 
 Message TrackData::message(Timestamp stamp, const Reading& reading) {
@@ -37,32 +54,32 @@ Message TrackData::message(Timestamp stamp, const Reading& reading) {
 Format TrackData::format() const {
   return Format(kFormat)
       .with("status", namesOf<TrackStatus>())
-      .with("reason", namesOf<TrackReason>());
+      .with("reason", namesOf<TrackReason>())
+      .with("cause", namesOf<Relocalization>());
 }
 
 std::string TrackData::wordsHelp() const {
-  std::string text = "[status (";
-  for (std::uint32_t i = 0; i <= kLastStatus; ++i)
-    text += (i == 0 ? "" : ", ") + std::to_string(i) + " " + nameOf(static_cast<TrackStatus>(i));
-  text += "), reason (";
-  for (std::uint32_t i = 0; i <= kLastReason; ++i)
-    text += (i == 0 ? "" : ", ") + std::to_string(i) + " " + nameOf(static_cast<TrackReason>(i));
-  return text +
-         "), probability of an error below 0.5 m 1/10000, share of the belief 1/10000] of "
-         "mcl/LOCALIZATION/pose";
+  return "[status (" + numbered<TrackStatus>() + "), reason (" + numbered<TrackReason>() +
+         "), probability of an error below 0.5 m 1/10000, share of the belief 1/10000, "
+         "relocalizations, cause of the newest (" +
+         numbered<Relocalization>() + ")] of mcl/LOCALIZATION/pose";
 }
 
 void TrackData::check(std::span<const std::uint32_t> words) const {
-  checkWordCount(words, 4);
+  if (words.size() != kWordsOfOlder) checkWordCount(words, kWords);
   checkAtMost("status", words[0], kLastStatus);
   checkAtMost("reason", words[1], kLastReason);
   checkAtMost("quality", words[2], kWholeShare);
   checkAtMost("share", words[3], kWholeShare);
+  if (words.size() == kWords) checkAtMost("cause", words[5], kLastCause);
 }
 
 void TrackData::decode(std::span<const std::uint32_t> words) {
   reading_ = {static_cast<TrackStatus>(words[0]), static_cast<TrackReason>(words[1]),
               shareOf(words[2]), shareOf(words[3])};
+  if (words.size() != kWords) return;
+  reading_.relocalizations = words[4];
+  reading_.relocalization = static_cast<Relocalization>(words[5]);
 }
 
 }  // namespace ortung

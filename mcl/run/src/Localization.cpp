@@ -16,6 +16,7 @@
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/TrackData.hpp"
 #include "ortung/formats/WorkData.hpp"
@@ -113,7 +114,9 @@ WorldMismatch::~WorldMismatch() = default;
 
 void addPublishedFeatures(SensorContainer& container) {
   container.add(std::make_unique<EstimateData>());
+  container.add(std::make_unique<PoseData>(kSmoothId));
   container.add(std::make_unique<TrackData>());
+  container.add(std::make_unique<ProtectionData>());
   container.add(std::make_unique<ClustersData>());
   container.add(std::make_unique<WorkData>());
   container.add(std::make_unique<SamplesData>());
@@ -233,7 +236,10 @@ void Localization::publish(const PoseEstimate& estimate) {
   const Timestamp stamp = estimate.stamp;
   const SampleSet& samples = mcl_->samples();
   std::vector<Message> all{
-      EstimateData::message(estimate), trackMessage(estimate),
+      EstimateData::message(estimate),
+      smoothMessage(estimate),
+      trackMessage(estimate),
+      protectionMessage(estimate),
       clustersMessage(stamp, mcl_->places()),
       WorkData::message(stamp, {samples.size(), worthOf(samples), newest_ * 1e-3, ++estimates_})};
   if (wantsSamples_) all.push_back(samplesMessage(stamp, samples));
@@ -241,7 +247,7 @@ void Localization::publish(const PoseEstimate& estimate) {
   published_ = {estimate.status, estimate.reason};
 }
 
-/// Publishes the status alone if it has changed without a new estimate.
+/// Publishes the status and what bounds the error if the status has changed without a new estimate.
 void Localization::publishChange() {
   if (!publishes_ || odometry_ == nullptr || !(published_ || mcl_->isSearching())) return;
   Timestamp now = 0;
@@ -253,7 +259,7 @@ void Localization::publishChange() {
   estimate.stamp = now;
   const std::pair status(estimate.status, estimate.reason);
   if (status == published_) return;
-  robot_->container.set(trackMessage(estimate));
+  robot_->container.set(std::array{trackMessage(estimate), protectionMessage(estimate)});
   published_ = status;
 }
 

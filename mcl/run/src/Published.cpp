@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "ortung/formats/ClustersData.hpp"
+#include "ortung/formats/PoseData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/TrackData.hpp"
 
@@ -20,7 +22,17 @@ float heaviest(const SampleSet& samples) {
 
 Message trackMessage(const PoseEstimate& estimate) {
   return TrackData::message(estimate.stamp,
-                            {estimate.status, estimate.reason, estimate.quality, estimate.share});
+                            {estimate.status, estimate.reason, estimate.quality, estimate.share,
+                             estimate.relocalizations, estimate.relocalization});
+}
+
+Message smoothMessage(const PoseEstimate& estimate) {
+  return {estimate.stamp, kSmoothId, PoseData::encode(estimate.smooth)};
+}
+
+Message protectionMessage(const PoseEstimate& estimate) {
+  return ProtectionData::message(estimate.stamp,
+                                 {estimate.protection.metres, estimate.protection.radians});
 }
 
 Message clustersMessage(Timestamp stamp, std::span<const PoseEstimate> places) {

@@ -19,7 +19,8 @@ const fields = [
 const formats = {
   "LMS200/LRF/180DegreeScan": "scan beams=180 first_deg=-90 step_deg=1.00558659 max_m=8",
   "mcl/LOCALIZATION/pose": "fix",
-  "mcl/LOCALIZATION/status": "track status=tracking,uncertain,lost reason=readings_fit",
+  "mcl/LOCALIZATION/status": "track status=tracking,uncertain,lost reason=readings_fit cause=none,a_pose_was_given",
+  "mcl/LOCALIZATION/protection": "protection",
   "mcl/LOCALIZATION/samples": "samples",
   "mcl/LOCALIZATION/places": "clusters",
   "mcl/LOCALIZATION/work": "work",
@@ -69,7 +70,8 @@ function readingsOf(number, time, wants) {
   const readings = [
     reading(stamp, "LMS200/LRF/180DegreeScan", Array.from({ length: 180 }, (_, i) => 2500 + Math.round(1200 * Math.sin(i / 9)))),
     reading(stamp, "mcl/LOCALIZATION/pose", fix),
-    reading(stamp, "mcl/LOCALIZATION/status", [0, 0, 9300, 9800]),
+    reading(stamp, "mcl/LOCALIZATION/status", [0, 0, 9300, 9800, 1, 1]),
+    reading(stamp, "mcl/LOCALIZATION/protection", [500000, 100000]),
     reading(stamp, "mcl/LOCALIZATION/places", [8800, ...fix, 1200, mm(-x), mm(-y), ...fix.slice(2)]),
     reading(stamp, "mcl/LOCALIZATION/work", [kSamples, 6200 + Math.round(800 * Math.sin(time)), 5400, Math.round(10 * time)]),
   ];

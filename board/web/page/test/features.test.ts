@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { Rays } from "../src/field/rays";
 import { kLayerNames, type Layers } from "../src/ui/layers";
-import { fixOf, pictureOf, placesOf, statusOf } from "../src/model/decode";
+import { fixOf, pictureOf, placesOf, protectionOf, statusOf } from "../src/model/decode";
 import { parseFormat } from "../src/model/Format";
 import { kindOf, type Kind } from "../src/model/kinds";
 import { Robot } from "../src/model/Robot";
@@ -33,6 +33,7 @@ const kFormats: [string, object][] = [
   ["image width=640 height=480", { name: "image" }],
   [kTrack, { name: "track", status: ["tracking", "uncertain", "lost"] }],
   ["clusters", { name: "clusters" }],
+  ["protection", { name: "protection" }],
   ["work", { name: "work" }],
   ["samples", { name: "samples" }],
   ["device status=opening,absent", { name: "device", status: ["opening", "absent"] }],
@@ -86,10 +87,14 @@ describe("formats", () => {
 
   it("tell which feature is the localization's", () => {
     const robot = new Robot(1);
-    robot.describe(["x/y/how", `format x/y/how ${kTrack}`, "x/y/cloud", "format x/y/cloud samples"]);
+    expect(robot.protection).toBeNull();
+    robot.describe(["x/y/how", `format x/y/how ${kTrack}`, "x/y/cloud", "format x/y/cloud samples", "x/y/bound", "format x/y/bound protection"]);
+    expect(robot.protection).toBeNull();
+    robot.readings.set("x/y/bound", { stamp: 0, words: new Uint32Array([2000000, 10000]) });
+    expect(robot.protection!.metres).toBe(2);
     robot.readings.set("x/y/how", { stamp: 0, words: new Uint32Array([2, 1, 100, 5000]) });
     robot.readings.set("x/y/cloud", { stamp: 0, words: new Uint32Array(8) });
-    expect(robot.status).toEqual({ status: "lost", reason: "several places fit", quality: 0.01, share: 0.5 });
+    expect(robot.status).toMatchObject({ status: "lost", reason: "several places fit", quality: 0.01, share: 0.5, relocalizations: null });
     expect(robot.heldOf("samples")!.words).toHaveLength(8);
     expect(robot.heldOf("clusters")).toBeUndefined();
   });
@@ -209,10 +214,30 @@ describe("readings of features", () => {
     expect(placesOf(new Uint32Array([6000, kMiddle, kMiddle, 18000, 1, 1, 1, 10000, 10000, 10000, 5]))).toHaveLength(1);
   });
 
+  it("bound the error, or say that nothing does", () => {
+    const bound = kinded("protection");
+    const words = new Uint32Array([125000, 15000]);
+    expect(protectionOf(words)).toEqual({ metres: expect.closeTo(0.125, 9), radians: expect.closeTo(1.5 * (Math.PI / 180), 9) });
+    expect(valuesOf(bound, words)).toMatchObject([
+      { name: "radius", value: expect.closeTo(0.125, 9), unit: "m" },
+      { name: "angle", value: expect.closeTo(1.5, 9), unit: "°" },
+    ]);
+    expect(summary(bound, words)).toBe("0.13 m, 1.5°");
+    const none = new Uint32Array([0xffffffff, 0xffffffff]);
+    expect(protectionOf(none)).toEqual({ metres: Infinity, radians: Infinity });
+    expect(valuesOf(bound, none)).toEqual([]);
+    expect(summary(bound, none)).toBe("unbounded");
+    expect(protectionOf(new Uint32Array([7]))).toBeNull();
+    expect(summary(bound, new Uint32Array([7]))).toBe("-");
+  });
+
   it("say the filter's status in words", () => {
-    expect(statusOf(kinded(kTrack), new Uint32Array([1, 1, 4000, 5500]))).toEqual({
-      status: "uncertain", reason: "several places fit", quality: 0.4, share: 0.55,
+    expect(statusOf(kinded(kTrack), new Uint32Array([1, 1, 4000, 5500]))).toMatchObject({
+      status: "uncertain", reason: "several places fit", quality: 0.4, share: 0.55, relocalizations: null,
     });
+    const told = statusOf(kinded(`${kTrack} cause=none,a_pose_was_given`), new Uint32Array([0, 0, 9000, 10000, 3, 1]));
+    expect(told).toMatchObject({ relocalizations: 3, cause: "a pose was given" });
+    expect(statusOf(kinded(kTrack), new Uint32Array([0, 0, 9000, 10000, 3, 7]))!.cause).toBe("cause 7");
     expect(summary(kinded(kTrack), new Uint32Array([2, 2, 100, 0]))).toBe("lost: no reading comes, 1 %");
     expect(summary(kinded(kTrack), new Uint32Array([3, 9, 100, 0]))).toBe("status 3: reason 9, 1 %");
     expect(summary(kinded(kTrack), new Uint32Array([2]))).toBe("-");

@@ -1,5 +1,5 @@
 import type { Board, MovableState } from "../model/Board";
-import { placesOf } from "../model/decode";
+import { placesOf, type Protection } from "../model/decode";
 import { degrees, ellipseOf, type Pose } from "../model/geometry";
 import type { Robot } from "../model/Robot";
 import type { MovableKind, Outline } from "../model/world";
@@ -179,7 +179,14 @@ export class Scene {
         make("ellipse", { ...size, transform: at, class: "place", opacity: fixed(0.35 + 0.65 * place.share, 2) }, this.beliefs);
       }
     }
+    if (layers.bound && robot.estimate) this.ringAt(robot.estimate, robot.protection);
     if (layers.estimate && robot.truth && robot.estimate) this.outlineAt(robot, robot.estimate, "estimate");
+  }
+
+  /** The ring that the robot's middle hardly ever leaves; none where nothing bounds the error. */
+  private ringAt({ x, y }: Pose, bound: Protection | null): void {
+    if (!bound || !Number.isFinite(bound.metres)) return;
+    make("circle", { cx: fixed(x), cy: fixed(y), r: fixed(bound.metres), class: "bound" }, this.beliefs);
   }
 
   private outlineAt(robot: Robot, pose: Pose, kind: string): void {

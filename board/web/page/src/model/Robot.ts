@@ -1,5 +1,5 @@
 import { numberOf, parseHead } from "../link/words";
-import { poseOf, statusOf, type Status } from "./decode";
+import { poseOf, protectionOf, statusOf, type Protection, type Status } from "./decode";
 import type { Feature } from "./features";
 import { parseFormat } from "./Format";
 import { compose, inverse, wrap, type Point, type Pose } from "./geometry";
@@ -99,6 +99,12 @@ export class Robot {
     const feature = this.featureOf("track");
     const held = feature && this.readings.get(feature.name);
     return held ? statusOf(feature.kind, held.words) : null;
+  }
+
+  /** What bounds its estimate's error; null without one. */
+  get protection(): Protection | null {
+    const held = this.heldOf("protection");
+    return held ? protectionOf(held.words) : null;
   }
 
   /** Pose at which it is drawn: the true one, or else its estimate. */

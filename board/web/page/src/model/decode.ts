@@ -44,11 +44,29 @@ export function placesOf(words: Uint32Array): Place[] {
   return places;
 }
 
+/** What the error of an estimate hardly ever exceeds; infinite where nothing bounds it. */
+export interface Protection {
+  metres: number;
+  radians: number;
+}
+
+const kUnbounded = 2 ** 32 - 1;
+const boundOf = (word: number, unit: number): number => (word === kUnbounded ? Infinity : word * unit);
+
+export function protectionOf(words: Uint32Array): Protection | null {
+  if (words.length < 2) return null;
+  return { metres: boundOf(words[0]!, 1e-6), radians: boundOf(words[1]!, radians(1e-4)) };
+}
+
 export interface Status {
   status: string;
   reason: string;
   quality: number;
   share: number;
+  /** How often the estimate moved beyond the robot's motion; null in older records. */
+  relocalizations: number | null;
+  /** Why it did so last. */
+  cause: string;
 }
 
 /** What a localization says of itself, in the names that its format tells. */
@@ -59,6 +77,8 @@ export function statusOf(kind: Kind, words: Uint32Array): Status | null {
     reason: kind.reason[words[1]!] ?? `reason ${words[1]}`,
     quality: words[2]! / 10000,
     share: words[3]! / 10000,
+    relocalizations: words[4] ?? null,
+    cause: kind.cause[words[5] ?? 0] ?? `cause ${words[5]}`,
   };
 }
 

@@ -18,10 +18,10 @@ export interface Rows {
 export type Kind =
   | { name: "scan"; first: number; step: number; most: number }
   | { name: "cone"; half: number; most: number }
-  | { name: "track"; status: string[]; reason: string[] }
+  | { name: "track"; status: string[]; reason: string[]; cause: string[] }
   | { name: "device"; status: string[] }
   | Rows
-  | { name: "obstacles" | "pose" | "fix" | "odometry" | "image" | "clusters" | "work" | "samples" | "other" };
+  | { name: "obstacles" | "pose" | "fix" | "odometry" | "image" | "clusters" | "protection" | "work" | "samples" | "other" };
 
 /** The container's own formats whose words are rows. */
 const kOwnRows: Record<Exclude<Rows["of"], "">, readonly Meaning[]> = {
@@ -56,7 +56,7 @@ export function kindOf(format: Format | null): Kind {
     case "objects":
       return { name: "rows", of: name, row: kOwnRows[name] };
     case "track":
-      return { name, status: namesIn(format, "status"), reason: namesIn(format, "reason") };
+      return { name, status: namesIn(format, "status"), reason: namesIn(format, "reason"), cause: namesIn(format, "cause") };
     case "device":
       return { name, status: namesIn(format, "status") };
     case "obstacles":
@@ -65,6 +65,7 @@ export function kindOf(format: Format | null): Kind {
     case "odometry":
     case "image":
     case "clusters":
+    case "protection":
     case "work":
     case "samples":
       return { name };

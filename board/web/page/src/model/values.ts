@@ -1,4 +1,4 @@
-import { fixOf, kMiddle, lengthOf, pictureOf, placesOf, poseOf, statusOf } from "./decode";
+import { fixOf, kMiddle, lengthOf, pictureOf, placesOf, poseOf, protectionOf, statusOf, type Protection } from "./decode";
 import { degrees } from "./geometry";
 import type { Kind, Rows } from "./kinds";
 import { rowsOf, type Row } from "./rows";
@@ -27,6 +27,11 @@ export function valuesOf(kind: Kind, words: Uint32Array, most = 64): Value[] {
       const status = statusOf(kind, words);
       if (!status) return [];
       return [{ name: "quality", value: status.quality, unit: "" }, { name: "share", value: status.share, unit: "" }];
+    }
+    case "protection": {
+      const bound = protectionOf(words);
+      if (!bound || !Number.isFinite(bound.metres)) return [];
+      return [{ name: "radius", value: bound.metres, unit: "m" }, { name: "angle", value: degrees(bound.radians), unit: "°" }];
     }
     case "work":
       if (words.length < 4) return [];
@@ -138,11 +143,20 @@ export function summary(kind: Kind, words: Uint32Array): string {
       return `${words.length / 4} samples`;
     case "clusters":
       return placesOf(words).map((place) => `${number(place.share * 100, 0)} %`).join(", ") || "none";
+    case "protection": {
+      const bound = protectionOf(words);
+      return bound ? boundText(bound) : "-";
+    }
     case "rows":
       return rowSummary(kind, words);
     default:
       return words.length ? plainSummary(kind, words) : "nothing in sight";
   }
+}
+
+/** A bound of an error, for people. */
+export function boundText({ metres, radians }: Protection): string {
+  return Number.isFinite(metres) ? `${number(metres)} m, ${number(degrees(radians), 1)}°` : "unbounded";
 }
 
 function plainSummary(kind: Kind, words: Uint32Array): string {

@@ -2,6 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { useBoard, usePage } from "../ui/context";
 import { kOpaque, paintHeat } from "../field/HeatLayer";
 import { fixOf, placesOf } from "../model/decode";
+import { boundText } from "../model/values";
 import { degrees, radians, wrap } from "../model/geometry";
 import type { FeatureMap, Why } from "../model/Insight";
 import { kEstimate, type Robot } from "../model/Robot";
@@ -70,10 +71,13 @@ function FilterSection({ robot }: { robot: Robot }) {
   );
 }
 
+const kAboutBound = "The error exceeds it once in a thousand while tracking, once in a hundred while uncertain.";
+
 function BeliefSection({ robot }: { robot: Robot }) {
   const pose = robot.readings.get(kEstimate);
   const fix = pose && fixOf(pose.words);
   const truth = pose && robot.truthAt(pose.stamp);
+  const { status, protection: bound } = robot;
   const work = robot.heldOf("work")?.words;
   const places = robot.heldOf("clusters");
   const { session, ui } = usePage();
@@ -91,6 +95,20 @@ function BeliefSection({ robot }: { robot: Robot }) {
             <dt>sigmas</dt>
             <dd>
               {fix.sigmaX.toFixed(3)}, {fix.sigmaY.toFixed(3)} m, {degrees(fix.sigmaTheta).toFixed(1)}°
+            </dd>
+          </>
+        )}
+        {bound && (
+          <>
+            <dt>bound</dt>
+            <dd title={kAboutBound}>{boundText(bound)}</dd>
+          </>
+        )}
+        {!!status?.relocalizations && (
+          <>
+            <dt>relocalized</dt>
+            <dd>
+              {status.relocalizations}×, last: {status.cause}
             </dd>
           </>
         )}

@@ -20,11 +20,12 @@ inline constexpr const char* kObstacles = "obstacles";  ///< ObstaclesData
 inline constexpr const char* kTalk = "talk";            ///< TalkData
 inline constexpr const char* kPlaces = "places";        ///< PlacesData
 inline constexpr const char* kImage = "image";          ///< ImageData [width= height=]
-inline constexpr const char* kTrack = "track";          ///< TrackData status= reason=, their names
-inline constexpr const char* kClusters = "clusters";    ///< ClustersData
-inline constexpr const char* kWork = "work";            ///< WorkData
-inline constexpr const char* kSamples = "samples";      ///< SamplesData
-inline constexpr const char* kDevice = "device";        ///< DeviceStatusData status=, their names
+inline constexpr const char* kTrack = "track";  ///< TrackData status= reason= cause=, their names
+inline constexpr const char* kClusters = "clusters";      ///< ClustersData
+inline constexpr const char* kProtection = "protection";  ///< ProtectionData
+inline constexpr const char* kWork = "work";              ///< WorkData
+inline constexpr const char* kSamples = "samples";        ///< SamplesData
+inline constexpr const char* kDevice = "device";          ///< DeviceStatusData status=, their names
 
 /// The robots of a world: rows of number, x, y [mm + 2^31, field frame], heading [1/100
 /// degree, 0 to 35999], states of manipulators.

@@ -16,7 +16,9 @@ namespace ortung {
 /// How far a localization's estimate can be relied on, for other programs: the feature
 /// mcl/LOCALIZATION/status beside mcl/LOCALIZATION/pose (LocalizationConfig::publish).
 /// Words: status (0 tracking, 1 uncertain, 2 lost), reason (in the order of TrackReason), quality
-/// and share [1/10000], both in [0, 1]. It only reports, so it weighs no samples.
+/// and share [1/10000], both in [0, 1], number of relocalizations so far, cause of the newest one
+/// (in the order of Relocalization). Older records end after the share. It only reports, so it
+/// weighs no samples.
 /// Not thread-safe, see SensorData.
 class ORTUNG_API TrackData : public SensorData {
  public:
@@ -26,6 +28,8 @@ class ORTUNG_API TrackData : public SensorData {
     TrackReason reason = TrackReason::kNoReading;
     double quality = 0.0;  ///< probability that the position error is below 0.5 m, in [0, 1]
     double share = 0.0;    ///< share of the estimate's cluster in the whole belief, in [0, 1]
+    std::uint32_t relocalizations = 0;                      ///< see PoseEstimate
+    Relocalization relocalization = Relocalization::kNone;  ///< cause of the newest one
   };
 
   TrackData();

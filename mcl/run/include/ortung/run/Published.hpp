@@ -10,8 +10,15 @@
 // What a localization publishes, in the formats of the container (LocalizationConfig::publish).
 namespace ortung {
 
+/// The feature of the smooth pose, in the format of PoseData.
+inline const SensorId kSmoothId{"mcl", "LOCALIZATION", "smooth"};
+
+/// Makes the reading of mcl/LOCALIZATION/smooth, see PoseEstimate::smooth.
+ORTUNG_API Message smoothMessage(const PoseEstimate& estimate);
 /// Makes the reading of mcl/LOCALIZATION/status, see TrackData.
 ORTUNG_API Message trackMessage(const PoseEstimate& estimate);
+/// Makes the reading of mcl/LOCALIZATION/protection, see ProtectionData.
+ORTUNG_API Message protectionMessage(const PoseEstimate& estimate);
 /// Makes the reading of mcl/LOCALIZATION/places, see ClustersData. @param places heaviest first
 ORTUNG_API Message clustersMessage(Timestamp stamp, std::span<const PoseEstimate> places);
 /// Makes the reading of mcl/LOCALIZATION/samples, see SamplesData; if there are more samples than
