@@ -133,6 +133,29 @@ TEST(Recovery, UsualIsWhatReadingsUseToFitWhereTheyFitBest) {
 // It rises with 0.01 a reading, and falls ten times as slowly, whatever the fit where the robot was
 // expected: a crowd that stays with the robot makes the average poor in half a minute, and then any
 // place would do that looks a little like it.
+// Sightings of single landmarks scatter far more than scans of hundreds of beams.
+TEST(Recovery, WhereReadingsScatterAWorseOneIsUsual) {
+  Recovery steady({});
+  Recovery scattering({});
+  for (int i = 0; i < 600; ++i) {
+    steady.followBest(0.85);
+    scattering.followBest(i % 3 == 0 ? 0.7 : 0.85);
+  }
+  EXPECT_FALSE(steady.isUsual(0.7));
+  EXPECT_TRUE(scattering.isUsual(0.7));
+  EXPECT_TRUE(scattering.isUsual(0.69));
+  EXPECT_FALSE(scattering.isUsual(0.6)) << "three times as far off as usual";
+}
+
+// In a crowd that stays, fits are anything but usual, and don't become it.
+TEST(Recovery, ACrowdThatStaysIsNotTakenForScatter) {
+  Recovery recovery({});
+  for (int i = 0; i < 300; ++i) recovery.followBest(0.9);
+  for (int i = 0; i < 100; ++i) recovery.followBest(i % 2 == 0 ? 0.3 : 0.5);
+  EXPECT_FALSE(recovery.isUsual(0.45));
+  EXPECT_GT(recovery.unusual(), 90);
+}
+
 TEST(Recovery, WhatIsUsualRisesSlowlyAndFallsMoreSlowly) {
   Recovery recovery = after({}, {{0.95, 100}});
   for (int i = 0; i < 100; ++i) recovery.followBest(0.95);

@@ -78,13 +78,18 @@ void Recovery::followBest(double fit) {
   last_ = fit;
   lately_ += rateFast_ * (fit - lately_);
   unusual_ = isUsual(fit) ? 0 : unusual_ + 1;
+  // Two on end are no scatter: something has changed.
+  if (unusual_ < 2)
+    scatter_ += rateSlow_ * (std::min(std::abs(fit - *best_), kMostScatter) - scatter_);
   // The fit in a crowd that stays around the robot must not become usual, since then places that
   // fit only a little would be accepted.
   *best_ += (fit < *best_ ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
 }
 
 bool Recovery::isUsual(double best) const {
-  return best >= kUsualFit * best_.value_or(1.0) && best >= kPoorFit;
+  const double usual = best_.value_or(1.0);
+  const double least = std::max(kFallenFit * usual, usual - kScatters * scatter_);
+  return best >= std::min(kUsualFit * usual, least) && best >= kPoorFit;
 }
 
 bool Recovery::callsForSearch() const {

@@ -70,6 +70,7 @@ class ORTUNG_API Recovery {
   double lately_ = 0.0;  ///< its short-term average
   /// Usual best fit: a slow average that falls more slowly than it rises.
   std::optional<double> best_;
+  double scatter_ = 0.0;  ///< by how much best fits usually differ from it
   bool known_ = false;
 };
 

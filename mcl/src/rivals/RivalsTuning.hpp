@@ -145,6 +145,11 @@ ORTUNG_CONSTANT(recovery, kRecoveredFit, 0.8);
 /// [share] Share of the long-term average of best fits above which a best fit is still usual.
 /// Chosen by hand.
 ORTUNG_CONSTANT(recovery, kUsualFit, 0.85);
+/// Number of usual deviations by which a best fit may be below the usual one, where readings
+/// scatter that much.
+ORTUNG_CONSTANT(recovery, kScatters, 3.0);
+/// [share] Greatest deviation that counts as one of a usual reading.
+ORTUNG_CONSTANT(recovery, kMostScatter, 0.25);
 /// Number of readings in a row that fit worse than usual after which a search begins: one may be
 /// random.
 ORTUNG_CONSTANT(recovery, kUnusualReadings, 2);
