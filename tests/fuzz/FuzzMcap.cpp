@@ -79,6 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   readMessage<Range>(text);
   readMessage<Image>(text);
   readMessage<PointCloud>(text);
+  readMessage<DiagnosticArray>(text);
   readMessage<Words>(text);
   return 0;
 }

@@ -105,6 +105,16 @@ TEST(MessageLayout, OfPosesWithCovarianceAndOfArraysOfPoses) {
   EXPECT_EQ(toCdr(poses), two.bytes());
 }
 
+TEST(MessageLayout, OfDiagnostics) {
+  DiagnosticArray array;
+  array.header = {kStamp, ""};
+  array.status = {{DiagnosticArray::Status::kWarn, "n", "m", "", {{"k", "v"}, {"key", "10"}}}};
+  Layout layout;
+  layout.header("").u32(1).u8(1).text("n").text("m").text("").u32(2);
+  layout.text("k").text("v").text("key").text("10");
+  EXPECT_EQ(toCdr(array), layout.bytes());
+}
+
 TEST(MessageLayout, OfOccupancyGrid) {
   OccupancyGrid map;
   map.header = {kStamp, "map"};

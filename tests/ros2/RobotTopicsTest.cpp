@@ -11,6 +11,8 @@
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
+#include "ortung/formats/TrackData.hpp"
 #include "ortung/ros2/RobotTopics.hpp"
 
 namespace ortung::ros2 {
@@ -57,6 +59,57 @@ TEST_F(RobotTopicsTest, AnEstimateHasItsCovarianceInTheRowsOfXYAndHeading) {
   EXPECT_NEAR(pose.covariance[5], 0.002, 1e-5);  // x, heading
   EXPECT_NEAR(pose.covariance[35], 0.01, 1e-6);  // heading, heading
   EXPECT_EQ(pose.covariance[14], 0.0);           // z, z
+}
+
+std::string valueOf(const DiagnosticArray::Status& status, const std::string& key) {
+  for (const auto& [name, value] : status.values)
+    if (name == key) return value;
+  return "none";
+}
+
+TEST_F(RobotTopicsTest, HowFarMclCanBeReliedOnIsADiagnosis) {
+  RobotTopics topics(container_, {.robot = "tim"});
+  const auto status = [&](TrackStatus how, TrackReason why) {
+    const TrackData::Reading track{how, why, 0.75, 0.5, 3, Relocalization::kOtherPlace};
+    auto found =
+        told(topics, {TrackData::message(0, track), ProtectionData::message(0, {0.25, kPi / 180})});
+    EXPECT_EQ(read<Words>(found["/tim/ortung/mcl/LOCALIZATION/status"]).data,
+              TrackData::encode(track))
+        << "its words go out, too";
+    const auto array = read<DiagnosticArray>(found["/diagnostics"]);
+    EXPECT_EQ(array.status.size(), 1U);
+    return array.status.at(0);
+  };
+  const auto good = status(TrackStatus::kTracking, TrackReason::kFits);
+  EXPECT_EQ(good.level, DiagnosticArray::Status::kOk);
+  EXPECT_EQ(good.name, "tim: localization");
+  EXPECT_EQ(good.message, "tracking: readings fit");
+  EXPECT_EQ(valueOf(good, "quality"), "0.75");
+  EXPECT_EQ(valueOf(good, "protection_m"), "0.25");
+  EXPECT_EQ(valueOf(good, "protection_deg"), "1");
+  EXPECT_EQ(valueOf(good, "relocalizations"), "3");
+  EXPECT_EQ(valueOf(good, "relocalization"), "readings fit another place better");
+  EXPECT_EQ(status(TrackStatus::kUncertain, TrackReason::kLate).level,
+            DiagnosticArray::Status::kWarn);
+  EXPECT_EQ(status(TrackStatus::kLost, TrackReason::kSpread).level,
+            DiagnosticArray::Status::kError);
+  EXPECT_TRUE(told(topics, {odometry(1, 0, 0)})["/diagnostics"].empty()) << "told once";
+  auto open = told(topics, {TrackData::message(0, {}), ProtectionData::message(0, {})});
+  EXPECT_EQ(valueOf(read<DiagnosticArray>(open["/diagnostics"]).status.at(0), "protection_m"),
+            "inf");
+  EXPECT_THROW(told(topics, {{0, {"mcl", "LOCALIZATION", "status"}, {9, 9, 9, 9}}}),
+               std::invalid_argument);
+}
+
+TEST_F(RobotTopicsTest, TheSmoothPoseIsInTheMap) {
+  RobotTopics topics(container_, {});
+  auto found = told(
+      topics, {{0, {"mcl", "LOCALIZATION", "smooth"}, PoseData::encode({1.5, -2.0, kPi / 2})}});
+  const auto pose = read<PoseStamped>(found["/smooth_pose"]);
+  EXPECT_EQ(pose.header.frame, "map");
+  EXPECT_NEAR(toPose2(pose.pose).x, 1.5, 1e-9);
+  EXPECT_NEAR(toPose2(pose.pose).theta, kPi / 2, 1e-4);
+  EXPECT_FALSE(found["/ortung/mcl/LOCALIZATION/smooth"].empty());
 }
 
 TEST_F(RobotTopicsTest, SamplesArePosesInTheMap) {

@@ -34,7 +34,7 @@ std::string knownSchemaPart(std::string_view type) {
          {ros2::LaserScan::kType, ros2::Odometry::kType, ros2::TfMessage::kType,
           ros2::PoseStamped::kType, ros2::PoseWithCovarianceStamped::kType, ros2::PoseArray::kType,
           ros2::OccupancyGrid::kType, ros2::Range::kType, ros2::Image::kType,
-          ros2::PointCloud::kType, ros2::Words::kType})
+          ros2::PointCloud::kType, ros2::DiagnosticArray::kType, ros2::Words::kType})
       parts.emplace(one, schemaPart(one));
     return parts;
   }();

@@ -115,6 +115,25 @@ void fields(A& a, Is<Image> auto& m) {
 }
 
 template <class A>
+void fields(A& a, Is<DiagnosticArray::KeyValue> auto& m) {
+  a(m.key);
+  a(m.value);
+}
+template <class A>
+void fields(A& a, Is<DiagnosticArray::Status> auto& m) {
+  a(m.level);
+  a(m.name);
+  a(m.message);
+  a(m.hardwareId);
+  a(m.values);
+}
+template <class A>
+void fields(A& a, Is<DiagnosticArray> auto& m) {
+  a(m.header);
+  a(m.status);
+}
+
+template <class A>
 void fields(A& a, Is<PointCloud::Field> auto& m) {
   a(m.name);
   a(m.offset);

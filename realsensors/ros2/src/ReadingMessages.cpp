@@ -1,8 +1,11 @@
 #include "ReadingMessages.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/camera/ImageData.hpp"
@@ -21,6 +24,13 @@ float rangeOf(std::uint32_t word, double maxRange) {
   const double range = words::toMetres(word);
   if (word == 0) return std::numeric_limits<float>::quiet_NaN();
   return range >= maxRange ? std::numeric_limits<float>::infinity() : static_cast<float>(range);
+}
+
+/// Returns a number for people; "inf" for what is unbounded.
+std::string numberText(double number) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", number);
+  return text.data();
 }
 
 }  // namespace
@@ -140,6 +150,24 @@ PoseArray samplesMessage(const Message& reading, Header header) {
                                    words::toSignedMetres(reading.words[i + 1]),
                                    radians(reading.words[i + 2] % words::kAngles / 100.0)}));
   return out;
+}
+
+DiagnosticArray diagnosticsMessage(const TrackData::Reading& track,
+                                   const ProtectionData::Reading& bound, const std::string& name,
+                                   Header header) {
+  using Level = DiagnosticArray::Status::Level;
+  constexpr Level kLevels[] = {Level::kOk, Level::kWarn, Level::kError};
+  DiagnosticArray::Status status;
+  status.level = kLevels[static_cast<std::size_t>(track.status)];
+  status.name = name;
+  status.message = std::string(nameOf(track.status)) + ": " + nameOf(track.reason);
+  status.values = {{"quality", numberText(track.quality)},
+                   {"share", numberText(track.share)},
+                   {"protection_m", numberText(bound.metres)},
+                   {"protection_deg", numberText(degrees(bound.radians))},
+                   {"relocalizations", std::to_string(track.relocalizations)},
+                   {"relocalization", nameOf(track.relocalization)}};
+  return {std::move(header), {std::move(status)}};
 }
 
 }  // namespace ortung::ros2

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "ortung/base/Time.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/ScanData.hpp"
+#include "ortung/formats/TrackData.hpp"
 #include "ortung/ros2/Messages.hpp"
 
 // Converts readings to messages of ROS 2. The feature has checked the words, except for the
@@ -33,5 +36,10 @@ Image imageMessage(const Message& reading, Header header);
 /// Converts the first fix; nothing if there is none.
 std::optional<PoseWithCovarianceStamped> poseMessage(const Message& reading, Header header);
 PoseArray samplesMessage(const Message& reading, Header header);
+/// How far a localization can be relied on: OK while tracking, WARN while uncertain, else ERROR.
+/// @param name of the localization among all parts of the robot
+DiagnosticArray diagnosticsMessage(const TrackData::Reading& track,
+                                   const ProtectionData::Reading& bound, const std::string& name,
+                                   Header header);
 
 }  // namespace ortung::ros2

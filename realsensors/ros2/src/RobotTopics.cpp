@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "ReadingMessages.hpp"
 #include "ortung/camera/ImageData.hpp"
@@ -12,7 +13,9 @@
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/ScanData.hpp"
+#include "ortung/formats/TrackData.hpp"
 
 namespace ortung::ros2 {
 namespace {
@@ -21,6 +24,9 @@ constexpr const char* kMap = "map";
 constexpr const char* kTruths = "*/groundTruth/*";
 const SensorId kEstimate{"mcl", "LOCALIZATION", "pose"};
 const SensorId kSamples{"mcl", "LOCALIZATION", "samples"};
+const SensorId kSmooth{"mcl", "LOCALIZATION", "smooth"};
+const SensorId kTrack{"mcl", "LOCALIZATION", "status"};
+const SensorId kProtection{"mcl", "LOCALIZATION", "protection"};
 
 /// Part of a name as ROS has them: letters, digits and '_', no digit first.
 std::string cleaned(const std::string& name) {
@@ -55,9 +61,13 @@ struct RobotTopics::Parts {
   std::vector<Topic> topics;
   std::set<std::string> names;
   std::map<std::string, Route> routes;  ///< by feature
-  std::size_t tf = 0, tfStatic = 0, map = 0, pose = 0, samples = 0, truth = 0;
+  std::size_t tf = 0, tfStatic = 0, map = 0, pose = 0, smooth = 0, samples = 0, truth = 0,
+              diagnostics = 0;
+  std::string part;      ///< name of the localization, for diagnostics
   std::string odometry;  ///< the feature that the frame of odometry is of; "": none
   std::optional<Pose2> inOdometry, newTruth, newEstimate;
+  std::optional<TrackData::Reading> newTrack;
+  ProtectionData::Reading bound;  ///< the newest one
   bool isEstimated = false;
   std::map<std::string, std::size_t> words;  ///< topic by feature
 
@@ -78,8 +88,10 @@ struct RobotTopics::Parts {
   std::size_t addWords(const SensorId& id);
   void take(const Message& message, const Sink& sink);
   void sendWords(const Message& message, const Sink& sink);
+  void noteTrust(const Message& message, const Sink& sink);
   bool takeOwn(const Message& message, std::int64_t stamp, const Sink& sink);
   void sendTransforms(Timestamp stamp, const Sink& sink);
+  void sendDiagnostics(Timestamp stamp, const Sink& sink);
 };
 
 namespace {
@@ -151,6 +163,7 @@ RobotTopics::RobotTopics(const SensorContainer& container, const Options& option
     p.frameStart = cleaned(options.robot) + "/";
     p.topicStart = "/" + cleaned(options.robot);
   }
+  p.part = (options.robot.empty() ? "" : options.robot + ": ") + "localization";
   p.odom = p.frameStart + "odom";
   p.base = p.frameStart + "base_link";
   p.tfStatic = p.addTopic("/tf_static", TfMessage::kType, true);
@@ -160,6 +173,8 @@ RobotTopics::RobotTopics(const SensorContainer& container, const Options& option
   p.truth = p.addTopic(p.topicStart + "/ground_truth", PoseStamped::kType);
   p.pose = p.addTopic(p.topicStart + "/pose", PoseWithCovarianceStamped::kType, false,
                       toText(kEstimate));
+  p.smooth = p.addTopic(p.topicStart + "/smooth_pose", PoseStamped::kType);
+  p.diagnostics = p.addTopic("/diagnostics", DiagnosticArray::kType);
   p.samples = p.addTopic(p.topicStart + "/particle_cloud", PoseArray::kType);
 }
 
@@ -173,6 +188,8 @@ std::vector<std::string> RobotTopics::featuresOf(std::size_t topic) const {
   const Parts& p = *parts_;
   if (topic == p.truth) return {kTruths};
   if (topic == p.samples) return {toText(kSamples)};
+  if (topic == p.smooth) return {toText(kSmooth)};
+  if (topic == p.diagnostics) return {toText(kTrack), toText(kProtection)};
   if (topic == p.tf) {
     std::vector<std::string> features{kTruths, toText(kEstimate)};
     if (!p.odometry.empty()) features.push_back(p.odometry);
@@ -220,9 +237,28 @@ bool RobotTopics::Parts::takeOwn(const Message& message, std::int64_t stamp, con
   return true;
 }
 
+/// Notes how far MCL can be relied on. Its words go out, too.
+void RobotTopics::Parts::noteTrust(const Message& message, const Sink& sink) {
+  if (message.id == kSmooth) {
+    PoseData data(message.id);
+    data.setData(message.stamp, message.words);
+    const Header inMap{rosTime(message.stamp), kMap};
+    sink(smooth, message.stamp, toCdr(PoseStamped{inMap, fromPose2(data.reading())}));
+  } else if (message.id == kTrack) {
+    TrackData track;
+    track.setData(message.stamp, message.words);
+    newTrack = track.reading();
+  } else if (message.id == kProtection) {
+    ProtectionData protection;
+    protection.setData(message.stamp, message.words);
+    bound = protection.reading();
+  }
+}
+
 void RobotTopics::Parts::take(const Message& message, const Sink& sink) {
   const std::int64_t stamp = rosTime(message.stamp);
   if (takeOwn(message, stamp, sink)) return;
+  noteTrust(message, sink);
   const std::string feature = toText(message.id);
   const auto found = routes.find(feature);
   if (found == routes.end()) return sendWords(message, sink);
@@ -284,11 +320,20 @@ void RobotTopics::Parts::sendTransforms(Timestamp stamp, const Sink& sink) {
   if (!moved.transforms.empty()) sink(tf, stamp, toCdr(moved));
 }
 
+/// How far MCL's newest estimate can be relied on, if that was told anew.
+void RobotTopics::Parts::sendDiagnostics(Timestamp stamp, const Sink& sink) {
+  if (!newTrack) return;
+  sink(diagnostics, stamp,
+       toCdr(diagnosticsMessage(*std::exchange(newTrack, std::nullopt), bound, part,
+                                {rosTime(stamp), ""})));
+}
+
 void RobotTopics::take(std::span<const Message> frame, const Sink& sink) {
   for (const Message& message : frame) parts_->take(message, sink);
   bool isMoved = parts_->newTruth || parts_->newEstimate;
   for (const Message& message : frame) isMoved |= toText(message.id) == parts_->odometry;
   if (isMoved) parts_->sendTransforms(frame.front().stamp, sink);
+  if (!frame.empty()) parts_->sendDiagnostics(frame.front().stamp, sink);
 }
 
 }  // namespace ortung::ros2

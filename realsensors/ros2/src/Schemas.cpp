@@ -81,6 +81,14 @@ constexpr Definition kDefinitions[] = {
      "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
      "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
      {"std_msgs/Header", "sensor_msgs/PointField"}},
+    {"diagnostic_msgs/KeyValue", "string key\nstring value\n", {}},
+    {"diagnostic_msgs/DiagnosticStatus",
+     "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\n"
+     "string message\nstring hardware_id\ndiagnostic_msgs/KeyValue[] values\n",
+     {"diagnostic_msgs/KeyValue"}},
+    {"diagnostic_msgs/DiagnosticArray",
+     "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n",
+     {"std_msgs/Header", "diagnostic_msgs/DiagnosticStatus"}},
     {"std_msgs/MultiArrayDimension", "string label\nuint32 size\nuint32 stride\n", {}},
     {"std_msgs/MultiArrayLayout",
      "std_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n",

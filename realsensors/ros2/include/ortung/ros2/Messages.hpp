@@ -144,6 +144,24 @@ struct PointCloud {
   bool isDense = true;  ///< no coordinate is NaN
 };
 
+/// How parts of a robot are, for people and for those who stop it: at /diagnostics.
+struct DiagnosticArray {
+  static constexpr std::string_view kType = "diagnostic_msgs/msg/DiagnosticArray";
+  struct KeyValue {
+    std::string key, value;
+  };
+  struct Status {
+    enum Level : std::uint8_t { kOk, kWarn, kError, kStale };
+    std::uint8_t level = kStale;
+    std::string name;        ///< of the part
+    std::string message;     ///< how it is
+    std::string hardwareId;  ///< of the device; "": none
+    std::vector<KeyValue> values;
+  };
+  Header header;
+  std::vector<Status> status;
+};
+
 /// Numbers that have no other message.
 struct Words {
   static constexpr std::string_view kType = "std_msgs/msg/UInt32MultiArray";
