@@ -1,9 +1,11 @@
 // Do the page's tests notice? Changes it at places drawn at random, one at a time, and runs the unit tests, then those in
 // Chromium, until one fails.
 //   node dev/mutate.mjs [--mutants 33] [--seed 1] [--report ../../../docs/testing.md]
+// A run that was cut goes on where it was, if page and seed are the same.
 // Stryker's instrumenter finds the places (all but texts) and puts each change behind a switch; a build has them all.
 import { spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
 import { createRequire } from "node:module";
 import { dirname, join, relative } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
@@ -108,8 +110,14 @@ const without = firstFailure();
 if (without) throw new Error(`without a mutant the ${without} fail`);
 const drawn = draw(known, Number(values.mutants), values.seed);
 const survivors = [];
+const content = createHash("sha256");
+for (const { name, content: text } of [...files, ...tests.map((name) => ({ name, content: readFileSync(name) }))]) content.update(name).update(text);
+const doneFile = join(work, `done-${content.digest("hex").slice(0, 16)}.json`);
+const done = existsSync(doneFile) ? JSON.parse(readFileSync(doneFile, "utf8")) : {};
 for (const [i, mutant] of drawn.entries()) {
-  const by = firstFailure(mutant.id);
+  if (!(mutant.id in done)) done[mutant.id] = firstFailure(mutant.id) ?? null;
+  writeFileSync(doneFile, JSON.stringify(done));
+  const by = done[mutant.id];
   const { line } = mutant.location.start;
   const place = `${relative(root, mutant.fileName)}:${line + 1}`;
   const text = readFileSync(mutant.fileName, "utf8").split("\n")[line].trim().slice(0, 90);
