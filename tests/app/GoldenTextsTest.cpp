@@ -68,11 +68,11 @@ TEST(GoldenTexts, EstimatesOfPoses) {
   PoseEstimate estimate;
   std::string text(kEstimatesHeader);
   appendEstimate(estimate, text);
-  estimate = {-1500000,
-              {1.23456, -2.5, -3.14159265},
-              {1e-4, 2e-7, 3, 4, 5e10, 6, 7, 8, 0.09},
-              0.98765,
-              100000};
+  estimate.stamp = -1500000;
+  estimate.pose = {1.23456, -2.5, -3.14159265};
+  estimate.covariance = {1e-4, 2e-7, 3, 4, 5e10, 6, 7, 8, 0.09};
+  estimate.share = 0.98765;
+  estimate.samples = 100000;
   appendEstimate(estimate, text);
   expectGolden("estimates.txt", text);
 
@@ -83,6 +83,9 @@ TEST(GoldenTexts, EstimatesOfPoses) {
 
   text = "";
   estimate.protection = {0.0125, 0.25};
+  estimate.smooth = {1.25, -2.5, -3.125};
+  estimate.relocalizations = 7;
+  estimate.relocalization = Relocalization::kOtherPlace;
   appendEstimateJson(estimate, 2.0625, text);
   estimate.protection = kUnbounded;
   estimate.covariance[0] = std::numeric_limits<double>::infinity();
