@@ -118,7 +118,8 @@ TEST(Intake, FewWordsMayComeAgainOnAShortWay) {
 }
 
 TEST(Intake, FewWordsAndThoseThatAreAllEqualMayComeAgain) {
-  for (const Words& words : {countedFrom(1000, 5), Words(15, 30000), Words(181, 30000), Words(181, 0), Words()}) {
+  for (const Words& words :
+       {countedFrom(1000, 5), Words(15, 30000), Words(181, 30000), Words(181, 0), Words()}) {
     Robot robot;
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(robot.reads(words, 0.1 * i)) << words.size();
     EXPECT_EQ(robot.intake.frozen(), nullptr) << words.size();
