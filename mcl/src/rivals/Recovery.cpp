@@ -77,7 +77,7 @@ void Recovery::followBest(double fit) {
   if (!best_) best_ = lately_ = fit;
   last_ = fit;
   lately_ += rateFast_ * (fit - lately_);
-  unusual_ = isUsual(fit) ? 0 : unusual_ + 1;
+  unusual_ = isUsual(fit) || isOfScatter(fit) ? 0 : unusual_ + 1;
   // Two on end are no scatter: something has changed.
   if (unusual_ < 2)
     scatter_ += rateSlow_ * (std::min(std::abs(fit - *best_), kMostScatter) - scatter_);
@@ -87,9 +87,13 @@ void Recovery::followBest(double fit) {
 }
 
 bool Recovery::isUsual(double best) const {
-  const double usual = best_.value_or(1.0);
-  const double least = std::max(kFallenFit * usual, usual - kScatters * scatter_);
-  return best >= std::min(kUsualFit * usual, least) && best >= kPoorFit;
+  return best >= kUsualFit * best_.value_or(1.0) && best >= kPoorFit;
+}
+
+/// Where readings scatter, a worse one where the robot is known to be is no evidence. Where it was
+/// not known to be, it would be none for that place, either.
+bool Recovery::isOfScatter(double best) const {
+  return best >= std::max(kPoorFit, kFallenFit * *best_) && best >= *best_ - kScatters * scatter_;
 }
 
 bool Recovery::callsForSearch() const {

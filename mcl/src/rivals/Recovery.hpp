@@ -58,6 +58,7 @@ class ORTUNG_API Recovery {
   bool isUsual(double best) const;
 
  private:
+  bool isOfScatter(double best) const;
   bool fitsBadly() const;  ///< whether readings fit badly where the robot was expected
   double rateFast_;
   double rateSlow_;
