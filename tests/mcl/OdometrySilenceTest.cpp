@@ -28,12 +28,25 @@ TEST(OdometrySilence, OdometryThatComesRarelyIsNotMissingBetweenTwo) {
   EXPECT_EQ(silence.since(fromSeconds(13.1)), fromSeconds(10.0));
 }
 
-// Ten cycles after a slow one, patience is short again.
-TEST(OdometrySilence, WhatIsUsualIsForgottenSlowly) {
+// A robot whose odometry stops for a second now and then is not silent the next time.
+TEST(OdometrySilence, WhatIsUsualIsForgottenOverAMinute) {
   OdometrySilence silence = heard(1.0, 2, 10.0);
-  for (int i = 1; i <= 20; ++i) silence.hear(fromSeconds(10.0 + 0.05 * i));
-  EXPECT_FALSE(silence.since(fromSeconds(11.0 + 0.36)));
-  EXPECT_TRUE(silence.since(fromSeconds(11.0 + 0.37)));  // 3 * 0.9^20 = 0.365
+  for (int i = 1; i <= 1200; ++i) silence.hear(fromSeconds(10.0 + 0.05 * i));
+  EXPECT_FALSE(silence.since(fromSeconds(70.0 + 1.10)));
+  EXPECT_TRUE(silence.since(fromSeconds(70.0 + 1.11)));  // 3 / e
+}
+
+TEST(OdometrySilence, ShortOnesAreBridged) {
+  OdometrySilence silence = heard(0.05, 20, 10.0);
+  EXPECT_FALSE(silence.isBridged(fromSeconds(10.0)));
+  silence.hear(fromSeconds(11.9));
+  for (int i = 1; i < 10; ++i) silence.hear(fromSeconds(11.9 + 0.05 * i));
+  EXPECT_TRUE(silence.isBridged(fromSeconds(11.0)));
+  EXPECT_FALSE(silence.isBridged(fromSeconds(9.9)));
+  EXPECT_FALSE(silence.isBridged(fromSeconds(12.0)));
+  silence.hear(fromSeconds(60.0));
+  EXPECT_FALSE(silence.isBridged(fromSeconds(30.0))) << "who knows what happened meanwhile";
+  EXPECT_FALSE(silence.isBridged(fromSeconds(11.0)));
 }
 
 TEST(OdometrySilence, ItsEndSaysNothingOfWhatIsUsual) {

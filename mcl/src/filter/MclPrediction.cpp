@@ -95,6 +95,9 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
   Predicted predicted{stamp};
   const std::optional<Timestamp> silent = isNear(stamp) ? silentSince(stamp) : std::nullopt;
   const std::optional<Pose2> now = parts.lateness.odometryAt(silent.value_or(stamp));
+  const Timestamp delay = fromSeconds(parts.lateness.seconds());
+  if (!reached.odometry && reached.stamp && intake.isBridged(*reached.stamp - delay))
+    reached.odometry = parts.lateness.odometryAt(*reached.stamp);
   track->isBlind = !reached.odometry;
   if (track->isBlind) moveBlindly(stamp);
   if (now) moveBy(*now);

@@ -55,6 +55,8 @@ class ORTUNG_API Intake {
   std::optional<Timestamp> odometrySilentSince(Timestamp stamp) const {
     return silence_.since(stamp);
   }
+  /// Returns whether odometry was silent at @p stamp for a short time, which is over.
+  bool isBridged(Timestamp stamp) const { return silence_.isBridged(stamp); }
   /// Returns a feature whose readings repeat themselves though the robot moves; null: none.
   const SensorData* frozen() const { return frozen_.first(); }
 

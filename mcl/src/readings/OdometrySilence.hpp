@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Time.hpp"
@@ -18,9 +19,16 @@ class ORTUNG_API OdometrySilence {
   /// stamp of the newest one. Nothing: it is no older than usual, or there never was any.
   std::optional<Timestamp> since(Timestamp stamp) const;
 
+  /// Returns whether odometry was silent at @p stamp, but for so short a time that what it says
+  /// before and after tells how the robot moved meanwhile.
+  bool isBridged(Timestamp stamp) const;
+
  private:
+  double patience() const;  ///< greatest age that is no silence [s]
+
   std::optional<Timestamp> newest_;
-  double usual_ = 0.0;  ///< usual time between two of them [s]
+  std::optional<std::pair<Timestamp, Timestamp>> ended_;  ///< begin and end of the last silence
+  double usual_ = 0.0;  ///< longest time between two of them lately [s]
 };
 
 }  // namespace ortung

@@ -27,8 +27,12 @@ namespace silence {
 /// [s] Least age at which odometry is missing; motion models carry it on for as long. A few cycles
 /// of any base.
 ORTUNG_CONSTANT(silence, kPatience, 0.3);
-/// [s] Least time between two of them that is a silence, however rarely they come. Chosen by hand.
+/// [s] Least time between two of them that is a silence, however rarely they come, and over which
+/// a robot's motion is not known from them. Chosen by hand.
 ORTUNG_CONSTANT(silence, kLongest, 2.0);
+/// [s] Time in which a long one of these times is forgotten. By ds6, whose odometry comes 67 times
+/// a second, and stops for 0.3 to 1 s once in three seconds.
+ORTUNG_CONSTANT(silence, kForgotten, 60.0);
 
 }  // namespace silence
 
