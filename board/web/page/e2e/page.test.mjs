@@ -73,6 +73,7 @@ describe("the page of a match", () => {
     const page = await openPage(browser, program.url);
     await robot(page, "blue2").waitFor();
     assert.equal(await page.getByRole("img", { name: /^(blue|yellow)\d at / }).count(), 8);
+    assert.equal(await page.locator(".landmark").count(), 4, "posts; goals are drawn as such");
     await client.ask("PAUSE");
     const truth = await client.pose(2);
     // What the robot sensed last is from the beginning of the cycle, so they differ by a cycle's way.
@@ -293,6 +294,19 @@ describe("the page of a game without players", () => {
     await page.getByRole("combobox", { name: "Speed", exact: true }).selectOption("10");
     await until("it has scored", async () => Number(await page.locator(".top .score b").first().textContent()) > 0, 90);
     await page.getByText("goal blue").first().waitFor();
+    assert.deepEqual(page.problems, []);
+    await page.close();
+    await program.stop();
+  });
+
+  it("has a button for each state of a manipulator", async () => {
+    const program = await startProgram(["sim", "maps/scenes/kick.toml"]);
+    const page = await openPage(browser, `${program.url}&panel=robots&robot=1`);
+    const kicker = page.getByRole("group", { name: "kicker" });
+    await kicker.waitFor();
+    assert.deepEqual(await kicker.getByRole("button").allTextContents(), ["rest", "kick", "pass"]);
+    await kicker.getByRole("button", { name: "kick" }).click();
+    await page.getByText("MANIPULATOR kicker kick robot=1").first().waitFor();
     assert.deepEqual(page.problems, []);
     await page.close();
     await program.stop();
