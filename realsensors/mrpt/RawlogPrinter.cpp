@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
@@ -37,6 +38,15 @@ Pose2 flat(const mrpt::poses::CPose3D& pose) { return {pose.x(), pose.y(), pose.
 Pose2 flat(const mrpt::poses::CPose2D& pose) { return {pose.x(), pose.y(), pose.phi()}; }
 
 bool isLength(double metres) { return std::isfinite(metres) && metres > 0; }
+
+/// MRPT reads the flag as the byte that the file has, which may be neither 0 nor 1: no bool may be
+/// made of that.
+bool isRightToLeft(const mrpt::obs::CObservation2DRangeScan& scan) {
+  unsigned char byte = 0;
+  static_assert(sizeof scan.rightToLeft == sizeof byte);
+  std::memcpy(&byte, &scan.rightToLeft, sizeof byte);
+  return byte != 0;
+}
 
 }  // namespace
 
@@ -121,8 +131,9 @@ void RawlogPrinter::printScan(const mrpt::obs::CObservation2DRangeScan& scan) {
     return;
   }
   std::vector<std::uint32_t> ranges(beams, 0);  // 0: no valid measurement
+  const bool isFromTheRight = isRightToLeft(scan);
   for (std::size_t i = 0; i < beams; ++i) {
-    const std::size_t beam = scan.rightToLeft ? i : beams - 1 - i;
+    const std::size_t beam = isFromTheRight ? i : beams - 1 - i;
     const double range = scan.getScanRange(i);
     if (scan.getScanRangeValidity(i) && isLength(range)) ranges[beam] = words::fromMetres(range);
   }

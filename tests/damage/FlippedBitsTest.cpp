@@ -249,6 +249,22 @@ constexpr std::string_view kRawlog =
 
 constexpr rlim_t kForMrpt = rlim_t{16} << 30;  // its libraries take 1.2 GB, it has limits itself
 
+// Found by flipping all bits: in which order the beams came is a byte that is neither 0 nor 1.
+TEST(FlippedBits, AFlagOfARawlogIsAnyByte) {
+  try {
+    findHelper("ortung-mrpt-reader", "");
+  } catch (const std::runtime_error&) {
+    GTEST_SKIP() << "ortung-mrpt-reader was not built (ORTUNG_MRPT)";
+  }
+  const TemporaryFolder folder;
+  std::string bytes = fromHex(kRawlog);
+  constexpr std::size_t kFlag = 136;
+  ASSERT_EQ(bytes[kFlag], 1);
+  bytes[kFlag] = 5;
+  writeBytes(folder / "a.rawlog", bytes);
+  EXPECT_NO_THROW(readToTheEnd("rawlog", folder / "a.rawlog"));
+}
+
 // The reader is a program of its own, which takes a tenth of a second to start: some bits here, all
 // of them with ORTUNG_LONG_TESTS=1.
 TEST(FlippedBits, OfARawlog) {
