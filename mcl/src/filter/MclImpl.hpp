@@ -88,6 +88,8 @@ struct Mcl::Impl {
   std::uint64_t stream(Purpose purpose) const {
     return step * static_cast<std::uint64_t>(Purpose::kCount) + static_cast<std::uint64_t>(purpose);
   }
+  /// Returns by how much readings' stamps are late.
+  Timestamp delay() const { return fromSeconds(parts.lateness.seconds()); }
   Random random(Purpose purpose) const { return Random(tools.config.seed, stream(purpose)); }
 
   // Public functions and their helpers.

@@ -39,9 +39,8 @@ double Mcl::Impl::secondsAlone(Timestamp stamp) const {
 
 /// Returns since when odometry has been missing for a reading with this stamp, by readings' clock.
 std::optional<Timestamp> Mcl::Impl::silentSince(Timestamp stamp) const {
-  const Timestamp delay = fromSeconds(parts.lateness.seconds());
-  const std::optional<Timestamp> since = intake.odometrySilentSince(stamp - delay);
-  return since ? std::optional(*since + delay) : std::nullopt;
+  const std::optional<Timestamp> since = intake.odometrySilentSince(stamp - delay());
+  return since ? std::optional(*since + delay()) : std::nullopt;
 }
 
 /// Returns whether a reading comes soon after what was heard before. If it doesn't, its stamp may
@@ -95,8 +94,7 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
   Predicted predicted{stamp};
   const std::optional<Timestamp> silent = isNear(stamp) ? silentSince(stamp) : std::nullopt;
   const std::optional<Pose2> now = parts.lateness.odometryAt(silent.value_or(stamp));
-  const Timestamp delay = fromSeconds(parts.lateness.seconds());
-  if (!reached.odometry && reached.stamp && intake.isBridged(*reached.stamp - delay))
+  if (!reached.odometry && reached.stamp && intake.isBridged(*reached.stamp - delay()))
     reached.odometry = parts.lateness.odometryAt(*reached.stamp);
   track->isBlind = !reached.odometry;
   if (track->isBlind) moveBlindly(stamp);
