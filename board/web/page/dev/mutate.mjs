@@ -1,7 +1,7 @@
 // Do the page's tests notice? Changes it at places drawn at random, one at a time, and runs the unit tests, then those in
 // Chromium, until one fails.
 //   node dev/mutate.mjs [--mutants 33] [--seed 1] [--report ../../../docs/testing.md]
-// A run that was cut goes on where it was, if page and seed are the same.
+// A run that was cut goes on where it was, if the page and its tests are the same.
 // Stryker's instrumenter finds the places (all but texts) and puts each change behind a switch; a build has them all.
 import { spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
@@ -111,7 +111,7 @@ if (without) throw new Error(`without a mutant the ${without} fail`);
 const drawn = draw(known, Number(values.mutants), values.seed);
 const survivors = [];
 const content = createHash("sha256");
-for (const { name, content: text } of [...files, ...tests.map((name) => ({ name, content: readFileSync(name) }))]) content.update(name).update(text);
+for (const name of [...files.map((file) => file.name), ...sources(join(page, "test")), ...tests]) content.update(name).update(readFileSync(name));
 const doneFile = join(work, `done-${content.digest("hex").slice(0, 16)}.json`);
 const done = existsSync(doneFile) ? JSON.parse(readFileSync(doneFile, "utf8")) : {};
 for (const [i, mutant] of drawn.entries()) {
