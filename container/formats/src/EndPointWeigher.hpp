@@ -4,13 +4,17 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "ScanTrace.hpp"
 #include "SurfaceFit.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/BlurrableWeigher.hpp"
 #include "ortung/core/Polishable.hpp"
+#include "ortung/core/Traceable.hpp"
 #include "ortung/tables/EndPointField.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
@@ -44,12 +48,14 @@ struct EndPointTables {
 
 /// Weighs samples by points that should lie where an end-point field was marked: ends of a scan's
 /// beams, points on lines.
-class EndPointWeigher final : public BlurrableWeigher, public Polishable {
+class EndPointWeigher final : public BlurrableWeigher, public Polishable, public Traceable {
  public:
   /// @param mount of the sensor that sees the points
   EndPointWeigher(std::shared_ptr<const EndPointTables> tables, const Pose2& mount);
   void add(double range, double bearing);
   bool isEmpty() const { return endX_.empty(); }
+  /// Sets the reading's beams as they lie in the field, if points end beams.
+  void setTrace(ScanTrace trace) { trace_.emplace(std::move(trace)); }
 
   /// Points are rounded to cells of the field: of headings, that is a cell's width seen from as far
   /// as they are. Positions are told no better than by other tables, since what was marked is as
@@ -59,6 +65,12 @@ class EndPointWeigher final : public BlurrableWeigher, public Polishable {
   std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override;
   double nominalNanoseconds() const override;
   Slope slopeAt(const Pose2& pose) const override { return fit_.slopeAt(pose); }
+  void trace(const Pose2& pose, std::vector<TracedBeam>& beams) const override {
+    if (trace_) trace_->trace(pose, beams);
+  }
+  std::shared_ptr<const Weigher> without(const std::vector<bool>& dropped) const override {
+    return trace_ ? trace_->without(dropped) : nullptr;
+  }
 
  private:
   /// The floor for each point where the sensor is outside of the region.
@@ -74,6 +86,7 @@ class EndPointWeigher final : public BlurrableWeigher, public Polishable {
   std::vector<float> ranges_;         ///< ranges from the sensor [m]
   float floor_;                       ///< ln p of a point that fits nowhere
   SurfaceFit fit_;
+  std::optional<ScanTrace> trace_;
   /// Of a blurred one, by noise in steps: endLog_ points here.
   std::map<int, EndPointTables::LogByLevel> ownLogs_;
 };

@@ -4,13 +4,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ScanCost.hpp"
+#include "ScanTrace.hpp"
 #include "SurfaceFit.hpp"
 #include "ortung/core/BlurrableWeigher.hpp"
 #include "ortung/core/Polishable.hpp"
+#include "ortung/core/Traceable.hpp"
 #include "ortung/tables/DirectionTable.hpp"
 #include "ortung/tables/RangeScale.hpp"
 #include "ortung/tables/SensorModel.hpp"
@@ -19,7 +23,7 @@ namespace ortung {
 
 /// A scan in the terms of a ray table: for each direction of the run the nearest beam. Expectations
 /// are interpolated between the table's cells and directions, unless the poses are spread anyway.
-class RayWeigher final : public BlurrableWeigher, public Polishable {
+class RayWeigher final : public BlurrableWeigher, public Polishable, public Traceable {
  public:
   /// @param run number of the table's directions that the scan spans
   /// @param spread standard deviations of the poses that each sample stands for
@@ -31,10 +35,18 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
   void add(std::size_t at, double range, const RangeScale& scale);
   /// Is called when all beams are added. @returns whether any of them has information
   bool complete();
+  /// Sets the reading's beams as they lie in the field.
+  void setTrace(ScanTrace trace) { trace_.emplace(std::move(trace)); }
 
   std::shared_ptr<const BlurrableWeigher> blurred(const PoseResolution& spread) const override;
   double nominalNanoseconds() const override;
   Slope slopeAt(const Pose2& pose) const override { return fit_.slopeAt(pose); }
+  void trace(const Pose2& pose, std::vector<TracedBeam>& beams) const override {
+    if (trace_) trace_->trace(pose, beams);
+  }
+  std::shared_ptr<const Weigher> without(const std::vector<bool>& dropped) const override {
+    return trace_ ? trace_->without(dropped) : nullptr;
+  }
 
  private:
   struct Beam {
@@ -71,6 +83,7 @@ class RayWeigher final : public BlurrableWeigher, public Polishable {
   int shift_ = 0;
   std::array<std::uint8_t, kLevelDifferences> costs_{};
   SurfaceFit fit_;
+  std::optional<ScanTrace> trace_;
   std::uint32_t floorCost_ = 0;  ///< cost of a sample without expectation
   /// Levels, or parts of a level, per sigma, by direction; zero: no beam.
   std::vector<double> levelsPerSigma_;

@@ -11,6 +11,20 @@
 namespace ortung {
 namespace {
 
+/// Returns null if no beam has an end.
+std::shared_ptr<EndPointWeigher> weigherOf(const std::shared_ptr<const EndPointTables>& tables,
+                                           const Pose2& mount, const ScanData::Config& config,
+                                           std::span<const float> ranges) {
+  auto weigher = std::make_shared<EndPointWeigher>(tables, mount);
+  const int thin = config.usedBeams > 0 ? std::max(1, config.beams / config.usedBeams) : 1;
+  for (int i = 0; i < config.beams; i += thin) {
+    const float range = ranges[static_cast<std::size_t>(i)];
+    if (!std::isfinite(range)) continue;  // a beam without a hit has no end
+    weigher->add(static_cast<double>(range), config.firstAngle + i * config.angleStep);
+  }
+  return weigher->isEmpty() ? nullptr : weigher;
+}
+
 class ScanEndPoints final : public EndPointExpectations {
  public:
   ScanEndPoints(const ScanData& scan, const ScanData::Config& config)
@@ -56,15 +70,14 @@ class ScanEndPoints final : public EndPointExpectations {
   }
 
   std::shared_ptr<const Weigher> weigher() const override {
-    const ScanData::Config& config = scan_.config();
-    auto weigher = std::make_shared<EndPointWeigher>(tables(), scan_.mount());
-    const int thin = config.usedBeams > 0 ? std::max(1, config.beams / config.usedBeams) : 1;
-    for (int i = 0; i < config.beams; i += thin) {
-      const float range = scan_.ranges()[static_cast<std::size_t>(i)];
-      if (!std::isfinite(range)) continue;  // a beam without a hit has no end
-      weigher->add(static_cast<double>(range), config.firstAngle + i * config.angleStep);
-    }
-    return weigher->isEmpty() ? nullptr : weigher;
+    const auto weigher = weigherOf(tables(), scan_.mount(), scan_.config(), scan_.ranges());
+    if (weigher)
+      weigher->setTrace({tables()->surfaces, scan_.mount(), scan_.config(), scan_.ranges(),
+                         [tables = tables(), mount = scan_.mount(),
+                          config = scan_.config()](std::span<const float> ranges) {
+                           return weigherOf(tables, mount, config, ranges);
+                         }});
+    return weigher;
   }
 
  private:

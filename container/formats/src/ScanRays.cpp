@@ -36,6 +36,48 @@ int viewsFor(const ScanData::Config& config, int directions) {
   return std::min(views, directions);
 }
 
+/// Returns how many of the table's directions a scan spans.
+int runLength(const ScanData::Config& config, int directions) {
+  const double step = kTurn / directions;
+  const auto run = static_cast<int>(std::lround((config.beams - 1) * config.angleStep / step)) + 1;
+  return std::min(run, directions);
+}
+
+/// What a weigher needs of what was learned.
+struct Learned {
+  std::shared_ptr<const DirectionTable> rays;
+  std::shared_ptr<const SurfaceField> surfaces;
+  RangeScale scale;
+
+  /// Returns null if no beam has information.
+  std::shared_ptr<RayWeigher> weigherOf(const Pose2& mount, const ScanData::Config& config,
+                                        std::span<const float> ranges) const;
+};
+
+std::shared_ptr<RayWeigher> Learned::weigherOf(const Pose2& mount, const ScanData::Config& config,
+                                               std::span<const float> ranges) const {
+  const int run = runLength(config, rays->directions());
+  SurfaceFit fit(surfaces, mount, config.model);
+  for (int i = 0; i < config.beams; ++i) {
+    const float range = ranges[static_cast<std::size_t>(i)];
+    if (std::isfinite(range))
+      fit.add(static_cast<double>(range), config.firstAngle + i * config.angleStep);
+  }
+  auto weigher = std::make_shared<RayWeigher>(rays, mount, config.firstAngle, config.model,
+                                              static_cast<std::size_t>(run), std::move(fit));
+  const int thin = config.usedBeams > 0 ? std::max(1, run / config.usedBeams) : 1;
+  for (int j = 0; j < run; j += thin) {
+    const double place = j * rays->step() / config.angleStep;
+    const auto beam = std::min<long>(std::lround(place), config.beams - 1);
+    if (std::abs(place - static_cast<double>(beam)) * config.angleStep > 0.51 * rays->step())
+      continue;
+    const float range = ranges[static_cast<std::size_t>(beam)];
+    if (!std::isnan(range))
+      weigher->add(static_cast<std::size_t>(j), static_cast<double>(range), scale);
+  }
+  return weigher->complete() ? weigher : nullptr;
+}
+
 /// A ray table, and surfaces that refine it.
 class ScanRays final : public Expectations {
  public:
@@ -75,8 +117,6 @@ class ScanRays final : public Expectations {
     /// Says for each cell of the grid whether the scan from there marks surfaces.
     std::vector<bool> showsSurfaces;
   };
-  /// Returns how many of the table's directions a scan spans.
-  int runLength(int directions) const;
   bool showsSurfaces(const Pose2& sensor) const;
 
   const ScanData& scan_;
@@ -87,20 +127,13 @@ class ScanRays final : public Expectations {
   Sweep sweep_;
 };
 
-int ScanRays::runLength(int directions) const {
-  const ScanData::Config& config = scan_.config();
-  const double step = kTurn / directions;
-  const auto run = static_cast<int>(std::lround((config.beams - 1) * config.angleStep / step)) + 1;
-  return std::min(run, directions);
-}
-
 void ScanRays::start(const FieldRegion& region, double headingStep) {
   const ScanData::Config& config = scan_.config();
   surfaces_ = std::make_shared<SurfaceField>();
   surfaces_->start(region, config.endPointCell, marginOf(config));
   const int directions = std::max(1, static_cast<int>(std::lround(kTurn / headingStep)));
   rays_ = std::make_shared<DirectionTable>();
-  rays_->start(region, directions, runLength(directions));
+  rays_->start(region, directions, runLength(config, directions));
   views_ = viewsFor(config, directions);
   sweep_.grid = region.grid;
   sweep_.showsSurfaces.assign(region.grid.size(), false);
@@ -140,7 +173,8 @@ void ScanRays::load(const std::shared_ptr<const TableFile>& file, const std::str
   auto surfaces = std::make_shared<SurfaceField>();
   surfaces->load(file, prefix);
   auto rays = std::make_shared<DirectionTable>();
-  rays->load(file, prefix, grid, [this](int directions) { return runLength(directions); });
+  rays->load(file, prefix, grid,
+             [this](int directions) { return runLength(scan_.config(), directions); });
   surfaces_ = std::move(surfaces);
   rays_ = std::move(rays);
 }
@@ -158,28 +192,15 @@ std::vector<double> ScanRays::at(const Pose2& sensor) const {
 }
 
 std::shared_ptr<const Weigher> ScanRays::weigher() const {
-  const ScanData::Config& config = scan_.config();
-  const std::span<const float> ranges = scan_.ranges();
-  const int run = runLength(rays_->directions());
-  SurfaceFit fit(surfaces_, scan_.mount(), config.model);
-  for (int i = 0; i < config.beams; ++i) {
-    const float range = ranges[static_cast<std::size_t>(i)];
-    if (std::isfinite(range))
-      fit.add(static_cast<double>(range), config.firstAngle + i * config.angleStep);
-  }
-  auto weigher = std::make_shared<RayWeigher>(rays_, scan_.mount(), config.firstAngle, config.model,
-                                              static_cast<std::size_t>(run), std::move(fit));
-  const int thin = config.usedBeams > 0 ? std::max(1, run / config.usedBeams) : 1;
-  for (int j = 0; j < run; j += thin) {
-    const double place = j * rays_->step() / config.angleStep;
-    const auto beam = std::min<long>(std::lround(place), config.beams - 1);
-    if (std::abs(place - static_cast<double>(beam)) * config.angleStep > 0.51 * rays_->step())
-      continue;
-    const float range = ranges[static_cast<std::size_t>(beam)];
-    if (!std::isnan(range))
-      weigher->add(static_cast<std::size_t>(j), static_cast<double>(range), scale_);
-  }
-  return weigher->complete() ? weigher : nullptr;
+  const Learned learned{rays_, surfaces_, scale_};
+  auto weigher = learned.weigherOf(scan_.mount(), scan_.config(), scan_.ranges());
+  if (weigher)
+    weigher->setTrace(
+        {surfaces_, scan_.mount(), scan_.config(), scan_.ranges(),
+         [learned, mount = scan_.mount(), config = scan_.config()](std::span<const float> ranges) {
+           return learned.weigherOf(mount, config, ranges);
+         }});
+  return weigher;
 }
 
 }  // namespace

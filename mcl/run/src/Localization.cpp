@@ -11,6 +11,7 @@
 #include "BeliefFile.hpp"
 #include "EstimateData.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/formats/ChangesData.hpp"
 #include "ortung/formats/ClustersData.hpp"
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
@@ -29,6 +30,7 @@ namespace {
 
 /// Time between two calls of a program that asks for estimates [us].
 constexpr Timestamp kAsking = 100'000;
+constexpr Timestamp kTellingMap = 1'000'000;  ///< least time between two readings of the map [us]
 
 MclConfig readMcl(const LocalizationConfig& config, const RobotConfig& robot) {
   MclConfig mcl = MclConfig::read(robot.mcl);
@@ -118,6 +120,7 @@ void addPublishedFeatures(SensorContainer& container) {
   container.add(std::make_unique<TrackData>());
   container.add(std::make_unique<ProtectionData>());
   container.add(std::make_unique<ClustersData>());
+  container.add(std::make_unique<ChangesData>());
   container.add(std::make_unique<WorkData>());
   container.add(std::make_unique<SamplesData>());
 }
@@ -218,16 +221,17 @@ void Localization::saveBelief(const std::filesystem::path& file) const {
   requireMcl("saveBelief");
   const auto belief = waitsForTruth_ ? std::nullopt : mcl_->belief();
   if (!belief) throw std::logic_error("there is no belief yet that could be saved");
-  writeBelief(file, *belief, robot_->tables.worldFingerprint);
+  writeBelief(file, {*belief, mcl_->mapChanges()}, robot_->tables.worldFingerprint);
 }
 
 void Localization::restoreBelief(const std::filesystem::path& file, double sigmaPosition,
                                  double sigmaHeading) {
   requireMcl("restoreBelief");
   checkSigmas("belief", sigmaPosition, sigmaHeading);
-  Belief belief = readBelief(file, robot_->tables);
-  widen(sigmaPosition, sigmaHeading, mclConfig_.seed, belief.samples);
-  mcl_->restore(belief);
+  SavedBelief saved = readBelief(file, robot_->tables);
+  widen(sigmaPosition, sigmaHeading, mclConfig_.seed, saved.belief.samples);
+  mcl_->restore(saved.belief);
+  mcl_->restore(saved.changes);
   waitsForTruth_ = false;
 }
 
@@ -242,9 +246,20 @@ void Localization::publish(const PoseEstimate& estimate) {
       protectionMessage(estimate),
       clustersMessage(stamp, mcl_->places()),
       WorkData::message(stamp, {samples.size(), worthOf(samples), newest_ * 1e-3, ++estimates_})};
+  if (auto changes = newChanges(stamp)) all.push_back(std::move(*changes));
   if (wantsSamples_) all.push_back(samplesMessage(stamp, samples));
   robot_->container.set(all);
   published_ = {estimate.status, estimate.reason};
+}
+
+/// Returns what is known of the map's changes if that is news, at most once a second.
+std::optional<Message> Localization::newChanges(Timestamp stamp) {
+  if (toldMapAt_ && stamp >= *toldMapAt_ && stamp - *toldMapAt_ < kTellingMap) return std::nullopt;
+  Message message = changesMessage(stamp, mcl_->mapChanges());
+  if (toldMapAt_ && message.words == toldMap_) return std::nullopt;
+  toldMapAt_ = stamp;
+  toldMap_ = message.words;
+  return message;
 }
 
 /// Publishes the status and what bounds the error if the status has changed without a new estimate.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ortung/formats/ChangesData.hpp"
 #include "ortung/formats/ClustersData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/ProtectionData.hpp"
@@ -40,6 +41,14 @@ Message clustersMessage(Timestamp stamp, std::span<const PoseEstimate> places) {
   for (const PoseEstimate& place : places)
     reading.push_back({place.share, {place.pose, place.covariance}});
   return ClustersData::message(stamp, reading);
+}
+
+Message changesMessage(Timestamp stamp, const MapChanges& changes) {
+  ChangesData::Reading reading{MapChanges::kCell, {}};
+  for (const MapChange& one : changes.cells)
+    reading.cells.push_back(
+        {one.kind == MapChange::Kind::kNew, one.isSure, one.x, one.y, one.passes, one.against});
+  return ChangesData::message(stamp, reading);
 }
 
 Message samplesMessage(Timestamp stamp, const SampleSet& samples) {

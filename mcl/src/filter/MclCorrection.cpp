@@ -24,6 +24,32 @@ std::vector<const Weigher*> readingsOf(const std::vector<NewReading>& news) {
 
 }  // namespace
 
+/// Moves and corrects the belief for one time step. While the place is known, beams that meet what
+/// has changed in the world say nothing about it.
+void Mcl::Impl::correctAt(Timestamp stamp, const std::vector<NewReading>& news) {
+  const std::uint32_t relocalizations = estimate.relocalizations;
+  std::optional<std::vector<NewReading>> unchanged;
+  if (track->isKnown()) {
+    steps.expect(presentAt(stamp).pose);
+    if (tools.config.watchesMap && estimate.status == TrackStatus::kTracking)
+      unchanged = map.withoutChanged(news, presentAt(stamp - delay()).pose);
+  }
+  ++step;
+  correct(unchanged ? *unchanged : news, predict(stamp));
+  if (tools.config.watchesMap) watchMap(news, relocalizations);
+}
+
+/// Looks where the readings that have weighed the belief contradict the map.
+/// @param relocalizations number of them before the update
+void Mcl::Impl::watchMap(const std::vector<NewReading>& news, std::uint32_t relocalizations) {
+  if (relocalizations != estimate.relocalizations &&
+      estimate.relocalization == Relocalization::kOtherPlace)
+    map.forgetPass();
+  PoseEstimate then = track->present.value_or(estimate);  // the pose when they were read
+  then.status = estimate.status;
+  map.follow(news, then);
+}
+
 /// Corrects the belief by one time step's readings (paper, section 5.2).
 void Mcl::Impl::correct(const std::vector<NewReading>& news, Predicted predicted) {
   Weighed weighed = weigh(news, predicted);

@@ -10,6 +10,7 @@
 #include "Drift.hpp"
 #include "Intake.hpp"
 #include "Kld.hpp"
+#include "MapWatch.hpp"
 #include "Steps.hpp"
 #include "Track.hpp"
 #include "ortung/base/Random.hpp"
@@ -69,7 +70,8 @@ struct Mcl::Impl {
   std::optional<Track> track;
   LastingParts parts;
   Intake intake;
-  Steps steps;  ///< how far updates move what is told
+  MapWatch map;  ///< where the map no longer fits
+  Steps steps;   ///< how far updates move what is told
   Reached reached;
   double usualInterval = 0.0;  ///< usual time between weighings: the longest recent one [s]
   PoseEstimate estimate;       ///< estimate of the newest weighing
@@ -128,6 +130,8 @@ struct Mcl::Impl {
   void followIntervals(Timestamp stamp);
 
   // Correct.
+  void correctAt(Timestamp stamp, const std::vector<NewReading>& news);
+  void watchMap(const std::vector<NewReading>& news, std::uint32_t relocalizations);
   void correct(const std::vector<NewReading>& news, Predicted predicted);
   Moment momentOf(const std::vector<NewReading>& news, Timestamp stamp);
   [[nodiscard]] Weighed weigh(const std::vector<NewReading>& news, Predicted predicted);

@@ -11,6 +11,7 @@
 #include "ortung/core/Correctable.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/mcl/Belief.hpp"
+#include "ortung/mcl/MapChanges.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/OdometryErrors.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
@@ -105,6 +106,12 @@ class ORTUNG_API Mcl {
   /// Returns odometry's errors, as learned so far (MclConfig::learnsOdometry); none as long as
   /// nothing was learned.
   OdometryErrors odometryErrors() const;
+  /// Returns where readings have found the world otherwise than it was learned
+  /// (MclConfig::watchesMap); it outlives beliefs.
+  MapChanges mapChanges() const;
+  /// Restores what an earlier run has found out about the map.
+  /// @throws std::invalid_argument as MapChanges::check(); what is known stays then
+  void restore(const MapChanges& changes);
 
  private:
   struct Impl;

@@ -31,6 +31,8 @@ struct MclConfig {
   double driftRadians = 0.5236;  ///< `drift_deg`: sigma of headings after 1 s [rad], 30 degrees
   bool learnsBiases = true;      ///< `learns_biases`: learn biases of distances and bearings
   bool learnsOdometry = true;    ///< `learns_odometry`: learn odometry's errors from refined poses
+  /// `watches_map`: notice where the map no longer fits, and weigh without what has changed
+  bool watchesMap = true;
   /// `budget_ms`: nominal time of an update [ms]; longer searches are spread over several updates.
   double budgetMs = 20.0;
   std::uint64_t seed = 1;  ///< seed of all random numbers

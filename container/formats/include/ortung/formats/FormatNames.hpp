@@ -23,6 +23,7 @@ inline constexpr const char* kImage = "image";          ///< ImageData [width= h
 inline constexpr const char* kTrack = "track";  ///< TrackData status= reason= cause=, their names
 inline constexpr const char* kClusters = "clusters";      ///< ClustersData
 inline constexpr const char* kProtection = "protection";  ///< ProtectionData
+inline constexpr const char* kChanges = "changes";        ///< ChangesData
 inline constexpr const char* kWork = "work";              ///< WorkData
 inline constexpr const char* kSamples = "samples";        ///< SamplesData
 inline constexpr const char* kDevice = "device";          ///< DeviceStatusData status=, their names

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Parameters.hpp"
@@ -62,10 +63,10 @@ struct LocalizationConfig {
   LocalizationFilter filter = LocalizationFilter::kMcl;
   GridConfig grid = {};  ///< settings of the grid filter, if there is one
   /// Adds the features mcl/LOCALIZATION/pose (words as of PoseFixData), status (TrackData), places
-  /// (ClustersData), work (WorkData) and samples (SamplesData, see wantSamples()) to the container
-  /// and sets them to each new estimate, so that they can be read, recorded and served. Status is
-  /// also set when it or its reason changes between two estimates, at the time of the newest
-  /// odometry, e.g. since readings stopped. Only with MCL.
+  /// (ClustersData), map (ChangesData), work (WorkData) and samples (SamplesData, see
+  /// wantSamples()) to the container and sets them to each new estimate, so that they can be read,
+  /// recorded and served. Status is also set when it or its reason changes between two estimates,
+  /// at the time of the newest odometry, e.g. since readings stopped. Only with MCL.
   bool publish = false;
 };
 
@@ -190,6 +191,7 @@ class ORTUNG_API Localization {
   void count(double milliseconds);
   void publish(const PoseEstimate& estimate);
   void publishChange();
+  std::optional<Message> newChanges(Timestamp stamp);
   std::optional<Pose2> truth() const;
   bool isGrid() const { return filter_ == LocalizationFilter::kGrid; }
   void requireMcl(const char* what) const;
@@ -209,6 +211,8 @@ class ORTUNG_API Localization {
   std::uint64_t estimates_ = 0;
   const SensorData* odometry_ = nullptr;  ///< odometry's feature; null without odometry
   std::optional<std::pair<TrackStatus, TrackReason>> published_;
+  std::optional<Timestamp> toldMapAt_;  ///< time of the newest reading of the map's changes
+  std::vector<std::uint32_t> toldMap_;  ///< its words
   std::string worldMismatch_;
   std::optional<Timestamp> knownSince_;  ///< a search ended then, between two moments
   double newest_ = 0.0;                  ///< computing time of the newest update [ms]

@@ -4,6 +4,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/mcl/MapChanges.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/mcl/SampleSet.hpp"
 
@@ -21,6 +22,8 @@ ORTUNG_API Message trackMessage(const PoseEstimate& estimate);
 ORTUNG_API Message protectionMessage(const PoseEstimate& estimate);
 /// Makes the reading of mcl/LOCALIZATION/places, see ClustersData. @param places heaviest first
 ORTUNG_API Message clustersMessage(Timestamp stamp, std::span<const PoseEstimate> places);
+/// Makes the reading of mcl/LOCALIZATION/map, see ChangesData.
+ORTUNG_API Message changesMessage(Timestamp stamp, const MapChanges& changes);
 /// Makes the reading of mcl/LOCALIZATION/samples, see SamplesData; if there are more samples than
 /// it can hold, they are picked evenly.
 ORTUNG_API Message samplesMessage(Timestamp stamp, const SampleSet& samples);

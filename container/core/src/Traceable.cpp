@@ -1,0 +1,7 @@
+#include "ortung/core/Traceable.hpp"
+
+namespace ortung {
+
+Traceable::~Traceable() = default;
+
+}  // namespace ortung
