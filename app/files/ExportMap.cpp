@@ -6,6 +6,7 @@
 #include <string>
 
 #include "Console.hpp"
+#include "MapServerFile.hpp"
 #include "Outputs.hpp"
 #include "Workshop.hpp"
 #include "WorldGrid.hpp"
@@ -16,23 +17,6 @@ namespace ortung::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A grey picture (PGM) with the top row first.
-std::string pictureOf(const WorldGrid& grid) {
-  std::string text = fmt::format("P5\n{} {}\n255\n", grid.columns, grid.rows);
-  for (std::size_t row = grid.rows; row-- > 0;)
-    text.append(grid.cells, row * grid.columns, grid.columns);
-  return text;
-}
-
-void writeMapServer(const WorldGrid& grid, const Workshop& workshop) {
-  const fs::path picture = workshop.file().filename().replace_extension(".pgm");
-  writeFile(workshop.folder() / picture, pictureOf(grid));
-  writeFile(workshop.file(),
-            fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\n"
-                        "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
-                        picture.string(), grid.cell, grid.originX, grid.originY));
-}
 
 void writeGridMap(WorldGrid grid, const Workshop& workshop) {
   constexpr std::size_t kMostSaid = 1U << 16;
@@ -61,7 +45,7 @@ int runExportMap(const ExportMapArguments& arguments) {
   outputs.writes("--out", arguments.out, isYaml ? OutputKind::kSettings : OutputKind::kRawlog);
   Workshop workshop("--out", arguments.out);
   const WorldGrid grid = drawGrid(*readWorld(arguments.world), arguments.cell, arguments.height);
-  isYaml ? writeMapServer(grid, workshop) : writeGridMap(grid, workshop);
+  isYaml ? writeMapServer(grid, workshop.file()) : writeGridMap(grid, workshop);
   workshop.declare(outputs);
   workshop.deliver(outputs);
   fmt::print("{}: {} x {} cells of {:g} m\n", printable(arguments.out.string()), grid.columns,

@@ -4,6 +4,8 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <sstream>
+#include <vector>
 
 #include "TomlLibrary.hpp"
 #include "ortung/base/InputFile.hpp"
@@ -128,6 +130,17 @@ Parameters convert(const toml::table& table, const std::string& name, int depth)
   return result;
 }
 
+toml::table parse(std::string_view text, const std::string& name, std::size_t maxBytes) {
+  checkSize(text, name, maxBytes);
+  checkNesting(text, name);
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw ConfigError(name + ":" + std::to_string(error.source().begin.line) + ": " +
+                      std::string(error.description()));
+  }
+}
+
 }  // namespace
 
 std::string readTomlText(const std::filesystem::path& file) {
@@ -146,14 +159,30 @@ std::string readTomlText(const std::filesystem::path& file) {
 }
 
 Parameters parseToml(std::string_view text, const std::string& name, std::size_t maxBytes) {
-  checkSize(text, name, maxBytes);
-  checkNesting(text, name);
-  try {
-    return convert(toml::parse(text, name), name, 0);
-  } catch (const toml::parse_error& error) {
-    throw ConfigError(name + ":" + std::to_string(error.source().begin.line) + ": " +
-                      std::string(error.description()));
+  return convert(parse(text, name, maxBytes), name, 0);
+}
+
+std::string withoutTables(
+    std::string_view text, const std::string& name,
+    const std::function<bool(const std::string&, const Parameters&)>& isLeftOut) {
+  toml::table all = parse(text, name, kMaxConfigBytes);
+  convert(all, name, 0);  // refuses what can't be read
+  for (auto& [key, node] : all) {
+    toml::array* array = node.as_array();
+    if (array == nullptr) continue;
+    for (std::size_t i = array->size(); i-- > 0;) {
+      const toml::table* table = (*array)[i].as_table();
+      if (table != nullptr && isLeftOut(std::string(key.str()), convert(*table, name, 0)))
+        array->erase(array->begin() + static_cast<std::ptrdiff_t>(i));
+    }
   }
+  std::vector<std::string> empty;
+  for (const auto& [key, node] : all)
+    if (node.is_array() && node.as_array()->empty()) empty.emplace_back(key.str());
+  for (const std::string& key : empty) all.erase(key);
+  std::ostringstream out;
+  out << toml::toml_formatter(all) << '\n';
+  return out.str();
 }
 
 Parameters readToml(const std::filesystem::path& file) {

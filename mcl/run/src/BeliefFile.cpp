@@ -16,7 +16,7 @@ constexpr const char* kWorld = "world.txt";
 constexpr const char* kStamp = "stamp_us";
 constexpr const char* kChanges = "changes";
 constexpr const char* kMiddles = "changes_m";
-constexpr std::size_t kNumbers = 8;  // of a changed cell
+constexpr std::size_t kNumbers = 9;  // of a changed cell
 constexpr double kLatest = 9e15;     // up to here whole numbers are exact [us]: 285 years
 
 std::vector<float> valuesOf(const TableFile& file, const char* name, std::size_t n) {
@@ -45,34 +45,11 @@ void addChanges(const MapChanges& changes, TableWriter& writer) {
   for (const MapChange& one : changes.cells)
     numbers.insert(numbers.end(), {static_cast<std::int32_t>(one.kind), one.column, one.row,
                                    limited(one.passes), limited(one.lately), limited(one.against),
-                                   limited(one.days), limited(one.lastDay)});
+                                   limited(one.days), limited(one.lastDay), one.isSure ? 1 : 0});
   writer.add<std::int32_t>(kChanges, {changes.cells.size(), kNumbers}, numbers);
   std::vector<double> middles;
   for (const MapChange& one : changes.cells) middles.insert(middles.end(), {one.x, one.y});
   writer.add<double>(kMiddles, {changes.cells.size(), 2}, middles);
-}
-
-/// Files of older versions have no changes.
-MapChanges changesOf(const TableFile& file) {
-  MapChanges changes;
-  if (std::none_of(file.arrays().begin(), file.arrays().end(),
-                   [](const TableArray& array) { return array.name == kChanges; }))
-    return changes;
-  const std::span<const std::int32_t> numbers = file.get<std::int32_t>(kChanges, {0, kNumbers});
-  const std::span<const double> middles =
-      file.get<double>(kMiddles, {numbers.size() / kNumbers, 2});
-  for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
-    const double* middle = middles.data() + 2 * (i / kNumbers);
-    const auto at = [&](std::size_t k) { return numbers[i + k]; };
-    const auto count = [&](std::size_t k) { return static_cast<std::uint32_t>(at(k)); };
-    if (at(0) < 0 || at(0) > 1)
-      throw std::invalid_argument("changed cell " + std::to_string(i / kNumbers) +
-                                  " has the kind " + std::to_string(at(0)) + ", expected 0 or 1");
-    changes.cells.push_back({static_cast<MapChange::Kind>(at(0)), at(1), at(2), middle[0],
-                             middle[1], count(3), count(4), count(5), count(6), at(7)});
-  }
-  changes.check();
-  return changes;
 }
 
 }  // namespace
@@ -96,6 +73,37 @@ void writeBelief(const std::filesystem::path& file, const SavedBelief& saved,
   writer.commit();
 }
 
+MapChanges changesIn(const TableFile& file) {
+  MapChanges changes;
+  if (std::none_of(file.arrays().begin(), file.arrays().end(),
+                   [](const TableArray& array) { return array.name == kChanges; }))
+    return changes;
+  const std::span<const std::int32_t> numbers = file.get<std::int32_t>(kChanges, {0, kNumbers});
+  const std::span<const double> middles =
+      file.get<double>(kMiddles, {numbers.size() / kNumbers, 2});
+  const auto refuse = [&](const std::string& what) {
+    throw TableError(file.path().string() + ": " + what);
+  };
+  for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
+    const auto at = [&](std::size_t k) { return numbers[i + k]; };
+    const auto count = [&](std::size_t k) { return static_cast<std::uint32_t>(at(k)); };
+    const double* middle = middles.data() + 2 * (i / kNumbers);
+    if (at(0) < 0 || at(0) > 1)
+      refuse("changed cell " + std::to_string(i / kNumbers) + " has the kind " +
+             std::to_string(at(0)) + ", expected 0 or 1");
+    changes.cells.push_back({static_cast<MapChange::Kind>(at(0)), at(1), at(2), middle[0],
+                             middle[1], count(3), count(4), count(5), count(6), at(7), at(8) != 0});
+  }
+  try {
+    changes.check();
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
+  }
+  return changes;
+}
+
+std::string worldIn(const TableFile& file) { return file.text(kWorld); }
+
 SavedBelief readBelief(const std::filesystem::path& path, const TableInfo& tables) {
   const TableFile file(path);
   const auto refuse = [&](const std::string& what) {
@@ -112,11 +120,11 @@ SavedBelief readBelief(const std::filesystem::path& path, const TableInfo& table
   belief.stamp = static_cast<Timestamp>(stamp);
   try {
     belief.check();
-    saved.changes = changesOf(file);
   } catch (const std::invalid_argument& error) {
     refuse(error.what());
   }
-  const std::string world = file.text(kWorld);
+  saved.changes = changesIn(file);
+  const std::string world = worldIn(file);
   if (world != tables.worldFingerprint)
     refuse("is a belief about the world '" + world + "', but the tables were learned in '" +
            tables.worldFingerprint + "' ('" + tables.world + "')");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,13 @@ ORTUNG_API std::string readTomlText(const std::filesystem::path& file);
 /// Reads TOML text. @param name what errors call it @throws ConfigError
 ORTUNG_API Parameters parseToml(std::string_view text, const std::string& name,
                                 std::size_t maxBytes = kMaxConfigBytes);
+
+/// Returns TOML text without some tables of arrays, [[name]]. Comments are lost.
+/// @param name what errors call the text @param isLeftOut is asked for each table, with the array's
+///   name
+/// @throws ConfigError as parseToml()
+ORTUNG_API std::string withoutTables(
+    std::string_view text, const std::string& name,
+    const std::function<bool(const std::string&, const Parameters&)>& isLeftOut);
 
 }  // namespace ortung
